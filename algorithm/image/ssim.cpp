@@ -1,0 +1,101 @@
+// SSIM of quality.h: separable Gaussian window, bands of rows in parallel.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "algorithm/image/image_pair.h"
+#include "algorithm/image/quality.h"
+
+namespace sgs {
+namespace {
+
+constexpr int kRadius_px = 5;  // 11x11 window
+constexpr int kTaps = 2 * kRadius_px + 1;
+constexpr double kSigma_px = 1.5;
+constexpr double kC1 = 0.01 * 0.01;  // (0.01 L)^2 with L = 1, the range of the values
+constexpr double kC2 = 0.03 * 0.03;
+constexpr int kBandRows = 32;  // ten more are filtered twice; larger bands leave cores idle
+
+// Window sums at one pixel of one channel: a, b, a^2, b^2, a b.
+using Moments = std::array<double, 5>;
+
+std::array<double, kTaps> gaussian_window() {
+  std::array<double, kTaps> window{};
+  for (int i = 0; i < kTaps; ++i) {
+    const double offset = i - kRadius_px;
+    window[i] = std::exp(-offset * offset / (2.0 * kSigma_px * kSigma_px));
+  }
+  const double sum = std::accumulate(window.begin(), window.end(), 0.0);
+  for (double& weight : window) weight /= sum;
+  return window;
+}
+
+Moments moments_of(float a_value, float b_value) {
+  const double a = clamp_to_unit(a_value), b = clamp_to_unit(b_value);
+  return {a, b, a * a, b * b, a * b};
+}
+
+double ssim_of(const Moments& m) {
+  const double mean_product = m[0] * m[1];
+  const double mean_squares = m[0] * m[0] + m[1] * m[1];
+  const double variances = m[2] + m[3] - mean_squares;
+  const double covariance = m[4] - mean_product;
+  return (2.0 * mean_product + kC1) * (2.0 * covariance + kC2) /
+         ((mean_squares + kC1) * (variances + kC2));
+}
+
+// The filter across one row: out[3 x + channel].
+void filter_row(const Image& a, const Image& b, int y, const std::array<double, kTaps>& window,
+                std::vector<Moments>& raw, Moments* out) {
+  raw.assign(static_cast<std::size_t>(3 * (a.width + 2 * kRadius_px)), Moments{});
+  for (int x = 0; x < a.width; ++x) {
+    for (int channel = 0; channel < 3; ++channel) {
+      raw[3 * (x + kRadius_px) + channel] = moments_of(a.at(x, y)[channel], b.at(x, y)[channel]);
+    }
+  }
+  for (int i = 0; i < 3 * a.width; ++i) {
+    Moments sum{};
+    for (int tap = 0; tap < kTaps; ++tap) {
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += window[tap] * raw[i + 3 * tap][k];
+    }
+    out[i] = sum;
+  }
+}
+
+}  // namespace
+
+double ssim(const Image& a, const Image& b) {
+  check_same_size(a, b);
+  const std::array<double, kTaps> window = gaussian_window();
+  const std::size_t row_size = 3 * static_cast<std::size_t>(a.width);
+  std::vector<double> row_sums(a.height, 0.0);
+  const int bands = (a.height + kBandRows - 1) / kBandRows;
+  tbb::parallel_for(0, bands, [&](int band) {
+    const int begin = band * kBandRows, end = std::min(a.height, begin + kBandRows);
+    const int first = std::max(0, begin - kRadius_px), last = std::min(a.height, end + kRadius_px);
+    std::vector<Moments> filtered(row_size * (last - first)), raw;
+    for (int y = first; y < last; ++y) {
+      filter_row(a, b, y, window, raw, &filtered[row_size * (y - first)]);
+    }
+    for (int y = begin; y < end; ++y) {
+      for (std::size_t i = 0; i < row_size; ++i) {
+        Moments sum{};
+        for (int tap = 0; tap < kTaps; ++tap) {
+          const int row = y + tap - kRadius_px;
+          if (row < 0 || row >= a.height) continue;  // zero padding
+          const Moments& m = filtered[row_size * (row - first) + i];
+          for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += window[tap] * m[k];
+        }
+        row_sums[y] += ssim_of(sum);
+      }
+    }
+  });
+  return std::accumulate(row_sums.begin(), row_sums.end(), 0.0) /
+         static_cast<double>(row_size * row_sums.size());
+}
+
+}  // namespace sgs

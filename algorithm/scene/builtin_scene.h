@@ -1,0 +1,30 @@
+// Scenes made by the program itself, for demonstrations and for tests that need no files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algorithm/scene/camera.h"
+#include "algorithm/scene/gaussian_cloud.h"
+
+namespace sgs {
+
+struct BuiltinScene {
+  GaussianCloud cloud;          // SH degree 3
+  std::vector<Camera> cameras;  // at least four, 640x360 px
+};
+
+// Whether `spec` names a built-in scene, that is, begins with "builtin:".
+bool is_builtin_scene(const std::string& spec);
+
+// Makes the scene of `spec`, "builtin:NAME" or "builtin:NAME?n=COUNT" with COUNT Gaussians, 1 to
+// 20,000,000:
+//   object   a toy rocket on a chequered table, a few units large (default 60,000)
+//   outdoor  a landscape with trees, a house and a tower, a sky of far splats, needles and
+//            floaters, outliers 20,000 units away (default 200,000)
+// The y axis points down. The same spec gives the same bits on every machine with IEEE floats and
+// the same mathematical library, whatever the number of threads. Throws InputError that says what
+// is allowed when the name, a key or the count is not.
+BuiltinScene make_builtin_scene(const std::string& spec);
+
+}  // namespace sgs

@@ -1,0 +1,95 @@
+// The writer of ply_writer.h: records are put together block by block and appended.
+#include "algorithm/scene/ply_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "algorithm/input_error.h"
+#include "algorithm/output_file.h"
+
+namespace sgs {
+namespace {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+              "records are written as they lie in memory");
+
+constexpr std::size_t kBlockRecords = 16384;  // at most 4 MB a block
+
+void check_lengths(const std::string& path, const GaussianCloud& cloud) {
+  const std::size_t n = cloud.size();
+  const auto coeffs = static_cast<std::size_t>(sh_coeff_count(cloud.sh_degree));
+  if (cloud.sh_degree < 0 || cloud.sh_degree > 3 || cloud.log_scales.size() != n ||
+      cloud.quats.size() != n || cloud.opacity_logits.size() != n ||
+      cloud.sh_coeffs.size() != n * coeffs) {
+    throw InputError(fmt::format(
+        "{}: cloud of degree {} with {} means, {} scales, {} quaternions, {} opacities, {} "
+        "coefficients cannot be written, expected degree 0 to 3 and equal counts",
+        path, cloud.sh_degree, n, cloud.log_scales.size(), cloud.quats.size(),
+        cloud.opacity_logits.size(), cloud.sh_coeffs.size()));
+  }
+}
+
+std::string header_of(const GaussianCloud& cloud) {
+  std::string header =
+      fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", cloud.size());
+  const auto add = [&header](const char* name, int count) {
+    for (int i = 0; i < count; ++i) header += fmt::format("property float {}{}\n", name, i);
+  };
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) {
+    header += fmt::format("property float {}\n", name);
+  }
+  add("f_dc_", 3);
+  add("f_rest_", 3 * (sh_coeff_count(cloud.sh_degree) - 1));
+  header += "property float opacity\n";
+  add("scale_", 3);
+  add("rot_", 4);
+  return header + "end_header\n";
+}
+
+// Appends the record of Gaussian i to `out`.
+void append_record(const GaussianCloud& cloud, std::size_t i, std::vector<float>& out) {
+  const int coeffs = sh_coeff_count(cloud.sh_degree);
+  const glm::vec3& mean = cloud.means[i];
+  const glm::vec3* sh = &cloud.sh_coeffs[i * static_cast<std::size_t>(coeffs)];
+  out.insert(out.end(), {mean.x, mean.y, mean.z, 0.0f, 0.0f, 0.0f, sh[0].x, sh[0].y, sh[0].z});
+  for (int channel = 0; channel < 3; ++channel) {
+    for (int k = 1; k < coeffs; ++k) out.push_back(sh[k][channel]);
+  }
+  const glm::vec3& scale = cloud.log_scales[i];
+  out.insert(out.end(), {cloud.opacity_logits[i], scale.x, scale.y, scale.z});
+  out.insert(out.end(), cloud.quats[i].begin(), cloud.quats[i].end());
+}
+
+}  // namespace
+
+void write_ply(const std::string& path, const GaussianCloud& cloud) {
+  check_lengths(path, cloud);
+  OutputFile output(path);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
+      std::fopen(output.temporary_path().c_str(), "wb"), &std::fclose);
+  if (!file) {
+    throw InputError(fmt::format("{}: cannot be created ({}), expected a writable place", path,
+                                 std::strerror(errno)));
+  }
+  const std::string header = header_of(cloud);
+  bool written = std::fwrite(header.data(), 1, header.size(), file.get()) == header.size();
+  std::vector<float> block;
+  for (std::size_t begin = 0; written && begin < cloud.size(); begin += kBlockRecords) {
+    block.clear();
+    const std::size_t end = std::min(cloud.size(), begin + kBlockRecords);
+    for (std::size_t i = begin; i < end; ++i) append_record(cloud, i, block);
+    written = std::fwrite(block.data(), sizeof(float), block.size(), file.get()) == block.size();
+  }
+  if (!written || std::fflush(file.get()) != 0) {
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  }
+  output.commit();
+}
+
+}  // namespace sgs
