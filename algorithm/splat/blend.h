@@ -1,0 +1,40 @@
+// Blending of one splat into pixels: section 3 of the rendering semantics.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/splat/constants.h"
+#include "algorithm/splat/scalar.h"
+#include "algorithm/splat/splat.h"
+
+namespace sgs {
+
+// alpha = min(0.99, opacity exp(power)); where power > 0 or alpha < 1/255 the splat is skipped (0).
+// dx, dy: splat centre minus pixel, px.
+template <class T>
+inline T alpha_at(T conic_a, T conic_b, T conic_c, T opacity, T dx, T dy) {
+  const T power = T(T(-0.5F) * T(conic_a * dx * dx + conic_c * dy * dy) - conic_b * dx * dy);
+  const T alpha = min_of(constant<T>(kAlphaMax), T(opacity * exp_of(power)));
+  // Two selections rather than one of two conditions: compilers vectorise these.
+  const T falling = power > T(0.0F) ? T(0.0F) : alpha;
+  return falling < constant<T>(kAlphaMin) ? T(0.0F) : falling;
+}
+
+// State of a 4x4 block of pixels; lane = 4 y + x.
+struct SubtileState {
+  float red[kSubtilePixels], green[kSubtilePixels], blue[kSubtilePixels];
+  float transmittance[kSubtilePixels];
+  std::int32_t active[kSubtilePixels];        // -1 until T would fall below 1e-4, then 0
+  std::int32_t contributors[kSubtilePixels];  // splats blended
+};
+
+// Fresh state; lanes whose pixel lies outside the frame (width x height px) begin finished.
+SubtileState make_subtile(int subtile_x, int subtile_y, int width_px, int height_px);
+
+// Blends `splat` into the sub-tile (subtile_x, subtile_y) of the frame.
+void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
+
+// Whether every pixel of the block is finished.
+bool finished(const SubtileState& state);
+
+}  // namespace sgs

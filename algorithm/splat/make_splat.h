@@ -1,0 +1,50 @@
+// From a Gaussian to a splat: what the fine filter computes for each survivor of the coarse filter.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/splat/footprint.h"
+#include "algorithm/splat/spherical_harmonics.h"
+#include "algorithm/splat/splat.h"
+
+namespace sgs {
+
+// The geometric part. False where nothing of g can be seen in the frame: behind the near plane,
+// never visible, off the frame, or a covariance that overflows float (a splat wider than 10^19 px).
+inline bool make_geometry(const View<float>& view, const Gaussian<float>& g, Splat& out) {
+  const glm::vec3 v = to_camera(view, g.mean);
+  if (!(v.z > constant<float>(kNearPlane))) return false;
+  const Projected<float> p = project(view, g, v);
+  if (!std::isfinite(p.cov_a + p.cov_c)) return false;
+  out.x = p.x;
+  out.y = p.y;
+  out.conic_a = p.conic_a;
+  out.conic_b = p.conic_b;
+  out.conic_c = p.conic_c;
+  out.opacity = g.opacity;
+  out.depth = p.depth;
+  out.footprint = footprint(p, g.opacity, view.width, view.height);
+  return !out.footprint.empty();
+}
+
+// Pixels of a footprint, cut to `within`.
+inline PixelRect footprint_px(const SubtileRect& footprint, const PixelRect& within) {
+  return intersection({footprint.x0 * kSubtilePx, footprint.y0 * kSubtilePx,
+                       footprint.x1 * kSubtilePx, footprint.y1 * kSubtilePx},
+                      within);
+}
+
+// Whether a splat can change a pixel of the group `pixels`: its footprint overlaps and so does its
+// visible ellipse.
+inline bool reaches_group(const Splat& s, const PixelRect& pixels) {
+  const PixelRect overlap = footprint_px(s.footprint, pixels);
+  return !overlap.empty() &&
+         reaches(s.x, s.y, s.conic_a, s.conic_b, s.conic_c, visible_cutoff(s.opacity), overlap);
+}
+
+inline void add_colour(const View<float>& view, int sh_degree, const glm::vec3& mean,
+                       const glm::vec3* sh, Splat& out) {
+  out.rgb = sh_colour(sh_degree, sh, mean, view.position);
+}
+
+}  // namespace sgs

@@ -1,0 +1,85 @@
+// The few scalar functions that the splat mathematics needs, for any scalar type.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+namespace sgs {
+
+// A literal in the scalar type: exact in double, rounded to float first for the narrower types.
+template <class T>
+constexpr T constant(double value) {
+  if constexpr (std::is_same_v<T, double>) {
+    return value;
+  } else {
+    return T(static_cast<float>(value));
+  }
+}
+
+template <class T>
+inline T sqrt_of(T x) {
+  using std::sqrt;
+  return T(sqrt(x));
+}
+
+template <class T>
+inline T log_of(T x) {
+  using std::log;
+  return T(log(x));
+}
+
+template <class T>
+inline T exp_of(T x) {
+  using std::exp;
+  return T(exp(x));
+}
+
+// exp(x) in float for x in [-87, 88] (clamped), within 2 units in the last place. Branch-free, so
+// that a loop over pixels becomes vector code that gives the same bits on every lane and machine.
+// x = n ln2 + r with |r| <= ln2/2; the Taylor series of exp(r) to r^6 leaves 1.2e-7 relative.
+template <>
+inline float exp_of<float>(float x) {
+  constexpr float kLog2E = 1.44269504F;
+  constexpr float kLn2High = 0.693359375F;  // 9 bits: n * high is exact
+  constexpr float kLn2Low = -2.12194440e-4F;
+  constexpr float kRoundToInteger = 12582912.0F;  // 1.5 * 2^23: adding it leaves round(x)
+  x = x < -87.0F ? -87.0F : x;
+  x = x > 88.0F ? 88.0F : x;
+  const float shifted = x * kLog2E + kRoundToInteger;
+  const float n = shifted - kRoundToInteger;
+  const float r = (x - n * kLn2High) - n * kLn2Low;
+  float p = 1.0F / 720.0F;
+  p = p * r + 1.0F / 120.0F;
+  p = p * r + 1.0F / 24.0F;
+  p = p * r + 1.0F / 6.0F;
+  p = p * r + 0.5F;
+  p = (p * r) * r + r + 1.0F;
+  const auto exponent = __builtin_bit_cast(std::uint32_t, shifted)
+                        << 23;  // n in the exponent field
+  return p * __builtin_bit_cast(float, exponent + 0x3f800000U);
+}
+
+template <class T>
+inline T max_of(T a, T b) {
+  return a < b ? b : a;
+}
+
+template <class T>
+inline T min_of(T a, T b) {
+  return b < a ? b : a;
+}
+
+template <class T>
+inline T clamp_of(T x, T low, T high) {
+  return max_of(low, min_of(x, high));
+}
+
+// x rounded toward zero and clamped to [0, high]; safe for values outside the range of int.
+template <class T>
+inline int truncated_index(T x, int high) {
+  if (!(x > T(0))) return 0;  // also NaN
+  return x >= T(static_cast<float>(high)) ? high : static_cast<int>(x);
+}
+
+}  // namespace sgs

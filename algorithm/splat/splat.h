@@ -1,0 +1,30 @@
+// What the fine filter hands on and rendering blends: one Gaussian on the screen, with its colour.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "algorithm/splat/rects.h"
+
+namespace sgs {
+
+struct Splat {
+  float x, y;                       // px, centre
+  float conic_a, conic_b, conic_c;  // 1/px^2
+  float opacity;
+  float depth;          // v_z, the sorting key
+  std::uint32_t index;  // tie-break of equal depths
+  glm::vec3 rgb;
+  SubtileRect footprint;  // sub-tiles that may be blended, in the whole frame
+};
+
+// Bytes of a splat between the units: 11 words and, relative to the group, four 8-bit sub-tile
+// bounds.
+constexpr std::uint32_t kSplatEntryBytes = 48;
+
+// Front to back; equal depths by index.
+inline bool in_front(const Splat& a, const Splat& b) {
+  return a.depth < b.depth || (a.depth == b.depth && a.index < b.index);
+}
+
+}  // namespace sgs
