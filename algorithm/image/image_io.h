@@ -14,8 +14,8 @@ namespace sgs {
 void write_image(const std::string& path, const Image& image);
 
 // Reads such a file: .exr with channels R, G, B; .pfm of either byte order, colour or grey; .png of
-// any kind, to [0, 1], transparent pixels over black. Throws InputError with file, place, what was
-// found and what was expected.
+// any kind, to [0, 1], transparent pixels over black (png_file.h). Throws InputError with file,
+// place, what was found and what was expected.
 Image read_image(const std::string& path);
 
 }  // namespace sgs

@@ -1,0 +1,104 @@
+// Reading and writing of exr_file.h with the OpenEXR library.
+#include "algorithm/image/exr_file.h"
+
+#include <ImathBox.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "algorithm/input_error.h"
+#include "algorithm/output_file.h"
+
+namespace sgs {
+namespace {
+
+constexpr std::array<const char*, 3> kChannels = {"R", "G", "B"};
+constexpr int kMaxSide_px = 65535;
+constexpr int kRowsAtOnce = 64;  // memory grows with the rows that are really in the file
+
+// Slices over `pixels`, whose first row is row `top` of the data window that begins at `left`.
+Imf::FrameBuffer frame_of(glm::vec3* pixels, int left, int top, int width) {
+  // Signed arithmetic: OpenEXR wants the address that pixel (0, 0) would have.
+  const auto stride = static_cast<std::intptr_t>(sizeof(glm::vec3));
+  const std::intptr_t shift = (static_cast<std::intptr_t>(top) * width + left) * stride;
+  Imf::FrameBuffer frame;
+  for (std::size_t channel = 0; channel < kChannels.size(); ++channel) {
+    const auto first = reinterpret_cast<std::intptr_t>(pixels) +
+                       static_cast<std::intptr_t>(channel * sizeof(float));
+    frame.insert(kChannels[channel],
+                 Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(first - shift), sizeof(glm::vec3),
+                            sizeof(glm::vec3) * static_cast<std::size_t>(width)));
+  }
+  return frame;
+}
+
+void check_channels(const std::string& path, const Imf::ChannelList& channels) {
+  for (const char* name : kChannels) {
+    const Imf::Channel* channel = channels.findChannel(name);
+    if (channel != nullptr && channel->xSampling == 1 && channel->ySampling == 1) continue;
+    std::string got;
+    for (auto i = channels.begin(); i != channels.end(); ++i) got += std::string(" ") + i.name();
+    throw InputError(
+        fmt::format("{}: got the channels{}, expected R, G and B at full resolution", path, got));
+  }
+}
+
+Image read_pixels(const std::string& path) {
+  // Checked by OpenEXR before it allocates its tables of line offsets.
+  Imf::Header::setMaxImageSize(kMaxSide_px, kMaxSide_px);
+  Imf::Header::setMaxTileSize(kMaxSide_px, kMaxSide_px);
+  Imf::InputFile file(path.c_str());
+  check_channels(path, file.header().channels());
+  const Imath::Box2i window = file.header().dataWindow();
+  const int height = window.max.y - window.min.y + 1;
+  Image image;
+  image.width = window.max.x - window.min.x + 1;
+  for (int y = 0; y < height; y += kRowsAtOnce) {
+    const int rows = std::min(kRowsAtOnce, height - y);
+    image.height = y + rows;
+    image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
+    const int top = window.min.y + y;
+    file.setFrameBuffer(frame_of(&image.at(0, y), window.min.x, top, image.width));
+    file.readPixels(top, top + rows - 1);
+  }
+  return image;
+}
+
+}  // namespace
+
+void write_exr(const std::string& path, const Image& image) {
+  OutputFile output(path);
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const char* name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  try {
+    Imf::OutputFile file(output.temporary_path().c_str(), header);
+    // OpenEXR takes a pointer to non-const for reading and for writing; here it only reads.
+    file.setFrameBuffer(frame_of(const_cast<glm::vec3*>(image.pixels.data()), 0, 0, image.width));
+    file.writePixels(image.height);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, error.what()));
+  }
+  output.commit();
+}
+
+Image read_exr(const std::string& path) {
+  try {
+    return read_pixels(path);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    std::string why = error.what();
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    throw InputError(fmt::format("{}: {}, expected an OpenEXR image", path, why));
+  }
+}
+
+}  // namespace sgs

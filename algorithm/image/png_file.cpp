@@ -1,0 +1,88 @@
+// Reading and writing of png_file.h with libpng's simplified interface, which reports errors by
+// value: the full one leaves functions by longjmp.
+#include "algorithm/image/png_file.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "algorithm/input_error.h"
+#include "algorithm/input_file.h"
+#include "algorithm/output_file.h"
+
+namespace sgs {
+namespace {
+
+std::uint8_t quantised(float value) {
+  // A comparison that is false for NaN first, so that NaN becomes 0.
+  if (!(value > 0.0f)) return 0;
+  return static_cast<std::uint8_t>(std::min(value, 1.0f) * 255.0f + 0.5f);
+}
+
+// libpng's own state must be released whichever way the reader is left.
+struct PngImage : png_image {
+  PngImage() : png_image{} { version = PNG_IMAGE_VERSION; }
+  ~PngImage() { png_image_free(this); }
+  PngImage(const PngImage&) = delete;
+  PngImage& operator=(const PngImage&) = delete;
+};
+
+[[noreturn]] void refuse(const std::string& path, const PngImage& png) {
+  throw InputError(fmt::format("{}: {}, expected a PNG image", path, png.message));
+}
+
+}  // namespace
+
+void write_png(const std::string& path, const Image& image) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(3 * image.pixels.size());
+  for (const glm::vec3& pixel : image.pixels) {
+    bytes.insert(bytes.end(), {quantised(pixel.x), quantised(pixel.y), quantised(pixel.z)});
+  }
+  PngImage png;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = PNG_FORMAT_RGB;
+  OutputFile output(path);
+  if (png_image_write_to_file(&png, output.temporary_path().c_str(), 0, bytes.data(), 0, nullptr) ==
+      0) {
+    throw InputError(
+        fmt::format("{}: cannot be written ({}), expected a writable place", path, png.message));
+  }
+  output.commit();
+}
+
+Image read_png(const std::string& path, const glm::vec3& background) {
+  // Deflate packs at most 1032 bytes into one, so a longer promise is a damaged header.
+  constexpr std::uint64_t kMaxExpansion = 1032;
+  const InputFile file(path);
+  const std::string packed = file.text_from(0, file.size_bytes());
+  PngImage png;
+  if (png_image_begin_read_from_memory(&png, packed.data(), packed.size()) == 0) refuse(path, png);
+  const std::uint64_t pixel_count = std::uint64_t{png.width} * png.height;
+  // The smallest pixel takes one bit.
+  if (pixel_count / 8 > kMaxExpansion * packed.size() || png.width > INT32_MAX ||
+      png.height > INT32_MAX) {
+    throw InputError(fmt::format("{}: got {} bytes, expected {}x{} pixels", path, packed.size(),
+                                 png.width, png.height));
+  }
+  png.format = PNG_FORMAT_RGBA;
+  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // 16-bit files too hold display-referred values
+  std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(png));
+  if (png_image_finish_read(&png, nullptr, rgba.data(), 0, nullptr) == 0) refuse(path, png);
+
+  Image image(static_cast<int>(png.width), static_cast<int>(png.height));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const std::uint8_t* p = &rgba[4 * i];
+    const glm::vec3 colour = glm::vec3(p[0], p[1], p[2]) / 255.0f;
+    const float alpha = static_cast<float>(p[3]) / 255.0f;
+    image.pixels[i] = p[3] == 255 ? colour : colour * alpha + background * (1.0f - alpha);
+  }
+  return image;
+}
+
+}  // namespace sgs

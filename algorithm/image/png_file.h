@@ -1,0 +1,20 @@
+// PNG pictures.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "algorithm/image/image.h"
+
+namespace sgs {
+
+// Writes `image` with 8 bits a channel: values clamped to [0, 1] (NaN: 0), times 255, rounded; no
+// gamma, the file says sRGB. Throws InputError when `path` cannot be created.
+void write_png(const std::string& path, const Image& image);
+
+// Reads a PNG of any kind as 8 bits a channel to values in [0, 1] as stored (converted to sRGB only
+// where the file states another gamma), transparent pixels blended over `background`. Throws
+// InputError: not a PNG, damaged, or shorter than its size in pixels can be packed into.
+Image read_png(const std::string& path, const glm::vec3& background = glm::vec3(0));
+
+}  // namespace sgs
