@@ -1,0 +1,61 @@
+// What lies where in the modelled DRAM: regions, addresses, and the bytes of a scene.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/records.h"
+#include "algorithm/memory/region.h"
+#include "algorithm/voxel/voxel_grid.h"
+
+namespace sgs {
+
+struct RegionRange {
+  std::uint64_t base = 0, bytes = 0;
+  std::uint64_t end() const { return base + bytes; }
+};
+
+// Addresses of the records; what the units are configured with before a frame. Regions begin on
+// multiples of 4 KiB, the row size of a DRAM page.
+struct MemoryLayout {
+  std::array<RegionRange, kRegionCount> regions;
+  VoxelFrame voxel_frame;
+  std::uint32_t node_count = 0, voxel_count = 0, gaussian_count = 0;
+  int sh_degree = 0;
+
+  const RegionRange& operator[](Region region) const { return regions[region_id(region)]; }
+  std::uint64_t total_bytes() const { return regions.back().end(); }
+  std::uint32_t second_half_bytes() const { return raw_second_half_bytes(sh_degree); }
+
+  std::uint64_t node_address(std::uint32_t node) const {
+    return (*this)[Region::kVoxelTable].base + std::uint64_t{node} * sizeof(VoxelNode);
+  }
+  std::uint64_t voxel_address(std::uint32_t voxel) const {
+    return node_address(node_count) + std::uint64_t{voxel} * sizeof(VoxelRecord);
+  }
+  std::uint64_t first_half_address(std::uint32_t slot) const {
+    return (*this)[Region::kFirstHalves].base + std::uint64_t{slot} * kFirstHalfBytes;
+  }
+  std::uint64_t second_half_address(std::uint32_t slot) const {
+    return (*this)[Region::kSecondHalves].base + std::uint64_t{slot} * second_half_bytes();
+  }
+  std::uint64_t pixel_address(int x, int y, int width_px, FrameFormat format) const {
+    return (*this)[Region::kFrameBuffer].base +
+           (static_cast<std::uint64_t>(y) * width_px + x) * pixel_bytes(format);
+  }
+};
+
+// A scene laid out for paper order: its layout, and the bytes of the regions that hold the scene.
+struct MemoryImage {
+  MemoryLayout layout;
+  std::vector<std::byte> bytes;  // from address 0 to the end of the second halves
+};
+
+// spill_bytes, frame_bytes: sizes of the regions that a frame writes.
+MemoryImage build_memory_image(const ActivatedCloud& cloud, const VoxelGrid& grid,
+                               std::uint64_t spill_bytes, std::uint64_t frame_bytes);
+
+}  // namespace sgs

@@ -1,0 +1,46 @@
+// The bytes of one Gaussian in the modelled DRAM: little-endian 32-bit floats, nothing stored
+// twice, nothing rounded.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "algorithm/splat/gaussian.h"
+
+namespace sgs {
+
+// Largest raw second half: 55 words at degree 3.
+constexpr std::uint32_t kFirstHalfBytes = 16;
+constexpr std::uint32_t kMaxSecondHalfBytes = 220;
+
+// x, y, z, largest scale.
+struct FirstHalf {
+  glm::vec3 mean;
+  float scale_max;
+};
+
+// What the fine filter knows of a Gaussian once both halves are there.
+struct DecodedGaussian {
+  Gaussian<float> gaussian;
+  glm::vec3 sh[16];
+};
+
+// Raw second half: the two other scales in their order, quaternion (w, x, y, z), opacity, SH
+// coefficients (rgb, (degree+1)^2 of them). The axis of the largest scale is in the sign bits of
+// the two scales, which are never negative: bit 0 in the first, bit 1 in the second.
+constexpr std::uint32_t raw_second_half_bytes(int sh_degree) {
+  return 4U * (2 + 4 + 1 + 3 * static_cast<std::uint32_t>((sh_degree + 1) * (sh_degree + 1)));
+}
+
+void encode_first_half(const Gaussian<float>& g, std::byte* out);
+FirstHalf decode_first_half(const std::byte* bytes);
+
+// sh: [(degree+1)^2]; out: raw_second_half_bytes(degree).
+void encode_raw_second_half(const Gaussian<float>& g, const glm::vec3* sh, int sh_degree,
+                            std::byte* out);
+// Gives back the very bits that were encoded.
+DecodedGaussian decode_raw_second_half(const FirstHalf& first, const std::byte* bytes,
+                                       int sh_degree);
+
+}  // namespace sgs

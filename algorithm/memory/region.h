@@ -1,0 +1,24 @@
+// The contiguous regions of the modelled DRAM; every byte on its bus belongs to one of them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace sgs {
+
+enum class Region : std::uint8_t {
+  kVoxelTable,    // tree nodes and voxel records
+  kFirstHalves,   // centre and largest scale, 16 B a Gaussian
+  kSecondHalves,  // everything else
+  kSpill,         // sorted runs that did not fit on chip
+  kFrameBuffer,   // finished pixels
+};
+
+constexpr std::size_t kRegionCount = 5;
+constexpr std::array<const char*, kRegionCount> kRegionNames = {
+    "voxel_table", "first_halves", "second_halves", "spill", "frame_buffer"};
+
+constexpr std::uint8_t region_id(Region region) { return static_cast<std::uint8_t>(region); }
+
+}  // namespace sgs

@@ -1,0 +1,67 @@
+// The pixels of one group while it is being blended, as the rendering unit holds them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "algorithm/render/render_result.h"
+#include "algorithm/splat/blend.h"
+#include "algorithm/splat/rects.h"
+
+namespace sgs {
+
+class GroupState {
+ public:
+  // pixels: corner on a multiple of 4 px, cut to the frame of width x height px.
+  GroupState(const PixelRect& pixels, int width_px, int height_px);
+
+  // Blends a splat into every unfinished 4x4 sub-tile of its footprint; returns how many those
+  // were. after(sub-tile's place in the group, its state) is called behind each.
+  template <class After>
+  std::uint32_t blend(const Splat& splat, After&& after) {
+    const SubtileRect reach = intersection(splat.footprint, subtiles_);
+    const int columns = subtiles_.x1 - subtiles_.x0;
+    std::uint32_t blended = 0;
+    for (int y = reach.y0; y < reach.y1; ++y) {
+      for (int x = reach.x0; x < reach.x1; ++x) {
+        const auto at = static_cast<std::size_t>((y - subtiles_.y0) * columns + (x - subtiles_.x0));
+        if (finished_[at] != 0) continue;
+        sgs::blend(states_[at], x, y, splat);
+        ++blended;
+        if (finished(states_[at])) {
+          finished_[at] = 1;
+          --unfinished_;
+        }
+        after(at, states_[at]);
+      }
+    }
+    return blended;
+  }
+  std::uint32_t blend(const Splat& splat) {
+    return blend(splat, [](std::size_t, const SubtileState&) {});
+  }
+  std::size_t subtile_count() const { return states_.size(); }
+
+  // All pixels finished (T would fall below 1e-4): nothing can change any more.
+  bool saturated() const { return unfinished_ == 0; }
+  const PixelRect& pixels() const { return pixels_; }
+  glm::vec3 colour(int x, int y, const glm::vec3& background) const;  // C + T background
+  std::uint64_t contributors() const;
+
+  // Copies the group into a whole frame.
+  void store(const glm::vec3& background, RenderResult& frame) const;
+
+ private:
+  const SubtileState& subtile_of(int x, int y, int& lane) const;
+
+  PixelRect pixels_;
+  SubtileRect subtiles_;
+  std::vector<SubtileState> states_;  // [rows, columns] of sub-tiles
+  std::vector<std::uint8_t> finished_;
+  std::uint32_t unfinished_ = 0;
+};
+
+// Groups of a frame, row by row; the last column and row are cut to the frame.
+std::vector<PixelRect> pixel_groups(int width_px, int height_px, int group_px);
+
+}  // namespace sgs

@@ -1,0 +1,159 @@
+// Traversal of the occupied voxels along a ray: Amanatides and Woo, "A Fast Voxel Traversal
+// Algorithm for Ray Tracing" (1987), with empty blocks of the sparse tree crossed in one step.
+// Gives the very sequence of cells that stepping cell by cell through the dense grid would.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "algorithm/voxel/ray.h"
+#include "algorithm/voxel/voxel_grid.h"
+
+namespace sgs {
+
+// Table is anything with `VoxelNode node(std::uint32_t index)`: a grid in memory or, in VSU, a
+// cache in front of the modelled DRAM (the call may then take simulated time).
+template <class Table>
+class RayWalk {
+ public:
+  RayWalk(const VoxelFrame& frame, Table& table) : frame_(frame), table_(table) {}
+
+  // Calls visit(voxel index) for each occupied voxel that the ray meets, nearest first. Returns the
+  // number of steps taken: nodes looked into and blocks crossed.
+  template <class Visit>
+  std::uint32_t walk(const Ray& ray, Visit&& visit) {
+    ray_ = &ray;
+    std::uint32_t steps = 1;
+    if (!enter()) return steps;
+    int level = frame_.levels;  // of the node to look into: it spans 4^level cells
+    node_at_[level] = table_.node(0);
+    while (true) {
+      ++steps;
+      const VoxelNode& node = node_at_[level];
+      const unsigned shift = static_cast<unsigned>(2 * (level - 1));
+      const unsigned bit = child_bit((static_cast<unsigned>(cell_.x) >> shift) & 3U,
+                                     (static_cast<unsigned>(cell_.y) >> shift) & 3U,
+                                     (static_cast<unsigned>(cell_.z) >> shift) & 3U);
+      const std::uint64_t below = (std::uint64_t{1} << bit) - 1;
+      if ((node.occupied >> bit & 1U) != 0) {
+        const std::uint32_t child =
+            node.first_child +
+            static_cast<std::uint32_t>(__builtin_popcountll(node.occupied & below));
+        if (level > 1) {
+          node_at_[--level] = table_.node(child);
+          continue;
+        }
+        visit(child);
+      }
+      const glm::ivec3 from = cell_;
+      leave_block(level - 1);
+      if (outside()) return steps;
+      // Climb to the smallest node that holds the old cell and the new one.
+      const auto differs =
+          static_cast<unsigned>((from.x ^ cell_.x) | (from.y ^ cell_.y) | (from.z ^ cell_.z));
+      while (differs >> (2 * level) != 0) ++level;
+    }
+  }
+
+ private:
+  bool outside() const {
+    const auto side = static_cast<unsigned>(frame_.side_cells());
+    return static_cast<unsigned>(cell_.x) >= side || static_cast<unsigned>(cell_.y) >= side ||
+           static_cast<unsigned>(cell_.z) >= side;
+  }
+
+  // Time at which the ray crosses the plane below `cell` (relative to the root) of an axis.
+  float plane_time(int axis, int cell) const {
+    return ray_->plane_time(axis, cell + frame_.origin_cell[axis], frame_.voxel_size);
+  }
+
+  // Cell along `axis` when the ray crosses another axis' plane at `time`, between `from` and `last`
+  // (in the direction of travel): all planes crossed before count.
+  int cell_when(int axis, float time, int crossed_axis, int from, int last) const {
+    const int step = ray_->step[axis];
+    if (step == 0 || from == last) return from;
+    const double position =
+        (ray_->origin[axis] + static_cast<double>(time) * ray_->direction[axis]) /
+        frame_.voxel_size;
+    const double relative = std::floor(position) - frame_.origin_cell[axis];
+    const int low = std::min(from, last), high = std::max(from, last);
+    int cell =
+        static_cast<int>(std::clamp(relative, static_cast<double>(low), static_cast<double>(high)));
+    const int far_side = step > 0 ? 1 : 0;  // plane by which a cell is left
+    const auto left_before = [&](int c) {
+      return crosses_before(plane_time(axis, c + far_side), axis, time, crossed_axis);
+    };
+    while (cell != last && left_before(cell)) cell += step;
+    while (cell != from && !left_before(cell - step)) cell -= step;
+    return cell;
+  }
+
+  // Moves to the first cell beyond the block of 4^level cells a side that holds the current one.
+  void leave_block(int level) {
+    const int size = 1 << (2 * level);
+    int exit_axis = 0;
+    float exit_time = std::numeric_limits<float>::infinity();
+    glm::ivec3 last;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int low = cell_[axis] & ~(size - 1);
+      last[axis] = ray_->step[axis] > 0 ? low + size - 1 : low;
+      const float time = plane_time(axis, ray_->step[axis] > 0 ? low + size : low);
+      if (axis == 0 || time < exit_time) {
+        exit_time = time;
+        exit_axis = axis;
+      }
+    }
+    if (ray_->step[exit_axis] == 0) {  // a direction of zero length never leaves
+      cell_.x = -1;
+      return;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis != exit_axis) {
+        cell_[axis] = cell_when(axis, exit_time, exit_axis, cell_[axis], last[axis]);
+      }
+    }
+    cell_[exit_axis] = last[exit_axis] + ray_->step[exit_axis];
+  }
+
+  // Puts the ray into the camera's cell or, from outside, into the first cell of the root.
+  bool enter() {
+    const int side = frame_.side_cells();
+    float entry_time = 0;
+    int entry_axis = -1;
+    for (int axis = 0; axis < 3; ++axis) {
+      cell_[axis] = cell_of(ray_->origin[axis], frame_.voxel_size) - frame_.origin_cell[axis];
+      if (cell_[axis] >= 0 && cell_[axis] < side) continue;
+      const int step = ray_->step[axis];
+      if (cell_[axis] < 0 ? step <= 0 : step >= 0) return false;
+      const float time = plane_time(axis, step > 0 ? 0 : side);
+      if (entry_axis < 0 || crosses_before(entry_time, entry_axis, time, axis)) {
+        entry_time = time;
+        entry_axis = axis;
+      }
+    }
+    if (entry_axis < 0) return true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int step = ray_->step[axis];
+      if (axis == entry_axis) {
+        cell_[axis] = step > 0 ? 0 : side - 1;
+      } else {
+        // One cell past the root is far enough to see that the ray misses it.
+        const int last = step > 0 ? side : -1;
+        if (step > 0 ? cell_[axis] < last : cell_[axis] > last) {
+          cell_[axis] = cell_when(axis, entry_time, entry_axis, cell_[axis], last);
+        }
+      }
+    }
+    return !outside();
+  }
+
+  const VoxelFrame frame_;
+  Table& table_;
+  const Ray* ray_ = nullptr;
+  glm::ivec3 cell_{0};     // relative to the root's corner
+  VoxelNode node_at_[12];  // by level: the path from the root to the current cell
+};
+
+}  // namespace sgs

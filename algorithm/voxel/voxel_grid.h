@@ -1,0 +1,64 @@
+// The paper's grid: Gaussians by the cubic voxel that holds their centre. Only occupied cells
+// exist: a sparse tree of 4x4x4 nodes finds them, so nothing is sized by the dense grid (real
+// scenes span 10^12 cells).
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "algorithm/splat/gaussian.h"
+
+namespace sgs {
+
+// 64 children, one bit each, in Morton order of their place in the 4x4x4 block. Children lie
+// contiguously: child k of a node is entry first_child + popcount(occupied below bit k), a node of
+// the next finer level or, on the finest, a voxel. This is also the record in the modelled DRAM (16
+// B).
+struct VoxelNode {
+  std::uint64_t occupied = 0;
+  std::uint32_t first_child = 0;
+  std::uint32_t reserved = 0;
+};
+
+// Where a voxel's Gaussians lie, in storage slots. The record in the modelled DRAM (8 B).
+struct VoxelRecord {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+// What a traversal must know besides the table itself.
+struct VoxelFrame {
+  float voxel_size = 0;       // world units
+  glm::ivec3 origin_cell{0};  // cell of the root's corner; cell i spans [i, i + 1) voxel_size
+  int levels = 1;             // the root spans 4^levels cells a side; levels <= 10
+  int side_cells() const { return 1 << (2 * levels); }
+};
+
+struct VoxelGrid {
+  VoxelFrame frame;
+  std::vector<VoxelNode> nodes;     // breadth first, root at 0; empty for an empty cloud
+  std::vector<VoxelRecord> voxels;  // Morton order
+  std::vector<std::uint32_t>
+      storage_order;  // [N] file index of each storage slot: by voxel, then index
+};
+
+// Place of local cell (x, y, z), each 0 to 3, among the 64 children.
+inline unsigned child_bit(unsigned x, unsigned y, unsigned z) {
+  constexpr unsigned kSpread[4] = {0, 1, 8, 9};
+  return kSpread[x] | kSpread[y] << 1U | kSpread[z] << 2U;
+}
+
+// Cell of a coordinate along one axis.
+int cell_of(float coordinate, float voxel_size);
+
+// Throws InputError when the occupied cells span more than 2^20 along an axis (the message names
+// the smallest voxel size that fits).
+VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size);
+
+// The paper's voxel sizes: 0.4 for small synthetic scenes, 2 for real ones. The choice is made on
+// the 0.1 % to 99.9 % extent of the centres: below 10 units along every axis the scene counts as
+// small.
+float paper_voxel_size(const ActivatedCloud& cloud);
+
+}  // namespace sgs
