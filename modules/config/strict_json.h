@@ -1,0 +1,70 @@
+// Configurations as JSON, read without mercy: an unknown or doubled key, a wrong type, a value out
+// of range or an unknown name is an InputError that says where, what was found and what is allowed.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "modules/config/config_visitor.h"
+
+namespace sgs {
+
+// A JSON object put together from files and overrides, later ones over earlier ones.
+class ConfigDocument {
+ public:
+  ConfigDocument();
+  ~ConfigDocument();
+  ConfigDocument(ConfigDocument&&) noexcept;
+  ConfigDocument& operator=(ConfigDocument&&) noexcept;
+
+  // Adds a file's, or a text's, object: objects are merged key by key, all else replaces. `origin`
+  // stands for the file in messages. InputError: unreadable, not JSON, not an object, doubled key.
+  void add_file(const std::string& path);
+  void add_text(const std::string& text, const std::string& origin);
+
+  // Sets one value: "key.path=value", the value being JSON or, failing that, a plain string.
+  void add_override(const std::string& assignment);
+
+  // Fills `config` (whose present values are the defaults) by visit(v, config). Keys of the
+  // document that visit() does not name are refused.
+  template <class Struct>
+  void read_into(Struct& config) const {
+    const std::unique_ptr<ConfigVisitor> reader = make_reader();
+    visit(*reader, config);
+    finish(*reader);
+  }
+
+ private:
+  struct Content;
+  std::unique_ptr<ConfigVisitor> make_reader() const;
+  static void finish(const ConfigVisitor& reader);
+
+  std::unique_ptr<Content> content_;
+};
+
+// Writing visitors, and what they have written so far.
+class ConfigWriter : public ConfigVisitor {
+ public:
+  virtual std::string text() const = 0;
+};
+std::unique_ptr<ConfigWriter> make_json_writer();
+std::unique_ptr<ConfigWriter> make_listing_writer();
+
+// The resolved configuration as indented JSON: what --print-config prints, readable again.
+template <class Struct>
+std::string config_to_json(Struct config) {
+  const std::unique_ptr<ConfigWriter> writer = make_json_writer();
+  visit(static_cast<ConfigVisitor&>(*writer), config);
+  return writer->text();
+}
+
+// One line a key: path, value, what is allowed, what it means.
+template <class Struct>
+std::string config_listing(Struct config) {
+  const std::unique_ptr<ConfigWriter> writer = make_listing_writer();
+  visit(static_cast<ConfigVisitor&>(*writer), config);
+  return writer->text();
+}
+
+}  // namespace sgs

@@ -1,0 +1,116 @@
+// A channel that serves requests in the order of their arrival.
+#include "modules/dram/arrival_order_channel.h"
+
+#include <algorithm>
+
+namespace sgs {
+
+namespace {
+// Commands that are looked at for a collision lie within this many cycles of each other.
+constexpr std::size_t kCommandBusSlots = 8192;
+}  // namespace
+
+ArrivalOrderChannel::ArrivalOrderChannel(const DramConfig& config, const Memspec& memspec,
+                                         std::uint8_t channel, CommandSink& sink)
+    : channel_(channel),
+      pipeline_(config.pipeline_cycles),
+      sink_(sink),
+      device_(memspec, DerivedTiming(memspec, config.write_latency_set, config.read_strobe),
+              config.ranks),
+      outcome_(std::size_t{config.ranks} * memspec.organisation.banks, RowOutcome::kMiss),
+      command_bus_(kCommandBusSlots, kNever) {
+  for (std::uint32_t rank = 0; rank < config.ranks; ++rank)
+    maintenance_.emplace_back(config, memspec, rank);
+}
+
+std::uint64_t ArrivalOrderChannel::serve(const ChannelRequest& request, std::uint64_t arrival) {
+  const std::uint64_t cycle = arrival + pipeline_;
+  maintain(cycle);
+  wake(request.rank, cycle);
+  open(request, cycle);
+  RowOutcome& outcome = outcome_[request.rank * device_.banks() + request.bank];
+  const bool reads = request.direction == Direction::kRead;
+  std::uint64_t at = cycle;
+  for (std::uint32_t i = 0; i < request.bursts; ++i) {
+    const std::uint64_t earliest = reads ? device_.earliest_read(request.rank, request.bank)
+                                         : device_.earliest_write(request.rank, request.bank);
+    at = issue(reads ? Command::kRead : Command::kWrite, request, request.burst + i,
+               std::max(cycle, earliest));
+    rows_.count(outcome);
+    outcome = RowOutcome::kHit;
+  }
+  last_column_ = std::max(last_column_, at);
+  hand_out_before(arrival);
+  return at + (reads ? device_.derived().read_data_end : device_.derived().write_data_end);
+}
+
+void ArrivalOrderChannel::finish(std::uint64_t cycle) {
+  maintain(cycle);
+  hand_out_before(kNever);
+}
+
+void ArrivalOrderChannel::maintain(std::uint64_t cycle) {
+  const std::uint64_t busy_until = std::max(cycle, last_column_);
+  for (RankMaintenance& rank : maintenance_)
+    while (true) {
+      const Candidate next = rank.next(device_, kNever);
+      const bool refresh = rank.refresh_due() <= busy_until;
+      if (next.cycle == kNever || (!refresh && next.cycle >= cycle)) break;
+      ChannelRequest none;
+      none.rank = next.rank;
+      none.bank = next.bank;
+      issue(next.command, none, 0, next.cycle);
+    }
+}
+
+void ArrivalOrderChannel::wake(std::uint32_t rank, std::uint64_t cycle) {
+  while (!maintenance_[rank].powered_up()) {
+    const Candidate exit = maintenance_[rank].next(device_, cycle);
+    ChannelRequest none;
+    none.rank = rank;
+    issue(exit.command, none, 0, exit.cycle);
+  }
+}
+
+void ArrivalOrderChannel::open(const ChannelRequest& r, std::uint64_t cycle) {
+  const std::uint32_t open_row = device_.open_row(r.rank, r.bank);
+  if (open_row == r.row) return;
+  RowOutcome& outcome = outcome_[r.rank * device_.banks() + r.bank];
+  outcome = RowOutcome::kMiss;
+  if (open_row != kNoRow) {
+    outcome = RowOutcome::kConflict;
+    issue(Command::kPrecharge, r, 0, std::max(cycle, device_.earliest_precharge(r.rank, r.bank)));
+  }
+  issue(Command::kActivate, r, 0, std::max(cycle, device_.earliest_activate(r.rank, r.bank)));
+}
+
+std::uint64_t ArrivalOrderChannel::issue(Command command, const ChannelRequest& request,
+                                         std::uint32_t burst, std::uint64_t earliest) {
+  CommandRecord record{take_command_slot(earliest),
+                       command,
+                       channel_,
+                       static_cast<std::uint8_t>(request.rank),
+                       static_cast<std::uint8_t>(request.bank),
+                       request.region,
+                       command == Command::kActivate ? request.row : 0,
+                       burst};
+  device_.issue(record);
+  maintenance_[request.rank].on_command(command, record.cycle);
+  pending_.push(record);
+  return record.cycle;
+}
+
+std::uint64_t ArrivalOrderChannel::take_command_slot(std::uint64_t cycle) {
+  while (command_bus_[cycle % kCommandBusSlots] == cycle) ++cycle;
+  command_bus_[cycle % kCommandBusSlots] = cycle;
+  return cycle;
+}
+
+void ArrivalOrderChannel::hand_out_before(std::uint64_t cycle) {
+  while (!pending_.empty() && pending_.top().cycle < cycle) {
+    sink_.on_command(pending_.top());
+    pending_.pop();
+  }
+}
+
+}  // namespace sgs

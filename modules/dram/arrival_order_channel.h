@@ -1,0 +1,63 @@
+// A channel that serves requests in the order of their arrival: each reserves its commands on the
+// device's tables when it comes. The timing of --timing fast.
+//
+// Rows are opened ahead of the columns before them, as a queue would; columns keep to the order of
+// arrival, so reads and writes are not grouped and hits do not overtake. Rows stay open.
+#pragma once
+
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+#include "modules/dram/channel_request.h"
+#include "modules/dram/device_timing.h"
+#include "modules/dram/dram_config.h"
+#include "modules/dram/rank_maintenance.h"
+#include "modules/dram/row_counts.h"
+
+namespace sgs {
+
+class ArrivalOrderChannel {
+ public:
+  ArrivalOrderChannel(const DramConfig& config, const Memspec& memspec, std::uint8_t channel,
+                      CommandSink& sink);
+
+  // Serves a request that arrives at `cycle`, not before the last one's. Returns the cycle at which
+  // its last datum has been transferred.
+  std::uint64_t serve(const ChannelRequest& request, std::uint64_t cycle);
+
+  // Lets idle time pass up to `cycle` and hands out all commands.
+  void finish(std::uint64_t cycle);
+
+  const RowCounts& rows() const { return rows_; }
+  std::uint64_t last_column() const { return last_column_; }
+
+ private:
+  void maintain(std::uint64_t cycle);
+  void wake(std::uint32_t rank, std::uint64_t cycle);
+  void open(const ChannelRequest& request, std::uint64_t cycle);
+  std::uint64_t issue(Command command, const ChannelRequest& request, std::uint32_t burst,
+                      std::uint64_t earliest);
+  std::uint64_t take_command_slot(std::uint64_t earliest);
+  void hand_out_before(std::uint64_t cycle);
+
+  struct Later {
+    bool operator()(const CommandRecord& a, const CommandRecord& b) const {
+      return a.cycle > b.cycle;
+    }
+  };
+
+  const std::uint8_t channel_;
+  const std::uint32_t pipeline_;
+  CommandSink& sink_;
+  DeviceTiming device_;
+  std::vector<RankMaintenance> maintenance_;
+  std::vector<RowOutcome> outcome_;         // by rank and bank: of the next column
+  std::vector<std::uint64_t> command_bus_;  // ring: which cycle a slot was last taken for
+  // Commands of one request lie between those of earlier ones; the sink wants them in order.
+  std::priority_queue<CommandRecord, std::vector<CommandRecord>, Later> pending_;
+  std::uint64_t last_column_ = 0;
+  RowCounts rows_;
+};
+
+}  // namespace sgs

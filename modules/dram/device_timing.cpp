@@ -1,0 +1,190 @@
+// Earliest next commands: what each command does to the tables.
+#include "modules/dram/device_timing.h"
+
+namespace sgs {
+
+DerivedTiming::DerivedTiming(const Memspec& memspec, WriteLatencySet set, ReadStrobe strobe) {
+  const Memspec::Timing& t = memspec.timing_cycles;
+  burst = memspec.burst_cycles();
+  write_latency = set == WriteLatencySet::kA ? t.write_latency_a : t.write_latency_b;
+  const std::uint32_t strobe_delay = strobe == ReadStrobe::kMin ? t.dqsck_min : t.dqsck_max;
+  const std::uint32_t latest_read_end = t.read_latency + t.dqsck_max + burst;
+  read_data_end = t.read_latency + strobe_delay + burst;
+  write_data_end = write_latency + 1 + burst;
+  read_to_write = latest_read_end + 1 - write_latency;
+  write_to_read = write_data_end + t.wtr;
+  write_to_precharge = write_data_end + t.wr;
+  read_to_read_other_rank = burst + t.rtrs;
+  read_to_write_other_rank = latest_read_end + t.rtrs - write_latency;
+  const std::uint32_t next_read_start = t.read_latency + t.dqsck_min;
+  const std::uint32_t bus_free = write_data_end + t.rtrs;
+  write_to_read_other_rank = bus_free > next_read_start ? bus_free - next_read_start : 1;
+  read_to_power_down = latest_read_end + 1;
+}
+
+DeviceTiming::DeviceTiming(const Memspec& memspec, const DerivedTiming& derived,
+                           std::uint32_t ranks)
+    : t_(memspec.timing_cycles),
+      d_(derived),
+      banks_(memspec.organisation.banks),
+      bank_(std::size_t{ranks} * banks_),
+      ranks_(ranks) {}
+
+std::uint64_t DeviceTiming::earliest_precharge_all(std::uint32_t rank) const {
+  std::uint64_t earliest = ranks_[rank].any;
+  for (std::uint32_t b = 0; b < banks_; ++b)
+    if (bank_of(rank, b).open_row != kNoRow)
+      earliest = std::max(earliest, bank_of(rank, b).precharge);
+  return earliest;
+}
+
+std::uint64_t DeviceTiming::earliest_refresh_all(std::uint32_t rank) const {
+  std::uint64_t earliest = std::max(ranks_[rank].any, ranks_[rank].refresh);
+  for (std::uint32_t b = 0; b < banks_; ++b)
+    earliest = std::max(earliest, bank_of(rank, b).activate);
+  return earliest;
+}
+
+void DeviceTiming::issue(const CommandRecord& r) {
+  switch (r.command) {
+    case Command::kActivate:
+      return activate(r.rank, r.bank, r.row, r.cycle);
+    case Command::kRead:
+      return read(r.rank, r.bank, r.cycle);
+    case Command::kReadAuto:
+      read(r.rank, r.bank, r.cycle);
+      return close_after_column(r.rank, r.bank);
+    case Command::kWrite:
+      return write(r.rank, r.bank, r.cycle);
+    case Command::kWriteAuto:
+      write(r.rank, r.bank, r.cycle);
+      return close_after_column(r.rank, r.bank);
+    case Command::kPrecharge:
+      return precharge(r.rank, r.bank, r.cycle);
+    case Command::kPrechargeAll:
+      return precharge_all(r.rank, r.cycle);
+    case Command::kRefreshAll:
+      return refresh_all(r.rank, r.cycle);
+    case Command::kRefreshBank:
+      return refresh_bank(r.rank, r.bank, r.cycle);
+    case Command::kPowerDownEnter:
+      return enter_power_down(r.rank, r.cycle);
+    case Command::kPowerDownExit:
+      return exit_power_down(r.rank, r.cycle);
+    case Command::kSelfRefreshEnter:
+      return enter_self_refresh(r.rank, r.cycle);
+    case Command::kSelfRefreshExit:
+      return exit_self_refresh(r.rank, r.cycle);
+  }
+}
+
+void DeviceTiming::count_activation(Rank& r, std::uint64_t cycle) {
+  raise(r.activate, cycle + t_.rrd);
+  r.faw[r.faw_next] = cycle + t_.faw;
+  r.faw_next = (r.faw_next + 1) & 3;
+  raise(r.power_down, cycle + 1);
+}
+
+void DeviceTiming::activate(std::uint32_t rank, std::uint32_t bank, std::uint32_t row,
+                            std::uint64_t cycle) {
+  Bank& b = bank_of(rank, bank);
+  b.open_row = row;
+  b.column = cycle + t_.rcd;
+  raise(b.precharge, cycle + t_.ras);
+  raise(b.activate, cycle + t_.rc);
+  ++ranks_[rank].open_banks;
+  count_activation(ranks_[rank], cycle);
+}
+
+void DeviceTiming::read(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
+  raise(bank_of(rank, bank).precharge, cycle + t_.rtp);
+  for (Rank& other : ranks_) {
+    raise(other.read, cycle + d_.read_to_read_other_rank);
+    raise(other.write, cycle + d_.read_to_write_other_rank);
+  }
+  Rank& r = ranks_[rank];
+  r.read = cycle + t_.ccd;
+  r.write = cycle + d_.read_to_write;
+  raise(r.power_down, cycle + d_.read_to_power_down);
+}
+
+void DeviceTiming::write(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
+  raise(bank_of(rank, bank).precharge, cycle + d_.write_to_precharge);
+  for (Rank& other : ranks_) {
+    raise(other.read, cycle + d_.write_to_read_other_rank);
+    raise(other.write, cycle + d_.read_to_read_other_rank);
+  }
+  Rank& r = ranks_[rank];
+  r.read = cycle + d_.write_to_read;
+  r.write = cycle + t_.ccd;
+  raise(r.power_down, cycle + d_.write_to_precharge);
+}
+
+void DeviceTiming::close_after_column(std::uint32_t rank, std::uint32_t bank) {
+  Bank& b = bank_of(rank, bank);
+  b.open_row = kNoRow;
+  raise(b.activate, b.precharge + t_.rp_bank);
+  raise(ranks_[rank].power_down, b.precharge + 1);
+  --ranks_[rank].open_banks;
+}
+
+void DeviceTiming::precharge(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
+  Bank& b = bank_of(rank, bank);
+  b.open_row = kNoRow;
+  raise(b.activate, cycle + t_.rp_bank);
+  raise(ranks_[rank].power_down, cycle + 1);
+  --ranks_[rank].open_banks;
+}
+
+void DeviceTiming::precharge_all(std::uint32_t rank, std::uint64_t cycle) {
+  for (std::uint32_t i = 0; i < banks_; ++i) {
+    Bank& b = bank_of(rank, i);
+    b.open_row = kNoRow;
+    raise(b.activate, cycle + t_.rp_all);
+  }
+  raise(ranks_[rank].power_down, cycle + 1);
+  ranks_[rank].open_banks = 0;
+}
+
+void DeviceTiming::refresh_all(std::uint32_t rank, std::uint64_t cycle) {
+  Rank& r = ranks_[rank];
+  raise(r.activate, cycle + t_.rfc_all);
+  raise(r.refresh, cycle + t_.rfc_all);
+  raise(r.power_down, cycle + t_.rfc_all);
+}
+
+void DeviceTiming::refresh_bank(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
+  raise(bank_of(rank, bank).activate, cycle + t_.rfc_bank);
+  Rank& r = ranks_[rank];
+  raise(r.refresh, cycle + t_.rfc_bank);
+  count_activation(r, cycle);  // JESD209-3 counts a per-bank refresh towards tRRD and tFAW
+  raise(r.power_down, cycle + t_.rfc_bank);
+}
+
+void DeviceTiming::enter_power_down(std::uint32_t rank, std::uint64_t cycle) {
+  ranks_[rank].exit = cycle + t_.cke;
+}
+
+void DeviceTiming::wake(Rank& r, std::uint64_t ready) {
+  raise(r.any, ready);
+  raise(r.activate, ready);
+  raise(r.read, ready);
+  raise(r.write, ready);
+  raise(r.refresh, ready);
+}
+
+void DeviceTiming::exit_power_down(std::uint32_t rank, std::uint64_t cycle) {
+  wake(ranks_[rank], cycle + t_.xp);
+  raise(ranks_[rank].power_down, cycle + std::max(t_.cke, t_.xp));
+}
+
+void DeviceTiming::enter_self_refresh(std::uint32_t rank, std::uint64_t cycle) {
+  ranks_[rank].exit = cycle + t_.cke_self_refresh;
+}
+
+void DeviceTiming::exit_self_refresh(std::uint32_t rank, std::uint64_t cycle) {
+  wake(ranks_[rank], cycle + t_.xsr);
+  raise(ranks_[rank].power_down, cycle + t_.xsr);
+}
+
+}  // namespace sgs

@@ -1,0 +1,130 @@
+// The state of one channel's devices and, for each command, the earliest cycle at which it may
+// come next: a table per bank, rank and channel, brought up to date by every command.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "modules/dram/command.h"
+#include "modules/dram/dram_config.h"
+#include "modules/dram/memspec.h"
+
+namespace sgs {
+
+// Sums of a memspec's constants that the constraints are made of, in cycles.
+struct DerivedTiming {
+  DerivedTiming(const Memspec& memspec, WriteLatencySet set, ReadStrobe strobe);
+
+  std::uint32_t burst;                     // BL/2 on the data bus
+  std::uint32_t write_latency;             // of the chosen set
+  std::uint32_t read_data_end;             // RL + tDQSCK + BL/2: command to last datum
+  std::uint32_t write_data_end;            // WL + 1 + BL/2; the 1 is tDQSS
+  std::uint32_t read_to_write;             // RL + tDQSCKmax + BL/2 + 1 - WL
+  std::uint32_t write_to_read;             // WL + 1 + BL/2 + tWTR
+  std::uint32_t write_to_precharge;        // WL + 1 + BL/2 + tWR
+  std::uint32_t read_to_read_other_rank;   // BL/2 + tRTRS
+  std::uint32_t read_to_write_other_rank;  // RL + tDQSCKmax + BL/2 + tRTRS - WL
+  std::uint32_t write_to_read_other_rank;  // WL + 1 + BL/2 + tRTRS - RL - tDQSCKmin, at least 1
+  std::uint32_t read_to_power_down;        // RL + tDQSCKmax + BL/2 + 1
+};
+
+class DeviceTiming {
+ public:
+  DeviceTiming(const Memspec& memspec, const DerivedTiming& derived, std::uint32_t ranks);
+
+  const DerivedTiming& derived() const { return d_; }
+  std::uint32_t banks() const { return banks_; }
+  std::uint32_t ranks() const { return static_cast<std::uint32_t>(ranks_.size()); }
+  std::uint32_t open_row(std::uint32_t rank, std::uint32_t bank) const {
+    return bank_of(rank, bank).open_row;
+  }
+  std::uint32_t open_banks(std::uint32_t rank) const { return ranks_[rank].open_banks; }
+
+  std::uint64_t earliest_activate(std::uint32_t rank, std::uint32_t bank) const {
+    const Rank& r = ranks_[rank];
+    return std::max({bank_of(rank, bank).activate, r.activate, r.faw[r.faw_next]});
+  }
+  std::uint64_t earliest_read(std::uint32_t rank, std::uint32_t bank) const {
+    return std::max(bank_of(rank, bank).column, ranks_[rank].read);
+  }
+  std::uint64_t earliest_write(std::uint32_t rank, std::uint32_t bank) const {
+    return std::max(bank_of(rank, bank).column, ranks_[rank].write);
+  }
+  std::uint64_t earliest_precharge(std::uint32_t rank, std::uint32_t bank) const {
+    return std::max(bank_of(rank, bank).precharge, ranks_[rank].any);
+  }
+  std::uint64_t earliest_precharge_all(std::uint32_t rank) const;
+  // All banks must be closed.
+  std::uint64_t earliest_refresh_all(std::uint32_t rank) const;
+  // The bank must be closed.
+  std::uint64_t earliest_refresh_bank(std::uint32_t rank, std::uint32_t bank) const {
+    return std::max(earliest_activate(rank, bank), ranks_[rank].refresh);
+  }
+  std::uint64_t earliest_power_down(std::uint32_t rank) const {
+    return std::max(ranks_[rank].power_down, ranks_[rank].any);
+  }
+  // All banks must be closed.
+  std::uint64_t earliest_self_refresh(std::uint32_t rank) const {
+    return std::max(earliest_refresh_all(rank), earliest_power_down(rank));
+  }
+  // Of the state that the rank is in.
+  std::uint64_t earliest_exit(std::uint32_t rank) const { return ranks_[rank].exit; }
+
+  // Applies a command, auto-precharge included, at its cycle.
+  void issue(const CommandRecord& record);
+
+  // Each takes the command at `cycle`, which must not be before its earliest.
+  void activate(std::uint32_t rank, std::uint32_t bank, std::uint32_t row, std::uint64_t cycle);
+  void read(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle);
+  void write(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle);
+  // A read's or write's auto-precharge, directly after it.
+  void close_after_column(std::uint32_t rank, std::uint32_t bank);
+  void precharge(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle);
+  void precharge_all(std::uint32_t rank, std::uint64_t cycle);
+  void refresh_all(std::uint32_t rank, std::uint64_t cycle);
+  void refresh_bank(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle);
+  void enter_power_down(std::uint32_t rank, std::uint64_t cycle);
+  void exit_power_down(std::uint32_t rank, std::uint64_t cycle);
+  void enter_self_refresh(std::uint32_t rank, std::uint64_t cycle);
+  void exit_self_refresh(std::uint32_t rank, std::uint64_t cycle);
+
+ private:
+  // Earliest cycles. A bank holds what depends on its own history, a rank the rest, other ranks'
+  // use of the shared data bus included.
+  struct Bank {
+    std::uint32_t open_row = kNoRow;
+    std::uint64_t activate = 0;
+    std::uint64_t column = 0;
+    std::uint64_t precharge = 0;
+  };
+  struct Rank {
+    std::uint32_t open_banks = 0;
+    std::uint64_t any = 0;  // after leaving a low-power state
+    std::uint64_t activate = 0;
+    std::uint64_t read = 0;
+    std::uint64_t write = 0;
+    std::uint64_t refresh = 0;
+    std::uint64_t power_down = 0;
+    std::uint64_t exit = 0;
+    std::array<std::uint64_t, 4> faw{};  // when the fourth-last activate leaves the window
+    std::uint32_t faw_next = 0;
+  };
+
+  Bank& bank_of(std::uint32_t rank, std::uint32_t bank) { return bank_[rank * banks_ + bank]; }
+  const Bank& bank_of(std::uint32_t rank, std::uint32_t bank) const {
+    return bank_[rank * banks_ + bank];
+  }
+  void count_activation(Rank& rank, std::uint64_t cycle);
+  void wake(Rank& rank, std::uint64_t ready);
+  static void raise(std::uint64_t& to, std::uint64_t at_least) { to = std::max(to, at_least); }
+
+  const Memspec::Timing t_;
+  const DerivedTiming d_;
+  const std::uint32_t banks_;
+  std::vector<Bank> bank_;
+  std::vector<Rank> ranks_;
+};
+
+}  // namespace sgs

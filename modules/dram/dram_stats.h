@@ -1,0 +1,58 @@
+// What the memory did up to a moment. Counts are integers; rates are derived when asked for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "modules/dram/command.h"
+#include "modules/dram/latency_histogram.h"
+#include "modules/dram/row_counts.h"
+#include "tlm/counters.h"
+
+namespace sgs {
+
+struct DramChannelStats {
+  RowCounts rows;                                   // bursts by outcome
+  std::array<std::uint64_t, kCommands> commands{};  // by Command
+  std::uint64_t busy_cycles = 0;                    // of the data bus
+
+  std::uint64_t count(Command c) const { return commands[static_cast<std::size_t>(c)]; }
+  std::uint64_t activates() const { return count(Command::kActivate); }
+  std::uint64_t refreshes() const {
+    return count(Command::kRefreshAll) + count(Command::kRefreshBank);
+  }
+  std::uint64_t bursts() const {
+    return count(Command::kRead) + count(Command::kReadAuto) + count(Command::kWrite) +
+           count(Command::kWriteAuto);
+  }
+};
+
+struct DramStats {
+  double clock_period_ns = 0;
+  double peak_gb_per_s = 0;  // of all channels
+  std::uint32_t burst_bytes = 0;
+  std::uint64_t elapsed_cycles = 0;
+  std::uint64_t busy_cycles = 0;  // in which at least one request was in the controller
+
+  TrafficCounters traffic;  // as asked for: transactions and their bytes
+  // Bursts on the bus by region and direction; a partial burst costs a whole one.
+  std::array<std::array<std::uint64_t, 2>, 256> bursts_by_region{};
+  std::vector<DramChannelStats> channels;
+  LatencyHistogram read_latency_cycles;   // arrival to last datum, of a transaction
+  LatencyHistogram write_latency_cycles;  // arrival to last datum, also of posted writes
+  std::uint64_t forwarded_reads = 0;      // answered from the write queue
+
+  DramChannelStats all_channels() const;
+  std::uint64_t bytes() const { return traffic.total().bytes; }
+  std::uint64_t bus_bytes() const { return all_channels().bursts() * burst_bytes; }
+  double elapsed_ns() const { return static_cast<double>(elapsed_cycles) * clock_period_ns; }
+
+  // Bytes asked for over all the time, and over the time in which requests were there; GB/s.
+  double bandwidth_gb_per_s() const;
+  double busy_bandwidth_gb_per_s() const;
+  // Share of bursts that found their row open.
+  double row_hit_rate() const;
+};
+
+}  // namespace sgs

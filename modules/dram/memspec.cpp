@@ -1,0 +1,232 @@
+// Reading and checking a DRAM device's description.
+#include "modules/dram/memspec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "algorithm/input_error.h"
+#include "modules/config/join.h"
+#include "modules/config/strict_json.h"
+
+namespace sgs {
+
+namespace {
+namespace fs = std::filesystem;
+
+bool power_of_two(std::uint64_t n) { return n != 0 && (n & (n - 1)) == 0; }
+}  // namespace
+
+static void visit(ConfigVisitor& v, Memspec::Organisation& o) {
+  v("width_bits", o.width_bits, in_range(8, 128), "data bus of a channel");
+  v("burst_length", o.burst_length, in_range(2, 32), "beats a burst");
+  v("banks", o.banks, in_range(1, 64), "banks a rank");
+  v("rows", o.rows, in_range(1, 1 << 20), "rows a bank");
+  v("columns", o.columns, in_range(1, 1 << 16), "columns a row, each width_bits wide");
+}
+
+static void visit(ConfigVisitor& v, Memspec::Timing& t) {
+  const ConfigRange cycles = in_range(1, 1000000);
+  v("read_latency", t.read_latency, cycles, "RL");
+  v("write_latency_a", t.write_latency_a, cycles, "WL, mode-register set A");
+  v("write_latency_b", t.write_latency_b, cycles, "WL, mode-register set B");
+  v("rcd", t.rcd, cycles, "activate to read or write");
+  v("rp_bank", t.rp_bank, cycles, "precharge of one bank");
+  v("rp_all", t.rp_all, cycles, "precharge of all banks");
+  v("ras", t.ras, cycles, "activate to precharge");
+  v("rc", t.rc, cycles, "activate to activate, same bank");
+  v("ccd", t.ccd, cycles, "column to column command");
+  v("rrd", t.rrd, cycles, "activate to activate, other bank");
+  v("faw", t.faw, cycles, "window of four activates");
+  v("rtp", t.rtp, cycles, "read to precharge");
+  v("wr", t.wr, cycles, "end of write data to precharge");
+  v("wtr", t.wtr, cycles, "end of write data to read");
+  v("dqsck_min", t.dqsck_min, in_range(0, 1000), "clock to strobe, shortest");
+  v("dqsck_max", t.dqsck_max, in_range(0, 1000), "clock to strobe, longest");
+  v("rfc_all", t.rfc_all, cycles, "all-bank refresh");
+  v("rfc_bank", t.rfc_bank, cycles, "per-bank refresh");
+  v("refi", t.refi, cycles, "interval of all-bank refreshes");
+  v("refi_bank", t.refi_bank, cycles, "interval of per-bank refreshes");
+  v("xp", t.xp, cycles, "power-down exit to command");
+  v("cke", t.cke, cycles, "shortest power-down");
+  v("cke_self_refresh", t.cke_self_refresh, cycles, "shortest self-refresh");
+  v("xsr", t.xsr, cycles, "self-refresh exit to command");
+  v("rtrs", t.rtrs, in_range(0, 1000), "data bus hand-over between ranks");
+  v("ras_max", t.ras_max, cycles, "longest time a row stays open");
+}
+
+static void visit(ConfigVisitor& v, Memspec::Rail& r) {
+  const ConfigRange ma = in_range(0.0, 10000.0);
+  v("idd0", r.idd0, ma, "activate-precharge");
+  v("idd2p", r.idd2p, ma, "precharged power-down");
+  v("idd2n", r.idd2n, ma, "precharged standby");
+  v("idd3p", r.idd3p, ma, "active power-down");
+  v("idd3n", r.idd3n, ma, "active standby");
+  v("idd4r", r.idd4r, ma, "read bursts");
+  v("idd4w", r.idd4w, ma, "write bursts");
+  v("idd5", r.idd5, ma, "all-bank refresh bursts");
+  v("idd6", r.idd6, ma, "self-refresh");
+}
+
+static void visit(ConfigVisitor& v, Memspec::Currents& c) {
+  v("vdd1_v", c.vdd1_v, in_range(0.1, 5.0), "first rail");
+  v("vdd2_v", c.vdd2_v, in_range(0.1, 5.0), "second rail");
+  v.section("vdd1_ma", c.vdd1_ma, "currents of the first rail");
+  v.section("vdd2_ma", c.vdd2_ma, "currents of the second rail");
+}
+
+void visit(ConfigVisitor& v, Memspec& m) {
+  v("name", m.name, "the name it is known by");
+  v("description", m.description, "what device it is");
+  v.section("organisation", m.organisation, "sizes");
+  v("clock_period_ns", m.clock_period_ns, in_range(0.1, 100.0), "tCK");
+  v.section("timing_cycles", m.timing_cycles, "constraints, in clock cycles");
+  v.sections("currents", m.currents, "published sets of currents");
+  v.strings("sources", m.sources, "where each number comes from");
+}
+
+std::vector<std::string> shipped_memspecs() {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(SGS_MEMSPEC_DIR))
+    if (entry.path().extension() == ".json") found.push_back(entry.path().stem().string());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+Memspec load_memspec(const std::string& name_or_path) {
+  const std::string shipped = std::string(SGS_MEMSPEC_DIR) + "/" + name_or_path + ".json";
+  const std::string path = fs::exists(shipped) ? shipped : name_or_path;
+  if (!fs::is_regular_file(path))
+    throw InputError(fmt::format("memspec: got '{}', expected a JSON file or one of {}",
+                                 name_or_path, join(shipped_memspecs())));
+  ConfigDocument document;
+  document.add_file(path);
+  Memspec memspec;
+  document.read_into(memspec);
+  check_memspec(memspec, path);
+  return memspec;
+}
+
+namespace {
+
+// Names of the timing keys, gathered by the same description that reads them.
+class KeyCollector : public ConfigVisitor {
+ public:
+  std::vector<std::string> keys;
+  std::vector<std::string> zero_keys;
+
+ protected:
+  void on_bool(const char*, bool&, const char*) override {}
+  void on_string(const char*, std::string&, const char*) override {}
+  void on_real(const char*, double&, ConfigRange, const char*) override {}
+  void on_reals(const char*, std::vector<double>&, ConfigRange, const char*) override {}
+  void on_integer(const char* key, std::int64_t& value, ConfigRange range, const char*) override {
+    keys.push_back(key);
+    if (static_cast<long double>(value) < range.lo) zero_keys.push_back(key);
+  }
+  void on_choice(const char*, std::size_t&, const std::vector<const char*>&, const char*) override {
+  }
+  void begin_section(const char*, const char*) override {}
+  void end_section() override {}
+  std::vector<std::string> free_keys(const std::vector<std::string>& present) override {
+    return present;
+  }
+};
+
+class MemspecCheck {
+ public:
+  MemspecCheck(const Memspec& memspec, const std::string& origin) : m_(memspec), origin_(origin) {}
+
+  void require(bool holds, const char* key, double got, const std::string& expected) const {
+    if (!holds)
+      throw InputError(fmt::format("{}: {}: got {}, expected {}", origin_, key, got, expected));
+  }
+
+  void organisation() const {
+    const Memspec::Organisation& o = m_.organisation;
+    require(power_of_two(o.width_bits), "organisation.width_bits", o.width_bits, "a power of two");
+    require(power_of_two(o.burst_length), "organisation.burst_length", o.burst_length,
+            "a power of two");
+    require(power_of_two(o.banks), "organisation.banks", o.banks, "a power of two");
+    require(power_of_two(o.rows), "organisation.rows", o.rows, "a power of two");
+    require(power_of_two(o.columns), "organisation.columns", o.columns, "a power of two");
+    require(o.columns >= o.burst_length && o.columns % o.burst_length == 0, "organisation.columns",
+            o.columns, fmt::format("a multiple of burst_length {}", o.burst_length));
+    require(m_.clock_period_ns > 0, "clock_period_ns", m_.clock_period_ns, "more than 0");
+  }
+
+  void timing() const {
+    const Memspec::Timing& t = m_.timing_cycles;
+    require(t.refi > t.rfc_all, "timing_cycles.refi", t.refi,
+            fmt::format("more than rfc_all {}: the device would only refresh", t.rfc_all));
+    require(t.refi_bank > t.rfc_bank, "timing_cycles.refi_bank", t.refi_bank,
+            fmt::format("more than rfc_bank {}", t.rfc_bank));
+    require(t.ccd >= m_.burst_cycles(), "timing_cycles.ccd", t.ccd,
+            fmt::format("at least burst_length / 2 = {}", m_.burst_cycles()));
+    require(t.ras >= t.rcd, "timing_cycles.ras", t.ras, fmt::format("at least rcd {}", t.rcd));
+    require(t.rc >= t.ras, "timing_cycles.rc", t.rc, fmt::format("at least ras {}", t.ras));
+    require(t.rp_all >= t.rp_bank, "timing_cycles.rp_all", t.rp_all,
+            fmt::format("at least rp_bank {}", t.rp_bank));
+    require(t.faw >= t.rrd, "timing_cycles.faw", t.faw, fmt::format("at least rrd {}", t.rrd));
+    require(t.dqsck_max >= t.dqsck_min, "timing_cycles.dqsck_max", t.dqsck_max,
+            fmt::format("at least dqsck_min {}", t.dqsck_min));
+    require(t.ras_max > t.refi, "timing_cycles.ras_max", t.ras_max,
+            fmt::format("more than refi {}: a refresh closes every row in time", t.refi));
+    require(t.read_latency + t.dqsck_max + m_.burst_cycles() + 1 >
+                std::max(t.write_latency_a, t.write_latency_b),
+            "timing_cycles.write_latency_b", t.write_latency_b, "less than RL + DQSCK + BL/2 + 1");
+  }
+
+  void sources(const std::vector<std::string>& timing_keys) const {
+    std::vector<std::string> needed = timing_keys;
+    needed.insert(needed.end(), {"organisation", "clock_period_ns"});
+    for (const auto& set : m_.currents) needed.push_back("currents." + set.first);
+    for (const std::string& key : needed)
+      if (m_.sources.count(key) == 0 || m_.sources.at(key).empty())
+        throw InputError(fmt::format("{}: sources.{}: got nothing, expected where '{}' comes from",
+                                     origin_, key, key));
+    for (const auto& source : m_.sources)
+      if (std::find(needed.begin(), needed.end(), source.first) == needed.end())
+        throw InputError(fmt::format("{}: sources.{}: unknown key, expected the name of a number",
+                                     origin_, source.first));
+  }
+
+  std::vector<std::string> warnings() const {
+    const Memspec::Timing& t = m_.timing_cycles;
+    std::vector<std::string> found;
+    if (t.rc != t.ras + t.rp_bank)
+      found.push_back(fmt::format(
+          "{}: rc is {} but ras + rp_bank is {}: an explicit precharge always costs the latter",
+          m_.name, t.rc, t.ras + t.rp_bank));
+    if (t.write_latency_a != t.write_latency_b)
+      found.push_back(fmt::format("{}: WL is {} (set A) or {} (set B): write_latency_set decides",
+                                  m_.name, t.write_latency_a, t.write_latency_b));
+    if (t.refi_bank * m_.organisation.banks != t.refi)
+      found.push_back(fmt::format("{}: refi is {} but refi_bank x banks is {}", m_.name, t.refi,
+                                  t.refi_bank * m_.organisation.banks));
+    return found;
+  }
+
+ private:
+  const Memspec& m_;
+  const std::string& origin_;
+};
+
+}  // namespace
+
+std::vector<std::string> check_memspec(const Memspec& memspec, const std::string& origin) {
+  KeyCollector timing_keys;
+  Memspec::Timing timing = memspec.timing_cycles;
+  visit(timing_keys, timing);
+  if (!timing_keys.zero_keys.empty())
+    throw InputError(fmt::format("{}: timing_cycles.{}: got 0 or nothing, expected at least 1",
+                                 origin, timing_keys.zero_keys.front()));
+  const MemspecCheck check(memspec, origin);
+  check.organisation();
+  check.timing();
+  check.sources(timing_keys.keys);
+  return check.warnings();
+}
+
+}  // namespace sgs

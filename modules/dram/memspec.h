@@ -1,0 +1,99 @@
+// A DRAM device: organisation, timing, currents, and where each number comes from.
+// One JSON file each under modules/dram/memspecs.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "modules/config/config_visitor.h"
+
+namespace sgs {
+
+struct Memspec {
+  struct Organisation {
+    std::uint32_t width_bits = 0;    // data bus of a channel
+    std::uint32_t burst_length = 0;  // beats; two a clock
+    std::uint32_t banks = 0;         // of a rank
+    std::uint32_t rows = 0;          // of a bank
+    std::uint32_t columns = 0;       // of a row, each width_bits wide
+  };
+
+  // Clock cycles. Names follow JESD209-3 (tRCD is rcd).
+  struct Timing {
+    std::uint32_t read_latency = 0;     // RL
+    std::uint32_t write_latency_a = 0;  // WL of mode-register set A
+    std::uint32_t write_latency_b = 0;  // WL of set B
+    std::uint32_t rcd = 0;
+    std::uint32_t rp_bank = 0;  // tRPpb
+    std::uint32_t rp_all = 0;   // tRPab
+    std::uint32_t ras = 0;
+    std::uint32_t rc = 0;
+    std::uint32_t ccd = 0;
+    std::uint32_t rrd = 0;
+    std::uint32_t faw = 0;
+    std::uint32_t rtp = 0;
+    std::uint32_t wr = 0;
+    std::uint32_t wtr = 0;
+    std::uint32_t dqsck_min = 0;
+    std::uint32_t dqsck_max = 0;
+    std::uint32_t rfc_all = 0;    // tRFCab
+    std::uint32_t rfc_bank = 0;   // tRFCpb
+    std::uint32_t refi = 0;       // one all-bank refresh each
+    std::uint32_t refi_bank = 0;  // one per-bank refresh each
+    std::uint32_t xp = 0;
+    std::uint32_t cke = 0;
+    std::uint32_t cke_self_refresh = 0;  // tCKESR
+    std::uint32_t xsr = 0;
+    std::uint32_t rtrs = 0;     // bus hand-over between ranks
+    std::uint32_t ras_max = 0;  // longest time a row may stay open
+  };
+
+  struct Rail {  // mA
+    double idd0 = 0, idd2p = 0, idd2n = 0, idd3p = 0, idd3n = 0;
+    double idd4r = 0, idd4w = 0, idd5 = 0, idd6 = 0;
+  };
+  // VDD1 and VDD2 of one rank. No source separates VDDCA and VDDQ: I/O power is not in it.
+  struct Currents {
+    double vdd1_v = 0;
+    double vdd2_v = 0;
+    Rail vdd1_ma;
+    Rail vdd2_ma;
+  };
+
+  std::string name;
+  std::string description;
+  Organisation organisation;
+  double clock_period_ns = 0;
+  Timing timing_cycles;
+  std::map<std::string, Currents> currents;    // by the name of the published set
+  std::map<std::string, std::string> sources;  // of each number, by key
+
+  std::uint32_t burst_bytes() const {
+    return organisation.width_bits / 8 * organisation.burst_length;
+  }
+  std::uint32_t burst_cycles() const { return organisation.burst_length / 2; }
+  std::uint32_t row_bytes() const { return organisation.columns * organisation.width_bits / 8; }
+  std::uint32_t bursts_per_row() const { return row_bytes() / burst_bytes(); }
+  std::uint64_t rank_bytes() const {
+    return std::uint64_t{row_bytes()} * organisation.rows * organisation.banks;
+  }
+  double peak_gb_per_s() const { return burst_bytes() / (burst_cycles() * clock_period_ns); }
+};
+
+void visit(ConfigVisitor& v, Memspec& memspec);
+
+// Reads a memspec: the name of a shipped one ("lpddr3_1600_4gb") or the path of a JSON file.
+// InputError: not there, not readable as strict JSON, a number without source, or impossible
+// (see check_memspec).
+Memspec load_memspec(const std::string& name_or_path);
+
+// Names of the shipped memspecs, sorted.
+std::vector<std::string> shipped_memspecs();
+
+// Refuses what no device can be (InputError naming the key) and returns one warning a place where
+// published tables disagree by a rounded cycle.
+std::vector<std::string> check_memspec(const Memspec& memspec, const std::string& origin);
+
+}  // namespace sgs

@@ -1,0 +1,125 @@
+// What a rank needs besides requests: refresh and the low-power states.
+#include "modules/dram/rank_maintenance.h"
+
+#include <algorithm>
+
+namespace sgs {
+
+namespace {
+std::uint64_t idle_limit(std::uint32_t cycles) { return cycles == 0 ? kNever : cycles; }
+std::uint64_t after(std::uint64_t cycle, std::uint64_t delay) {
+  return delay == kNever ? kNever : cycle + delay;
+}
+}  // namespace
+
+RankMaintenance::RankMaintenance(const DramConfig& config, const Memspec& memspec,
+                                 std::uint32_t rank)
+    : mode_(config.refresh),
+      rank_(rank),
+      banks_(memspec.organisation.banks),
+      interval_(config.refresh == RefreshMode::kPerBank ? memspec.timing_cycles.refi_bank
+                                                        : memspec.timing_cycles.refi),
+      postpone_(interval_ * config.refresh_postpone_max),
+      power_down_idle_(idle_limit(config.power_down_idle_cycles)),
+      self_refresh_idle_(idle_limit(config.self_refresh_idle_cycles)) {
+  if (mode_ == RefreshMode::kOff) return;
+  refresh_due_ = interval_;
+  set_urgency(0);
+}
+
+void RankMaintenance::set_urgency(std::uint64_t cycle) {
+  // Once owed refreshes are being worked off they go back to back: that is what postponing gains.
+  const bool still_owed = refresh_due_ <= cycle && urgent_from_ <= cycle;
+  urgent_from_ = still_owed ? refresh_due_ : refresh_due_ + postpone_;
+}
+
+Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted_from) const {
+  const bool wanted = wanted_from != kNever;
+  const std::uint64_t refresh_from = wanted ? urgent_from_ : refresh_due_;
+  switch (state_) {
+    case State::kSelfRefresh:
+      if (!wanted) return {};
+      return {std::max(wanted_from, device.earliest_exit(rank_)), Command::kSelfRefreshExit, rank_,
+              0};
+    case State::kPowerDown: {
+      const std::uint64_t leave =
+          std::min({wanted_from, refresh_from, after(idle_since_, self_refresh_idle_)});
+      if (leave == kNever) return {};
+      return {std::max(leave, device.earliest_exit(rank_)), Command::kPowerDownExit, rank_, 0};
+    }
+    case State::kUp:
+      break;
+  }
+  Candidate best;
+  if (refresh_from != kNever) best = refresh(device, refresh_from);
+  if (!wanted) {
+    const Candidate low_power = sleep(device);
+    // Not while a refresh is due: it would be left again at once.
+    if (low_power.cycle < refresh_from && low_power.cycle < best.cycle) best = low_power;
+  }
+  return best;
+}
+
+Candidate RankMaintenance::refresh(const DeviceTiming& device, std::uint64_t from) const {
+  if (mode_ == RefreshMode::kPerBank) {
+    if (device.open_row(rank_, refresh_bank_) != kNoRow)
+      return {std::max(from, device.earliest_precharge(rank_, refresh_bank_)), Command::kPrecharge,
+              rank_, refresh_bank_};
+    return {std::max(from, device.earliest_refresh_bank(rank_, refresh_bank_)),
+            Command::kRefreshBank, rank_, refresh_bank_};
+  }
+  if (device.open_banks(rank_) > 0)
+    return {std::max(from, device.earliest_precharge_all(rank_)), Command::kPrechargeAll, rank_, 0};
+  return {std::max(from, device.earliest_refresh_all(rank_)), Command::kRefreshAll, rank_, 0};
+}
+
+Candidate RankMaintenance::sleep(const DeviceTiming& device) const {
+  const std::uint64_t self_refresh_from = after(idle_since_, self_refresh_idle_);
+  const std::uint64_t power_down_from = after(idle_since_, power_down_idle_);
+  const std::uint64_t power_down =
+      power_down_from == kNever ? kNever
+                                : std::max(power_down_from, device.earliest_power_down(rank_));
+  if (power_down < self_refresh_from) return {power_down, Command::kPowerDownEnter, rank_, 0};
+  if (self_refresh_from == kNever) return {};
+  if (device.open_banks(rank_) > 0)
+    return {std::max(self_refresh_from, device.earliest_precharge_all(rank_)),
+            Command::kPrechargeAll, rank_, 0};
+  return {std::max(self_refresh_from, device.earliest_self_refresh(rank_)),
+          Command::kSelfRefreshEnter, rank_, 0};
+}
+
+void RankMaintenance::on_command(Command command, std::uint64_t cycle) {
+  switch (command) {
+    case Command::kPowerDownEnter:
+      state_ = State::kPowerDown;
+      break;
+    case Command::kPowerDownExit:
+      state_ = State::kUp;
+      break;
+    case Command::kSelfRefreshEnter:
+      state_ = State::kSelfRefresh;
+      break;
+    case Command::kSelfRefreshExit:
+      state_ = State::kUp;
+      // The device has refreshed itself; the standard asks for one refresh after leaving.
+      if (mode_ != RefreshMode::kOff) {
+        refresh_due_ = cycle;
+        set_urgency(0);
+      }
+      break;
+    case Command::kRefreshBank:
+      refresh_bank_ = (refresh_bank_ + 1) % banks_;
+      [[fallthrough]];
+    case Command::kRefreshAll:
+      refresh_due_ += interval_;
+      set_urgency(cycle);
+      break;
+    case Command::kPrecharge:
+    case Command::kPrechargeAll:
+      break;
+    default:
+      idle_since_ = cycle;
+  }
+}
+
+}  // namespace sgs

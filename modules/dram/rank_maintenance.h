@@ -1,0 +1,66 @@
+// What a rank needs besides requests: refresh, and the low-power states while it is idle.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "modules/dram/command.h"
+#include "modules/dram/device_timing.h"
+#include "modules/dram/dram_config.h"
+
+namespace sgs {
+
+constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+// A command that may be sent, and the earliest cycle for it.
+struct Candidate {
+  std::uint64_t cycle = kNever;
+  Command command = Command::kActivate;
+  std::uint32_t rank = 0;
+  std::uint32_t bank = 0;
+};
+
+class RankMaintenance {
+ public:
+  RankMaintenance(const DramConfig& config, const Memspec& memspec, std::uint32_t rank);
+
+  // The next command that the rank wants for itself. `wanted_from`: the cycle from which requests
+  // wait for this rank, kNever when none does.
+  Candidate next(const DeviceTiming& device, std::uint64_t wanted_from) const;
+
+  // A request's command to `bank` must be sent before this cycle: refresh goes first from there.
+  std::uint64_t request_limit(std::uint32_t bank) const {
+    if (mode_ == RefreshMode::kOff || (mode_ == RefreshMode::kPerBank && bank != refresh_bank_))
+      return kNever;
+    return urgent_from_;
+  }
+
+  bool powered_up() const { return state_ == State::kUp; }
+  std::uint64_t refresh_due() const { return refresh_due_; }
+
+  // Every command of the rank is told to it, requests' included.
+  void on_command(Command command, std::uint64_t cycle);
+
+ private:
+  enum class State { kUp, kPowerDown, kSelfRefresh };
+
+  Candidate refresh(const DeviceTiming& device, std::uint64_t from) const;
+  Candidate sleep(const DeviceTiming& device) const;
+  void set_urgency(std::uint64_t cycle);
+
+  const RefreshMode mode_;
+  const std::uint32_t rank_;
+  const std::uint32_t banks_;
+  const std::uint64_t interval_;
+  const std::uint64_t postpone_;  // cycles
+  const std::uint64_t power_down_idle_;
+  const std::uint64_t self_refresh_idle_;
+
+  State state_ = State::kUp;
+  std::uint64_t refresh_due_ = kNever;
+  std::uint64_t urgent_from_ = kNever;
+  std::uint32_t refresh_bank_ = 0;  // whose turn it is
+  std::uint64_t idle_since_ = 0;
+};
+
+}  // namespace sgs

@@ -1,0 +1,112 @@
+// One initiator of memory traffic, used from a unit's SC_THREADs: reads and writes of any length,
+// split into transactions, several in flight, finished in any order.
+//
+// kAccurate: four-phase non-blocking transport; a request holds the port until the target's
+// END_REQ (back-pressure). kFast: blocking transport with annotated delay, no wait inside the call;
+// the target's device timing in arrival order.
+#pragma once
+
+#include <tlm_utils/peq_with_cb_and_phase.h>
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <cstdint>
+#include <systemc>
+#include <tlm>
+#include <vector>
+
+#include "tlm/payload_pool.h"
+
+namespace sgs {
+
+enum class TimingMode { kAccurate, kFast };
+
+class MemoryPort : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_initiator_socket<MemoryPort> socket;
+
+  struct Config {
+    std::uint8_t requester = 0;
+    std::uint32_t max_transaction_bytes = 256;
+    std::uint32_t max_outstanding = 16;  // transactions
+    TimingMode timing = TimingMode::kAccurate;
+  };
+
+  // std::invalid_argument when max_transaction_bytes or max_outstanding is 0.
+  MemoryPort(const sc_core::sc_module_name& name, const Config& config, PayloadPool& pool);
+
+  using Ticket = std::uint64_t;
+
+  // Starts reading [address, address + bytes) into `into`, which must stay valid until the ticket
+  // is done. Splits at multiples of max_transaction_bytes. Blocks the calling thread while
+  // max_outstanding transactions are in flight or the target holds back END_REQ.
+  Ticket read(std::uint64_t address, void* into, std::uint32_t bytes, std::uint8_t region);
+
+  // Starts writing; the bytes are copied before it returns. Blocks as read() does.
+  Ticket write(std::uint64_t address, const void* from, std::uint32_t bytes, std::uint8_t region);
+
+  bool done(Ticket ticket) const;
+
+  // Block the calling thread until all transactions of the ticket, or of the port, have answered
+  // (kFast: until the annotated time has come). Cost nothing when that is so already.
+  void wait_for(Ticket ticket);
+  void wait_all();
+
+  bool idle() const;
+  std::uint64_t bytes_outstanding() const;
+
+  std::uint64_t transactions() const { return transactions_; }
+  std::uint64_t bytes_read() const { return bytes_read_; }
+  std::uint64_t bytes_written() const { return bytes_written_; }
+
+ private:
+  struct Slot {
+    std::uint32_t remaining = 0;  // transactions not yet sent or not yet answered
+    bool waited_for = false;
+    sc_core::sc_time done_at;  // kFast only
+  };
+  struct InFlight {  // kFast only
+    sc_core::sc_time done_at;
+    std::uint64_t bytes;
+  };
+
+  Ticket start(tlm::tlm_command command, std::uint64_t address, std::uint8_t* data,
+               std::uint32_t bytes, std::uint8_t region);
+  Ticket new_ticket(std::uint32_t transactions);
+  Slot& slot(Ticket ticket) { return slots_[ticket & (slots_.size() - 1)]; }
+  const Slot& slot(Ticket ticket) const { return slots_[ticket & (slots_.size() - 1)]; }
+
+  void send_accurate(PooledPayload& payload);
+  void send_fast(PooledPayload& payload);
+  void drop_answered();  // kFast: forgets transactions whose time has come
+  void request_taken(const tlm::tlm_generic_payload& payload);
+  void finish(tlm::tlm_generic_payload& payload);
+  void check_response(const tlm::tlm_generic_payload& payload) const;
+  void on_phase(tlm::tlm_generic_payload& payload, const tlm::tlm_phase& phase);
+  tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
+                                     sc_core::sc_time& delay);
+
+  const Config config_;
+  PayloadPool& pool_;
+  tlm_utils::peq_with_cb_and_phase<MemoryPort> delayed_;  // answers with an annotated delay
+
+  std::vector<Slot> slots_;  // ring over the tickets [oldest_, next_); a power of two
+  Ticket oldest_ = 0;        // all before it are done
+  Ticket next_ = 0;
+
+  std::uint32_t outstanding_ = 0;
+  std::uint64_t bytes_outstanding_ = 0;
+  const tlm::tlm_generic_payload* request_ = nullptr;  // BEGIN_REQ sent, END_REQ not seen
+  std::uint32_t waiting_for_room_ = 0;
+  bool waiting_for_all_ = false;
+  std::vector<InFlight> in_flight_;  // kFast: heap, earliest on top
+  sc_core::sc_time last_done_;       // kFast
+  sc_core::sc_event room_;
+  sc_core::sc_event answered_;  // a ticket that someone waits for is done
+  sc_core::sc_event drained_;
+
+  std::uint64_t transactions_ = 0;
+  std::uint64_t bytes_read_ = 0;
+  std::uint64_t bytes_written_ = 0;
+};
+
+}  // namespace sgs
