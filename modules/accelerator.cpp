@@ -1,0 +1,137 @@
+// Wiring of the accelerator.
+#include "modules/accelerator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sgs {
+
+std::uint64_t spill_region_bytes(const AcceleratorConfig& config, const VoxelGrid& grid) {
+  std::uint64_t longest = 0;
+  for (const VoxelRecord& voxel : grid.voxels)
+    longest = std::max<std::uint64_t>(longest, voxel.count);
+  return config.sorting_units * 2 * longest * kSplatEntryBytes;
+}
+
+Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
+                         const FrameJob& job, const MemoryImage& image, TimingMode timing,
+                         StallInjector* stalls)
+    : sc_module(name),
+      config_(config),
+      job_(job),
+      timing_(timing),
+      stalls_(stalls),
+      clock_(config.clock_mhz),
+      board_(job.groups.size()),
+      dram_("dram", config.dram),
+      router_("router", 2 + config.hfus + config.sorting_units) {
+  router_.map(0, dram_.capacity_bytes(), dram_.socket);
+  dram_.load(0, image.bytes.data(), image.bytes.size());
+
+  std::vector<TimedFifo<VisitShare>*> shares;
+  for (std::uint32_t h = 0; h < config.hfus; ++h) {
+    shares.push_back(
+        add_fifo(visit_fifos_, fmt::format("visits_to_hfu{}", h), kVisitFifoEntries, 1));
+  }
+  vsu_ = std::make_unique<Vsu>("vsu", config.vsu, clock_, job_, board_, add_port("vsu"), shares);
+
+  std::vector<std::vector<TimedFifo<SplatToken>*>> to_sorting(config.sorting_units);
+  for (std::uint32_t s = 0; s < config.sorting_units; ++s) {
+    for (std::uint32_t h = 0; h < config.hfus; ++h) {
+      to_sorting[s].push_back(add_fifo(splat_fifos_, fmt::format("splats_hfu{}_to_sorting{}", h, s),
+                                       config.sorting.input_fifo_entries,
+                                       config.hfu.ffu_depth_cycles));
+    }
+  }
+  for (std::uint32_t h = 0; h < config.hfus; ++h) {
+    std::vector<TimedFifo<SplatToken>*> splats;
+    for (const auto& inputs : to_sorting) splats.push_back(inputs[h]);
+    const std::string hfu = fmt::format("hfu{}", h);
+    hfus_.push_back(std::make_unique<Hfu>(hfu.c_str(), config.hfu, clock_, job_, board_,
+                                          add_port(hfu), *shares[h], splats));
+  }
+
+  std::vector<TimedFifo<SplatToken>*> sorted;
+  const std::uint64_t spill = job_.layout[Region::kSpill].bytes / config.sorting_units;
+  for (std::uint32_t s = 0; s < config.sorting_units; ++s) {
+    const std::string unit = fmt::format("sorting{}", s);
+    sorted.push_back(add_fifo(sorted_fifos_, fmt::format("sorted_by_{}", unit),
+                              config.rendering.input_fifo_entries, 1));
+    const SortingUnit::Place place{s, config.sorting_units,
+                                   job_.layout[Region::kSpill].base + s * spill, spill};
+    sorting_.push_back(std::make_unique<SortingUnit>(unit.c_str(), config.sorting, place, clock_,
+                                                     job_, board_, add_port(unit), to_sorting[s],
+                                                     *sorted.back()));
+  }
+  rendering_ = std::make_unique<RenderingUnit>("rendering", config.rendering, clock_, job_, board_,
+                                               add_port("rendering"), sorted, [this] {
+                                                 done_ = true;
+                                                 sc_core::sc_stop();
+                                               });
+}
+
+MemoryPort& Accelerator::add_port(const std::string& name) {
+  const auto requester = static_cast<std::uint8_t>(ports_.size());
+  const MemoryPort::Config port{requester, config_.memory_port.max_transaction_bytes,
+                                config_.memory_port.max_outstanding, timing_};
+  ports_.push_back(std::make_unique<MemoryPort>((name + "_port").c_str(), port, pool_));
+  ports_.back()->socket.bind(router_.from_initiators[requester]);
+  requesters_.push_back(name);
+  return *ports_.back();
+}
+
+template <class T>
+TimedFifo<T>* Accelerator::add_fifo(std::deque<TimedFifo<T>>& fifos, const std::string& name,
+                                    std::uint32_t entries, std::uint32_t latency_cycles) {
+  fifos.emplace_back(std::string(this->name()) + "." + name, clock_, entries, latency_cycles);
+  fifos.back().inject(stalls_);
+  return &fifos.back();
+}
+
+void Accelerator::run() {
+  sc_core::sc_start();
+  if (!done_) {
+    throw std::runtime_error("the simulation ran out of events before the frame was finished");
+  }
+  frame_cycles_ = clock_.now_cycles();
+  for (Activity* activity : activities()) activity->close();
+}
+
+std::vector<std::byte> Accelerator::read_frame() const {
+  std::vector<std::byte> bytes(job_.layout[Region::kFrameBuffer].bytes);
+  dram_.read_back(job_.layout[Region::kFrameBuffer].base, bytes.data(), bytes.size());
+  return bytes;
+}
+
+std::vector<Activity*> Accelerator::activities() {
+  std::vector<Activity*> all{&vsu_->traverse_activity(), &vsu_->emit_activity()};
+  for (auto& hfu : hfus_) {
+    for (Activity* activity : hfu->activities()) all.push_back(activity);
+  }
+  for (auto& unit : sorting_) all.push_back(&unit->activity());
+  all.push_back(&rendering_->blend_activity());
+  all.push_back(&rendering_->drain_activity());
+  return all;
+}
+
+bool Accelerator::drained() const {
+  const auto empty = [](const auto& fifos) {
+    return std::all_of(fifos.begin(), fifos.end(), [](const auto& f) { return f.empty(); });
+  };
+  return empty(visit_fifos_) && empty(splat_fifos_) && empty(sorted_fifos_) && dram_.idle() &&
+         std::all_of(ports_.begin(), ports_.end(), [](const auto& port) { return port->idle(); });
+}
+
+void Accelerator::trace(sc_core::sc_trace_file* file) const {
+  vsu_->trace(file);
+  for (const auto& hfu : hfus_) hfu->trace(file);
+  for (const auto& unit : sorting_) unit->trace(file);
+  rendering_->trace(file);
+  for (const auto& fifo : visit_fifos_) fifo.trace(file);
+  for (const auto& fifo : splat_fifos_) fifo.trace(file);
+  for (const auto& fifo : sorted_fifos_) fifo.trace(file);
+}
+
+}  // namespace sgs

@@ -1,0 +1,86 @@
+// The whole accelerator: units, FIFOs, router and memory, wired by configuration.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "algorithm/memory/memory_image.h"
+#include "modules/accelerator_config.h"
+#include "modules/dram/dram_controller.h"
+#include "modules/frame_job.h"
+#include "modules/hfu/hfu.h"
+#include "modules/rendering/rendering_unit.h"
+#include "modules/sorting/sorting_unit.h"
+#include "modules/vsu/vsu.h"
+#include "tlm/memory_port.h"
+#include "tlm/router.h"
+#include "tlm/stall_injector.h"
+
+namespace sgs {
+
+class Accelerator : public sc_core::sc_module {
+ public:
+  // config is valid; the image's bytes are loaded into the memory at once. stalls (may be null)
+  // injects random waits at both sides of every FIFO between units.
+  Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
+              const FrameJob& job, const MemoryImage& image, TimingMode timing,
+              StallInjector* stalls);
+
+  // Runs the frame to its end (calls sc_start). Throws std::runtime_error when the simulation stops
+  // short of it: units that wait for each other forever.
+  void run();
+
+  std::uint64_t frame_cycles() const { return frame_cycles_; }
+  std::vector<std::byte> read_frame() const;
+
+  const AcceleratorConfig& config() const { return config_; }
+  const FrameJob& job() const { return job_; }
+  std::vector<Activity*> activities();
+  const Vsu& vsu() const { return *vsu_; }
+  const std::vector<std::unique_ptr<Hfu>>& hfus() const { return hfus_; }
+  const std::vector<std::unique_ptr<SortingUnit>>& sorting_units() const { return sorting_; }
+  const RenderingUnit& rendering() const { return *rendering_; }
+  DramController& dram() { return dram_; }
+  const std::vector<std::string>& requesters() const { return requesters_; }
+
+  // FIFOs between the units are empty, nothing is in flight.
+  bool drained() const;
+
+  void trace(sc_core::sc_trace_file* file) const;
+
+ private:
+  MemoryPort& add_port(const std::string& name);
+  template <class T>
+  TimedFifo<T>* add_fifo(std::deque<TimedFifo<T>>& fifos, const std::string& name,
+                         std::uint32_t entries, std::uint32_t latency_cycles);
+
+  const AcceleratorConfig config_;
+  const FrameJob job_;
+  const TimingMode timing_;
+  StallInjector* const stalls_;
+  const ClockDomain clock_;
+  SaturationBoard board_;
+  PayloadPool pool_;
+  DramController dram_;
+  Router router_;
+  std::vector<std::string> requesters_;
+  std::vector<std::unique_ptr<MemoryPort>> ports_;
+  std::deque<TimedFifo<VisitShare>> visit_fifos_;   // [HFU]
+  std::deque<TimedFifo<SplatToken>> splat_fifos_;   // [sorting unit, HFU]
+  std::deque<TimedFifo<SplatToken>> sorted_fifos_;  // [sorting unit]
+  std::unique_ptr<Vsu> vsu_;
+  std::vector<std::unique_ptr<Hfu>> hfus_;
+  std::vector<std::unique_ptr<SortingUnit>> sorting_;
+  std::unique_ptr<RenderingUnit> rendering_;
+  bool done_ = false;
+  std::uint64_t frame_cycles_ = 0;
+};
+
+// Bytes that the spill region must have: for each sorting unit two copies of the largest voxel's
+// splats.
+std::uint64_t spill_region_bytes(const AcceleratorConfig& config, const VoxelGrid& grid);
+
+}  // namespace sgs

@@ -1,0 +1,47 @@
+// What travels between the units, one bounded FIFO each arrow of the pipeline.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/splat/splat.h"
+
+namespace sgs {
+
+// A visit is one voxel streamed for one pixel group; visits are numbered through the frame. Behind
+// a group's last visit comes an end-of-group mark that takes a number of its own.
+enum class Mark : std::uint8_t { kNone, kEndOfVisit, kEndOfGroup };
+
+// VSU -> HFU: this HFU's share of a visit (which may be empty), or the end of a group.
+struct VisitShare {
+  std::uint32_t group = 0;
+  std::uint32_t visit = 0;
+  std::uint32_t first = 0, count = 0;  // storage slots
+  Mark mark = Mark::kNone;
+};
+
+// Coarse filter -> second-half fetch -> fine filter.
+struct FineCandidate {
+  std::uint32_t group = 0;
+  std::uint32_t visit = 0;
+  std::uint32_t slot = 0;
+  float mean_x = 0, mean_y = 0, mean_z = 0, scale_max = 0;
+  std::uint64_t ticket = 0;  // of the second half's read
+  std::uint32_t buffer = 0;  // where it lands
+  Mark mark = Mark::kNone;   // with a mark there is no Gaussian
+};
+
+// HFU -> sorting -> rendering.
+struct SplatToken {
+  Splat splat{};
+  std::uint32_t group = 0;
+  std::uint32_t visit = 0;
+  Mark mark = Mark::kNone;  // with a mark there is no splat
+};
+
+// SRAM bytes of one entry in the FIFOs above.
+constexpr std::uint32_t kVisitShareBytes = 16;
+constexpr std::uint32_t kCandidateBytes = 24;
+
+constexpr std::uint32_t kVisitFifoEntries = 4;  // visits waiting for each HFU
+
+}  // namespace sgs

@@ -1,0 +1,38 @@
+// Cycles of a 16-wide bitonic network (Batcher, "Sorting networks and their applications", 1968)
+// that sorts blocks of 16 and merges sorted runs 8 entries at a time.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/sorting/sorting_config.h"
+
+namespace sgs {
+
+constexpr std::uint32_t kNetworkWidth = 16;
+constexpr std::uint32_t kMergeWidth = kNetworkWidth / 2;
+constexpr std::uint32_t kSortStages = 10;  // log2(16) (log2(16) + 1) / 2
+constexpr std::uint32_t kMergeStages = 4;  // log2(16)
+
+// Levels of a binary merge tree over `runs` runs.
+constexpr std::uint32_t merge_levels(std::uint64_t runs) {
+  std::uint32_t levels = 0;
+  while ((std::uint64_t{1} << levels) < runs) ++levels;
+  return levels;
+}
+
+struct SortingCost {
+  std::uint64_t cycles = 0;
+  std::uint64_t compare_exchanges = 0;
+};
+
+// Sorting n entries on chip. A list of 0 or 1 is in order already: nothing is done.
+constexpr SortingCost sort_cost(const SortingConfig& config, std::uint64_t n) {
+  if (n < 2) return {};
+  const std::uint64_t blocks = (n + kNetworkWidth - 1) / kNetworkWidth;
+  const std::uint64_t merges = merge_levels(blocks) * ((n + kMergeWidth - 1) / kMergeWidth);
+  return {config.sort_latency_cycles + blocks * config.sort_interval_cycles +
+              merges * config.merge_interval_cycles,
+          (blocks * kSortStages + merges * kMergeStages) * kMergeWidth};
+}
+
+}  // namespace sgs

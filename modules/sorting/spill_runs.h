@@ -1,0 +1,119 @@
+// Sorted runs of splats in the spill region of the DRAM: written block by block, read back with the
+// next block on its way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "algorithm/memory/region.h"
+#include "algorithm/memory/splat_record.h"
+#include "tlm/memory_access.h"
+
+namespace sgs {
+
+struct SpillRun {
+  std::uint64_t address = 0;
+  std::uint64_t entries = 0;
+};
+
+// Where spilled bytes go and in what pieces.
+struct SpillPort {
+  MemoryPort& port;
+  Activity& activity;
+  std::uint32_t block_entries;
+};
+
+class SpillWriter {
+ public:
+  SpillWriter(SpillPort to, std::uint64_t address, const SubtileRect& group)
+      : to_(to), group_(group), run_{address, 0} {
+    block_.reserve(std::size_t{to.block_entries} * kSplatEntryBytes);
+  }
+
+  void append(const Splat& splat) {
+    block_.resize(block_.size() + kSplatEntryBytes);
+    encode_splat(splat, group_, block_.data() + block_.size() - kSplatEntryBytes);
+    ++run_.entries;
+    if (block_.size() == block_.capacity()) flush();
+  }
+
+  // Sends what is left and returns the run; its bytes are in DRAM once the port is drained.
+  SpillRun finish() {
+    if (!block_.empty()) flush();
+    return run_;
+  }
+
+ private:
+  void flush() {
+    start_write(to_.port, to_.activity, run_.address + written_, block_.data(),
+                static_cast<std::uint32_t>(block_.size()), region_id(Region::kSpill));
+    written_ += block_.size();
+    block_.clear();
+  }
+
+  SpillPort to_;
+  SubtileRect group_;
+  SpillRun run_;
+  std::uint64_t written_ = 0;
+  std::vector<std::byte> block_;
+};
+
+class SpillReader {
+ public:
+  SpillReader(SpillPort from, const SpillRun& run, const SubtileRect& group)
+      : from_(from), group_(group), run_(run) {
+    for (Block& block : blocks_) {
+      block.bytes.resize(std::size_t{from.block_entries} * kSplatEntryBytes);
+      request(block);
+    }
+    load();
+  }
+
+  bool exhausted() const { return taken_ == run_.entries; }
+  const Splat& front() const { return front_; }
+
+  void pop() {
+    ++taken_;
+    if (exhausted()) return;
+    if (taken_ % from_.block_entries == 0) {
+      request(blocks_[current_]);
+      current_ ^= 1U;
+    }
+    load();
+  }
+
+ private:
+  struct Block {
+    std::vector<std::byte> bytes;
+    MemoryPort::Ticket ticket = 0;
+  };
+
+  void request(Block& block) {
+    const std::uint64_t left = run_.entries - requested_;
+    const auto count =
+        static_cast<std::uint32_t>(left < from_.block_entries ? left : from_.block_entries);
+    if (count == 0) return;
+    block.ticket =
+        start_read(from_.port, from_.activity, run_.address + requested_ * kSplatEntryBytes,
+                   block.bytes.data(), count * kSplatEntryBytes, region_id(Region::kSpill));
+    requested_ += count;
+  }
+
+  void load() {
+    Block& block = blocks_[current_];
+    await(from_.port, from_.activity, block.ticket);
+    front_ =
+        decode_splat(block.bytes.data() + taken_ % from_.block_entries * kSplatEntryBytes, group_);
+  }
+
+  SpillPort from_;
+  SubtileRect group_;
+  SpillRun run_;
+  Block blocks_[2];
+  std::uint32_t current_ = 0;
+  std::uint64_t requested_ = 0, taken_ = 0;
+  Splat front_{};
+};
+
+}  // namespace sgs
