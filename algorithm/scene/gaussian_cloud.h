@@ -13,12 +13,12 @@ namespace sgs {
 constexpr int sh_coeff_count(int degree) { return (degree + 1) * (degree + 1); }
 
 struct GaussianCloud {
-  int sh_degree = 0;                         // 0 to 3
-  std::vector<glm::vec3> means;              // [N] centre, world frame
-  std::vector<glm::vec3> log_scales;         // [N] scale = exp(log_scale), world units
-  std::vector<std::array<float, 4>> quats;   // [N] (w, x, y, z), any length but zero
-  std::vector<float> opacity_logits;         // [N] opacity = sigmoid(logit)
-  std::vector<glm::vec3> sh_coeffs;          // [N, (degree+1)^2] rgb; entry 0 is f_dc
+  int sh_degree = 0;                        // 0 to 3
+  std::vector<glm::vec3> means;             // [N] centre, world frame
+  std::vector<glm::vec3> log_scales;        // [N] scale = exp(log_scale), world units
+  std::vector<std::array<float, 4>> quats;  // [N] (w, x, y, z), any length but zero
+  std::vector<float> opacity_logits;        // [N] opacity = sigmoid(logit)
+  std::vector<glm::vec3> sh_coeffs;         // [N, (degree+1)^2] rgb; entry 0 is f_dc
 
   std::size_t size() const { return means.size(); }
   void resize(std::size_t count, int degree) {

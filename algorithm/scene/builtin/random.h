@@ -1,0 +1,57 @@
+// Random numbers and even point sets that are the same with every compiler and library.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace sgs {
+
+// One step of SplitMix64 (Steele, Lea, Flood 2014): also a good hash of a counter.
+inline std::uint64_t mix_bits(std::uint64_t value) {
+  value += 0x9e3779b97f4a7c15u;
+  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;
+  value = (value ^ (value >> 27)) * 0x94d049bb133111ebu;
+  return value ^ (value >> 31);
+}
+
+// A stream of numbers for each seed. The distributions of <random> differ between libraries; these
+// do not, and a stream per Gaussian makes scenes independent of the number of threads.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(mix_bits(seed)) {}
+
+  std::uint64_t bits() { return mix_bits(state_++); }
+
+  // In [0, 1).
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+
+  // Mean 0, deviation 1 (Box and Muller).
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    return radius * std::cos(2.0 * M_PI * uniform());
+  }
+
+  // Evenly over the unit sphere.
+  glm::dvec3 direction() {
+    const double z = uniform(-1.0, 1.0), angle = uniform(0.0, 2.0 * M_PI);
+    const double radius = std::sqrt(1.0 - z * z);
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+// Point `index` of the R2 sequence (Roberts 2018) in the unit square: any first N points cover it
+// evenly, each a cell of area 1/N.
+inline glm::dvec2 even_point(std::uint64_t index) {
+  constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
+  const double x = 0.5 + kStepX * static_cast<double>(index);
+  const double y = 0.5 + kStepY * static_cast<double>(index);
+  return {x - std::floor(x), y - std::floor(y)};
+}
+
+}  // namespace sgs
