@@ -46,7 +46,7 @@ std::uint64_t ArrivalOrderChannel::serve(const ChannelRequest& request, std::uin
 
 void ArrivalOrderChannel::finish(std::uint64_t cycle) {
   maintain(cycle);
-  hand_out_before(kNever);
+  hand_out_before(cycle);
 }
 
 void ArrivalOrderChannel::maintain(std::uint64_t cycle) {

@@ -26,7 +26,7 @@ class ArrivalOrderChannel {
   // its last datum has been transferred.
   std::uint64_t serve(const ChannelRequest& request, std::uint64_t cycle);
 
-  // Lets idle time pass up to `cycle` and hands out all commands.
+  // Lets idle time pass up to `cycle` and hands out the commands before it.
   void finish(std::uint64_t cycle);
 
   const RowCounts& rows() const { return rows_; }

@@ -52,7 +52,7 @@ void visit(ConfigVisitor& v, DramConfig& c) {
     "idle time of a rank before power-down; 0: never");
   v("self_refresh_idle_cycles", c.self_refresh_idle_cycles, in_range(0, 100000000),
     "idle time of a rank before self-refresh; 0: never");
-  v("current_set", c.current_set, "set of currents of the memspec; empty: its first");
+  v("current_set", c.current_set, "set of currents of the memspec; empty: its default");
   v("io_pj_per_bit", c.io_pj_per_bit, in_range(0.0, 100.0),
     "I/O energy added to each transferred bit");
 }
@@ -78,6 +78,9 @@ void DramConfig::validate() const {
     refuse("self_refresh_idle_cycles", std::to_string(self_refresh_idle_cycles),
            fmt::format("0 or more than power_down_idle_cycles {}", power_down_idle_cycles));
   const Memspec device = load_memspec(memspec);
+  if (ranks * device.organisation.banks > 64)
+    refuse("ranks", std::to_string(ranks),
+           fmt::format("at most 64 banks a channel; each rank has {}", device.organisation.banks));
   if (!current_set.empty() && device.currents.count(current_set) == 0) {
     std::string known;
     for (const auto& set : device.currents) known += (known.empty() ? "" : ", ") + set.first;

@@ -43,7 +43,7 @@ struct DramConfig {
   std::uint32_t power_down_idle_cycles = 0;    // of a rank, until power-down; 0: never
   std::uint32_t self_refresh_idle_cycles = 0;  // of a rank, until self-refresh; 0: never
 
-  std::string current_set;     // of the memspec; empty: its first
+  std::string current_set;     // of the memspec; empty: its default
   double io_pj_per_bit = 0.0;  // stated adder; no published set separates VDDQ
 
   // InputError naming the key, what it is and what is allowed. Loads the memspec.

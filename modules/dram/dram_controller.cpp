@@ -1,6 +1,12 @@
-// The memory: a TLM-2.0 target that stores bytes and answers with DRAM timing.
+// The memory as a TLM-2.0 target: phases, back-pressure, answers.
 #include "modules/dram/dram_controller.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "modules/dram/arriving_from.h"
+#include "modules/dram/payload_bytes.h"
 #include "tlm/memory_extension.h"
 
 namespace sgs {
@@ -19,20 +25,26 @@ DramController::DramController(const sc_core::sc_module_name& name, const DramCo
       memspec_(load_memspec(config.memspec)),
       mapping_(config_, memspec_),
       clock_period_(memspec_.clock_period_ns, sc_core::SC_NS),
-      store_(mapping_.capacity_bytes()) {
+      store_(mapping_.capacity_bytes()),
+      commands_(memspec_, config_),
+      delayed_(this, &DramController::on_delayed) {
   socket.register_nb_transport_fw(this, &DramController::nb_transport_fw);
   socket.register_b_transport(this, &DramController::b_transport);
   socket.register_transport_dbg(this, &DramController::transport_dbg);
-  for (std::uint32_t c = 0; c < config_.channels; ++c)
-    channels_.emplace_back(config_, memspec_, static_cast<std::uint8_t>(c), *this);
-  stats_.channels.resize(config_.channels);
-  stats_.clock_period_ns = memspec_.clock_period_ns;
-  stats_.peak_gb_per_s = memspec_.peak_gb_per_s() * config_.channels;
-  stats_.burst_bytes = memspec_.burst_bytes();
-  SC_METHOD(answer);
-  sensitive << answer_event_;
+  for (std::uint32_t c = 0; c < config_.channels; ++c) {
+    channels_.emplace_back(config_, memspec_, static_cast<std::uint8_t>(c), commands_);
+    sc_core::sc_spawn_options options;
+    options.spawn_method();
+    options.dont_initialize();
+    options.set_sensitivity(&channels_.back().wake);
+    sc_core::sc_spawn([this, c] { on_wake(c); }, fmt::format("channel_{}", c).c_str(), &options);
+  }
+  SC_METHOD(send_answers);
+  sensitive << answers_waiting_;
   dont_initialize();
 }
+
+void DramController::end_of_elaboration() { initiators_.resize(socket.size()); }
 
 void DramController::load(std::uint64_t address, const void* from, std::size_t bytes) {
   store_.write(address, static_cast<const std::uint8_t*>(from), bytes);
@@ -42,131 +54,270 @@ void DramController::read_back(std::uint64_t address, void* into, std::size_t by
   store_.read(address, static_cast<std::uint8_t*>(into), bytes);
 }
 
+bool DramController::idle() const {
+  return open_transactions_ == 0 && (transport_ != Transport::kBlocking || busy_until_ <= now());
+}
+
 std::uint64_t DramController::cycle_of(const sc_core::sc_time& time) const {
   return (time.value() + clock_period_.value() - 1) / clock_period_.value();
 }
 
-DramStats DramController::stats() {
-  const std::uint64_t now = cycle_of(sc_core::sc_time_stamp());
-  DramStats stats = stats_;
-  stats.elapsed_cycles = now;
-  for (std::size_t c = 0; c < channels_.size(); ++c) stats.channels[c].rows = channels_[c].rows();
-  return stats;
+sc_core::sc_time DramController::time_of(std::uint64_t cycle) const {
+  return sc_core::sc_time::from_value(cycle * clock_period_.value());
 }
 
-bool DramController::accept(tlm::tlm_generic_payload& payload) {
-  const std::uint64_t address = payload.get_address();
-  const std::size_t length = payload.get_data_length();
-  if (address >= capacity_bytes() || length > capacity_bytes() - address) {
-    payload.set_response_status(tlm::TLM_ADDRESS_ERROR_RESPONSE);
-    return false;
-  }
-  if (length == 0 || payload.get_streaming_width() < length) {
-    payload.set_response_status(tlm::TLM_BURST_ERROR_RESPONSE);
-    return false;
-  }
-  if (payload.get_byte_enable_ptr() != nullptr) {
-    payload.set_response_status(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
-    return false;
-  }
-  if (payload.is_read()) {
-    store_.read(address, payload.get_data_ptr(), length);
-  } else if (payload.is_write()) {
-    store_.write(address, payload.get_data_ptr(), length);
-  } else {
-    payload.set_response_status(tlm::TLM_COMMAND_ERROR_RESPONSE);
-    return false;
-  }
-  payload.set_response_status(tlm::TLM_OK_RESPONSE);
-  return true;
+bool DramController::uses(Transport transport) {
+  if (transport_ == Transport::kUnused) transport_ = transport;
+  if (transport_ == transport) return true;
+  SC_REPORT_ERROR("/sgs/dram",
+                  fmt::format("{}: blocking and non-blocking requests in one run", name()).c_str());
+  return false;
 }
 
-std::uint64_t DramController::serve(const tlm::tlm_generic_payload& payload, std::uint64_t cycle) {
+DramController::Transaction& DramController::new_transaction(int initiator,
+                                                             tlm::tlm_generic_payload& payload) {
+  if (free_transactions_.empty()) {
+    transactions_.emplace_back();
+    free_transactions_.push_back(&transactions_.back());
+  }
+  Transaction& t = *free_transactions_.back();
+  free_transactions_.pop_back();
   const auto* memory = payload.get_extension<MemoryExtension>();
-  const auto direction = payload.is_read() ? Direction::kRead : Direction::kWrite;
-  stats_.traffic.add(memory ? memory->requester : 0, memory ? memory->region : 0, direction,
-                     payload.get_data_length());
+  t = Transaction{};
+  t.payload = &payload;
+  t.initiator = initiator;
+  t.direction = payload.is_read() ? Direction::kRead : Direction::kWrite;
+  t.region = memory ? memory->region : std::uint8_t{0};
+  t.next = payload.get_address() & ~std::uint64_t{mapping_.burst_bytes() - 1};
+  t.end = payload.get_address() + payload.get_data_length();
+  commands_.counts.traffic.add(memory ? memory->requester : std::uint8_t{0}, t.region, t.direction,
+                               payload.get_data_length());
+  return t;
+}
+
+ChannelRequest DramController::next_request(Transaction& t, std::uint32_t& channel) const {
   const std::uint64_t run = mapping_.run_bytes();
   const std::uint32_t burst = mapping_.burst_bytes();
-  std::uint64_t address = payload.get_address() / burst * burst;
-  const std::uint64_t end = payload.get_address() + payload.get_data_length();
-  std::uint64_t done = cycle;
-  while (address < end) {
-    const std::uint64_t stop = std::min(end, (address / run + 1) * run);
-    const DramAddress place = mapping_.decode(address);
-    ChannelRequest request;
-    request.direction = direction;
-    request.region = memory ? memory->region : 0;
-    request.rank = place.rank;
-    request.bank = place.bank;
-    request.row = place.row;
-    request.burst = place.burst;
-    request.bursts = static_cast<std::uint32_t>((stop - address + burst - 1) / burst);
-    done = std::max(done, channels_[place.channel].serve(request, cycle));
-    address = stop;
-  }
-  (direction == Direction::kRead ? stats_.read_latency_cycles : stats_.write_latency_cycles)
-      .add(done - cycle);
-  return done;
+  const std::uint64_t stop = std::min(t.end, (t.next & ~(run - 1)) + run);
+  const DramAddress place = mapping_.decode(t.next);
+  channel = place.channel;
+  ChannelRequest request;
+  request.direction = t.direction;
+  request.region = t.region;
+  request.rank = place.rank;
+  request.bank = place.bank;
+  request.row = place.row;
+  request.burst = place.burst;
+  request.bursts = static_cast<std::uint32_t>((stop - t.next + burst - 1) / burst);
+  request.owner = &t;
+  t.next = stop;
+  return request;
 }
 
-void DramController::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-  if (!accept(payload)) return;
-  const sc_core::sc_time now = sc_core::sc_time_stamp();
-  const std::uint64_t done = serve(payload, cycle_of(now + delay));
-  delay = clock_period_ * static_cast<double>(done) - now;
+void DramController::b_transport(int initiator, tlm::tlm_generic_payload& payload,
+                                 sc_core::sc_time& delay) {
+  if (!uses(Transport::kBlocking) || !move_bytes(payload, store_)) return;
+  const sc_core::sc_time start = sc_core::sc_time_stamp() + delay;
+  Transaction& t = new_transaction(initiator, payload);
+  t.arrival = cycle_of(start);
+  while (t.next < t.end) {
+    std::uint32_t channel = 0;
+    const ChannelRequest request = next_request(t, channel);
+    t.done = std::max(t.done, channels_[channel].arrival_order.serve(request, t.arrival));
+  }
+  // Time in which requests are there: the union of their intervals.
+  commands_.counts.busy_cycles += t.done - std::min(t.done, std::max(t.arrival, busy_until_));
+  busy_until_ = std::max(busy_until_, t.done);
+  (t.direction == Direction::kRead ? commands_.counts.read_latency_cycles
+                                   : commands_.counts.write_latency_cycles)
+      .add(t.done - t.arrival);
+  free_transactions_.push_back(&t);
+  delay = time_of(t.done) - sc_core::sc_time_stamp();
 }
 
 tlm::tlm_sync_enum DramController::nb_transport_fw(int initiator, tlm::tlm_generic_payload& payload,
                                                    tlm::tlm_phase& phase, sc_core::sc_time& delay) {
-  if (phase != tlm::BEGIN_REQ) return tlm::TLM_COMPLETED;
-  if (!accept(payload)) return tlm::TLM_COMPLETED;
+  if (phase == tlm::END_RESP) {
+    Initiator& from = initiators_[static_cast<std::size_t>(initiator)];
+    from.response_open = false;
+    if (!from.answers.empty()) answers_waiting_.notify(sc_core::SC_ZERO_TIME);
+    return tlm::TLM_COMPLETED;
+  }
+  if (!uses(Transport::kNonBlocking)) return tlm::TLM_COMPLETED;
+  if (delay == sc_core::SC_ZERO_TIME) return begin_request(initiator, payload, phase);
+  auto* note = payload.get_extension<ArrivingFrom>();
+  if (note == nullptr) payload.set_extension(note = new ArrivingFrom);
+  note->initiator = initiator;
+  payload.acquire();  // the queue of delayed requests keeps a bare pointer
+  delayed_.notify(payload, phase, delay);
+  return tlm::TLM_ACCEPTED;
+}
+
+tlm::tlm_sync_enum DramController::begin_request(int initiator, tlm::tlm_generic_payload& payload,
+                                                 tlm::tlm_phase& phase) {
+  Initiator& from = initiators_[static_cast<std::size_t>(initiator)];
+  if (from.feeding != nullptr) {
+    SC_REPORT_ERROR("/sgs/dram",
+                    fmt::format("{}: BEGIN_REQ before END_REQ of the one before", name()).c_str());
+    return tlm::TLM_COMPLETED;
+  }
+  if (!move_bytes(payload, store_)) return tlm::TLM_COMPLETED;
+  Transaction& t = new_transaction(initiator, payload);
+  t.arrival = now();
+  if (open_transactions_++ == 0) busy_from_ = t.arrival;
+  if (!feed(t, t.arrival)) {
+    payload.acquire();
+    return tlm::TLM_ACCEPTED;
+  }
+  if (t.direction == Direction::kWrite && config_.posted_writes) {
+    t.payload = nullptr;
+    return tlm::TLM_COMPLETED;
+  }
   payload.acquire();
-  ++in_flight_;
-  const std::uint64_t done = serve(payload, cycle_of(sc_core::sc_time_stamp() + delay));
-  const sc_core::sc_time at = clock_period_ * static_cast<double>(done);
-  if (answers_.empty() || at < answers_.top().at)
-    answer_event_.notify(at - sc_core::sc_time_stamp());
-  answers_.push({at, next_order_++, initiator, &payload});
   phase = tlm::END_REQ;
   return tlm::TLM_UPDATED;
 }
 
-void DramController::answer() {
-  while (!answers_.empty() && answers_.top().at <= sc_core::sc_time_stamp()) {
-    const Answer next = answers_.top();
-    answers_.pop();
-    --in_flight_;
-    tlm::tlm_phase phase = tlm::BEGIN_RESP;
+void DramController::on_delayed(tlm::tlm_generic_payload& payload, const tlm::tlm_phase&) {
+  const int initiator = payload.get_extension<ArrivingFrom>()->initiator;
+  tlm::tlm_phase phase = tlm::BEGIN_REQ;
+  const tlm::tlm_sync_enum status = begin_request(initiator, payload, phase);
+  if (status == tlm::TLM_UPDATED) {
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-    socket[next.initiator]->nb_transport_bw(*next.payload, phase, delay);
-    next.payload->release();
+    socket[initiator]->nb_transport_bw(payload, phase, delay);
+  } else if (status == tlm::TLM_COMPLETED) {
+    payload.acquire();
+    answer(initiator, payload);
   }
-  if (!answers_.empty()) answer_event_.notify(answers_.top().at - sc_core::sc_time_stamp());
+  payload.release();
+}
+
+bool DramController::feed(Transaction& t, std::uint64_t cycle) {
+  while (t.next < t.end) {
+    const std::uint64_t before = t.next;
+    std::uint32_t index = 0;
+    const ChannelRequest request = next_request(t, index);
+    Channel& channel = channels_[index];
+    channel.queued.advance(cycle);
+    if (channel.queued.full(t.direction)) {
+      t.next = before;
+      Initiator& from = initiators_[static_cast<std::size_t>(t.initiator)];
+      from.feeding = &t;
+      from.waits_for = index;
+      ++channel.blocked;
+      schedule(index);
+      return false;
+    }
+    ++t.remaining;
+    channel.queued.push(request, cycle);
+    schedule(index);
+  }
+  return true;
+}
+
+void DramController::schedule(std::uint32_t index) {
+  Channel& channel = channels_[index];
+  std::uint64_t wanted = channel.queued.next_completion();
+  if (channel.blocked > 0) {
+    const std::uint64_t decision = channel.queued.next_decision();
+    if (decision != kNever) wanted = std::min(wanted, decision + 1);
+  }
+  if (wanted >= channel.wake_at) return;
+  channel.wake_at = wanted;
+  channel.wake.notify(time_of(wanted) - sc_core::sc_time_stamp());
+}
+
+void DramController::on_wake(std::uint32_t index) {
+  Channel& channel = channels_[index];
+  const std::uint64_t cycle = now();
+  channel.wake_at = kNever;
+  channel.queued.advance(cycle);
+  QueuedChannel::Completion completion;
+  while (channel.queued.take_completion(cycle, completion)) {
+    Transaction& t = *static_cast<Transaction*>(completion.owner);
+    t.done = std::max(t.done, completion.cycle);
+    if (--t.remaining == 0 && t.next >= t.end) finish(t);
+  }
+  if (channel.blocked > 0) retry_blocked(index, cycle);
+  schedule(index);
+}
+
+void DramController::retry_blocked(std::uint32_t index, std::uint64_t cycle) {
+  // Whoever comes after the last one served is first: no initiator starves.
+  const std::size_t count = initiators_.size();
+  const std::size_t first = next_retry_;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = (first + k) % count;
+    Initiator& from = initiators_[i];
+    if (from.feeding == nullptr || from.waits_for != index) continue;
+    Transaction& t = *from.feeding;
+    from.feeding = nullptr;
+    --channels_[index].blocked;
+    if (!feed(t, cycle)) continue;
+    next_retry_ = (i + 1) % count;
+    tlm::tlm_generic_payload& payload = *t.payload;
+    if (t.direction == Direction::kWrite && config_.posted_writes) {
+      t.payload = nullptr;
+      answer(t.initiator, payload);
+    } else {
+      tlm::tlm_phase phase = tlm::END_REQ;
+      sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+      socket[t.initiator]->nb_transport_bw(payload, phase, delay);
+    }
+  }
+}
+
+void DramController::finish(Transaction& t) {
+  (t.direction == Direction::kRead ? commands_.counts.read_latency_cycles
+                                   : commands_.counts.write_latency_cycles)
+      .add(t.done - t.arrival);
+  if (--open_transactions_ == 0) {
+    commands_.counts.busy_cycles += t.done - busy_from_;
+    busy_until_ = t.done;
+  }
+  tlm::tlm_generic_payload* payload = t.payload;
+  const int initiator = t.initiator;
+  free_transactions_.push_back(&t);
+  if (payload != nullptr) answer(initiator, *payload);
+}
+
+void DramController::answer(int initiator, tlm::tlm_generic_payload& payload) {
+  Initiator& to = initiators_[static_cast<std::size_t>(initiator)];
+  if (to.response_open) {
+    to.answers.push(&payload);
+    return;
+  }
+  tlm::tlm_phase phase = tlm::BEGIN_RESP;
+  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+  to.response_open = true;
+  const tlm::tlm_sync_enum status = socket[initiator]->nb_transport_bw(payload, phase, delay);
+  if (status == tlm::TLM_COMPLETED || (status == tlm::TLM_UPDATED && phase == tlm::END_RESP))
+    to.response_open = false;
+  payload.release();
+}
+
+void DramController::send_answers() {
+  for (std::size_t i = 0; i < initiators_.size(); ++i)
+    while (!initiators_[i].response_open && !initiators_[i].answers.empty()) {
+      tlm::tlm_generic_payload& payload = *initiators_[i].answers.front();
+      initiators_[i].answers.pop();
+      answer(static_cast<int>(i), payload);
+    }
 }
 
 unsigned int DramController::transport_dbg(int, tlm::tlm_generic_payload& payload) {
-  const std::uint64_t address = payload.get_address();
-  if (address >= capacity_bytes()) return 0;
-  const auto length = static_cast<unsigned int>(
-      std::min<std::uint64_t>(payload.get_data_length(), capacity_bytes() - address));
+  if (payload.get_address() >= capacity_bytes()) return 0;
+  const std::uint64_t room = capacity_bytes() - payload.get_address();
+  const auto length =
+      static_cast<unsigned int>(std::min<std::uint64_t>(payload.get_data_length(), room));
   if (payload.is_read())
-    store_.read(address, payload.get_data_ptr(), length);
+    store_.read(payload.get_address(), payload.get_data_ptr(), length);
   else if (payload.is_write())
-    store_.write(address, payload.get_data_ptr(), length);
+    store_.write(payload.get_address(), payload.get_data_ptr(), length);
   else
     return 0;
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
   return length;
-}
-
-void DramController::on_command(const CommandRecord& record) {
-  DramChannelStats& channel = stats_.channels[record.channel];
-  ++channel.commands[static_cast<std::size_t>(record.command)];
-  if (is_read(record.command) || is_write(record.command)) {
-    channel.busy_cycles += memspec_.burst_cycles();
-    ++stats_.bursts_by_region[record.region][is_write(record.command) ? 1 : 0];
-  }
 }
 
 }  // namespace sgs

@@ -3,9 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "modules/dram/command.h"
+#include "modules/dram/dram_energy.h"
 #include "modules/dram/latency_histogram.h"
 #include "modules/dram/row_counts.h"
 #include "tlm/counters.h"
@@ -32,6 +35,7 @@ struct DramStats {
   double clock_period_ns = 0;
   double peak_gb_per_s = 0;  // of all channels
   std::uint32_t burst_bytes = 0;
+  std::uint32_t burst_cycles = 0;
   std::uint64_t elapsed_cycles = 0;
   std::uint64_t busy_cycles = 0;  // in which at least one request was in the controller
 
@@ -42,6 +46,10 @@ struct DramStats {
   LatencyHistogram read_latency_cycles;   // arrival to last datum, of a transaction
   LatencyHistogram write_latency_cycles;  // arrival to last datum, also of posted writes
   std::uint64_t forwarded_reads = 0;      // answered from the write queue
+
+  std::vector<RankActivity> ranks;                         // channel * ranks + rank
+  DramEnergy energy;                                       // by the configured set of currents
+  std::map<std::string, double> energy_by_current_set_pj;  // the band between published sets
 
   DramChannelStats all_channels() const;
   std::uint64_t bytes() const { return traffic.total().bytes; }

@@ -20,7 +20,9 @@ class LatencyHistogram {
 
   std::uint64_t count() const { return count_; }
   std::uint64_t max() const { return max_; }
-  double mean() const { return count_ == 0 ? 0.0 : static_cast<double>(sum_) / static_cast<double>(count_); }
+  double mean() const {
+    return count_ == 0 ? 0.0 : static_cast<double>(sum_) / static_cast<double>(count_);
+  }
 
   // Smallest latency (its bin's lower edge) that at least `fraction` of all do not exceed.
   std::uint64_t percentile(double fraction) const {

@@ -82,6 +82,7 @@ void visit(ConfigVisitor& v, Memspec& m) {
   v.section("organisation", m.organisation, "sizes");
   v("clock_period_ns", m.clock_period_ns, in_range(0.1, 100.0), "tCK");
   v.section("timing_cycles", m.timing_cycles, "constraints, in clock cycles");
+  v("default_currents", m.default_currents, "the set that is used when none is asked for");
   v.sections("currents", m.currents, "published sets of currents");
   v.strings("sources", m.sources, "where each number comes from");
 }
@@ -225,6 +226,9 @@ std::vector<std::string> check_memspec(const Memspec& memspec, const std::string
   const MemspecCheck check(memspec, origin);
   check.organisation();
   check.timing();
+  if (memspec.currents.count(memspec.default_currents) == 0)
+    throw InputError(fmt::format("{}: default_currents: got '{}', expected the name of a set",
+                                 origin, memspec.default_currents));
   check.sources(timing_keys.keys);
   return check.warnings();
 }

@@ -67,6 +67,7 @@ struct Memspec {
   Organisation organisation;
   double clock_period_ns = 0;
   Timing timing_cycles;
+  std::string default_currents;                // which set is used when none is asked for
   std::map<std::string, Currents> currents;    // by the name of the published set
   std::map<std::string, std::string> sources;  // of each number, by key
 

@@ -28,6 +28,11 @@ class RankMaintenance {
   // wait for this rank, kNever when none does.
   Candidate next(const DeviceTiming& device, std::uint64_t wanted_from) const;
 
+  // Whether next() could come up with a command up to `cycle`; cheap.
+  bool may_act_by(std::uint64_t cycle, bool wanted) const {
+    return !wanted || state_ != State::kUp || urgent_from_ <= cycle;
+  }
+
   // A request's command to `bank` must be sent before this cycle: refresh goes first from there.
   std::uint64_t request_limit(std::uint32_t bank) const {
     if (mode_ == RefreshMode::kOff || (mode_ == RefreshMode::kPerBank && bank != refresh_bank_))

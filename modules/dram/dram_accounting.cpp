@@ -1,0 +1,58 @@
+// The memory's accounts: what every command adds, and the counts and energy up to a moment.
+#include <algorithm>
+
+#include "modules/dram/dram_controller.h"
+
+namespace sgs {
+
+DramController::Commands::Commands(const Memspec& memspec, const DramConfig& config)
+    : activity(memspec, config) {
+  counts.channels.resize(config.channels);
+  counts.clock_period_ns = memspec.clock_period_ns;
+  counts.peak_gb_per_s = memspec.peak_gb_per_s() * config.channels;
+  counts.burst_bytes = memspec.burst_bytes();
+  counts.burst_cycles = memspec.burst_cycles();
+}
+
+void DramController::Commands::on_command(const CommandRecord& record) {
+  DramChannelStats& channel = counts.channels[record.channel];
+  ++channel.commands[static_cast<std::size_t>(record.command)];
+  if (is_read(record.command) || is_write(record.command)) {
+    channel.busy_cycles += counts.burst_cycles;
+    ++counts.bursts_by_region[record.region][is_write(record.command) ? 1 : 0];
+  }
+  activity.on_command(record);
+  for (CommandSink* other : others_) other->on_command(record);
+}
+
+DramStats DramController::stats() {
+  const bool blocking = transport_ == Transport::kBlocking;
+  // Annotated delays may reach beyond the kernel's time; commands then lie in the future.
+  const std::uint64_t cycle = std::max(now(), blocking ? busy_until_ : 0);
+  for (Channel& channel : channels_) {
+    if (blocking)
+      channel.arrival_order.finish(cycle);
+    else
+      channel.queued.advance(cycle);
+  }
+  DramStats stats = commands_.counts;
+  stats.elapsed_cycles = cycle;
+  if (open_transactions_ > 0) stats.busy_cycles += cycle - busy_from_;
+  for (std::size_t c = 0; c < channels_.size(); ++c) {
+    stats.channels[c].rows =
+        blocking ? channels_[c].arrival_order.rows() : channels_[c].queued.rows();
+    stats.forwarded_reads += channels_[c].queued.forwarded_reads();
+  }
+  stats.ranks = commands_.activity.ranks(cycle);
+  for (const auto& [name, currents] : memspec_.currents) {
+    const DramEnergy energy = dram_energy(memspec_, currents, stats.ranks,
+                                          commands_.activity.regions(), config_.io_pj_per_bit);
+    stats.energy_by_current_set_pj[name] = energy.total_pj();
+    if (config_.current_set.empty() ? name == memspec_.default_currents
+                                    : name == config_.current_set)
+      stats.energy = energy;
+  }
+  return stats;
+}
+
+}  // namespace sgs

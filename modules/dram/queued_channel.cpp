@@ -1,0 +1,253 @@
+// One channel's controller: decisions over queues, policies and maintenance.
+#include "modules/dram/queued_channel.h"
+
+#include <algorithm>
+
+namespace sgs {
+
+QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, std::uint8_t channel,
+                             CommandSink& sink)
+    : channel_(channel),
+      pipeline_(config.pipeline_cycles),
+      high_watermark_(config.write_high_watermark),
+      low_watermark_(config.write_low_watermark),
+      age_cap_(config.age_cap_cycles),
+      sink_(sink),
+      device_(memspec, DerivedTiming(memspec, config.write_latency_set, config.read_strobe),
+              config.ranks),
+      scheduling_(make_scheduling_policy(config)),
+      paging_(make_page_policy(config, config.ranks * memspec.organisation.banks)),
+      reads_(config.read_queue_entries, config.ranks * memspec.organisation.banks),
+      writes_(config.write_queue_entries, config.ranks * memspec.organisation.banks),
+      waiting_(config.ranks),
+      wanted_from_(config.ranks, kNever),
+      outcome_(std::size_t{config.ranks} * memspec.organisation.banks, RowOutcome::kMiss) {
+  for (std::uint32_t rank = 0; rank < config.ranks; ++rank)
+    maintenance_.emplace_back(config, memspec, rank);
+}
+
+void QueuedChannel::push(const ChannelRequest& request, std::uint64_t cycle) {
+  const std::uint32_t bank = request.rank * device_.banks() + request.bank;
+  const std::uint64_t ready = cycle + pipeline_;
+  if (request.direction == Direction::kRead && writes_.covers(request, bank)) {
+    ++forwarded_reads_;
+    forwarded_.push({ready + 1, request.owner});
+    return;
+  }
+  RequestQueue::Entry entry;
+  entry.request = request;
+  entry.arrival = cycle;
+  entry.ready = ready;
+  entry.order = next_order_++;
+  queue(request.direction).push(entry, bank, device_.open_row(request.rank, request.bank));
+  if (waiting_[request.rank]++ == 0) wanted_from_[request.rank] = ready;
+  best_known_ = false;
+}
+
+void QueuedChannel::advance(std::uint64_t cycle) {
+  while (best().candidate.cycle < cycle) issue(best_);
+}
+
+std::uint64_t QueuedChannel::next_decision() { return empty() ? kNever : best().candidate.cycle; }
+
+std::uint64_t QueuedChannel::next_completion() {
+  std::uint64_t next = kNever;
+  for (const RingQueue<Completion>* q : {&read_completions_, &write_completions_, &forwarded_})
+    if (!q->empty()) next = std::min(next, q->front().cycle);
+  if (next != kNever || empty()) return next;
+  const DerivedTiming& d = device_.derived();
+  return best().candidate.cycle + std::min(d.read_data_end, d.write_data_end);
+}
+
+bool QueuedChannel::take_completion(std::uint64_t cycle, Completion& completion) {
+  RingQueue<Completion>* first = nullptr;
+  for (RingQueue<Completion>* q : {&read_completions_, &write_completions_, &forwarded_})
+    if (!q->empty() && (first == nullptr || q->front().cycle < first->front().cycle)) first = q;
+  if (first == nullptr || first->front().cycle > cycle) return false;
+  completion = first->front();
+  first->pop();
+  return true;
+}
+
+bool QueuedChannel::aged(const RequestQueue& queue) const {
+  for (std::uint64_t left = queue.banks_in_use(); left != 0; left &= left - 1) {
+    const auto bank = static_cast<std::uint32_t>(__builtin_ctzll(left));
+    if (queue.entry(queue.oldest(bank)).ready + age_cap_ < clock_) return true;
+  }
+  return false;
+}
+
+void QueuedChannel::choose_direction() {
+  if (direction_ == Direction::kRead) {
+    if (writes_.size() >= high_watermark_ || (reads_.empty() && !writes_.empty()) ||
+        (!writes_.empty() && aged(writes_) && !aged(reads_)))
+      direction_ = Direction::kWrite;
+  } else {
+    if (writes_.empty() || (writes_.size() <= low_watermark_ && !reads_.empty() && !aged(writes_)))
+      direction_ = Direction::kRead;
+  }
+}
+
+std::uint64_t QueuedChannel::oldest_order(const RequestQueue& queue) const {
+  std::uint64_t oldest = kNever;
+  for (std::uint64_t left = queue.banks_in_use(); left != 0; left &= left - 1) {
+    const auto bank = static_cast<std::uint32_t>(__builtin_ctzll(left));
+    oldest = std::min(oldest, queue.entry(queue.oldest(bank)).order);
+  }
+  return oldest;
+}
+
+const QueuedChannel::Choice& QueuedChannel::best() {
+  if (best_known_) return best_;
+  choose_direction();
+  const RequestQueue& active = queue(direction_);
+  const std::uint64_t oldest = oldest_order(active);
+  best_ = Choice{};
+  for (std::uint64_t left = active.banks_in_use(); left != 0; left &= left - 1)
+    consider(static_cast<std::uint32_t>(__builtin_ctzll(left)), oldest, best_);
+  consider_maintenance(best_);
+  best_known_ = true;
+  return best_;
+}
+
+void QueuedChannel::consider(std::uint32_t flat_bank, std::uint64_t oldest, Choice& best) const {
+  const RequestQueue& active = queue(direction_);
+  const std::int32_t index = scheduling_->choose(active, flat_bank, oldest, clock_);
+  if (index == RequestQueue::kNone) return;
+  const RequestQueue::Entry& entry = active.entry(index);
+  const std::uint32_t rank = entry.request.rank;
+  const std::uint32_t bank = entry.request.bank;
+  if (!maintenance_[rank].powered_up()) return;
+
+  Choice choice;
+  const std::uint32_t open_row = device_.open_row(rank, bank);
+  std::uint64_t earliest;
+  if (open_row == entry.request.row) {
+    choice.column = true;
+    const bool read = direction_ == Direction::kRead;
+    choice.candidate.command = read ? Command::kRead : Command::kWrite;
+    earliest = read ? device_.earliest_read(rank, bank) : device_.earliest_write(rank, bank);
+  } else if (open_row == kNoRow) {
+    choice.candidate.command = Command::kActivate;
+    earliest = device_.earliest_activate(rank, bank);
+  } else {
+    choice.candidate.command = Command::kPrecharge;
+    earliest = device_.earliest_precharge(rank, bank);
+  }
+  const std::uint64_t cycle = std::max({earliest, entry.ready, clock_});
+  if (cycle > best.candidate.cycle || cycle >= maintenance_[rank].request_limit(bank)) return;
+  if (cycle == best.candidate.cycle &&
+      (choice.column != best.column ? best.column : best.order < entry.order))
+    return;
+  choice.candidate.cycle = cycle;
+  choice.candidate.rank = rank;
+  choice.candidate.bank = bank;
+  choice.entry = index;
+  choice.order = entry.order;
+  best = choice;
+}
+
+void QueuedChannel::consider_maintenance(Choice& best) const {
+  for (const RankMaintenance& rank : maintenance_) {
+    const std::size_t r = static_cast<std::size_t>(&rank - maintenance_.data());
+    if (!rank.may_act_by(best.candidate.cycle, waiting_[r] > 0)) continue;
+    Candidate wish = rank.next(device_, waiting_[r] > 0 ? wanted_from_[r] : kNever);
+    if (wish.cycle == kNever) continue;
+    wish.cycle = std::max(wish.cycle, clock_);
+    if (wish.cycle > best.candidate.cycle) continue;
+    best = Choice{};
+    best.candidate = wish;
+  }
+}
+
+void QueuedChannel::issue(const Choice& choice) {
+  best_known_ = false;
+  const Candidate& c = choice.candidate;
+  clock_ = c.cycle + 1;
+  const std::uint32_t flat_bank = c.rank * device_.banks() + c.bank;
+  if (choice.column) {
+    issue_column(choice);
+    return;
+  }
+  if (choice.entry == RequestQueue::kNone) {
+    send(c, c.command, nullptr);
+    if (c.command == Command::kPrecharge) tell_queues(flat_bank, kNoRow);
+    if (c.command == Command::kPrechargeAll)
+      for (std::uint32_t b = 0; b < device_.banks(); ++b)
+        tell_queues(c.rank * device_.banks() + b, kNoRow);
+    return;
+  }
+  const ChannelRequest request = queue(direction_).entry(choice.entry).request;
+  send(c, c.command, &request);
+  if (c.command == Command::kActivate) {
+    paging_->on_activate(flat_bank, request.row, outcome_[flat_bank] == RowOutcome::kConflict);
+    if (outcome_[flat_bank] == RowOutcome::kHit) outcome_[flat_bank] = RowOutcome::kMiss;
+    tell_queues(flat_bank, request.row);
+  } else {
+    outcome_[flat_bank] = RowOutcome::kConflict;
+    tell_queues(flat_bank, kNoRow);
+  }
+}
+
+void QueuedChannel::issue_column(const Choice& choice) {
+  const Candidate& c = choice.candidate;
+  const std::uint32_t flat_bank = c.rank * device_.banks() + c.bank;
+  RequestQueue& active = queue(direction_);
+  RequestQueue::Entry& entry = active.entry(choice.entry);
+  if (!entry.begun && outcome_[flat_bank] == RowOutcome::kHit) paging_->on_hit(flat_bank);
+  entry.begun = true;
+  if (entry.request.bursts > 1) {
+    send(c, c.command, &entry.request);
+    ++entry.request.burst;
+    --entry.request.bursts;
+    return;
+  }
+  const ChannelRequest request = entry.request;
+  active.remove(choice.entry, flat_bank);
+  if (--waiting_[c.rank] == 0) wanted_from_[c.rank] = kNever;
+  const bool more_hits = reads_.oldest_hit(flat_bank) != RequestQueue::kNone ||
+                         writes_.oldest_hit(flat_bank) != RequestQueue::kNone;
+  const bool close = paging_->close_after(flat_bank, more_hits);
+  const bool read = direction_ == Direction::kRead;
+  if (close) {
+    send(c, read ? Command::kReadAuto : Command::kWriteAuto, &request);
+    tell_queues(flat_bank, kNoRow);
+    outcome_[flat_bank] = RowOutcome::kMiss;
+  } else {
+    send(c, c.command, &request);
+  }
+  complete(request,
+           c.cycle + (read ? device_.derived().read_data_end : device_.derived().write_data_end));
+}
+
+void QueuedChannel::send(const Candidate& c, Command command, const ChannelRequest* request) {
+  const bool column = is_read(command) || is_write(command);
+  const CommandRecord record{c.cycle,
+                             command,
+                             channel_,
+                             static_cast<std::uint8_t>(c.rank),
+                             static_cast<std::uint8_t>(c.bank),
+                             request ? request->region : std::uint8_t{0},
+                             command == Command::kActivate ? request->row : 0,
+                             column ? request->burst : 0};
+  if (column) {
+    RowOutcome& outcome = outcome_[c.rank * device_.banks() + c.bank];
+    rows_.count(outcome);
+    outcome = RowOutcome::kHit;
+  }
+  device_.issue(record);
+  maintenance_[c.rank].on_command(command, c.cycle);
+  sink_.on_command(record);
+}
+
+void QueuedChannel::complete(const ChannelRequest& request, std::uint64_t cycle) {
+  (request.direction == Direction::kRead ? read_completions_ : write_completions_)
+      .push({cycle, request.owner});
+}
+
+void QueuedChannel::tell_queues(std::uint32_t bank, std::uint32_t open_row) {
+  reads_.on_row(bank, open_row);
+  writes_.on_row(bank, open_row);
+}
+
+}  // namespace sgs

@@ -1,0 +1,106 @@
+// One channel's controller: queues, policies, refresh and power states, on the device's tables.
+//
+// It knows no SystemC and no clock ticks. Between two arrivals its course is fixed, so it is worked
+// out only when somebody looks: advance(c) takes all decisions that fall before cycle c. All
+// arrivals of a cycle are therefore known to that cycle's decision, in whatever order they came.
+// One command a cycle; the earliest possible goes first, at equal cycles columns before row
+// commands, older requests before younger.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "modules/dram/channel_request.h"
+#include "modules/dram/device_timing.h"
+#include "modules/dram/dram_config.h"
+#include "modules/dram/page_policy.h"
+#include "modules/dram/rank_maintenance.h"
+#include "modules/dram/request_queue.h"
+#include "modules/dram/ring_queue.h"
+#include "modules/dram/row_counts.h"
+#include "modules/dram/scheduling_policy.h"
+
+namespace sgs {
+
+class QueuedChannel {
+ public:
+  QueuedChannel(const DramConfig& config, const Memspec& memspec, std::uint8_t channel,
+                CommandSink& sink);
+
+  bool full(Direction direction) const { return queue(direction).full(); }
+  bool empty() const { return reads_.empty() && writes_.empty(); }
+
+  // Takes a request that arrives at `cycle`; all before it must have been advanced to. Not when
+  // full.
+  void push(const ChannelRequest& request, std::uint64_t cycle);
+
+  // Takes all decisions that fall before `cycle`.
+  void advance(std::uint64_t cycle);
+
+  // No request completes before this cycle, whatever arrives; kNever with nothing to do.
+  std::uint64_t next_completion();
+  // No queue entry becomes free before this cycle.
+  std::uint64_t next_decision();
+
+  // Requests whose last datum has been transferred by `cycle`; earliest first. Null: no more.
+  struct Completion {
+    std::uint64_t cycle;
+    void* owner;
+  };
+  bool take_completion(std::uint64_t cycle, Completion& completion);
+
+  const RowCounts& rows() const { return rows_; }
+  std::uint64_t forwarded_reads() const { return forwarded_reads_; }
+
+ private:
+  struct Choice {  // a command, and the request that it is for
+    Candidate candidate;
+    std::int32_t entry = RequestQueue::kNone;  // none: maintenance
+    std::uint64_t order = 0;
+    bool column = false;
+  };
+
+  RequestQueue& queue(Direction d) { return d == Direction::kRead ? reads_ : writes_; }
+  const RequestQueue& queue(Direction d) const { return d == Direction::kRead ? reads_ : writes_; }
+  void choose_direction();
+  bool aged(const RequestQueue& queue) const;
+  std::uint64_t oldest_order(const RequestQueue& queue) const;
+  const Choice& best();
+  void consider(std::uint32_t bank, std::uint64_t oldest, Choice& best) const;
+  void consider_maintenance(Choice& best) const;
+  void issue(const Choice& choice);
+  void send(const Candidate& candidate, Command command, const ChannelRequest* request);
+  void issue_column(const Choice& choice);
+  void complete(const ChannelRequest& request, std::uint64_t cycle);
+  void tell_queues(std::uint32_t bank, std::uint32_t open_row);
+
+  const std::uint8_t channel_;
+  const std::uint32_t pipeline_;
+  const std::uint32_t high_watermark_;
+  const std::uint32_t low_watermark_;
+  const std::uint64_t age_cap_;
+  CommandSink& sink_;
+  DeviceTiming device_;
+  std::vector<RankMaintenance> maintenance_;
+  std::unique_ptr<SchedulingPolicy> scheduling_;
+  std::unique_ptr<PagePolicy> paging_;
+  RequestQueue reads_;
+  RequestQueue writes_;
+
+  Direction direction_ = Direction::kRead;
+  std::uint64_t clock_ = 0;  // the command bus is free from here on
+  std::uint64_t next_order_ = 0;
+  std::vector<std::uint32_t> waiting_;      // requests by rank
+  std::vector<std::uint64_t> wanted_from_;  // by rank: since when requests have been waiting
+  std::vector<RowOutcome> outcome_;         // by bank: of the next column
+  bool best_known_ = false;
+  Choice best_;
+  RingQueue<Completion> read_completions_;
+  RingQueue<Completion> write_completions_;
+  RingQueue<Completion> forwarded_;
+  std::uint64_t forwarded_reads_ = 0;
+  RowCounts rows_;
+};
+
+}  // namespace sgs

@@ -1,0 +1,24 @@
+// Which request of a bank is served next. One policy a file; see fr_fcfs.h and fcfs.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "modules/dram/dram_config.h"
+#include "modules/dram/request_queue.h"
+
+namespace sgs {
+
+class SchedulingPolicy {
+ public:
+  virtual ~SchedulingPolicy() = default;
+
+  // The request that `bank` should work on at `cycle`, or RequestQueue::kNone to let it rest.
+  // `oldest_order`: arrival order of the oldest request of the whole queue.
+  virtual std::int32_t choose(const RequestQueue& queue, std::uint32_t bank,
+                              std::uint64_t oldest_order, std::uint64_t cycle) const = 0;
+};
+
+std::unique_ptr<SchedulingPolicy> make_scheduling_policy(const DramConfig& config);
+
+}  // namespace sgs
