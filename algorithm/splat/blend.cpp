@@ -1,5 +1,6 @@
-// The blending kernel: 16 pixels as 16 lanes, written so that compilers vectorise it. The wide
-// variant is picked at run time; without fused multiply-adds both give the same bits.
+// The blending kernel: 16 pixels as 16 lanes, written so that compilers vectorise it. The widest
+// variant that the machine has is picked at run time; without fused multiply-adds all give the same
+// bits. Leaving early where no lane is hit costs more than it saves.
 #include "algorithm/splat/blend.h"
 
 namespace sgs {
@@ -23,7 +24,7 @@ bool finished(const SubtileState& state) {
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
-__attribute__((target_clones("avx2", "default")))
+__attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #endif
 void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
   const float left = splat.x - static_cast<float>(subtile_x * kSubtilePx);

@@ -9,15 +9,16 @@
 
 namespace sgs {
 
-// alpha = min(0.99, opacity exp(power)); where power > 0 or alpha < 1/255 the splat is skipped (0).
+// alpha = min(0.99, opacity exp(power)); where power > 0 or alpha < 1/255 the splat is skipped (0),
+// also where power is not a number (inf - inf, for splats wider than 10^18 px).
 // dx, dy: splat centre minus pixel, px.
 template <class T>
 inline T alpha_at(T conic_a, T conic_b, T conic_c, T opacity, T dx, T dy) {
   const T power = T(T(-0.5F) * T(conic_a * dx * dx + conic_c * dy * dy) - conic_b * dx * dy);
-  const T alpha = min_of(constant<T>(kAlphaMax), T(opacity * exp_of(power)));
+  const T alpha = min_of(T(opacity * exp_of(power)), constant<T>(kAlphaMax));
   // Two selections rather than one of two conditions: compilers vectorise these.
   const T falling = power > T(0.0F) ? T(0.0F) : alpha;
-  return falling < constant<T>(kAlphaMin) ? T(0.0F) : falling;
+  return falling >= constant<T>(kAlphaMin) ? falling : T(0.0F);
 }
 
 // State of a 4x4 block of pixels; lane = 4 y + x.

@@ -2,12 +2,12 @@
 // touch a rectangle of pixels?
 //
 // With J the Jacobian at the clamped centre, |J|^2 <= (f/v_z)^2 (1 + u^2 + w^2), f = max(fx, fy),
-// so the largest eigenvalue of the 2D covariance is at most
-//   lambda = (f scale_max / v_z)^2 (1 + u^2 + w^2) + 0.3.
+// and |R^T| <= stretch, so the largest eigenvalue of the 2D covariance is at most
+//   lambda = (f stretch scale_max / v_z)^2 (1 + u^2 + w^2) + 0.3.
 // A splat is visible within kVisibleSigmas sqrt(lambda) of its centre (opacity at most 1), widened
 // as in footprint.h with kappa <= (2 lambda)^2 / (0.3 lambda), since det >= 0.3 lambda. It is also
-// cut to the tiles that the square of half-size ceil(3 sqrt(lambda)) touches: at most 16 px beyond
-// that.
+// cut to the tiles that the square of half-size `radius` touches: at most 16 px beyond that. The
+// lambda of the radius is mid + sqrt(max(0.1, mid^2 - det)) <= lambda + sqrt(0.1).
 #pragma once
 
 #include <algorithm>
@@ -37,18 +37,20 @@ inline CoarseBound coarse_bound(const View<float>& view, const glm::vec3& mean, 
   out.x = pixel.x;
   out.y = pixel.y;
   const auto [u, w] = clamped_ratio(view, v);
-  const float spread = std::max(view.focal_x, view.focal_y) * (scale_max / v.z);
+  const float spread = std::max(view.focal_x, view.focal_y) * view.stretch * (scale_max / v.z);
   // 1e-5: the covariance of projection.h is a sum of squares, exact to a few units in the last
   // place.
   const float lambda =
       (spread * spread * (1 + u * u + w * w) + constant<float>(kLowPass)) * 1.00001F;
   const float sigma = std::sqrt(lambda);
-  const float widening = 32 * kRoundoff * (4 / constant<float>(kLowPass)) * lambda;
+  const float widening = ellipse_widening(4 / constant<float>(kLowPass) * lambda);
   constexpr float kSlackPx = 0.05F;
-  out.reach_px = widening < 0.5F
+  out.reach_px = widening < kMaxWidening
                      ? constant<float>(kVisibleSigmas) * sigma * (1.0002F + widening) + kSlackPx
                      : std::numeric_limits<float>::max();
-  out.square_px = constant<float>(kRadiusSigmas) * sigma * 1.00001F + 1 + kTilePx;
+  constexpr float kRadiusExtra = 0.3163F;  // sqrt(kMinDiscriminant), rounded up
+  out.square_px =
+      constant<float>(kRadiusSigmas) * std::sqrt(lambda + kRadiusExtra) * 1.00001F + 1 + kTilePx;
   return out;
 }
 

@@ -15,6 +15,7 @@ constexpr int kTilePx = 16;                 // footprints are cut to whole tiles
 constexpr int kSubtilePx = 4;               // side of the block that one rendering cluster blends
 constexpr int kSubtilePixels = kSubtilePx * kSubtilePx;
 constexpr int kSubtilesPerTile = kTilePx / kSubtilePx;
+constexpr int kMaxFramePx = 131'072;  // a side; what the slack in footprint.h is counted for
 
 // sqrt(2 ln 255): beyond so many sigmas even an opaque splat is below kAlphaMin.
 constexpr double kVisibleSigmas = 3.3290429691304455;

@@ -10,12 +10,13 @@
 namespace sgs {
 
 // The geometric part. False where nothing of g can be seen in the frame: behind the near plane,
-// never visible, off the frame, or a covariance that overflows float (a splat wider than 10^19 px).
+// never visible, off the frame, or a centre or covariance that overflows float (a splat farther or
+// wider than 10^19 px).
 inline bool make_geometry(const View<float>& view, const Gaussian<float>& g, Splat& out) {
   const glm::vec3 v = to_camera(view, g.mean);
   if (!(v.z > constant<float>(kNearPlane))) return false;
   const Projected<float> p = project(view, g, v);
-  if (!std::isfinite(p.cov_a + p.cov_c)) return false;
+  if (!std::isfinite(p.cov_a + p.cov_c) || !std::isfinite(p.x + p.y)) return false;
   out.x = p.x;
   out.y = p.y;
   out.conic_a = p.conic_a;
@@ -44,7 +45,7 @@ inline bool reaches_group(const Splat& s, const PixelRect& pixels) {
 
 inline void add_colour(const View<float>& view, int sh_degree, const glm::vec3& mean,
                        const glm::vec3* sh, Splat& out) {
-  out.rgb = sh_colour(sh_degree, sh, mean, view.position);
+  out.rgb = sh_colour(sh_degree, sh, from_eye(view, mean), glm::vec3(0.0F));
 }
 
 }  // namespace sgs

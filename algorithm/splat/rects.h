@@ -18,7 +18,7 @@ inline PixelRect intersection(const PixelRect& a, const PixelRect& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
-// Sub-tiles [x0, x1) x [y0, y1) in units of 4 px from the frame's corner. 16 bits reach 131,068 px.
+// Sub-tiles [x0, x1) x [y0, y1) in units of 4 px from the frame's corner. 16 bits reach 262,140 px.
 struct SubtileRect {
   std::uint16_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   bool empty() const { return x1 <= x0 || y1 <= y0; }

@@ -1,8 +1,13 @@
 // A camera as the projection needs it, in the scalar type of the datapath.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <string>
 
+#include "algorithm/input_error.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/splat/constants.h"
 #include "algorithm/splat/scalar.h"
@@ -11,25 +16,48 @@ namespace sgs {
 
 template <class T>
 struct View {
-  glm::vec<3, T> position;           // camera centre, world
+  glm::vec<3, T> position;           // camera centre, world, rounded to T
+  glm::vec<3, T> position_low;       // what that rounding left: far from the origin it is visible
   glm::vec<3, T> cam_from_world[3];  // rows of R^T: the camera's x, y, z axes in the world frame
   T focal_x, focal_y;                // px
+  T stretch;                         // at least the largest singular value of cam_from_world
   T limit_x, limit_y;                // clamp of v_x/v_z and v_y/v_z in the Jacobian
   T centre_x, centre_y;              // px: (size - 1) / 2, since pixel (0,0) has its centre at 0
   int width, height;                 // px
 };
 
+// Largest singular value of R, from above: sqrt of the largest row sum of |R^T R|. 1 for a
+// rotation; cameras come from files, where it is one only within the reader's tolerance.
+inline double largest_stretch(const glm::dmat3& r) {
+  double squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    double row = 0;
+    for (int j = 0; j < 3; ++j) row += std::abs(glm::dot(r[i], r[j]));
+    squared = std::max(squared, row);
+  }
+  return std::sqrt(squared);
+}
+
+// Throws InputError when the frame has no pixels or more than kMaxFramePx a side.
 template <class T>
 View<T> make_view(const Camera& camera) {
+  const auto [low, high] = std::minmax(camera.width, camera.height);
+  if (low < 1 || high > kMaxFramePx) {
+    throw InputError("camera " + std::to_string(camera.id) + ": size " +
+                     std::to_string(camera.width) + "x" + std::to_string(camera.height) +
+                     " px, expected 1 to " + std::to_string(kMaxFramePx) + " a side");
+  }
   View<T> view{};
   for (int k = 0; k < 3; ++k) {
     view.position[k] = constant<T>(camera.position[k]);
+    view.position_low[k] = constant<T>(camera.position[k] - static_cast<double>(view.position[k]));
     for (int row = 0; row < 3; ++row) {
       view.cam_from_world[row][k] = constant<T>(camera.world_from_camera[row][k]);
     }
   }
   view.focal_x = constant<T>(camera.focal_x);
   view.focal_y = constant<T>(camera.focal_y);
+  view.stretch = constant<T>(largest_stretch(camera.world_from_camera));
   view.limit_x = constant<T>(kFrustumGuard * camera.width / (2 * camera.focal_x));
   view.limit_y = constant<T>(kFrustumGuard * camera.height / (2 * camera.focal_y));
   view.centre_x = constant<T>(0.5 * (camera.width - 1));
@@ -39,14 +67,23 @@ View<T> make_view(const Camera& camera) {
   return view;
 }
 
+// p - c, world frame. The first difference is exact where p and c are close to each other compared
+// with the origin, so that a scene at coordinates of 10^6 is seen as sharply as one at 0.
+template <class T>
+glm::vec<3, T> from_eye(const View<T>& view, const glm::vec<3, T>& p) {
+  return {T(T(p.x - view.position.x) - view.position_low.x),
+          T(T(p.y - view.position.y) - view.position_low.y),
+          T(T(p.z - view.position.z) - view.position_low.z)};
+}
+
 // v = R^T (p - c), camera frame.
 template <class T>
 glm::vec<3, T> to_camera(const View<T>& view, const glm::vec<3, T>& p) {
-  const T x = T(p.x - view.position.x), y = T(p.y - view.position.y), z = T(p.z - view.position.z);
+  const auto d = from_eye(view, p);
   glm::vec<3, T> v;
   for (int row = 0; row < 3; ++row) {
     const auto& axis = view.cam_from_world[row];
-    v[row] = T(axis.x * x + axis.y * y + axis.z * z);
+    v[row] = T(axis.x * d.x + axis.y * d.y + axis.z * d.z);
   }
   return v;
 }

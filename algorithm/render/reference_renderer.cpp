@@ -1,0 +1,71 @@
+// The frame in batches of splats, front to back: project a batch, bin it to tiles, blend. Batches
+// bound the memory of splats and bins, keep them in the cache and end the frame early when every
+// tile is finished.
+#include "algorithm/render/reference_renderer.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "algorithm/render/splat_bins.h"
+#include "algorithm/render/splat_sequence.h"
+#include "algorithm/render/tile_state.h"
+
+namespace sgs {
+namespace {
+
+constexpr std::size_t kBatchSplats = 32768;
+constexpr std::size_t kMostPairs = std::size_t{1} << 23;  // (splat, tile): 32 MB of bin entries
+
+// How many of splats[begin ..) can be binned at once, at least one.
+std::size_t run_length(const CellGrid& grid, const std::vector<Splat>& splats, std::size_t begin) {
+  std::size_t pairs = 0, end = begin;
+  while (end < splats.size() && (end == begin || pairs < kMostPairs)) {
+    pairs += cells_of(grid, splats[end++].footprint).size();
+  }
+  return end - begin;
+}
+
+void blend_run(const CellGrid& grid, const Splat* splats, std::size_t count,
+               std::vector<TileState>& tiles) {
+  const SplatBins bins = bin_splats(grid, splats, count);
+  tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t tile) {
+    tiles[tile].blend(splats, bins.entries.data() + bins.first[tile],
+                      bins.entries.data() + bins.first[tile + 1]);
+  });
+}
+
+}  // namespace
+
+RenderResult render_reference(const View<float>& view, const ActivatedCloud& cloud,
+                              const glm::vec3& background) {
+  const CellGrid grid = cell_grid(view.width, view.height, kTilePx);
+  std::vector<TileState> tiles;
+  tiles.reserve(grid.size());
+  for (int y = 0; y < grid.rows; ++y) {
+    for (int x = 0; x < grid.columns; ++x) tiles.emplace_back(x, y, view.width, view.height);
+  }
+
+  const auto unfinished = [](const TileState& tile) { return !tile.finished(); };
+  SplatSequence sequence(view, cloud);
+  std::vector<Splat> batch;
+  while (!sequence.at_end() && std::any_of(tiles.begin(), tiles.end(), unfinished)) {
+    sequence.next(kBatchSplats, batch);
+    for (std::size_t begin = 0; begin != batch.size();) {
+      const std::size_t count = run_length(grid, batch, begin);
+      blend_run(grid, batch.data() + begin, count, tiles);
+      begin += count;
+    }
+  }
+
+  RenderResult result;
+  result.image = Image(view.width, view.height);
+  result.transmittance.resize(result.image.pixels.size());
+  result.contributors.resize(result.image.pixels.size());
+  for (const TileState& tile : tiles) tile.store(background, result);
+  return result;
+}
+
+}  // namespace sgs

@@ -1,0 +1,74 @@
+// Binning by counting: blocks of splats count their cells, a prefix sum gives each block its place
+// in each cell's list, the blocks write.
+#include "algorithm/render/splat_bins.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace sgs {
+namespace {
+
+template <class Body>
+void for_cells(const CellGrid& grid, const SubtileRect& footprint, const Body& body) {
+  const CellRect cells = cells_of(grid, footprint);
+  for (int y = cells.y0; y < cells.y1; ++y) {
+    for (int x = cells.x0; x < cells.x1; ++x) {
+      body(static_cast<std::size_t>(y) * grid.columns + x);
+    }
+  }
+}
+
+}  // namespace
+
+CellGrid cell_grid(int width_px, int height_px, int cell_px) {
+  return {(width_px + cell_px - 1) / cell_px, (height_px + cell_px - 1) / cell_px,
+          cell_px / kSubtilePx};
+}
+
+CellRect cells_of(const CellGrid& grid, const SubtileRect& footprint) {
+  const int side = grid.cell_subtiles;
+  return {footprint.x0 / side, footprint.y0 / side, (footprint.x1 + side - 1) / side,
+          (footprint.y1 + side - 1) / side};
+}
+
+SplatBins bin_splats(const CellGrid& grid, const Splat* splats, std::size_t count) {
+  // A table of one count a cell for each block: few blocks, so that a large frame costs no more
+  // than a few megabytes.
+  constexpr std::size_t kBlocks = 8;
+  const std::size_t block_size = (count + kBlocks - 1) / kBlocks;
+  const auto for_block = [&](std::size_t block, const auto& body) {
+    const std::size_t begin = std::min(count, block * block_size);
+    const std::size_t end = std::min(count, begin + block_size);
+    for (std::size_t i = begin; i != end; ++i) {
+      for_cells(grid, splats[i].footprint, [&](std::size_t cell) { body(i, cell); });
+    }
+  };
+
+  std::vector<std::vector<std::size_t>> place(kBlocks);
+  tbb::parallel_for(std::size_t{0}, kBlocks, [&](std::size_t block) {
+    place[block].assign(grid.size(), 0);
+    for_block(block, [&](std::size_t, std::size_t cell) { ++place[block][cell]; });
+  });
+  SplatBins bins;
+  bins.first.resize(grid.size() + 1);
+  std::size_t sum = 0;
+  for (std::size_t cell = 0; cell != grid.size(); ++cell) {
+    bins.first[cell] = sum;
+    for (auto& block : place) {
+      const std::size_t in_block = block[cell];
+      block[cell] = sum;
+      sum += in_block;
+    }
+  }
+  bins.first[grid.size()] = sum;
+  bins.entries.resize(sum);
+  tbb::parallel_for(std::size_t{0}, kBlocks, [&](std::size_t block) {
+    for_block(block, [&](std::size_t i, std::size_t cell) {
+      bins.entries[place[block][cell]++] = static_cast<std::uint32_t>(i);
+    });
+  });
+  return bins;
+}
+
+}  // namespace sgs

@@ -1,0 +1,38 @@
+// Which splats fall on which cell of a grid over the frame.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "algorithm/splat/constants.h"
+#include "algorithm/splat/splat.h"
+
+namespace sgs {
+
+// A grid of square cells over the frame, row by row from the top left.
+struct CellGrid {
+  int columns = 0, rows = 0;
+  int cell_subtiles = 0;  // side of a cell in sub-tiles of 4 px
+  std::size_t size() const { return static_cast<std::size_t>(columns) * rows; }
+};
+
+// cell_px: a multiple of 4.
+CellGrid cell_grid(int width_px, int height_px, int cell_px);
+
+// Cells [x0, x1) x [y0, y1) that a non-empty footprint overlaps.
+struct CellRect {
+  int x0, y0, x1, y1;
+  std::size_t size() const { return static_cast<std::size_t>(x1 - x0) * (y1 - y0); }
+};
+CellRect cells_of(const CellGrid& grid, const SubtileRect& footprint);
+
+struct SplatBins {
+  std::vector<std::size_t> first;      // [cells + 1] where each cell's list begins
+  std::vector<std::uint32_t> entries;  // positions in the splats given, ascending in each cell
+};
+
+// Bins splats[0 .. count) by their footprints. 4 bytes a (splat, cell) pair.
+SplatBins bin_splats(const CellGrid& grid, const Splat* splats, std::size_t count);
+
+}  // namespace sgs

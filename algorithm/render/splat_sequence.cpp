@@ -1,0 +1,85 @@
+// Keys by a frustum test of every Gaussian; full projection only for the keys, in depth order.
+#include "algorithm/render/splat_sequence.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "algorithm/input_error.h"
+#include "algorithm/scene/gaussian_cloud.h"
+#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/make_splat.h"
+
+namespace sgs {
+namespace {
+
+// Keys of the Gaussians [begin, end) that may be visible.
+std::vector<DepthKey> keys_of_block(const View<float>& view, const ActivatedCloud& cloud,
+                                    std::size_t begin, std::size_t end) {
+  const PixelRect frame{0, 0, view.width, view.height};
+  std::vector<DepthKey> keys;
+  keys.reserve(end - begin);
+  for (std::size_t i = begin; i != end; ++i) {
+    const Gaussian<float>& g = cloud.gaussians[i];
+    const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
+    const CoarseBound bound = coarse_bound(view, g.mean, scale_max);
+    if (!bound.in_front || !touches(bound, frame)) continue;
+    keys.push_back({__builtin_bit_cast(std::uint32_t, bound.depth), static_cast<std::uint32_t>(i)});
+  }
+  return keys;
+}
+
+}  // namespace
+
+SplatSequence::SplatSequence(const View<float>& view, const ActivatedCloud& cloud)
+    : view_(view), cloud_(cloud) {
+  constexpr std::size_t kBlock = 8192;
+  const std::size_t count = cloud.size();
+  if (count > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError("scene: " + std::to_string(count) + " Gaussians, expected fewer than 2^32");
+  }
+  std::vector<std::vector<DepthKey>> blocks((count + kBlock - 1) / kBlock);
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t block) {
+    blocks[block] =
+        keys_of_block(view_, cloud_, block * kBlock, std::min(count, (block + 1) * kBlock));
+  });
+  for (const auto& block : blocks) keys_.insert(keys_.end(), block.begin(), block.end());
+  sort_front_to_back(keys_);
+}
+
+void SplatSequence::next(std::size_t most, std::vector<Splat>& batch) {
+  // Depth order jumps through the cloud: without fetching ahead, half of the time is waiting.
+  // Written out here because gcc takes a function of nothing but prefetches for one without effect.
+  constexpr std::size_t kAhead = 12;  // Gaussians: memory latency over the time of one
+  constexpr int kCoeffsPerLine = 5;   // 60 of 64 B: no line is stepped over
+  const int sh_count = sh_coeff_count(cloud_.sh_degree);
+  batch.resize(std::min(most, keys_.size() - next_));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batch.size(), 512), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      const std::uint32_t index = keys_[next_ + i].index;
+      const std::uint32_t ahead = keys_[std::min(next_ + i + kAhead, keys_.size() - 1)].index;
+      __builtin_prefetch(&cloud_.gaussians[ahead]);
+      __builtin_prefetch(&cloud_.gaussians[ahead].opacity);
+      for (int k = 0; k < sh_count; k += kCoeffsPerLine) __builtin_prefetch(cloud_.sh(ahead) + k);
+
+      const Gaussian<float>& g = cloud_.gaussians[index];
+      Splat& splat = batch[i];
+      if (!make_geometry(view_, g, splat)) {
+        splat.footprint = {};
+        continue;
+      }
+      splat.index = index;
+      add_colour(view_, cloud_.sh_degree, g.mean, cloud_.sh(index), splat);
+    }
+  });
+  next_ += batch.size();
+  batch.erase(std::remove_if(batch.begin(), batch.end(),
+                             [](const Splat& splat) { return splat.footprint.empty(); }),
+              batch.end());
+}
+
+}  // namespace sgs

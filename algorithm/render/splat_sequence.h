@@ -1,0 +1,36 @@
+// All splats of a frame, front to back, in batches: the projection pass of a renderer that sees the
+// whole scene.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "algorithm/render/depth_order.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/splat.h"
+#include "algorithm/splat/view.h"
+
+namespace sgs {
+
+// Only the keys of the whole frame are held (16 B a Gaussian near the frustum); splats are made as
+// they are asked for. The same bits whatever the number of threads.
+class SplatSequence {
+ public:
+  // Finds and sorts the Gaussians that may be visible. `cloud` must outlive the sequence. Throws
+  // InputError when the cloud has 2^32 Gaussians or more.
+  SplatSequence(const View<float>& view, const ActivatedCloud& cloud);
+
+  bool at_end() const { return next_ == keys_.size(); }
+
+  // Makes `batch` the splats, coloured, of the next `most` keys or of as many as there are. The
+  // keys of Gaussians that turn out to be invisible give none: a batch may be empty before the end.
+  void next(std::size_t most, std::vector<Splat>& batch);
+
+ private:
+  const View<float> view_;
+  const ActivatedCloud& cloud_;
+  std::vector<DepthKey> keys_;  // by (depth, index)
+  std::size_t next_ = 0;
+};
+
+}  // namespace sgs
