@@ -106,13 +106,12 @@ std::vector<std::byte> Accelerator::read_frame() const {
 }
 
 std::vector<Activity*> Accelerator::activities() {
-  std::vector<Activity*> all{&vsu_->traverse_activity(), &vsu_->emit_activity()};
-  for (auto& hfu : hfus_) {
-    for (Activity* activity : hfu->activities()) all.push_back(activity);
-  }
+  std::vector<Activity*> all;
+  const auto add = [&](const auto& of_unit) { all.insert(all.end(), of_unit.begin(), of_unit.end()); };
+  add(vsu_->activities());
+  for (auto& hfu : hfus_) add(hfu->activities());
   for (auto& unit : sorting_) all.push_back(&unit->activity());
-  all.push_back(&rendering_->blend_activity());
-  all.push_back(&rendering_->drain_activity());
+  add(rendering_->activities());
   return all;
 }
 

@@ -52,6 +52,7 @@ void visit(ConfigVisitor& v, SortingConfig& c) {
   v("sort_interval_cycles", c.sort_interval_cycles, in_range(1, 64), "between blocks of 16");
   v("sort_latency_cycles", c.sort_latency_cycles, in_range(1, 1000), "of the bitonic network");
   v("merge_interval_cycles", c.merge_interval_cycles, in_range(1, 64), "between merges of 8 + 8");
+  v("skip_trivial", c.skip_trivial, "a list of one splat is not sent through the network");
   v("spill_block_entries", c.spill_block_entries, in_range(1, 1024), "read and written at once");
 }
 
@@ -61,6 +62,7 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "groups whose pixels are on chip");
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");
+  v("saturation_feedback", c.saturation_feedback, "a finished group's visits are dropped upstream");
   v("input_fifo_entries", c.input_fifo_entries, in_range(1, 4096),
     "sorted splats waiting from each sorting unit");
 }
@@ -106,6 +108,7 @@ void visit(ConfigVisitor& v, AcceleratorConfig& c) {
   v("framebuffer", c.framebuffer,
     names<FrameFormat>({{"rgb8", FrameFormat::kRgb8}, {"rgb32f", FrameFormat::kRgb32f}}),
     "pixels in DRAM");
+  v("store_invisible", c.store_invisible, "also store Gaussians with opacity below 1/255");
   v("hfus", c.hfus, in_range(1, 64), "hierarchical filtering units");
   v("sorting_units", c.sorting_units, in_range(1, 16), "sorting units");
   v.section("sram", c.sram, "on-chip memory");

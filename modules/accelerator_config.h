@@ -36,6 +36,7 @@ struct AcceleratorConfig {
   std::uint32_t group_px = 64;
   double voxel_size = 0;  // world units; 0: from the scene's extent
   FrameFormat framebuffer = FrameFormat::kRgb8;
+  bool store_invisible = false;  // also Gaussians that no view can show
   std::uint32_t hfus = 4;
   std::uint32_t sorting_units = 2;
   SramConfig sram;

@@ -21,12 +21,12 @@ MemoryLayout lay_out(const ActivatedCloud& cloud, const VoxelGrid& grid, std::ui
   layout.voxel_frame = grid.frame;
   layout.node_count = static_cast<std::uint32_t>(grid.nodes.size());
   layout.voxel_count = static_cast<std::uint32_t>(grid.voxels.size());
-  layout.gaussian_count = static_cast<std::uint32_t>(cloud.size());
+  layout.gaussian_count = static_cast<std::uint32_t>(grid.storage_order.size());
   layout.sh_degree = cloud.sh_degree;
   const std::uint64_t sizes[kRegionCount] = {
       grid.nodes.size() * sizeof(VoxelNode) + grid.voxels.size() * sizeof(VoxelRecord),
-      cloud.size() * kFirstHalfBytes,
-      cloud.size() * raw_second_half_bytes(cloud.sh_degree),
+      grid.storage_order.size() * kFirstHalfBytes,
+      grid.storage_order.size() * raw_second_half_bytes(cloud.sh_degree),
       spill_bytes,
       frame_bytes,
   };
@@ -46,7 +46,7 @@ MemoryImage build_memory_image(const ActivatedCloud& cloud, const VoxelGrid& gri
   image.layout = lay_out(cloud, grid, spill_bytes, frame_bytes);
   const MemoryLayout& layout = image.layout;
   image.bytes.resize(layout[Region::kSecondHalves].end());
-  if (cloud.size() == 0) return image;
+  if (layout.gaussian_count == 0) return image;
   std::memcpy(image.bytes.data() + layout.node_address(0), grid.nodes.data(),
               grid.nodes.size() * sizeof(VoxelNode));
   std::memcpy(image.bytes.data() + layout.voxel_address(0), grid.voxels.data(),

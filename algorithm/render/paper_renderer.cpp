@@ -5,7 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <vector>
 
 #include "algorithm/render/group_state.h"
@@ -26,14 +26,18 @@ class MisorderedCount {
  public:
   explicit MisorderedCount(std::size_t subtiles) : seen_(subtiles) {}
 
-  void after_blend(std::size_t at, const SubtileState& state, float depth) {
+  // Whether the splat at `depth` was blended into any pixel of the sub-tile.
+  bool after_blend(std::size_t at, const SubtileState& state, float depth) {
     Seen& seen = seen_[at];
+    bool any = false;
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
       const bool blended = state.contributors[lane] != seen.contributors[lane];
+      any |= blended;
       count_ += blended && depth < seen.deepest[lane] ? 1 : 0;
       seen.deepest[lane] = blended ? std::max(depth, seen.deepest[lane]) : seen.deepest[lane];
       seen.contributors[lane] = state.contributors[lane];
     }
+    return any;
   }
   std::uint64_t count() const { return count_; }
 
@@ -44,6 +48,20 @@ class MisorderedCount {
   };
   std::vector<Seen> seen_;
   std::uint64_t count_ = 0;
+};
+
+// One flag for each of many things, set from any thread.
+class Flags {
+ public:
+  explicit Flags(std::size_t count) : flags_(count) {}
+  void set(std::size_t index) { flags_[index].store(1, std::memory_order_relaxed); }
+  std::uint64_t count() const {
+    return static_cast<std::uint64_t>(std::count_if(
+        flags_.begin(), flags_.end(), [](const auto& flag) { return flag.load() != 0; }));
+  }
+
+ private:
+  std::vector<std::atomic<std::uint8_t>> flags_;
 };
 
 // Splats of one visit, front to back.
@@ -114,6 +132,7 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
   const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group_px);
   const MissedSplats missed(view, cloud, grid, config.group_px);
   std::vector<StreamingStats> stats(groups.size());
+  Flags contributing(grid.storage_order.size()), visited(grid.voxels.size());
   tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size());
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t index) {
     const PixelRect& group = groups[index];
@@ -135,11 +154,12 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
         continue;
       }
       ++s.visits;
+      visited.set(voxel);
       filter_and_sort(view, cloud, grid, grid.voxels[voxel], group, run, s);
       for (const Splat& splat : run) {
         if (state.saturated()) break;
         s.subtile_blends += state.blend(splat, [&](std::size_t at, const SubtileState& subtile) {
-          misordered.after_blend(at, subtile, splat.depth);
+          if (misordered.after_blend(at, subtile, splat.depth)) contributing.set(splat.index);
         });
       }
     }
@@ -148,6 +168,8 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
     state.store(config.background, out.frame);
   });
   for (const StreamingStats& s : stats) out.stats += s;
+  out.stats.contributing = contributing.count();
+  out.stats.voxels_visited = visited.count();
   return out;
 }
 

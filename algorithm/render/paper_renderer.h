@@ -29,6 +29,8 @@ struct StreamingStats {
   std::uint64_t subtile_blends = 0;    // (splat, 4x4 sub-tile) pairs
   std::uint64_t contributors = 0;      // (splat, pixel) blends
   std::uint64_t misordered = 0;        // blends behind a splat that is farther, at the same pixel
+  std::uint64_t contributing = 0;      // Gaussians blended into at least one pixel of the frame
+  std::uint64_t voxels_visited = 0;    // by at least one group
   std::uint64_t missed = 0;            // (group, splat) pairs that touch, in a voxel never visited
   std::uint64_t ray_steps = 0;
   std::uint64_t edges_offered = 0;

@@ -9,9 +9,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "algorithm/render/group_state.h"
 #include "algorithm/render/splat_bins.h"
 #include "algorithm/render/splat_sequence.h"
-#include "algorithm/render/tile_state.h"
 
 namespace sgs {
 namespace {
@@ -29,11 +29,13 @@ std::size_t run_length(const CellGrid& grid, const std::vector<Splat>& splats, s
 }
 
 void blend_run(const CellGrid& grid, const Splat* splats, std::size_t count,
-               std::vector<TileState>& tiles) {
+               std::vector<GroupState>& tiles) {
   const SplatBins bins = bin_splats(grid, splats, count);
   tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t tile) {
-    tiles[tile].blend(splats, bins.entries.data() + bins.first[tile],
-                      bins.entries.data() + bins.first[tile + 1]);
+    for (std::size_t i = bins.first[tile]; i != bins.first[tile + 1]; ++i) {
+      if (tiles[tile].saturated()) return;
+      tiles[tile].blend(splats[bins.entries[i]]);
+    }
   });
 }
 
@@ -42,13 +44,13 @@ void blend_run(const CellGrid& grid, const Splat* splats, std::size_t count,
 RenderResult render_reference(const View<float>& view, const ActivatedCloud& cloud,
                               const glm::vec3& background) {
   const CellGrid grid = cell_grid(view.width, view.height, kTilePx);
-  std::vector<TileState> tiles;
+  std::vector<GroupState> tiles;
   tiles.reserve(grid.size());
-  for (int y = 0; y < grid.rows; ++y) {
-    for (int x = 0; x < grid.columns; ++x) tiles.emplace_back(x, y, view.width, view.height);
+  for (const PixelRect& pixels : pixel_groups(view.width, view.height, kTilePx)) {
+    tiles.emplace_back(pixels, view.width, view.height);
   }
 
-  const auto unfinished = [](const TileState& tile) { return !tile.finished(); };
+  const auto unfinished = [](const GroupState& tile) { return !tile.saturated(); };
   SplatSequence sequence(view, cloud);
   std::vector<Splat> batch;
   while (!sequence.at_end() && std::any_of(tiles.begin(), tiles.end(), unfinished)) {
@@ -64,7 +66,7 @@ RenderResult render_reference(const View<float>& view, const ActivatedCloud& clo
   result.image = Image(view.width, view.height);
   result.transmittance.resize(result.image.pixels.size());
   result.contributors.resize(result.image.pixels.size());
-  for (const TileState& tile : tiles) tile.store(background, result);
+  for (const GroupState& tile : tiles) tile.store(background, result);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "algorithm/input_error.h"
+#include "algorithm/splat/footprint.h"
 
 namespace sgs {
 namespace {
@@ -34,9 +35,11 @@ std::uint64_t morton(const glm::ivec3& cell) {
 }
 
 // Corner and levels of the smallest root that holds all centres.
-VoxelFrame fit_frame(const ActivatedCloud& cloud, float voxel_size) {
-  glm::vec3 low = cloud.gaussians.front().mean, high = low;
-  for (const auto& g : cloud.gaussians) {
+VoxelFrame fit_frame(const ActivatedCloud& cloud, const std::vector<std::uint32_t>& kept,
+                     float voxel_size) {
+  glm::vec3 low = cloud.gaussians[kept.front()].mean, high = low;
+  for (const std::uint32_t index : kept) {
+    const Gaussian<float>& g = cloud.gaussians[index];
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], g.mean[axis]);
       high[axis] = std::max(high[axis], g.mean[axis]);
@@ -91,21 +94,26 @@ int cell_of(float coordinate, float voxel_size) {
   return static_cast<int>(std::clamp(cell, -1073741824.0, 1073741824.0));
 }
 
-VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size) {
+VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size, Stored stored) {
   VoxelGrid grid;
   grid.frame.voxel_size = voxel_size;
-  if (cloud.size() == 0) return grid;
-  grid.frame = fit_frame(cloud, voxel_size);
+  std::vector<std::uint32_t> kept;
+  kept.reserve(cloud.size());
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    if (stored == Stored::kAll || visible_cutoff(cloud.gaussians[i].opacity) >= 0) kept.push_back(i);
+  }
+  if (kept.empty()) return grid;
+  grid.frame = fit_frame(cloud, kept, voxel_size);
 
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(cloud.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cloud.size(), 8192), [&](const auto& range) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(kept.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, kept.size(), 8192), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       glm::ivec3 cell;
       for (int axis = 0; axis < 3; ++axis) {
         cell[axis] =
-            cell_of(cloud.gaussians[i].mean[axis], voxel_size) - grid.frame.origin_cell[axis];
+            cell_of(cloud.gaussians[kept[i]].mean[axis], voxel_size) - grid.frame.origin_cell[axis];
       }
-      keyed[i] = {morton(cell), static_cast<std::uint32_t>(i)};
+      keyed[i] = {morton(cell), kept[i]};
     }
   });
   tbb::parallel_sort(keyed.begin(), keyed.end());

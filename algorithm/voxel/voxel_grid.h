@@ -49,12 +49,16 @@ inline unsigned child_bit(unsigned x, unsigned y, unsigned z) {
   return kSpread[x] | kSpread[y] << 1U | kSpread[z] << 2U;
 }
 
+// Which Gaussians are stored: all, or only those that some view could show (opacity >= 1/255).
+enum class Stored { kAll, kVisible };
+
 // Cell of a coordinate along one axis.
 int cell_of(float coordinate, float voxel_size);
 
 // Throws InputError when the occupied cells span more than 2^20 along an axis (the message names
 // the smallest voxel size that fits).
-VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size);
+VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size,
+                           Stored stored = Stored::kVisible);
 
 // The paper's voxel sizes: 0.4 for small synthetic scenes, 2 for real ones. The choice is made on
 // the 0.1 % to 99.9 % extent of the centres: below 10 units along every axis the scene counts as

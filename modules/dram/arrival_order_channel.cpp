@@ -32,8 +32,8 @@ std::uint64_t ArrivalOrderChannel::serve(const ChannelRequest& request, std::uin
   const bool reads = request.direction == Direction::kRead;
   std::uint64_t at = cycle;
   for (std::uint32_t i = 0; i < request.bursts; ++i) {
-    const std::uint64_t earliest = reads ? device_.earliest_read(request.rank, request.bank)
-                                         : device_.earliest_write(request.rank, request.bank);
+    const std::uint64_t earliest = device_.earliest(
+        reads ? RequestCommand::kRead : RequestCommand::kWrite, request.rank, request.bank);
     at = issue(reads ? Command::kRead : Command::kWrite, request, request.burst + i,
                std::max(cycle, earliest));
     rows_.count(outcome);
@@ -79,9 +79,11 @@ void ArrivalOrderChannel::open(const ChannelRequest& r, std::uint64_t cycle) {
   outcome = RowOutcome::kMiss;
   if (open_row != kNoRow) {
     outcome = RowOutcome::kConflict;
-    issue(Command::kPrecharge, r, 0, std::max(cycle, device_.earliest_precharge(r.rank, r.bank)));
+    issue(Command::kPrecharge, r, 0,
+          std::max(cycle, device_.earliest(RequestCommand::kPrecharge, r.rank, r.bank)));
   }
-  issue(Command::kActivate, r, 0, std::max(cycle, device_.earliest_activate(r.rank, r.bank)));
+  issue(Command::kActivate, r, 0,
+        std::max(cycle, device_.earliest(RequestCommand::kActivate, r.rank, r.bank)));
 }
 
 std::uint64_t ArrivalOrderChannel::issue(Command command, const ChannelRequest& request,

@@ -20,7 +20,7 @@ class ByteStore {
 
   std::uint64_t allocated_bytes() const { return allocated_pages_ * kPageBytes; }
 
-  static constexpr std::size_t kPageBytes = 64 * 1024;
+  static constexpr std::size_t kPageBytes = 4096;
 
  private:
   void check(std::uint64_t address, std::size_t bytes) const;

@@ -3,6 +3,13 @@
 
 namespace sgs {
 
+namespace {
+constexpr auto kAct = static_cast<std::size_t>(RequestCommand::kActivate);
+constexpr auto kRd = static_cast<std::size_t>(RequestCommand::kRead);
+constexpr auto kWr = static_cast<std::size_t>(RequestCommand::kWrite);
+constexpr auto kPre = static_cast<std::size_t>(RequestCommand::kPrecharge);
+}  // namespace
+
 DerivedTiming::DerivedTiming(const Memspec& memspec, WriteLatencySet set, ReadStrobe strobe) {
   const Memspec::Timing& t = memspec.timing_cycles;
   burst = memspec.burst_cycles();
@@ -31,17 +38,17 @@ DeviceTiming::DeviceTiming(const Memspec& memspec, const DerivedTiming& derived,
       ranks_(ranks) {}
 
 std::uint64_t DeviceTiming::earliest_precharge_all(std::uint32_t rank) const {
-  std::uint64_t earliest = ranks_[rank].any;
+  std::uint64_t earliest = ranks_[rank].earliest[kPre];
   for (std::uint32_t b = 0; b < banks_; ++b)
     if (bank_of(rank, b).open_row != kNoRow)
-      earliest = std::max(earliest, bank_of(rank, b).precharge);
+      earliest = std::max(earliest, bank_of(rank, b).earliest[kPre]);
   return earliest;
 }
 
 std::uint64_t DeviceTiming::earliest_refresh_all(std::uint32_t rank) const {
-  std::uint64_t earliest = std::max(ranks_[rank].any, ranks_[rank].refresh);
+  std::uint64_t earliest = ranks_[rank].refresh;
   for (std::uint32_t b = 0; b < banks_; ++b)
-    earliest = std::max(earliest, bank_of(rank, b).activate);
+    earliest = std::max(earliest, bank_of(rank, b).earliest[kAct]);
   return earliest;
 }
 
@@ -79,9 +86,9 @@ void DeviceTiming::issue(const CommandRecord& r) {
 }
 
 void DeviceTiming::count_activation(Rank& r, std::uint64_t cycle) {
-  raise(r.activate, cycle + t_.rrd);
   r.faw[r.faw_next] = cycle + t_.faw;
   r.faw_next = (r.faw_next + 1) & 3;
+  raise(r.earliest[kAct], std::max(cycle + t_.rrd, r.faw[r.faw_next]));
   raise(r.power_down, cycle + 1);
 }
 
@@ -89,49 +96,49 @@ void DeviceTiming::activate(std::uint32_t rank, std::uint32_t bank, std::uint32_
                             std::uint64_t cycle) {
   Bank& b = bank_of(rank, bank);
   b.open_row = row;
-  b.column = cycle + t_.rcd;
-  raise(b.precharge, cycle + t_.ras);
-  raise(b.activate, cycle + t_.rc);
+  b.earliest[kRd] = b.earliest[kWr] = cycle + t_.rcd;
+  raise(b.earliest[kPre], cycle + t_.ras);
+  raise(b.earliest[kAct], cycle + t_.rc);
   ++ranks_[rank].open_banks;
   count_activation(ranks_[rank], cycle);
 }
 
 void DeviceTiming::read(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
-  raise(bank_of(rank, bank).precharge, cycle + t_.rtp);
+  raise(bank_of(rank, bank).earliest[kPre], cycle + t_.rtp);
   for (Rank& other : ranks_) {
-    raise(other.read, cycle + d_.read_to_read_other_rank);
-    raise(other.write, cycle + d_.read_to_write_other_rank);
+    raise(other.earliest[kRd], cycle + d_.read_to_read_other_rank);
+    raise(other.earliest[kWr], cycle + d_.read_to_write_other_rank);
   }
   Rank& r = ranks_[rank];
-  r.read = cycle + t_.ccd;
-  r.write = cycle + d_.read_to_write;
+  r.earliest[kRd] = cycle + t_.ccd;
+  r.earliest[kWr] = cycle + d_.read_to_write;
   raise(r.power_down, cycle + d_.read_to_power_down);
 }
 
 void DeviceTiming::write(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
-  raise(bank_of(rank, bank).precharge, cycle + d_.write_to_precharge);
+  raise(bank_of(rank, bank).earliest[kPre], cycle + d_.write_to_precharge);
   for (Rank& other : ranks_) {
-    raise(other.read, cycle + d_.write_to_read_other_rank);
-    raise(other.write, cycle + d_.read_to_read_other_rank);
+    raise(other.earliest[kRd], cycle + d_.write_to_read_other_rank);
+    raise(other.earliest[kWr], cycle + d_.read_to_read_other_rank);
   }
   Rank& r = ranks_[rank];
-  r.read = cycle + d_.write_to_read;
-  r.write = cycle + t_.ccd;
+  r.earliest[kRd] = cycle + d_.write_to_read;
+  r.earliest[kWr] = cycle + t_.ccd;
   raise(r.power_down, cycle + d_.write_to_precharge);
 }
 
 void DeviceTiming::close_after_column(std::uint32_t rank, std::uint32_t bank) {
   Bank& b = bank_of(rank, bank);
   b.open_row = kNoRow;
-  raise(b.activate, b.precharge + t_.rp_bank);
-  raise(ranks_[rank].power_down, b.precharge + 1);
+  raise(b.earliest[kAct], b.earliest[kPre] + t_.rp_bank);
+  raise(ranks_[rank].power_down, b.earliest[kPre] + 1);
   --ranks_[rank].open_banks;
 }
 
 void DeviceTiming::precharge(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
   Bank& b = bank_of(rank, bank);
   b.open_row = kNoRow;
-  raise(b.activate, cycle + t_.rp_bank);
+  raise(b.earliest[kAct], cycle + t_.rp_bank);
   raise(ranks_[rank].power_down, cycle + 1);
   --ranks_[rank].open_banks;
 }
@@ -140,7 +147,7 @@ void DeviceTiming::precharge_all(std::uint32_t rank, std::uint64_t cycle) {
   for (std::uint32_t i = 0; i < banks_; ++i) {
     Bank& b = bank_of(rank, i);
     b.open_row = kNoRow;
-    raise(b.activate, cycle + t_.rp_all);
+    raise(b.earliest[kAct], cycle + t_.rp_all);
   }
   raise(ranks_[rank].power_down, cycle + 1);
   ranks_[rank].open_banks = 0;
@@ -148,13 +155,13 @@ void DeviceTiming::precharge_all(std::uint32_t rank, std::uint64_t cycle) {
 
 void DeviceTiming::refresh_all(std::uint32_t rank, std::uint64_t cycle) {
   Rank& r = ranks_[rank];
-  raise(r.activate, cycle + t_.rfc_all);
+  raise(r.earliest[kAct], cycle + t_.rfc_all);
   raise(r.refresh, cycle + t_.rfc_all);
   raise(r.power_down, cycle + t_.rfc_all);
 }
 
 void DeviceTiming::refresh_bank(std::uint32_t rank, std::uint32_t bank, std::uint64_t cycle) {
-  raise(bank_of(rank, bank).activate, cycle + t_.rfc_bank);
+  raise(bank_of(rank, bank).earliest[kAct], cycle + t_.rfc_bank);
   Rank& r = ranks_[rank];
   raise(r.refresh, cycle + t_.rfc_bank);
   count_activation(r, cycle);  // JESD209-3 counts a per-bank refresh towards tRRD and tFAW
@@ -166,10 +173,7 @@ void DeviceTiming::enter_power_down(std::uint32_t rank, std::uint64_t cycle) {
 }
 
 void DeviceTiming::wake(Rank& r, std::uint64_t ready) {
-  raise(r.any, ready);
-  raise(r.activate, ready);
-  raise(r.read, ready);
-  raise(r.write, ready);
+  for (std::uint64_t& earliest : r.earliest) raise(earliest, ready);
   raise(r.refresh, ready);
 }
 

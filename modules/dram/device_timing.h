@@ -30,6 +30,8 @@ struct DerivedTiming {
   std::uint32_t read_to_power_down;        // RL + tDQSCKmax + BL/2 + 1
 };
 
+enum class RequestCommand : std::uint8_t { kActivate, kRead, kWrite, kPrecharge };
+
 class DeviceTiming {
  public:
   DeviceTiming(const Memspec& memspec, const DerivedTiming& derived, std::uint32_t ranks);
@@ -42,29 +44,19 @@ class DeviceTiming {
   }
   std::uint32_t open_banks(std::uint32_t rank) const { return ranks_[rank].open_banks; }
 
-  std::uint64_t earliest_activate(std::uint32_t rank, std::uint32_t bank) const {
-    const Rank& r = ranks_[rank];
-    return std::max({bank_of(rank, bank).activate, r.activate, r.faw[r.faw_next]});
-  }
-  std::uint64_t earliest_read(std::uint32_t rank, std::uint32_t bank) const {
-    return std::max(bank_of(rank, bank).column, ranks_[rank].read);
-  }
-  std::uint64_t earliest_write(std::uint32_t rank, std::uint32_t bank) const {
-    return std::max(bank_of(rank, bank).column, ranks_[rank].write);
-  }
-  std::uint64_t earliest_precharge(std::uint32_t rank, std::uint32_t bank) const {
-    return std::max(bank_of(rank, bank).precharge, ranks_[rank].any);
+  // Of the four commands that requests need; `rank` and `bank` as everywhere.
+  std::uint64_t earliest(RequestCommand command, std::uint32_t rank, std::uint32_t bank) const {
+    const auto c = static_cast<std::size_t>(command);
+    return std::max(bank_of(rank, bank).earliest[c], ranks_[rank].earliest[c]);
   }
   std::uint64_t earliest_precharge_all(std::uint32_t rank) const;
   // All banks must be closed.
   std::uint64_t earliest_refresh_all(std::uint32_t rank) const;
   // The bank must be closed.
   std::uint64_t earliest_refresh_bank(std::uint32_t rank, std::uint32_t bank) const {
-    return std::max(earliest_activate(rank, bank), ranks_[rank].refresh);
+    return std::max(earliest(RequestCommand::kActivate, rank, bank), ranks_[rank].refresh);
   }
-  std::uint64_t earliest_power_down(std::uint32_t rank) const {
-    return std::max(ranks_[rank].power_down, ranks_[rank].any);
-  }
+  std::uint64_t earliest_power_down(std::uint32_t rank) const { return ranks_[rank].power_down; }
   // All banks must be closed.
   std::uint64_t earliest_self_refresh(std::uint32_t rank) const {
     return std::max(earliest_refresh_all(rank), earliest_power_down(rank));
@@ -91,25 +83,21 @@ class DeviceTiming {
   void exit_self_refresh(std::uint32_t rank, std::uint64_t cycle);
 
  private:
-  // Earliest cycles. A bank holds what depends on its own history, a rank the rest, other ranks'
-  // use of the shared data bus included.
+  // Earliest cycles. A bank holds what depends on its own history, a rank the rest: tRRD and tFAW,
+  // the turn-arounds, other ranks' use of the shared data bus, waking up.
+  using Earliest = std::array<std::uint64_t, 4>;  // by RequestCommand
   struct Bank {
     std::uint32_t open_row = kNoRow;
-    std::uint64_t activate = 0;
-    std::uint64_t column = 0;
-    std::uint64_t precharge = 0;
+    Earliest earliest{};
   };
   struct Rank {
     std::uint32_t open_banks = 0;
-    std::uint64_t any = 0;  // after leaving a low-power state
-    std::uint64_t activate = 0;
-    std::uint64_t read = 0;
-    std::uint64_t write = 0;
+    Earliest earliest{};
     std::uint64_t refresh = 0;
     std::uint64_t power_down = 0;
     std::uint64_t exit = 0;
-    std::array<std::uint64_t, 4> faw{};  // when the fourth-last activate leaves the window
-    std::uint32_t faw_next = 0;
+    std::array<std::uint64_t, 4> faw{};  // when each of the last four activates leaves the window
+    std::uint32_t faw_next = 0;          // the oldest of them
   };
 
   Bank& bank_of(std::uint32_t rank, std::uint32_t bank) { return bank_[rank * banks_ + bank]; }

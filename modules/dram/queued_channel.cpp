@@ -22,6 +22,7 @@ QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, s
       waiting_(config.ranks),
       wanted_from_(config.ranks, kNever),
       outcome_(std::size_t{config.ranks} * memspec.organisation.banks, RowOutcome::kMiss) {
+  for (std::vector<Work>& works : works_) works.resize(outcome_.size());
   for (std::uint32_t rank = 0; rank < config.ranks; ++rank)
     maintenance_.emplace_back(config, memspec, rank);
 }
@@ -41,7 +42,8 @@ void QueuedChannel::push(const ChannelRequest& request, std::uint64_t cycle) {
   entry.order = next_order_++;
   queue(request.direction).push(entry, bank, device_.open_row(request.rank, request.bank));
   if (waiting_[request.rank]++ == 0) wanted_from_[request.rank] = ready;
-  best_known_ = false;
+  renew_work(bank);
+  revise_best(request, bank);
 }
 
 void QueuedChannel::advance(std::uint64_t cycle) {
@@ -77,74 +79,86 @@ bool QueuedChannel::aged(const RequestQueue& queue) const {
   return false;
 }
 
-void QueuedChannel::choose_direction() {
-  if (direction_ == Direction::kRead) {
-    if (writes_.size() >= high_watermark_ || (reads_.empty() && !writes_.empty()) ||
-        (!writes_.empty() && aged(writes_) && !aged(reads_)))
-      direction_ = Direction::kWrite;
-  } else {
-    if (writes_.empty() || (writes_.size() <= low_watermark_ && !reads_.empty() && !aged(writes_)))
-      direction_ = Direction::kRead;
-  }
-}
-
-std::uint64_t QueuedChannel::oldest_order(const RequestQueue& queue) const {
-  std::uint64_t oldest = kNever;
-  for (std::uint64_t left = queue.banks_in_use(); left != 0; left &= left - 1) {
-    const auto bank = static_cast<std::uint32_t>(__builtin_ctzll(left));
-    oldest = std::min(oldest, queue.entry(queue.oldest(bank)).order);
-  }
-  return oldest;
+Direction QueuedChannel::wanted_direction() const {
+  if (writes_.empty()) return Direction::kRead;
+  if (reads_.empty()) return Direction::kWrite;
+  if (direction_ == Direction::kWrite)
+    return writes_.size() > low_watermark_ || aged(writes_) ? Direction::kWrite : Direction::kRead;
+  return writes_.size() >= high_watermark_ || (aged(writes_) && !aged(reads_)) ? Direction::kWrite
+                                                                               : Direction::kRead;
 }
 
 const QueuedChannel::Choice& QueuedChannel::best() {
   if (best_known_) return best_;
-  choose_direction();
+  direction_ = wanted_direction();
   const RequestQueue& active = queue(direction_);
-  const std::uint64_t oldest = oldest_order(active);
   best_ = Choice{};
   for (std::uint64_t left = active.banks_in_use(); left != 0; left &= left - 1)
-    consider(static_cast<std::uint32_t>(__builtin_ctzll(left)), oldest, best_);
+    consider(static_cast<std::uint32_t>(__builtin_ctzll(left)), best_);
   consider_maintenance(best_);
   best_known_ = true;
   return best_;
 }
 
-void QueuedChannel::consider(std::uint32_t flat_bank, std::uint64_t oldest, Choice& best) const {
-  const RequestQueue& active = queue(direction_);
-  const std::int32_t index = scheduling_->choose(active, flat_bank, oldest, clock_);
-  if (index == RequestQueue::kNone) return;
-  const RequestQueue::Entry& entry = active.entry(index);
-  const std::uint32_t rank = entry.request.rank;
-  const std::uint32_t bank = entry.request.bank;
-  if (!maintenance_[rank].powered_up()) return;
+void QueuedChannel::revise_best(const ChannelRequest& added, std::uint32_t bank) {
+  if (!best_known_) return;
+  // A first request wakes its rank, and one for the chosen bank may change that choice.
+  const bool same_bank = best_.entry != RequestQueue::kNone && best_.candidate.rank == added.rank &&
+                         best_.candidate.bank == added.bank;
+  if (waiting_[added.rank] == 1 || same_bank || wanted_direction() != direction_)
+    best_known_ = false;
+  else if (added.direction == direction_)
+    consider(bank, best_);
+}
 
-  Choice choice;
-  const std::uint32_t open_row = device_.open_row(rank, bank);
-  std::uint64_t earliest;
-  if (open_row == entry.request.row) {
-    choice.column = true;
-    const bool read = direction_ == Direction::kRead;
-    choice.candidate.command = read ? Command::kRead : Command::kWrite;
-    earliest = read ? device_.earliest_read(rank, bank) : device_.earliest_write(rank, bank);
-  } else if (open_row == kNoRow) {
-    choice.candidate.command = Command::kActivate;
-    earliest = device_.earliest_activate(rank, bank);
-  } else {
-    choice.candidate.command = Command::kPrecharge;
-    earliest = device_.earliest_precharge(rank, bank);
-  }
-  const std::uint64_t cycle = std::max({earliest, entry.ready, clock_});
-  if (cycle > best.candidate.cycle || cycle >= maintenance_[rank].request_limit(bank)) return;
-  if (cycle == best.candidate.cycle &&
-      (choice.column != best.column ? best.column : best.order < entry.order))
+QueuedChannel::Work QueuedChannel::work_of(const RequestQueue& queue, std::uint32_t bank) const {
+  Work work;
+  if ((queue.banks_in_use() >> bank & 1) == 0) return work;
+  work.settled = scheduling_->settled(queue, bank);
+  work.entry = scheduling_->choose(queue, bank, clock_);
+  if (work.entry == RequestQueue::kNone) return work;
+  const RequestQueue::Entry& entry = queue.entry(work.entry);
+  const ChannelRequest& request = entry.request;
+  const std::uint32_t open_row = device_.open_row(request.rank, request.bank);
+  if (open_row == request.row)
+    work.command =
+        request.direction == Direction::kRead ? RequestCommand::kRead : RequestCommand::kWrite;
+  else
+    work.command = open_row == kNoRow ? RequestCommand::kActivate : RequestCommand::kPrecharge;
+  work.rank = request.rank;
+  work.bank = request.bank;
+  work.ready = entry.ready;
+  work.order = entry.order;
+  return work;
+}
+
+void QueuedChannel::renew_work(std::uint32_t bank) {
+  works(Direction::kRead)[bank] = work_of(reads_, bank);
+  works(Direction::kWrite)[bank] = work_of(writes_, bank);
+}
+
+void QueuedChannel::consider(std::uint32_t flat_bank, Choice& best) {
+  Work& work = works(direction_)[flat_bank];
+  if (!work.settled) work = work_of(queue(direction_), flat_bank);
+  if (work.entry == RequestQueue::kNone) return;
+  const RankMaintenance& maintenance = maintenance_[work.rank];
+  const std::uint64_t cycle =
+      std::max({device_.earliest(work.command, work.rank, work.bank), work.ready, clock_});
+  if (cycle > best.candidate.cycle || !maintenance.powered_up() ||
+      cycle >= maintenance.request_limit(work.bank))
     return;
-  choice.candidate.cycle = cycle;
-  choice.candidate.rank = rank;
-  choice.candidate.bank = bank;
-  choice.entry = index;
-  choice.order = entry.order;
-  best = choice;
+  const bool column =
+      work.command == RequestCommand::kRead || work.command == RequestCommand::kWrite;
+  if (cycle == best.candidate.cycle &&
+      (column != best.column ? best.column : best.order < work.order))
+    return;
+  constexpr std::array<Command, 4> kCommandOf = {Command::kActivate, Command::kRead,
+                                                 Command::kWrite, Command::kPrecharge};
+  best.candidate = {cycle, kCommandOf[static_cast<std::size_t>(work.command)], work.rank,
+                    work.bank};
+  best.entry = work.entry;
+  best.order = work.order;
+  best.column = column;
 }
 
 void QueuedChannel::consider_maintenance(Choice& best) const {
@@ -215,6 +229,7 @@ void QueuedChannel::issue_column(const Choice& choice) {
     outcome_[flat_bank] = RowOutcome::kMiss;
   } else {
     send(c, c.command, &request);
+    renew_work(flat_bank);
   }
   complete(request,
            c.cycle + (read ? device_.derived().read_data_end : device_.derived().write_data_end));
@@ -248,6 +263,7 @@ void QueuedChannel::complete(const ChannelRequest& request, std::uint64_t cycle)
 void QueuedChannel::tell_queues(std::uint32_t bank, std::uint32_t open_row) {
   reads_.on_row(bank, open_row);
   writes_.on_row(bank, open_row);
+  renew_work(bank);
 }
 
 }  // namespace sgs

@@ -7,6 +7,7 @@
 // commands, older requests before younger.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -54,6 +55,17 @@ class QueuedChannel {
   std::uint64_t forwarded_reads() const { return forwarded_reads_; }
 
  private:
+  // What a bank works on for one direction; kept until the bank's requests or row change.
+  struct Work {
+    std::int32_t entry = RequestQueue::kNone;
+    RequestCommand command = RequestCommand::kActivate;
+    bool settled = false;
+    std::uint32_t rank = 0;
+    std::uint32_t bank = 0;  // within the rank
+    std::uint64_t ready = 0;
+    std::uint64_t order = 0;
+  };
+
   struct Choice {  // a command, and the request that it is for
     Candidate candidate;
     std::int32_t entry = RequestQueue::kNone;  // none: maintenance
@@ -63,11 +75,14 @@ class QueuedChannel {
 
   RequestQueue& queue(Direction d) { return d == Direction::kRead ? reads_ : writes_; }
   const RequestQueue& queue(Direction d) const { return d == Direction::kRead ? reads_ : writes_; }
-  void choose_direction();
+  Direction wanted_direction() const;
+  void revise_best(const ChannelRequest& added, std::uint32_t bank);
   bool aged(const RequestQueue& queue) const;
-  std::uint64_t oldest_order(const RequestQueue& queue) const;
   const Choice& best();
-  void consider(std::uint32_t bank, std::uint64_t oldest, Choice& best) const;
+  Work work_of(const RequestQueue& queue, std::uint32_t bank) const;
+  std::vector<Work>& works(Direction d) { return works_[static_cast<std::size_t>(d)]; }
+  void renew_work(std::uint32_t bank);
+  void consider(std::uint32_t bank, Choice& best);
   void consider_maintenance(Choice& best) const;
   void issue(const Choice& choice);
   void send(const Candidate& candidate, Command command, const ChannelRequest* request);
@@ -94,6 +109,7 @@ class QueuedChannel {
   std::vector<std::uint32_t> waiting_;      // requests by rank
   std::vector<std::uint64_t> wanted_from_;  // by rank: since when requests have been waiting
   std::vector<RowOutcome> outcome_;         // by bank: of the next column
+  std::array<std::vector<Work>, 2> works_;  // by direction and bank
   bool best_known_ = false;
   Choice best_;
   RingQueue<Completion> read_completions_;

@@ -63,8 +63,8 @@ Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted
 Candidate RankMaintenance::refresh(const DeviceTiming& device, std::uint64_t from) const {
   if (mode_ == RefreshMode::kPerBank) {
     if (device.open_row(rank_, refresh_bank_) != kNoRow)
-      return {std::max(from, device.earliest_precharge(rank_, refresh_bank_)), Command::kPrecharge,
-              rank_, refresh_bank_};
+      return {std::max(from, device.earliest(RequestCommand::kPrecharge, rank_, refresh_bank_)),
+              Command::kPrecharge, rank_, refresh_bank_};
     return {std::max(from, device.earliest_refresh_bank(rank_, refresh_bank_)),
             Command::kRefreshBank, rank_, refresh_bank_};
   }

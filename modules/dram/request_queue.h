@@ -1,6 +1,7 @@
 // The requests of one direction that wait in a channel: a list for each bank, oldest first.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -39,6 +40,9 @@ class RequestQueue {
   std::int32_t oldest(std::uint32_t bank) const { return banks_[bank].head; }
   // The oldest request for the bank's open row, kNone without.
   std::int32_t oldest_hit(std::uint32_t bank) const { return banks_[bank].hit; }
+
+  // Arrival order of the oldest request of all; the queue is not empty.
+  std::uint64_t oldest_order() const;
 
   // Adds a request of `bank` (counted over ranks), whose open row is given. Not when full.
   void push(const Entry& entry, std::uint32_t bank, std::uint32_t open_row);
@@ -102,6 +106,15 @@ inline void RequestQueue::remove(std::int32_t index, std::uint32_t bank) {
 inline void RequestQueue::on_row(std::uint32_t bank, std::uint32_t open_row) {
   Bank& b = banks_[bank];
   b.hit = open_row == kNoRow ? kNone : first_of_row(b.head, open_row);
+}
+
+inline std::uint64_t RequestQueue::oldest_order() const {
+  std::uint64_t oldest = ~std::uint64_t{0};
+  for (std::uint64_t left = in_use_; left != 0; left &= left - 1) {
+    const Bank& bank = banks_[static_cast<std::size_t>(__builtin_ctzll(left))];
+    oldest = std::min(oldest, entry(bank.head).order);
+  }
+  return oldest;
 }
 
 inline bool RequestQueue::covers(const ChannelRequest& wanted, std::uint32_t bank) const {

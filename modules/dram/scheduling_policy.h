@@ -13,10 +13,13 @@ class SchedulingPolicy {
  public:
   virtual ~SchedulingPolicy() = default;
 
-  // The request that `bank` should work on at `cycle`, or RequestQueue::kNone to let it rest.
-  // `oldest_order`: arrival order of the oldest request of the whole queue.
+  // The request that `bank` (which has some) should work on at `cycle`, or RequestQueue::kNone to
+  // let it rest.
   virtual std::int32_t choose(const RequestQueue& queue, std::uint32_t bank,
-                              std::uint64_t oldest_order, std::uint64_t cycle) const = 0;
+                              std::uint64_t cycle) const = 0;
+
+  // Whether the bank's choice stays the same until its requests or its open row change.
+  virtual bool settled(const RequestQueue& queue, std::uint32_t bank) const = 0;
 };
 
 std::unique_ptr<SchedulingPolicy> make_scheduling_policy(const DramConfig& config);

@@ -42,6 +42,8 @@ class Hfu : public sc_core::sc_module {
   std::array<Activity*, 4> activities() {
     return {&load_activity_, &coarse_activity_, &fetch_activity_, &fine_activity_};
   }
+  const Activity& coarse_activity() const { return coarse_activity_; }
+  const Activity& fine_activity() const { return fine_activity_; }
   void trace(sc_core::sc_trace_file* file) const;
 
  private:

@@ -58,7 +58,7 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
   blend_activity_.work(std::max(1U, (subtiles + config_.clusters - 1) / config_.clusters));
   counters_.subtile_blends += subtiles;
   counters_.splats += subtiles > 0 ? 1 : 0;
-  if (state.saturated()) board_.set(group);
+  if (state.saturated() && config_.saturation_feedback) board_.set(group);
 }
 
 void RenderingUnit::drain() {

@@ -3,6 +3,7 @@
 // cycle; a group drains at drain_pixels_per_cycle. Function: algorithm/render/group_state.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -39,8 +40,9 @@ class RenderingUnit : public sc_core::sc_module {
                 std::function<void()> on_done);
 
   const RenderingCounters& counters() const { return counters_; }
-  Activity& blend_activity() { return blend_activity_; }
-  Activity& drain_activity() { return drain_activity_; }
+  const Activity& blend_activity() const { return blend_activity_; }
+  const Activity& drain_activity() const { return drain_activity_; }
+  std::array<Activity*, 2> activities() { return {&blend_activity_, &drain_activity_}; }
   void trace(sc_core::sc_trace_file* file) const;
 
  private:

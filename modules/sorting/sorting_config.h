@@ -11,6 +11,7 @@ struct SortingConfig {
   std::uint32_t sort_interval_cycles = 1;  // between two 16-entry blocks into the bitonic network
   std::uint32_t sort_latency_cycles = 4;   // through its 10 compare-exchange stages
   std::uint32_t merge_interval_cycles = 2;  // between two merges of 8 + 8 entries (4 stages)
+  bool skip_trivial = true;                 // a list of one splat is not sent through the network
   std::uint32_t spill_block_entries = 4;    // read and written at once: 192 B
 };
 

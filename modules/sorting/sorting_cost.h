@@ -25,9 +25,9 @@ struct SortingCost {
   std::uint64_t compare_exchanges = 0;
 };
 
-// Sorting n entries on chip. A list of 0 or 1 is in order already: nothing is done.
+// Sorting n entries on chip. A list of 0 or 1 is in order already: nothing need be done.
 constexpr SortingCost sort_cost(const SortingConfig& config, std::uint64_t n) {
-  if (n < 2) return {};
+  if (n == 0 || (n == 1 && config.skip_trivial)) return {};
   const std::uint64_t blocks = (n + kNetworkWidth - 1) / kNetworkWidth;
   const std::uint64_t merges = merge_levels(blocks) * ((n + kMergeWidth - 1) / kMergeWidth);
   return {config.sort_latency_cycles + blocks * config.sort_interval_cycles +

@@ -5,6 +5,7 @@
 // algorithm/order/group_visits.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <systemc>
@@ -39,8 +40,8 @@ class Vsu : public sc_core::sc_module {
       std::vector<TimedFifo<VisitShare>*> shares);
 
   const VsuCounters& counters() const { return counters_; }
-  Activity& traverse_activity() { return traverse_activity_; }
-  Activity& emit_activity() { return emit_activity_; }
+  const Activity& traverse_activity() const { return traverse_activity_; }
+  std::array<Activity*, 2> activities() { return {&traverse_activity_, &emit_activity_}; }
   void trace(sc_core::sc_trace_file* file) const;
 
  private:

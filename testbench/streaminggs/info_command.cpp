@@ -1,0 +1,55 @@
+// streaminggs info SCENE
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "algorithm/scene/describe.h"
+#include "algorithm/splat/activate.h"
+#include "algorithm/voxel/voxel_grid.h"
+#include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/scene_arguments.h"
+
+namespace sgs {
+namespace {
+
+void print_extent(const char* name, const Extent& extent) {
+  fmt::print("{:<26}{:.6g} {:.6g} {:.6g} .. {:.6g} {:.6g} {:.6g} (world units)\n", name, extent.min.x,
+             extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
+}
+
+}  // namespace
+
+SubCommand add_info_command(CLI::App& app) {
+  auto arguments = std::make_shared<SceneArguments>();
+  arguments->add_scene_to(app);
+  return [arguments] {
+    const Scene scene = arguments->load();
+    const SceneSummary s = summarise(scene.cloud);
+    const auto line = [](const char* name, auto value, const char* unit) {
+      fmt::print("{:<26}{} {}\n", name, value, unit);
+    };
+    line("gaussians", s.count, "");
+    line("dropped invalid", scene.dropped_invalid, "Gaussians");
+    line("sh degree", s.sh_degree, "");
+    print_extent("extent, all", s.extent);
+    print_extent("extent, 0.1 .. 99.9 %", s.inner_extent);
+    line("never visible", s.invisible_count, "Gaussians (opacity < 1/255)");
+    line("median opacity", s.median_opacity, "");
+    line("median largest scale", s.median_scale, "world units");
+    line("largest scale", s.max_scale, "world units");
+    line("largest scale ratio", s.max_scale_ratio, "");
+    line("first halves", s.first_half_bytes, "B");
+    line("second halves, raw", s.second_half_bytes, "B");
+    line("cameras", scene.cameras.size(), "");
+    const ActivatedCloud cloud = activate(scene.cloud);
+    const float voxel_size = paper_voxel_size(cloud);
+    const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
+    line("voxel size, paper order", voxel_size, "world units");
+    line("occupied voxels", grid.voxels.size(), "");
+    line("tree nodes", grid.nodes.size(), "");
+    return 0;
+  };
+}
+
+}  // namespace sgs

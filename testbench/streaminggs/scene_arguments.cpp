@@ -1,0 +1,77 @@
+// Scene, camera and size arguments.
+#include "testbench/streaminggs/scene_arguments.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+#include "algorithm/input_error.h"
+#include "algorithm/scene/cameras.h"
+
+namespace sgs {
+namespace {
+
+constexpr int kMaxSizePx = 65536;  // sub-tile bounds are 16-bit numbers
+
+bool read_int(const std::string& text, int& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::pair<int, int> parse_size(const std::string& size) {
+  const std::size_t cross = size.find('x');
+  int width = 0, height = 0;
+  if (cross == std::string::npos || !read_int(size.substr(0, cross), width) ||
+      !read_int(size.substr(cross + 1), height) || width < 1 || height < 1 || width > kMaxSizePx ||
+      height > kMaxSizePx) {
+    throw InputError(fmt::format("--size: '{}', expected WIDTHxHEIGHT, each 1 to {}", size, kMaxSizePx));
+  }
+  return {width, height};
+}
+
+}  // namespace
+
+void SceneArguments::add_scene_to(CLI::App& app) {
+  app.add_option("SCENE", scene, "a .ply file or builtin:NAME?n=COUNT")->required();
+  app.add_flag("--drop-invalid", drop_invalid,
+               "leave out Gaussians with values that are not finite, and count them");
+}
+
+void SceneArguments::add_views_to(CLI::App& app) {
+  app.add_option("--cameras", cameras_path, "cameras.json; built-in scenes bring their own");
+  app.add_option("--view", view, "number of a camera, or all")->capture_default_str();
+  app.add_option("--size", size, "WIDTHxHEIGHT in px; scales the intrinsics");
+}
+
+Scene SceneArguments::load() const { return load_scene(scene, {drop_invalid}); }
+
+std::vector<std::pair<int, Camera>> SceneArguments::cameras(const Scene& loaded) const {
+  const std::vector<Camera> all =
+      cameras_path.empty() ? loaded.cameras : read_cameras(cameras_path);
+  if (all.empty()) {
+    throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
+  }
+  std::vector<std::pair<int, Camera>> chosen;
+  int number = 0;
+  if (view == "all") {
+    for (const Camera& camera : all) chosen.emplace_back(number++, camera);
+  } else if (read_int(view, number) && number >= 0 && number < static_cast<int>(all.size())) {
+    chosen.emplace_back(number, all[static_cast<std::size_t>(number)]);
+  } else {
+    throw InputError(fmt::format("--view: '{}', expected 0 to {} or all", view, all.size() - 1));
+  }
+  for (auto& [index, camera] : chosen) {
+    if (!size.empty()) {
+      const auto [width, height] = parse_size(size);
+      camera = scaled_to(camera, width, height);
+    }
+    if (camera.width > kMaxSizePx || camera.height > kMaxSizePx) {
+      throw InputError(fmt::format("view {}: {}x{} px, at most {} a side", index, camera.width,
+                                   camera.height, kMaxSizePx));
+    }
+  }
+  return chosen;
+}
+
+}  // namespace sgs
