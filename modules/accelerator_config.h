@@ -33,7 +33,7 @@ struct MemoryPortConfig {
 struct AcceleratorConfig {
   Ordering ordering = Ordering::kPaper;
   double clock_mhz = 1000;
-  std::uint32_t group_px = 64;
+  std::uint32_t group_px = 32;
   double voxel_size = 0;  // world units; 0: from the scene's extent
   FrameFormat framebuffer = FrameFormat::kRgb8;
   bool store_invisible = false;  // also Gaussians that no view can show

@@ -5,6 +5,10 @@
 
 namespace sgs {
 
+namespace {
+constexpr std::uint64_t kNoChoice = ~std::uint64_t{0};
+}  // namespace
+
 QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, std::uint8_t channel,
                              CommandSink& sink)
     : channel_(channel),
@@ -47,10 +51,10 @@ void QueuedChannel::push(const ChannelRequest& request, std::uint64_t cycle) {
 }
 
 void QueuedChannel::advance(std::uint64_t cycle) {
-  while (best().candidate.cycle < cycle) issue(best_);
+  while (best().cycle < cycle) issue_best();
 }
 
-std::uint64_t QueuedChannel::next_decision() { return empty() ? kNever : best().candidate.cycle; }
+std::uint64_t QueuedChannel::next_decision() { return empty() ? kNever : best().cycle; }
 
 std::uint64_t QueuedChannel::next_completion() {
   std::uint64_t next = kNever;
@@ -58,7 +62,7 @@ std::uint64_t QueuedChannel::next_completion() {
     if (!q->empty()) next = std::min(next, q->front().cycle);
   if (next != kNever || empty()) return next;
   const DerivedTiming& d = device_.derived();
-  return best().candidate.cycle + std::min(d.read_data_end, d.write_data_end);
+  return best().cycle + std::min(d.read_data_end, d.write_data_end);
 }
 
 bool QueuedChannel::take_completion(std::uint64_t cycle, Completion& completion) {
@@ -88,27 +92,42 @@ Direction QueuedChannel::wanted_direction() const {
                                                                                : Direction::kRead;
 }
 
-const QueuedChannel::Choice& QueuedChannel::best() {
+const Candidate& QueuedChannel::best() {
   if (best_known_) return best_;
   direction_ = wanted_direction();
-  const RequestQueue& active = queue(direction_);
-  best_ = Choice{};
-  for (std::uint64_t left = active.banks_in_use(); left != 0; left &= left - 1)
-    consider(static_cast<std::uint32_t>(__builtin_ctzll(left)), best_);
-  consider_maintenance(best_);
+  Choice choice;
+  for (std::uint64_t left = queue(direction_).banks_in_use(); left != 0; left &= left - 1)
+    consider(static_cast<std::uint32_t>(__builtin_ctzll(left)), choice);
+  adopt(choice);
+  consider_maintenance();
   best_known_ = true;
   return best_;
+}
+
+void QueuedChannel::adopt(const Choice& choice) {
+  constexpr std::array<Command, 4> kCommandOf = {Command::kActivate, Command::kRead,
+                                                 Command::kWrite, Command::kPrecharge};
+  best_choice_ = choice;
+  best_ = Candidate{};
+  best_entry_ = RequestQueue::kNone;
+  if (choice.cycle_and_kind == kNoChoice) return;
+  const Work& work = works(direction_)[choice.flat_bank];
+  best_ = {choice.cycle_and_kind >> 1, kCommandOf[static_cast<std::size_t>(work.command)],
+           work.rank, work.bank};
+  best_entry_ = work.entry;
 }
 
 void QueuedChannel::revise_best(const ChannelRequest& added, std::uint32_t bank) {
   if (!best_known_) return;
   // A first request wakes its rank, and one for the chosen bank may change that choice.
-  const bool same_bank = best_.entry != RequestQueue::kNone && best_.candidate.rank == added.rank &&
-                         best_.candidate.bank == added.bank;
-  if (waiting_[added.rank] == 1 || same_bank || wanted_direction() != direction_)
+  const bool disturbs = best_entry_ == RequestQueue::kNone || best_choice_.flat_bank == bank;
+  if (waiting_[added.rank] == 1 || disturbs || wanted_direction() != direction_) {
     best_known_ = false;
-  else if (added.direction == direction_)
-    consider(bank, best_);
+  } else if (added.direction == direction_) {
+    Choice choice = best_choice_;
+    consider(bank, choice);
+    if (choice.flat_bank == bank) adopt(choice);
+  }
 }
 
 QueuedChannel::Work QueuedChannel::work_of(const RequestQueue& queue, std::uint32_t bank) const {
@@ -140,74 +159,67 @@ void QueuedChannel::renew_work(std::uint32_t bank) {
 void QueuedChannel::consider(std::uint32_t flat_bank, Choice& best) {
   Work& work = works(direction_)[flat_bank];
   if (!work.settled) work = work_of(queue(direction_), flat_bank);
-  if (work.entry == RequestQueue::kNone) return;
   const RankMaintenance& maintenance = maintenance_[work.rank];
   const std::uint64_t cycle =
       std::max({device_.earliest(work.command, work.rank, work.bank), work.ready, clock_});
-  if (cycle > best.candidate.cycle || !maintenance.powered_up() ||
-      cycle >= maintenance.request_limit(work.bank))
-    return;
   const bool column =
       work.command == RequestCommand::kRead || work.command == RequestCommand::kWrite;
-  if (cycle == best.candidate.cycle &&
-      (column != best.column ? best.column : best.order < work.order))
-    return;
-  constexpr std::array<Command, 4> kCommandOf = {Command::kActivate, Command::kRead,
-                                                 Command::kWrite, Command::kPrecharge};
-  best.candidate = {cycle, kCommandOf[static_cast<std::size_t>(work.command)], work.rank,
-                    work.bank};
-  best.entry = work.entry;
-  best.order = work.order;
-  best.column = column;
+  const bool possible = work.entry != RequestQueue::kNone && maintenance.powered_up() &&
+                        cycle < maintenance.request_limit(work.bank);
+  // One comparison of packed numbers: which bank wins is too random for a branch each.
+  const std::uint64_t key = possible ? cycle << 1 | (column ? 0u : 1u) : kNoChoice;
+  const bool better =
+      (key < best.cycle_and_kind) | ((key == best.cycle_and_kind) & (work.order < best.order));
+  best.cycle_and_kind = better ? key : best.cycle_and_kind;
+  best.order = better ? work.order : best.order;
+  best.flat_bank = better ? flat_bank : best.flat_bank;
 }
 
-void QueuedChannel::consider_maintenance(Choice& best) const {
-  for (const RankMaintenance& rank : maintenance_) {
-    const std::size_t r = static_cast<std::size_t>(&rank - maintenance_.data());
-    if (!rank.may_act_by(best.candidate.cycle, waiting_[r] > 0)) continue;
+void QueuedChannel::consider_maintenance() {
+  for (std::size_t r = 0; r < maintenance_.size(); ++r) {
+    const RankMaintenance& rank = maintenance_[r];
+    if (!rank.may_act_by(best_.cycle, waiting_[r] > 0)) continue;
     Candidate wish = rank.next(device_, waiting_[r] > 0 ? wanted_from_[r] : kNever);
     if (wish.cycle == kNever) continue;
     wish.cycle = std::max(wish.cycle, clock_);
-    if (wish.cycle > best.candidate.cycle) continue;
-    best = Choice{};
-    best.candidate = wish;
+    if (wish.cycle > best_.cycle) continue;
+    best_ = wish;
+    best_entry_ = RequestQueue::kNone;
   }
 }
 
-void QueuedChannel::issue(const Choice& choice) {
+void QueuedChannel::issue_best() {
+  const Candidate c = best_;
   best_known_ = false;
-  const Candidate& c = choice.candidate;
   clock_ = c.cycle + 1;
+  if (best_entry_ == RequestQueue::kNone) return issue_maintenance(c);
+  if (is_read(c.command) || is_write(c.command)) return issue_column(c, best_entry_);
   const std::uint32_t flat_bank = c.rank * device_.banks() + c.bank;
-  if (choice.column) {
-    issue_column(choice);
-    return;
-  }
-  if (choice.entry == RequestQueue::kNone) {
-    send(c, c.command, nullptr);
-    if (c.command == Command::kPrecharge) tell_queues(flat_bank, kNoRow);
-    if (c.command == Command::kPrechargeAll)
-      for (std::uint32_t b = 0; b < device_.banks(); ++b)
-        tell_queues(c.rank * device_.banks() + b, kNoRow);
-    return;
-  }
-  const ChannelRequest request = queue(direction_).entry(choice.entry).request;
+  const ChannelRequest request = queue(direction_).entry(best_entry_).request;
+  RowOutcome& outcome = outcome_[flat_bank];
   send(c, c.command, &request);
   if (c.command == Command::kActivate) {
-    paging_->on_activate(flat_bank, request.row, outcome_[flat_bank] == RowOutcome::kConflict);
-    if (outcome_[flat_bank] == RowOutcome::kHit) outcome_[flat_bank] = RowOutcome::kMiss;
+    paging_->on_activate(flat_bank, request.row, outcome == RowOutcome::kConflict);
+    if (outcome == RowOutcome::kHit) outcome = RowOutcome::kMiss;  // a refresh had closed the row
     tell_queues(flat_bank, request.row);
   } else {
-    outcome_[flat_bank] = RowOutcome::kConflict;
+    outcome = RowOutcome::kConflict;
     tell_queues(flat_bank, kNoRow);
   }
 }
 
-void QueuedChannel::issue_column(const Choice& choice) {
-  const Candidate& c = choice.candidate;
+void QueuedChannel::issue_maintenance(const Candidate& c) {
+  send(c, c.command, nullptr);
+  if (c.command == Command::kPrecharge) tell_queues(c.rank * device_.banks() + c.bank, kNoRow);
+  if (c.command == Command::kPrechargeAll)
+    for (std::uint32_t b = 0; b < device_.banks(); ++b)
+      tell_queues(c.rank * device_.banks() + b, kNoRow);
+}
+
+void QueuedChannel::issue_column(const Candidate& c, std::int32_t index) {
   const std::uint32_t flat_bank = c.rank * device_.banks() + c.bank;
   RequestQueue& active = queue(direction_);
-  RequestQueue::Entry& entry = active.entry(choice.entry);
+  RequestQueue::Entry& entry = active.entry(index);
   if (!entry.begun && outcome_[flat_bank] == RowOutcome::kHit) paging_->on_hit(flat_bank);
   entry.begun = true;
   if (entry.request.bursts > 1) {
@@ -217,7 +229,7 @@ void QueuedChannel::issue_column(const Choice& choice) {
     return;
   }
   const ChannelRequest request = entry.request;
-  active.remove(choice.entry, flat_bank);
+  active.remove(index, flat_bank);
   if (--waiting_[c.rank] == 0) wanted_from_[c.rank] = kNever;
   const bool more_hits = reads_.oldest_hit(flat_bank) != RequestQueue::kNone ||
                          writes_.oldest_hit(flat_bank) != RequestQueue::kNone;

@@ -66,11 +66,12 @@ class QueuedChannel {
     std::uint64_t order = 0;
   };
 
-  struct Choice {  // a command, and the request that it is for
-    Candidate candidate;
-    std::int32_t entry = RequestQueue::kNone;  // none: maintenance
+  // A command and the request that it is for. Less is better: the earlier cycle, at equal cycles a
+  // column before a row command, then the older request.
+  struct Choice {
+    std::uint64_t cycle_and_kind = ~std::uint64_t{0};  // cycle * 2, plus 1 when no column
     std::uint64_t order = 0;
-    bool column = false;
+    std::uint32_t flat_bank = 0;
   };
 
   RequestQueue& queue(Direction d) { return d == Direction::kRead ? reads_ : writes_; }
@@ -78,15 +79,17 @@ class QueuedChannel {
   Direction wanted_direction() const;
   void revise_best(const ChannelRequest& added, std::uint32_t bank);
   bool aged(const RequestQueue& queue) const;
-  const Choice& best();
+  const Candidate& best();
+  void adopt(const Choice& choice);
   Work work_of(const RequestQueue& queue, std::uint32_t bank) const;
   std::vector<Work>& works(Direction d) { return works_[static_cast<std::size_t>(d)]; }
   void renew_work(std::uint32_t bank);
   void consider(std::uint32_t bank, Choice& best);
-  void consider_maintenance(Choice& best) const;
-  void issue(const Choice& choice);
+  void consider_maintenance();
+  void issue_best();
+  void issue_maintenance(const Candidate& candidate);
   void send(const Candidate& candidate, Command command, const ChannelRequest* request);
-  void issue_column(const Choice& choice);
+  void issue_column(const Candidate& candidate, std::int32_t entry);
   void complete(const ChannelRequest& request, std::uint64_t cycle);
   void tell_queues(std::uint32_t bank, std::uint32_t open_row);
 
@@ -111,7 +114,9 @@ class QueuedChannel {
   std::vector<RowOutcome> outcome_;         // by bank: of the next column
   std::array<std::vector<Work>, 2> works_;  // by direction and bank
   bool best_known_ = false;
-  Choice best_;
+  Candidate best_;
+  std::int32_t best_entry_ = RequestQueue::kNone;  // none: maintenance
+  Choice best_choice_;                             // of requests
   RingQueue<Completion> read_completions_;
   RingQueue<Completion> write_completions_;
   RingQueue<Completion> forwarded_;

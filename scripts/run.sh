@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and sends a built-in scene through the accelerator.
+# Any arguments are handed to `streaminggs simulate` in place of the built-in job.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+scripts/setup.sh
+if [ $# -gt 0 ]; then
+  exec build/release/bin/streaminggs simulate "$@"
+fi
+out=out/first_frame
+build/release/bin/streaminggs simulate 'builtin:object?n=60000' --view 0 --out "$out"
+# The waveform of a whole frame is large: a small one is enough to look at.
+build/release/bin/streaminggs simulate 'builtin:object?n=3000' --view 0 --size 64x36 \
+  --vcd "$out/small_frame.vcd" --out "$out/small_frame" >/dev/null
+cat <<TEXT
+
+Look at
+  $out/view_0/frame.png       the frame, read back from the modelled DRAM
+  $out/view_0/reference.png   the reference renderer's
+  $out/view_0/error.png       their difference (black below 1e-5 ... white from 1)
+  $out/view_0/report.json     every number, explained in README.md
+  $out/small_frame.vcd        a waveform: gtkwave $out/small_frame.vcd traces/accelerator.gtkw
+TEXT
