@@ -1,0 +1,72 @@
+// Drives a memory as hard as a window of outstanding requests allows.
+#include "testbench/dram/closed_loop_driver.h"
+
+#include <algorithm>
+
+namespace sgs {
+
+ClosedLoopDriver::ClosedLoopDriver(const sc_core::sc_module_name& name, const Config& config,
+                                   std::function<MemoryRequest()> next)
+    : sc_module(name),
+      socket("socket"),
+      config_(config),
+      next_(std::move(next)),
+      data_(config.request_bytes) {
+  socket.register_nb_transport_bw(this, &ClosedLoopDriver::nb_transport_bw);
+  SC_METHOD(offer);
+  sensitive << may_offer_;
+}
+
+void ClosedLoopDriver::offer() {
+  const std::uint32_t bursts =
+      std::max(1u, (config_.request_bytes + config_.burst_bytes - 1) / config_.burst_bytes);
+  std::uint32_t room = std::max(kBurstsPerCycle, bursts);
+  while (held_back_ == nullptr && sent_ < config_.requests && sent_ - answered_ < config_.window) {
+    if (room < bursts) {
+      may_offer_.notify(config_.clock_period);
+      return;
+    }
+    room -= bursts;
+    send(next_());
+  }
+}
+
+void ClosedLoopDriver::send(const MemoryRequest& request) {
+  PooledPayload& payload = pool_.acquire();
+  payload.set_command(request.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
+  payload.set_address(request.address);
+  payload.set_data_ptr(data_.data());
+  payload.set_data_length(config_.request_bytes);
+  payload.set_streaming_width(config_.request_bytes);
+  ++sent_;
+  held_back_ = &payload;
+  tlm::tlm_phase phase = tlm::BEGIN_REQ;
+  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+  const tlm::tlm_sync_enum status = socket->nb_transport_fw(payload, phase, delay);
+  if (status == tlm::TLM_COMPLETED)
+    on_answer(payload);
+  else if (status == tlm::TLM_UPDATED)
+    held_back_ = nullptr;
+}
+
+void ClosedLoopDriver::on_answer(tlm::tlm_generic_payload& payload) {
+  if (!payload.is_response_ok())
+    SC_REPORT_ERROR("/sgs/closed_loop_driver", payload.get_response_string().c_str());
+  if (held_back_ == &payload) held_back_ = nullptr;
+  ++answered_;
+  payload.release();
+}
+
+tlm::tlm_sync_enum ClosedLoopDriver::nb_transport_bw(tlm::tlm_generic_payload& payload,
+                                                     tlm::tlm_phase& phase, sc_core::sc_time&) {
+  may_offer_.notify(sc_core::SC_ZERO_TIME);
+  if (phase == tlm::END_REQ) {
+    held_back_ = nullptr;
+    return tlm::TLM_ACCEPTED;
+  }
+  on_answer(payload);
+  phase = tlm::END_RESP;
+  return tlm::TLM_COMPLETED;
+}
+
+}  // namespace sgs
