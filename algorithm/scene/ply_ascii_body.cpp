@@ -57,7 +57,10 @@ void split_words(std::string_view line, std::vector<std::string_view>& words) {
 
 // Whether all of `word` is a number; `value` is the nearest float, infinite when out of range.
 bool parse_float(std::string_view word, float& value) {
-  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  if (!word.empty() && word.front() == '+') {
+    word.remove_prefix(1);
+    if (!word.empty() && word.front() == '-') return false;
+  }
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (stop != end || error == std::errc::invalid_argument || word.empty()) return false;

@@ -53,7 +53,7 @@ Material roof_paint(const SurfacePoint& p) {
   const double row = 11.0 * p.uv.y - std::floor(11.0 * p.uv.y);
   const double tint = fractal_noise(p.position * 3.1, 3);
   return {glm::dvec3(0.52, 0.20, 0.12) * ((0.45 + 0.55 * row) * (0.6 + 0.8 * tint)),
-          glm::dvec3(0.03),
+          glm::dvec3(0.08),
           {}};
 }
 

@@ -61,7 +61,7 @@ ScenePart crown_part(const LeafTree& tree, double share) {
             const double tint = fractal_noise(surfel.position * 1.7, 2);
             surfel.material.albedo =
                 tree.leaf_colour * ((0.55 + 0.9 * tint) * (0.5 + 0.5 * surfel.sky_visibility));
-            surfel.material.reflectance = glm::dvec3(0.035);
+            surfel.material.reflectance = glm::dvec3(0.08);
             return surfel;
           }};
 }
@@ -90,7 +90,7 @@ ScenePart needle_part(const Conifer& tree, double share) {
             surfel.sky_visibility = 0.2 + 0.8 * exposed * (0.5 + 0.5 * t);
             const double tint = 0.6 + 0.8 * fractal_noise(surfel.position * 1.1, 2);
             surfel.material.albedo = glm::dvec3(0.08, 0.21, 0.10) * (tint * (0.35 + exposed));
-            surfel.material.reflectance = glm::dvec3(0.03);
+            surfel.material.reflectance = glm::dvec3(0.06);
             return surfel;
           }};
 }

@@ -66,7 +66,7 @@ Surfel reed(const PartSample& sample, Random& random) {
   }
   surfel.material.albedo =
       head ? glm::dvec3(0.30, 0.18, 0.09) : glm::dvec3(0.33, 0.45, 0.15) * random.uniform(0.6, 1.3);
-  surfel.material.reflectance = glm::dvec3(0.03);
+  surfel.material.reflectance = glm::dvec3(0.07);
   return surfel;
 }
 

@@ -52,7 +52,7 @@ Material ground_material(const SurfacePoint& point) {
 
   // Behind haze a surface is partly its own colour in the light and partly the air before it.
   const glm::dvec3 air = hazed(glm::dvec3(0), p);
-  return {hazed(colour, p) - air, glm::dvec3(0.015), air};
+  return {hazed(colour, p) - air, glm::dvec3(0.03), air};
 }
 
 // A blade of grass: a needle that leans, brighter towards the tip.
@@ -81,7 +81,7 @@ Surfel grass_blade(const PartSample& sample, Random& random) {
     surfel.material.albedo =
         random.uniform() < 0.5 ? glm::dvec3(0.95, 0.85, 0.2) : glm::dvec3(0.95, 0.93, 0.95);
   }
-  surfel.material.reflectance = glm::dvec3(0.03);
+  surfel.material.reflectance = glm::dvec3(0.07);
   return surfel;
 }
 
