@@ -8,7 +8,7 @@ namespace sgs {
 struct RenderingConfig {
   std::uint32_t clusters = 4;       // 4x4 sub-tiles blended a cycle: 64 pixels
   std::uint32_t depth_cycles = 3;   // alpha, transmittance, blend
-  std::uint32_t pixel_buffers = 1;  // groups whose pixels are on chip; 2: drain while blending
+  std::uint32_t pixel_buffers = 2;  // groups whose pixels are on chip; 2: drain while blending
   std::uint32_t drain_pixels_per_cycle = 8;  // conversion to the frame's format
   bool saturation_feedback = true;           // a finished group's visits are dropped upstream
   std::uint32_t input_fifo_entries = 8;      // sorted splats waiting, for each sorting unit

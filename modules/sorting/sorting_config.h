@@ -6,7 +6,7 @@
 namespace sgs {
 
 struct SortingConfig {
-  std::uint32_t buffer_entries = 64;       // splats on chip; longer lists spill sorted runs to DRAM
+  std::uint32_t buffer_entries = 256;      // splats on chip; longer lists spill sorted runs to DRAM
   std::uint32_t input_fifo_entries = 4;    // from each HFU
   std::uint32_t sort_interval_cycles = 1;  // between two 16-entry blocks into the bitonic network
   std::uint32_t sort_latency_cycles = 4;   // through its 10 compare-exchange stages

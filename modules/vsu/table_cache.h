@@ -1,7 +1,9 @@
-// A small direct-mapped cache in front of a table of records in the modelled DRAM.
+// A small 4-way cache (least recently used goes) in front of a table of records in the modelled
+// DRAM.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -12,6 +14,7 @@
 namespace sgs {
 
 constexpr std::uint32_t kCacheLineBytes = 64;  // two bursts
+constexpr std::uint32_t kCacheWays = 4;
 
 // Record: trivially copyable, its size a divisor of the line's.
 template <class Record>
@@ -26,22 +29,13 @@ class TableCache {
       : base_(base),
         end_(base + std::uint64_t{count} * sizeof(Record)),
         region_(region),
-        lines_(capacity_bytes < kCacheLineBytes ? 1 : capacity_bytes / kCacheLineBytes) {}
+        sets_(std::max(1U, capacity_bytes / (kCacheLineBytes * kCacheWays))) {}
 
   // The record's bytes; on a miss the calling thread waits for DRAM.
   Record get(std::uint32_t index, MemoryPort& port, Activity& activity) {
     const std::uint64_t address = base_ + std::uint64_t{index} * sizeof(Record);
     const std::uint64_t tag = address / kCacheLineBytes;
-    Line& line = lines_[tag % lines_.size()];
-    if (line.tag != tag) {
-      ++misses_;
-      const std::uint64_t start = std::max(tag * kCacheLineBytes, base_);
-      const std::uint64_t stop = std::min((tag + 1) * kCacheLineBytes, end_);
-      await(port, activity,
-            start_read(port, activity, start, line.bytes + (start - tag * kCacheLineBytes),
-                       static_cast<std::uint32_t>(stop - start), region_));
-      line.tag = tag;
-    }
+    const Line& line = find_or_fetch(tag, port, activity);
     Record record;
     std::memcpy(&record, line.bytes + address % kCacheLineBytes, sizeof record);
     return record;
@@ -54,9 +48,29 @@ class TableCache {
     std::uint64_t tag = ~std::uint64_t{0};
     std::byte bytes[kCacheLineBytes];
   };
+  using Set = std::array<Line, kCacheWays>;  // most recently used first
+
+  const Line& find_or_fetch(std::uint64_t tag, MemoryPort& port, Activity& activity) {
+    Set& set = sets_[tag % sets_.size()];
+    auto at = std::find_if(set.begin(), set.end(), [&](const Line& l) { return l.tag == tag; });
+    if (at == set.begin()) return *at;
+    if (at == set.end()) {
+      ++misses_;
+      --at;
+      const std::uint64_t start = std::max(tag * kCacheLineBytes, base_);
+      const std::uint64_t stop = std::min((tag + 1) * kCacheLineBytes, end_);
+      await(port, activity,
+            start_read(port, activity, start, at->bytes + (start - tag * kCacheLineBytes),
+                       static_cast<std::uint32_t>(stop - start), region_));
+      at->tag = tag;
+    }
+    std::rotate(set.begin(), at, at + 1);
+    return set.front();
+  }
+
   const std::uint64_t base_, end_;
   const std::uint8_t region_;
-  std::vector<Line> lines_;
+  std::vector<Set> sets_;
   std::uint64_t misses_ = 0;
 };
 
