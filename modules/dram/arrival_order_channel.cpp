@@ -51,16 +51,21 @@ void ArrivalOrderChannel::finish(std::uint64_t cycle) {
 
 void ArrivalOrderChannel::maintain(std::uint64_t cycle) {
   const std::uint64_t busy_until = std::max(cycle, last_column_);
-  for (RankMaintenance& rank : maintenance_)
-    while (true) {
-      const Candidate next = rank.next(device_, kNever);
-      const bool refresh = rank.refresh_due() <= busy_until;
-      if (next.cycle == kNever || (!refresh && next.cycle >= cycle)) break;
-      ChannelRequest none;
-      none.rank = next.rank;
-      none.bank = next.bank;
-      issue(next.command, none, 0, next.cycle);
+  while (true) {
+    // The ranks' wishes in the order of time: slots of the command bus are taken in that order.
+    Candidate first;
+    for (const RankMaintenance& rank : maintenance_) {
+      Candidate next = rank.next(device_, kNever);
+      if (next.cycle != kNever) next.cycle = std::max(next.cycle, maintained_until_);
+      const bool allowed = next.cycle < cycle || rank.refresh_due() <= busy_until;
+      if (allowed && next.cycle < first.cycle) first = next;
     }
+    if (first.cycle == kNever) return;
+    ChannelRequest none;
+    none.rank = first.rank;
+    none.bank = first.bank;
+    maintained_until_ = issue(first.command, none, 0, first.cycle) + 1;
+  }
 }
 
 void ArrivalOrderChannel::wake(std::uint32_t rank, std::uint64_t cycle) {

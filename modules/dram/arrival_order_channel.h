@@ -57,6 +57,7 @@ class ArrivalOrderChannel {
   // Commands of one request lie between those of earlier ones; the sink wants them in order.
   std::priority_queue<CommandRecord, std::vector<CommandRecord>, Later> pending_;
   std::uint64_t last_column_ = 0;
+  std::uint64_t maintained_until_ = 0;  // maintenance goes forward in time, requests may go back
   RowCounts rows_;
 };
 

@@ -1,0 +1,78 @@
+// Command traces as text: what a simulation did, for the checker and for people.
+//
+//   # streaminggs dram command trace, version 1
+//   # memspec lpddr3_1600_4gb
+//   # channels 4
+//   # ranks 1
+//   # write_latency_set a
+//   # refresh all_bank
+//   0 0 ACT 0 3 17
+//
+// A line is: cycle channel command rank bank argument. Commands are kCommandNames; the argument is
+// the row of an ACT, the burst within the row of a RD, RDA, WR or WRA, else 0. Lines of a channel
+// are in the order of their cycles; channels are mixed.
+#pragma once
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "modules/dram/command.h"
+#include "modules/dram/dram_config.h"
+
+namespace sgs {
+
+// What a checker must know besides the commands.
+struct CommandTraceHeader {
+  std::string memspec;
+  std::uint32_t channels = 1;
+  std::uint32_t ranks = 1;
+  WriteLatencySet write_latency_set = WriteLatencySet::kA;
+  RefreshMode refresh = RefreshMode::kAllBank;
+
+  static CommandTraceHeader of(const DramConfig& config) {
+    return {config.memspec, config.channels, config.ranks, config.write_latency_set,
+            config.refresh};
+  }
+};
+
+class CommandTraceWriter : public CommandSink {
+ public:
+  // Writes to `path`.part; close() renames. InputError when the file cannot be made.
+  CommandTraceWriter(const std::string& path, const CommandTraceHeader& header);
+  ~CommandTraceWriter() override;
+  CommandTraceWriter(const CommandTraceWriter&) = delete;
+  CommandTraceWriter& operator=(const CommandTraceWriter&) = delete;
+
+  void on_command(const CommandRecord& record) override;
+
+  // InputError when something could not be written.
+  void close();
+
+ private:
+  const std::string path_;
+  std::FILE* file_;
+};
+
+class CommandTraceReader {
+ public:
+  // InputError: not there, not a trace, a header line missing.
+  explicit CommandTraceReader(const std::string& path);
+
+  const CommandTraceHeader& header() const { return header_; }
+  std::uint64_t line() const { return line_; }
+
+  // False at the end. InputError with file and line: a line that is no command.
+  bool next(CommandRecord& record);
+
+ private:
+  void read_header();
+  [[noreturn]] void refuse(const std::string& got, const std::string& expected) const;
+
+  const std::string path_;
+  std::ifstream file_;
+  std::uint64_t line_ = 0;
+  CommandTraceHeader header_;
+};
+
+}  // namespace sgs

@@ -1,0 +1,273 @@
+// Checks a stream of DRAM commands against the list of constraints.
+#include "modules/dram/trace_checker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace sgs {
+
+namespace {
+
+using C = Command;
+
+constexpr std::uint32_t set_of(std::initializer_list<Command> commands) {
+  std::uint32_t set = 0;
+  for (const Command c : commands) set |= 1u << static_cast<std::uint32_t>(c);
+  return set;
+}
+constexpr bool contains(std::uint32_t set, Command c) {
+  return (set >> static_cast<std::uint32_t>(c) & 1) != 0;
+}
+
+constexpr std::uint32_t kReads = set_of({C::kRead, C::kReadAuto});
+constexpr std::uint32_t kWrites = set_of({C::kWrite, C::kWriteAuto});
+constexpr std::uint32_t kActivations = set_of({C::kActivate, C::kRefreshBank});
+constexpr std::uint32_t kNeedsClosedRank = set_of({C::kRefreshAll, C::kSelfRefreshEnter});
+constexpr std::uint32_t kEverything = (1u << kCommands) - 1;
+constexpr std::uint32_t kExits = set_of({C::kPowerDownExit, C::kSelfRefreshExit});
+constexpr std::uint32_t kSleeps = set_of({C::kPowerDownEnter, C::kSelfRefreshEnter});
+
+// Eight refreshes may be postponed beyond the one that is due.
+constexpr std::uint64_t kMostOwed = 9;
+
+std::uint32_t write_end_of(const Memspec& m, WriteLatencySet set) {
+  const Memspec::Timing& t = m.timing_cycles;
+  return (set == WriteLatencySet::kA ? t.write_latency_a : t.write_latency_b) + 1 +
+         m.organisation.burst_length / 2;
+}
+
+}  // namespace
+
+std::string TraceViolation::text() const {
+  const std::string what =
+      fmt::format("cycle {}: channel {} {} rank {} bank {}: {}", record.cycle, record.channel,
+                  kCommandNames[static_cast<std::size_t>(record.command)], record.rank, record.bank,
+                  constraint);
+  return earliest == 0 ? what : fmt::format("{}, legal from cycle {}", what, earliest);
+}
+
+std::vector<TraceChecker::Rule> TraceChecker::rules(const Memspec& m, WriteLatencySet set) {
+  const Memspec::Timing& t = m.timing_cycles;
+  const std::uint64_t burst = m.organisation.burst_length / 2;
+  const std::uint64_t wl = set == WriteLatencySet::kA ? t.write_latency_a : t.write_latency_b;
+  const std::uint64_t read_end = t.read_latency + t.dqsck_max + burst;
+  const std::uint64_t write_end = wl + 1 + burst;
+  const std::uint64_t next_read = t.read_latency + t.dqsck_min;
+  const std::uint64_t write_to_other_read =
+      write_end + t.rtrs > next_read ? write_end + t.rtrs - next_read : 1;
+  const std::uint32_t columns = kReads | kWrites;
+  const std::uint32_t precharges = set_of({C::kPrecharge, C::kPrechargeAll});
+  const std::uint32_t activate = set_of({C::kActivate});
+  return {
+      {"tRCD", activate, columns, Scope::kSameBank, t.rcd},
+      {"tRAS", activate, set_of({C::kPrecharge}), Scope::kSameBank, t.ras},
+      {"tRAS", activate, set_of({C::kPrechargeAll}), Scope::kSameRank, t.ras},
+      {"tRC", activate, kActivations, Scope::kSameBank, t.rc},
+      {"tRC", activate, kNeedsClosedRank, Scope::kSameRank, t.rc},
+      {"tRPpb", set_of({C::kPrecharge}), kActivations, Scope::kSameBank, t.rp_bank},
+      {"tRPpb", set_of({C::kPrecharge}), kNeedsClosedRank, Scope::kSameRank, t.rp_bank},
+      {"tRPab", set_of({C::kPrechargeAll}), kActivations | kNeedsClosedRank, Scope::kSameRank,
+       t.rp_all},
+      {"tRRD", kActivations, kActivations, Scope::kSameRank, t.rrd},
+      {"tRTP", kReads, set_of({C::kPrecharge}), Scope::kSameBank, t.rtp},
+      {"tRTP", kReads, set_of({C::kPrechargeAll}), Scope::kSameRank, t.rtp},
+      {"tWR", kWrites, set_of({C::kPrecharge}), Scope::kSameBank, write_end + t.wr},
+      {"tWR", kWrites, set_of({C::kPrechargeAll}), Scope::kSameRank, write_end + t.wr},
+      {"tCCD", kReads, kReads, Scope::kSameRank, t.ccd},
+      {"tCCD", kWrites, kWrites, Scope::kSameRank, t.ccd},
+      {"read to write", kReads, kWrites, Scope::kSameRank, read_end + 1 - wl},
+      {"tWTR", kWrites, kReads, Scope::kSameRank, write_end + t.wtr},
+      {"tRTRS", kReads, kReads, Scope::kOtherRank, burst + t.rtrs},
+      {"tRTRS", kWrites, kWrites, Scope::kOtherRank, burst + t.rtrs},
+      {"tRTRS read to write", kReads, kWrites, Scope::kOtherRank, read_end + t.rtrs - wl},
+      {"tRTRS write to read", kWrites, kReads, Scope::kOtherRank, write_to_other_read},
+      {"tRFCab", set_of({C::kRefreshAll}), kActivations | kNeedsClosedRank | kSleeps,
+       Scope::kSameRank, t.rfc_all},
+      {"tRFCpb", set_of({C::kRefreshBank}), activate, Scope::kSameBank, t.rfc_bank},
+      {"tRFCpb", set_of({C::kRefreshBank}), set_of({C::kRefreshBank}) | kNeedsClosedRank | kSleeps,
+       Scope::kSameRank, t.rfc_bank},
+      {"read before power-down", kReads, kSleeps, Scope::kSameRank, read_end + 1},
+      {"write before power-down", kWrites, kSleeps, Scope::kSameRank, write_end + t.wr},
+      {"write before power-down", set_of({C::kWriteAuto}), kSleeps, Scope::kSameRank,
+       write_end + t.wr + 1},
+      {"row command before power-down", activate | precharges, kSleeps, Scope::kSameRank, 1},
+      {"tCKE", set_of({C::kPowerDownEnter}), set_of({C::kPowerDownExit}), Scope::kSameRank, t.cke},
+      {"tCKE", set_of({C::kPowerDownExit}), kSleeps, Scope::kSameRank, t.cke},
+      {"tXP", set_of({C::kPowerDownExit}), kEverything & ~kExits, Scope::kSameRank, t.xp},
+      {"tCKESR", set_of({C::kSelfRefreshEnter}), set_of({C::kSelfRefreshExit}), Scope::kSameRank,
+       t.cke_self_refresh},
+      {"tXSR", set_of({C::kSelfRefreshExit}), kEverything & ~kExits, Scope::kSameRank, t.xsr},
+  };
+}
+
+TraceChecker::TraceChecker(const Memspec& memspec, const CommandTraceHeader& header)
+    : memspec_(memspec),
+      header_(header),
+      write_end_(write_end_of(memspec, header.write_latency_set)),
+      channels_(header.channels) {
+  for (const Rule& rule : rules(memspec, header.write_latency_set))
+    for (std::size_t c = 0; c < kCommands; ++c)
+      if (contains(rule.after, static_cast<Command>(c))) rules_by_command_[c].push_back(rule);
+  for (Channel& channel : channels_) {
+    channel.ranks.resize(header.ranks);
+    for (Rank& rank : channel.ranks) rank.banks.resize(memspec.organisation.banks);
+  }
+}
+
+void TraceChecker::Verdict::at_least(std::uint64_t cycle, const char* name) {
+  if (cycle <= earliest) return;
+  earliest = cycle;
+  if (!forbidden) constraint = name;
+}
+
+void TraceChecker::Verdict::forbid(const char* name) {
+  if (!forbidden) constraint = name;
+  forbidden = true;
+}
+
+bool TraceChecker::in_range(const CommandRecord& r) const {
+  return r.channel < header_.channels && r.rank < header_.ranks &&
+         r.bank < memspec_.organisation.banks && r.row < memspec_.organisation.rows &&
+         r.burst < memspec_.bursts_per_row();
+}
+
+std::optional<TraceViolation> TraceChecker::check(const CommandRecord& record) {
+  ++checked_;
+  if (!in_range(record))
+    return TraceViolation{record, "no such channel, rank, bank, row or burst", 0};
+  const Channel& channel = channels_[record.channel];
+  const Rank& rank = channel.ranks[record.rank];
+  Verdict verdict;
+  check_state(record, rank, verdict);
+  check_distances(record, channel, verdict);
+  check_windows(record, rank, verdict);
+  apply(record);
+  if (verdict.forbidden) return TraceViolation{record, verdict.constraint, 0};
+  if (record.cycle < verdict.earliest)
+    return TraceViolation{record, verdict.constraint, verdict.earliest};
+  return std::nullopt;
+}
+
+void TraceChecker::on_command(const CommandRecord& record) {
+  const std::optional<TraceViolation> violation = check(record);
+  if (violation && !first_) first_ = violation;
+}
+
+void TraceChecker::check_state(const CommandRecord& r, const Rank& rank, Verdict& verdict) const {
+  const Bank& bank = rank.banks[r.bank];
+  const bool any_open =
+      std::any_of(rank.banks.begin(), rank.banks.end(), [](const Bank& b) { return b.open; });
+  const std::uint32_t self = 1u << static_cast<std::uint32_t>(r.command);
+  if (r.command == C::kPowerDownExit) {
+    if (!rank.powered_down) verdict.forbid("power-down exit without entry");
+  } else if (r.command == C::kSelfRefreshExit) {
+    if (!rank.self_refresh) verdict.forbid("self-refresh exit without entry");
+  } else if (rank.powered_down || rank.self_refresh) {
+    verdict.forbid("command while the clock enable is low");
+  }
+  if (r.command == C::kActivate && bank.open) verdict.forbid("activate of an open bank");
+  if ((self & (kReads | kWrites)) != 0 && !bank.open) verdict.forbid("column of a closed bank");
+  if ((self & kNeedsClosedRank) != 0 && any_open) verdict.forbid("refresh with an open bank");
+  if (r.command == C::kRefreshBank && bank.open) verdict.forbid("refresh of an open bank");
+}
+
+void TraceChecker::check_distances(const CommandRecord& r, const Channel& channel,
+                                   Verdict& verdict) const {
+  verdict.at_least(channel.bus_free, "command bus");
+  const auto consider = [&](const Times& last, const Rule& rule) {
+    for (std::size_t c = 0; c < kCommands; ++c)
+      if (contains(rule.before, static_cast<Command>(c)) && last[c] != 0)
+        verdict.at_least(last[c] - 1 + rule.cycles, rule.name);
+  };
+  for (const Rule& rule : rules_by_command_[static_cast<std::size_t>(r.command)]) {
+    for (std::size_t rank = 0; rank < channel.ranks.size(); ++rank) {
+      const bool same = rank == r.rank;
+      if (same == (rule.scope == Scope::kOtherRank)) continue;
+      const Rank& state = channel.ranks[rank];
+      consider(rule.scope == Scope::kSameBank ? state.banks[r.bank].last : state.last, rule);
+    }
+  }
+}
+
+void TraceChecker::check_windows(const CommandRecord& r, const Rank& rank, Verdict& verdict) const {
+  const Memspec::Timing& t = memspec_.timing_cycles;
+  const std::uint32_t self = 1u << static_cast<std::uint32_t>(r.command);
+  if ((self & kActivations) != 0) {
+    if (rank.activations.size() == 4) verdict.at_least(rank.activations.front() + t.faw, "tFAW");
+    if (rank.banks[r.bank].auto_closed != 0)
+      verdict.at_least(rank.banks[r.bank].auto_closed + t.rp_bank, "auto-precharge + tRPpb");
+  }
+  if ((self & kNeedsClosedRank) != 0)
+    for (const Bank& bank : rank.banks)
+      if (bank.auto_closed != 0)
+        verdict.at_least(bank.auto_closed + t.rp_bank, "auto-precharge + tRPpb");
+  // A study without refresh ignores how long cells hold their charge, open rows included.
+  if (header_.refresh == RefreshMode::kOff) return;
+  for (const Bank& bank : rank.banks)
+    if (bank.open && r.cycle > bank.opened + t.ras_max) verdict.forbid("tRASmax");
+  if (!rank.self_refresh) {
+    const bool all = header_.refresh == RefreshMode::kAllBank;
+    const std::uint64_t interval = all ? t.refi : t.refi_bank;
+    const std::uint64_t most = all ? kMostOwed : kMostOwed * memspec_.organisation.banks;
+    const std::uint64_t elapsed =
+        r.cycle > rank.refreshes_due_from ? r.cycle - rank.refreshes_due_from : 0;
+    if (elapsed / interval > rank.refreshes + most) verdict.forbid("tREFI: more than 8 postponed");
+  }
+}
+
+void TraceChecker::apply(const CommandRecord& r) {
+  const Memspec::Timing& t = memspec_.timing_cycles;
+  Channel& channel = channels_[r.channel];
+  Rank& rank = channel.ranks[r.rank];
+  Bank& bank = rank.banks[r.bank];
+  const auto c = static_cast<std::size_t>(r.command);
+  channel.bus_free = r.cycle + 1;
+  rank.last[c] = r.cycle + 1;
+  bank.last[c] = r.cycle + 1;
+  switch (r.command) {
+    case C::kActivate:
+      bank.open = true;
+      bank.opened = r.cycle;
+      bank.auto_closed = 0;
+      break;
+    case C::kReadAuto:
+      bank.open = false;
+      bank.auto_closed = std::max(r.cycle + t.rtp, bank.opened + t.ras);
+      break;
+    case C::kWriteAuto:
+      bank.open = false;
+      bank.auto_closed = std::max(r.cycle + write_end_ + t.wr, bank.opened + t.ras);
+      break;
+    case C::kPrecharge:
+      bank.open = false;
+      break;
+    case C::kPrechargeAll:
+      for (Bank& b : rank.banks) b.open = false;
+      break;
+    case C::kPowerDownEnter:
+      rank.powered_down = true;
+      break;
+    case C::kPowerDownExit:
+      rank.powered_down = false;
+      break;
+    case C::kSelfRefreshEnter:
+      rank.self_refresh = true;
+      break;
+    case C::kSelfRefreshExit:
+      rank.self_refresh = false;
+      rank.refreshes_due_from = r.cycle;
+      rank.refreshes = 0;
+      break;
+    default:
+      break;
+  }
+  if (r.command == C::kRefreshAll || r.command == C::kRefreshBank) ++rank.refreshes;
+  if (contains(kActivations, r.command)) {
+    rank.activations.push_back(r.cycle);
+    if (rank.activations.size() > 4) rank.activations.pop_front();
+  }
+}
+
+}  // namespace sgs
