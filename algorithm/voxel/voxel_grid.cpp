@@ -94,14 +94,21 @@ int cell_of(float coordinate, float voxel_size) {
   return static_cast<int>(std::clamp(cell, -1073741824.0, 1073741824.0));
 }
 
-VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size, Stored stored) {
-  VoxelGrid grid;
-  grid.frame.voxel_size = voxel_size;
+std::vector<std::uint32_t> stored_gaussians(const ActivatedCloud& cloud, Stored stored) {
   std::vector<std::uint32_t> kept;
   kept.reserve(cloud.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
-    if (stored == Stored::kAll || visible_cutoff(cloud.gaussians[i].opacity) >= 0) kept.push_back(i);
+    if (stored == Stored::kAll || visible_cutoff(cloud.gaussians[i].opacity) >= 0) {
+      kept.push_back(i);
+    }
   }
+  return kept;
+}
+
+VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size, Stored stored) {
+  VoxelGrid grid;
+  grid.frame.voxel_size = voxel_size;
+  const std::vector<std::uint32_t> kept = stored_gaussians(cloud, stored);
   if (kept.empty()) return grid;
   grid.frame = fit_frame(cloud, kept, voxel_size);
 

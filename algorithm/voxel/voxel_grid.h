@@ -52,6 +52,9 @@ inline unsigned child_bit(unsigned x, unsigned y, unsigned z) {
 // Which Gaussians are stored: all, or only those that some view could show (opacity >= 1/255).
 enum class Stored { kAll, kVisible };
 
+// Their file indices, ascending.
+std::vector<std::uint32_t> stored_gaussians(const ActivatedCloud& cloud, Stored stored);
+
 // Cell of a coordinate along one axis.
 int cell_of(float coordinate, float voxel_size);
 

@@ -1,0 +1,47 @@
+// Nodes of the chunk tree, as they lie in the modelled DRAM: up to eight children, their boxes and
+// extents quantised outward to 8 bits (after Ylitie, Karras and Laine, "Efficient Incoherent Ray
+// Traversal on GPUs Through Compressed Wide BVHs", 2017).
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace sgs {
+
+constexpr int kChunkNodeWidth = 8;
+
+// What is known of all Gaussians below a child without looking at them. World frame.
+struct ChunkBound {
+  glm::vec3 low{0.0F}, high{0.0F};  // box of the centres
+  glm::vec3 extent{0.0F};           // largest visible half-extent along each axis
+  float scale_max = 0;              // largest scale
+};
+
+// The bound of two sets of Gaussians together.
+ChunkBound merged(const ChunkBound& a, const ChunkBound& b);
+
+// 128 B, four bursts. A child is a chunk of `count` Gaussians or, with count 0, an inner node. The
+// chunks of a node lie in consecutive storage slots from first_slot, its inner children in
+// consecutive nodes from first_node, both in the order of the children.
+struct ChunkNode {
+  float origin[3] = {};
+  std::int8_t step_exponent[3] = {};  // box bounds are origin + q 2^exponent
+  std::int8_t extent_exponent = 0;    // extents are 2^(exponent - (255 - q) / 16)
+  std::uint32_t first_slot = 0, first_node = 0;
+  std::uint8_t low[kChunkNodeWidth][3] = {}, high[kChunkNodeWidth][3] = {};
+  std::uint8_t extent[kChunkNodeWidth][3] = {}, scale[kChunkNodeWidth] = {};
+  std::uint16_t count[kChunkNodeWidth] = {};
+  std::uint8_t children = 0;
+  std::uint8_t reserved[7] = {};
+};
+static_assert(sizeof(ChunkNode) == 128);
+
+// Quantises the bounds of a node's children, never inward. Needs node.children and counts set.
+void quantise(const ChunkBound* bounds, ChunkNode& node);
+
+// The bound of one child, never smaller than what was quantised. Extents beyond the range come back
+// as infinity.
+ChunkBound child_bound(const ChunkNode& node, int child);
+
+}  // namespace sgs
