@@ -20,7 +20,7 @@ namespace sgs {
 namespace {
 
 constexpr std::array<const char*, 3> kChannels = {"R", "G", "B"};
-constexpr int kMaxSide_px = 65535;
+constexpr int kMaxSidePx = 65535;
 constexpr int kRowsAtOnce = 64;  // memory grows with the rows that are really in the file
 
 // Slices over `pixels`, whose first row is row `top` of the data window that begins at `left`.
@@ -52,8 +52,8 @@ void check_channels(const std::string& path, const Imf::ChannelList& channels) {
 
 Image read_pixels(const std::string& path) {
   // Checked by OpenEXR before it allocates its tables of line offsets.
-  Imf::Header::setMaxImageSize(kMaxSide_px, kMaxSide_px);
-  Imf::Header::setMaxTileSize(kMaxSide_px, kMaxSide_px);
+  Imf::Header::setMaxImageSize(kMaxSidePx, kMaxSidePx);
+  Imf::Header::setMaxTileSize(kMaxSidePx, kMaxSidePx);
   Imf::InputFile file(path.c_str());
   check_channels(path, file.header().channels());
   const Imath::Box2i window = file.header().dataWindow();

@@ -6,6 +6,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -20,7 +21,7 @@ namespace {
 std::uint8_t quantised(float value) {
   // A comparison that is false for NaN first, so that NaN becomes 0.
   if (!(value > 0.0f)) return 0;
-  return static_cast<std::uint8_t>(std::min(value, 1.0f) * 255.0f + 0.5f);
+  return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255.0f));
 }
 
 // libpng's own state must be released whichever way the reader is left.

@@ -13,9 +13,9 @@
 namespace sgs {
 namespace {
 
-constexpr int kRadius_px = 5;  // 11x11 window
-constexpr int kTaps = 2 * kRadius_px + 1;
-constexpr double kSigma_px = 1.5;
+constexpr int kRadiusPx = 5;  // 11x11 window
+constexpr int kTaps = 2 * kRadiusPx + 1;
+constexpr double kSigmaPx = 1.5;
 constexpr double kC1 = 0.01 * 0.01;  // (0.01 L)^2 with L = 1, the range of the values
 constexpr double kC2 = 0.03 * 0.03;
 constexpr int kBandRows = 32;  // ten more are filtered twice; larger bands leave cores idle
@@ -26,8 +26,8 @@ using Moments = std::array<double, 5>;
 std::array<double, kTaps> gaussian_window() {
   std::array<double, kTaps> window{};
   for (int i = 0; i < kTaps; ++i) {
-    const double offset = i - kRadius_px;
-    window[i] = std::exp(-offset * offset / (2.0 * kSigma_px * kSigma_px));
+    const double offset = i - kRadiusPx;
+    window[i] = std::exp(-offset * offset / (2.0 * kSigmaPx * kSigmaPx));
   }
   const double sum = std::accumulate(window.begin(), window.end(), 0.0);
   for (double& weight : window) weight /= sum;
@@ -51,10 +51,10 @@ double ssim_of(const Moments& m) {
 // The filter across one row: out[3 x + channel].
 void filter_row(const Image& a, const Image& b, int y, const std::array<double, kTaps>& window,
                 std::vector<Moments>& raw, Moments* out) {
-  raw.assign(static_cast<std::size_t>(3 * (a.width + 2 * kRadius_px)), Moments{});
+  raw.assign(3 * (static_cast<std::size_t>(a.width) + 2 * kRadiusPx), Moments{});
   for (int x = 0; x < a.width; ++x) {
     for (int channel = 0; channel < 3; ++channel) {
-      raw[3 * (x + kRadius_px) + channel] = moments_of(a.at(x, y)[channel], b.at(x, y)[channel]);
+      raw[3 * (x + kRadiusPx) + channel] = moments_of(a.at(x, y)[channel], b.at(x, y)[channel]);
     }
   }
   for (int i = 0; i < 3 * a.width; ++i) {
@@ -76,7 +76,7 @@ double ssim(const Image& a, const Image& b) {
   const int bands = (a.height + kBandRows - 1) / kBandRows;
   tbb::parallel_for(0, bands, [&](int band) {
     const int begin = band * kBandRows, end = std::min(a.height, begin + kBandRows);
-    const int first = std::max(0, begin - kRadius_px), last = std::min(a.height, end + kRadius_px);
+    const int first = std::max(0, begin - kRadiusPx), last = std::min(a.height, end + kRadiusPx);
     std::vector<Moments> filtered(row_size * (last - first)), raw;
     for (int y = first; y < last; ++y) {
       filter_row(a, b, y, window, raw, &filtered[row_size * (y - first)]);
@@ -85,7 +85,7 @@ double ssim(const Image& a, const Image& b) {
       for (std::size_t i = 0; i < row_size; ++i) {
         Moments sum{};
         for (int tap = 0; tap < kTaps; ++tap) {
-          const int row = y + tap - kRadius_px;
+          const int row = y + tap - kRadiusPx;
           if (row < 0 || row >= a.height) continue;  // zero padding
           const Moments& m = filtered[row_size * (row - first) + i];
           for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += window[tap] * m[k];

@@ -62,7 +62,7 @@ SceneSummary summarise(const GaussianCloud& cloud) {
   summary.count = cloud.size();
   summary.sh_degree = cloud.sh_degree;
   // Position 3, scale 3, rotation 4, opacity 1 and the SH coefficients of three channels.
-  const auto values = static_cast<std::uint64_t>(11 + 3 * sh_coeff_count(cloud.sh_degree));
+  const std::uint64_t values = 11 + 3 * static_cast<std::uint64_t>(sh_coeff_count(cloud.sh_degree));
   summary.first_half_bytes = cloud.size() * kFirstHalfValues * sizeof(float);
   summary.second_half_bytes = cloud.size() * (values - kFirstHalfValues) * sizeof(float);
   if (cloud.size() == 0) return summary;
