@@ -35,9 +35,10 @@ inline T exp_of(T x) {
   return T(exp(x));
 }
 
-// exp(x) in float for x in [-87, 88] (clamped), within 2 units in the last place. Branch-free, so
+// exp(x) in float for x in [-87, 88] (clamped), within 1.1 units in the last place. Branch-free, so
 // that a loop over pixels becomes vector code that gives the same bits on every lane and machine.
-// x = n ln2 + r with |r| <= ln2/2; the Taylor series of exp(r) to r^6 leaves 1.2e-7 relative.
+// x = n ln2 + r with |r| <= ln2/2; exp(r) = 1 + r + r^2 p(r), p of degree 4 with the least largest
+// relative error (Remez exchange, coefficients rounded to float one after the other): 3.3e-9.
 template <>
 inline float exp_of<float>(float x) {
   constexpr float kLog2E = 1.44269504F;
@@ -49,11 +50,11 @@ inline float exp_of<float>(float x) {
   const float shifted = x * kLog2E + kRoundToInteger;
   const float n = shifted - kRoundToInteger;
   const float r = (x - n * kLn2High) - n * kLn2Low;
-  float p = 1.0F / 720.0F;
-  p = p * r + 1.0F / 120.0F;
-  p = p * r + 1.0F / 24.0F;
-  p = p * r + 1.0F / 6.0F;
-  p = p * r + 0.5F;
+  float p = 0x1.6ac37p-10F;
+  p = p * r + 0x1.123da6p-7F;
+  p = p * r + 0x1.555858p-5F;
+  p = p * r + 0x1.55548cp-3F;
+  p = p * r + 0x1.fffffcp-2F;
   p = (p * r) * r + r + 1.0F;
   const auto exponent = __builtin_bit_cast(std::uint32_t, shifted)
                         << 23;  // n in the exponent field

@@ -1,0 +1,177 @@
+// Tests of algorithm/splat/blend.h: section 3 of the rendering semantics.
+#include "algorithm/splat/blend.h"
+
+#include <Imath/half.h>
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <limits>
+#include <random>
+
+using namespace sgs;
+
+namespace {
+
+// A splat that covers everything with the same alpha.
+Splat flat(float alpha, glm::vec3 rgb) {
+  Splat s{};
+  s.opacity = alpha;
+  s.rgb = rgb;
+  s.footprint = {0, 0, 100, 100};
+  return s;
+}
+
+// One pixel, one splat, straight from section 3, in the arithmetic of the kernel.
+void blend_pixel(SubtileState& state, int lane, float dx, float dy, const Splat& s) {
+  if (state.active[lane] == 0) return;
+  const float power = -0.5F * (s.conic_a * dx * dx + s.conic_c * dy * dy) - s.conic_b * dx * dy;
+  if (power > 0) return;
+  const float alpha = std::min(0.99F, s.opacity * exp_of(power));
+  if (alpha < 1.0F / 255) return;
+  const float after = state.transmittance[lane] * (1 - alpha);
+  if (after < 0.0001F) {
+    state.active[lane] = 0;
+    return;
+  }
+  const float weight = alpha * state.transmittance[lane];
+  state.red[lane] += s.rgb.x * weight;
+  state.green[lane] += s.rgb.y * weight;
+  state.blue[lane] += s.rgb.z * weight;
+  state.transmittance[lane] = after;
+  ++state.contributors[lane];
+}
+
+}  // namespace
+
+TEST_CASE("alpha by hand, in every scalar") {
+  // power = -(0.5*4 + 0.25*1)/2 - (-0.125)*2*1 = -1.125 + 0.25 = -0.875
+  const double expected = 0.8 * std::exp(-0.875);
+  CHECK(alpha_at(0.5, -0.125, 0.25, 0.8, 2.0, 1.0) == Approx(expected).epsilon(1e-14));
+  CHECK(alpha_at(0.5F, -0.125F, 0.25F, 0.8F, 2.0F, 1.0F) == Approx(expected).epsilon(3e-7));
+  using Imath::half;
+  const half h = alpha_at(half(0.5F), half(-0.125F), half(0.25F), half(0.8F), half(2), half(1));
+  CHECK(static_cast<float>(h) == Approx(expected).epsilon(0.002));  // four roundings of 2^-11
+}
+
+TEST_CASE("alpha: capped at 0.99, nothing below 1/255, nothing where power rises above 0") {
+  CHECK(alpha_at(1.0, 0.0, 1.0, 1.0, 0.0, 0.0) == 0.99);
+  CHECK(alpha_at(1.0F, 0.0F, 1.0F, 1.0F, 0.0F, 0.0F) == 0.99F);
+  const float least = 1.0F / 255;
+  CHECK(alpha_at(0.0F, 0.0F, 0.0F, least, 0.0F, 0.0F) == least);
+  CHECK(alpha_at(0.0F, 0.0F, 0.0F, std::nextafter(least, 0.0F), 0.0F, 0.0F) == 0);
+  CHECK(alpha_at(1.0F, -2.0F, 1.0F, 0.5F, 1.0F, 1.0F) == 0);  // power = -1 + 2
+  // A power that is no number: inf - inf.
+  CHECK(alpha_at(1.0F, -1.0F, 1.0F, 0.5F, 1e30F, 1e30F) == 0);
+}
+
+TEST_CASE("a fresh sub-tile: light undiminished, pixels outside the frame finished") {
+  const SubtileState inside = make_subtile(0, 0, 8, 8);
+  CHECK_FALSE(finished(inside));
+  const SubtileState corner = make_subtile(1, 1, 6, 7);  // 2x3 pixels of it are in the frame
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    CAPTURE(lane);
+    CHECK(inside.active[lane] == -1);
+    CHECK(inside.transmittance[lane] == 1);
+    CHECK(inside.red[lane] + inside.green[lane] + inside.blue[lane] == 0);
+    CHECK(inside.contributors[lane] == 0);
+    CHECK(corner.active[lane] == (lane % 4 < 2 && lane / 4 < 3 ? -1 : 0));
+  }
+  CHECK(finished(make_subtile(2, 0, 8, 8)));
+}
+
+TEST_CASE("two layers by hand") {
+  SubtileState state = make_subtile(3, 5, 100, 100);
+  blend(state, 3, 5, flat(0.5F, {1, 0.5F, 0}));
+  blend(state, 3, 5, flat(0.25F, {0, 1, 2}));
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    CHECK(state.red[lane] == 0.5F);              // 1 * 0.5
+    CHECK(state.green[lane] == 0.25F + 0.125F);  // 0.5 * 0.5 + 1 * 0.25 * 0.5
+    CHECK(state.blue[lane] == 0.25F);            // 2 * 0.25 * 0.5
+    CHECK(state.transmittance[lane] == 0.375F);  // 0.5 * 0.75
+    CHECK(state.contributors[lane] == 2);
+  }
+}
+
+TEST_CASE("lanes are pixels: the centre of a narrow splat falls on lane 4 y + x") {
+  Splat dot = flat(0.5F, {1, 1, 1});
+  dot.conic_a = dot.conic_c = 50;
+  dot.x = 4 * 7 + 2;
+  dot.y = 4 * 2 + 3;
+  SubtileState state = make_subtile(7, 2, 100, 100);
+  blend(state, 7, 2, dot);
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    CHECK(state.contributors[lane] == (lane == 4 * 3 + 2 ? 1 : 0));
+  }
+}
+
+TEST_CASE("the splat that would take T below 1e-4 is not blended and finishes the pixel") {
+  SubtileState state = make_subtile(0, 0, 4, 4);
+  for (int layer = 0; layer < 13; ++layer) blend(state, 0, 0, flat(0.5F, {1, 1, 1}));
+  CHECK_FALSE(finished(state));
+  CHECK(state.transmittance[0] == 0x1p-13F);  // 1.22e-4
+  CHECK(state.contributors[0] == 13);
+  const float colour = state.red[0];
+  blend(state, 0, 0, flat(0.5F, {1, 1, 1}));  // would leave 6.1e-5
+  CHECK(finished(state));
+  CHECK(state.transmittance[0] == 0x1p-13F);
+  CHECK(state.contributors[0] == 13);
+  CHECK(state.red[0] == colour);
+  blend(state, 0, 0, flat(0.01F, {1, 1, 1}));  // would fit, but the pixel is finished
+  CHECK(state.contributors[0] == 13);
+}
+
+TEST_CASE("exactly 1e-4 is not below: T' equal to the threshold is blended") {
+  SubtileState state = make_subtile(0, 0, 4, 4);
+  state.transmittance[0] = 0.0002F;
+  const float alpha = 0.5F;
+  REQUIRE(0.0002F * (1 - alpha) == 0.0001F);
+  blend(state, 0, 0, flat(alpha, {1, 1, 1}));
+  CHECK(state.contributors[0] == 1);
+  CHECK(state.active[0] == -1);
+}
+
+TEST_CASE("an invisible splat does not finish a pixel") {
+  SubtileState state = make_subtile(0, 0, 4, 4);
+  state.transmittance[0] = 0.0001F;
+  blend(state, 0, 0, flat(0.003F, {1, 1, 1}));  // alpha < 1/255
+  CHECK(state.active[0] == -1);
+}
+
+TEST_CASE("the vector kernel equals a scalar loop bit for bit") {
+  std::mt19937 random(7);
+  const auto uniform = [&](float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(random);
+  };
+  long blended = 0, finished_lanes = 0;
+  for (int round = 0; round < 400; ++round) {
+    const int tile_x = static_cast<int>(random() % 160), tile_y = static_cast<int>(random() % 90);
+    SubtileState fast = make_subtile(tile_x, tile_y, 638, 359), slow = fast;
+    for (int layer = 0; layer < 100; ++layer) {
+      Splat s = flat(uniform(0, 1), {uniform(0, 2), uniform(0, 2), uniform(0, 2)});
+      if (layer % 10 == 0) s.opacity = uniform(0.0035F, 0.0045F);
+      if (layer % 11 == 0) s.opacity = 1;
+      const float sharp = std::exp(uniform(-12, 1.2F));
+      s.conic_a = sharp * uniform(0.1F, 1);
+      s.conic_c = sharp * uniform(0.1F, 1);
+      // Now and then indefinite, as rounding leaves the conics of needles.
+      s.conic_b = std::sqrt(s.conic_a * s.conic_c) * uniform(-1.0001F, 1.0001F);
+      s.x = static_cast<float>(4 * tile_x) + uniform(-2, 5) + uniform(-1, 1) / std::sqrt(sharp);
+      s.y = static_cast<float>(4 * tile_y) + uniform(-2, 5) + uniform(-1, 1) / std::sqrt(sharp);
+      blend(fast, tile_x, tile_y, s);
+      for (int lane = 0; lane < kSubtilePixels; ++lane) {
+        const float left = s.x - static_cast<float>(4 * tile_x);
+        const float top = s.y - static_cast<float>(4 * tile_y);
+        blend_pixel(slow, lane, left - static_cast<float>(lane % 4),
+                    top - static_cast<float>(lane / 4), s);
+      }
+      if (std::memcmp(&fast, &slow, sizeof fast) != 0)
+        FAIL("round " << round << " layer " << layer);
+    }
+    for (int lane = 0; lane < kSubtilePixels; ++lane) {
+      blended += fast.contributors[lane];
+      finished_lanes += fast.active[lane] == 0;
+    }
+  }
+  CHECK(blended > 50000);
+  CHECK(finished_lanes > 1000);
+}
