@@ -5,11 +5,6 @@
 
 namespace sgs {
 
-namespace {
-constexpr std::size_t kForward = 0;
-constexpr std::size_t kBackward = 1;
-}  // namespace
-
 ProtocolChecker::ProtocolChecker(const sc_core::sc_module_name& name)
     : sc_module(name), from_initiator("from_initiator"), to_target("to_target") {
   from_initiator.register_nb_transport_fw(this, &ProtocolChecker::nb_transport_fw);
@@ -21,17 +16,16 @@ ProtocolChecker::ProtocolChecker(const sc_core::sc_module_name& name)
 tlm::tlm_sync_enum ProtocolChecker::nb_transport_fw(tlm::tlm_generic_payload& payload,
                                                     tlm::tlm_phase& phase,
                                                     sc_core::sc_time& delay) {
-  check_time(kForward, delay);
   const tlm::tlm_phase sent = phase;
   on_forward(payload, sent);
+  check_time(payload, delay);
   payload.acquire();  // the payload is read again below, when its owner may have let go of it
   const tlm::tlm_sync_enum status = to_target->nb_transport_fw(payload, phase, delay);
   if (status == tlm::TLM_UPDATED) {
-    check_time(kBackward, delay);
     on_backward(payload, phase);
+    check_time(payload, delay);
   } else if (status == tlm::TLM_COMPLETED && sent == tlm::BEGIN_REQ) {
-    on_backward(payload, tlm::BEGIN_RESP);
-    on_end_response(payload);
+    on_early_completion(payload);
   } else if (status == tlm::TLM_ACCEPTED && phase != sent) {
     violation(payload, "the phase was changed by a call that returned TLM_ACCEPTED");
   }
@@ -42,9 +36,9 @@ tlm::tlm_sync_enum ProtocolChecker::nb_transport_fw(tlm::tlm_generic_payload& pa
 tlm::tlm_sync_enum ProtocolChecker::nb_transport_bw(tlm::tlm_generic_payload& payload,
                                                     tlm::tlm_phase& phase,
                                                     sc_core::sc_time& delay) {
-  check_time(kBackward, delay);
   const tlm::tlm_phase sent = phase;
   on_backward(payload, sent);
+  check_time(payload, delay);
   payload.acquire();
   const tlm::tlm_sync_enum status = from_initiator->nb_transport_bw(payload, phase, delay);
   if (status == tlm::TLM_UPDATED) {
@@ -90,7 +84,7 @@ void ProtocolChecker::on_begin_request(tlm::tlm_generic_payload& payload) {
           .insert_or_assign(&payload,
                             Known{State::kRequested, payload.get_command(), payload.get_data_ptr(),
                                   payload.get_data_length(), payload.get_streaming_width(),
-                                  payload.get_byte_enable_ptr()})
+                                  payload.get_byte_enable_ptr(), sc_core::SC_ZERO_TIME})
           .second;
   if (!is_new) violation(payload, "BEGIN_REQ of a transaction that is in flight");
   request_ = &payload;
@@ -103,6 +97,17 @@ void ProtocolChecker::on_end_response(tlm::tlm_generic_payload& payload) {
   }
   response_ = nullptr;
   in_flight_.erase(&payload);
+  ++finished_;
+}
+
+void ProtocolChecker::on_early_completion(tlm::tlm_generic_payload& payload) {
+  const auto found = in_flight_.find(&payload);
+  if (found == in_flight_.end()) return;
+  check_unchanged(payload, found->second);
+  if (payload.get_response_status() == tlm::TLM_INCOMPLETE_RESPONSE)
+    violation(payload, "TLM_COMPLETED with TLM_INCOMPLETE_RESPONSE");
+  if (request_ == &payload) request_ = nullptr;
+  in_flight_.erase(found);
   ++finished_;
 }
 
@@ -151,14 +156,13 @@ void ProtocolChecker::check_unchanged(const tlm::tlm_generic_payload& payload, c
     violation(payload, "an attribute changed between request and response");
 }
 
-void ProtocolChecker::check_time(std::size_t path, const sc_core::sc_time& delay) {
+void ProtocolChecker::check_time(const tlm::tlm_generic_payload& payload,
+                                 const sc_core::sc_time& delay) {
+  const auto found = in_flight_.find(&payload);
+  if (found == in_flight_.end()) return;
   const sc_core::sc_time at = sc_core::sc_time_stamp() + delay;
-  if (at < last_time_[path]) {
-    violations_.push_back(fmt::format("{}: time runs backwards on the {} path", name(),
-                                      path == kForward ? "forward" : "backward"));
-    SC_REPORT_WARNING("/sgs/protocol_checker", violations_.back().c_str());
-  }
-  last_time_[path] = at;
+  if (at < found->second.last_time) violation(payload, "time runs backwards");
+  found->second.last_time = at;
 }
 
 void ProtocolChecker::violation(const tlm::tlm_generic_payload& payload, const std::string& what) {

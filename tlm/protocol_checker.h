@@ -5,7 +5,6 @@
 #include <tlm_utils/passthrough_target_socket.h>
 #include <tlm_utils/simple_initiator_socket.h>
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <systemc>
@@ -18,7 +17,9 @@ namespace sgs {
 // Rules (IEEE 1666-2011, 15.2 and 14.7-14.17): phases in order and on their own path; one request
 // and one response at a time (exclusion); attributes fixed from request to response; a memory
 // manager and a reference on every non-blocking payload; status incomplete going out, something
-// else coming back; bytes where a length is given; times that do not run backwards on a path.
+// else coming back; bytes where a length is given; times of a transaction that do not run
+// backwards. A request answered by TLM_COMPLETED has no response phase, so exclusion does not apply
+// to it.
 class ProtocolChecker : public sc_core::sc_module {
  public:
   tlm_utils::passthrough_target_socket<ProtocolChecker> from_initiator;
@@ -41,6 +42,7 @@ class ProtocolChecker : public sc_core::sc_module {
     unsigned int length;
     unsigned int streaming_width;
     const std::uint8_t* byte_enable;
+    sc_core::sc_time last_time;
   };
 
   tlm::tlm_sync_enum nb_transport_fw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
@@ -56,13 +58,13 @@ class ProtocolChecker : public sc_core::sc_module {
   void on_end_response(tlm::tlm_generic_payload& payload);
   void check_request(const tlm::tlm_generic_payload& payload);
   void check_unchanged(const tlm::tlm_generic_payload& payload, const Known& known);
-  void check_time(std::size_t path, const sc_core::sc_time& delay);
+  void check_time(const tlm::tlm_generic_payload& payload, const sc_core::sc_time& delay);
+  void on_early_completion(tlm::tlm_generic_payload& payload);
   void violation(const tlm::tlm_generic_payload& payload, const std::string& what);
 
   std::unordered_map<const tlm::tlm_generic_payload*, Known> in_flight_;
   const tlm::tlm_generic_payload* request_ = nullptr;   // BEGIN_REQ seen, END_REQ not
   const tlm::tlm_generic_payload* response_ = nullptr;  // BEGIN_RESP seen, END_RESP not
-  std::array<sc_core::sc_time, 2> last_time_;           // forward, backward
   std::uint64_t finished_ = 0;
   std::vector<std::string> violations_;
 };

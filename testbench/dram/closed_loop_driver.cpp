@@ -15,6 +15,7 @@ ClosedLoopDriver::ClosedLoopDriver(const sc_core::sc_module_name& name, const Co
   socket.register_nb_transport_bw(this, &ClosedLoopDriver::nb_transport_bw);
   SC_METHOD(offer);
   sensitive << may_offer_;
+  if (config.requests > 0) request_ = next_();
 }
 
 void ClosedLoopDriver::offer() {
@@ -26,15 +27,21 @@ void ClosedLoopDriver::offer() {
       may_offer_.notify(config_.clock_period);
       return;
     }
+    const sc_core::sc_time start(request_.not_before_ns, sc_core::SC_NS);
+    if (start > sc_core::sc_time_stamp()) {
+      may_offer_.notify(start - sc_core::sc_time_stamp());
+      return;
+    }
     room -= bursts;
-    send(next_());
+    send();
+    if (sent_ < config_.requests) request_ = next_();
   }
 }
 
-void ClosedLoopDriver::send(const MemoryRequest& request) {
+void ClosedLoopDriver::send() {
   PooledPayload& payload = pool_.acquire();
-  payload.set_command(request.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
-  payload.set_address(request.address);
+  payload.set_command(request_.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
+  payload.set_address(request_.address);
   payload.set_data_ptr(data_.data());
   payload.set_data_length(config_.request_bytes);
   payload.set_streaming_width(config_.request_bytes);

@@ -14,8 +14,8 @@
 
 namespace sgs {
 
-// Requests go out in order; a held-back END_REQ stops the stream; at most kBurstsPerCycle bursts of
-// requests are offered in one clock cycle.
+// Requests go out in order, none before its time; a held-back END_REQ stops the stream; at most
+// kBurstsPerCycle bursts of requests are offered in one clock cycle.
 class ClosedLoopDriver : public sc_core::sc_module {
  public:
   tlm_utils::simple_initiator_socket<ClosedLoopDriver> socket;
@@ -39,7 +39,7 @@ class ClosedLoopDriver : public sc_core::sc_module {
   static constexpr std::uint32_t kBurstsPerCycle = 8;
 
   void offer();
-  void send(const MemoryRequest& request);
+  void send();
   void on_answer(tlm::tlm_generic_payload& payload);
   tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                      sc_core::sc_time& delay);
@@ -49,6 +49,7 @@ class ClosedLoopDriver : public sc_core::sc_module {
   PayloadPool pool_;
   std::vector<std::uint8_t> data_;
   sc_core::sc_event may_offer_;
+  MemoryRequest request_;  // the next to be sent
   std::uint64_t sent_ = 0;
   std::uint64_t answered_ = 0;
   const tlm::tlm_generic_payload* held_back_ = nullptr;  // waits for its END_REQ

@@ -3,14 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 
 namespace sgs {
 
 struct MemoryRequest {
   std::uint64_t address = 0;
   bool write = false;
+  double not_before_ns = 0;  // 0: as soon as there is room
 };
 
 enum class Pattern { kRandom, kSequential, kStride };

@@ -1,0 +1,233 @@
+// tb_dram's own test: initiators, router and protocol checkers around the memory.
+#include "testbench/dram/self_check.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "modules/dram/command_trace.h"
+#include "modules/dram/dram_controller.h"
+#include "modules/dram/trace_checker.h"
+#include "testbench/dram/random_initiator.h"
+#include "testbench/dram/stats_table.h"
+#include "tlm/protocol_checker.h"
+#include "tlm/router.h"
+
+namespace sgs {
+
+namespace {
+
+constexpr std::uint32_t kPartBytes = 1 << 20;  // of memory, for each initiator
+constexpr std::uint32_t kPorts = 2;
+constexpr std::uint32_t kRandomInitiators = 2;  // non-blocking only
+
+// A unit that uses a MemoryPort as the accelerator's units do: several tickets open at a time.
+class PortUser : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(PortUser);
+  PortUser(const sc_core::sc_module_name& name, const MemoryPort::Config& config, PayloadPool& pool,
+           std::uint64_t begin, std::uint64_t operations, std::uint64_t seed)
+      : sc_module(name),
+        port("port", config, pool),
+        mirror(kPartBytes),
+        begin_(begin),
+        operations_(operations),
+        random_(seed) {
+    SC_THREAD(run);
+  }
+
+  MemoryPort port;
+  std::vector<std::uint8_t> mirror;
+  std::uint64_t checks = 0;
+  std::uint64_t failures = 0;
+  bool finished = false;
+
+ private:
+  struct Read {
+    MemoryPort::Ticket ticket;
+    std::vector<std::uint8_t> data;
+    std::vector<std::uint8_t> expected;
+  };
+
+  std::uint32_t below(std::uint32_t n) {
+    return std::uniform_int_distribution<std::uint32_t>(0, n - 1)(random_);
+  }
+
+  void finish(Read& read) {
+    port.wait_for(read.ticket);
+    ++checks;
+    if (read.data != read.expected || !port.done(read.ticket)) ++failures;
+  }
+
+  void run() {
+    std::vector<std::unique_ptr<Read>> open;
+    for (std::uint64_t i = 0; i < operations_; ++i) {
+      const std::uint32_t length = 1 + below(below(10) == 0 ? 5000 : 300);
+      const std::uint32_t offset = below(kPartBytes - length);
+      if (below(2) == 0) {
+        for (std::uint32_t k = 0; k < length; ++k)
+          mirror[offset + k] = static_cast<std::uint8_t>(random_());
+        port.write(begin_ + offset, mirror.data() + offset, length, 1);
+      } else {
+        auto read = std::make_unique<Read>();
+        read->data.assign(length, 0xee);
+        read->expected.assign(mirror.begin() + offset, mirror.begin() + offset + length);
+        read->ticket = port.read(begin_ + offset, read->data.data(), length, 2);
+        open.push_back(std::move(read));
+      }
+      if (open.size() > 6 || (below(4) == 0 && !open.empty())) {
+        const std::size_t pick = below(static_cast<std::uint32_t>(open.size()));
+        finish(*open[pick]);
+        open.erase(open.begin() + static_cast<std::ptrdiff_t>(pick));
+      }
+      if (below(6) == 0) sc_core::wait(sc_core::sc_time(below(500), sc_core::SC_NS));
+    }
+    for (const auto& read : open) finish(*read);
+    port.wait_all();
+    finished = port.idle() && port.bytes_outstanding() == 0;
+  }
+
+  const std::uint64_t begin_;
+  const std::uint64_t operations_;
+  std::mt19937_64 random_;
+};
+
+bool report(const char* name, std::uint64_t checks, std::uint64_t failures) {
+  const bool pass = failures == 0 && checks > 0;
+  fmt::print("{}  {:<44} {:>8} checks {:>6} failed\n", pass ? "PASS" : "FAIL", name, checks,
+             failures);
+  return pass;
+}
+
+std::uint64_t bytes_that_differ(const DramController& dram, std::uint64_t begin,
+                                const std::vector<std::uint8_t>& mirror) {
+  std::vector<std::uint8_t> stored(mirror.size());
+  dram.read_back(begin, stored.data(), stored.size());
+  std::uint64_t differ = 0;
+  for (std::size_t i = 0; i < mirror.size(); ++i) differ += stored[i] != mirror[i];
+  return differ;
+}
+
+// Waveform: what the ports have outstanding, sampled by the kernel's own changes.
+class Probe : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(Probe);
+  Probe(const sc_core::sc_module_name& name, const std::vector<std::unique_ptr<PortUser>>& users,
+        const sc_core::sc_time& period)
+      : sc_module(name), outstanding(users.size()), users_(users), period_(period) {
+    SC_THREAD(run);
+  }
+  std::vector<std::uint64_t> outstanding;
+
+ private:
+  void run() {
+    bool busy = true;
+    while (busy) {
+      busy = false;
+      for (std::size_t i = 0; i < users_.size(); ++i) {
+        outstanding[i] = users_[i]->port.bytes_outstanding();
+        busy = busy || !users_[i]->finished;
+      }
+      sc_core::wait(period_);
+    }
+  }
+  const std::vector<std::unique_ptr<PortUser>>& users_;
+  const sc_core::sc_time period_;
+};
+
+}  // namespace
+
+bool run_self_check(const SelfCheck& check) {
+  const bool accurate = check.timing == TimingMode::kAccurate;
+  const std::uint32_t raw = accurate ? kRandomInitiators : 0;
+  PayloadPool pool;
+  DramController dram("dram", check.dram);
+  Router router("router", kPorts + raw);
+  router.map(0, dram.capacity_bytes(), dram.socket);
+  TraceChecker commands(dram.memspec(), CommandTraceHeader::of(check.dram));
+  dram.add_command_sink(commands);
+  std::unique_ptr<CommandTraceWriter> trace;
+  if (!check.dram_trace.empty()) {
+    trace =
+        std::make_unique<CommandTraceWriter>(check.dram_trace, CommandTraceHeader::of(check.dram));
+    dram.add_command_sink(*trace);
+  }
+
+  sc_core::sc_vector<ProtocolChecker> protocol("protocol", kPorts + raw);
+  std::vector<std::unique_ptr<PortUser>> users;
+  for (std::uint32_t i = 0; i < kPorts; ++i) {
+    const MemoryPort::Config config{static_cast<std::uint8_t>(i), 256, 16, check.timing};
+    users.push_back(std::make_unique<PortUser>(fmt::format("user_{}", i).c_str(), config, pool,
+                                               std::uint64_t{i} * kPartBytes, check.transactions,
+                                               check.seed * 100 + i));
+    users[i]->port.socket.bind(protocol[i].from_initiator);
+  }
+  std::vector<std::unique_ptr<RandomInitiator>> initiators;
+  for (std::uint32_t i = 0; i < raw; ++i) {
+    const RandomInitiator::Config config{std::uint64_t{kPorts + i} * kPartBytes, kPartBytes,
+                                         check.transactions, check.seed * 100 + 50 + i};
+    initiators.push_back(
+        std::make_unique<RandomInitiator>(fmt::format("initiator_{}", i).c_str(), config));
+    initiators[i]->socket.bind(protocol[kPorts + i].from_initiator);
+  }
+  for (std::uint32_t i = 0; i < kPorts + raw; ++i)
+    protocol[i].to_target.bind(router.from_initiators[i]);
+
+  sc_core::sc_trace_file* waveform = nullptr;
+  std::unique_ptr<Probe> probe;
+  if (!check.vcd.empty()) {
+    probe = std::make_unique<Probe>("probe", users, sc_core::sc_time(20, sc_core::SC_NS));
+    std::string stem = check.vcd;  // the kernel appends .vcd itself
+    if (stem.size() > 4 && stem.compare(stem.size() - 4, 4, ".vcd") == 0)
+      stem.resize(stem.size() - 4);
+    waveform = sc_core::sc_create_vcd_trace_file(stem.c_str());
+    for (std::size_t i = 0; i < users.size(); ++i)
+      sc_core::sc_trace(waveform, probe->outstanding[i],
+                        fmt::format("user_{}.bytes_outstanding", i));
+  }
+
+  sc_core::sc_start();
+  const DramStats stats = dram.stats();
+  if (waveform != nullptr) sc_core::sc_close_vcd_trace_file(waveform);
+  if (trace) trace->close();
+
+  bool pass = true;
+  std::uint64_t bytes = 0, differ = 0, violations = 0, transactions = 0;
+  for (std::uint32_t i = 0; i < kPorts; ++i) {
+    pass &= report(fmt::format("memory port {}: reads against the mirror", i).c_str(),
+                   users[i]->checks, users[i]->failures + (users[i]->finished ? 0 : 1));
+    bytes += users[i]->port.bytes_read() + users[i]->port.bytes_written();
+    differ += bytes_that_differ(dram, std::uint64_t{i} * kPartBytes, users[i]->mirror);
+  }
+  for (std::uint32_t i = 0; i < raw; ++i) {
+    pass &= report(fmt::format("initiator {}: answers against the mirror", i).c_str(),
+                   initiators[i]->checks(),
+                   initiators[i]->failures() + (initiators[i]->finished() ? 0 : 1));
+    bytes += initiators[i]->bytes_moved();
+    differ +=
+        bytes_that_differ(dram, std::uint64_t{kPorts + i} * kPartBytes, initiators[i]->mirror());
+  }
+  for (const ProtocolChecker& checker : protocol) {
+    violations += checker.violations().size() + checker.in_flight();
+    transactions += checker.finished();
+  }
+  pass &=
+      report("stored bytes against the mirrors", std::uint64_t{kPorts + raw} * kPartBytes, differ);
+  pass &= report("base protocol", transactions, violations);
+  if (commands.first()) fmt::print("      {}\n", commands.first()->text());
+  pass &= report("device constraints", commands.checked(), commands.first() ? 1 : 0);
+  pass &= report("bytes asked for = bytes counted", 1, bytes == stats.bytes() ? 0 : 1);
+  pass &= report(
+      "transactions begun = finished = counted", 1,
+      transactions == stats.traffic.total().transactions && dram.idle() && pool.in_use() == 0 ? 0
+                                                                                              : 1);
+  fmt::print("\n");
+  print_stats(stats);
+  fmt::print("\n{}\n", pass ? "PASS" : "FAIL");
+  return pass;
+}
+
+}  // namespace sgs
