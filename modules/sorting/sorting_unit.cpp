@@ -39,9 +39,8 @@ void SortingUnit::run() {
         spill_buffer();
         merge_runs();
       }
-    } else {
-      counters_.splats_saturated += buffer_.size();
     }
+    counters_.splats_saturated += received_ - emitted_;
     buffer_.clear();
     runs_.clear();
     spill_used_ = 0;
@@ -52,7 +51,8 @@ void SortingUnit::run() {
 // Takes the visit's splats from all HFUs; returns the mark with which the visit ends.
 SplatToken SortingUnit::collect() {
   std::vector<bool> ended(inputs_.size(), false);
-  std::uint64_t received = 0;
+  received_ = 0;
+  emitted_ = 0;
   SplatToken end;
   for (std::size_t open = inputs_.size(); open > 0;) {
     const std::size_t from = inputs_.select(activity_, [&](std::size_t i) { return !ended[i]; });
@@ -69,23 +69,20 @@ SplatToken SortingUnit::collect() {
       --open;
     } else {
       accept(token);
-      ++received;
+      ++received_;
     }
   }
   ++counters_.visits;
-  counters_.visits_trivial += received < 2 ? 1 : 0;
-  counters_.splats += received;
-  counters_.list_max = std::max(counters_.list_max, received);
+  counters_.visits_trivial += received_ < 2 ? 1 : 0;
+  counters_.splats += received_;
+  counters_.list_max = std::max(counters_.list_max, received_);
   return end;
 }
 
 void SortingUnit::accept(const SplatToken& token) {
   activity_.work(1);
   if (buffer_.size() == config_.buffer_entries) {
-    if (board_.saturated(group_)) {
-      ++counters_.splats_saturated;
-      return;
-    }
+    if (board_.saturated(group_)) return;
     sort_buffer();
     spill_buffer();
   }
@@ -179,6 +176,7 @@ void SortingUnit::emit(const Splat& splat) {
   token.group = group_;
   token.visit = visit_;
   output_.push(token, activity_);
+  ++emitted_;
 }
 
 SubtileRect SortingUnit::group_subtiles() const {

@@ -70,6 +70,7 @@ class SortingUnit : public sc_core::sc_module {
   std::vector<SpillRun> runs_;
   std::uint64_t spill_used_ = 0;
   std::uint32_t group_ = 0, visit_ = 0;
+  std::uint64_t received_ = 0, emitted_ = 0;  // splats of this visit
   SortingCounters counters_;
 };
 
