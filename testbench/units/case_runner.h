@@ -1,0 +1,51 @@
+// Runs the test cases of one testbench, each in a process of its own (SystemC elaborates once a
+// process), and says PASS or FAIL.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "testbench/units/checks.h"
+
+namespace sgs::tb {
+
+// What a case is given.
+struct Case {
+  Checks& checks;
+  std::string vcd_path;    // empty: no waveform
+  std::mt19937_64 random;  // seeded by the run's seed and the case
+};
+
+class CaseRunner {
+ public:
+  using Body = std::function<void(Case&)>;
+
+  // program, purpose: for --help.
+  CaseRunner(std::string program, std::string purpose);
+
+  void add_directed(const std::string& name, Body body);
+  // Run as often as --cases says, each with other random numbers; named "random 0", "random 1", ...
+  void set_random(Body body) { random_ = std::move(body); }
+
+  // Parses --seed, --cases, --case and --vcd, runs the cases. Exit status: 0 all checks held, 1
+  // some did not, 2 bad arguments.
+  int run(int argc, char* argv[]);
+
+ private:
+  struct Named {
+    std::string name;
+    Body body;
+  };
+  // Whether the case passed; adds its checks to the totals.
+  bool run_one(const Named& named, std::uint64_t seed, const std::string& vcd_path);
+
+  const std::string program_, purpose_;
+  std::vector<Named> directed_;
+  Body random_;
+  std::uint64_t checks_ = 0, failures_ = 0;
+};
+
+}  // namespace sgs::tb
