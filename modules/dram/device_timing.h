@@ -49,6 +49,12 @@ class DeviceTiming {
     const auto c = static_cast<std::size_t>(command);
     return std::max(bank_of(rank, bank).earliest[c], ranks_[rank].earliest[c]);
   }
+  // The same for a bank counted over all ranks.
+  std::uint64_t earliest_flat(RequestCommand command, std::uint32_t rank,
+                              std::uint32_t flat_bank) const {
+    const auto c = static_cast<std::size_t>(command);
+    return std::max(bank_[flat_bank].earliest[c], ranks_[rank].earliest[c]);
+  }
   std::uint64_t earliest_precharge_all(std::uint32_t rank) const;
   // All banks must be closed.
   std::uint64_t earliest_refresh_all(std::uint32_t rank) const;

@@ -94,11 +94,8 @@ Direction QueuedChannel::wanted_direction() const {
 
 const Candidate& QueuedChannel::best() {
   if (best_known_) return best_;
-  direction_ = wanted_direction();
-  Choice choice;
-  for (std::uint64_t left = queue(direction_).banks_in_use(); left != 0; left &= left - 1)
-    consider(static_cast<std::uint32_t>(__builtin_ctzll(left)), choice);
-  adopt(choice);
+  considered_ = wanted_direction();
+  adopt(best_of(queue(considered_).banks_in_use(), Choice{}));
   consider_maintenance();
   best_known_ = true;
   return best_;
@@ -111,7 +108,7 @@ void QueuedChannel::adopt(const Choice& choice) {
   best_ = Candidate{};
   best_entry_ = RequestQueue::kNone;
   if (choice.cycle_and_kind == kNoChoice) return;
-  const Work& work = works(direction_)[choice.flat_bank];
+  const Work& work = works(considered_)[choice.flat_bank];
   best_ = {choice.cycle_and_kind >> 1, kCommandOf[static_cast<std::size_t>(work.command)],
            work.rank, work.bank};
   best_entry_ = work.entry;
@@ -121,11 +118,10 @@ void QueuedChannel::revise_best(const ChannelRequest& added, std::uint32_t bank)
   if (!best_known_) return;
   // A first request wakes its rank, and one for the chosen bank may change that choice.
   const bool disturbs = best_entry_ == RequestQueue::kNone || best_choice_.flat_bank == bank;
-  if (waiting_[added.rank] == 1 || disturbs || wanted_direction() != direction_) {
+  if (waiting_[added.rank] == 1 || disturbs || wanted_direction() != considered_) {
     best_known_ = false;
-  } else if (added.direction == direction_) {
-    Choice choice = best_choice_;
-    consider(bank, choice);
+  } else if (added.direction == considered_) {
+    const Choice choice = best_of(std::uint64_t{1} << bank, best_choice_);
     if (choice.flat_bank == bank) adopt(choice);
   }
 }
@@ -144,6 +140,7 @@ QueuedChannel::Work QueuedChannel::work_of(const RequestQueue& queue, std::uint3
         request.direction == Direction::kRead ? RequestCommand::kRead : RequestCommand::kWrite;
   else
     work.command = open_row == kNoRow ? RequestCommand::kActivate : RequestCommand::kPrecharge;
+  work.column = open_row == request.row;
   work.rank = request.rank;
   work.bank = request.bank;
   work.ready = entry.ready;
@@ -156,23 +153,25 @@ void QueuedChannel::renew_work(std::uint32_t bank) {
   works(Direction::kWrite)[bank] = work_of(writes_, bank);
 }
 
-void QueuedChannel::consider(std::uint32_t flat_bank, Choice& best) {
-  Work& work = works(direction_)[flat_bank];
-  if (!work.settled) work = work_of(queue(direction_), flat_bank);
-  const RankMaintenance& maintenance = maintenance_[work.rank];
-  const std::uint64_t cycle =
-      std::max({device_.earliest(work.command, work.rank, work.bank), work.ready, clock_});
-  const bool column =
-      work.command == RequestCommand::kRead || work.command == RequestCommand::kWrite;
-  const bool possible = work.entry != RequestQueue::kNone && maintenance.powered_up() &&
-                        cycle < maintenance.request_limit(work.bank);
-  // One comparison of packed numbers: which bank wins is too random for a branch each.
-  const std::uint64_t key = possible ? cycle << 1 | (column ? 0u : 1u) : kNoChoice;
-  const bool better =
-      (key < best.cycle_and_kind) | ((key == best.cycle_and_kind) & (work.order < best.order));
-  best.cycle_and_kind = better ? key : best.cycle_and_kind;
-  best.order = better ? work.order : best.order;
-  best.flat_bank = better ? flat_bank : best.flat_bank;
+QueuedChannel::Choice QueuedChannel::best_of(std::uint64_t banks, Choice best) {
+  std::vector<Work>& works = this->works(considered_);
+  for (; banks != 0; banks &= banks - 1) {
+    const auto flat_bank = static_cast<std::uint32_t>(__builtin_ctzll(banks));
+    Work& work = works[flat_bank];
+    if (!work.settled) work = work_of(queue(considered_), flat_bank);
+    const std::uint64_t cycle =
+        std::max({device_.earliest_flat(work.command, work.rank, flat_bank), work.ready, clock_});
+    const bool possible = (work.entry != RequestQueue::kNone) &
+                          (cycle < maintenance_[work.rank].request_limit(work.bank));
+    // One comparison of packed numbers: which bank wins is too random for a branch each.
+    const std::uint64_t key = possible ? cycle << 1 | (work.column ? 0u : 1u) : kNoChoice;
+    const bool better =
+        (key < best.cycle_and_kind) | ((key == best.cycle_and_kind) & (work.order < best.order));
+    best.cycle_and_kind = better ? key : best.cycle_and_kind;
+    best.order = better ? work.order : best.order;
+    best.flat_bank = better ? flat_bank : best.flat_bank;
+  }
+  return best;
 }
 
 void QueuedChannel::consider_maintenance() {
@@ -193,6 +192,7 @@ void QueuedChannel::issue_best() {
   best_known_ = false;
   clock_ = c.cycle + 1;
   if (best_entry_ == RequestQueue::kNone) return issue_maintenance(c);
+  direction_ = considered_;
   if (is_read(c.command) || is_write(c.command)) return issue_column(c, best_entry_);
   const std::uint32_t flat_bank = c.rank * device_.banks() + c.bank;
   const ChannelRequest request = queue(direction_).entry(best_entry_).request;

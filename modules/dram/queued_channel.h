@@ -59,7 +59,8 @@ class QueuedChannel {
   struct Work {
     std::int32_t entry = RequestQueue::kNone;
     RequestCommand command = RequestCommand::kActivate;
-    bool settled = false;
+    bool settled = true;
+    bool column = false;
     std::uint32_t rank = 0;
     std::uint32_t bank = 0;  // within the rank
     std::uint64_t ready = 0;
@@ -84,7 +85,7 @@ class QueuedChannel {
   Work work_of(const RequestQueue& queue, std::uint32_t bank) const;
   std::vector<Work>& works(Direction d) { return works_[static_cast<std::size_t>(d)]; }
   void renew_work(std::uint32_t bank);
-  void consider(std::uint32_t bank, Choice& best);
+  Choice best_of(std::uint64_t banks, Choice best);
   void consider_maintenance();
   void issue_best();
   void issue_maintenance(const Candidate& candidate);
@@ -106,8 +107,9 @@ class QueuedChannel {
   RequestQueue reads_;
   RequestQueue writes_;
 
-  Direction direction_ = Direction::kRead;
-  std::uint64_t clock_ = 0;  // the command bus is free from here on
+  Direction direction_ = Direction::kRead;   // of the last request's command
+  Direction considered_ = Direction::kRead;  // of the choice at hand; a look must change nothing
+  std::uint64_t clock_ = 0;                  // the command bus is free from here on
   std::uint64_t next_order_ = 0;
   std::vector<std::uint32_t> waiting_;      // requests by rank
   std::vector<std::uint64_t> wanted_from_;  // by rank: since when requests have been waiting

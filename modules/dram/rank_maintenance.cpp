@@ -25,12 +25,22 @@ RankMaintenance::RankMaintenance(const DramConfig& config, const Memspec& memspe
   if (mode_ == RefreshMode::kOff) return;
   refresh_due_ = interval_;
   set_urgency(0);
+  set_limits();
 }
 
 void RankMaintenance::set_urgency(std::uint64_t cycle) {
   // Once owed refreshes are being worked off they go back to back: that is what postponing gains.
   const bool still_owed = refresh_due_ <= cycle && urgent_from_ <= cycle;
   urgent_from_ = still_owed ? refresh_due_ : refresh_due_ + postpone_;
+}
+
+void RankMaintenance::set_limits() {
+  if (state_ != State::kUp) {
+    refresh_bank_limit_ = other_banks_limit_ = 0;
+    return;
+  }
+  refresh_bank_limit_ = urgent_from_;
+  other_banks_limit_ = mode_ == RefreshMode::kPerBank ? kNever : urgent_from_;
 }
 
 Candidate RankMaintenance::next(const DeviceTiming& device, std::uint64_t wanted_from) const {
@@ -119,7 +129,9 @@ void RankMaintenance::on_command(Command command, std::uint64_t cycle) {
       break;
     default:
       idle_since_ = cycle;
+      return;
   }
+  set_limits();
 }
 
 }  // namespace sgs

@@ -34,10 +34,9 @@ class RankMaintenance {
   }
 
   // A request's command to `bank` must be sent before this cycle: refresh goes first from there.
+  // 0 in a low-power state.
   std::uint64_t request_limit(std::uint32_t bank) const {
-    if (mode_ == RefreshMode::kOff || (mode_ == RefreshMode::kPerBank && bank != refresh_bank_))
-      return kNever;
-    return urgent_from_;
+    return bank == refresh_bank_ ? refresh_bank_limit_ : other_banks_limit_;
   }
 
   bool powered_up() const { return state_ == State::kUp; }
@@ -52,6 +51,7 @@ class RankMaintenance {
   Candidate refresh(const DeviceTiming& device, std::uint64_t from) const;
   Candidate sleep(const DeviceTiming& device) const;
   void set_urgency(std::uint64_t cycle);
+  void set_limits();
 
   const RefreshMode mode_;
   const std::uint32_t rank_;
@@ -64,7 +64,9 @@ class RankMaintenance {
   State state_ = State::kUp;
   std::uint64_t refresh_due_ = kNever;
   std::uint64_t urgent_from_ = kNever;
-  std::uint32_t refresh_bank_ = 0;  // whose turn it is
+  std::uint32_t refresh_bank_ = 0;  // whose turn it is, with per-bank refresh
+  std::uint64_t refresh_bank_limit_ = kNever;
+  std::uint64_t other_banks_limit_ = kNever;
   std::uint64_t idle_since_ = 0;
 };
 
