@@ -42,7 +42,10 @@ UnitBench::UnitBench(Case& test, const BenchConfig& config) : test_(test) {
                                               config.longest_stall_cycles);
   }
   const bool accurate = config.memory == Memory::kDramAccurate;
-  const MemoryPort::Config port{0, 256, 16, accurate ? TimingMode::kAccurate : TimingMode::kFast};
+  // Where times are computed to the cycle the port must not hold anything back.
+  const std::uint32_t outstanding = config.memory == Memory::kFixedLatency ? 4096 : 16;
+  const MemoryPort::Config port{0, 256, outstanding,
+                                accurate ? TimingMode::kAccurate : TimingMode::kFast};
   port_ = std::make_unique<MemoryPort>("port", port, pool_);
   port_->socket.bind(checker_.from_initiator);
   if (config.memory == Memory::kFixedLatency) {

@@ -1,0 +1,94 @@
+// Making of random scenes.
+#include "testbench/units/random_scene.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "algorithm/render/group_state.h"
+
+namespace sgs::tb {
+namespace {
+
+float uniform(std::mt19937_64& random, float low, float high) {
+  return std::uniform_real_distribution<float>(low, high)(random);
+}
+
+glm::vec3 in_cube(std::mt19937_64& random, float half_side) {
+  glm::vec3 out;
+  for (int axis = 0; axis < 3; ++axis) out[axis] = uniform(random, -half_side, half_side);
+  return out;
+}
+
+ActivatedCloud random_cloud(std::mt19937_64& random, const SceneShape& shape) {
+  ActivatedCloud cloud;
+  cloud.sh_degree = shape.sh_degree;
+  const auto coeffs = static_cast<std::size_t>((shape.sh_degree + 1) * (shape.sh_degree + 1));
+  for (std::size_t i = 0; i < shape.gaussians; ++i) {
+    Gaussian<float> g{};
+    g.mean = in_cube(random, shape.extent);
+    for (int axis = 0; axis < 3; ++axis) {
+      g.scale[axis] =
+          shape.extent * std::exp(uniform(random, -7.0F, random() % 10 == 0 ? 0 : -2.5F));
+    }
+    float squared = 0;
+    for (float& component : g.quat) {
+      component = uniform(random, -1, 1);
+      squared += component * component;
+    }
+    for (float& component : g.quat) component /= std::sqrt(squared);
+    g.opacity = random() % 8 == 0 ? 0.001F : uniform(random, 0.0F, 1.0F);
+    cloud.gaussians.push_back(g);
+    for (std::size_t k = 0; k < coeffs; ++k) cloud.sh_coeffs.push_back(in_cube(random, 1));
+  }
+  return cloud;
+}
+
+Camera random_camera(std::mt19937_64& random, const SceneShape& shape) {
+  Camera camera;
+  camera.width = shape.width_px;
+  camera.height = shape.height_px;
+  const double longest = std::max(camera.width, camera.height);
+  camera.focal_x = camera.focal_y = longest * uniform(random, 0.5F, 2.0F);
+  if (random() % 4 == 0) {
+    camera.position = glm::dvec3(shape.voxel_size * std::floor(uniform(random, -3, 3)));
+    return camera;  // looks along z
+  }
+  camera.position = in_cube(random, shape.extent * (random() % 2 == 0 ? 0.8F : 3.0F));
+  const glm::dvec3 target = in_cube(random, shape.extent * 0.3F);
+  const glm::dvec3 forward = glm::normalize(target - camera.position);
+  const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, -1, 0), forward));
+  camera.world_from_camera = {right, glm::cross(forward, right), forward};
+  return camera;
+}
+
+}  // namespace
+
+TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
+  TestScene scene;
+  scene.cloud = random_cloud(random, shape);
+  scene.grid = build_voxel_grid(scene.cloud, shape.voxel_size);
+  const Camera camera = random_camera(random, shape);
+  FrameJob& job = scene.job;
+  job.view = make_view<float>(camera);
+  job.group_px = shape.group_px;
+  job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
+  scene.image = build_memory_image(
+      scene.cloud, scene.grid, 0,
+      std::uint64_t{pixel_bytes(job.frame_format)} * camera.width * camera.height);
+  job.layout = scene.image.layout;
+  return scene;
+}
+
+SceneShape random_shape(std::mt19937_64& random) {
+  SceneShape shape;
+  constexpr std::size_t kCounts[] = {0, 1, 20, 300, 1000};
+  shape.gaussians = kCounts[random() % 5];
+  shape.sh_degree = static_cast<int>(random() % 4);
+  shape.voxel_size = std::exp2(uniform(random, -3, 4));
+  shape.width_px = 1 + static_cast<int>(random() % 60);
+  shape.height_px = 1 + static_cast<int>(random() % 40);
+  shape.group_px = 4 * (1 + static_cast<int>(random() % 16));
+  return shape;
+}
+
+}  // namespace sgs::tb

@@ -1,0 +1,36 @@
+// Small random scenes, laid out in memory and with a camera, as VSU and HFUs see them.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/voxel/voxel_grid.h"
+#include "modules/frame_job.h"
+
+namespace sgs::tb {
+
+struct SceneShape {
+  std::size_t gaussians = 200;
+  int sh_degree = 1;
+  float extent = 4;  // world units, half the side of the cube that holds the centres
+  float voxel_size = 1;
+  int width_px = 48, height_px = 40, group_px = 16;
+};
+
+struct TestScene {
+  ActivatedCloud cloud;
+  VoxelGrid grid;
+  MemoryImage image;
+  FrameJob job;
+};
+
+// Scales from a thousandth of the extent to the extent, opacities from 0 to 1, some never visible;
+// a camera inside or outside that looks somewhere near the middle or, one time in four, along an
+// axis from a corner of a voxel.
+TestScene random_scene(std::mt19937_64& random, const SceneShape& shape);
+
+// All of it at random.
+SceneShape random_shape(std::mt19937_64& random);
+
+}  // namespace sgs::tb
