@@ -107,7 +107,9 @@ std::vector<std::byte> Accelerator::read_frame() const {
 
 std::vector<Activity*> Accelerator::activities() {
   std::vector<Activity*> all;
-  const auto add = [&](const auto& of_unit) { all.insert(all.end(), of_unit.begin(), of_unit.end()); };
+  const auto add = [&](const auto& of_unit) {
+    all.insert(all.end(), of_unit.begin(), of_unit.end());
+  };
   add(vsu_->activities());
   for (auto& hfu : hfus_) add(hfu->activities());
   for (auto& unit : sorting_) all.push_back(&unit->activity());

@@ -39,8 +39,8 @@ void visit(ConfigVisitor& v, HfuConfig& c) {
   v("ffu_lanes", c.ffu_lanes, in_range(1, 10000), "MAC lanes of one FFU");
   v("ffu_depth_cycles", c.ffu_depth_cycles, in_range(1, 1000), "latency of a fine test");
   v("coarse_filter", c.coarse_filter, "off: every Gaussian goes to the fine filter");
-  v("slice_gaussians", c.slice_gaussians, in_range(2, 1 << 20),
-    "first halves in one half of an HFU's input buffer");
+  v("input_slots", c.input_slots, in_range(2, 1024), "slices in an HFU's input buffer");
+  v("slice_gaussians", c.slice_gaussians, in_range(2, 1 << 20), "first halves in one slice");
   v("candidate_fifo_entries", c.candidate_fifo_entries, in_range(1, 4096), "coarse to fine");
   v("second_half_slots", c.second_half_slots, in_range(1, 1024),
     "second halves on their way or waiting");
@@ -129,7 +129,7 @@ std::uint64_t SramBudget::total(const std::vector<SramUse>& uses) {
 SramBudget sram_budget(const AcceleratorConfig& c) {
   SramBudget budget;
   budget.input.push_back(product("input", {{c.hfus, "HFUs"},
-                                           {2, "halves"},
+                                           {c.hfu.input_slots, "slots"},
                                            {c.hfu.slice_gaussians, "Gaussians"},
                                            {kFirstHalfBytes, "B"}}));
   budget.shared = {

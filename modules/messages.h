@@ -9,7 +9,8 @@ namespace sgs {
 
 // A visit is one voxel streamed for one pixel group; visits are numbered through the frame. Behind
 // a group's last visit comes an end-of-group mark that takes a number of its own.
-enum class Mark : std::uint8_t { kNone, kEndOfVisit, kEndOfGroup };
+// kRejected holds the place of a key whose Gaussian turned out not to touch the group.
+enum class Mark : std::uint8_t { kNone, kEndOfVisit, kEndOfGroup, kRejected };
 
 // VSU -> HFU: this HFU's share of a visit (which may be empty), or the end of a group.
 struct VisitShare {
@@ -17,13 +18,16 @@ struct VisitShare {
   std::uint32_t visit = 0;
   std::uint32_t first = 0, count = 0;  // storage slots
   Mark mark = Mark::kNone;
+  float release_below = 0;  // exact order: nothing nearer comes after this visit
 };
 
-// Coarse filter -> second-half fetch -> fine filter.
+// Coarse filter -> (sorting -> merge, in exact order) -> second-half fetch -> fine filter.
 struct FineCandidate {
   std::uint32_t group = 0;
   std::uint32_t visit = 0;
   std::uint32_t slot = 0;
+  float depth = 0;          // v_z: with the slot the key of exact order
+  float release_below = 0;  // with kEndOfVisit, in exact order
   float mean_x = 0, mean_y = 0, mean_z = 0, scale_max = 0;
   std::uint64_t ticket = 0;  // of the second half's read
   std::uint32_t buffer = 0;  // where it lands

@@ -5,9 +5,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <vector>
 
+#include "algorithm/render/blend_watch.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/missed_splats.h"
 #include "algorithm/splat/coarse_bound.h"
@@ -21,49 +21,6 @@ struct GridTable {
   const VoxelNode& node(std::uint32_t index) const { return grid.nodes[index]; }
 };
 
-// Counts, per pixel, blends of a splat that is nearer than one already blended there.
-class MisorderedCount {
- public:
-  explicit MisorderedCount(std::size_t subtiles) : seen_(subtiles) {}
-
-  // Whether the splat at `depth` was blended into any pixel of the sub-tile.
-  bool after_blend(std::size_t at, const SubtileState& state, float depth) {
-    Seen& seen = seen_[at];
-    bool any = false;
-    for (int lane = 0; lane < kSubtilePixels; ++lane) {
-      const bool blended = state.contributors[lane] != seen.contributors[lane];
-      any |= blended;
-      count_ += blended && depth < seen.deepest[lane] ? 1 : 0;
-      seen.deepest[lane] = blended ? std::max(depth, seen.deepest[lane]) : seen.deepest[lane];
-      seen.contributors[lane] = state.contributors[lane];
-    }
-    return any;
-  }
-  std::uint64_t count() const { return count_; }
-
- private:
-  struct Seen {
-    float deepest[kSubtilePixels] = {};
-    std::int32_t contributors[kSubtilePixels] = {};
-  };
-  std::vector<Seen> seen_;
-  std::uint64_t count_ = 0;
-};
-
-// One flag for each of many things, set from any thread.
-class Flags {
- public:
-  explicit Flags(std::size_t count) : flags_(count) {}
-  void set(std::size_t index) { flags_[index].store(1, std::memory_order_relaxed); }
-  std::uint64_t count() const {
-    return static_cast<std::uint64_t>(std::count_if(
-        flags_.begin(), flags_.end(), [](const auto& flag) { return flag.load() != 0; }));
-  }
-
- private:
-  std::vector<std::atomic<std::uint8_t>> flags_;
-};
-
 // Splats of one visit, front to back.
 void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
                      const VoxelRecord& voxel, const PixelRect& pixels, std::vector<Splat>& run,
@@ -75,6 +32,7 @@ void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const
     const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
     const CoarseBound bound = coarse_bound(view, g.mean, scale_max);
     if (!bound.in_front || !touches(bound, pixels)) continue;
+    ++stats.coarse_passed;
     ++stats.second_halves;
     Splat splat;
     if (!make_geometry(view, g, splat) || !reaches_group(splat, pixels)) continue;
@@ -89,24 +47,6 @@ void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const
 }
 
 }  // namespace
-
-StreamingStats& StreamingStats::operator+=(const StreamingStats& other) {
-  groups += other.groups;
-  visits += other.visits;
-  visits_saturated += other.visits_saturated;
-  first_halves += other.first_halves;
-  second_halves += other.second_halves;
-  splats += other.splats;
-  subtile_blends += other.subtile_blends;
-  contributors += other.contributors;
-  misordered += other.misordered;
-  missed += other.missed;
-  ray_steps += other.ray_steps;
-  edges_offered += other.edges_offered;
-  table_bytes_max = std::max(table_bytes_max, other.table_bytes_max);
-  visit_splats_max = std::max(visit_splats_max, other.visit_splats_max);
-  return *this;
-}
 
 GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const VoxelGrid& grid,
                          float sample_step_voxels, OrderingTable& table) {
@@ -146,7 +86,7 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
     s.missed = missed.count(index, visits.voxels);
 
     GroupState state(group, view.width, view.height);
-    MisorderedCount misordered(state.subtile_count());
+    BlendWatch watch(state.subtile_count());
     std::vector<Splat> run;
     for (const std::uint32_t voxel : visits.voxels) {
       if (state.saturated()) {
@@ -159,17 +99,17 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
       for (const Splat& splat : run) {
         if (state.saturated()) break;
         s.subtile_blends += state.blend(splat, [&](std::size_t at, const SubtileState& subtile) {
-          if (misordered.after_blend(at, subtile, splat.depth)) contributing.set(splat.index);
+          if (watch.after_blend(at, subtile, splat.depth)) contributing.set(splat.index);
         });
       }
     }
-    s.misordered = misordered.count();
+    s.misordered = watch.misordered();
     s.contributors = state.contributors();
     state.store(config.background, out.frame);
   });
   for (const StreamingStats& s : stats) out.stats += s;
   out.stats.contributing = contributing.count();
-  out.stats.voxels_visited = visited.count();
+  out.stats.blocks_visited = visited.count();
   return out;
 }
 

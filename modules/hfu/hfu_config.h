@@ -14,6 +14,7 @@ struct HfuConfig {
   std::uint32_t ffu_lanes = 16;
   std::uint32_t ffu_depth_cycles = 40;
   bool coarse_filter = true;                  // off: every Gaussian goes to the fine filter
+  std::uint32_t input_slots = 2;              // slices in the input buffer: fetched and filtered
   std::uint32_t slice_gaussians = 128;        // first halves in one half of the input buffer
   std::uint32_t candidate_fifo_entries = 16;  // coarse -> fine
   std::uint32_t second_half_slots = 6;        // second halves on their way or waiting

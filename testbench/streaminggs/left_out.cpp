@@ -48,7 +48,7 @@ Json left_out(const ViewFacts& facts, const AcceleratorConfig& config, const Jso
       fmt::format("{} B of DRAM", (facts.gaussians - layout.gaussian_count) *
                                       (kFirstHalfBytes + second_bytes)));
   add("voxels_not_needed", "no ray of any group crosses them",
-      layout.voxel_count - facts.golden.stats.voxels_visited, "their Gaussians are never fetched");
+      layout.voxel_count - facts.golden.stats.blocks_visited, "their Gaussians are never fetched");
   const double side = layout.voxel_frame.side_cells();
   const double cells = side * side * side;
   add("empty_cells", "only occupied cells exist in the voxel tree",

@@ -1,0 +1,152 @@
+// Exact order, one task a group.
+#include "algorithm/render/exact_renderer.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "algorithm/order/chunk_walk.h"
+#include "algorithm/render/blend_watch.h"
+#include "algorithm/render/group_state.h"
+#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/make_splat.h"
+
+namespace sgs {
+namespace {
+
+struct TreeInMemory {
+  const ChunkTree& tree;
+  std::vector<WalkEntry> aside;
+  const ChunkNode& node(std::uint32_t index) const { return tree.nodes[index]; }
+  void put_aside(const WalkEntry& entry) { aside.push_back(entry); }
+  std::vector<WalkEntry> take_back() { return std::exchange(aside, {}); }
+};
+
+struct Key {
+  float depth;
+  std::uint32_t index;  // in the file: breaks ties of depth
+};
+struct Behind {
+  bool operator()(const Key& a, const Key& b) const {
+    return a.depth > b.depth || (a.depth == b.depth && a.index > b.index);
+  }
+};
+
+// One group's frame: keys wait, are released, become splats and are blended.
+class GroupStream {
+ public:
+  GroupStream(const View<float>& view, const ActivatedCloud& cloud, const PixelRect& pixels,
+              const ExactOrderConfig& config, Flags& contributing, StreamingStats& stats)
+      : view_(view),
+        cloud_(cloud),
+        config_(config),
+        contributing_(contributing),
+        stats_(stats),
+        state_(pixels, view.width, view.height),
+        watch_(state_.subtile_count()) {}
+
+  void visit(const ChunkTree& tree, const WalkEntry& chunk) {
+    ++stats_.visits;
+    stats_.first_halves += chunk.count;
+    for (std::uint32_t slot = chunk.at; slot < chunk.at + chunk.count; ++slot) {
+      const std::uint32_t index = tree.storage_order[slot];
+      const Gaussian<float>& g = cloud_.gaussians[index];
+      const CoarseBound bound =
+          coarse_bound(view_, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
+      if (!bound.in_front || !touches(bound, state_.pixels())) continue;
+      pending_.push({bound.depth, index});
+      ++stats_.coarse_passed;
+    }
+  }
+
+  // Nothing nearer than `nearest` will come any more.
+  void release_below(float nearest) {
+    while (!pending_.empty() && pending_.top().depth < nearest && !state_.saturated()) release();
+    if (config_.on_overflow == OnOverflow::kBlendEarly) {
+      while (pending_.size() > config_.merge_entries && !state_.saturated()) {
+        release();
+        ++stats_.forced_early;
+      }
+    }
+    stats_.pending_keys_max = std::max<std::uint64_t>(stats_.pending_keys_max, pending_.size());
+  }
+
+  bool saturated() const { return state_.saturated(); }
+
+  void finish(RenderResult& frame) {
+    stats_.contributors = state_.contributors();
+    stats_.misordered = watch_.misordered();
+    state_.store(config_.background, frame);
+  }
+
+ private:
+  void release() {
+    const std::uint32_t index = pending_.top().index;
+    pending_.pop();
+    ++stats_.second_halves;
+    const Gaussian<float>& g = cloud_.gaussians[index];
+    Splat splat;
+    if (!make_geometry(view_, g, splat) || !reaches_group(splat, state_.pixels())) return;
+    add_colour(view_, cloud_.sh_degree, g.mean, cloud_.sh(index), splat);
+    ++stats_.splats;
+    stats_.subtile_blends += state_.blend(splat, [&](std::size_t at, const SubtileState& subtile) {
+      if (watch_.after_blend(at, subtile, splat.depth)) contributing_.set(index);
+    });
+  }
+
+  const View<float>& view_;
+  const ActivatedCloud& cloud_;
+  const ExactOrderConfig& config_;
+  Flags& contributing_;
+  StreamingStats& stats_;
+  GroupState state_;
+  BlendWatch watch_;
+  std::priority_queue<Key, std::vector<Key>, Behind> pending_;
+};
+
+void render_group(const View<float>& view, const ActivatedCloud& cloud, const ChunkTree& tree,
+                  const PixelRect& pixels, const ExactOrderConfig& config, Flags& contributing,
+                  Flags& visited, StreamingStats& stats, RenderResult& frame) {
+  stats.groups = 1;
+  TreeInMemory source{tree, {}};
+  ChunkWalk walk(view, source, config.walk_queue_entries);
+  walk.start(pixels, tree.nodes.empty());
+  GroupStream stream(view, cloud, pixels, config, contributing, stats);
+  std::optional<WalkEntry> chunk = walk.next();
+  while (chunk && !stream.saturated()) {
+    stream.visit(tree, *chunk);
+    visited.set(chunk->at);
+    chunk = walk.next();
+    stream.release_below(chunk ? chunk->nearest : std::numeric_limits<float>::infinity());
+  }
+  stats.nodes_read = walk.counters().nodes;
+  stats.walk_queue_max = walk.counters().queue_max;
+  stream.finish(frame);
+}
+
+}  // namespace
+
+StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud& cloud,
+                                   const ChunkTree& tree, const ExactOrderConfig& config) {
+  StreamingResult out;
+  const auto pixels = static_cast<std::size_t>(view.width) * view.height;
+  out.frame.image = Image(view.width, view.height);
+  out.frame.transmittance.resize(pixels);
+  out.frame.contributors.resize(pixels);
+  const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group_px);
+  std::vector<StreamingStats> stats(groups.size());
+  Flags contributing(cloud.size()), visited(tree.storage_order.size());
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    render_group(view, cloud, tree, groups[g], config, contributing, visited, stats[g], out.frame);
+  });
+  for (const StreamingStats& s : stats) out.stats += s;
+  out.stats.contributing = contributing.count();
+  out.stats.blocks_visited = visited.count();
+  return out;
+}
+
+}  // namespace sgs

@@ -1,0 +1,35 @@
+// Streaming renderer in exact order: the reference image, chunk by chunk. For each pixel group the
+// chunks that can touch it are streamed by nearest depth; keys (depth, index) of what passes the
+// coarse filter wait until nothing nearer can come; only then is the rest of the Gaussian looked
+// at.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/render/streaming_result.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/view.h"
+#include "algorithm/voxel/chunk_tree.h"
+
+namespace sgs {
+
+// What happens when more keys wait than the merge buffer holds.
+enum class OnOverflow {
+  kSpill,       // sorted runs go to DRAM and come back: the image stays exact
+  kBlendEarly,  // the nearest keys are released before they are final: the image may suffer
+};
+
+struct ExactOrderConfig {
+  int group_px = 64;                   // side of a pixel group, a multiple of 4
+  std::uint32_t merge_entries = 4096;  // keys that wait at most, between two visits
+  OnOverflow on_overflow = OnOverflow::kSpill;
+  std::uint32_t walk_queue_entries = 512;  // of the front-to-back walk
+  glm::vec3 background{0.0F};
+};
+
+// tree: of this cloud. With kSpill the picture equals render_reference bit for bit. Deterministic
+// whatever the number of threads.
+StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud& cloud,
+                                   const ChunkTree& tree, const ExactOrderConfig& config);
+
+}  // namespace sgs

@@ -1,0 +1,45 @@
+// What the streaming renderers return beside the picture: the work that a frame takes, by count.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/render/render_result.h"
+
+namespace sgs {
+
+// A block is what one visit streams: a voxel in paper order, a chunk in exact order.
+struct StreamingStats {
+  std::uint64_t groups = 0;
+  std::uint64_t visits = 0;            // (group, block) pairs streamed
+  std::uint64_t visits_saturated = 0;  // left out because the group was finished (paper order)
+  std::uint64_t blocks_visited = 0;    // by at least one group
+  std::uint64_t first_halves = 0;      // Gaussians seen by the coarse filter
+  std::uint64_t coarse_passed = 0;     // of these
+  std::uint64_t second_halves = 0;     // seen by the fine filter
+  std::uint64_t splats = 0;            // that passed both
+  std::uint64_t subtile_blends = 0;    // (splat, 4x4 sub-tile) pairs
+  std::uint64_t contributors = 0;      // (splat, pixel) blends
+  std::uint64_t contributing = 0;      // Gaussians blended into at least one pixel of the frame
+  std::uint64_t misordered = 0;        // blends behind a splat that is farther, at the same pixel
+  std::uint64_t missed = 0;            // (group, splat) pairs that touch, in a block never visited
+  // Paper order.
+  std::uint64_t ray_steps = 0;
+  std::uint64_t edges_offered = 0;
+  std::uint64_t table_bytes_max = 0;   // ordering table of the worst group
+  std::uint64_t visit_splats_max = 0;  // longest list that one visit sorts
+  // Exact order.
+  std::uint64_t nodes_read = 0;        // of the chunk tree
+  std::uint64_t walk_queue_max = 0;    // entries
+  std::uint64_t pending_keys_max = 0;  // merged and not yet final, of the worst group
+  std::uint64_t forced_early = 0;      // keys released before they were final (blend_early)
+
+  // Adds counts, keeps the larger of the maxima.
+  StreamingStats& operator+=(const StreamingStats& other);
+};
+
+struct StreamingResult {
+  RenderResult frame;
+  StreamingStats stats;
+};
+
+}  // namespace sgs
