@@ -1,4 +1,6 @@
 // The memory's accounts: what every command adds, and the counts and energy up to a moment.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "modules/dram/dram_controller.h"
@@ -53,6 +55,17 @@ DramStats DramController::stats() {
       stats.energy = energy;
   }
   return stats;
+}
+
+void DramController::trace(sc_core::sc_trace_file* file, TimingMode timing) const {
+  for (std::size_t c = 0; c < channels_.size(); ++c) {
+    const RowCounts& rows = timing == TimingMode::kFast ? channels_[c].arrival_order.rows()
+                                                        : channels_[c].queued.rows();
+    const std::string channel = fmt::format("{}.channel{}", name(), c);
+    sc_core::sc_trace(file, rows.bursts[0], channel + ".row_hits");
+    sc_core::sc_trace(file, rows.bursts[1], channel + ".row_misses");
+    sc_core::sc_trace(file, rows.bursts[2], channel + ".row_conflicts");
+  }
 }
 
 }  // namespace sgs

@@ -24,6 +24,7 @@
 #include "modules/dram/memspec.h"
 #include "modules/dram/queued_channel.h"
 #include "modules/dram/ring_queue.h"
+#include "tlm/memory_port.h"
 
 namespace sgs {
 
@@ -55,6 +56,10 @@ class DramController : public sc_core::sc_module {
   // Counts and energy up to now (of a run that is over: up to the last datum); idle time is
   // caught up with first.
   DramStats stats();
+
+  // Adds each channel's row hits, misses and conflicts to a waveform. timing: of the ports that will
+  // ask.
+  void trace(sc_core::sc_trace_file* file, TimingMode timing) const;
 
  private:
   enum class Transport { kUnused, kNonBlocking, kBlocking };

@@ -1,9 +1,9 @@
 // Latencies in clock cycles: mean and percentiles from a histogram of bounded size.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace sgs {
 
@@ -63,7 +63,8 @@ class LatencyHistogram {
     return (std::uint64_t{kPerOctave} + (bin - kLinear) % kPerOctave) << octave;
   }
 
-  std::array<std::uint64_t, kBins> bins_{};
+  // On the heap: statistics are passed around on the small stacks of SystemC threads.
+  std::vector<std::uint64_t> bins_ = std::vector<std::uint64_t>(kBins);
   std::uint64_t count_ = 0;
   std::uint64_t sum_ = 0;
   std::uint64_t max_ = 0;

@@ -16,6 +16,7 @@ QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, s
       high_watermark_(config.write_high_watermark),
       low_watermark_(config.write_low_watermark),
       age_cap_(config.age_cap_cycles),
+      rcd_(memspec.timing_cycles.rcd),
       sink_(sink),
       device_(memspec, DerivedTiming(memspec, config.write_latency_set, config.read_strobe),
               config.ranks),
@@ -140,6 +141,7 @@ QueuedChannel::Work QueuedChannel::work_of(const RequestQueue& queue, std::uint3
         request.direction == Direction::kRead ? RequestCommand::kRead : RequestCommand::kWrite;
   else
     work.command = open_row == kNoRow ? RequestCommand::kActivate : RequestCommand::kPrecharge;
+  work.wasted_within = work.command == RequestCommand::kActivate ? rcd_ : 0;
   work.column = open_row == request.row;
   work.rank = request.rank;
   work.bank = request.bank;
@@ -161,8 +163,9 @@ QueuedChannel::Choice QueuedChannel::best_of(std::uint64_t banks, Choice best) {
     if (!work.settled) work = work_of(queue(considered_), flat_bank);
     const std::uint64_t cycle =
         std::max({device_.earliest_flat(work.command, work.rank, flat_bank), work.ready, clock_});
-    const bool possible = (work.entry != RequestQueue::kNone) &
-                          (cycle < maintenance_[work.rank].request_limit(work.bank));
+    const bool possible =
+        (work.entry != RequestQueue::kNone) &
+        (cycle + work.wasted_within < maintenance_[work.rank].request_limit(work.bank));
     // One comparison of packed numbers: which bank wins is too random for a branch each.
     const std::uint64_t key = possible ? cycle << 1 | (work.column ? 0u : 1u) : kNoChoice;
     const bool better =

@@ -62,7 +62,8 @@ class QueuedChannel {
     bool settled = true;
     bool column = false;
     std::uint32_t rank = 0;
-    std::uint32_t bank = 0;  // within the rank
+    std::uint32_t bank = 0;           // within the rank
+    std::uint32_t wasted_within = 0;  // cycles before a refresh in which the command is of no use
     std::uint64_t ready = 0;
     std::uint64_t order = 0;
   };
@@ -99,6 +100,7 @@ class QueuedChannel {
   const std::uint32_t high_watermark_;
   const std::uint32_t low_watermark_;
   const std::uint64_t age_cap_;
+  const std::uint32_t rcd_;
   CommandSink& sink_;
   DeviceTiming device_;
   std::vector<RankMaintenance> maintenance_;

@@ -1,0 +1,276 @@
+// The memory through its TLM socket: bytes, errors, latencies, back-pressure, both transports.
+#include "modules/dram/dram_controller.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <vector>
+
+#include "tlm/memory_port.h"
+#include "tlm/payload_pool.h"
+#include "tlm/time_resolution.h"
+
+namespace sgs {
+namespace {
+
+using sc_core::SC_NS;
+using sc_core::sc_time;
+
+// An initiator whose thread is the test, and which notes when phases come.
+class Initiator : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_initiator_socket<Initiator> socket;
+  SC_HAS_PROCESS(Initiator);
+  Initiator(const sc_core::sc_module_name& name, std::function<void(Initiator&)> body)
+      : sc_module(name), socket("socket"), body_(std::move(body)) {
+    socket.register_nb_transport_bw(this, &Initiator::nb_transport_bw);
+    SC_THREAD(run);
+  }
+
+  PooledPayload& make(tlm::tlm_command command, std::uint64_t address, std::uint32_t bytes) {
+    PooledPayload& p = pool.acquire();
+    p.set_command(command);
+    p.set_address(address);
+    p.set_data_ptr(p.buffer(bytes));
+    p.set_data_length(bytes);
+    p.set_streaming_width(bytes);
+    return p;
+  }
+  tlm::tlm_sync_enum begin(PooledPayload& p, sc_time delay = sc_core::SC_ZERO_TIME) {
+    tlm::tlm_phase phase = tlm::BEGIN_REQ;
+    return socket->nb_transport_fw(p, phase, delay);
+  }
+  tlm::tlm_response_status blocking(PooledPayload& p, sc_time& delay) {
+    socket->b_transport(p, delay);
+    return p.get_response_status();
+  }
+
+  PayloadPool pool;
+  std::vector<sc_time> end_requests;
+  std::vector<sc_time> answers;
+  bool finished = false;
+
+ private:
+  void run() {
+    body_(*this);
+    finished = true;
+  }
+  tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& p, tlm::tlm_phase& phase, sc_time&) {
+    if (phase == tlm::END_REQ) {
+      end_requests.push_back(sc_core::sc_time_stamp());
+      return tlm::TLM_ACCEPTED;
+    }
+    answers.push_back(sc_core::sc_time_stamp());
+    phase = tlm::END_RESP;
+    p.release();
+    return tlm::TLM_COMPLETED;
+  }
+  std::function<void(Initiator&)> body_;
+};
+
+DramConfig quiet() {
+  DramConfig c;
+  c.refresh = RefreshMode::kOff;
+  return c;
+}
+
+void run(const DramConfig& config, const std::function<void(Initiator&, DramController&)>& body) {
+  use_femtosecond_resolution();
+  DramController dram("dram", config);
+  Initiator initiator("initiator", [&](Initiator& i) { body(i, dram); });
+  initiator.socket.bind(dram.socket);
+  sc_core::sc_start();
+  CHECK(initiator.finished);
+  CHECK(dram.idle());
+}
+
+constexpr double kHitNs = (12 + 5 + 4) * 1.25;
+
+TEST_CASE("dram controller: unloaded latencies through the socket (accurate)") {
+  run(quiet(), [](Initiator& i, DramController&) {
+    i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 32));
+    sc_core::wait(1000, SC_NS);
+    i.begin(i.make(tlm::TLM_READ_COMMAND, 32, 32));
+    sc_core::wait(1000, SC_NS);
+    i.begin(i.make(tlm::TLM_READ_COMMAND, std::uint64_t{4096} * 4 * 8, 32));  // row 1, bank 0
+    sc_core::wait(1000, SC_NS);
+    REQUIRE(i.answers.size() == 3);
+    CHECK(i.answers[0] == sc_time(kHitNs + 18.75, SC_NS));
+    CHECK(i.answers[1] == sc_time(1000 + kHitNs, SC_NS));
+    CHECK(i.answers[2] == sc_time(2000 + kHitNs + 37.5, SC_NS));
+  });
+}
+
+TEST_CASE("dram controller: the same latencies annotated (fast)") {
+  run(quiet(), [](Initiator& i, DramController&) {
+    const std::uint64_t addresses[] = {0, 32, std::uint64_t{4096} * 4 * 8};
+    const double expected_ns[] = {kHitNs + 18.75, kHitNs, kHitNs + 37.5};
+    for (int k = 0; k < 3; ++k) {
+      PooledPayload& p = i.make(tlm::TLM_READ_COMMAND, addresses[k], 32);
+      sc_time delay = sc_core::SC_ZERO_TIME;
+      CHECK(i.blocking(p, delay) == tlm::TLM_OK_RESPONSE);
+      CHECK(delay == sc_time(expected_ns[k], SC_NS));
+      p.release();
+      sc_core::wait(1000, SC_NS);
+    }
+  });
+}
+
+TEST_CASE("dram controller: 2133's clock is exact at a femtosecond") {
+  DramConfig config = quiet();
+  config.memspec = "lpddr3_2133_4gb";
+  run(config, [](Initiator& i, DramController&) {
+    i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 32));
+    sc_core::wait(1000, SC_NS);
+    REQUIRE(i.answers.size() == 1);
+    CHECK(i.answers[0] == sc_time((20 + 16 + 6 + 4) * 937500.0, sc_core::SC_FS));
+  });
+}
+
+TEST_CASE("dram controller: an annotated request delay counts from when it ends") {
+  run(quiet(), [](Initiator& i, DramController&) {
+    CHECK(i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 32), sc_time(100, SC_NS)) == tlm::TLM_ACCEPTED);
+    sc_core::wait(1000, SC_NS);
+    REQUIRE(i.end_requests.size() == 1);
+    CHECK(i.end_requests[0] == sc_time(100, SC_NS));
+    REQUIRE(i.answers.size() == 1);
+    CHECK(i.answers[0] == sc_time(100 + kHitNs + 18.75, SC_NS));
+  });
+}
+
+TEST_CASE("dram controller: bad requests get the TLM error and move no byte") {
+  run(quiet(), [](Initiator& i, DramController& dram) {
+    const std::uint64_t end = dram.capacity_bytes();
+    const auto status = [&](PooledPayload& p) {
+      CHECK(i.begin(p) == tlm::TLM_COMPLETED);
+      const tlm::tlm_response_status s = p.get_response_status();
+      p.release();
+      return s;
+    };
+    CHECK(status(i.make(tlm::TLM_READ_COMMAND, end, 32)) == tlm::TLM_ADDRESS_ERROR_RESPONSE);
+    CHECK(status(i.make(tlm::TLM_READ_COMMAND, end - 16, 32)) == tlm::TLM_ADDRESS_ERROR_RESPONSE);
+    CHECK(status(i.make(tlm::TLM_WRITE_COMMAND, ~std::uint64_t{0} - 8, 32)) ==
+          tlm::TLM_ADDRESS_ERROR_RESPONSE);
+    CHECK(status(i.make(tlm::TLM_IGNORE_COMMAND, 0, 32)) == tlm::TLM_COMMAND_ERROR_RESPONSE);
+    PooledPayload& streaming = i.make(tlm::TLM_READ_COMMAND, 0, 32);
+    streaming.set_streaming_width(8);
+    CHECK(status(streaming) == tlm::TLM_BURST_ERROR_RESPONSE);
+    CHECK(dram.stats().traffic.total().transactions == 0);
+  });
+}
+
+TEST_CASE("dram controller: byte enables write and read only what they name") {
+  run(quiet(), [](Initiator& i, DramController& dram) {
+    std::uint8_t enables[] = {TLM_BYTE_ENABLED, TLM_BYTE_DISABLED, TLM_BYTE_DISABLED};
+    PooledPayload& p = i.make(tlm::TLM_WRITE_COMMAND, 100, 7);
+    for (std::uint8_t k = 0; k < 7; ++k) p.get_data_ptr()[k] = static_cast<std::uint8_t>(k + 1);
+    p.set_byte_enable_ptr(enables);
+    p.set_byte_enable_length(3);
+    CHECK(i.begin(p) == tlm::TLM_COMPLETED);  // posted
+    CHECK(p.is_response_ok());
+    p.release();
+    std::uint8_t stored[7];
+    dram.read_back(100, stored, 7);
+    const std::uint8_t expected[7] = {1, 0, 0, 4, 0, 0, 7};
+    CHECK(std::equal(stored, stored + 7, expected));
+  });
+}
+
+TEST_CASE("dram controller: a long unaligned request is split over channels and counted") {
+  run(quiet(), [](Initiator& i, DramController& dram) {
+    i.begin(i.make(tlm::TLM_READ_COMMAND, 250, 600));  // bytes 250..849: bursts 7..26
+    sc_core::wait(1000, SC_NS);
+    REQUIRE(i.answers.size() == 1);
+    const DramStats s = dram.stats();
+    CHECK(s.bytes() == 600);
+    CHECK(s.bus_bytes() == 20 * 32);
+    CHECK(s.channels[0].bursts() == 1);
+    CHECK(s.channels[1].bursts() == 8);
+    CHECK(s.channels[2].bursts() == 8);
+    CHECK(s.channels[3].bursts() == 3);
+    CHECK(s.bursts_by_region[0][0] == 20);
+  });
+}
+
+TEST_CASE("dram controller: END_REQ is held back while the queue is full") {
+  DramConfig config = quiet();
+  config.channels = 1;
+  config.mapping = "row:rank:bank:column:channel";
+  config.read_queue_entries = 2;
+  run(config, [](Initiator& i, DramController&) {
+    // Same bank, other rows: each takes a row cycle.
+    const std::uint64_t step = 4096 * 8;
+    CHECK(i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 32)) == tlm::TLM_UPDATED);
+    CHECK(i.begin(i.make(tlm::TLM_READ_COMMAND, step, 32)) == tlm::TLM_UPDATED);
+    CHECK(i.begin(i.make(tlm::TLM_READ_COMMAND, 2 * step, 32)) == tlm::TLM_ACCEPTED);
+    sc_core::wait(1000, SC_NS);
+    REQUIRE(i.end_requests.size() == 1);
+    // The first read leaves the queue at cycle 15; the place is seen free a cycle later.
+    CHECK(i.end_requests[0] == sc_time(16 * 1.25, SC_NS));
+    CHECK(i.answers.size() == 3);
+    // ACT 0, PRE 34, ACT 49, PRE 83, ACT 98, RD 113.
+    CHECK(i.answers.back() == sc_time((113 + 21) * 1.25, SC_NS));
+  });
+}
+
+TEST_CASE("dram controller: a write that is not posted is answered after its last datum") {
+  DramConfig config = quiet();
+  config.posted_writes = false;
+  run(config, [](Initiator& i, DramController& dram) {
+    CHECK(i.begin(i.make(tlm::TLM_WRITE_COMMAND, 0, 32)) == tlm::TLM_UPDATED);
+    CHECK_FALSE(dram.idle());
+    sc_core::wait(1000, SC_NS);
+    REQUIRE(i.answers.size() == 1);
+    CHECK(i.answers[0] == sc_time((15 + 6 + 1 + 4) * 1.25, SC_NS));
+  });
+}
+
+TEST_CASE("dram controller: debug transport loads and reads without time") {
+  run(quiet(), [](Initiator& i, DramController& dram) {
+    PooledPayload& p = i.make(tlm::TLM_WRITE_COMMAND, dram.capacity_bytes() - 4, 8);
+    std::fill_n(p.get_data_ptr(), 8, std::uint8_t{9});
+    CHECK(i.socket->transport_dbg(p) == 4);
+    p.set_command(tlm::TLM_READ_COMMAND);
+    std::fill_n(p.get_data_ptr(), 8, std::uint8_t{0});
+    CHECK(i.socket->transport_dbg(p) == 4);
+    CHECK(p.get_data_ptr()[3] == 9);
+    p.set_address(dram.capacity_bytes());
+    CHECK(i.socket->transport_dbg(p) == 0);
+    p.release();
+    CHECK(sc_core::sc_time_stamp() == sc_core::SC_ZERO_TIME);
+    CHECK_THROWS_AS(dram.load(dram.capacity_bytes(), "x", 1), std::out_of_range);
+  });
+}
+
+TEST_CASE("dram controller: blocking and non-blocking requests do not mix") {
+  use_femtosecond_resolution();
+  DramController dram("dram", quiet());
+  Initiator initiator("initiator", [](Initiator& i) {
+    i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 32));
+    sc_time delay = sc_core::SC_ZERO_TIME;
+    i.blocking(i.make(tlm::TLM_READ_COMMAND, 0, 32), delay);
+  });
+  initiator.socket.bind(dram.socket);
+  CHECK_THROWS_WITH(sc_core::sc_start(),
+                    Catch::Contains("blocking and non-blocking requests in one run"));
+}
+
+TEST_CASE("dram controller: time, bandwidth and refreshes of idle time are accounted") {
+  DramConfig config;
+  run(config, [](Initiator& i, DramController& dram) {
+    i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 256));
+    sc_core::wait(39000, SC_NS);  // ten refresh intervals
+    const DramStats s = dram.stats();
+    CHECK(s.elapsed_cycles == 31200);
+    CHECK(s.busy_cycles == 15 + 7 * 4 + 21);
+    CHECK(s.bandwidth_gb_per_s() == Approx(256 / 39000.0));
+    CHECK(s.busy_bandwidth_gb_per_s() == Approx(256 / (64 * 1.25)));
+    CHECK(s.peak_gb_per_s == Approx(25.6));
+    for (const DramChannelStats& c : s.channels) CHECK(c.refreshes() == 9);
+    CHECK(s.read_latency_cycles.mean() == 64);
+    CHECK(s.energy.total_pj() > 0);
+    CHECK(s.energy_by_current_set_pj.size() == 2);
+  });
+}
+
+}  // namespace
+}  // namespace sgs
