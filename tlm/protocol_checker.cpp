@@ -19,7 +19,9 @@ tlm::tlm_sync_enum ProtocolChecker::nb_transport_fw(tlm::tlm_generic_payload& pa
   const tlm::tlm_phase sent = phase;
   on_forward(payload, sent);
   check_time(payload, delay);
-  payload.acquire();  // the payload is read again below, when its owner may have let go of it
+  // The payload is read again below, when its owner may have let go of it.
+  const bool counted = payload.has_mm();
+  if (counted) payload.acquire();
   const tlm::tlm_sync_enum status = to_target->nb_transport_fw(payload, phase, delay);
   if (status == tlm::TLM_UPDATED) {
     on_backward(payload, phase);
@@ -29,7 +31,7 @@ tlm::tlm_sync_enum ProtocolChecker::nb_transport_fw(tlm::tlm_generic_payload& pa
   } else if (status == tlm::TLM_ACCEPTED && phase != sent) {
     violation(payload, "the phase was changed by a call that returned TLM_ACCEPTED");
   }
-  payload.release();
+  if (counted) payload.release();
   return status;
 }
 
@@ -39,7 +41,8 @@ tlm::tlm_sync_enum ProtocolChecker::nb_transport_bw(tlm::tlm_generic_payload& pa
   const tlm::tlm_phase sent = phase;
   on_backward(payload, sent);
   check_time(payload, delay);
-  payload.acquire();
+  const bool counted = payload.has_mm();
+  if (counted) payload.acquire();
   const tlm::tlm_sync_enum status = from_initiator->nb_transport_bw(payload, phase, delay);
   if (status == tlm::TLM_UPDATED) {
     on_forward(payload, phase);
@@ -49,7 +52,7 @@ tlm::tlm_sync_enum ProtocolChecker::nb_transport_bw(tlm::tlm_generic_payload& pa
     else
       violation(payload, "TLM_COMPLETED returned to a call that was not BEGIN_RESP");
   }
-  payload.release();
+  if (counted) payload.release();
   return status;
 }
 
