@@ -1,0 +1,62 @@
+// Tests of algorithm/render/splat_bins.h.
+#include "algorithm/render/splat_bins.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace sgs;
+
+TEST_CASE("cells by hand: 70x50 px in cells of 16 px, footprints in sub-tiles of 4 px") {
+  const CellGrid grid = cell_grid(70, 50, 16);
+  CHECK(grid.columns == 5);
+  CHECK(grid.rows == 4);
+  const CellRect one = cells_of(grid, {4, 0, 8, 4});
+  CHECK(one.size() == 1);
+  CHECK(one.x0 == 1);
+  CHECK(one.y0 == 0);
+  const CellRect four = cells_of(grid, {7, 3, 9, 5});
+  CHECK(four.size() == 4);
+  CHECK(four.x0 == 1);
+  CHECK(four.y0 == 0);
+  CHECK(cells_of(grid, {}).size() == 0);
+}
+
+TEST_CASE("every splat is in exactly the cells of its footprint, in order") {
+  std::mt19937 random(2);
+  const auto number = [&](int high) {
+    return static_cast<std::uint16_t>(std::uniform_int_distribution<int>(0, high)(random));
+  };
+  for (const std::size_t count : {0U, 1U, 5U, 3000U}) {
+    for (const int cell_px : {16, 64, 4}) {
+      std::vector<Splat> splats(count);
+      for (Splat& splat : splats) {
+        splat.footprint = {number(17), number(12), 0, 0};
+        splat.footprint.x1 = static_cast<std::uint16_t>(splat.footprint.x0 + number(9) / 3);
+        splat.footprint.y1 = static_cast<std::uint16_t>(splat.footprint.y0 + number(9) / 3);
+        splat.footprint = intersection(splat.footprint, SubtileRect{0, 0, 18, 13});
+        if (splat.footprint.empty()) splat.footprint = {};
+      }
+      const CellGrid grid = cell_grid(70, 50, cell_px);
+      const SplatBins bins = bin_splats(grid, splats.data(), count);
+      REQUIRE(bins.first.size() == grid.size() + 1);
+      for (int y = 0; y < grid.rows; ++y) {
+        for (int x = 0; x < grid.columns; ++x) {
+          std::vector<std::uint32_t> expected;
+          const int side = grid.cell_subtiles;
+          for (std::uint32_t i = 0; i < count; ++i) {
+            const SubtileRect& f = splats[i].footprint;
+            if (f.x0 < (x + 1) * side && f.x1 > x * side && f.y0 < (y + 1) * side &&
+                f.y1 > y * side) {
+              expected.push_back(i);
+            }
+          }
+          const auto cell = static_cast<std::size_t>(y) * grid.columns + x;
+          const std::vector<std::uint32_t> found(
+              bins.entries.begin() + static_cast<std::ptrdiff_t>(bins.first[cell]),
+              bins.entries.begin() + static_cast<std::ptrdiff_t>(bins.first[cell + 1]));
+          REQUIRE(found == expected);
+        }
+      }
+    }
+  }
+}

@@ -1,0 +1,45 @@
+// Tests of algorithm/render/splat_sequence.h.
+#include "algorithm/render/splat_sequence.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "algorithm/splat/activate.h"
+#include "algorithm/splat/make_splat.h"
+#include "tests/algorithm/render/test_clouds.h"
+
+using namespace sgs;
+
+TEST_CASE("a sequence gives every visible splat once, in order, in batches of any size") {
+  // Half of the cloud is behind the camera or beside the frame.
+  const ActivatedCloud cloud = activate(test::random_cloud(4, 20000, 2, {0, 0, 1}, 6, 0.01F, 0.3F));
+  const auto view = make_view<float>(test::forward_camera(120, 70, 100));
+  std::vector<Splat> expected;
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    Splat splat{};
+    if (!make_geometry(view, cloud.gaussians[i], splat)) continue;
+    splat.index = i;
+    add_colour(view, cloud.sh_degree, cloud.gaussians[i].mean, cloud.sh(i), splat);
+    expected.push_back(splat);
+  }
+  std::sort(expected.begin(), expected.end(), in_front);
+  REQUIRE(expected.size() > 1000);
+  REQUIRE(expected.size() < 15000);
+  for (const std::size_t most : {std::size_t{1000}, std::size_t{7777}, std::size_t{1} << 20}) {
+    SplatSequence sequence(view, cloud);
+    std::vector<Splat> all, batch;
+    while (!sequence.at_end()) {
+      sequence.next(most, batch);
+      REQUIRE(batch.size() <= most);
+      all.insert(all.end(), batch.begin(), batch.end());
+    }
+    REQUIRE(all.size() == expected.size());
+    CHECK(std::memcmp(all.data(), expected.data(), all.size() * sizeof(Splat)) == 0);
+  }
+}
+
+TEST_CASE("the sequence of an empty cloud is at its end") {
+  const ActivatedCloud cloud;
+  CHECK(SplatSequence(make_view<float>(test::forward_camera(9, 9, 9)), cloud).at_end());
+}
