@@ -130,6 +130,8 @@ void Accelerator::trace(sc_core::sc_trace_file* file) const {
   for (const auto& hfu : hfus_) hfu->trace(file);
   for (const auto& unit : sorting_) unit->trace(file);
   rendering_->trace(file);
+  for (const auto& port : ports_) port->trace(file);
+  dram_.trace(file, timing_);
   for (const auto& fifo : visit_fifos_) fifo.trace(file);
   for (const auto& fifo : splat_fifos_) fifo.trace(file);
   for (const auto& fifo : sorted_fifos_) fifo.trace(file);

@@ -28,6 +28,9 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const Config& config
                     this->name(), config.max_transaction_bytes, config.max_outstanding));
   socket.register_nb_transport_bw(this, &MemoryPort::nb_transport_bw);
   in_flight_.reserve(config.max_outstanding);
+  SC_METHOD(update_trace);
+  sensitive << next_answer_;
+  dont_initialize();
 }
 
 MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint32_t bytes,
@@ -175,6 +178,20 @@ void MemoryPort::send_fast(PooledPayload& payload) {
   s.done_at = std::max(s.done_at, done_at);
   if (s.remaining == 0 && s.waited_for) answered_.notify(sc_core::SC_ZERO_TIME);
   payload.release();
+  if (traced_) update_trace();
+}
+
+void MemoryPort::update_trace() {
+  bytes_outstanding_ = bytes_outstanding();
+  sc_core::sc_time next = sc_core::sc_max_time();
+  for (const InFlight& one : in_flight_)
+    if (one.done_at > sc_core::sc_time_stamp()) next = std::min(next, one.done_at);
+  if (next != sc_core::sc_max_time()) next_answer_.notify(next - sc_core::sc_time_stamp());
+}
+
+void MemoryPort::trace(sc_core::sc_trace_file* file) {
+  traced_ = true;
+  sc_core::sc_trace(file, bytes_outstanding_, std::string(name()) + ".bytes_outstanding");
 }
 
 void MemoryPort::drop_answered() {

@@ -22,6 +22,7 @@ enum class TimingMode { kAccurate, kFast };
 
 class MemoryPort : public sc_core::sc_module {
  public:
+  SC_HAS_PROCESS(MemoryPort);
   tlm_utils::simple_initiator_socket<MemoryPort> socket;
 
   struct Config {
@@ -58,6 +59,9 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t bytes_read() const { return bytes_read_; }
   std::uint64_t bytes_written() const { return bytes_written_; }
 
+  // Adds the bytes outstanding to a waveform; before the simulation starts.
+  void trace(sc_core::sc_trace_file* file);
+
  private:
   struct Slot {
     std::uint32_t remaining = 0;  // transactions not yet sent or not yet answered
@@ -78,6 +82,7 @@ class MemoryPort : public sc_core::sc_module {
   void send_accurate(PooledPayload& payload);
   void send_fast(PooledPayload& payload);
   void drop_answered();  // kFast: forgets transactions whose time has come
+  void update_trace();   // method; kFast: answers come without an event of their own
   void request_taken(const tlm::tlm_generic_payload& payload);
   void finish(tlm::tlm_generic_payload& payload);
   void check_response(const tlm::tlm_generic_payload& payload) const;
@@ -94,7 +99,7 @@ class MemoryPort : public sc_core::sc_module {
   Ticket next_ = 0;
 
   std::uint32_t outstanding_ = 0;
-  std::uint64_t bytes_outstanding_ = 0;
+  std::uint64_t bytes_outstanding_ = 0;                // kFast: kept while traced only
   const tlm::tlm_generic_payload* request_ = nullptr;  // BEGIN_REQ sent, END_REQ not seen
   std::uint32_t waiting_for_room_ = 0;
   bool waiting_for_all_ = false;
@@ -103,6 +108,8 @@ class MemoryPort : public sc_core::sc_module {
   sc_core::sc_event room_;
   sc_core::sc_event answered_;  // a ticket that someone waits for is done
   sc_core::sc_event drained_;
+  bool traced_ = false;
+  sc_core::sc_event next_answer_;  // kFast, while traced
 
   std::uint64_t transactions_ = 0;
   std::uint64_t bytes_read_ = 0;
