@@ -35,7 +35,7 @@ MemoryRequest RequestGenerator::next() {
 
 std::uint64_t stream_hash(const StreamSpec& spec, std::uint64_t count) {
   RequestGenerator generator(spec);
-  std::uint64_t hash = 0xcbf29ce484222325u;
+  std::uint64_t hash = 1469598103934665603u;
   for (std::uint64_t i = 0; i < count; ++i) {
     const MemoryRequest request = generator.next();
     const std::uint64_t word = request.address | (request.write ? 1u : 0u);
