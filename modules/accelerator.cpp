@@ -65,11 +65,9 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
                                                      job_, board_, add_port(unit), to_sorting[s],
                                                      *sorted.back()));
   }
-  rendering_ = std::make_unique<RenderingUnit>("rendering", config.rendering, clock_, job_, board_,
-                                               add_port("rendering"), sorted, [this] {
-                                                 done_ = true;
-                                                 sc_core::sc_stop();
-                                               });
+  rendering_ =
+      std::make_unique<RenderingUnit>("rendering", config.rendering, clock_, job_, board_,
+                                      add_port("rendering"), sorted, [this] { done_ = true; });
 }
 
 MemoryPort& Accelerator::add_port(const std::string& name) {

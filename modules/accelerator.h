@@ -29,8 +29,10 @@ class Accelerator : public sc_core::sc_module {
               const FrameJob& job, const MemoryImage& image, TimingMode timing,
               StallInjector* stalls);
 
-  // Runs the frame to its end (calls sc_start). Throws std::runtime_error when the simulation stops
-  // short of it: units that wait for each other forever.
+  // Runs the frame to its end (calls sc_start): until the last pixel lies in DRAM, writes that were
+  // answered when they were queued included, and nothing happens any more. Throws
+  // std::runtime_error when the simulation stops short of it: units that wait for each other
+  // forever.
   void run();
 
   std::uint64_t frame_cycles() const { return frame_cycles_; }
