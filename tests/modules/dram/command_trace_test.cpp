@@ -1,0 +1,95 @@
+// Command traces: written, read back, refused when they are not what they say.
+#include "modules/dram/command_trace.h"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <vector>
+
+#include "algorithm/input_error.h"
+
+namespace sgs {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string fresh_path(const char* name) {
+  return std::string(SGS_BINARY_DIR) + "/" + name + "_" + std::to_string(getpid());
+}
+
+struct File {
+  explicit File(const std::string& text) : path(fresh_path("trace")) {
+    std::ofstream(path) << text;
+  }
+  ~File() { fs::remove(path); }
+  std::string refusal() const {
+    try {
+      CommandTraceReader reader(path);
+      CommandRecord record;
+      while (reader.next(record)) continue;
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(path.size());
+    }
+    return "accepted";
+  }
+  const std::string path;
+};
+
+const std::string kHeader =
+    "# streaminggs dram command trace, version 1\n# memspec lpddr3_1600_4gb\n# channels 2\n"
+    "# ranks 1\n# write_latency_set a\n# refresh all_bank\n";
+
+TEST_CASE("command trace: what is written reads back, and appears only when it is complete") {
+  const std::string path = fresh_path("written");
+  DramConfig config;
+  config.channels = 2;
+  config.write_latency_set = WriteLatencySet::kB;
+  config.refresh = RefreshMode::kPerBank;
+  const std::vector<CommandRecord> records = {
+      {5, Command::kActivate, 1, 0, 3, 9, 16383, 0},
+      {20, Command::kWriteAuto, 1, 0, 3, 9, 0, 127},
+      {std::uint64_t{1} << 40, Command::kRefreshBank, 0, 0, 7, 0, 0, 0}};
+  CommandTraceWriter writer(path, CommandTraceHeader::of(config));
+  for (const CommandRecord& record : records) writer.on_command(record);
+  CHECK_FALSE(fs::exists(path));
+  writer.close();
+  CHECK(fs::exists(path));
+  CHECK_FALSE(fs::exists(path + ".part"));
+
+  CommandTraceReader reader(path);
+  CHECK(reader.header().memspec == "lpddr3_1600_4gb");
+  CHECK(reader.header().channels == 2);
+  CHECK(reader.header().write_latency_set == WriteLatencySet::kB);
+  CHECK(reader.header().refresh == RefreshMode::kPerBank);
+  for (const CommandRecord& expected : records) {
+    CommandRecord r;
+    REQUIRE(reader.next(r));
+    CHECK(r.cycle == expected.cycle);
+    CHECK(r.command == expected.command);
+    CHECK(r.channel == expected.channel);
+    CHECK(r.bank == expected.bank);
+    CHECK(r.row == expected.row);
+    CHECK(r.burst == expected.burst);
+  }
+  CommandRecord none;
+  CHECK_FALSE(reader.next(none));
+  fs::remove(path);
+}
+
+TEST_CASE("command trace: bad files are refused with line, found and expected") {
+  CHECK(File(kHeader + "0 0 ACT 0 3 17\n").refusal() == "accepted");
+  CHECK(File("").refusal().find(": line 1: got ''") == 0);
+  CHECK(File("hello\n").refusal().find(": line 1: got 'hello'") == 0);
+  CHECK(File(kHeader.substr(0, 60)).refusal().find(": line 2: got") == 0);
+  for (const char* line : {"0 0 ACT 0 3", "0 0 ACT 0 3 17 9", "0 0 FLY 0 3 17", "-1 0 ACT 0 3 17",
+                           "x 0 ACT 0 3 17", "0 256 ACT 0 3 17", "0 0 ACT 0 3 4294967296", ""})
+    CHECK(File(kHeader + "0 0 ACT 0 3 17\n" + line + "\n")
+              .refusal()
+              .find(": line 8: got '" + std::string(line) + "', expected cycle channel") == 0);
+  CHECK_THROWS_AS(CommandTraceReader("/nowhere/trace"), InputError);
+  CHECK_THROWS_AS(CommandTraceWriter("/nowhere/trace", CommandTraceHeader{}), InputError);
+}
+
+}  // namespace
+}  // namespace sgs
