@@ -27,6 +27,14 @@ void DramController::Commands::on_command(const CommandRecord& record) {
   for (CommandSink* other : others_) other->on_command(record);
 }
 
+std::uint64_t DramController::row_hits() const {
+  std::uint64_t hits = 0;
+  for (const Channel& channel : channels_)
+    hits += channel.queued.rows().of(RowOutcome::kHit) +
+            channel.arrival_order.rows().of(RowOutcome::kHit);
+  return hits;
+}
+
 DramStats DramController::stats() {
   const bool blocking = transport_ == Transport::kBlocking;
   // Annotated delays may reach beyond the kernel's time; commands then lie in the future.

@@ -53,6 +53,9 @@ class DramController : public sc_core::sc_module {
   // No request waits or is under way, posted writes included.
   bool idle() const;
 
+  // Bursts that found their row open, as far as decisions have been worked out; for waveforms.
+  std::uint64_t row_hits() const;
+
   // Counts and energy up to now (of a run that is over: up to the last datum); idle time is
   // caught up with first.
   DramStats stats();

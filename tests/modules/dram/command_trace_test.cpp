@@ -81,7 +81,7 @@ TEST_CASE("command trace: bad files are refused with line, found and expected") 
   CHECK(File(kHeader + "0 0 ACT 0 3 17\n").refusal() == "accepted");
   CHECK(File("").refusal().find(": line 1: got ''") == 0);
   CHECK(File("hello\n").refusal().find(": line 1: got 'hello'") == 0);
-  CHECK(File(kHeader.substr(0, 60)).refusal().find(": line 2: got") == 0);
+  CHECK(File(kHeader.substr(0, 60)).refusal().find(": line 3: got ''") == 0);
   for (const char* line : {"0 0 ACT 0 3", "0 0 ACT 0 3 17 9", "0 0 FLY 0 3 17", "-1 0 ACT 0 3 17",
                            "x 0 ACT 0 3 17", "0 256 ACT 0 3 17", "0 0 ACT 0 3 4294967296", ""})
     CHECK(File(kHeader + "0 0 ACT 0 3 17\n" + line + "\n")
