@@ -1,0 +1,22 @@
+// The scenes that scripts/bench.sh hands to every benchmark.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/load_scene.h"
+
+namespace sgs {
+
+// Loads `spec`: a built-in scene, or a .ply whose cameras lie beside it under the same name with
+// the ending .json. Throws InputError.
+inline Scene load_bench_scene(const std::string& spec) {
+  Scene scene = load_scene(spec);
+  if (scene.cameras.empty()) {
+    scene.cameras = read_cameras(spec.substr(0, spec.rfind('.')) + ".json");
+  }
+  return scene;
+}
+
+}  // namespace sgs
