@@ -1,4 +1,4 @@
-// The memory as a TLM-2.0 target: phases, back-pressure, answers.
+// The memory as a non-blocking TLM-2.0 target: phases, back-pressure, answers.
 #include "modules/dram/dram_controller.h"
 
 #include <fmt/format.h>
@@ -46,14 +46,6 @@ DramController::DramController(const sc_core::sc_module_name& name, const DramCo
 
 void DramController::end_of_elaboration() { initiators_.resize(socket.size()); }
 
-void DramController::load(std::uint64_t address, const void* from, std::size_t bytes) {
-  store_.write(address, static_cast<const std::uint8_t*>(from), bytes);
-}
-
-void DramController::read_back(std::uint64_t address, void* into, std::size_t bytes) const {
-  store_.read(address, static_cast<std::uint8_t*>(into), bytes);
-}
-
 bool DramController::idle() const {
   return open_transactions_ == 0 && (transport_ != Transport::kBlocking || busy_until_ <= now());
 }
@@ -75,7 +67,8 @@ bool DramController::uses(Transport transport) {
 }
 
 DramController::Transaction& DramController::new_transaction(int initiator,
-                                                             tlm::tlm_generic_payload& payload) {
+                                                             tlm::tlm_generic_payload& payload,
+                                                             const sc_core::sc_time& arrival) {
   if (free_transactions_.empty()) {
     transactions_.emplace_back();
     free_transactions_.push_back(&transactions_.back());
@@ -90,6 +83,10 @@ DramController::Transaction& DramController::new_transaction(int initiator,
   t.region = memory ? memory->region : std::uint8_t{0};
   t.next = payload.get_address() & ~std::uint64_t{mapping_.burst_bytes() - 1};
   t.end = payload.get_address() + payload.get_data_length();
+  t.arrival = cycle_of(arrival);
+  if (request_trace_ != nullptr)
+    request_trace_->add({payload.get_address(), payload.is_write(),
+                         arrival / sc_core::sc_time(1, sc_core::SC_NS), payload.get_data_length()});
   commands_.counts.traffic.add(memory ? memory->requester : std::uint8_t{0}, t.region, t.direction,
                                payload.get_data_length());
   return t;
@@ -112,27 +109,6 @@ ChannelRequest DramController::next_request(Transaction& t, std::uint32_t& chann
   request.owner = &t;
   t.next = stop;
   return request;
-}
-
-void DramController::b_transport(int initiator, tlm::tlm_generic_payload& payload,
-                                 sc_core::sc_time& delay) {
-  if (!uses(Transport::kBlocking) || !move_bytes(payload, store_)) return;
-  const sc_core::sc_time start = sc_core::sc_time_stamp() + delay;
-  Transaction& t = new_transaction(initiator, payload);
-  t.arrival = cycle_of(start);
-  while (t.next < t.end) {
-    std::uint32_t channel = 0;
-    const ChannelRequest request = next_request(t, channel);
-    t.done = std::max(t.done, channels_[channel].arrival_order.serve(request, t.arrival));
-  }
-  // Time in which requests are there: the union of their intervals.
-  commands_.counts.busy_cycles += t.done - std::min(t.done, std::max(t.arrival, busy_until_));
-  busy_until_ = std::max(busy_until_, t.done);
-  (t.direction == Direction::kRead ? commands_.counts.read_latency_cycles
-                                   : commands_.counts.write_latency_cycles)
-      .add(t.done - t.arrival);
-  free_transactions_.push_back(&t);
-  delay = time_of(t.done) - sc_core::sc_time_stamp();
 }
 
 tlm::tlm_sync_enum DramController::nb_transport_fw(int initiator, tlm::tlm_generic_payload& payload,
@@ -162,8 +138,7 @@ tlm::tlm_sync_enum DramController::begin_request(int initiator, tlm::tlm_generic
     return tlm::TLM_COMPLETED;
   }
   if (!move_bytes(payload, store_)) return tlm::TLM_COMPLETED;
-  Transaction& t = new_transaction(initiator, payload);
-  t.arrival = now();
+  Transaction& t = new_transaction(initiator, payload, sc_core::sc_time_stamp());
   if (open_transactions_++ == 0) busy_from_ = t.arrival;
   if (!feed(t, t.arrival)) {
     payload.acquire();
@@ -303,21 +278,6 @@ void DramController::send_answers() {
       initiators_[i].answers.pop();
       answer(static_cast<int>(i), payload);
     }
-}
-
-unsigned int DramController::transport_dbg(int, tlm::tlm_generic_payload& payload) {
-  if (payload.get_address() >= capacity_bytes()) return 0;
-  const std::uint64_t room = capacity_bytes() - payload.get_address();
-  const auto length =
-      static_cast<unsigned int>(std::min<std::uint64_t>(payload.get_data_length(), room));
-  if (payload.is_read())
-    store_.read(payload.get_address(), payload.get_data_ptr(), length);
-  else if (payload.is_write())
-    store_.write(payload.get_address(), payload.get_data_ptr(), length);
-  else
-    return 0;
-  payload.set_response_status(tlm::TLM_OK_RESPONSE);
-  return length;
 }
 
 }  // namespace sgs

@@ -23,6 +23,7 @@
 #include "modules/dram/dram_stats.h"
 #include "modules/dram/memspec.h"
 #include "modules/dram/queued_channel.h"
+#include "modules/dram/request_trace.h"
 #include "modules/dram/ring_queue.h"
 #include "tlm/memory_port.h"
 
@@ -50,6 +51,9 @@ class DramController : public sc_core::sc_module {
   // Sends every command on to `sink`, which must live as long as the controller is used.
   void add_command_sink(CommandSink& sink) { commands_.add(sink); }
 
+  // Records every request as it arrives, from now on.
+  void record_requests(RequestTraceWriter& writer) { request_trace_ = &writer; }
+
   // No request waits or is under way, posted writes included.
   bool idle() const;
 
@@ -60,8 +64,8 @@ class DramController : public sc_core::sc_module {
   // caught up with first.
   DramStats stats();
 
-  // Adds each channel's row hits, misses and conflicts to a waveform. timing: of the ports that will
-  // ask.
+  // Adds each channel's row hits, misses and conflicts to a waveform. timing: of the ports that
+  // will ask.
   void trace(sc_core::sc_trace_file* file, TimingMode timing) const;
 
  private:
@@ -129,7 +133,8 @@ class DramController : public sc_core::sc_module {
   void answer(int initiator, tlm::tlm_generic_payload& payload);
   void send_answers();
 
-  Transaction& new_transaction(int initiator, tlm::tlm_generic_payload& payload);
+  Transaction& new_transaction(int initiator, tlm::tlm_generic_payload& payload,
+                               const sc_core::sc_time& arrival);
   std::uint64_t cycle_of(const sc_core::sc_time& time) const;
   std::uint64_t now() const { return cycle_of(sc_core::sc_time_stamp()); }
   sc_core::sc_time time_of(std::uint64_t cycle) const;
@@ -140,6 +145,7 @@ class DramController : public sc_core::sc_module {
   const sc_core::sc_time clock_period_;
   ByteStore store_;
   Commands commands_;
+  RequestTraceWriter* request_trace_ = nullptr;
   std::deque<Channel> channels_;  // events do not move
   std::vector<Initiator> initiators_;
   std::size_t next_retry_ = 0;  // initiator that is offered room first

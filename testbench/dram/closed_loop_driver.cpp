@@ -19,11 +19,11 @@ ClosedLoopDriver::ClosedLoopDriver(const sc_core::sc_module_name& name, const Co
 }
 
 void ClosedLoopDriver::offer() {
-  const std::uint32_t bursts =
-      std::max(1u, (config_.request_bytes + config_.burst_bytes - 1) / config_.burst_bytes);
-  std::uint32_t room = std::max(kBurstsPerCycle, bursts);
+  std::uint32_t offered = 0;  // bursts, in this cycle
   while (held_back_ == nullptr && sent_ < config_.requests && sent_ - answered_ < config_.window) {
-    if (room < bursts) {
+    const std::uint32_t bursts =
+        (bytes_of(request_) + config_.burst_bytes - 1) / config_.burst_bytes;
+    if (offered > 0 && offered + bursts > kBurstsPerCycle) {
       may_offer_.notify(config_.clock_period);
       return;
     }
@@ -32,7 +32,7 @@ void ClosedLoopDriver::offer() {
       may_offer_.notify(start - sc_core::sc_time_stamp());
       return;
     }
-    room -= bursts;
+    offered += bursts;
     send();
     if (sent_ < config_.requests) request_ = next_();
   }
@@ -42,9 +42,11 @@ void ClosedLoopDriver::send() {
   PooledPayload& payload = pool_.acquire();
   payload.set_command(request_.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
   payload.set_address(request_.address);
+  const std::uint32_t bytes = bytes_of(request_);
+  if (data_.size() < bytes) data_.resize(bytes);
   payload.set_data_ptr(data_.data());
-  payload.set_data_length(config_.request_bytes);
-  payload.set_streaming_width(config_.request_bytes);
+  payload.set_data_length(bytes);
+  payload.set_streaming_width(bytes);
   ++sent_;
   held_back_ = &payload;
   tlm::tlm_phase phase = tlm::BEGIN_REQ;

@@ -23,7 +23,7 @@ class ClosedLoopDriver : public sc_core::sc_module {
   struct Config {
     std::uint32_t window = 32;  // requests without an answer
     std::uint64_t requests = 0;
-    std::uint32_t request_bytes = 32;
+    std::uint32_t request_bytes = 32;  // of requests that do not say
     std::uint32_t burst_bytes = 32;
     sc_core::sc_time clock_period;
   };
@@ -39,6 +39,9 @@ class ClosedLoopDriver : public sc_core::sc_module {
   static constexpr std::uint32_t kBurstsPerCycle = 8;
 
   void offer();
+  std::uint32_t bytes_of(const MemoryRequest& request) const {
+    return request.bytes != 0 ? request.bytes : config_.request_bytes;
+  }
   void send();
   void on_answer(tlm::tlm_generic_payload& payload);
   tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,

@@ -4,13 +4,9 @@
 
 #include <cstdint>
 
-namespace sgs {
+#include "modules/dram/request_trace.h"
 
-struct MemoryRequest {
-  std::uint64_t address = 0;
-  bool write = false;
-  double not_before_ns = 0;  // 0: as soon as there is room
-};
+namespace sgs {
 
 enum class Pattern { kRandom, kSequential, kStride };
 

@@ -9,9 +9,9 @@
 #include "modules/config/strict_json.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/command_trace.h"
+#include "modules/dram/request_trace.h"
 #include "modules/dram/trace_checker.h"
 #include "testbench/dram/bench_table.h"
-#include "testbench/dram/request_trace.h"
 #include "testbench/dram/self_check.h"
 #include "testbench/dram/stats_table.h"
 #include "tlm/time_resolution.h"
@@ -150,7 +150,8 @@ int sc_main(int argc, char* argv[]) {
   app.add_option("--published", a.published, "data file of the published figures");
   app.add_option("--stream", a.stream, "measure one stream")
       ->check(CLI::IsMember({"seq", "rnd", "stride"}));
-  app.add_option("--replay", a.replay, "measure a request trace: ADDRESS R|W [NANOSECONDS]");
+  app.add_option("--replay", a.replay,
+                 "measure a request trace: ADDRESS R|W [NANOSECONDS [BYTES]]");
   app.add_option("--requests", a.requests, "how many")->check(CLI::PositiveNumber);
   app.add_option("--window", a.window, "outstanding requests")->check(CLI::PositiveNumber);
   app.add_option("--bytes", a.bytes, "of a request")->check(CLI::Range(1, 65536));

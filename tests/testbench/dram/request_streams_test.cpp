@@ -7,7 +7,6 @@
 
 #include "algorithm/input_error.h"
 #include "testbench/dram/request_generator.h"
-#include "testbench/dram/request_trace.h"
 
 namespace sgs {
 namespace {
@@ -75,14 +74,31 @@ TEST_CASE("request trace: addresses, directions, times, comments") {
   CHECK(requests[1].not_before_ns == 10.5);
 }
 
+TEST_CASE("request trace: what is written reads back") {
+  const RequestFile file("");
+  RequestTraceWriter writer(file.path());
+  writer.add({0x7fffffc0, true, 1234567.0625, 256});
+  writer.add({64, false, 1234568.0, 20});
+  writer.close();
+  const auto requests = read_request_trace(file.path());
+  REQUIRE(requests.size() == 2);
+  CHECK(requests[0].address == 0x7fffffc0);
+  CHECK(requests[0].write);
+  CHECK(requests[0].not_before_ns == 1234567.0625);
+  CHECK(requests[0].bytes == 256);
+  CHECK(requests[1].bytes == 20);
+}
+
 TEST_CASE("request trace: bad lines are refused with their number") {
   CHECK(RequestFile("0 R\n0 X\n").refusal() ==
-        ": line 2: got '0 X', expected ADDRESS R|W [NANOSECONDS]");
+        ": line 2: got '0 X', expected ADDRESS R|W [NANOSECONDS [BYTES]]");
   CHECK(RequestFile("-5 R\n").refusal().find(": line 1: got '-5 R'") == 0);
   CHECK(RequestFile("0x R\n").refusal() != "accepted");
   CHECK(RequestFile("12z R\n").refusal() != "accepted");
   CHECK(RequestFile("99999999999999999999999 R\n").refusal() != "accepted");
-  CHECK(RequestFile("0 R 5 6\n").refusal() != "accepted");
+  CHECK(RequestFile("0 R 5 6 7\n").refusal() != "accepted");
+  CHECK(RequestFile("0 R 5 64\n").refusal() == "accepted");
+  CHECK(RequestFile("0 R 5 0\n").refusal() == ": line 1: got '0 R 5 0', expected 1 to 65536 bytes");
   CHECK(RequestFile("0 R nan\n").refusal() != "accepted");
   CHECK(RequestFile("0 R 5\n0 R 4\n").refusal() ==
         ": line 2: got '0 R 4', expected a time in ns that does not decrease");

@@ -1,5 +1,5 @@
-// Request traces.
-#include "testbench/dram/request_trace.h"
+// Request traces as text.
+#include "modules/dram/request_trace.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +13,8 @@
 namespace sgs {
 
 namespace {
+
+constexpr std::uint64_t kMostBytes = 65536;
 
 bool parse_address(const std::string& text, std::uint64_t& address) {
   if (text.empty() || text[0] < '0' || text[0] > '9') return false;
@@ -38,12 +40,12 @@ std::vector<MemoryRequest> read_request_trace(const std::string& path) {
           fmt::format("{}: line {}: got '{}', expected {}", path, line, text, expected));
     };
     std::istringstream fields(text);
-    std::string address, direction, time, rest;
-    fields >> address >> direction >> time >> rest;
+    std::string address, direction, time, bytes, rest;
+    fields >> address >> direction >> time >> bytes >> rest;
     MemoryRequest request;
     if (!parse_address(address, request.address) || (direction != "R" && direction != "W") ||
         !rest.empty())
-      refuse("ADDRESS R|W [NANOSECONDS]");
+      refuse("ADDRESS R|W [NANOSECONDS [BYTES]]");
     request.write = direction == "W";
     if (!time.empty()) {
       char* end = nullptr;
@@ -52,9 +54,39 @@ std::vector<MemoryRequest> read_request_trace(const std::string& path) {
         refuse("a time in ns that does not decrease");
       last_ns = request.not_before_ns;
     }
+    if (!bytes.empty()) {
+      std::uint64_t count = 0;
+      if (!parse_address(bytes, count) || count < 1 || count > kMostBytes)
+        refuse("1 to 65536 bytes");
+      request.bytes = static_cast<std::uint32_t>(count);
+    }
     requests.push_back(request);
   }
   return requests;
+}
+
+RequestTraceWriter::RequestTraceWriter(const std::string& path)
+    : path_(path), file_(std::fopen((path + ".part").c_str(), "wb")) {
+  if (file_ == nullptr)
+    throw InputError(fmt::format("{}: cannot be written, expected a writable path", path));
+  std::fputs("# address R|W nanoseconds bytes\n", file_);
+}
+
+RequestTraceWriter::~RequestTraceWriter() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void RequestTraceWriter::add(const MemoryRequest& r) {
+  std::fprintf(file_, "0x%llx %c %.6f %u\n", static_cast<unsigned long long>(r.address),
+               r.write ? 'W' : 'R', r.not_before_ns, static_cast<unsigned>(r.bytes));
+}
+
+void RequestTraceWriter::close() {
+  const bool failed = std::ferror(file_) != 0;
+  const bool closed = std::fclose(file_) == 0;
+  file_ = nullptr;
+  if (failed || !closed || std::rename((path_ + ".part").c_str(), path_.c_str()) != 0)
+    throw InputError(fmt::format("{}: could not be written completely", path_));
 }
 
 }  // namespace sgs

@@ -1,0 +1,42 @@
+// Request traces as text: what was asked of the memory, to be asked again by tb_dram --replay.
+//
+// One request a line, "ADDRESS R|W [NANOSECONDS [BYTES]]": address in decimal or 0x hexadecimal,
+// the time not before which it is sent, not decreasing. Lines that begin with # are comments.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace sgs {
+
+struct MemoryRequest {
+  std::uint64_t address = 0;
+  bool write = false;
+  double not_before_ns = 0;  // 0: as soon as there is room
+  std::uint32_t bytes = 0;   // 0: whoever sends it decides
+};
+
+// InputError with file and line for what is no request.
+std::vector<MemoryRequest> read_request_trace(const std::string& path);
+
+class RequestTraceWriter {
+ public:
+  // Writes to `path`.part; close() renames. InputError when the file cannot be made.
+  explicit RequestTraceWriter(const std::string& path);
+  ~RequestTraceWriter();
+  RequestTraceWriter(const RequestTraceWriter&) = delete;
+  RequestTraceWriter& operator=(const RequestTraceWriter&) = delete;
+
+  void add(const MemoryRequest& request);
+
+  // InputError when something could not be written.
+  void close();
+
+ private:
+  const std::string path_;
+  std::FILE* file_;
+};
+
+}  // namespace sgs
