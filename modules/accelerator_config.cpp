@@ -6,6 +6,7 @@
 #include "algorithm/input_error.h"
 #include "algorithm/memory/records.h"
 #include "algorithm/memory/splat_record.h"
+#include "algorithm/order/chunk_walk.h"
 #include "algorithm/splat/constants.h"
 #include "modules/messages.h"
 
@@ -28,6 +29,9 @@ void visit(ConfigVisitor& v, VsuConfig& c) {
   v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");
   v("record_cache_bytes", c.record_cache_bytes, in_range(64, 1 << 30), "cache of voxel records");
   v("min_share", c.min_share, in_range(2, 1 << 20), "fewest Gaussians of a visit for one HFU");
+  v("tests_per_cycle", c.tests_per_cycle, in_range(1, 64), "exact order: chunk bounds a cycle");
+  v("queue_entries", c.queue_entries, in_range(kChunkNodeWidth + 1, 1 << 24),
+    "exact order: queue of the front-to-back walk");
 }
 
 void visit(ConfigVisitor& v, HfuConfig& c) {
@@ -54,6 +58,21 @@ void visit(ConfigVisitor& v, SortingConfig& c) {
   v("merge_interval_cycles", c.merge_interval_cycles, in_range(1, 64), "between merges of 8 + 8");
   v("skip_trivial", c.skip_trivial, "a list of one splat is not sent through the network");
   v("spill_block_entries", c.spill_block_entries, in_range(1, 1024), "read and written at once");
+}
+
+void visit(ConfigVisitor& v, MergeConfig& c) {
+  v("entries", c.entries, in_range(2, 1 << 24), "exact order: keys that wait on chip");
+  v("on_overflow", c.on_overflow,
+    names<OnOverflow>({{"spill", OnOverflow::kSpill}, {"blend_early", OnOverflow::kBlendEarly}}),
+    "when more keys wait: runs go to DRAM and the image stays exact, or it suffers");
+  v("spill_runs", c.spill_runs, in_range(2, 1024), "spilled runs read back side by side");
+  v("spill_block_entries", c.spill_block_entries, in_range(1, 1024),
+    "keys read and written at once");
+  v("latency_cycles", c.latency_cycles, in_range(1, 1000), "of the pipelined heap");
+  v("input_fifo_entries", c.input_fifo_entries, in_range(1, 4096),
+    "sorted keys waiting from each sorting unit");
+  v("output_fifo_entries", c.output_fifo_entries, in_range(1, 4096),
+    "released keys waiting for each HFU");
 }
 
 void visit(ConfigVisitor& v, RenderingConfig& c) {
@@ -97,14 +116,66 @@ void check_budget(const char* key, std::uint64_t available, const std::vector<Sr
       fmt::format("{}: {} bytes are there, {} are needed: {}", key, available, needed, sum));
 }
 
+std::vector<SramUse> paper_order_uses(const AcceleratorConfig& c) {
+  return {
+      product("sort buffers", {{c.sorting_units, "units"},
+                               {c.sorting.buffer_entries, "splats"},
+                               {kSplatEntryBytes, "B"}}),
+      product("splats to sorting", {{c.hfus, "HFUs"},
+                                    {c.sorting_units, "units"},
+                                    {c.sorting.input_fifo_entries, "splats"},
+                                    {kSplatEntryBytes, "B"}}),
+      product("splats to rendering", {{c.sorting_units, "units"},
+                                      {c.rendering.input_fifo_entries, "splats"},
+                                      {kSplatEntryBytes, "B"}}),
+      product(
+          "candidates",
+          {{c.hfus, "HFUs"}, {c.hfu.candidate_fifo_entries, "candidates"}, {kCandidateBytes, "B"}}),
+      product("ordering table", {{c.vsu.table_bytes, "B"}}),
+      // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
+      product("ordered voxels", {{c.vsu.groups_ahead, "groups"}, {c.vsu.table_bytes / 2, "B"}}),
+      product("record cache", {{c.vsu.record_cache_bytes, "B"}}),
+  };
+}
+
+std::vector<SramUse> exact_order_uses(const AcceleratorConfig& c) {
+  const std::uint32_t runs = c.merge.on_overflow == OnOverflow::kSpill ? c.merge.spill_runs : 0;
+  return {
+      product("waiting keys", {{c.merge.entries, "keys"}, {kMergeKeyBytes, "B"}}),
+      product("spilled runs", {{runs, "runs"},
+                               {2, "blocks"},
+                               {c.merge.spill_block_entries, "keys"},
+                               {kSpilledKeyBytes, "B"}}),
+      product("walk queue", {{c.vsu.queue_entries, "entries"}, {kWalkEntryBytes, "B"}}),
+      product("keys to sorting", {{c.hfus, "HFUs"},
+                                  {c.sorting_units, "units"},
+                                  {c.hfu.candidate_fifo_entries, "keys"},
+                                  {kMergeKeyBytes, "B"}}),
+      product("key sorters",
+              {{c.sorting_units, "units"}, {c.chunk_gaussians, "keys"}, {kMergeKeyBytes, "B"}}),
+      product("keys to merge", {{c.sorting_units, "units"},
+                                {c.merge.input_fifo_entries, "keys"},
+                                {kMergeKeyBytes, "B"}}),
+      product("keys to HFUs",
+              {{c.hfus, "HFUs"}, {c.merge.output_fifo_entries, "keys"}, {kMergeKeyBytes, "B"}}),
+      product(
+          "splats to rendering",
+          {{c.hfus, "HFUs"}, {c.rendering.input_fifo_entries, "splats"}, {kSplatEntryBytes, "B"}}),
+  };
+}
+
 }  // namespace
 
 void visit(ConfigVisitor& v, AcceleratorConfig& c) {
-  v("ordering", c.ordering, names<Ordering>({{"paper", Ordering::kPaper}}), "order of blending");
+  v("ordering", c.ordering,
+    names<Ordering>({{"exact", Ordering::kExact}, {"paper", Ordering::kPaper}}),
+    "order of blending");
   v("clock_mhz", c.clock_mhz, in_range(1, 10000), "clock of all units");
   v("group_px", c.group_px, in_range(4, kMaxGroupPx), "side of a pixel group, a multiple of 4");
   v("voxel_size", c.voxel_size, in_range(0, 1e9),
     "world units; 0: 0.4 for a scene below 10 units across, else 2");
+  v("chunk_gaussians", c.chunk_gaussians, in_range(1, 65535),
+    "exact order: most Gaussians in a chunk");
   v("framebuffer", c.framebuffer,
     names<FrameFormat>({{"rgb8", FrameFormat::kRgb8}, {"rgb32f", FrameFormat::kRgb32f}}),
     "pixels in DRAM");
@@ -115,6 +186,7 @@ void visit(ConfigVisitor& v, AcceleratorConfig& c) {
   v.section("vsu", c.vsu, "voxel sorting unit");
   v.section("hfu", c.hfu, "each hierarchical filtering unit");
   v.section("sorting", c.sorting, "each sorting unit");
+  v.section("merge", c.merge, "merge unit of exact order");
   v.section("rendering", c.rendering, "rendering unit");
   v.section("memory_port", c.memory_port, "how units talk to memory");
   v.section("dram", c.dram, "memory");
@@ -132,33 +204,20 @@ SramBudget sram_budget(const AcceleratorConfig& c) {
                                            {c.hfu.input_slots, "slots"},
                                            {c.hfu.slice_gaussians, "Gaussians"},
                                            {kFirstHalfBytes, "B"}}));
-  budget.shared = {
-      product("pixel state", {{c.rendering.pixel_buffers, "groups"},
-                              {c.group_px, "px"},
-                              {c.group_px, "px"},
-                              {kPixelStateBytes, "B"}}),
-      product("sort buffers", {{c.sorting_units, "units"},
-                               {c.sorting.buffer_entries, "splats"},
-                               {kSplatEntryBytes, "B"}}),
-      product("splats to sorting", {{c.hfus, "HFUs"},
-                                    {c.sorting_units, "units"},
-                                    {c.sorting.input_fifo_entries, "splats"},
-                                    {kSplatEntryBytes, "B"}}),
-      product("splats to rendering", {{c.sorting_units, "units"},
-                                      {c.rendering.input_fifo_entries, "splats"},
-                                      {kSplatEntryBytes, "B"}}),
-      product(
-          "candidates",
-          {{c.hfus, "HFUs"}, {c.hfu.candidate_fifo_entries, "candidates"}, {kCandidateBytes, "B"}}),
+  const SramUse pixels = product("pixel state", {{c.rendering.pixel_buffers, "groups"},
+                                                 {c.group_px, "px"},
+                                                 {c.group_px, "px"},
+                                                 {kPixelStateBytes, "B"}});
+  const SramUse second_halves =
       product("second halves",
-              {{c.hfus, "HFUs"}, {c.hfu.second_half_slots, "slots"}, {kMaxSecondHalfBytes, "B"}}),
-      product("ordering table", {{c.vsu.table_bytes, "B"}}),
-      // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
-      product("ordered voxels", {{c.vsu.groups_ahead, "groups"}, {c.vsu.table_bytes / 2, "B"}}),
-      product("node cache", {{c.vsu.node_cache_bytes, "B"}}),
-      product("record cache", {{c.vsu.record_cache_bytes, "B"}}),
-      product("visits", {{c.hfus, "HFUs"}, {kVisitFifoEntries, "visits"}, {kVisitShareBytes, "B"}}),
-  };
+              {{c.hfus, "HFUs"}, {c.hfu.second_half_slots, "slots"}, {kMaxSecondHalfBytes, "B"}});
+  const SramUse nodes = product("node cache", {{c.vsu.node_cache_bytes, "B"}});
+  const SramUse visits =
+      product("visits", {{c.hfus, "HFUs"}, {kVisitFifoEntries, "visits"}, {kVisitShareBytes, "B"}});
+  budget.shared = {pixels, second_halves, nodes, visits};
+  const std::vector<SramUse> of_order =
+      c.ordering == Ordering::kPaper ? paper_order_uses(c) : exact_order_uses(c);
+  budget.shared.insert(budget.shared.end(), of_order.begin(), of_order.end());
   return budget;
 }
 

@@ -10,6 +10,7 @@
 #include "modules/config/config_visitor.h"
 #include "modules/dram/dram_config.h"
 #include "modules/hfu/hfu_config.h"
+#include "modules/merge/merge_config.h"
 #include "modules/rendering/rendering_config.h"
 #include "modules/sorting/sorting_config.h"
 #include "modules/vsu/vsu_config.h"
@@ -17,7 +18,7 @@
 namespace sgs {
 
 // Decides what VSU emits and whether a merge stage stands before rendering; nothing else.
-enum class Ordering { kPaper };
+enum class Ordering { kExact, kPaper };
 
 struct SramConfig {
   std::uint32_t input_bytes = 16 * 1024;      // first halves, double-buffered
@@ -31,10 +32,11 @@ struct MemoryPortConfig {
 };
 
 struct AcceleratorConfig {
-  Ordering ordering = Ordering::kPaper;
+  Ordering ordering = Ordering::kExact;
   double clock_mhz = 1000;
   std::uint32_t group_px = 32;
-  double voxel_size = 0;  // world units; 0: from the scene's extent
+  double voxel_size = 0;               // paper order: world units; 0: from the scene's extent
+  std::uint32_t chunk_gaussians = 16;  // exact order: most Gaussians in a chunk
   FrameFormat framebuffer = FrameFormat::kRgb8;
   bool store_invisible = false;  // also Gaussians that no view can show
   std::uint32_t hfus = 4;
@@ -43,6 +45,7 @@ struct AcceleratorConfig {
   VsuConfig vsu;
   HfuConfig hfu;
   SortingConfig sorting;
+  MergeConfig merge;
   RenderingConfig rendering;
   MemoryPortConfig memory_port;
   DramConfig dram;
@@ -68,6 +71,7 @@ void visit(ConfigVisitor& v, SramConfig& config);
 void visit(ConfigVisitor& v, VsuConfig& config);
 void visit(ConfigVisitor& v, HfuConfig& config);
 void visit(ConfigVisitor& v, SortingConfig& config);
+void visit(ConfigVisitor& v, MergeConfig& config);
 void visit(ConfigVisitor& v, RenderingConfig& config);
 void visit(ConfigVisitor& v, MemoryPortConfig& config);
 void visit(ConfigVisitor& v, AcceleratorConfig& config);

@@ -9,6 +9,7 @@
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/records.h"
 #include "algorithm/memory/region.h"
+#include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
@@ -23,7 +24,9 @@ struct RegionRange {
 struct MemoryLayout {
   std::array<RegionRange, kRegionCount> regions;
   VoxelFrame voxel_frame;
-  std::uint32_t node_count = 0, voxel_count = 0, gaussian_count = 0;
+  std::uint32_t node_count = 0, voxel_count = 0;        // paper order
+  std::uint32_t chunk_node_count = 0, chunk_count = 0;  // exact order
+  std::uint32_t gaussian_count = 0;                     // stored
   int sh_degree = 0;
 
   const RegionRange& operator[](Region region) const { return regions[region_id(region)]; }
@@ -35,6 +38,12 @@ struct MemoryLayout {
   }
   std::uint64_t voxel_address(std::uint32_t voxel) const {
     return node_address(node_count) + std::uint64_t{voxel} * sizeof(VoxelRecord);
+  }
+  std::uint64_t chunk_node_address(std::uint32_t node) const {
+    return (*this)[Region::kChunkTable].base + std::uint64_t{node} * sizeof(ChunkNode);
+  }
+  std::uint64_t index_address(std::uint32_t slot) const {
+    return (*this)[Region::kIndices].base + std::uint64_t{slot} * sizeof(std::uint32_t);
   }
   std::uint64_t first_half_address(std::uint32_t slot) const {
     return (*this)[Region::kFirstHalves].base + std::uint64_t{slot} * kFirstHalfBytes;
@@ -48,14 +57,18 @@ struct MemoryLayout {
   }
 };
 
-// A scene laid out for paper order: its layout, and the bytes of the regions that hold the scene.
+// A scene laid out for one of the orders: its layout, and the bytes of the regions that hold the
+// scene.
 struct MemoryImage {
   MemoryLayout layout;
-  std::vector<std::byte> bytes;  // from address 0 to the end of the second halves
+  std::vector<std::byte> bytes;  // from address 0 to the first region that a frame writes
 };
 
-// spill_bytes, frame_bytes: sizes of the regions that a frame writes.
+// spill_bytes, frame_bytes: sizes of the regions that a frame writes. The grid or tree is this
+// cloud's.
 MemoryImage build_memory_image(const ActivatedCloud& cloud, const VoxelGrid& grid,
+                               std::uint64_t spill_bytes, std::uint64_t frame_bytes);
+MemoryImage build_memory_image(const ActivatedCloud& cloud, const ChunkTree& tree,
                                std::uint64_t spill_bytes, std::uint64_t frame_bytes);
 
 }  // namespace sgs

@@ -8,13 +8,14 @@ namespace sgs {
 RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const RenderingConfig& config,
                              const ClockDomain& clock, const FrameJob& job, SaturationBoard& board,
                              MemoryPort& port, std::vector<TimedFifo<SplatToken>*> sorted,
-                             std::function<void()> on_done)
+                             Arrival arrival, std::function<void()> on_done)
     : sc_module(name),
       config_(config),
       job_(job),
       board_(board),
       port_(port),
       sorted_(std::move(sorted)),
+      arrival_(arrival),
       on_done_(std::move(on_done)),
       blend_activity_(std::string(this->name()) + ".blend", clock),
       drain_activity_(std::string(this->name()) + ".drain", clock),
@@ -26,20 +27,21 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
 }
 
 void RenderingUnit::blend() {
-  std::uint32_t visit = 0;
+  std::size_t turn = 0;
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     free_buffers_.pop(blend_activity_, ActivityState::kBlocked);
     current_group_ = group;
     auto state =
         std::make_shared<GroupState>(job_.groups[group], job_.view.width, job_.view.height);
     for (Mark mark = Mark::kNone; mark != Mark::kEndOfGroup;) {
-      const SplatToken token = sorted_[visit % sorted_.size()]->pop(blend_activity_);
+      const SplatToken token = sorted_[turn % sorted_.size()]->pop(blend_activity_);
       mark = token.mark;
       if (mark == Mark::kNone) {
         blend_splat(token.splat, group, *state);
-      } else {
-        ++visit;
+      } else if (mark == Mark::kRejected) {
+        blend_activity_.work(1);
       }
+      turn += mark != Mark::kNone || arrival_ == Arrival::kByToken ? 1 : 0;
     }
     ++counters_.groups;
     counters_.groups_saturated += state->saturated() ? 1 : 0;

@@ -29,14 +29,18 @@ struct RenderingCounters {
   std::uint64_t groups_saturated = 0;
 };
 
+// How the splats of one group are spread over the FIFOs that rendering reads: whole visits in turn
+// (paper order), or each token in turn (exact order).
+enum class Arrival { kByVisit, kByToken };
+
 class RenderingUnit : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(RenderingUnit);
-  // sorted: one FIFO a sorting unit; visit v arrives in v modulo their number. on_done() is called
-  // when the last pixel of the last group has been written.
+  // sorted: FIFOs that are read in turn. on_done() is called when the last pixel of the last group
+  // has been written.
   RenderingUnit(const sc_core::sc_module_name& name, const RenderingConfig& config,
                 const ClockDomain& clock, const FrameJob& job, SaturationBoard& board,
-                MemoryPort& port, std::vector<TimedFifo<SplatToken>*> sorted,
+                MemoryPort& port, std::vector<TimedFifo<SplatToken>*> sorted, Arrival arrival,
                 std::function<void()> on_done);
 
   const RenderingCounters& counters() const { return counters_; }
@@ -56,6 +60,7 @@ class RenderingUnit : public sc_core::sc_module {
   SaturationBoard& board_;
   MemoryPort& port_;
   std::vector<TimedFifo<SplatToken>*> sorted_;
+  const Arrival arrival_;
   std::function<void()> on_done_;
   Activity blend_activity_, drain_activity_;
   TimedFifo<std::shared_ptr<GroupState>> finished_;

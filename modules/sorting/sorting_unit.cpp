@@ -7,9 +7,22 @@
 #include <deque>
 #include <queue>
 
+#include "algorithm/memory/splat_record.h"
 #include "modules/sorting/sorting_cost.h"
 
 namespace sgs {
+namespace {
+
+// Splats of one group.
+struct SplatCodec {
+  using Entry = Splat;
+  static constexpr std::uint32_t kBytes = kSplatEntryBytes;
+  SubtileRect group;
+  void encode(const Splat& splat, std::byte* out) const { encode_splat(splat, group, out); }
+  Splat decode(const std::byte* bytes) const { return decode_splat(bytes, group); }
+};
+
+}  // namespace
 
 SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const SortingConfig& config,
                          const Place& place, const ClockDomain& clock, const FrameJob& job,
@@ -98,8 +111,8 @@ void SortingUnit::sort_buffer() {
 
 void SortingUnit::spill_buffer() {
   if (buffer_.empty()) return;
-  SpillWriter writer({port_, activity_, config_.spill_block_entries},
-                     place_.spill_base + spill_used_, group_subtiles());
+  SpillWriter<SplatCodec> writer({port_, activity_, config_.spill_block_entries},
+                                 place_.spill_base + spill_used_, SplatCodec{group_subtiles()});
   for (const Splat& splat : buffer_) {
     activity_.work(1);
     writer.append(splat);
@@ -125,8 +138,9 @@ void SortingUnit::merge_runs() {
       const std::vector<SpillRun> group(
           open.begin() + static_cast<std::ptrdiff_t>(at),
           open.begin() + static_cast<std::ptrdiff_t>(std::min(at + fan_in, open.size())));
-      SpillWriter writer({port_, activity_, config_.spill_block_entries},
-                         place_.spill_base + pass % 2 * half + used, group_subtiles());
+      SpillWriter<SplatCodec> writer({port_, activity_, config_.spill_block_entries},
+                                     place_.spill_base + pass % 2 * half + used,
+                                     SplatCodec{group_subtiles()});
       merge(group.data(), group.size(), [&](const Splat& splat) { writer.append(splat); });
       longer.push_back(writer.finish());
       used += longer.back().entries * kSplatEntryBytes;
@@ -143,10 +157,10 @@ void SortingUnit::merge_runs() {
 template <class Sink>
 void SortingUnit::merge(const SpillRun* runs, std::size_t count, Sink&& sink) {
   await_all(port_, activity_);  // the runs have been written
-  std::deque<SpillReader> readers;
+  std::deque<SpillReader<SplatCodec>> readers;
   for (std::size_t i = 0; i < count; ++i) {
     readers.emplace_back(SpillPort{port_, activity_, config_.spill_block_entries}, runs[i],
-                         group_subtiles());
+                         SplatCodec{group_subtiles()});
   }
   const auto behind = [&](std::size_t a, std::size_t b) {
     return in_front(readers[b].front(), readers[a].front());

@@ -11,7 +11,7 @@
 #include "modules/messages.h"
 #include "modules/saturation_board.h"
 #include "modules/sorting/sorting_config.h"
-#include "modules/sorting/spill_runs.h"
+#include "modules/spill_runs.h"
 #include "tlm/fifo_selector.h"
 
 namespace sgs {

@@ -13,13 +13,13 @@
 
 namespace sgs {
 
-constexpr std::uint32_t kCacheLineBytes = 64;  // two bursts
 constexpr std::uint32_t kCacheWays = 4;
 
-// Record: trivially copyable, its size a divisor of the line's.
+// Record: trivially copyable, its size a power of two.
 template <class Record>
 class TableCache {
  public:
+  static constexpr std::uint32_t kCacheLineBytes = std::max<std::uint32_t>(64, sizeof(Record));
   static_assert(kCacheLineBytes % sizeof(Record) == 0);
 
   // The table's records are [base, base + count * sizeof(Record)); capacity is rounded down to

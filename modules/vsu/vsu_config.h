@@ -14,6 +14,9 @@ struct VsuConfig {
   std::uint32_t node_cache_bytes = 12288;   // in front of the tree in DRAM
   std::uint32_t record_cache_bytes = 1024;  // in front of the voxel records
   std::uint32_t min_share = 16;             // fewest Gaussians of a visit that one HFU is given
+  // Exact order.
+  std::uint32_t tests_per_cycle = 2;  // children of tree nodes against the group
+  std::uint32_t queue_entries = 512;  // of the front-to-back walk
 };
 
 }  // namespace sgs

@@ -44,16 +44,21 @@ std::string waiting(const ResourceUse& use) {
 
 std::vector<ResourceUse> resource_uses(Accelerator& accelerator) {
   const std::uint64_t frame = std::max<std::uint64_t>(1, accelerator.frame_cycles());
-  std::vector<const Activity*> coarse, fine, sorting;
+  std::vector<const Activity*> vsu, coarse, fine, sorting, merge;
+  if (accelerator.vsu() != nullptr) vsu.push_back(&accelerator.vsu()->traverse_activity());
+  if (accelerator.chunk_vsu() != nullptr) vsu.push_back(&accelerator.chunk_vsu()->walk_activity());
+  if (accelerator.merge() != nullptr) merge.push_back(&accelerator.merge()->activity());
   for (const auto& hfu : accelerator.hfus()) {
     coarse.push_back(&hfu->coarse_activity());
     fine.push_back(&hfu->fine_activity());
   }
   for (const auto& unit : accelerator.sorting_units()) sorting.push_back(&unit->activity());
-  return {busiest("vsu", {&accelerator.vsu().traverse_activity()}, frame),
+  for (const auto& unit : accelerator.key_sorters()) sorting.push_back(&unit->activity());
+  return {busiest("vsu", vsu, frame),
           busiest("coarse", coarse, frame),
           busiest("fine", fine, frame),
           busiest("sorting", sorting, frame),
+          busiest("merge", merge, frame),
           busiest("rendering", {&accelerator.rendering().blend_activity()}, frame),
           busiest("drain", {&accelerator.rendering().drain_activity()}, frame),
           {"dram", bus_share(accelerator), nullptr}};
@@ -66,7 +71,8 @@ Binding find_binding(Accelerator& accelerator) {
   });
   Binding binding{uses[0].name, uses[1].name, uses[0].utilisation, uses[1].utilisation, ""};
   binding.explanation = fmt::format(
-      "{} works {:.0f} % of the frame, {} {:.0f} %: {} with no limit of its own, the frame would take "
+      "{} works {:.0f} % of the frame, {} {:.0f} %: {} with no limit of its own, the frame would "
+      "take "
       "at least {:.0f} % of its time",
       binding.unit, 100 * binding.utilisation, binding.next, 100 * binding.next_utilisation,
       binding.unit, 100 * binding.next_utilisation);

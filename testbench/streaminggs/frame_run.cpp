@@ -59,8 +59,9 @@ class Waveform {
   Waveform(const std::string& path, const Accelerator& accelerator) {
     if (path.empty()) return;
     // SystemC adds the extension itself.
-    const std::string stem =
-        path.size() > 4 && path.substr(path.size() - 4) == ".vcd" ? path.substr(0, path.size() - 4) : path;
+    const std::string stem = path.size() > 4 && path.substr(path.size() - 4) == ".vcd"
+                                 ? path.substr(0, path.size() - 4)
+                                 : path;
     file_ = sc_core::sc_create_vcd_trace_file(stem.c_str());
     file_->set_time_unit(1, sc_core::SC_PS);
     accelerator.trace(file_);
@@ -132,7 +133,11 @@ FrameRun run_frame(const AcceleratorConfig& config, const FrameJob& job, const M
   ::close(ends[0]);
   int status = 0;
   ::waitpid(process, &status, 0);
-  if (!complete || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+  if (WIFSIGNALED(status)) {
+    throw std::runtime_error("the simulation of the frame was ended by signal " +
+                             std::to_string(WTERMSIG(status)));
+  }
+  if (!complete || WEXITSTATUS(status) != 0) {
     throw std::runtime_error("the simulation of the frame failed");
   }
   run.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

@@ -16,9 +16,9 @@ namespace sgs {
 
 struct RunOptions {
   TimingMode timing = TimingMode::kAccurate;
-  std::string vcd_path;         // empty: no waveform
-  double stall_probability = 0; // of a random stall at each side of each FIFO, for tests
-  std::uint64_t seed = 1;       // of those stalls
+  std::string vcd_path;          // empty: no waveform
+  double stall_probability = 0;  // of a random stall at each side of each FIFO, for tests
+  std::uint64_t seed = 1;        // of those stalls
 };
 
 struct FrameRun {

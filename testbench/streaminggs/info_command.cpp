@@ -14,8 +14,8 @@ namespace sgs {
 namespace {
 
 void print_extent(const char* name, const Extent& extent) {
-  fmt::print("{:<26}{:.6g} {:.6g} {:.6g} .. {:.6g} {:.6g} {:.6g} (world units)\n", name, extent.min.x,
-             extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
+  fmt::print("{:<26}{:.6g} {:.6g} {:.6g} .. {:.6g} {:.6g} {:.6g} (world units)\n", name,
+             extent.min.x, extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
 }
 
 }  // namespace

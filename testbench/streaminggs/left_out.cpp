@@ -32,7 +32,8 @@ Json left_out(const ViewFacts& facts, const AcceleratorConfig& config, const Jso
   Json list = Json::array();
   const auto add = [&](const char* what, const std::string& why, std::uint64_t count,
                        const std::string& saves) {
-    if (count > 0) list.push_back({{"what", what}, {"why", why}, {"count", count}, {"saves", saves}});
+    if (count > 0)
+      list.push_back({{"what", what}, {"why", why}, {"count", count}, {"saves", saves}});
   };
   const Json& units = measured["units"];
   const MemoryLayout& layout = facts.layout;
@@ -45,20 +46,32 @@ Json left_out(const ViewFacts& facts, const AcceleratorConfig& config, const Jso
       fmt::format("{} B of SRAM stay empty", config.sram.codebook_bytes));
   add("invisible_gaussians", "opacity below 1/255: no view can show them",
       facts.gaussians - layout.gaussian_count,
-      fmt::format("{} B of DRAM", (facts.gaussians - layout.gaussian_count) *
-                                      (kFirstHalfBytes + second_bytes)));
-  add("voxels_not_needed", "no ray of any group crosses them",
-      layout.voxel_count - facts.golden.stats.blocks_visited, "their Gaussians are never fetched");
-  const double side = layout.voxel_frame.side_cells();
-  const double cells = side * side * side;
-  add("empty_cells", "only occupied cells exist in the voxel tree",
-      static_cast<std::uint64_t>(cells - layout.voxel_count),
-      fmt::format("a dense table would take {:.3g} B", cells * sizeof(VoxelRecord)));
-  const Json& vsu = units["vsu.traverse"];
-  add("empty_groups", "no occupied voxel on any ray", vsu["groups_empty"].get<std::uint64_t>(),
+      fmt::format("{} B of DRAM",
+                  (facts.gaussians - layout.gaussian_count) * (kFirstHalfBytes + second_bytes)));
+  const bool paper = config.ordering == Ordering::kPaper;
+  add(paper ? "voxels_not_needed" : "chunks_not_needed",
+      paper ? "no ray of any group crosses them" : "they cannot touch any group",
+      (paper ? layout.voxel_count : layout.chunk_count) - facts.golden.stats.blocks_visited,
+      "their Gaussians are never fetched");
+  add("empty_groups", "no block of Gaussians can touch them", sum_over_units(units, "groups_empty"),
       "no visit, no blending");
-  add("saturated_visits", "every pixel of the group was finished",
-      vsu["visits_saturated"].get<std::uint64_t>(), "their Gaussians are not streamed");
+  if (paper) {
+    const double side = layout.voxel_frame.side_cells();
+    const double cells = side * side * side;
+    add("empty_cells", "only occupied cells exist in the voxel tree",
+        static_cast<std::uint64_t>(cells - layout.voxel_count),
+        fmt::format("a dense table would take {:.3g} B", cells * sizeof(VoxelRecord)));
+    add("saturated_visits", "every pixel of the group was finished",
+        sum_over_units(units, "visits_saturated"), "their Gaussians are not streamed");
+  } else {
+    add("saturated_groups", "every pixel was finished before the walk ended",
+        sum_over_units(units, "groups_saturated"), "the rest of the tree is not walked");
+    add("index_lookups", "no other key has the same depth",
+        units["merge"]["keys"].get<std::uint64_t>() -
+            std::min(units["merge"]["keys"].get<std::uint64_t>(),
+                     units["merge"]["ties_looked_up"].get<std::uint64_t>()),
+        fmt::format("{} B of DRAM traffic each", sizeof(std::uint32_t)));
+  }
   add("saturated_gaussians", "the group finished while its visits were under way",
       sum_over_units(units, "dropped_saturated"), "filtering and second halves");
   add("trivial_sorts", "a visit with one splat or none", sum_over_units(units, "visits_trivial"),

@@ -16,7 +16,8 @@ const int kNoBanner = ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 0);
 
 int sc_main(int argc, char* argv[]) {
   constexpr int kBadInput = 2;
-  CLI::App app{"StreamingGS: a memory-centric 3D Gaussian Splatting accelerator in SystemC TLM-2.0"};
+  CLI::App app{
+      "StreamingGS: a memory-centric 3D Gaussian Splatting accelerator in SystemC TLM-2.0"};
   app.require_subcommand(1);
   std::vector<std::pair<CLI::App*, sgs::SubCommand>> commands;
   const auto add = [&](const char* name, const char* what, sgs::SubCommand (*make)(CLI::App&)) {

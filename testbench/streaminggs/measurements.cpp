@@ -38,10 +38,43 @@ Json work_of(const VsuCounters& c) {
           {"record_cache_misses", c.record_misses}};
 }
 
+Json work_of(const ChunkVsuCounters& c) {
+  return {{"nodes", c.nodes},
+          {"node_cache_misses", c.node_misses},
+          {"tests", c.tests},
+          {"visits", c.visits},
+          {"groups_saturated", c.groups_saturated},
+          {"groups_empty", c.groups_empty},
+          {"queue_entries_max", c.queue_max},
+          {"queue_entries_put_aside", c.overflowed}};
+}
+
+Json work_of(const KeySorterCounters& c) {
+  return {{"visits", c.visits},
+          {"visits_trivial", c.visits_trivial},
+          {"keys", c.keys},
+          {"compare_exchanges", c.compare_exchanges}};
+}
+
+Json work_of(const MergeCounters& c) {
+  return {{"keys", c.keys},
+          {"released", c.released},
+          {"forced_early", c.forced_early},
+          {"dropped_saturated", c.dropped_saturated},
+          {"pending_keys_max", c.pending_max},
+          {"ties_looked_up", c.ties},
+          {"runs_spilled", c.runs_spilled},
+          {"keys_spilled", c.keys_spilled}};
+}
+
 Json work_of(const HfuCounters& c) {
-  return {{"first_halves", c.first_halves}, {"coarse_tests", c.coarse_tests},
-          {"second_halves", c.second_halves}, {"fine_tests", c.fine_tests},
-          {"splats", c.splats}, {"dropped_saturated", c.dropped_saturated}};
+  return {{"first_halves", c.first_halves},
+          {"coarse_tests", c.coarse_tests},
+          {"coarse_passed", c.coarse_passed},
+          {"second_halves", c.second_halves},
+          {"fine_tests", c.fine_tests},
+          {"splats", c.splats},
+          {"dropped_saturated", c.dropped_saturated}};
 }
 
 Json work_of(const SortingCounters& c) {
@@ -73,13 +106,20 @@ Json units_of(Accelerator& accelerator) {
   const auto add = [&](const std::string& activity, const Json& work) {
     units[activity].update(work);
   };
-  add("vsu.traverse", work_of(accelerator.vsu().counters()));
+  if (accelerator.vsu() != nullptr) add("vsu.traverse", work_of(accelerator.vsu()->counters()));
+  if (accelerator.chunk_vsu() != nullptr) {
+    add("vsu.walk", work_of(accelerator.chunk_vsu()->counters()));
+  }
   for (std::size_t h = 0; h < accelerator.hfus().size(); ++h) {
     add(fmt::format("hfu{}.coarse", h), work_of(accelerator.hfus()[h]->counters()));
   }
   for (std::size_t s = 0; s < accelerator.sorting_units().size(); ++s) {
     add(fmt::format("sorting{}", s), work_of(accelerator.sorting_units()[s]->counters()));
   }
+  for (std::size_t s = 0; s < accelerator.key_sorters().size(); ++s) {
+    add(fmt::format("sorting{}", s), work_of(accelerator.key_sorters()[s]->counters()));
+  }
+  if (accelerator.merge() != nullptr) add("merge", work_of(accelerator.merge()->counters()));
   add("rendering.blend", work_of(accelerator.rendering().counters()));
   return units;
 }
@@ -146,7 +186,9 @@ std::string measure(Accelerator& accelerator) {
   const double time_s = static_cast<double>(cycles) / (accelerator.config().clock_mhz * 1e6);
   const Binding binding = find_binding(accelerator);
   Json out;
-  out["frame"] = {{"cycles", cycles}, {"time_s", time_s}, {"fps", 1 / time_s},
+  out["frame"] = {{"cycles", cycles},
+                  {"time_s", time_s},
+                  {"fps", 1 / time_s},
                   {"drained", accelerator.drained()}};
   out["units"] = units_of(accelerator);
   out["binding"] = {{"unit", binding.unit},

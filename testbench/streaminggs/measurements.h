@@ -1,5 +1,5 @@
-// What a finished simulation has counted, as the sections `frame`, `units`, `binding`, `dram` and `sram`
-// of the report (README, "What the report says").
+// What a finished simulation has counted, as the sections `frame`, `units`, `binding`, `dram` and
+// `sram` of the report (README, "What the report says").
 #pragma once
 
 #include <string>

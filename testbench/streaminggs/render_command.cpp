@@ -37,7 +37,8 @@ SubCommand add_render_command(CLI::App& app) {
   return [arguments] {
     const Scene scene = arguments->load();
     const auto views = arguments->cameras(scene);
-    if (views.size() != 1) throw InputError("--view: 'all' writes more than one image, expected a number");
+    if (views.size() != 1)
+      throw InputError("--view: 'all' writes more than one image, expected a number");
     if (arguments->group_px % 4 != 0) throw InputError("--group: expected a multiple of 4");
     const View<float> view = make_view<float>(views.front().second);
     const ActivatedCloud cloud = activate(scene.cloud);

@@ -50,7 +50,8 @@ Json view_report(const ViewFacts& facts, const AcceleratorConfig& config) {
                      {"dropped_invalid", facts.dropped_invalid},
                      {"voxel_size", facts.layout.voxel_frame.voxel_size},
                      {"voxels", facts.layout.voxel_count},
-                     {"stored_bytes", facts.layout[Region::kSecondHalves].end()}};
+                     {"chunks", facts.layout.chunk_count},
+                     {"stored_bytes", facts.layout[Region::kSpill].base}};
   report["view"] = facts.view;
   report["image"] = image_of(facts);
   for (const auto& [key, value] : measured.items()) report[key] = value;
@@ -68,16 +69,15 @@ void print_table_head() {
 
 void print_table_line(const Json& r) {
   const Json& psnr = r["image"]["psnr_db"];
-  fmt::print("{:>4} {:>9} {:>8.5f} {:>7} {:>12} {:>8.1f} {:>10.2f} {:>6.2f} {:>9} {:>4.0f}% {:>8.2f}\n",
-             r["view"].get<int>(),
-             psnr.is_null() ? "equal" : fmt::format("{:.2f}", psnr.get<double>()),
-             r["image"]["ssim"].get<double>(),
-             r["image"]["equals_streaming_renderer"].get<bool>() ? "yes" : "NO",
-             r["frame"]["cycles"].get<std::uint64_t>(), r["frame"]["fps"].get<double>(),
-             r["dram"]["bytes"].get<double>() / 1e6, r["limit"]["ratio"].get<double>(),
-             r["binding"]["unit"].get<std::string>(),
-             100 * r["binding"]["utilisation"].get<double>(),
-             r["host"]["simulation_wall_s"].get<double>());
+  fmt::print(
+      "{:>4} {:>9} {:>8.5f} {:>7} {:>12} {:>8.1f} {:>10.2f} {:>6.2f} {:>9} {:>4.0f}% {:>8.2f}\n",
+      r["view"].get<int>(), psnr.is_null() ? "equal" : fmt::format("{:.2f}", psnr.get<double>()),
+      r["image"]["ssim"].get<double>(),
+      r["image"]["equals_streaming_renderer"].get<bool>() ? "yes" : "NO",
+      r["frame"]["cycles"].get<std::uint64_t>(), r["frame"]["fps"].get<double>(),
+      r["dram"]["bytes"].get<double>() / 1e6, r["limit"]["ratio"].get<double>(),
+      r["binding"]["unit"].get<std::string>(), 100 * r["binding"]["utilisation"].get<double>(),
+      r["host"]["simulation_wall_s"].get<double>());
 }
 
 void print_details(const Json& r) {

@@ -4,7 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "algorithm/render/paper_renderer.h"
+#include "algorithm/memory/memory_image.h"
+#include "algorithm/render/streaming_result.h"
 #include "testbench/streaminggs/frame_run.h"
 
 namespace sgs {
@@ -13,13 +14,13 @@ namespace sgs {
 struct ViewFacts {
   std::string scene;
   int view = 0;
-  Image frame;       // as read back from the modelled DRAM
+  Image frame;  // as read back from the modelled DRAM
   Image reference;
   StreamingResult golden;
   bool equals_golden = false;  // bytes of the frame buffer against the streaming renderer's
   FrameRun run;
   MemoryLayout layout;
-  std::uint64_t gaussians = 0;          // in the scene
+  std::uint64_t gaussians = 0;  // in the scene
   std::uint64_t dropped_invalid = 0;
   FrameFormat frame_format = FrameFormat::kRgb8;
 };

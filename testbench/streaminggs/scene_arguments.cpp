@@ -25,7 +25,8 @@ std::pair<int, int> parse_size(const std::string& size) {
   if (cross == std::string::npos || !read_int(size.substr(0, cross), width) ||
       !read_int(size.substr(cross + 1), height) || width < 1 || height < 1 || width > kMaxSizePx ||
       height > kMaxSizePx) {
-    throw InputError(fmt::format("--size: '{}', expected WIDTHxHEIGHT, each 1 to {}", size, kMaxSizePx));
+    throw InputError(
+        fmt::format("--size: '{}', expected WIDTHxHEIGHT, each 1 to {}", size, kMaxSizePx));
   }
   return {width, height};
 }

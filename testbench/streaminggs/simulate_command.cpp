@@ -14,6 +14,8 @@
 #include "algorithm/image/quality.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_file.h"
+#include "algorithm/render/exact_renderer.h"
+#include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "modules/accelerator.h"
@@ -29,7 +31,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct Arguments : SceneArguments {
-  std::string config = "paper";
+  std::string config = "exact";
   std::vector<std::string> overrides;
   std::string out;
   std::string vcd;
@@ -68,18 +70,46 @@ std::uint64_t peak_rss_bytes() {
   return static_cast<std::uint64_t>(std::max(self.ru_maxrss, children.ru_maxrss)) * kKiB;
 }
 
-// A scene made ready for the accelerator.
+// A scene made ready for the accelerator: laid out for the configured order.
 struct Prepared {
   Scene scene;
   ActivatedCloud cloud;
-  VoxelGrid grid;
+  VoxelGrid grid;  // paper order
+  ChunkTree tree;  // exact order
 
   Prepared(Scene loaded, const AcceleratorConfig& config)
       : scene(std::move(loaded)), cloud(activate(scene.cloud)) {
-    const float voxel_size = config.voxel_size > 0 ? static_cast<float>(config.voxel_size)
-                                                   : paper_voxel_size(cloud);
-    grid = build_voxel_grid(cloud, voxel_size,
-                            config.store_invisible ? Stored::kAll : Stored::kVisible);
+    const Stored stored = config.store_invisible ? Stored::kAll : Stored::kVisible;
+    if (config.ordering == Ordering::kExact) {
+      tree = build_chunk_tree(cloud, config.chunk_gaussians, stored);
+      return;
+    }
+    const float voxel_size =
+        config.voxel_size > 0 ? static_cast<float>(config.voxel_size) : paper_voxel_size(cloud);
+    grid = build_voxel_grid(cloud, voxel_size, stored);
+  }
+
+  MemoryImage image(const AcceleratorConfig& config, std::uint64_t frame_bytes) const {
+    return config.ordering == Ordering::kExact
+               ? build_memory_image(cloud, tree, spill_region_bytes(tree), frame_bytes)
+               : build_memory_image(cloud, grid, spill_region_bytes(config, grid), frame_bytes);
+  }
+
+  StreamingResult golden(const FrameJob& job, const AcceleratorConfig& config) const {
+    if (config.ordering == Ordering::kExact) {
+      ExactOrderConfig order;
+      order.group_px = job.group_px;
+      order.merge_entries = config.merge.entries;
+      order.on_overflow = config.merge.on_overflow;
+      order.walk_queue_entries = config.vsu.queue_entries;
+      order.background = job.background;
+      return render_exact_order(job.view, cloud, tree, order);
+    }
+    PaperOrderConfig order;
+    order.group_px = job.group_px;
+    order.sample_step_voxels = static_cast<float>(config.vsu.sample_step_voxels);
+    order.background = job.background;
+    return render_paper_order(job.view, cloud, grid, order);
   }
 };
 
@@ -93,12 +123,12 @@ FrameJob make_job(const Camera& camera, const AcceleratorConfig& config) {
 }
 
 void check_capacity(const MemoryLayout& layout, const DramConfig& dram) {
-  const std::uint64_t capacity =
-      AddressMapping(dram, load_memspec(dram.memspec)).capacity_bytes();
+  const std::uint64_t capacity = AddressMapping(dram, load_memspec(dram.memspec)).capacity_bytes();
   if (layout.total_bytes() > capacity) {
-    throw InputError(fmt::format("dram: the scene and its frame take {} bytes, {} channels x {} ranks "
-                                 "hold {}",
-                                 layout.total_bytes(), dram.channels, dram.ranks, capacity));
+    throw InputError(
+        fmt::format("dram: the scene and its frame take {} bytes, {} channels x {} ranks "
+                    "hold {}",
+                    layout.total_bytes(), dram.channels, dram.ranks, capacity));
   }
 }
 
@@ -114,18 +144,13 @@ ViewFacts simulate_view(const Prepared& prepared, int number, const Camera& came
   FrameJob job = make_job(camera, config);
   const std::uint64_t frame_bytes =
       std::uint64_t{pixel_bytes(config.framebuffer)} * camera.width * camera.height;
-  const MemoryImage image = build_memory_image(prepared.cloud, prepared.grid,
-                                               spill_region_bytes(config, prepared.grid), frame_bytes);
+  const MemoryImage image = prepared.image(config, frame_bytes);
   check_capacity(image.layout, config.dram);
   job.layout = image.layout;
   facts.layout = image.layout;
 
   facts.reference = render_reference(job.view, prepared.cloud, job.background).image;
-  PaperOrderConfig order;
-  order.group_px = job.group_px;
-  order.sample_step_voxels = static_cast<float>(config.vsu.sample_step_voxels);
-  order.background = job.background;
-  facts.golden = render_paper_order(job.view, prepared.cloud, prepared.grid, order);
+  facts.golden = prepared.golden(job, config);
 
   facts.run = run_frame(config, job, image, options);
   facts.equals_golden =
@@ -177,9 +202,8 @@ int run(const Arguments& arguments) {
     report["config"] = resolved;
     report["host"]["wall_s"] = seconds_since(began);
     report["host"]["peak_rss_bytes"] = peak_rss_bytes();
-    report["provenance"] = {{"version", SGS_VERSION},
-                            {"timing", arguments.timing},
-                            {"seed", arguments.seed}};
+    report["provenance"] = {
+        {"version", SGS_VERSION}, {"timing", arguments.timing}, {"seed", arguments.seed}};
     write_view(fs::path(arguments.out) / fmt::format("view_{}", number), facts, report);
     print_table_line(report);
     std::fflush(stdout);

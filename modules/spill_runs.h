@@ -1,5 +1,5 @@
-// Sorted runs of splats in the spill region of the DRAM: written block by block, read back with the
-// next block on its way.
+// Sorted runs in the spill region of the DRAM: written block by block, read back with the next
+// block on its way.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "algorithm/memory/region.h"
-#include "algorithm/memory/splat_record.h"
 #include "tlm/memory_access.h"
 
 namespace sgs {
@@ -24,18 +23,19 @@ struct SpillPort {
   std::uint32_t block_entries;
 };
 
+// Codec: `Entry` is what a run holds, kBytes its size in DRAM, encode(entry, bytes) and
+// decode(bytes) go between the two.
+template <class Codec>
 class SpillWriter {
  public:
-  SpillWriter(SpillPort to, std::uint64_t address, const SubtileRect& group)
-      : to_(to), group_(group), run_{address, 0} {
-    block_.reserve(std::size_t{to.block_entries} * kSplatEntryBytes);
-  }
+  SpillWriter(SpillPort to, std::uint64_t address, Codec codec)
+      : to_(to), codec_(codec), run_{address, 0} {}
 
-  void append(const Splat& splat) {
-    block_.resize(block_.size() + kSplatEntryBytes);
-    encode_splat(splat, group_, block_.data() + block_.size() - kSplatEntryBytes);
+  void append(const typename Codec::Entry& entry) {
+    block_.resize(block_.size() + Codec::kBytes);
+    codec_.encode(entry, block_.data() + block_.size() - Codec::kBytes);
     ++run_.entries;
-    if (block_.size() == block_.capacity()) flush();
+    if (block_.size() == std::size_t{to_.block_entries} * Codec::kBytes) flush();
   }
 
   // Sends what is left and returns the run; its bytes are in DRAM once the port is drained.
@@ -53,25 +53,26 @@ class SpillWriter {
   }
 
   SpillPort to_;
-  SubtileRect group_;
+  Codec codec_;
   SpillRun run_;
   std::uint64_t written_ = 0;
   std::vector<std::byte> block_;
 };
 
+template <class Codec>
 class SpillReader {
  public:
-  SpillReader(SpillPort from, const SpillRun& run, const SubtileRect& group)
-      : from_(from), group_(group), run_(run) {
+  SpillReader(SpillPort from, const SpillRun& run, Codec codec)
+      : from_(from), codec_(codec), run_(run) {
     for (Block& block : blocks_) {
-      block.bytes.resize(std::size_t{from.block_entries} * kSplatEntryBytes);
+      block.bytes.resize(std::size_t{from.block_entries} * Codec::kBytes);
       request(block);
     }
     load();
   }
 
   bool exhausted() const { return taken_ == run_.entries; }
-  const Splat& front() const { return front_; }
+  const typename Codec::Entry& front() const { return front_; }
 
   void pop() {
     ++taken_;
@@ -94,26 +95,24 @@ class SpillReader {
     const auto count =
         static_cast<std::uint32_t>(left < from_.block_entries ? left : from_.block_entries);
     if (count == 0) return;
-    block.ticket =
-        start_read(from_.port, from_.activity, run_.address + requested_ * kSplatEntryBytes,
-                   block.bytes.data(), count * kSplatEntryBytes, region_id(Region::kSpill));
+    block.ticket = start_read(from_.port, from_.activity, run_.address + requested_ * Codec::kBytes,
+                              block.bytes.data(), count * Codec::kBytes, region_id(Region::kSpill));
     requested_ += count;
   }
 
   void load() {
     Block& block = blocks_[current_];
     await(from_.port, from_.activity, block.ticket);
-    front_ =
-        decode_splat(block.bytes.data() + taken_ % from_.block_entries * kSplatEntryBytes, group_);
+    front_ = codec_.decode(block.bytes.data() + taken_ % from_.block_entries * Codec::kBytes);
   }
 
   SpillPort from_;
-  SubtileRect group_;
+  Codec codec_;
   SpillRun run_;
   Block blocks_[2];
   std::uint32_t current_ = 0;
   std::uint64_t requested_ = 0, taken_ = 0;
-  Splat front_{};
+  typename Codec::Entry front_{};
 };
 
 }  // namespace sgs

@@ -1,0 +1,95 @@
+// Merge unit, exact order: keys (depth, index) of sorted chunks wait here until nothing nearer can
+// come, and are released to the fine filters in final order. When the buffer is full, the farthest
+// half goes to DRAM as a sorted run and is merged back; the order stays exact.
+// Timing: a pipelined heap takes or gives one key a cycle. Ties of depth are broken by the index in
+// the file, which is looked up in DRAM only then.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <systemc>
+#include <vector>
+
+#include "modules/frame_job.h"
+#include "modules/merge/merge_config.h"
+#include "modules/messages.h"
+#include "modules/saturation_board.h"
+#include "modules/spill_runs.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs {
+
+struct MergeCounters {
+  std::uint64_t keys = 0;          // received
+  std::uint64_t released = 0;      // in final order, to the fine filters
+  std::uint64_t forced_early = 0;  // of these, before they were final (blend_early)
+  std::uint64_t dropped_saturated = 0;
+  std::uint64_t pending_max = 0;  // keys on chip
+  std::uint64_t ties = 0;         // keys whose index was looked up
+  std::uint64_t runs_spilled = 0;
+  std::uint64_t keys_spilled = 0;  // written to DRAM, over all passes
+};
+
+// A waiting key; its index is known once it had to be looked up.
+struct PendingKey {
+  FineCandidate candidate;
+  std::uint32_t index = 0;
+};
+
+class MergeUnit : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(MergeUnit);
+  // sorted: visit v comes from v modulo their number. released: the keys go to them in turn.
+  // spill_base, spill_bytes: two areas of one run of all keys of a group each.
+  MergeUnit(const sc_core::sc_module_name& name, const MergeConfig& config,
+            const ClockDomain& clock, const FrameJob& job, const SaturationBoard& board,
+            MemoryPort& port, std::vector<TimedFifo<FineCandidate>*> sorted,
+            std::vector<TimedFifo<FineCandidate>*> released, std::uint64_t spill_base,
+            std::uint64_t spill_bytes);
+
+  const MergeCounters& counters() const { return counters_; }
+  Activity& activity() { return activity_; }
+  const Activity& activity() const { return activity_; }
+  void trace(sc_core::sc_trace_file* file) const;
+
+ private:
+  struct KeyCodec {
+    using Entry = PendingKey;
+    static constexpr std::uint32_t kBytes = kSpilledKeyBytes;
+    std::uint32_t group = 0;
+    void encode(const PendingKey& key, std::byte* out) const;
+    PendingKey decode(const std::byte* bytes) const;
+  };
+  using RunReader = SpillReader<KeyCodec>;
+
+  void run();  // thread
+  void insert(const FineCandidate& key);
+  void release_below(float nearest);
+  void release_depth(float depth);
+  void emit(const PendingKey& key);
+  void end_group(const FineCandidate& end);
+  void look_up(std::vector<PendingKey>& keys);
+  std::vector<PendingKey> take_nearest(float depth);
+  void spill_farthest();
+  void merge_spilled_runs();
+  RunReader* nearest_run();
+  void drop_all();
+
+  const MergeConfig config_;
+  const FrameJob& job_;
+  const SaturationBoard& board_;
+  MemoryPort& port_;
+  std::vector<TimedFifo<FineCandidate>*> sorted_;
+  std::vector<TimedFifo<FineCandidate>*> released_;
+  const std::uint64_t spill_base_, spill_half_;
+  Activity activity_;
+  std::vector<FineCandidate> pending_;           // heap, nearest first
+  std::list<RunReader> runs_;                    // none of them exhausted
+  std::uint32_t spill_area_ = 0;                 // which half new runs go to
+  std::uint64_t spill_used_ = 0;                 // bytes of it
+  std::uint64_t sequence_ = 0;                   // keys and marks released
+  std::uint32_t group_ = 0, pending_count_ = 0;  // for the waveform
+  MergeCounters counters_;
+};
+
+}  // namespace sgs
