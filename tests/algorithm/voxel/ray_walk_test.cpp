@@ -1,0 +1,238 @@
+// The hierarchical walk and the sampling against stepping from cell to cell.
+#include "algorithm/voxel/ray_walk.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "algorithm/voxel/ray_sampling.h"
+#include "tests/algorithm/voxel/cell_stepper.h"
+
+namespace sgs {
+namespace {
+
+using test::OccupiedCells;
+
+struct GridTable {
+  const VoxelGrid& grid;
+  VoxelNode node(std::uint32_t index) const { return grid.nodes[index]; }
+};
+
+ActivatedCloud cloud_of(const std::vector<glm::vec3>& means) {
+  ActivatedCloud cloud;
+  for (const glm::vec3& mean : means) {
+    cloud.gaussians.push_back({mean, glm::vec3(0.1F), {1, 0, 0, 0}, 0.9F});
+    cloud.sh_coeffs.emplace_back(0.0F);
+  }
+  return cloud;
+}
+
+Ray ray_from(const glm::vec3& origin, const glm::vec3& direction) {
+  Ray ray{};
+  ray.origin = origin;
+  ray.direction = direction;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float d = direction[axis];
+    ray.step[axis] = d > 0 ? 1 : (d < 0 ? -1 : 0);
+    ray.inverse[axis] = d == 0 ? 0.0F : 1.0F / d;
+  }
+  return ray;
+}
+
+template <class Tracer>
+std::vector<std::uint32_t> traced(Tracer& tracer, const Ray& ray) {
+  std::vector<std::uint32_t> met;
+  tracer.walk(ray, [&](std::uint32_t voxel) { met.push_back(voxel); });
+  return met;
+}
+
+float uniform(std::mt19937& random, float low, float high) {
+  return std::uniform_real_distribution<float>(low, high)(random);
+}
+
+glm::vec3 in_cube(std::mt19937& random, float half_side) {
+  glm::vec3 out;
+  for (int axis = 0; axis < 3; ++axis) out[axis] = uniform(random, -half_side, half_side);
+  return out;
+}
+
+// What is drawn for one ray: some parallel to axes or to diagonals, some from a cell's corner, edge
+// or face.
+Ray random_ray(std::mt19937& random, float half_side, float voxel_size, const glm::vec3& centre) {
+  glm::vec3 origin = in_cube(random, half_side * (random() % 2 == 0 ? 0.5F : 3.0F)) + centre;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (random() % 3 == 0) origin[axis] = voxel_size * std::round(origin[axis] / voxel_size);
+  }
+  glm::vec3 direction = in_cube(random, 0.5F * half_side) + centre - origin;
+  const unsigned kind = random() % 4;
+  for (int axis = 0; axis < 3 && kind > 0; ++axis) {
+    if (kind == 1 && random() % 2 == 0) direction[axis] = 0;
+    if (kind == 2) direction[axis] = direction[axis] > 0 ? 1.0F : -1.0F;  // along diagonals
+    if (kind == 3 && random() % 2 == 0) direction[axis] *= 1e-6F;
+  }
+  return ray_from(origin, direction);
+}
+
+void compare_with_stepping(unsigned seed, float half_side, float voxel_size,
+                           const glm::vec3& centre, std::size_t points, int rays) {
+  std::mt19937 random(seed);
+  std::vector<glm::vec3> means;
+  for (std::size_t i = 0; i < points; ++i) means.push_back(in_cube(random, half_side) + centre);
+  const ActivatedCloud cloud = cloud_of(means);
+  const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
+  const OccupiedCells cells(cloud, grid);
+  REQUIRE(cells.count() == grid.voxels.size());
+  const GridTable table{grid};
+  RayWalk walk(grid.frame, table);
+  std::size_t met = 0;
+  for (int i = 0; i < rays; ++i) {
+    const Ray ray = random_ray(random, half_side, voxel_size, centre);
+    const std::vector<std::uint32_t> expected = cells.walk(ray);
+    const std::vector<std::uint32_t> got = traced(walk, ray);
+    INFO("ray " << i << " from " << ray.origin.x << " " << ray.origin.y << " " << ray.origin.z
+                << " along " << ray.direction.x << " " << ray.direction.y << " "
+                << ray.direction.z);
+    REQUIRE(got == expected);
+    met += got.size();
+  }
+  CHECK(met > 0);
+}
+
+TEST_CASE("ray walk: the same cells as stepping, dense and sparse grids") {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    compare_with_stepping(seed, 2.0F, 0.5F, {}, 400, 400);
+    compare_with_stepping(seed, 10.0F, 0.3F, {}, 60, 400);
+    compare_with_stepping(seed, 40.0F, 0.4F, {}, 2000, 100);
+  }
+}
+
+TEST_CASE("ray walk: one voxel, and a voxel that holds all") {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    compare_with_stepping(seed, 0.3F, 1.0F, {}, 1, 200);
+    compare_with_stepping(seed, 1.0F, 64.0F, {}, 50, 200);
+  }
+}
+
+TEST_CASE("ray walk: coordinates of a million") {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    compare_with_stepping(seed, 20.0F, 0.5F, {1e6F, -1e6F, 5e5F}, 500, 300);
+  }
+}
+
+// Cells 0, 1, 2, ... along x at y = z = 0, size 1; voxel ids are in Morton order, here that of x.
+VoxelGrid row_of_cells(ActivatedCloud& cloud, int count) {
+  std::vector<glm::vec3> means;
+  for (int x = 0; x < count; ++x) means.emplace_back(static_cast<float>(x) + 0.5F, 0.5F, 0.5F);
+  cloud = cloud_of(means);
+  return build_voxel_grid(cloud, 1.0F);
+}
+
+TEST_CASE("ray walk: a row of cells, by hand") {
+  ActivatedCloud cloud;
+  const VoxelGrid grid = row_of_cells(cloud, 6);
+  const GridTable table{grid};
+  RayWalk walk(grid.frame, table);
+  using Met = std::vector<std::uint32_t>;
+  CHECK(traced(walk, ray_from({-3, 0.5F, 0.5F}, {1, 0, 0})) == Met{0, 1, 2, 3, 4, 5});
+  CHECK(traced(walk, ray_from({9, 0.5F, 0.5F}, {-1, 0, 0})) == Met{5, 4, 3, 2, 1, 0});
+  CHECK(traced(walk, ray_from({2.5F, 0.5F, 0.5F}, {1, 0, 0})) == Met{2, 3, 4, 5});
+  CHECK(traced(walk, ray_from({2.5F, 0.5F, 0.5F}, {-1, 0, 0})) == Met{2, 1, 0});
+  // On the face between cells 2 and 3 the camera is in 3; looking back it leaves that at once.
+  CHECK(traced(walk, ray_from({3, 0.5F, 0.5F}, {1, 0, 0})) == Met{3, 4, 5});
+  CHECK(traced(walk, ray_from({3, 0.5F, 0.5F}, {-1, 0, 0})) == Met{3, 2, 1, 0});
+  // Beside the row, on its lower face (inside) and on its upper face (outside).
+  CHECK(traced(walk, ray_from({-3, 1.5F, 0.5F}, {1, 0, 0})).empty());
+  CHECK(traced(walk, ray_from({-3, 0, 0.5F}, {1, 0, 0})) == Met{0, 1, 2, 3, 4, 5});
+  CHECK(traced(walk, ray_from({-3, 1, 0.5F}, {1, 0, 0})).empty());
+  // Away from it; across it.
+  CHECK(traced(walk, ray_from({-3, 0.5F, 0.5F}, {-1, 0, 0})).empty());
+  CHECK(traced(walk, ray_from({4.5F, 5, 0.5F}, {0, -1, 0})) == Met{4});
+  // From (0.5, 1.5) down to the right, through (1, 1) and (2, 0): of two planes crossed at one time
+  // that of x goes first, so that cells 1 and 2 are met and cell 0 is not.
+  CHECK(traced(walk, ray_from({0.5F, 1.5F, 0.5F}, {1, -1, 0})) == Met{1, 2});
+  // A direction of no length stays in its cell.
+  CHECK(traced(walk, ray_from({3.5F, 0.5F, 0.5F}, {0, 0, 0})) == Met{3});
+}
+
+TEST_CASE("ray walk: a ray along an edge of cells stays in the cells on one side") {
+  std::vector<glm::vec3> means;
+  for (int x = 0; x < 4; ++x) {
+    for (const float y : {-0.5F, 0.5F}) {
+      for (const float z : {-0.5F, 0.5F}) means.emplace_back(static_cast<float>(x) + 0.5F, y, z);
+    }
+  }
+  const ActivatedCloud cloud = cloud_of(means);
+  const VoxelGrid grid = build_voxel_grid(cloud, 1.0F);
+  const OccupiedCells cells(cloud, grid);
+  const GridTable table{grid};
+  RayWalk walk(grid.frame, table);
+  const Ray ray = ray_from({-1, 0, 0}, {1, 0, 0});
+  const auto met = traced(walk, ray);
+  CHECK(met.size() == 4);  // those at y, z in [0, 1)
+  CHECK(met == cells.walk(ray));
+}
+
+TEST_CASE("ray walk: empty space is crossed in few steps") {
+  // Two voxels a hundred thousand cells apart.
+  const ActivatedCloud cloud = cloud_of({{0.5F, 0.5F, 0.5F}, {100000.5F, 0.5F, 0.5F}});
+  const VoxelGrid grid = build_voxel_grid(cloud, 1.0F);
+  const GridTable table{grid};
+  RayWalk walk(grid.frame, table);
+  std::vector<std::uint32_t> met;
+  const std::uint32_t steps = walk.walk(ray_from({-1, 0.5F, 0.5F}, {1, 0, 0}),
+                                        [&](std::uint32_t voxel) { met.push_back(voxel); });
+  CHECK(met == std::vector<std::uint32_t>{0, 1});
+  // At most three empty siblings on each of the levels on the way up and on the way down.
+  CHECK(steps <= static_cast<std::uint32_t>(10 * grid.frame.levels));
+}
+
+TEST_CASE("ray sampling: finds what the walk finds, in its order, and with fine steps nearly all") {
+  std::mt19937 random(5);
+  std::vector<glm::vec3> means;
+  for (int i = 0; i < 500; ++i) means.push_back(in_cube(random, 10));
+  const ActivatedCloud cloud = cloud_of(means);
+  const VoxelGrid grid = build_voxel_grid(cloud, 1.0F);
+  const GridTable table{grid};
+  RayWalk walk(grid.frame, table);
+  RaySampling coarse(grid.frame, table, 0.5F), fine(grid.frame, table, 0.01F);
+  std::size_t exact = 0, by_coarse = 0, by_fine = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const glm::vec3 origin = in_cube(random, 20);
+    const Ray ray = ray_from(origin, in_cube(random, 8) - origin);
+    const auto all = traced(walk, ray);
+    exact += all.size();
+    for (RaySampling<const GridTable>* sampling : {&coarse, &fine}) {
+      const auto some = traced(*sampling, ray);
+      (sampling == &coarse ? by_coarse : by_fine) += some.size();
+      // A subsequence.
+      auto at = all.begin();
+      for (const std::uint32_t voxel : some) {
+        at = std::find(at, all.end(), voxel);
+        REQUIRE(at != all.end());
+      }
+    }
+  }
+  CHECK(100 * by_fine >= 98 * exact);
+  CHECK(10 * by_coarse >= 7 * exact);
+  CHECK(by_coarse < by_fine);
+}
+
+TEST_CASE("pixel ray: through the middle of the frame along the camera's z axis") {
+  Camera camera;
+  camera.width = 5;
+  camera.height = 3;
+  camera.focal_x = camera.focal_y = 2;
+  camera.position = {1, 2, 3};
+  const View<float> view = make_view<float>(camera);
+  const Ray middle = pixel_ray(view, 2, 1);
+  CHECK(middle.origin == glm::vec3(1, 2, 3));
+  CHECK(middle.direction == glm::vec3(0, 0, 1));
+  CHECK(middle.step == glm::ivec3(0, 0, 1));
+  // Two columns to the left are -2 / 2 in x.
+  CHECK(pixel_ray(view, 0, 1).direction == glm::vec3(-1, 0, 1));
+  CHECK(pixel_ray(view, 2, 2).direction == glm::vec3(0, 0.5F, 1));
+}
+
+}  // namespace
+}  // namespace sgs

@@ -1,0 +1,162 @@
+// The sparse voxel tree: every visible Gaussian in the voxel of its centre, nothing else.
+#include "algorithm/voxel/voxel_grid.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+
+#include "algorithm/input_error.h"
+
+namespace sgs {
+namespace {
+
+Gaussian<float> at(float x, float y, float z, float opacity = 0.9F) {
+  return {{x, y, z}, glm::vec3(0.1F), {1, 0, 0, 0}, opacity};
+}
+
+ActivatedCloud random_cloud(unsigned seed, std::size_t count, float half_side) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> along(-half_side, half_side), opacity(0.0F, 0.02F);
+  ActivatedCloud cloud;
+  for (std::size_t i = 0; i < count; ++i) {
+    cloud.gaussians.push_back(at(along(random), along(random), along(random), opacity(random)));
+  }
+  cloud.sh_coeffs.resize(count);
+  return cloud;
+}
+
+// Local cell of a voxel, found by descending the tree from the root; fails where it is not in it.
+std::map<std::uint32_t, glm::ivec3> cells_in_tree(const VoxelGrid& grid) {
+  std::map<std::uint32_t, glm::ivec3> found;
+  struct Entry {
+    std::uint32_t index;
+    int level;
+    glm::ivec3 corner;
+  };
+  std::vector<Entry> open;
+  if (!grid.nodes.empty()) open.push_back({0, grid.frame.levels, glm::ivec3(0)});
+  while (!open.empty()) {
+    const Entry entry = open.back();
+    open.pop_back();
+    const VoxelNode& node = grid.nodes[entry.index];
+    std::uint32_t child = node.first_child;
+    const int side = 1 << (2 * (entry.level - 1));
+    for (unsigned bit = 0; bit < 64; ++bit) {
+      if ((node.occupied >> bit & 1U) == 0) continue;
+      // Bits of a Morton number, taken apart here: x is 0 and 3, y 1 and 4, z 2 and 5.
+      const auto part = [&](unsigned low) {
+        return static_cast<int>((bit >> low & 1U) | (bit >> (low + 3) & 1U) << 1U);
+      };
+      const glm::ivec3 corner = entry.corner + glm::ivec3(part(0), part(1), part(2)) * side;
+      if (entry.level == 1) {
+        REQUIRE(found.emplace(child, corner).second);
+      } else {
+        open.push_back({child, entry.level - 1, corner});
+      }
+      ++child;
+    }
+  }
+  return found;
+}
+
+void check_grid(const ActivatedCloud& cloud, const VoxelGrid& grid, Stored stored) {
+  const auto cells = cells_in_tree(grid);
+  REQUIRE(cells.size() == grid.voxels.size());
+  std::set<std::uint32_t> seen;
+  std::uint32_t slot = 0;
+  for (const auto& [voxel, cell] : cells) {
+    const VoxelRecord& record = grid.voxels[voxel];
+    REQUIRE(record.first == slot);  // contiguous, in the order of ids
+    REQUIRE(record.count > 0);
+    for (; slot < record.first + record.count; ++slot) {
+      const std::uint32_t index = grid.storage_order[slot];
+      REQUIRE(seen.insert(index).second);
+      if (slot > record.first) REQUIRE(index > grid.storage_order[slot - 1]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const double place = static_cast<double>(cloud.gaussians[index].mean[axis]) /
+                             static_cast<double>(grid.frame.voxel_size);
+        REQUIRE(std::floor(place) == cell[axis] + grid.frame.origin_cell[axis]);
+      }
+    }
+  }
+  REQUIRE(slot == grid.storage_order.size());
+  for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+    const bool visible = cloud.gaussians[i].opacity >= 1.0F / 255;
+    REQUIRE(seen.count(i) == (visible || stored == Stored::kAll ? 1U : 0U));
+  }
+}
+
+TEST_CASE("voxel grid: every visible Gaussian in the voxel of its centre") {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    for (const float voxel_size : {0.05F, 0.4F, 2.0F, 100.0F}) {
+      const ActivatedCloud cloud = random_cloud(seed, 500, 5);
+      check_grid(cloud, build_voxel_grid(cloud, voxel_size), Stored::kVisible);
+      check_grid(cloud, build_voxel_grid(cloud, voxel_size, Stored::kAll), Stored::kAll);
+    }
+  }
+}
+
+TEST_CASE("voxel grid: nothing is sized by the dense grid") {
+  ActivatedCloud cloud;
+  cloud.gaussians = {at(-5e5F, 0, 0), at(5e5F, 1e5F, -3e5F), at(0.25F, 0.25F, 0.25F)};
+  const VoxelGrid grid = build_voxel_grid(cloud, 1.0F);
+  CHECK(grid.frame.levels == 10);
+  CHECK(grid.voxels.size() == 3);
+  CHECK(grid.nodes.size() <= 30);  // ten levels for each
+  check_grid(cloud, grid, Stored::kVisible);
+}
+
+TEST_CASE("voxel grid: empty scenes, and scenes that nobody can see") {
+  CHECK(build_voxel_grid({}, 1.0F).nodes.empty());
+  ActivatedCloud cloud;
+  cloud.gaussians = {at(0, 0, 0, 0.0F), at(1, 1, 1, 0.003F)};
+  CHECK(build_voxel_grid(cloud, 1.0F).storage_order.empty());
+  CHECK(build_voxel_grid(cloud, 1.0F, Stored::kAll).storage_order.size() == 2);
+}
+
+TEST_CASE("voxel grid: one Gaussian makes one voxel of one root") {
+  ActivatedCloud cloud;
+  cloud.gaussians = {at(-7.3F, 2.1F, 0.0F)};
+  const VoxelGrid grid = build_voxel_grid(cloud, 0.5F);
+  CHECK(grid.nodes.size() == 1);
+  CHECK(grid.frame.levels == 1);
+  CHECK(grid.frame.origin_cell == glm::ivec3(-15, 4, 0));
+  CHECK(grid.nodes[0].occupied == 1);
+  REQUIRE(grid.voxels.size() == 1);
+  CHECK(grid.voxels[0].count == 1);
+}
+
+TEST_CASE("voxel grid: a million cells an axis at most, and the message says what fits") {
+  ActivatedCloud cloud;
+  cloud.gaussians = {at(0, 0, 0), at(1048576, 0, 0)};
+  std::string message;
+  try {
+    build_voxel_grid(cloud, 0.5F);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  CHECK(message.find("voxel_size: 0.5") != std::string::npos);
+  CHECK(message.find("at least 1") != std::string::npos);
+  CHECK_NOTHROW(build_voxel_grid(cloud, 1.01F));
+}
+
+TEST_CASE("voxel grid: a centre on a face belongs to the cell above it") {
+  CHECK(cell_of(2.0F, 0.5F) == 4);
+  CHECK(cell_of(-2.0F, 0.5F) == -4);
+  CHECK(cell_of(-0.1F, 0.5F) == -1);
+  CHECK(cell_of(0.0F, 0.5F) == 0);
+}
+
+TEST_CASE("voxel grid: the paper's voxel sizes, outliers aside") {
+  ActivatedCloud small = random_cloud(1, 5000, 4.9F);
+  small.gaussians[17].mean.x = 1e6F;  // one of 5000 is below 0.1 %
+  CHECK(paper_voxel_size(small) == 0.4F);
+  CHECK(paper_voxel_size(random_cloud(2, 5000, 5.1F)) == 2.0F);
+  CHECK(paper_voxel_size({}) == 0.4F);
+}
+
+}  // namespace
+}  // namespace sgs
