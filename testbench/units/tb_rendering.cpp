@@ -260,6 +260,13 @@ int sc_main(int argc, char* argv[]) {
     plan.groups[1].push_back(random_visit(test.random, plan, 1, 10, 0.5F));
     run_plan(test, still_bench(plan), plan);
   });
+  runner.add_directed("splats behind finished sub-tiles of an unfinished group", [](Case& test) {
+    Plan plan = make_plan(32, 32, 32, format);
+    Splat left = curtain(plan);
+    left.footprint.x1 = 4;
+    plan.groups[0].push_back(std::vector<Splat>(10, left));  // the last take a cycle for nothing
+    run_plan(test, still_bench(plan), plan);
+  });
   runner.add_directed("splats too faint to be blended", [](Case& test) {
     Plan plan = make_plan(32, 32, 32, format);
     plan.groups[0].push_back(random_visit(test.random, plan, 0, 10, 0.001F));

@@ -16,7 +16,8 @@ struct Plan {
   TestScene scene;
   std::uint32_t hfus = 4;
   std::uint32_t fifo_entries = kVisitFifoEntries;
-  int saturate_one_in = 0;  // 0: never; else how often a reader reports a group as finished
+  int saturate_one_in = 0;       // 0: never; else how often a reader reports a group as finished
+  bool finished_before = false;  // all groups are reported before the first visit
 };
 
 Plan plan_of(TestScene scene) {
@@ -25,6 +26,8 @@ Plan plan_of(TestScene scene) {
   plan.config.table_bytes = 1U << 20U;
   return plan;
 }
+
+constexpr std::uint64_t kLineBytes = 64;  // of VSU's caches
 
 std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
@@ -142,6 +145,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   Checks& checks = bench.checks();
   bench.load(0, plan.scene.image.bytes);
   SaturationBoard board(plan.scene.job.groups.size());
+  for (std::uint32_t g = 0; plan.finished_before && g < plan.scene.job.groups.size(); ++g) {
+    board.set(g);
+  }
   std::vector<TimedFifo<VisitShare>*> shares;
   for (std::uint32_t h = 0; h < plan.hfus; ++h) {
     shares.push_back(&bench.add_fifo<VisitShare>(fmt::format("to_hfu{}", h), plan.fifo_entries, 1));
@@ -172,6 +178,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   check_stream(checks, plan, expected, received, board, unit.counters());
 
   const VsuCounters& counters = unit.counters();
+  if (plan.finished_before) checks.equal(counters.visits, 0U, "visits of finished groups");
   checks.equal(counters.rays, expected.rays, "rays");
   checks.equal(counters.steps, expected.steps, "steps");
   checks.equal(counters.edges, expected.edges, "edges");
@@ -182,13 +189,13 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   checks.equal(traverse.busy_cycles(), expected.traverse_cycles, "busy cycles of the traversal");
   checks.equal(emit.busy_cycles(), counters.visits + expected.groups.size(),
                "busy cycles of handing out");
-  checks.that(bench.port().bytes_read() <=
-                  kCacheLineBytes * (counters.node_misses + counters.record_misses),
-              "bytes read: more than a line a miss");
+  checks.that(
+      bench.port().bytes_read() <= kLineBytes * (counters.node_misses + counters.record_misses),
+      "bytes read: more than a line a miss");
   // A cache that holds all of the tree fetches each of its lines once.
   const std::uint64_t tree_bytes = plan.scene.grid.nodes.size() * sizeof(VoxelNode);
   if (tree_bytes <= plan.config.node_cache_bytes) {
-    checks.that(counters.node_misses <= ceil_div(tree_bytes, kCacheLineBytes),
+    checks.that(counters.node_misses <= ceil_div(tree_bytes, kLineBytes),
                 "lines of the tree fetched again");
   }
   if (bench_config.memory == Memory::kFixedLatency && bench_config.stall_probability == 0 &&
@@ -262,6 +269,11 @@ int sc_main(int argc, char* argv[]) {
     Plan plan = plan_of(random_scene(test.random, whole));
     plan.saturate_one_in = 1;
     plan.fifo_entries = 1;
+    run_plan(test, still_bench(plan), plan);
+  });
+  runner.add_directed("groups finished before they begin", [=](Case& test) {
+    Plan plan = plan_of(random_scene(test.random, shape));
+    plan.finished_before = true;
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("ordering table over its bytes", [=](Case& test) {
