@@ -9,6 +9,10 @@
 namespace sgs {
 namespace {
 
+// Each block has a table of one count a cell: few blocks, so that a large frame costs no more than
+// a few megabytes.
+constexpr std::size_t kBlocks = 8;
+
 template <class Body>
 void for_cells(const CellGrid& grid, const SubtileRect& footprint, const Body& body) {
   const CellRect cells = cells_of(grid, footprint);
@@ -33,9 +37,6 @@ CellRect cells_of(const CellGrid& grid, const SubtileRect& footprint) {
 }
 
 SplatBins bin_splats(const CellGrid& grid, const Splat* splats, std::size_t count) {
-  // A table of one count a cell for each block: few blocks, so that a large frame costs no more
-  // than a few megabytes.
-  constexpr std::size_t kBlocks = 8;
   const std::size_t block_size = (count + kBlocks - 1) / kBlocks;
   const auto for_block = [&](std::size_t block, const auto& body) {
     const std::size_t begin = std::min(count, block * block_size);

@@ -4,6 +4,9 @@
 #include "algorithm/splat/blend.h"
 
 namespace sgs {
+namespace {
+constexpr float kFinish = static_cast<float>(kTransmittanceMin);
+}
 
 SubtileState make_subtile(int subtile_x, int subtile_y, int width_px, int height_px) {
   SubtileState state{};
@@ -31,7 +34,6 @@ void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat
   const float top = splat.y - static_cast<float>(subtile_y * kSubtilePx);
   const float a = splat.conic_a, b = splat.conic_b, c = splat.conic_c, opacity = splat.opacity;
   const float red = splat.rgb.x, green = splat.rgb.y, blue = splat.rgb.z;
-  constexpr float kFinish = static_cast<float>(kTransmittanceMin);
   float alpha[kSubtilePixels];
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
     const float dx = left - static_cast<float>(lane % kSubtilePx);
