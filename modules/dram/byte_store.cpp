@@ -1,16 +1,17 @@
-// The bytes of the modelled memory, in pages made when first written.
+// The bytes of the modelled memory, in blocks made when first written.
 #include "modules/dram/byte_store.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 
 namespace sgs {
 
 ByteStore::ByteStore(std::uint64_t capacity_bytes)
-    : capacity_bytes_(capacity_bytes), pages_((capacity_bytes + kPageBytes - 1) / kPageBytes) {}
+    : capacity_bytes_(capacity_bytes), blocks_((capacity_bytes + kBlockBytes - 1) / kBlockBytes) {}
 
 void ByteStore::check(std::uint64_t address, std::size_t bytes) const {
   if (address > capacity_bytes_ || bytes > capacity_bytes_ - address)
@@ -21,11 +22,11 @@ void ByteStore::check(std::uint64_t address, std::size_t bytes) const {
 void ByteStore::read(std::uint64_t address, std::uint8_t* into, std::size_t bytes) const {
   check(address, bytes);
   while (bytes > 0) {
-    const std::size_t offset = address % kPageBytes;
-    const std::size_t part = std::min(bytes, kPageBytes - offset);
-    const std::uint8_t* page = pages_[address / kPageBytes].get();
-    if (page != nullptr)
-      std::memcpy(into, page + offset, part);
+    const std::size_t offset = address % kBlockBytes;
+    const std::size_t part = std::min(bytes, kBlockBytes - offset);
+    const std::uint8_t* block = blocks_[address / kBlockBytes].get();
+    if (block != nullptr)
+      std::memcpy(into, block + offset, part);
     else
       std::memset(into, 0, part);
     address += part;
@@ -37,14 +38,14 @@ void ByteStore::read(std::uint64_t address, std::uint8_t* into, std::size_t byte
 void ByteStore::write(std::uint64_t address, const std::uint8_t* from, std::size_t bytes) {
   check(address, bytes);
   while (bytes > 0) {
-    const std::size_t offset = address % kPageBytes;
-    const std::size_t part = std::min(bytes, kPageBytes - offset);
-    std::unique_ptr<std::uint8_t[]>& page = pages_[address / kPageBytes];
-    if (page == nullptr) {
-      page = std::make_unique<std::uint8_t[]>(kPageBytes);
-      ++allocated_pages_;
+    const std::size_t offset = address % kBlockBytes;
+    const std::size_t part = std::min(bytes, kBlockBytes - offset);
+    auto& block = blocks_[address / kBlockBytes];
+    if (block == nullptr) {
+      block.reset(static_cast<std::uint8_t*>(std::calloc(kBlockBytes, 1)));
+      if (block == nullptr) throw std::bad_alloc();
     }
-    std::memcpy(page.get() + offset, from, part);
+    std::memcpy(block.get() + offset, from, part);
     address += part;
     from += part;
     bytes -= part;

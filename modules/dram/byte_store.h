@@ -1,8 +1,9 @@
-// The bytes of the modelled memory, in pages made when first written. What was never written is 0.
+// The bytes of the modelled memory, in blocks made when first written. What was never written is 0.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -18,16 +19,20 @@ class ByteStore {
   void read(std::uint64_t address, std::uint8_t* into, std::size_t bytes) const;
   void write(std::uint64_t address, const std::uint8_t* from, std::size_t bytes);
 
-  std::uint64_t allocated_bytes() const { return allocated_pages_ * kPageBytes; }
-
-  static constexpr std::size_t kPageBytes = 4096;
-
  private:
+  // Large zeroed allocations come from the kernel page by page as they are touched, so a block
+  // costs no more than what is written of it, and the table of blocks stays small enough for the
+  // cache.
+  static constexpr std::size_t kBlockBytes = 1 << 20;
+
+  struct Free {
+    void operator()(std::uint8_t* block) const { std::free(block); }
+  };
+
   void check(std::uint64_t address, std::size_t bytes) const;
 
   std::uint64_t capacity_bytes_;
-  std::uint64_t allocated_pages_ = 0;
-  std::vector<std::unique_ptr<std::uint8_t[]>> pages_;
+  std::vector<std::unique_ptr<std::uint8_t[], Free>> blocks_;
 };
 
 }  // namespace sgs
