@@ -81,6 +81,8 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "groups whose pixels are on chip");
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");
+  v("ellipse_test", c.ellipse_test, "sub-tiles that a splat's ellipse cannot reach are skipped");
+  v("subtile_tests_per_cycle", c.subtile_tests_per_cycle, in_range(1, 4096), "of the ellipse");
   v("saturation_feedback", c.saturation_feedback, "a finished group's visits are dropped upstream");
   v("input_fifo_entries", c.input_fifo_entries, in_range(1, 4096),
     "sorted splats waiting from each sorting unit");
@@ -141,7 +143,7 @@ std::vector<SramUse> paper_order_uses(const AcceleratorConfig& c) {
 std::vector<SramUse> exact_order_uses(const AcceleratorConfig& c) {
   const std::uint32_t runs = c.merge.on_overflow == OnOverflow::kSpill ? c.merge.spill_runs : 0;
   return {
-      product("waiting keys", {{c.merge.entries, "keys"}, {kMergeKeyBytes, "B"}}),
+      product("waiting keys", {{c.merge.entries, "keys"}, {kWaitingKeyBytes, "B"}}),
       product("spilled runs", {{runs, "runs"},
                                {2, "blocks"},
                                {c.merge.spill_block_entries, "keys"},

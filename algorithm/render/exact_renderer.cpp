@@ -93,9 +93,13 @@ class GroupStream {
     if (!make_geometry(view_, g, splat) || !reaches_group(splat, state_.pixels())) return;
     add_colour(view_, cloud_.sh_degree, g.mean, cloud_.sh(index), splat);
     ++stats_.splats;
-    stats_.subtile_blends += state_.blend(splat, [&](std::size_t at, const SubtileState& subtile) {
-      if (watch_.after_blend(at, subtile, splat.depth)) contributing_.set(index);
-    });
+    stats_.subtile_blends += state_
+                                 .blend(splat,
+                                        [&](std::size_t at, const SubtileState& subtile) {
+                                          if (watch_.after_blend(at, subtile, splat.depth))
+                                            contributing_.set(index);
+                                        })
+                                 .blended;
   }
 
   const View<float>& view_;

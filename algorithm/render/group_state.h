@@ -6,28 +6,44 @@
 
 #include "algorithm/render/render_result.h"
 #include "algorithm/splat/blend.h"
+#include "algorithm/splat/footprint.h"
 #include "algorithm/splat/rects.h"
 
 namespace sgs {
 
+// Which 4x4 sub-tiles of a splat's footprint are blended: all, or only those that its visible
+// ellipse can reach. The pixels are the same; the test costs less than the blending it spares.
+enum class SubtileTest { kBox, kEllipse };
+
+struct BlendWork {
+  std::uint32_t tested = 0;   // sub-tiles of the footprint put to the ellipse test
+  std::uint32_t blended = 0;  // sub-tiles blended
+};
+
 class GroupState {
  public:
   // pixels: corner on a multiple of 4 px, cut to the frame of width x height px.
-  GroupState(const PixelRect& pixels, int width_px, int height_px);
+  GroupState(const PixelRect& pixels, int width_px, int height_px,
+             SubtileTest test = SubtileTest::kEllipse);
 
-  // Blends a splat into every unfinished 4x4 sub-tile of its footprint; returns how many those
-  // were. after(sub-tile's place in the group, its state) is called behind each.
+  // Blends a splat into the unfinished 4x4 sub-tiles of its footprint that it reaches.
+  // after(sub-tile's place in the group, its state) is called behind each.
   template <class After>
-  std::uint32_t blend(const Splat& splat, After&& after) {
+  BlendWork blend(const Splat& splat, After&& after) {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
     const int columns = subtiles_.x1 - subtiles_.x0;
-    std::uint32_t blended = 0;
+    const int count = (reach.x1 - reach.x0) * (reach.y1 - reach.y0);
+    const bool test = test_ == SubtileTest::kEllipse && count > kUntestedSubtiles;
+    const float cutoff = test ? visible_cutoff(splat.opacity) : 0;
+    BlendWork work;
     for (int y = reach.y0; y < reach.y1; ++y) {
       for (int x = reach.x0; x < reach.x1; ++x) {
         const auto at = static_cast<std::size_t>((y - subtiles_.y0) * columns + (x - subtiles_.x0));
         if (finished_[at] != 0) continue;
+        work.tested += test ? 1 : 0;
+        if (test && !reaches_subtile(splat, cutoff, x, y)) continue;
         sgs::blend(states_[at], x, y, splat);
-        ++blended;
+        ++work.blended;
         if (finished(states_[at])) {
           finished_[at] = 1;
           --unfinished_;
@@ -35,9 +51,9 @@ class GroupState {
         after(at, states_[at]);
       }
     }
-    return blended;
+    return work;
   }
-  std::uint32_t blend(const Splat& splat) {
+  BlendWork blend(const Splat& splat) {
     return blend(splat, [](std::size_t, const SubtileState&) {});
   }
   std::size_t subtile_count() const { return states_.size(); }
@@ -52,9 +68,18 @@ class GroupState {
   void store(const glm::vec3& background, RenderResult& frame) const;
 
  private:
+  // A splat on so few sub-tiles is blended in one cycle anyway.
+  static constexpr int kUntestedSubtiles = 4;
+
+  static bool reaches_subtile(const Splat& s, float cutoff, int x, int y) {
+    const PixelRect pixels{x * kSubtilePx, y * kSubtilePx, (x + 1) * kSubtilePx,
+                           (y + 1) * kSubtilePx};
+    return reaches(s.x, s.y, s.conic_a, s.conic_b, s.conic_c, cutoff, pixels);
+  }
   const SubtileState& subtile_of(int x, int y, int& lane) const;
 
   PixelRect pixels_;
+  SubtileTest test_;
   SubtileRect subtiles_;
   std::vector<SubtileState> states_;  // [rows, columns] of sub-tiles
   std::vector<std::uint8_t> finished_;

@@ -98,9 +98,13 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
       filter_and_sort(view, cloud, grid, grid.voxels[voxel], group, run, s);
       for (const Splat& splat : run) {
         if (state.saturated()) break;
-        s.subtile_blends += state.blend(splat, [&](std::size_t at, const SubtileState& subtile) {
-          if (watch.after_blend(at, subtile, splat.depth)) contributing.set(splat.index);
-        });
+        s.subtile_blends += state
+                                .blend(splat,
+                                       [&](std::size_t at, const SubtileState& subtile) {
+                                         if (watch.after_blend(at, subtile, splat.depth))
+                                           contributing.set(splat.index);
+                                       })
+                                .blended;
       }
     }
     s.misordered = watch.misordered();

@@ -17,9 +17,11 @@ struct MergeConfig {
   std::uint32_t output_fifo_entries = 4;  // released keys waiting, for each HFU
 };
 
-// Depth, slot, centre and largest scale: what the fine filter needs beside the second half.
+// Depth, slot, centre and largest scale: what sorting needs, and the fine filter beside the second
+// half.
 constexpr std::uint32_t kMergeKeyBytes = 24;
-// In DRAM a key also holds the Gaussian's index in the file, so that runs are in final order.
+// While it waits, and in DRAM, a key has room for the Gaussian's index in the file.
+constexpr std::uint32_t kWaitingKeyBytes = 28;
 constexpr std::uint32_t kSpilledKeyBytes = 28;
 
 }  // namespace sgs

@@ -3,15 +3,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 namespace sgs {
 namespace {
-
-// Heap order: the nearest key on top. Slots stand in for file indices until a tie asks for them.
-bool behind(const FineCandidate& a, const FineCandidate& b) {
-  return a.depth > b.depth || (a.depth == b.depth && a.slot > b.slot);
-}
 
 bool final_order(const PendingKey& a, const PendingKey& b) {
   return a.candidate.depth < b.candidate.depth ||
@@ -72,10 +68,12 @@ void MergeUnit::run() {
     }
     group_ = key.group;
     if (board_.saturated(group_)) drop_all();
+    ask_for_ties();
     if (key.mark == Mark::kEndOfGroup) {
       end_group(key);
     } else {
       release_below(key.release_below);
+      if (config_.on_overflow == OnOverflow::kBlendEarly) force_out();
     }
   }
 }
@@ -83,48 +81,82 @@ void MergeUnit::run() {
 void MergeUnit::insert(const FineCandidate& key) {
   activity_.work(1);
   ++counters_.keys;
-  if (config_.on_overflow == OnOverflow::kSpill && pending_.size() >= config_.entries) {
+  if (config_.on_overflow == OnOverflow::kSpill && pending_count_ >= config_.entries) {
     spill_farthest();
   }
-  pending_.push_back(key);
-  std::push_heap(pending_.begin(), pending_.end(), behind);
-  pending_count_ = static_cast<std::uint32_t>(pending_.size());
-  counters_.pending_max = std::max<std::uint64_t>(counters_.pending_max, pending_.size());
+  pending_[key.depth].push_back({key, 0, nullptr});
+  arrived_.emplace_back(key.depth, key.slot);
+  ++pending_count_;
+  counters_.pending_max = std::max<std::uint64_t>(counters_.pending_max, pending_count_);
 }
 
-// Releases every key nearer than `nearest`; with blend_early also the nearest of those that are
-// more than the buffer is meant to hold between two visits.
+// Asks for the file indices of keys that this visit has tied. The visit's own slots are neighbours:
+// one read covers them.
+void MergeUnit::ask_for_ties() {
+  std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
+  for (const auto& [depth, slot] : arrived_) {
+    const auto here = pending_.find(depth);
+    if (here == pending_.end() || here->second.size() < 2) continue;
+    low = std::min(low, slot);
+    high = std::max(high, slot);
+  }
+  std::shared_ptr<IndexBlock> block;
+  for (const auto& [depth, slot] : arrived_) {
+    const auto here = pending_.find(depth);
+    if (here == pending_.end() || here->second.size() < 2) continue;
+    for (PendingKey& key : here->second) {
+      if (key.block) continue;
+      if (key.candidate.slot < low || key.candidate.slot > high) {
+        ask_for(key, key.candidate.slot, 1);
+        continue;
+      }
+      if (block) {
+        key.block = block;
+      } else {
+        ask_for(key, low, high - low + 1);
+        block = key.block;
+      }
+    }
+  }
+  arrived_.clear();
+}
+
+void MergeUnit::ask_for(PendingKey& key, std::uint32_t first_slot, std::uint32_t slots) {
+  key.block = std::make_shared<IndexBlock>();
+  key.block->first_slot = first_slot;
+  key.block->indices.resize(slots);
+  key.block->ticket = start_read(
+      port_, activity_, job_.layout.index_address(first_slot), key.block->indices.data(),
+      slots * static_cast<std::uint32_t>(sizeof(std::uint32_t)), region_id(Region::kIndices));
+  in_flight_.push_back(key.block);
+}
+
+// Releases every key nearer than `nearest`.
 void MergeUnit::release_below(float nearest) {
   while (!board_.saturated(group_)) {
     const RunReader* run = nearest_run();
-    float depth =
-        run != nullptr ? run->front().candidate.depth : std::numeric_limits<float>::infinity();
-    if (!pending_.empty()) depth = std::min(depth, pending_.front().depth);
-    if ((pending_.empty() && run == nullptr) || !(depth < nearest)) break;
+    if (pending_.empty() && run == nullptr) return;
+    float depth = std::numeric_limits<float>::infinity();
+    if (run != nullptr) depth = run->front().candidate.depth;
+    if (!pending_.empty()) depth = std::min(depth, pending_.begin()->first);
+    if (!(depth < nearest)) return;
     release_depth(depth);
-  }
-  if (config_.on_overflow == OnOverflow::kBlendEarly) {
-    while (pending_.size() > config_.entries && !board_.saturated(group_)) {
-      // One at a time: the others of the same depth may stay.
-      std::vector<PendingKey> tied = take_nearest(pending_.front().depth);
-      emit(tied.front());
-      ++counters_.forced_early;
-      for (std::size_t i = 1; i < tied.size(); ++i) {
-        pending_.push_back(tied[i].candidate);
-        std::push_heap(pending_.begin(), pending_.end(), behind);
-      }
-    }
   }
 }
 
 // Releases all keys of one depth, which is the nearest: in the order of the file.
 void MergeUnit::release_depth(float depth) {
-  std::vector<PendingKey> here = take_nearest(depth);
+  std::vector<PendingKey> here;
+  if (!pending_.empty() && pending_.begin()->first == depth) {
+    here = std::move(pending_.begin()->second);
+    pending_.erase(pending_.begin());
+    pending_count_ -= static_cast<std::uint32_t>(here.size());
+  }
   const auto run_at_depth = [&]() -> RunReader* {
     RunReader* run = nearest_run();
     return run != nullptr && run->front().candidate.depth == depth ? run : nullptr;
   };
-  if (here.size() == 1 && run_at_depth() != nullptr) look_up(here);
+  if (here.size() > 1 || (!here.empty() && run_at_depth() != nullptr)) look_up(here);
   std::size_t next = 0;
   while (true) {
     RunReader* run = run_at_depth();
@@ -134,35 +166,37 @@ void MergeUnit::release_depth(float depth) {
     } else {
       emit(run->front());
       run->pop();
-      if (run->exhausted()) {
-        runs_.erase(std::find_if(runs_.begin(), runs_.end(),
-                                 [](const RunReader& r) { return r.exhausted(); }));
-      }
+      drop_run_if_exhausted(*run);
     }
   }
 }
 
-// The waiting keys of the nearest depth, on chip, in final order.
-std::vector<PendingKey> MergeUnit::take_nearest(float depth) {
-  std::vector<PendingKey> keys;
-  while (!pending_.empty() && pending_.front().depth == depth) {
-    std::pop_heap(pending_.begin(), pending_.end(), behind);
-    keys.push_back({pending_.back(), 0});
-    pending_.pop_back();
+// blend_early: the nearest keys go before they are final, until the buffer holds no more than it is
+// meant to between two visits. Of several at one depth the others may stay.
+void MergeUnit::force_out() {
+  while (pending_count_ > config_.entries && !board_.saturated(group_)) {
+    std::vector<PendingKey>& here = pending_.begin()->second;
+    if (here.size() > 1) look_up(here);
+    emit(here.front());
+    here.erase(here.begin());
+    if (here.empty()) pending_.erase(pending_.begin());
+    --pending_count_;
+    ++counters_.forced_early;
   }
-  if (keys.size() > 1) look_up(keys);
-  return keys;
 }
 
-// Fetches the file indices of keys and sorts by (depth, index).
+// Gives keys their file indices, waiting for those that are not there yet, and sorts them.
 void MergeUnit::look_up(std::vector<PendingKey>& keys) {
   for (PendingKey& key : keys) {
-    start_read(port_, activity_, job_.layout.index_address(key.candidate.slot), &key.index,
-               sizeof key.index, region_id(Region::kIndices));
+    if (!key.block) ask_for(key, key.candidate.slot, 1);
   }
-  await_all(port_, activity_);
+  for (PendingKey& key : keys) {
+    await(port_, activity_, key.block->ticket);
+    key.index = key.block->indices[key.candidate.slot - key.block->first_slot];
+  }
   counters_.ties += keys.size();
   std::sort(keys.begin(), keys.end(), final_order);
+  while (!in_flight_.empty() && port_.done(in_flight_.front()->ticket)) in_flight_.pop_front();
 }
 
 void MergeUnit::emit(const PendingKey& key) {
@@ -171,7 +205,6 @@ void MergeUnit::emit(const PendingKey& key) {
     return;
   }
   activity_.work(1);
-  pending_count_ = static_cast<std::uint32_t>(pending_.size());
   released_[sequence_ % released_.size()]->push(key.candidate, activity_);
   ++sequence_;
   ++counters_.released;
@@ -185,16 +218,20 @@ void MergeUnit::end_group(const FineCandidate& end) {
   ++sequence_;
 }
 
-// The farthest half of the keys on chip becomes a sorted run in DRAM.
+// The farthest keys on chip become a sorted run in DRAM: an eighth of the buffer at first, since
+// the excess is mostly small, more when it turns out not to be.
 void MergeUnit::spill_farthest() {
   if (runs_.size() == config_.spill_runs) merge_spilled_runs();
-  const auto middle = pending_.begin() + static_cast<std::ptrdiff_t>(pending_.size() / 2);
-  std::nth_element(pending_.begin(), middle, pending_.end(),
-                   [](const FineCandidate& a, const FineCandidate& b) { return behind(b, a); });
+  const std::uint32_t eighths = std::min(4U, 1 + spills_ / config_.spill_runs);
+  const std::uint32_t wanted = std::max(1U, pending_count_ * eighths / 8);
+  ++spills_;
   std::vector<PendingKey> far;
-  for (auto it = middle; it != pending_.end(); ++it) far.push_back({*it, 0});
-  pending_.erase(middle, pending_.end());
-  std::make_heap(pending_.begin(), pending_.end(), behind);
+  while (far.size() < wanted) {
+    const auto farthest = std::prev(pending_.end());
+    std::move(farthest->second.begin(), farthest->second.end(), std::back_inserter(far));
+    pending_.erase(farthest);
+  }
+  pending_count_ -= static_cast<std::uint32_t>(far.size());
   look_up(far);
   const SpillPort to{port_, activity_, config_.spill_block_entries};
   SpillWriter<KeyCodec> writer(to, spill_base_ + spill_area_ * spill_half_ + spill_used_,
@@ -220,16 +257,18 @@ void MergeUnit::merge_spilled_runs() {
     activity_.work(1);
     writer.append(run->front());
     run->pop();
-    if (run->exhausted()) {
-      runs_.erase(std::find_if(runs_.begin(), runs_.end(),
-                               [](const RunReader& r) { return r.exhausted(); }));
-    }
+    drop_run_if_exhausted(*run);
   }
   const SpillRun merged = writer.finish();
   spill_used_ = merged.entries * kSpilledKeyBytes;
   counters_.keys_spilled += merged.entries;
   await_all(port_, activity_);
   runs_.emplace_back(to, merged, KeyCodec{group_});
+}
+
+void MergeUnit::drop_run_if_exhausted(RunReader& run) {
+  if (!run.exhausted()) return;
+  runs_.remove_if([&](const RunReader& r) { return &r == &run; });
 }
 
 MergeUnit::RunReader* MergeUnit::nearest_run() {
@@ -242,12 +281,13 @@ MergeUnit::RunReader* MergeUnit::nearest_run() {
 
 // The group is finished, or done with: nothing that still waits is needed.
 void MergeUnit::drop_all() {
-  counters_.dropped_saturated += pending_.size();
+  counters_.dropped_saturated += pending_count_;
   pending_.clear();
   pending_count_ = 0;
   if (!runs_.empty()) await_all(port_, activity_);  // blocks that are still on their way
   runs_.clear();
   spill_used_ = 0;
+  spills_ = 0;
 }
 
 void MergeUnit::trace(sc_core::sc_trace_file* file) const {

@@ -1,13 +1,17 @@
 // Merge unit, exact order: keys (depth, index) of sorted chunks wait here until nothing nearer can
 // come, and are released to the fine filters in final order. When the buffer is full, the farthest
-// half goes to DRAM as a sorted run and is merged back; the order stays exact.
+// keys go to DRAM as a sorted run and are merged back; the order stays exact.
 // Timing: a pipelined heap takes or gives one key a cycle. Ties of depth are broken by the index in
-// the file, which is looked up in DRAM only then.
+// the file, which is asked for in DRAM when such a key turns up, not before.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <list>
+#include <map>
+#include <memory>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "modules/frame_job.h"
@@ -25,15 +29,23 @@ struct MergeCounters {
   std::uint64_t forced_early = 0;  // of these, before they were final (blend_early)
   std::uint64_t dropped_saturated = 0;
   std::uint64_t pending_max = 0;  // keys on chip
-  std::uint64_t ties = 0;         // keys whose index was looked up
+  std::uint64_t ties = 0;         // keys released beside others of the same depth
   std::uint64_t runs_spilled = 0;
   std::uint64_t keys_spilled = 0;  // written to DRAM, over all passes
 };
 
-// A waiting key; its index is known once it had to be looked up.
+// File indices of some consecutive slots, on their way from DRAM or here.
+struct IndexBlock {
+  std::uint32_t first_slot = 0;
+  MemoryPort::Ticket ticket = 0;
+  std::vector<std::uint32_t> indices;
+};
+
+// A waiting key. Its index is asked for when another key of the same depth turns up.
 struct PendingKey {
   FineCandidate candidate;
-  std::uint32_t index = 0;
+  std::uint32_t index = 0;            // valid once taken from the block, or read back from a run
+  std::shared_ptr<IndexBlock> block;  // null: not asked for
 };
 
 class MergeUnit : public sc_core::sc_module {
@@ -64,15 +76,18 @@ class MergeUnit : public sc_core::sc_module {
 
   void run();  // thread
   void insert(const FineCandidate& key);
+  void ask_for_ties();
+  void ask_for(PendingKey& key, std::uint32_t first_slot, std::uint32_t slots);
   void release_below(float nearest);
   void release_depth(float depth);
+  void force_out();
   void emit(const PendingKey& key);
   void end_group(const FineCandidate& end);
   void look_up(std::vector<PendingKey>& keys);
-  std::vector<PendingKey> take_nearest(float depth);
   void spill_farthest();
   void merge_spilled_runs();
   RunReader* nearest_run();
+  void drop_run_if_exhausted(RunReader& run);
   void drop_all();
 
   const MergeConfig config_;
@@ -83,10 +98,14 @@ class MergeUnit : public sc_core::sc_module {
   std::vector<TimedFifo<FineCandidate>*> released_;
   const std::uint64_t spill_base_, spill_half_;
   Activity activity_;
-  std::vector<FineCandidate> pending_;           // heap, nearest first
-  std::list<RunReader> runs_;                    // none of them exhausted
-  std::uint32_t spill_area_ = 0;                 // which half new runs go to
-  std::uint64_t spill_used_ = 0;                 // bytes of it
+  std::map<float, std::vector<PendingKey>> pending_;      // by depth; ties together
+  std::vector<std::pair<float, std::uint32_t>> arrived_;  // (depth, slot) of this visit's keys
+  std::list<RunReader> runs_;                             // none of them exhausted
+  std::uint32_t spill_area_ = 0;                          // which half new runs go to
+  std::uint64_t spill_used_ = 0;                          // bytes of it
+  std::uint32_t spills_ = 0;                              // of this group
+  // Blocks asked for: they outlive keys that a finished group drops.
+  std::deque<std::shared_ptr<IndexBlock>> in_flight_;
   std::uint64_t sequence_ = 0;                   // keys and marks released
   std::uint32_t group_ = 0, pending_count_ = 0;  // for the waveform
   MergeCounters counters_;

@@ -10,8 +10,10 @@ struct RenderingConfig {
   std::uint32_t depth_cycles = 3;   // alpha, transmittance, blend
   std::uint32_t pixel_buffers = 2;  // groups whose pixels are on chip; 2: drain while blending
   std::uint32_t drain_pixels_per_cycle = 8;  // conversion to the frame's format
-  bool saturation_feedback = true;           // a finished group's visits are dropped upstream
-  std::uint32_t input_fifo_entries = 8;      // sorted splats waiting, for each sorting unit
+  bool ellipse_test = true;                  // skips sub-tiles that the ellipse cannot reach
+  std::uint32_t subtile_tests_per_cycle = 16;
+  bool saturation_feedback = true;       // a finished group's visits are dropped upstream
+  std::uint32_t input_fifo_entries = 8;  // sorted splats waiting, for each sorting unit
 };
 
 // Bytes of state a pixel: R, G, B and transmittance in float.

@@ -31,8 +31,9 @@ void RenderingUnit::blend() {
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     free_buffers_.pop(blend_activity_, ActivityState::kBlocked);
     current_group_ = group;
-    auto state =
-        std::make_shared<GroupState>(job_.groups[group], job_.view.width, job_.view.height);
+    auto state = std::make_shared<GroupState>(
+        job_.groups[group], job_.view.width, job_.view.height,
+        config_.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox);
     for (Mark mark = Mark::kNone; mark != Mark::kEndOfGroup;) {
       const SplatToken token = sorted_[turn % sorted_.size()]->pop(blend_activity_);
       mark = token.mark;
@@ -56,10 +57,15 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
     ++counters_.splats_saturated;
     return;
   }
-  const std::uint32_t subtiles = state.blend(splat);
-  blend_activity_.work(std::max(1U, (subtiles + config_.clusters - 1) / config_.clusters));
-  counters_.subtile_blends += subtiles;
-  counters_.splats += subtiles > 0 ? 1 : 0;
+  const BlendWork work = state.blend(splat);
+  const auto cycles = [](std::uint32_t count, std::uint32_t per_cycle) {
+    return (count + per_cycle - 1) / per_cycle;
+  };
+  blend_activity_.work(std::max({1U, cycles(work.blended, config_.clusters),
+                                 cycles(work.tested, config_.subtile_tests_per_cycle)}));
+  counters_.subtile_tests += work.tested;
+  counters_.subtile_blends += work.blended;
+  counters_.splats += work.blended > 0 ? 1 : 0;
   if (state.saturated() && config_.saturation_feedback) board_.set(group);
 }
 

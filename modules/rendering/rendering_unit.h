@@ -24,6 +24,7 @@ struct RenderingCounters {
   std::uint64_t groups = 0;
   std::uint64_t splats = 0;            // blended into at least one sub-tile
   std::uint64_t splats_saturated = 0;  // arrived when their group was finished
+  std::uint64_t subtile_tests = 0;     // of the ellipse
   std::uint64_t subtile_blends = 0;
   std::uint64_t contributors = 0;  // (splat, pixel) blends
   std::uint64_t groups_saturated = 0;

@@ -93,6 +93,7 @@ Json work_of(const RenderingCounters& c) {
           {"groups_saturated", c.groups_saturated},
           {"splats", c.splats},
           {"splats_saturated", c.splats_saturated},
+          {"subtile_tests", c.subtile_tests},
           {"subtile_blends", c.subtile_blends},
           {"contributors", c.contributors}};
 }

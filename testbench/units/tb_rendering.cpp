@@ -12,7 +12,8 @@ namespace {
 struct Plan {
   RenderingConfig config;
   FrameJob job;
-  std::uint32_t sorting_units = 2;
+  std::uint32_t inputs = 2;
+  Arrival arrival = Arrival::kByVisit;
   std::uint32_t input_entries = 8;
   std::vector<std::vector<std::vector<Splat>>> groups;  // [group][visit] front to back
 };
@@ -36,7 +37,8 @@ Expected expect(const Plan& plan) {
   frame.contributors.resize(frame.image.pixels.size());
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
     const PixelRect& pixels = plan.job.groups[g];
-    GroupState state(pixels, plan.job.view.width, plan.job.view.height);
+    GroupState state(pixels, plan.job.view.width, plan.job.view.height,
+                     plan.config.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox);
     std::uint64_t cycles = 0;
     for (const auto& visit : plan.groups[g]) {
       for (const Splat& splat : visit) {
@@ -44,11 +46,14 @@ Expected expect(const Plan& plan) {
           ++out.counters.splats_saturated;
           continue;
         }
-        const std::uint32_t subtiles = state.blend(splat);
-        cycles += std::max<std::uint64_t>(1, ceil_div(subtiles, plan.config.clusters));
-        out.counters.subtile_blends += subtiles;
-        out.counters.splats += subtiles > 0 ? 1 : 0;
+        const BlendWork work = state.blend(splat);
+        cycles += std::max({std::uint64_t{1}, ceil_div(work.blended, plan.config.clusters),
+                            ceil_div(work.tested, plan.config.subtile_tests_per_cycle)});
+        out.counters.subtile_tests += work.tested;
+        out.counters.subtile_blends += work.blended;
+        out.counters.splats += work.blended > 0 ? 1 : 0;
       }
+      cycles += plan.arrival == Arrival::kByToken ? 1 : 0;  // a rejected key
     }
     ++out.counters.groups;
     out.counters.groups_saturated += state.saturated() ? 1 : 0;
@@ -81,38 +86,46 @@ std::uint64_t expected_end(const Plan& plan, const Expected& expected,
   return drained.back() + latency_cycles;
 }
 
+// What comes through each FIFO. By visit: visits in turn, each with its end; behind a group's
+// visits its end takes a turn of its own. By token: each in turn, here with a rejected key behind a
+// visit's splats.
+std::vector<std::vector<SplatToken>> tokens_of(const Plan& plan) {
+  std::vector<std::vector<SplatToken>> tokens(plan.inputs);
+  const bool by_token = plan.arrival == Arrival::kByToken;
+  std::uint32_t turn = 0, visit = 0;
+  for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
+    const auto put = [&](const Splat& splat, Mark mark) {
+      tokens[turn % plan.inputs].push_back({splat, g, visit, mark});
+      turn += mark != Mark::kNone || by_token ? 1 : 0;
+    };
+    for (const auto& splats : plan.groups[g]) {
+      for (const Splat& splat : splats) put(splat, Mark::kNone);
+      put({}, by_token ? Mark::kRejected : Mark::kEndOfVisit);
+      ++visit;
+    }
+    put({}, Mark::kEndOfGroup);
+    ++visit;
+  }
+  return tokens;
+}
+
 void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
   SaturationBoard board(plan.job.groups.size());
   std::vector<TimedFifo<SplatToken>*> inputs;
-  for (std::uint32_t s = 0; s < plan.sorting_units; ++s) {
+  for (std::uint32_t s = 0; s < plan.inputs; ++s) {
     inputs.push_back(
         &bench.add_fifo<SplatToken>(fmt::format("sorted{}", s), plan.input_entries, 1));
   }
   std::uint64_t ends = 0, end_cycle = 0;
   RenderingUnit unit("rendering", plan.config, bench.clock(), plan.job, board, bench.port(), inputs,
-                     [&] {
+                     plan.arrival, [&] {
                        ++ends;
                        end_cycle = bench.clock().now_cycles();
                      });
-  // Behind a group's visits, its end takes a number of its own.
-  std::vector<std::vector<SplatToken>> tokens(plan.sorting_units);
-  std::uint32_t visit = 0;
-  for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-    const auto end_of = [&](Mark mark) {
-      tokens[visit % plan.sorting_units].push_back({{}, g, visit, mark});
-      ++visit;
-    };
-    for (const auto& splats : plan.groups[g]) {
-      for (const Splat& splat : splats) {
-        tokens[visit % plan.sorting_units].push_back({splat, g, visit, Mark::kNone});
-      }
-      end_of(Mark::kEndOfVisit);
-    }
-    end_of(Mark::kEndOfGroup);
-  }
-  for (std::uint32_t s = 0; s < plan.sorting_units; ++s) {
+  const std::vector<std::vector<SplatToken>> tokens = tokens_of(plan);
+  for (std::uint32_t s = 0; s < plan.inputs; ++s) {
     bench.add_thread(fmt::format("sorting{}", s), [&, s](Activity& activity) {
       for (const SplatToken& token : tokens[s]) inputs[s]->push(token, activity);
     });
@@ -144,6 +157,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   checks.equal(got.groups_saturated, want.groups_saturated, "groups saturated");
   checks.equal(got.splats, want.splats, "splats");
   checks.equal(got.splats_saturated, want.splats_saturated, "splats of finished groups");
+  checks.equal(got.subtile_tests, want.subtile_tests, "sub-tile tests");
   checks.equal(got.subtile_blends, want.subtile_blends, "sub-tile blends");
   checks.equal(got.contributors, want.contributors, "contributors");
   std::uint64_t blend = 0, drain = 0;
@@ -197,12 +211,15 @@ void random_case(Case& test) {
   Plan plan = make_plan(1 + static_cast<int>(random() % 150), 1 + static_cast<int>(random() % 90),
                         4 * (1 + static_cast<int>(random() % 24)),
                         random() % 2 == 0 ? FrameFormat::kRgb8 : FrameFormat::kRgb32f);
-  plan.sorting_units = 1 + static_cast<std::uint32_t>(random() % 3);
+  plan.inputs = 1 + static_cast<std::uint32_t>(random() % 3);
   plan.config.clusters = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.config.pixel_buffers = 1 + static_cast<std::uint32_t>(random() % 2);
   plan.config.depth_cycles = 1 + static_cast<std::uint32_t>(random() % 20);
   plan.config.drain_pixels_per_cycle = 1 + static_cast<std::uint32_t>(random() % 16);
   plan.config.saturation_feedback = random() % 2 == 0;
+  plan.config.ellipse_test = random() % 2 == 0;
+  plan.config.subtile_tests_per_cycle = 1 + static_cast<std::uint32_t>(random() % 16);
+  plan.arrival = random() % 2 == 0 ? Arrival::kByVisit : Arrival::kByToken;
   const BenchConfig bench = random_bench(random, plan.job.layout.total_bytes());
   // With stalls, tokens may as well wait for room.
   if (bench.stall_probability > 0) {
@@ -251,6 +268,12 @@ int sc_main(int argc, char* argv[]) {
     Plan plan = make_plan(128, 64, 32, format);
     plan.config.pixel_buffers = 2;
     directed(test, plan, 50);
+  });
+  runner.add_directed("every token from another FIFO", [](Case& test) {
+    Plan plan = make_plan(64, 48, 32, format);
+    plan.arrival = Arrival::kByToken;
+    plan.inputs = 4;
+    directed(test, plan, 30);
   });
   runner.add_directed("saturated group", [](Case& test) {
     Plan plan = make_plan(64, 32, 32, format);
