@@ -139,10 +139,8 @@ std::vector<TimedFifo<SplatToken>*> Accelerator::wire_exact_order() {
 void Accelerator::add_rendering(const std::vector<TimedFifo<SplatToken>*>& splats,
                                 Arrival arrival) {
   rendering_ = std::make_unique<RenderingUnit>("rendering", config_.rendering, clock_, job_, board_,
-                                               add_port("rendering"), splats, arrival, [this] {
-                                                 done_ = true;
-                                                 sc_core::sc_stop();
-                                               });
+                                               add_port("rendering"), splats, arrival,
+                                               [this] { done_ = true; });
 }
 
 MemoryPort& Accelerator::add_port(const std::string& name) {
@@ -164,6 +162,7 @@ TimedFifo<T>* Accelerator::add_fifo(std::deque<TimedFifo<T>>& fifos, const std::
 }
 
 void Accelerator::run() {
+  // Until nothing can happen any more: the frame ends when its last posted write is in the memory.
   sc_core::sc_start();
   if (!done_) {
     throw std::runtime_error("the simulation ran out of events before the frame was finished");

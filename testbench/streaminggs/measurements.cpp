@@ -7,6 +7,7 @@
 
 #include "modules/accelerator.h"
 #include "testbench/streaminggs/binding.h"
+#include "testbench/streaminggs/energy.h"
 
 namespace sgs {
 namespace {
@@ -198,6 +199,8 @@ std::string measure(Accelerator& accelerator) {
                     {"next_utilisation", binding.next_utilisation},
                     {"explanation", binding.explanation}};
   out["dram"] = dram_of(accelerator);
+  out["energy"] = energy_of(accelerator);
+  out["area_mm2"] = area_of(accelerator);
   out["sram"] = sram_of(accelerator.config());
   return out.dump();
 }
