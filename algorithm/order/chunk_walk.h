@@ -32,8 +32,9 @@ struct WalkCounters {
   std::uint64_t overflowed = 0;  // entries put aside because the queue was full
 };
 
-// Source: `ChunkNode node(std::uint32_t)`; `void put_aside(const WalkEntry&)` and
-// `std::vector<WalkEntry> take_back()` keep what does not fit the queue (in VSU both go to DRAM).
+// Source: `ChunkNode node(std::uint32_t)`; `void put_aside(const WalkEntry&)` keeps what does not
+// fit the queue (in VSU: in DRAM) until `std::vector<WalkEntry> take_back()` or, where a group ends
+// early, `void forget_aside()`.
 template <class Source>
 class ChunkWalk {
  public:
@@ -41,10 +42,12 @@ class ChunkWalk {
   ChunkWalk(const View<float>& view, Source& source, std::size_t capacity)
       : view_(view), source_(source), capacity_(capacity) {}
 
-  // Begins with another group. empty: the tree has no nodes.
+  // Begins with another group, whether or not the one before came to its end. empty: the tree has
+  // no nodes.
   void start(const PixelRect& pixels, bool empty) {
     pixels_ = pixels;
     queue_.clear();
+    if (aside_) source_.forget_aside();
     aside_.reset();
     if (!empty) queue_.push_back({});
   }

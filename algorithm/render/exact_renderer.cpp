@@ -24,6 +24,7 @@ struct TreeInMemory {
   const ChunkNode& node(std::uint32_t index) const { return tree.nodes[index]; }
   void put_aside(const WalkEntry& entry) { aside.push_back(entry); }
   std::vector<WalkEntry> take_back() { return std::exchange(aside, {}); }
+  void forget_aside() { aside.clear(); }
 };
 
 struct Key {

@@ -17,6 +17,7 @@ inline bool make_geometry(const View<float>& view, const Gaussian<float>& g, Spl
   if (!(v.z > constant<float>(kNearPlane))) return false;
   const Projected<float> p = project(view, g, v);
   if (!std::isfinite(p.cov_a + p.cov_c) || !std::isfinite(p.x + p.y)) return false;
+  if (!std::isfinite(p.depth)) return false;  // nothing can be in order with it
   out.x = p.x;
   out.y = p.y;
   out.conic_a = p.conic_a;

@@ -44,7 +44,8 @@ bool GroupFrustum::beyond_side(const glm::vec3& centre, const glm::vec3& half, i
     most += n * centre[a] + std::abs(n) * half[a];
   }
   const float slack = 64 * kRoundoff * (focal + std::abs(slope)) * rounding;
-  return most + focal * reach + slack < 0;
+  const float margin = most + focal * reach + slack;
+  return margin < 0 && std::isfinite(margin);  // a sum that overflowed says nothing
 }
 
 ChunkTest GroupFrustum::test(const ChunkBound& bound) const {
@@ -70,7 +71,8 @@ ChunkTest GroupFrustum::test(const ChunkBound& bound) const {
   const float near_plane = constant<float>(kNearPlane);
   const Interval depth = range_along(2);
   if (depth.high < near_plane) return {false, 0};
-  const Interval z{std::max(depth.low, near_plane), depth.high};
+  // Beyond float depth.low may not be a number: then nothing is known.
+  const Interval z{depth.low > near_plane ? depth.low : near_plane, depth.high};
   const Interval u = ratio_range(range_along(0), z, view_.limit_x);
   const Interval w = ratio_range(range_along(1), z, view_.limit_y);
 

@@ -107,4 +107,9 @@ std::vector<WalkEntry> ChunkVsu::Source::take_back() {
   return entries;
 }
 
+void ChunkVsu::Source::forget_aside() {
+  await_all(vsu_.port_, vsu_.walk_activity_);  // or they could overtake the next group's
+  aside_count_ = 0;
+}
+
 }  // namespace sgs

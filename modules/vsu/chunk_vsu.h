@@ -53,6 +53,7 @@ class ChunkVsu : public sc_core::sc_module {
     ChunkNode node(std::uint32_t index);
     void put_aside(const WalkEntry& entry);
     std::vector<WalkEntry> take_back();
+    void forget_aside();
 
    private:
     ChunkVsu& vsu_;
