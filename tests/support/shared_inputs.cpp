@@ -29,8 +29,8 @@ std::string shared_scene(const std::string& name) {
   shared_path("scenes/" + name + ".ply.xz");
   // Tests run side by side: the lock lets one of them unpack while the others wait.
   fs::create_directories(folder);
-  const std::string command = "flock '" + folder.string() + "/.lock' sh '" + script + "' '" +
-                              folder.string() + "' " + name;
+  const std::string command =
+      "flock '" + folder.string() + "/.lock' sh '" + script + "' '" + folder.string() + "' " + name;
   if (std::system(command.c_str()) != 0) skip("cannot unpack " + name + " (is xz installed?)");
   return (folder / (name + ".ply")).string();
 }
