@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+"""Exact order beside paper order, every view of the given scenes: quality, traffic by region,
+cycles, and the unit that binds. Writes compare_orders.md and .csv, and compare_orders_summary.md
+with the means of each scene.
+
+Traffic and time are of frames stored as rgb8 (3 B a pixel). Their PSNR would be that of 8-bit
+pixels, so quality is taken from a second simulation of each view that stores floats; the picture
+does not depend on timing, so that one runs with fast timing.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import itertools
+import pathlib
+import statistics
+import sys
+from collections.abc import Sequence
+
+import run_arguments
+import tables
+from scenes import find_scenes
+from simulations import REPOSITORY, Failure, Outcome, Run, psnr_text, region_bytes, simulate_all
+
+ORDERS = ("exact", "paper")
+# Megabytes a view at 640x360, mean of four: exact order with 64x64 groups and an unlimited merge
+# buffer, measured with a functional prototype without timing. A yardstick, not a result.
+YARDSTICK_MB = {
+    "truck": 13.3,
+    "playbot": 20.1,
+    "platform": 15.6,
+    "yard": 57.8,
+    "garden": 21.9,
+    "park": 56.9,
+}
+YARDSTICK_SIZE = "640x360"
+MB = 1e6
+
+
+@dataclasses.dataclass(frozen=True)
+class Measured:
+    """A view in one order."""
+
+    scene: str
+    size: str
+    order: str
+    traffic: dict  # report of the rgb8 frame
+    quality: dict  # report of the rgb32f frame
+
+    def regions(self) -> dict[str, int]:
+        names = self.traffic["dram"]["bytes_by_region"]
+        return {name: count for name in names if (count := region_bytes(self.traffic, name))}
+
+
+def measure(arguments: argparse.Namespace) -> list[Measured]:
+    scenes = find_scenes(arguments.scenes)
+    cases = list(itertools.product(arguments.sizes, scenes, ORDERS))
+    runs = []
+    for size, scene, order in cases:
+        run = Run(scene, arguments.view, size, order, tuple(arguments.set), arguments.timing)
+        floats = dataclasses.replace(
+            run, overrides=(*run.overrides, "framebuffer=rgb32f"), timing="fast"
+        )
+        runs += [run, floats]
+    outcomes = simulate_all(arguments.streaminggs, runs, arguments.side_by_side)
+    measured = []
+    for size, scene, order in cases:
+        traffic, quality = accepted(next(outcomes)), accepted(next(outcomes))
+        pairs = zip(traffic.views, quality.views)
+        measured += [Measured(scene.name, size, order, t, q) for t, q in pairs]
+    return measured
+
+
+def accepted(outcome: Outcome) -> Outcome:
+    """The comparison is of the presets as shipped: nothing may be refused or enlarged."""
+    if outcome.refused or outcome.raised:
+        grown = ", ".join(f"{key} would have to be {count}" for key, count in outcome.raised)
+        raise Failure(f"{outcome.run.label()}: {outcome.refused or grown}")
+    return outcome
+
+
+HEAD = (
+    "size",
+    "scene",
+    "view",
+    "order",
+    "PSNR dB",
+    "DRAM MB",
+    "x once",
+    "k cycles",
+    "fps",
+    "binding unit",
+    "MB by region",
+)
+
+
+def text_row(m: Measured) -> tuple:
+    t = m.traffic
+    regions = ", ".join(f"{name} {count / MB:.2f}" for name, count in m.regions().items())
+    return (
+        m.size,
+        m.scene,
+        t["view"],
+        m.order,
+        psnr_text(m.quality),
+        f"{t['dram']['bytes'] / MB:.2f}",
+        f"{t['limit']['ratio']:.2f}",
+        round(t["frame"]["cycles"] / 1e3),
+        f"{t['frame']['fps']:.0f}",
+        f"{t['binding']['unit']} {t['binding']['utilisation']:.0%}",
+        regions,
+    )
+
+
+def csv_rows(measured: Sequence[Measured]) -> tuple[list[str], list[list]]:
+    regions = sorted({name for m in measured for name in m.traffic["dram"]["bytes_by_region"]})
+    head = ["size_px", "scene", "view", "order", "psnr_db", "ssim", "missed", "misordered"]
+    head += ["blends", "dram_bytes", "bytes_read_once", "limit_ratio", "cycles", "fps"]
+    head += ["binding_unit", "binding_utilisation", "next_unit", "next_utilisation"]
+    head += ["simulation_wall_s", *(f"{name}_bytes" for name in regions)]
+    rows = []
+    for m in measured:
+        t, image, binding = m.traffic, m.quality["image"], m.traffic["binding"]
+        psnr_db = "inf" if image["psnr_db"] is None else image["psnr_db"]
+        row = [m.size, m.scene, t["view"], m.order, psnr_db, image["ssim"]]
+        row += [image["missed"], image["misordered"], image["blends"]]
+        row += [t["dram"]["bytes"], t["limit"]["bytes_read_once"], t["limit"]["ratio"]]
+        row += [t["frame"]["cycles"], t["frame"]["fps"]]
+        row += [binding["unit"], binding["utilisation"]]
+        row += [binding["next"], binding["next_utilisation"]]
+        row += [t["host"]["simulation_wall_s"]]
+        row += [region_bytes(t, name) for name in regions]
+        rows.append(row)
+    return head, rows
+
+
+SUMMARY_HEAD = (
+    "size",
+    "scene",
+    "exact MB",
+    "yardstick MB",
+    "paper MB",
+    "exact / once",
+    "exact M cycles",
+    "paper M cycles",
+    "exact fps",
+    "paper fps",
+    "exact PSNR dB",
+    "paper PSNR dB",
+    "misordered blends, paper",
+    "exact binds",
+)
+
+
+def summary_row(size: str, scene: str, of: dict[str, list[Measured]]) -> tuple:
+    """Means over the views of a scene; PSNR as a range."""
+
+    def mean(order: str, *path: str) -> float:
+        return statistics.fmean(value_at(m.traffic, path) for m in of[order])
+
+    def psnr(order: str) -> str:
+        values = [m.quality["image"]["psnr_db"] for m in of[order]]
+        finite = [value for value in values if value is not None]
+        if not finite:
+            return "equal"
+        return f"{min(finite):.1f} .. " + (
+            "equal" if len(finite) < len(values) else f"{max(finite):.1f}"
+        )
+
+    yardstick = YARDSTICK_MB.get(scene) if size == YARDSTICK_SIZE else None
+    blends = sum(m.quality["image"]["blends"] for m in of["paper"])
+    misordered = sum(m.quality["image"]["misordered"] for m in of["paper"])
+    binders = [m.traffic["binding"] for m in of["exact"]]
+    units = sorted({b["unit"] for b in binders})
+    lowest, highest = (pick(b["utilisation"] for b in binders) for pick in (min, max))
+    return (
+        size,
+        scene,
+        f"{mean('exact', 'dram', 'bytes') / MB:.1f}",
+        "" if yardstick is None else f"{yardstick:.1f}",
+        f"{mean('paper', 'dram', 'bytes') / MB:.1f}",
+        f"{mean('exact', 'limit', 'ratio'):.2f}",
+        f"{mean('exact', 'frame', 'cycles') / 1e6:.2f}",
+        f"{mean('paper', 'frame', 'cycles') / 1e6:.2f}",
+        f"{mean('exact', 'frame', 'fps'):.0f}",
+        f"{mean('paper', 'frame', 'fps'):.0f}",
+        psnr("exact"),
+        psnr("paper"),
+        f"{misordered / max(1, blends):.0%}",
+        f"{', '.join(units)} {lowest:.0%} .. {highest:.0%}",
+    )
+
+
+def value_at(report: dict, path: Sequence[str]) -> float:
+    for key in path:
+        report = report[key]
+    return report
+
+
+def summary_rows(measured: Sequence[Measured]) -> list[tuple]:
+    grouped: dict[tuple[str, str], dict[str, list[Measured]]] = {}
+    for m in measured:
+        grouped.setdefault((m.size, m.scene), {}).setdefault(m.order, []).append(m)
+    return [summary_row(size, scene, of) for (size, scene), of in grouped.items()]
+
+
+def make_tables(arguments: argparse.Namespace) -> None:
+    measured = measure(arguments)
+    made = run_arguments.how_made(arguments)
+    summary = made + tables.markdown(SUMMARY_HEAD, summary_rows(measured))
+    views = made + tables.markdown(HEAD, [text_row(m) for m in measured])
+    tables.write_text(arguments.out / "compare_orders.md", views)
+    tables.write_text(arguments.out / "compare_orders.csv", tables.csv_text(*csv_rows(measured)))
+    tables.write_text(arguments.out / "compare_orders_summary.md", summary)
+    print(views)
+    print(summary)
+
+
+def main() -> int:
+    parser = run_arguments.parser(__doc__, default_timing="accurate")
+    parser.add_argument("--view", default="all", help="number of a camera, or all")
+    parser.add_argument(
+        "--sizes", nargs="+", default=["640x360", "1280x720"], metavar="WxH", help="in px"
+    )
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE", help="over both presets"
+    )
+    parser.add_argument("--out", type=pathlib.Path, default=REPOSITORY / "out")
+    arguments = parser.parse_args()
+    return run_arguments.main(lambda: make_tables(arguments))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,66 @@
+"""Command-line arguments that the scripts which make tables share, and how they end."""
+
+from __future__ import annotations
+
+import argparse
+import pathlib
+import shlex
+import subprocess
+import sys
+from collections.abc import Callable
+
+import simulations
+
+BAD_INPUT = 2
+
+
+def parser(about: str, default_timing: str) -> argparse.ArgumentParser:
+    made = argparse.ArgumentParser(description=about)
+    made.add_argument(
+        "scenes",
+        nargs="*",
+        metavar="SCENE",
+        help="builtin:NAME?n=COUNT, a real scene of ../shared by name, or a .ply file with its "
+        "cameras beside it (NAME.json); default: the built-in scenes and all real ones",
+    )
+    made.add_argument("--timing", choices=("accurate", "fast"), default=default_timing)
+    made.add_argument(
+        "--side-by-side",
+        type=int,
+        choices=range(1, simulations.MOST_SIDE_BY_SIDE + 1),
+        default=simulations.MOST_SIDE_BY_SIDE,
+        help="simulations at a time; 1 for wall times that nothing disturbs",
+    )
+    made.add_argument("--streaminggs", type=pathlib.Path, default=simulations.BINARY)
+    return made
+
+
+def how_made(arguments: argparse.Namespace) -> str:
+    """A paragraph that says where a table comes from."""
+    command = shlex.join([f"scripts/{pathlib.Path(sys.argv[0]).name}", *sys.argv[1:]])
+    where = f"at {commit()}" if arguments.streaminggs == simulations.BINARY else "elsewhere built"
+    return f"Made by `{command}` ({where}, {arguments.timing} timing).\n\n"
+
+
+def commit() -> str:
+    """The commit of the sources, marked when they have been changed since."""
+    said = subprocess.run(
+        ["git", "-C", str(simulations.REPOSITORY), "describe", "--always", "--dirty"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return said.stdout.strip() or "no commit"
+
+
+def main(work: Callable[[], None]) -> int:
+    """Exit status: 0 done, 1 a simulation failed, 2 bad arguments."""
+    try:
+        work()
+    except simulations.Failure as failure:
+        print(f"{sys.argv[0]}: {failure}", file=sys.stderr)
+        return 1
+    except ValueError as error:
+        print(f"{sys.argv[0]}: {error}", file=sys.stderr)
+        return BAD_INPUT
+    return 0

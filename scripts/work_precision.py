@@ -1,0 +1,178 @@
+#!/usr/bin/env python3
+"""Error against run time of exact order, one table: what a smaller merge buffer (spilling, or
+blending early), another pixel group or another chunk costs in quality, traffic and cycles.
+
+Frames are written as floats (framebuffer=rgb32f), so that PSNR sees every error; that is 12 B a
+pixel in DRAM. A combination that needs more on-chip memory than the preset has is given it, and
+the column `SRAM raised to` says what it then takes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import pathlib
+import sys
+
+import run_arguments
+import tables
+from scenes import find_scenes
+from simulations import (
+    REPOSITORY,
+    Outcome,
+    Run,
+    psnr_text,
+    region_bytes,
+    resolved_config,
+    simulate_all,
+    work,
+)
+
+MERGE_ENTRIES = (128, 256, 512, 1024, 2048, 4096)
+ON_OVERFLOW = ("spill", "blend_early")
+GROUP_PX = (16, 32, 64, 128)
+CHUNK_GAUSSIANS = (16, 32, 64, 128, 256)
+
+HEAD = (
+    "scene",
+    "view",
+    "group px",
+    "chunk",
+    "merge entries",
+    "on overflow",
+    "PSNR dB",
+    "DRAM MB",
+    "spill MB",
+    "forced early",
+    "k cycles",
+    "wall s",
+    "SRAM raised to",
+)
+CSV_HEAD = (
+    "scene",
+    "view",
+    "group_px",
+    "chunk_gaussians",
+    "merge_entries",
+    "on_overflow",
+    "psnr_db",
+    "dram_bytes",
+    "spill_bytes",
+    "keys_forced_early",
+    "cycles",
+    "simulation_wall_s",
+    "sram_shared_bytes_raised_to",
+)
+
+
+def combinations(preset: dict, cross: bool) -> list[tuple]:
+    """(group, chunk, entries, on_overflow). Without `cross` one axis is moved at a time, around
+    the preset, but for the merge buffer, whose size and overflow policy go together."""
+    if cross:
+        return list(itertools.product(GROUP_PX, CHUNK_GAUSSIANS, MERGE_ENTRIES, ON_OVERFLOW))
+    group_px, chunk = preset["group_px"], preset["chunk_gaussians"]
+    entries, on_overflow = preset["merge"]["entries"], preset["merge"]["on_overflow"]
+    points = [
+        (group_px, chunk, n, policy) for policy, n in itertools.product(ON_OVERFLOW, MERGE_ENTRIES)
+    ]
+    points += [(group, chunk, entries, on_overflow) for group in GROUP_PX]
+    points += [(group_px, c, entries, on_overflow) for c in CHUNK_GAUSSIANS]
+    return list(dict.fromkeys(points))
+
+
+def overrides(point: tuple) -> tuple[str, ...]:
+    group_px, chunk, entries, on_overflow = point
+    return (
+        f"group_px={group_px}",
+        f"chunk_gaussians={chunk}",
+        f"merge.entries={entries}",
+        f"merge.on_overflow={on_overflow}",
+        "framebuffer=rgb32f",
+    )
+
+
+def rows_of(outcome: Outcome) -> tuple[list[tuple], list[tuple]]:
+    """Rows of the Markdown table and of the CSV file, a view each."""
+    text_rows, csv_rows = [], []
+    for view in outcome.views:
+        config = view["config"]
+        point = (
+            outcome.run.scene.name,
+            view["view"],
+            config["group_px"],
+            config["chunk_gaussians"],
+            config["merge"]["entries"],
+            config["merge"]["on_overflow"],
+        )
+        raised = dict(outcome.raised).get("sram.shared_bytes", 0)
+        dram, spill = view["dram"]["bytes"], region_bytes(view, "spill")
+        forced, cycles = work(view, "forced_early"), view["frame"]["cycles"]
+        wall_s = view["host"]["simulation_wall_s"]
+        text_rows.append(
+            (
+                *point,
+                psnr_text(view),
+                f"{dram / 1e6:.2f}",
+                f"{spill / 1e6:.2f}",
+                forced,
+                round(cycles / 1e3),
+                f"{wall_s:.2f}",
+                f"{raised:,} B" if raised else "",
+            )
+        )
+        psnr_db = view["image"]["psnr_db"]
+        csv_rows.append(
+            (
+                *point,
+                "inf" if psnr_db is None else psnr_db,
+                dram,
+                spill,
+                forced,
+                cycles,
+                wall_s,
+                raised or "",
+            )
+        )
+    return text_rows, csv_rows
+
+
+def make_table(arguments: argparse.Namespace) -> None:
+    scenes = find_scenes(arguments.scenes)
+    preset = resolved_config(arguments.streaminggs, Run(scenes[0], overrides=tuple(arguments.set)))
+    runs = [
+        Run(
+            scene,
+            arguments.view,
+            overrides=(*arguments.set, *overrides(point)),
+            timing=arguments.timing,
+        )
+        for scene in scenes
+        for point in combinations(preset, arguments.cross)
+    ]
+    text_rows, csv_rows = [], []
+    for outcome in simulate_all(arguments.streaminggs, runs, arguments.side_by_side):
+        if outcome.refused:
+            print(f"left out: {outcome.run.label()}: {outcome.refused}", file=sys.stderr)
+        more_text, more_csv = rows_of(outcome)
+        text_rows += more_text
+        csv_rows += more_csv
+    text = run_arguments.how_made(arguments) + tables.markdown(HEAD, text_rows)
+    tables.write_text(arguments.out / "work_precision.md", text)
+    tables.write_text(arguments.out / "work_precision.csv", tables.csv_text(CSV_HEAD, csv_rows))
+    print(text)
+
+
+def main() -> int:
+    parser = run_arguments.parser(__doc__, default_timing="fast")
+    parser.add_argument("--view", default="0", help="number of a camera, or all")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE", help="over the exact preset"
+    )
+    parser.add_argument("--cross", action="store_true", help="every combination: 240 a scene")
+    parser.add_argument("--out", type=pathlib.Path, default=REPOSITORY / "out")
+    arguments = parser.parse_args()
+    return run_arguments.main(lambda: make_table(arguments))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
