@@ -1,0 +1,120 @@
+// Brute force over every Gaussian of every chunk.
+#include "tests/algorithm/voxel/chunk_bound_checks.h"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "algorithm/render/group_state.h"
+#include "algorithm/splat/activate.h"
+#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/make_splat.h"
+#include "algorithm/voxel/chunk_test.h"
+#include "algorithm/voxel/chunk_tree.h"
+
+namespace sgs::test {
+namespace {
+
+// What brute force finds among some Gaussians, for one group.
+struct Found {
+  bool blended = false;                                    // one of them could change a pixel
+  float nearest = std::numeric_limits<float>::infinity();  // depth, of those in front
+  void add(const Found& other) {
+    blended = blended || other.blended;
+    nearest = std::min(nearest, other.nearest);
+  }
+};
+
+class Checker {
+ public:
+  Checker(const View<float>& view, const ActivatedCloud& cloud, const ChunkTree& tree,
+          BoundTally& tally)
+      : view_(view), cloud_(cloud), tree_(tree), tally_(tally) {}
+
+  void check(const PixelRect& group) {
+    if (!tree_.nodes.empty()) check_node(0, group);
+  }
+
+ private:
+  Found check_node(std::uint32_t at, const PixelRect& group) {
+    const ChunkNode& node = tree_.nodes[at];
+    const GroupFrustum frustum(view_, group);
+    Found all;
+    std::uint32_t slot = node.first_slot, inner = node.first_node;
+    for (int c = 0; c < node.children; ++c) {
+      Found found;
+      const std::uint32_t count = node.count[c];
+      for (std::uint32_t i = 0; i < count; ++i) found.add(look_at(slot++, group));
+      if (count == 0) found = check_node(inner++, group);
+      compare(frustum.test(child_bound(node, c)), found, count);
+      all.add(found);
+    }
+    return all;
+  }
+
+  Found look_at(std::uint32_t slot, const PixelRect& group) {
+    const Gaussian<float>& g = cloud_.gaussians[tree_.storage_order[slot]];
+    const CoarseBound coarse =
+        coarse_bound(view_, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
+    Found found;
+    if (!coarse.in_front) return found;
+    found.nearest = coarse.depth;
+    Splat splat{};
+    found.blended = make_geometry(view_, g, splat) && reaches_group(splat, group);
+    tally_.splats += found.blended ? 1 : 0;
+    if (found.blended && !touches(coarse, group)) tally_.failure = "coarse filter";
+    return found;
+  }
+
+  void compare(const ChunkTest& test, const Found& found, std::uint32_t count) {
+    if (count > 0) {
+      ++tally_.chunks;
+      tally_.accepted += test.touches ? 1 : 0;
+      tally_.in_vain += test.touches && !found.blended ? 1 : 0;
+    }
+    if (found.blended && !test.touches) tally_.failure = "a splat was missed";
+    // Also false for a depth that is not a number.
+    if (test.touches && !(test.nearest <= found.nearest)) {
+      tally_.failure = fmt::format("nearest {}, but one is at {}", test.nearest, found.nearest);
+    }
+  }
+
+  const View<float>& view_;
+  const ActivatedCloud& cloud_;
+  const ChunkTree& tree_;
+  BoundTally& tally_;
+};
+
+}  // namespace
+
+void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, int group_px,
+                        BoundTally& tally) {
+  const ActivatedCloud cloud = activate(scene.cloud);
+  const ChunkTree tree = build_chunk_tree(cloud, chunk, Stored::kAll);
+  const View<float> view = make_view<float>(scene.camera);
+  Checker checker(view, cloud, tree, tally);
+  for (const PixelRect& group : pixel_groups(view.width, view.height, group_px)) {
+    checker.check(group);
+  }
+}
+
+void fuzz_chunk_bounds(unsigned first_seed, unsigned scenes) {
+  BoundTally tally;
+  for (unsigned seed = first_seed; seed < first_seed + scenes; ++seed) {
+    HardScenes hard(seed);
+    const int longest_px = hard.pick(50) == 0 ? 4000 : 100;
+    const HardScene scene = hard.next(1 + static_cast<std::size_t>(hard.pick(100)), longest_px);
+    const auto chunk = static_cast<std::uint32_t>(1 + hard.pick(16));
+    check_chunk_bounds(scene, chunk, longest_px > 100 ? 512 : 4 * (1 + hard.pick(16)), tally);
+    if (!tally.failure.empty()) FAIL("seed " << seed << ": " << tally.failure);
+  }
+  fmt::print("{} tests of chunks, {} splats; {:.1f} % accepted, {:.1f} % of these in vain\n",
+             tally.chunks, tally.splats,
+             100.0 * static_cast<double>(tally.accepted) / static_cast<double>(tally.chunks),
+             100.0 * static_cast<double>(tally.in_vain) / static_cast<double>(tally.accepted));
+  CHECK(tally.splats > 10 * scenes);
+  CHECK(tally.accepted < tally.chunks);
+}
+
+}  // namespace sgs::test

@@ -1,0 +1,25 @@
+// The test of a chunk against a pixel group, put to brute force: it never says no where a Gaussian
+// could be blended, and its nearest depth is never beyond a Gaussian's.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tests/algorithm/voxel/hard_scenes.h"
+
+namespace sgs::test {
+
+struct BoundTally {
+  std::uint64_t chunks = 0, accepted = 0, in_vain = 0;  // (chunk, group) pairs
+  std::uint64_t splats = 0;                             // (Gaussian, group) pairs that may blend
+  std::string failure;                                  // empty: none
+};
+
+// All chunks and inner nodes of the scene's tree against all groups of its frame.
+void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, int group_px,
+                        BoundTally& tally);
+
+// Random hard scenes; prints how tight the test is.
+void fuzz_chunk_bounds(unsigned first_seed, unsigned scenes);
+
+}  // namespace sgs::test

@@ -1,0 +1,194 @@
+// The chunk tree: every Gaussian stored once, chunks within their size, parents around their
+// children, the same whatever the number of threads.
+#include "algorithm/voxel/chunk_tree.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "algorithm/scene/builtin_scene.h"
+#include "algorithm/splat/activate.h"
+#include "algorithm/splat/footprint.h"
+#include "tests/algorithm/voxel/hard_scenes.h"
+
+using namespace sgs;
+
+namespace {
+
+bool holds(const ChunkBound& outer, const ChunkBound& inner) {
+  bool all = outer.scale_max >= inner.scale_max;
+  for (int k = 0; k < 3; ++k) {
+    all = all && outer.low[k] <= inner.low[k] && outer.high[k] >= inner.high[k] &&
+          outer.extent[k] >= inner.extent[k];
+  }
+  return all;
+}
+
+struct Shape {
+  std::uint32_t next_slot = 0, chunks = 0, depth = 0;
+  std::vector<bool> node_seen;
+};
+
+// The true bound of the Gaussians of one chunk, which must begin where the one before ended.
+ChunkBound check_chunk(const ActivatedCloud& cloud, const ChunkTree& tree, std::uint32_t slot,
+                       std::uint32_t count, Shape& shape) {
+  ++shape.chunks;
+  REQUIRE(slot == shape.next_slot);
+  shape.next_slot = slot + count;
+  REQUIRE(shape.next_slot <= tree.storage_order.size());
+  const auto first = tree.storage_order.begin() + slot;
+  REQUIRE(std::is_sorted(first, first + count));
+  ChunkBound bound = gaussian_bound(cloud.gaussians[*first]);
+  for (auto it = first; it != first + count; ++it) {
+    bound = merged(bound, gaussian_bound(cloud.gaussians[*it]));
+  }
+  return bound;
+}
+
+// Walks a node and what is below it; the true bound of its Gaussians. A node's own chunks lie
+// before those of its inner children.
+ChunkBound check_node(const ActivatedCloud& cloud, const ChunkTree& tree, std::uint32_t at,
+                      std::uint32_t chunk, std::uint32_t level, Shape& shape) {
+  REQUIRE(at < tree.nodes.size());
+  REQUIRE_FALSE(shape.node_seen[at]);
+  shape.node_seen[at] = true;
+  shape.depth = std::max(shape.depth, level);
+  const ChunkNode& node = tree.nodes[at];
+  REQUIRE(node.children >= 1);
+  REQUIRE(node.children <= kChunkNodeWidth);
+  std::vector<ChunkBound> children(node.children);
+  std::uint32_t slot = node.first_slot, inner = node.first_node;
+  for (std::size_t c = 0; c < node.children; ++c) {
+    if (node.count[c] == 0) continue;
+    REQUIRE(node.count[c] <= chunk);
+    children[c] = check_chunk(cloud, tree, slot, node.count[c], shape);
+    slot += node.count[c];
+  }
+  for (std::size_t c = 0; c < node.children; ++c) {
+    if (node.count[c] == 0) children[c] = check_node(cloud, tree, inner++, chunk, level + 1, shape);
+  }
+  ChunkBound all = children[0];
+  for (std::size_t c = 0; c < node.children; ++c) {
+    REQUIRE(holds(child_bound(node, static_cast<int>(c)), children[c]));
+    all = merged(all, children[c]);
+  }
+  return all;
+}
+
+void check_tree(const ActivatedCloud& cloud, const ChunkTree& tree, std::uint32_t chunk,
+                Stored stored) {
+  std::vector<std::uint32_t> sorted = tree.storage_order;
+  std::sort(sorted.begin(), sorted.end());
+  REQUIRE(sorted == stored_gaussians(cloud, stored));
+  if (sorted.empty()) {
+    REQUIRE(tree.nodes.empty());
+    REQUIRE(tree.chunk_count == 0);
+    return;
+  }
+  Shape shape;
+  shape.node_seen.resize(tree.nodes.size());
+  check_node(cloud, tree, 0, chunk, 1, shape);
+  CHECK(shape.next_slot == tree.storage_order.size());
+  CHECK(shape.chunks == tree.chunk_count);
+  CHECK(shape.depth == tree.depth);
+  CHECK(
+      std::all_of(shape.node_seen.begin(), shape.node_seen.end(), [](bool seen) { return seen; }));
+  CHECK(tree.chunk_count >= (sorted.size() + chunk - 1) / chunk);
+}
+
+bool same(const ChunkTree& a, const ChunkTree& b) {
+  return a.storage_order == b.storage_order && a.nodes.size() == b.nodes.size() &&
+         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(ChunkNode)) == 0;
+}
+
+ActivatedCloud hard_cloud(unsigned seed, std::size_t count) {
+  return activate(test::HardScenes(seed).next(count, 100).cloud);
+}
+
+}  // namespace
+
+TEST_CASE("chunk tree of an empty cloud has no nodes") {
+  check_tree({}, build_chunk_tree({}, 16), 16, Stored::kVisible);
+}
+
+TEST_CASE("chunk tree of one Gaussian is one node with one chunk") {
+  ActivatedCloud cloud;
+  cloud.gaussians.push_back({{1, 2, 3}, {0.1F, 0.2F, 0.3F}, {1, 0, 0, 0}, 0.5F});
+  const ChunkTree tree = build_chunk_tree(cloud, 16);
+  check_tree(cloud, tree, 16, Stored::kVisible);
+  CHECK(tree.nodes.size() == 1);
+  CHECK(tree.chunk_count == 1);
+  CHECK(tree.nodes[0].count[0] == 1);
+}
+
+TEST_CASE("chunk trees of hard clouds, chunks of 1 to 256") {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const ActivatedCloud cloud = hard_cloud(seed, 1 + seed * 37 % 1500);
+    for (const std::uint32_t chunk : {1U, 2U, 3U, 16U, 64U, 255U, 256U}) {
+      const Stored stored = seed % 2 == 0 ? Stored::kVisible : Stored::kAll;
+      CAPTURE(seed, chunk);
+      check_tree(cloud, build_chunk_tree(cloud, chunk, stored), chunk, stored);
+    }
+  }
+}
+
+TEST_CASE("chunk tree of equal Gaussians: full chunks, logarithmic depth") {
+  ActivatedCloud cloud;
+  cloud.gaussians.assign(20000, {{1, 2, 3}, glm::vec3(0.1F), {1, 0, 0, 0}, 0.5F});
+  const ChunkTree tree = build_chunk_tree(cloud, 16);
+  check_tree(cloud, tree, 16, Stored::kVisible);
+  CHECK(tree.chunk_count == 1250);
+  CHECK(tree.depth <= 11);  // 2^11 > 1250: no deeper than a balanced binary tree
+}
+
+TEST_CASE("chunk tree leaves out what no view can show") {
+  ActivatedCloud cloud;
+  cloud.gaussians.assign(100, {{1, 2, 3}, glm::vec3(0.1F), {1, 0, 0, 0}, 0.5F});
+  for (std::size_t i = 0; i < 100; i += 2) cloud.gaussians[i].opacity = 0.003F;
+  CHECK(build_chunk_tree(cloud, 16, Stored::kVisible).storage_order.size() == 50);
+  CHECK(build_chunk_tree(cloud, 16, Stored::kAll).storage_order.size() == 100);
+}
+
+TEST_CASE("chunk tree is the same with one thread and with many") {
+  const ActivatedCloud cloud = activate(make_builtin_scene("builtin:outdoor?n=60000").cloud);
+  const ChunkTree many = build_chunk_tree(cloud, 16);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  CHECK(same(many, build_chunk_tree(cloud, 16)));
+  check_tree(cloud, many, 16, Stored::kVisible);
+}
+
+TEST_CASE("chunk tree: giants do not widen the chunks of small Gaussians") {
+  // 990 points and 10 giants among them: the giants have chunks of their own.
+  ActivatedCloud cloud;
+  for (int i = 0; i < 1000; ++i) {
+    const auto at = static_cast<float>(i % 100);
+    const float scale = i % 100 == 7 ? 1000.0F : 0.01F;
+    cloud.gaussians.push_back(
+        {{at, static_cast<float>(i / 100), 0}, glm::vec3(scale), {1, 0, 0, 0}, 0.5F});
+  }
+  const ChunkTree tree = build_chunk_tree(cloud, 10);
+  std::uint32_t wide = 0;
+  for (const ChunkNode& node : tree.nodes) {
+    for (int c = 0; c < node.children; ++c) {
+      wide += node.count[c] > 0 && child_bound(node, c).extent.x > 100 ? 1 : 0;
+    }
+  }
+  CHECK(wide == 1);
+}
+
+TEST_CASE("bound of one Gaussian: k sqrt(Sigma_aa), by hand") {
+  // A needle of length 2 along x, turned by 45 degrees about z; opacity 0.5: k^2 = 2 ln 127.5.
+  const float half = std::sqrt(0.5F);
+  const float turn[2] = {std::cos(0.39269908F), std::sin(0.39269908F)};
+  const Gaussian<float> g{{1, 2, 3}, {2, 0, 0}, {turn[0], 0, 0, turn[1]}, 0.5F};
+  const ChunkBound bound = gaussian_bound(g);
+  const float k = std::sqrt(2 * std::log(127.5F));
+  CHECK(bound.extent.x == Approx(k * 2 * half).epsilon(1e-4));
+  CHECK(bound.extent.y == Approx(k * 2 * half).epsilon(1e-4));
+  CHECK(bound.extent.z == Approx(0).margin(1e-6));
+  CHECK(bound.scale_max == 2);
+  CHECK(bound.low == g.mean);
+  CHECK(bound.high == g.mean);
+}
