@@ -139,9 +139,8 @@ def write(
     for (point, views), of_point, best in zip(built, values, front):
         chosen = dict(a.split("=", 1) for a in point)
         binders = sorted({view["binding"]["unit"] for view in views})
-        rows.append(
-            (*(chosen.get(key, "") for key in keys), *of_point, "+".join(binders), "yes" if best else "")
-        )
+        settings = [chosen.get(key, "") for key in keys]
+        rows.append((*settings, *of_point, "+".join(binders), "yes" if best else ""))
     head = (*keys, *names, "binding", "pareto")
     tables.write_text(arguments.out / "explore.csv", tables.csv_text(head, rows))
 
