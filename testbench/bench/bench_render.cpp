@@ -58,7 +58,7 @@ ViewCounts count(const View<float>& view, const ActivatedCloud& cloud) {
     const SplatBins bins = bin_splats(grid, batch.data(), batch.size());
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t tile) {
       for (std::size_t i = bins.first[tile]; i != bins.first[tile + 1]; ++i) {
-        blends[tile] += tiles[tile].blend(batch[bins.entries[i]]);
+        blends[tile] += tiles[tile].blend(batch[bins.entries[i]]).blended;
       }
     });
   }
