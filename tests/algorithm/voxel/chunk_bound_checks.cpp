@@ -26,6 +26,11 @@ struct Found {
   }
 };
 
+bool could_blend(const View<float>& view, const Gaussian<float>& g, const PixelRect& group) {
+  Splat splat{};
+  return make_geometry(view, g, splat) && reaches_group(splat, group);
+}
+
 class Checker {
  public:
   Checker(const View<float>& view, const ActivatedCloud& cloud, const ChunkTree& tree,
@@ -60,8 +65,7 @@ class Checker {
     Found found;
     if (!coarse.in_front) return found;
     found.nearest = coarse.depth;
-    Splat splat{};
-    found.blended = make_geometry(view_, g, splat) && reaches_group(splat, group);
+    found.blended = could_blend(view_, g, group);
     tally_.splats += found.blended ? 1 : 0;
     if (found.blended && !touches(coarse, group)) tally_.failure = "coarse filter";
     return found;
@@ -115,6 +119,49 @@ void fuzz_chunk_bounds(unsigned first_seed, unsigned scenes) {
              100.0 * static_cast<double>(tally.in_vain) / static_cast<double>(tally.accepted));
   CHECK(tally.splats > 10 * scenes);
   CHECK(tally.accepted < tally.chunks);
+}
+
+int check_bounds_at_the_edge(unsigned seed, int gaussians) {
+  HardScenes hard(seed);
+  int edges = 0;
+  for (int k = 0; k < gaussians; ++k) {
+    // From a ball or a needle to a scale that only tiles cut; opaque, so that the reach is largest.
+    Camera camera;
+    camera.width = camera.height = 256;
+    camera.focal_x = camera.focal_y = hard.uniform(100, 400);
+    const View<float> view = make_view<float>(camera);
+    const int side = 4 * (1 + hard.pick(16));
+    const int x0 = 4 * hard.pick(48), y0 = 4 * hard.pick(48);
+    const PixelRect group{x0, y0, std::min(x0 + side, 256), std::min(y0 + side, 256)};
+    Gaussian<float> g{};
+    g.quat = {1, 0, 0, 0};
+    g.opacity = 1;
+    g.mean.z = static_cast<float>(hard.uniform(0.21, 20));
+    const double sigma_px = std::exp(hard.uniform(-8, 7));
+    g.scale = glm::vec3(static_cast<float>(sigma_px * g.mean.z / camera.focal_x));
+    if (hard.pick(2) == 0) g.scale[hard.pick(3)] *= 1e-3F;
+    const double middle[2] = {0.5 * (group.x0 + group.x1), 0.5 * (group.y0 + group.y1)};
+    for (int axis = 0; axis < 2; ++axis) {
+      g.mean[axis] = static_cast<float>((middle[axis] - 127.5) / camera.focal_x * g.mean.z);
+    }
+    const int axis = hard.pick(2);
+    if (!could_blend(view, g, group)) continue;
+    float reached = g.mean[axis];
+    float beyond = reached + (hard.pick(2) == 0 ? 1.0F : -1.0F) *
+                                 static_cast<float>((400 + 8 * sigma_px) * g.mean.z / 100);
+    g.mean[axis] = beyond;
+    if (could_blend(view, g, group)) continue;
+    for (int step = 0; step < 40; ++step) {
+      const float between = 0.5F * (reached + beyond);
+      g.mean[axis] = between;
+      (could_blend(view, g, group) ? reached : beyond) = between;
+    }
+    g.mean[axis] = reached;
+    ++edges;
+    const ChunkTest test = GroupFrustum(view, group).test(gaussian_bound(g));
+    if (!test.touches) FAIL("Gaussian " << k << ", sigma " << sigma_px << " px");
+  }
+  return edges;
 }
 
 }  // namespace sgs::test

@@ -22,4 +22,8 @@ void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, int group_p
 // Random hard scenes; prints how tight the test is.
 void fuzz_chunk_bounds(unsigned first_seed, unsigned scenes);
 
+// Random Gaussians moved sideways until they only just reach a group: the least favourable place
+// for the test, which knows their exact bounds here. Returns how many there were.
+int check_bounds_at_the_edge(unsigned seed, int gaussians);
+
 }  // namespace sgs::test

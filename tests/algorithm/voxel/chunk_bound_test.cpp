@@ -1,6 +1,7 @@
 // The test of a chunk against a pixel group: by brute force on random scenes, and by hand.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/chunk_test.h"
@@ -9,6 +10,36 @@
 using namespace sgs;
 
 TEST_CASE("chunk test misses nothing: random hard scenes") { test::fuzz_chunk_bounds(0, 15000); }
+
+TEST_CASE("chunk test misses nothing: Gaussians that only just reach a group") {
+  CHECK(test::check_bounds_at_the_edge(1, 50000) > 20000);
+}
+
+TEST_CASE("nearest depth of a box: its corners are not nearer") {
+  test::HardScenes hard(3);
+  for (int round = 0; round < 20000; ++round) {
+    const test::HardScene scene = hard.next(1, 100);
+    const View<float> view = make_view<float>(scene.camera);
+    const glm::vec3 from = scene.cloud.means[0];
+    const auto size = static_cast<float>(std::exp(hard.uniform(-8, 8)));
+    const glm::vec3 to = from + size * glm::vec3(glm::dvec3(hard.uniform(0, 1), hard.uniform(0, 1),
+                                                            hard.uniform(0, 1)));
+    ChunkBound bound;
+    bound.low = from;
+    bound.high = to;
+    bound.extent = glm::vec3(std::numeric_limits<float>::infinity());
+    bound.scale_max = 1e30F;
+    const ChunkTest test = GroupFrustum(view, {0, 0, view.width, view.height}).test(bound);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::vec3 p((corner & 1) != 0 ? to.x : from.x, (corner & 2) != 0 ? to.y : from.y,
+                        (corner & 4) != 0 ? to.z : from.z);
+      const float depth = to_camera(view, p).z;
+      if (!(depth > 0.2F)) continue;
+      REQUIRE(test.touches);
+      REQUIRE(test.nearest <= depth);
+    }
+  }
+}
 
 TEST_CASE("chunk test misses nothing: coordinates near the end of float") {
   for (const float far : {1e18F, 1e30F, 1e36F, 3e38F}) {
