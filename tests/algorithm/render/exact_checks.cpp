@@ -1,0 +1,92 @@
+// Comparison of exact order with the reference renderer.
+#include "tests/algorithm/render/exact_checks.h"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "algorithm/render/reference_renderer.h"
+#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/ply_reader.h"
+#include "algorithm/splat/activate.h"
+#include "tests/algorithm/voxel/hard_scenes.h"
+#include "tests/support/shared_inputs.h"
+
+namespace sgs::test {
+namespace {
+
+std::string first_difference(const RenderResult& got, const RenderResult& expected) {
+  for (std::size_t i = 0; i < expected.image.pixels.size(); ++i) {
+    // Bits, not values: also a zero's sign and colours that are no numbers.
+    const bool same =
+        std::memcmp(&got.image.pixels[i], &expected.image.pixels[i], sizeof(glm::vec3)) == 0 &&
+        std::memcmp(&got.transmittance[i], &expected.transmittance[i], sizeof(float)) == 0 &&
+        got.contributors[i] == expected.contributors[i];
+    if (same) continue;
+    const auto width = static_cast<std::size_t>(expected.image.width);
+    return fmt::format("pixel ({}, {}): {} contributors, T {}, red {}; expected {}, {}, {}",
+                       i % width, i / width, got.contributors[i], got.transmittance[i],
+                       got.image.pixels[i].x, expected.contributors[i], expected.transmittance[i],
+                       expected.image.pixels[i].x);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string difference_from_reference(const View<float>& view, const ActivatedCloud& cloud,
+                                      const ChunkTree& tree, const ExactOrderConfig& config) {
+  return first_difference(render_exact_order(view, cloud, tree, config).frame,
+                          render_reference(view, cloud, config.background));
+}
+
+void fuzz_exact_order(unsigned first_seed, unsigned scenes) {
+  std::uint64_t contributors = 0, saved = 0;
+  for (unsigned seed = first_seed; seed < first_seed + scenes; ++seed) {
+    HardScenes hard(seed);
+    constexpr std::size_t kCounts[] = {0, 1, 30, 300, 2000};
+    const HardScene scene = hard.next(kCounts[hard.pick(5)], hard.pick(20) == 0 ? 1 : 160);
+    const ActivatedCloud cloud = activate(scene.cloud);
+    const auto chunk = static_cast<std::uint32_t>(1 + hard.pick(hard.pick(2) == 0 ? 16 : 256));
+    const ChunkTree tree =
+        build_chunk_tree(cloud, chunk, hard.pick(2) == 0 ? Stored::kVisible : Stored::kAll);
+    ExactOrderConfig config;
+    config.group_px = 4 * (1 + hard.pick(50));
+    config.merge_entries = static_cast<std::uint32_t>(2 + hard.pick(100));
+    config.walk_queue_entries = static_cast<std::uint32_t>(9 + hard.pick(60));
+    config.background = {0.25F, 0.5F, 1};
+    const View<float> view = make_view<float>(scene.camera);
+    const StreamingResult exact = render_exact_order(view, cloud, tree, config);
+    const RenderResult reference = render_reference(view, cloud, config.background);
+    const std::string difference = first_difference(exact.frame, reference);
+    if (!difference.empty()) FAIL("seed " << seed << ": " << difference);
+    if (exact.stats.misordered != 0) FAIL("seed " << seed << ": blended out of order");
+    contributors += exact.stats.contributors;
+    saved += cloud.size() * exact.stats.groups - exact.stats.first_halves;
+  }
+  fmt::print("{} blends over {} scenes, {} first halves left out\n", contributors, scenes, saved);
+  CHECK(contributors > 1000 * std::uint64_t{scenes});
+  CHECK(saved > 0);
+}
+
+void check_exact_on_shared(const std::string& name) {
+  const auto cameras = read_cameras(shared_path("cameras/" + name + ".json"));
+  const ActivatedCloud cloud = activate(read_ply(shared_scene(name)).cloud);
+  ExactOrderConfig shipped;
+  shipped.group_px = 128;
+  ExactOrderConfig small;
+  small.group_px = 32;
+  small.merge_entries = 64;
+  small.walk_queue_entries = 24;
+  const ChunkTree of_16 = build_chunk_tree(cloud, 16), of_100 = build_chunk_tree(cloud, 100);
+  for (const Camera& camera : cameras) {
+    CAPTURE(name, camera.id);
+    const View<float> view = make_view<float>(camera);
+    const RenderResult reference = render_reference(view, cloud, shipped.background);
+    CHECK(first_difference(render_exact_order(view, cloud, of_16, shipped).frame, reference) == "");
+    CHECK(first_difference(render_exact_order(view, cloud, of_100, small).frame, reference) == "");
+  }
+}
+
+}  // namespace sgs::test
