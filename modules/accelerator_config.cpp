@@ -173,11 +173,12 @@ void visit(ConfigVisitor& v, AcceleratorConfig& c) {
     names<Ordering>({{"exact", Ordering::kExact}, {"paper", Ordering::kPaper}}),
     "order of blending");
   v("clock_mhz", c.clock_mhz, in_range(1, 10000), "clock of all units");
-  v("group_px", c.group_px, in_range(4, kMaxGroupPx), "side of a pixel group, a multiple of 4");
+  v("group_px", c.group_px, in_range(0, kMaxGroupPx),
+    "side of a pixel group, a multiple of 4; 0: the largest that fits the SRAM");
   v("voxel_size", c.voxel_size, in_range(0, 1e9),
     "world units; 0: 0.4 for a scene below 10 units across, else 2");
-  v("chunk_gaussians", c.chunk_gaussians, in_range(1, 65535),
-    "exact order: most Gaussians in a chunk");
+  v("chunk_gaussians", c.chunk_gaussians, in_range(0, 65535),
+    "exact order: most Gaussians in a chunk; 0: as many as lie together in a DRAM row");
   v("framebuffer", c.framebuffer,
     names<FrameFormat>({{"rgb8", FrameFormat::kRgb8}, {"rgb32f", FrameFormat::kRgb32f}}),
     "pixels in DRAM");
@@ -224,7 +225,7 @@ SramBudget sram_budget(const AcceleratorConfig& c) {
 }
 
 void AcceleratorConfig::validate() const {
-  if (group_px % kSubtilePx != 0) {
+  if (group_px == 0 || group_px % kSubtilePx != 0) {
     throw InputError(fmt::format("group_px: {} is not a multiple of {}", group_px, kSubtilePx));
   }
   if (hfu.slice_gaussians * kFirstHalfBytes % 32 != 0) {

@@ -19,6 +19,7 @@
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "modules/accelerator.h"
+#include "modules/auto_config.h"
 #include "modules/config/strict_json.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/report.h"
@@ -48,12 +49,13 @@ std::string config_path(const std::string& config) {
   return config;
 }
 
-AcceleratorConfig read_config(const Arguments& arguments) {
+AcceleratorConfig read_config(const Arguments& arguments, std::vector<AutoChoice>& chosen) {
   ConfigDocument document;
   document.add_file(config_path(arguments.config));
   for (const std::string& assignment : arguments.overrides) document.add_override(assignment);
   AcceleratorConfig config;
   document.read_into(config);
+  chosen = resolve_auto(config);
   config.validate();
   return config;
 }
@@ -173,8 +175,17 @@ void write_view(const fs::path& folder, const ViewFacts& facts, const Json& repo
   write_text(folder / "report.json", report.dump(2) + "\n");
 }
 
+Json list_choices(const std::vector<AutoChoice>& chosen) {
+  Json list = Json::array();
+  for (const AutoChoice& choice : chosen) {
+    list.push_back({{"key", choice.key}, {"value", choice.value}, {"why", choice.why}});
+  }
+  return list;
+}
+
 int run(const Arguments& arguments) {
-  const AcceleratorConfig config = read_config(arguments);
+  std::vector<AutoChoice> chosen;
+  const AcceleratorConfig config = read_config(arguments, chosen);
   if (arguments.print_config) {
     fmt::print("{}\n", config_to_json(config));
     return 0;
@@ -200,6 +211,7 @@ int run(const Arguments& arguments) {
     const ViewFacts facts = simulate_view(prepared, number, camera, config, options);
     Json report = view_report(facts, config);
     report["config"] = resolved;
+    report["chosen"] = list_choices(chosen);
     report["host"]["wall_s"] = seconds_since(began);
     report["host"]["peak_rss_bytes"] = peak_rss_bytes();
     report["provenance"] = {
