@@ -28,9 +28,6 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const Config& config
                     this->name(), config.max_transaction_bytes, config.max_outstanding));
   socket.register_nb_transport_bw(this, &MemoryPort::nb_transport_bw);
   in_flight_.reserve(config.max_outstanding);
-  SC_METHOD(update_trace);
-  sensitive << next_answer_;
-  dont_initialize();
 }
 
 MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint32_t bytes,
@@ -64,12 +61,14 @@ void MemoryPort::wait_for(Ticket ticket) {
       sc_core::wait(answered_);
     }
   }
+  note_answered();
 }
 
 void MemoryPort::wait_all() {
   if (config_.timing == TimingMode::kFast) {
     while (last_done_ > sc_core::sc_time_stamp())
       sc_core::wait(last_done_ - sc_core::sc_time_stamp());
+    note_answered();
     return;
   }
   while (outstanding_ > 0) {
@@ -178,15 +177,11 @@ void MemoryPort::send_fast(PooledPayload& payload) {
   s.done_at = std::max(s.done_at, done_at);
   if (s.remaining == 0 && s.waited_for) answered_.notify(sc_core::SC_ZERO_TIME);
   payload.release();
-  if (traced_) update_trace();
+  note_answered();
 }
 
-void MemoryPort::update_trace() {
-  bytes_outstanding_ = bytes_outstanding();
-  sc_core::sc_time next = sc_core::sc_max_time();
-  for (const InFlight& one : in_flight_)
-    if (one.done_at > sc_core::sc_time_stamp()) next = std::min(next, one.done_at);
-  if (next != sc_core::sc_max_time()) next_answer_.notify(next - sc_core::sc_time_stamp());
+void MemoryPort::note_answered() {
+  if (traced_ && config_.timing == TimingMode::kFast) bytes_outstanding_ = bytes_outstanding();
 }
 
 void MemoryPort::trace(sc_core::sc_trace_file* file) {

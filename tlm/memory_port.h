@@ -22,7 +22,6 @@ enum class TimingMode { kAccurate, kFast };
 
 class MemoryPort : public sc_core::sc_module {
  public:
-  SC_HAS_PROCESS(MemoryPort);
   tlm_utils::simple_initiator_socket<MemoryPort> socket;
 
   struct Config {
@@ -59,7 +58,9 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t bytes_read() const { return bytes_read_; }
   std::uint64_t bytes_written() const { return bytes_written_; }
 
-  // Adds the bytes outstanding to a waveform; before the simulation starts.
+  // Adds the bytes outstanding to a waveform; before the simulation starts. kFast: an answer shows
+  // when the unit next uses or waits for the port, since an event of its own would change the order
+  // in which things of one time happen.
   void trace(sc_core::sc_trace_file* file);
 
  private:
@@ -81,8 +82,8 @@ class MemoryPort : public sc_core::sc_module {
 
   void send_accurate(PooledPayload& payload);
   void send_fast(PooledPayload& payload);
+  void note_answered();  // kFast, while traced
   void drop_answered();  // kFast: forgets transactions whose time has come
-  void update_trace();   // method; kFast: answers come without an event of their own
   void request_taken(const tlm::tlm_generic_payload& payload);
   void finish(tlm::tlm_generic_payload& payload);
   void check_response(const tlm::tlm_generic_payload& payload) const;
@@ -109,7 +110,6 @@ class MemoryPort : public sc_core::sc_module {
   sc_core::sc_event answered_;  // a ticket that someone waits for is done
   sc_core::sc_event drained_;
   bool traced_ = false;
-  sc_core::sc_event next_answer_;  // kFast, while traced
 
   std::uint64_t transactions_ = 0;
   std::uint64_t bytes_read_ = 0;
