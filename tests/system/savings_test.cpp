@@ -1,0 +1,88 @@
+// Each saving, switched off: the same pixels, and more work.
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using Json = nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+struct Pair {
+  Pair(Arguments scene, const std::string& off)
+      : with(scene), without([&] {
+          scene.insert(scene.end(), {"--set", off});
+          return scene;
+        }()) {
+    with.check();
+    without.check();
+    for (std::size_t v = 0; v < with.views().size(); ++v) CHECK(with.frame(v) == without.frame(v));
+  }
+  // A sum over the views.
+  template <class Value>
+  static std::uint64_t sum(const Simulation& of, Value&& value) {
+    std::uint64_t out = 0;
+    for (const Json& view : of.views()) out += value(view);
+    return out;
+  }
+  template <class Value>
+  void check_more(Value&& value) const {
+    CHECK(sum(without, value) > sum(with, value));
+  }
+  Simulation with, without;
+};
+
+const Arguments kScene = {
+    "builtin:outdoor?n=4000", "--view", "all", "--size", "160x90", "--set", "group_px=16"};
+
+Arguments in_order(const char* order) {
+  Arguments all = kScene;
+  all.insert(all.end(), {"--config", order});
+  return all;
+}
+
+TEST_CASE("savings: Gaussians that no view can show are not stored") {
+  // Voxels so large that each holds something visible: a voxel of its own would join the graph of a
+  // group's rays and could change the order of others that no ray had put in order.
+  Arguments paper = in_order("paper");
+  paper.insert(paper.end(), {"--set", "voxel_size=100"});
+  for (const Arguments& arguments : {paper, in_order("exact")}) {
+    const Pair pair(arguments, "store_invisible=true");
+    pair.check_more([](const Json& v) { return total(v, "first_halves"); });
+  }
+}
+
+TEST_CASE("savings: a list of one splat is not sent through the network") {
+  const Pair pair(in_order("paper"), "sorting.skip_trivial=false");
+  pair.check_more([](const Json& v) { return total(v, "compare_exchanges"); });
+}
+
+TEST_CASE("savings: finished groups are reported back") {
+  for (const char* order : {"paper", "exact"}) {
+    const Pair pair(
+        {"builtin:object?n=30000", "--size", "160x90", "--set", "group_px=16", "--config", order},
+        "rendering.saturation_feedback=false");
+    pair.check_more([](const Json& v) { return v["dram"]["bytes"].get<std::uint64_t>(); });
+    pair.check_more([](const Json& v) { return total(v, "second_halves"); });
+  }
+}
+
+TEST_CASE("savings: the coarse filter spares second halves") {
+  for (const char* order : {"paper", "exact"}) {
+    const Pair pair(in_order(order), "hfu.coarse_filter=false");
+    pair.check_more([](const Json& v) { return total(v, "second_halves"); });
+  }
+}
+
+TEST_CASE("savings: sub-tiles that the ellipse cannot reach are skipped") {
+  for (const char* order : {"paper", "exact"}) {
+    const Pair pair(in_order(order), "rendering.ellipse_test=false");
+    pair.check_more([](const Json& v) { return total(v, "subtile_blends"); });
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test
