@@ -71,7 +71,8 @@ class SpillReader {
     load();
   }
 
-  bool exhausted() const { return taken_ == run_.entries; }
+  bool exhausted() const { return left() == 0; }
+  std::uint64_t left() const { return run_.entries - taken_; }  // entries not yet taken
   const typename Codec::Entry& front() const { return front_; }
 
   void pop() {

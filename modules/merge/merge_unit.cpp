@@ -282,6 +282,7 @@ MergeUnit::RunReader* MergeUnit::nearest_run() {
 // The group is finished, or done with: nothing that still waits is needed.
 void MergeUnit::drop_all() {
   counters_.dropped_saturated += pending_count_;
+  for (const RunReader& run : runs_) counters_.dropped_saturated += run.left();
   pending_.clear();
   pending_count_ = 0;
   if (!runs_.empty()) await_all(port_, activity_);  // blocks that are still on their way
