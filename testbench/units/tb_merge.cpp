@@ -1,0 +1,455 @@
+// Merge unit alone: sorted keys of the visits of several groups in, keys in final order out.
+// Checked against std::sort by (depth, index in the file); cycles, bytes and conservation.
+#include <algorithm>
+#include <limits>
+
+#include "modules/merge/merge_unit.h"
+#include "testbench/units/case_runner.h"
+#include "testbench/units/random_splats.h"
+#include "testbench/units/unit_bench.h"
+
+namespace sgs::tb {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+struct Key {
+  float depth;
+  std::uint32_t slot;
+};
+
+struct Visit {
+  std::vector<Key> keys;            // by depth, then slot, as a sorting unit hands them on
+  float release_below = kInfinity;  // no key of a later visit is nearer
+};
+
+struct Group {
+  std::vector<Visit> visits;
+  std::uint64_t saturates_after = ~std::uint64_t{0};  // released keys
+};
+
+struct Plan {
+  MergeConfig config;
+  std::uint32_t sorters = 2, hfus = 4;
+  std::uint32_t input_entries = 16, output_entries = 4;
+  std::uint32_t slots = 0;              // of the scene: what the spill area is sized for
+  std::vector<std::uint32_t> index_of;  // [slots] in the file
+  std::vector<Group> groups;
+};
+
+// A frame whose groups are the plan's, with an index region and a spill region.
+FrameJob job_of(const Plan& plan) {
+  const std::uint64_t spill_bytes = 2ULL * plan.slots * kSpilledKeyBytes;
+  FrameJob job =
+      frame_job(16 * static_cast<int>(plan.groups.size()), 16, 16, FrameFormat::kRgb8, spill_bytes);
+  const RegionRange& frame = job.layout[Region::kFrameBuffer];
+  constexpr std::uint64_t kAlignment = 4096;
+  job.layout.regions[region_id(Region::kIndices)] = {(frame.end() / kAlignment + 1) * kAlignment,
+                                                     plan.slots * sizeof(std::uint32_t)};
+  job.layout.gaussian_count = plan.slots;
+  return job;
+}
+
+std::vector<std::byte> index_bytes(const Plan& plan) {
+  std::vector<std::byte> bytes(plan.index_of.size() * sizeof(std::uint32_t));
+  if (!bytes.empty()) std::memcpy(bytes.data(), plan.index_of.data(), bytes.size());
+  return bytes;
+}
+
+FineCandidate candidate(std::uint32_t group, std::uint32_t visit, const Key& key) {
+  FineCandidate c;
+  c.group = group;
+  c.visit = visit;
+  c.slot = key.slot;
+  c.depth = key.depth;
+  // Anything that must arrive as it left.
+  c.mean_x = static_cast<float>(key.slot) + 0.25F;
+  c.mean_y = -c.mean_x;
+  c.mean_z = key.depth + 1;
+  c.scale_max = 0.5F + static_cast<float>(key.slot % 7);
+  return c;
+}
+
+bool same_payload(const FineCandidate& a, const FineCandidate& b) {
+  return a.slot == b.slot && a.depth == b.depth && a.mean_x == b.mean_x && a.mean_y == b.mean_y &&
+         a.mean_z == b.mean_z && a.scale_max == b.scale_max;
+}
+
+// Slots in the order of release. Exact: all by (depth, index). blend_early: what the renderer of
+// algorithm/ does, in words: after a visit what is final goes, then the nearest until the rest
+// fits.
+std::vector<Key> expected_order(const Plan& plan, const Group& group) {
+  const auto in_order = [&](const Key& a, const Key& b) {
+    return a.depth < b.depth ||
+           (a.depth == b.depth && plan.index_of[a.slot] < plan.index_of[b.slot]);
+  };
+  std::vector<Key> waiting, out;
+  for (const Visit& visit : group.visits) {
+    waiting.insert(waiting.end(), visit.keys.begin(), visit.keys.end());
+    if (plan.config.on_overflow == OnOverflow::kSpill) continue;
+    std::sort(waiting.begin(), waiting.end(), in_order);
+    std::size_t gone = 0;
+    while (gone < waiting.size() && (waiting[gone].depth < visit.release_below ||
+                                     waiting.size() - gone > plan.config.entries)) {
+      out.push_back(waiting[gone++]);
+    }
+    waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(gone));
+  }
+  std::sort(waiting.begin(), waiting.end(), in_order);
+  out.insert(out.end(), waiting.begin(), waiting.end());
+  return out;
+}
+
+struct Run {
+  UnitBench bench;
+  FrameJob job;
+  SaturationBoard board;
+  std::vector<TimedFifo<FineCandidate>*> inputs, outputs;
+  MergeUnit unit;
+
+  Run(Case& test, const BenchConfig& config, const Plan& plan)
+      : bench(test, config),
+        job(job_of(plan)),
+        board(plan.groups.size()),
+        inputs(fifos("sorted_by", plan.sorters, plan.input_entries)),
+        outputs(fifos("to_hfu", plan.hfus, plan.output_entries)),
+        unit("merge", plan.config, bench.clock(), job, board, bench.port(), inputs, outputs,
+             job.layout[Region::kSpill].base, job.layout[Region::kSpill].bytes) {
+    bench.load(job.layout[Region::kIndices].base, index_bytes(plan));
+  }
+
+  std::vector<TimedFifo<FineCandidate>*> fifos(const std::string& name, std::uint32_t count,
+                                               std::uint32_t entries) {
+    std::vector<TimedFifo<FineCandidate>*> out;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      out.push_back(&bench.add_fifo<FineCandidate>(fmt::format("{}{}", name, k), entries, 1));
+    }
+    return out;
+  }
+};
+
+// One thread a sorting unit: its visits, each with its mark; a group's end is a visit of its own.
+void add_sorters(Run& run, const Plan& plan) {
+  for (std::uint32_t s = 0; s < plan.sorters; ++s) {
+    run.bench.add_thread(fmt::format("sorter{}", s), [&, s](Activity& activity) {
+      std::uint32_t number = 0;
+      for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
+        const std::vector<Visit>& visits = plan.groups[g].visits;
+        for (std::size_t v = 0; v <= visits.size(); ++v, ++number) {
+          if (number % plan.sorters != s) continue;
+          FineCandidate end;
+          end.group = g;
+          end.visit = number;
+          end.mark = v < visits.size() ? Mark::kEndOfVisit : Mark::kEndOfGroup;
+          end.release_below = v < visits.size() ? visits[v].release_below : kInfinity;
+          if (v < visits.size()) {
+            for (const Key& key : visits[v].keys) {
+              run.inputs[s]->push(candidate(g, number, key), activity);
+            }
+          }
+          run.inputs[s]->push(end, activity);
+        }
+      }
+    });
+  }
+}
+
+// Takes the keys in turn, as rendering takes their splats.
+void add_reader(Run& run, const Plan& plan) {
+  run.bench.add_thread("reader", [&](Activity& activity) {
+    Checks& checks = run.bench.checks();
+    std::size_t turn = 0;
+    const auto next = [&] { return run.outputs[turn++ % plan.hfus]->pop(activity); };
+    for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
+      const Group& group = plan.groups[g];
+      const std::vector<Key> expected = expected_order(plan, group);
+      std::size_t got = 0;
+      FineCandidate key = next();
+      for (; key.mark == Mark::kNone; key = next(), ++got) {
+        const bool there = got < expected.size();
+        checks.that(there, fmt::format("group {}: too many keys", g));
+        if (there) {
+          checks.that(
+              key.group == g && same_payload(key, candidate(g, 0, expected[got])),
+              fmt::format("group {}, key {}: slot {} at depth {}, expected {} at {}", g, got,
+                          key.slot, key.depth, expected[got].slot, expected[got].depth));
+        }
+        if (got + 1 >= group.saturates_after) run.board.set(g);
+      }
+      checks.that(key.mark == Mark::kEndOfGroup && key.group == g, fmt::format("group {}: end", g));
+      if (group.saturates_after == ~std::uint64_t{0}) {
+        checks.equal(got, expected.size(), fmt::format("group {}: keys", g));
+      }
+    }
+  });
+}
+
+void check_counters(Run& run, const Plan& plan) {
+  Checks& checks = run.bench.checks();
+  const MergeCounters& c = run.unit.counters();
+  std::uint64_t keys = 0;
+  bool saturating = false;
+  for (const Group& group : plan.groups) {
+    saturating = saturating || group.saturates_after != ~std::uint64_t{0};
+    for (const Visit& visit : group.visits) keys += visit.keys.size();
+  }
+  checks.equal(c.keys, keys, "keys received");
+  checks.equal(c.released + c.dropped_saturated, keys, "keys accounted for");
+  if (!saturating) checks.equal(c.released, keys, "keys released");
+  // A cycle in, a cycle out, a cycle a mark, a cycle each time into DRAM.
+  checks.equal(run.unit.activity().busy_cycles(),
+               c.keys + c.released + plan.groups.size() + c.keys_spilled, "busy cycles");
+  checks.equal(run.bench.port().bytes_written(), c.keys_spilled * kSpilledKeyBytes,
+               "bytes written");
+  if (!saturating) {
+    checks.that(run.bench.port().bytes_read() >= c.keys_spilled * kSpilledKeyBytes,
+                "spilled keys were read back");
+  }
+  if (plan.config.on_overflow == OnOverflow::kSpill) {
+    checks.that(c.pending_max <= plan.config.entries, "more keys wait than fit");
+    checks.equal(c.forced_early, std::uint64_t{0}, "keys forced out");
+  } else {
+    checks.equal(c.runs_spilled, std::uint64_t{0}, "runs spilled");
+  }
+  // Nothing went past the spill area.
+  const RegionRange& frame = run.job.layout[Region::kFrameBuffer];
+  const std::vector<std::byte> behind = run.bench.read_back(
+      run.job.layout[Region::kSpill].end(), frame.end() - run.job.layout[Region::kSpill].end());
+  checks.that(
+      std::all_of(behind.begin(), behind.end(), [](std::byte b) { return b == std::byte{}; }),
+      "written past the spill area");
+}
+
+MergeCounters run_plan(Case& test, const BenchConfig& config, const Plan& plan) {
+  Run run(test, config, plan);
+  add_sorters(run, plan);
+  add_reader(run, plan);
+  run.bench.run(run.unit);
+  run.bench.check_times(std::vector<Activity*>{&run.unit.activity()});
+  check_counters(run, plan);
+  return run.unit.counters();
+}
+
+BenchConfig still_bench(const Plan& plan) {
+  BenchConfig config;
+  config.memory_bytes = job_of(plan).layout[Region::kIndices].end();
+  return config;
+}
+
+Plan plan_of(std::mt19937_64& random, std::uint32_t slots) {
+  Plan plan;
+  plan.slots = slots;
+  for (std::uint32_t slot = 0; slot < slots; ++slot) plan.index_of.push_back(slot);
+  std::shuffle(plan.index_of.begin(), plan.index_of.end(), random);
+  return plan;
+}
+
+// Visits of up to `chunk` neighbouring slots each. depths: how many different ones, so that ties
+// lie within visits and across them; a visit's nearest key may be as near as the visit before
+// allowed, and no nearer. Some visits have no key, some slots are left out.
+Group random_group(std::mt19937_64& random, const Plan& plan, std::uint32_t chunk,
+                   std::uint32_t depths) {
+  Group group;
+  std::vector<std::uint32_t> firsts;
+  for (std::uint32_t slot = 0; slot < plan.slots; slot += chunk) firsts.push_back(slot);
+  std::shuffle(firsts.begin(), firsts.end(), random);
+  std::uint32_t nearest = 0;
+  for (const std::uint32_t first : firsts) {
+    Visit visit;
+    for (std::uint32_t slot = first; slot < std::min(first + chunk, plan.slots); ++slot) {
+      if (random() % 4 == 0) continue;
+      const auto depth = nearest + static_cast<std::uint32_t>(random() % (depths - nearest));
+      visit.keys.push_back({0.5F + static_cast<float>(depth), slot});
+    }
+    std::sort(visit.keys.begin(), visit.keys.end(), [](const Key& a, const Key& b) {
+      return a.depth < b.depth || (a.depth == b.depth && a.slot < b.slot);
+    });
+    if (random() % 3 == 0) {
+      nearest += static_cast<std::uint32_t>(random() % (1 + (depths - 1 - nearest) / 4));
+    }
+    visit.release_below = 0.5F + static_cast<float>(nearest);
+    group.visits.push_back(visit);
+  }
+  if (!group.visits.empty()) group.visits.back().release_below = kInfinity;
+  return group;
+}
+
+// One group, one visit: n keys, depths descending with the slot so that spills take from the front.
+Group one_visit(std::uint32_t n, bool tied) {
+  Group group;
+  group.visits.emplace_back();
+  for (std::uint32_t i = 0; i < n; ++i) {
+    group.visits[0].keys.push_back({tied ? 1.0F : 1.0F + static_cast<float>(i), i});
+  }
+  return group;
+}
+
+void random_case(Case& test) {
+  std::mt19937_64& random = test.random;
+  Plan plan = plan_of(random, static_cast<std::uint32_t>(random() % 400));
+  plan.sorters = 1 + static_cast<std::uint32_t>(random() % 4);
+  plan.hfus = 1 + static_cast<std::uint32_t>(random() % 5);
+  plan.input_entries = 1 + static_cast<std::uint32_t>(random() % 16);
+  plan.output_entries = 1 + static_cast<std::uint32_t>(random() % 6);
+  plan.config.entries = 2 + static_cast<std::uint32_t>(random() % (random() % 2 == 0 ? 20 : 400));
+  plan.config.spill_runs = 2 + static_cast<std::uint32_t>(random() % 6);
+  plan.config.spill_block_entries = 1 + static_cast<std::uint32_t>(random() % 10);
+  if (random() % 5 == 0) plan.config.on_overflow = OnOverflow::kBlendEarly;
+  constexpr std::uint32_t kDepths[] = {1, 5, 50, 100000};
+  for (std::size_t g = 0; g < 1 + random() % 4; ++g) {
+    plan.groups.push_back(random_group(random, plan, 1 + static_cast<std::uint32_t>(random() % 40),
+                                       kDepths[random() % 4]));
+    if (random() % 4 == 0) plan.groups.back().saturates_after = 1 + random() % 100;
+  }
+  run_plan(test, random_bench(random, still_bench(plan).memory_bytes), plan);
+}
+
+// n keys without ties that wait at the input: one cycle each in, one each out.
+void exact_time(Case& test, std::uint32_t n) {
+  Plan plan = plan_of(test.random, n);
+  plan.sorters = plan.hfus = 1;
+  plan.input_entries = n + 2;
+  plan.output_entries = n + 1;
+  plan.groups.push_back(one_visit(n, false));
+  plan.groups[0].visits[0].release_below = kInfinity;
+  Run run(test, still_bench(plan), plan);
+  add_sorters(run, plan);
+  run.bench.add_thread("reader", [&](Activity& activity) {
+    // FIFO in, n in, the first out, FIFO out.
+    const std::uint64_t first = 1 + n + 1 + 1;
+    run.bench.clock().wait_cycles(first - 1);
+    run.bench.checks().that(!run.outputs[0]->can_pop(), "released a cycle too soon");
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      run.outputs[0]->pop(activity);
+      run.bench.checks().equal(run.bench.clock().now_cycles(), first + i, "time of a key");
+    }
+  });
+  run.bench.run(run.unit);
+}
+
+// What is final comes out although nothing more goes in; what ties with the bound does not.
+void final_keys_do_not_wait(Case& test) {
+  Plan plan = plan_of(test.random, 4);
+  plan.sorters = plan.hfus = 1;
+  plan.groups.emplace_back();
+  Run run(test, still_bench(plan), plan);
+  std::uint64_t last_in = 0;
+  run.bench.add_thread("sorter", [&](Activity& activity) {
+    const Key keys[] = {{1, 0}, {2, 1}, {3, 2}};
+    for (const Key& key : keys) run.inputs[0]->push(candidate(0, 0, key), activity);
+    FineCandidate end;
+    end.mark = Mark::kEndOfVisit;
+    end.release_below = 2;
+    run.inputs[0]->push(end, activity);
+    run.bench.clock().wait_cycles(1000);
+    last_in = run.bench.clock().now_cycles();
+    run.inputs[0]->push(candidate(0, 1, {2, 3}), activity);
+    end.visit = 1;
+    end.release_below = kInfinity;
+    run.inputs[0]->push(end, activity);
+    end.visit = 2;
+    end.mark = Mark::kEndOfGroup;
+    run.inputs[0]->push(end, activity);
+  });
+  run.bench.add_thread("reader", [&](Activity& activity) {
+    Checks& checks = run.bench.checks();
+    checks.equal(run.outputs[0]->pop(activity).slot, 0U, "the first key");
+    checks.that(run.bench.clock().now_cycles() < 20, "a final key waited");
+    const bool lower_first = plan.index_of[1] < plan.index_of[3];
+    checks.equal(run.outputs[0]->pop(activity).slot, lower_first ? 1U : 3U, "the nearer index");
+    checks.that(run.bench.clock().now_cycles() > last_in && last_in > 0,
+                "a key was released before its tie had come");
+    checks.equal(run.outputs[0]->pop(activity).slot, lower_first ? 3U : 1U, "the farther index");
+    checks.equal(run.outputs[0]->pop(activity).slot, 2U, "the last key");
+    checks.that(run.outputs[0]->pop(activity).mark == Mark::kEndOfGroup, "the end");
+  });
+  run.bench.run(run.unit);
+}
+
+void one_group(Case& test, std::uint32_t n, std::uint32_t entries, bool tied,
+               const std::function<void(Checks&, const MergeCounters&)>& also) {
+  Plan plan = plan_of(test.random, n);
+  plan.config.entries = entries;
+  plan.config.spill_runs = 3;
+  plan.groups.push_back(one_visit(n, tied));
+  also(test.checks, run_plan(test, still_bench(plan), plan));
+}
+
+}  // namespace
+}  // namespace sgs::tb
+
+int sc_main(int argc, char* argv[]) {
+  using namespace sgs;
+  using namespace sgs::tb;
+  CaseRunner runner("tb_merge", "Merge unit alone, against std::sort by depth and file index");
+  runner.add_directed("groups without a visit, visits without a key", [](Case& test) {
+    Plan plan = plan_of(test.random, 8);
+    plan.groups.resize(5);
+    plan.groups[1].visits.resize(3);
+    plan.groups[3].visits.resize(1);
+    run_plan(test, still_bench(plan), plan);
+  });
+  runner.add_directed("final keys do not wait, tied ones do", final_keys_do_not_wait);
+  const auto spills = [](Checks& checks, const MergeCounters& c) {
+    checks.that(c.runs_spilled > 0, "nothing was spilled");
+  };
+  const auto merges_runs = [](Checks& checks, const MergeCounters& c) {
+    checks.that(c.runs_spilled > 3, "runs were not merged");
+    checks.that(c.keys_spilled > c.keys / 2, "too few keys were spilled");
+  };
+  runner.add_directed("keys that all fit", [](Case& test) {
+    one_group(test, 100, 100, false, [](Checks& checks, const MergeCounters& c) {
+      checks.equal(c.runs_spilled, std::uint64_t{0}, "runs spilled");
+      checks.equal(c.ties, std::uint64_t{0}, "ties");
+    });
+  });
+  runner.add_directed("one key more than fits",
+                      [=](Case& test) { one_group(test, 101, 100, false, spills); });
+  runner.add_directed("many runs, merged in DRAM",
+                      [=](Case& test) { one_group(test, 700, 20, false, merges_runs); });
+  runner.add_directed("capacity of two keys",
+                      [=](Case& test) { one_group(test, 60, 2, false, merges_runs); });
+  runner.add_directed("all keys at one depth",
+                      [](Case& test) { one_group(test, 300, 300, true, [](auto&, auto&) {}); });
+  runner.add_directed("all keys at one depth, spilled",
+                      [=](Case& test) { one_group(test, 300, 20, true, spills); });
+  runner.add_directed("all keys at one depth, capacity of two keys",
+                      [=](Case& test) { one_group(test, 40, 2, true, spills); });
+  runner.add_directed("groups finished while keys wait on chip and in DRAM", [](Case& test) {
+    Plan plan = plan_of(test.random, 300);
+    plan.config.entries = 24;
+    for (const std::uint64_t after : {1U, 10U, 60U, 299U}) {
+      plan.groups.push_back(random_group(test.random, plan, 16, 20));
+      plan.groups.back().saturates_after = after;
+      plan.groups.push_back(random_group(test.random, plan, 16, 20));
+    }
+    run_plan(test, still_bench(plan), plan);
+  });
+  runner.add_directed("blend_early", [](Case& test) {
+    Plan plan = plan_of(test.random, 300);
+    plan.config.entries = 8;
+    plan.config.on_overflow = OnOverflow::kBlendEarly;
+    for (int g = 0; g < 3; ++g) plan.groups.push_back(random_group(test.random, plan, 16, 30));
+    const MergeCounters c = run_plan(test, still_bench(plan), plan);
+    test.checks.that(c.forced_early > 0, "nothing was forced out");
+  });
+  runner.add_directed("bytes of a spill: keys out and back, an index each", [](Case& test) {
+    Plan plan = plan_of(test.random, 70);
+    plan.config.entries = 64;
+    plan.groups.push_back(one_visit(70, false));
+    Run run(test, still_bench(plan), plan);
+    add_sorters(run, plan);
+    add_reader(run, plan);
+    run.bench.run(run.unit);
+    // 64 wait: an eighth goes, 8 keys, and the other 6 fit.
+    test.checks.equal(run.unit.counters().keys_spilled, std::uint64_t{8}, "keys spilled");
+    test.checks.equal(run.bench.port().bytes_written(), std::uint64_t{8 * 28}, "bytes written");
+    test.checks.equal(run.bench.port().bytes_read(), std::uint64_t{8 * 28 + 8 * 4}, "bytes read");
+  });
+  for (const std::uint32_t n : {0U, 1U, 2U, 16U, 100U}) {
+    runner.add_directed(fmt::format("time of {} keys", n),
+                        [n](Case& test) { exact_time(test, n); });
+  }
+  runner.set_random(random_case);
+  return runner.run(argc, argv);
+}
