@@ -13,6 +13,7 @@
 #include <systemc>
 
 #include "modules/accelerator.h"
+#include "modules/dram/command_trace.h"
 #include "testbench/streaminggs/measurements.h"
 #include "tlm/time_resolution.h"
 
@@ -87,10 +88,16 @@ void simulate(const AcceleratorConfig& config, const FrameJob& job, const Memory
   }
   Accelerator accelerator("accelerator", config, job, image, options.timing,
                           stalls ? &*stalls : nullptr);
+  std::optional<CommandTraceWriter> dram_trace;
+  if (!options.dram_trace_path.empty()) {
+    dram_trace.emplace(options.dram_trace_path, CommandTraceHeader::of(config.dram));
+    accelerator.dram().add_command_sink(*dram_trace);
+  }
   {
     const Waveform waveform(options.vcd_path, accelerator);
     accelerator.run();
   }
+  if (dram_trace) dram_trace->close();
   const std::string measurements = measure(accelerator);
   send(result, measurements.data(), measurements.size());
   const std::vector<std::byte> frame = accelerator.read_frame();

@@ -17,6 +17,7 @@ namespace sgs {
 struct RunOptions {
   TimingMode timing = TimingMode::kAccurate;
   std::string vcd_path;          // empty: no waveform
+  std::string dram_trace_path;   // empty: no trace of the DRAM commands
   double stall_probability = 0;  // of a random stall at each side of each FIFO, for tests
   std::uint64_t seed = 1;        // of those stalls
 };

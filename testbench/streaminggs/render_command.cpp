@@ -7,6 +7,7 @@
 
 #include "algorithm/image/image_io.h"
 #include "algorithm/input_error.h"
+#include "algorithm/render/exact_renderer.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
@@ -27,9 +28,9 @@ SubCommand add_render_command(CLI::App& app) {
   arguments->add_views_to(app);
   app.add_option("--out", arguments->out, "image: .exr, .pfm or .png")->required();
   app.add_option("--ordering", arguments->ordering, "how splats are ordered")
-      ->check(CLI::IsMember({"reference", "paper"}))
+      ->check(CLI::IsMember({"reference", "paper", "exact"}))
       ->capture_default_str();
-  app.add_option("--group", arguments->group_px, "paper order: side of a pixel group")
+  app.add_option("--group", arguments->group_px, "streaming orders: side of a pixel group")
       ->check(CLI::Range(4, 1020))
       ->capture_default_str();
   app.add_option("--voxel-size", arguments->voxel_size,
@@ -44,6 +45,15 @@ SubCommand add_render_command(CLI::App& app) {
     const ActivatedCloud cloud = activate(scene.cloud);
     if (arguments->ordering == "reference") {
       write_image(arguments->out, render_reference(view, cloud).image);
+      return 0;
+    }
+    if (arguments->ordering == "exact") {
+      ExactOrderConfig config;
+      config.group_px = arguments->group_px;
+      constexpr std::uint32_t kChunkGaussians = 16;
+      write_image(arguments->out,
+                  render_exact_order(view, cloud, build_chunk_tree(cloud, kChunkGaussians), config)
+                      .frame.image);
       return 0;
     }
     const float voxel_size =

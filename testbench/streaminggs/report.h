@@ -19,6 +19,7 @@ struct ViewFacts {
   StreamingResult golden;
   bool equals_golden = false;  // bytes of the frame buffer against the streaming renderer's
   FrameRun run;
+  std::uint64_t image_hash = 0;  // of the bytes loaded into the memory
   MemoryLayout layout;
   std::uint64_t gaussians = 0;  // in the scene
   std::uint64_t dropped_invalid = 0;

@@ -1,0 +1,39 @@
+// Hash, command line, memory.
+#include "testbench/streaminggs/provenance.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace sgs {
+
+std::uint64_t fnv1a64(const std::vector<std::byte>& bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (std::size_t at = 0; at + 8 <= bytes.size(); at += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes.data() + at, sizeof word);
+    hash = (hash ^ word) * 0x100000001b3U;
+  }
+  return hash;
+}
+
+std::string command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string line((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  while (!line.empty() && line.back() == '\0') line.pop_back();
+  std::replace(line.begin(), line.end(), '\0', ' ');
+  return line;
+}
+
+std::uint64_t peak_rss_bytes() {
+  rusage self{}, children{};
+  getrusage(RUSAGE_SELF, &self);
+  getrusage(RUSAGE_CHILDREN, &children);
+  constexpr std::uint64_t kKiB = 1024;
+  return static_cast<std::uint64_t>(std::max(self.ru_maxrss, children.ru_maxrss)) * kKiB;
+}
+
+}  // namespace sgs

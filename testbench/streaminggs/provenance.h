@@ -1,0 +1,20 @@
+// Where a result comes from.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sgs {
+
+// FNV-1a over 64-bit words: tells whether two runs were fed the same bytes.
+std::uint64_t fnv1a64(const std::vector<std::byte>& bytes);
+
+// This process' command line, its arguments separated by spaces.
+std::string command_line();
+
+// Largest resident set of this process and of those that it has waited for.
+std::uint64_t peak_rss_bytes();
+
+}  // namespace sgs
