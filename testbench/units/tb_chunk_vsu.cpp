@@ -1,0 +1,246 @@
+// Voxel sorting unit in exact order, alone: the chunk tree in memory, visits out to several HFUs.
+// Checked against the same walk over the tree itself; cycles and bytes against that walk's counts.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "algorithm/voxel/chunk_tree.h"
+#include "modules/vsu/chunk_vsu.h"
+#include "testbench/units/case_runner.h"
+#include "testbench/units/random_scene.h"
+#include "testbench/units/unit_bench.h"
+
+namespace sgs::tb {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+struct Plan {
+  VsuConfig config;
+  ChunkTree tree;
+  MemoryImage image;
+  FrameJob job;
+  std::uint32_t hfus = 4;
+  std::uint32_t fifo_entries = kVisitFifoEntries;
+  int saturate_one_in = 0;       // 0: never; else how often a reader reports a group as finished
+  bool finished_before = false;  // all groups are reported before the first visit
+};
+
+Plan plan_of(const TestScene& scene, std::uint32_t chunk) {
+  Plan plan;
+  plan.tree = build_chunk_tree(scene.cloud, chunk);
+  const std::uint64_t aside_bytes =
+      (plan.tree.chunk_count + plan.tree.nodes.size()) * kWalkEntryBytes;
+  plan.job = scene.job;
+  plan.image = build_memory_image(scene.cloud, plan.tree, aside_bytes,
+                                  std::uint64_t{pixel_bytes(plan.job.frame_format)} *
+                                      plan.job.view.width * plan.job.view.height);
+  plan.job.layout = plan.image.layout;
+  return plan;
+}
+
+// The tree as it was built, for the same walk without any time.
+struct TreeSource {
+  const ChunkTree& tree;
+  std::vector<WalkEntry> aside;
+  const ChunkNode& node(std::uint32_t index) const { return tree.nodes[index]; }
+  void put_aside(const WalkEntry& entry) { aside.push_back(entry); }
+  std::vector<WalkEntry> take_back() { return std::exchange(aside, {}); }
+  void forget_aside() { aside.clear(); }
+};
+
+struct Expected {
+  std::vector<std::vector<WalkEntry>> groups;  // chunks in order
+  WalkCounters walk;
+  std::uint64_t cycles = 0, empty = 0, visits = 0;
+};
+
+Expected expect(const Plan& plan) {
+  Expected out;
+  TreeSource source{plan.tree, {}};
+  ChunkWalk<TreeSource> walk(plan.job.view, source, plan.config.queue_entries);
+  for (const PixelRect& group : plan.job.groups) {
+    out.groups.emplace_back();
+    walk.start(group, plan.tree.nodes.empty());
+    while (true) {
+      const WalkCounters before = walk.counters();
+      const std::optional<WalkEntry> chunk = walk.next();
+      const std::uint64_t tests = walk.counters().tests - before.tests;
+      const std::uint64_t per_cycle = plan.config.tests_per_cycle;
+      // A queue operation, one a node, and the tests.
+      out.cycles +=
+          1 + (walk.counters().nodes - before.nodes) + (tests + per_cycle - 1) / per_cycle;
+      if (!chunk) break;
+      out.groups.back().push_back(*chunk);
+    }
+    out.visits += out.groups.back().size();
+    out.empty += out.groups.back().empty() ? 1 : 0;
+  }
+  out.walk = walk.counters();
+  return out;
+}
+
+// One group's visits, [first, end) of all that came out, and its end at `end`.
+void check_group(Checks& checks, std::uint32_t group, const std::vector<WalkEntry>& expected,
+                 const std::vector<VisitShare>& received, std::size_t first, std::size_t end,
+                 bool saturated) {
+  const std::size_t visits = end - first;
+  if (saturated) {
+    checks.that(visits <= expected.size(), fmt::format("group {}: too many visits", group));
+  } else {
+    checks.equal(visits, expected.size(), fmt::format("group {}: visits", group));
+  }
+  for (std::size_t k = 0; k < std::min(visits, expected.size()); ++k) {
+    const VisitShare& got = received[first + k];
+    const float below = k + 1 < expected.size() ? expected[k + 1].nearest : kInfinity;
+    checks.that(got.mark == Mark::kEndOfVisit && got.group == group && got.visit == first + k,
+                fmt::format("group {}, visit {}: group, number or mark", group, k));
+    checks.equal(got.first, expected[k].at, fmt::format("group {}, visit {}: slot", group, k));
+    checks.equal(got.count, expected[k].count, fmt::format("group {}, visit {}: count", group, k));
+    checks.equal(got.release_below, below, fmt::format("group {}, visit {}: release", group, k));
+  }
+  const VisitShare& mark = received[end];
+  checks.that(
+      mark.mark == Mark::kEndOfGroup && mark.group == group && mark.visit == end && mark.count == 0,
+      fmt::format("group {}: end", group));
+}
+
+void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected,
+                    const ChunkVsuCounters& c, std::uint64_t busy) {
+  Checks& checks = bench.checks();
+  checks.equal(bench.port().bytes_written(), c.overflowed * kWalkEntryBytes, "bytes put aside");
+  checks.that(c.queue_max <= plan.config.queue_entries, "the queue holds more than it can");
+  const std::uint64_t table_bytes = c.node_misses * sizeof(ChunkNode);
+  checks.that(bench.port().bytes_read() >= table_bytes, "bytes read of the tree");
+  checks.that(bench.port().bytes_read() <= table_bytes + c.overflowed * kWalkEntryBytes,
+              "bytes read of what was put aside");
+  if (plan.saturate_one_in > 0 || plan.finished_before) return;
+  checks.equal(c.visits, expected.visits, "visits");
+  checks.equal(c.nodes, expected.walk.nodes, "nodes opened");
+  checks.equal(c.tests, expected.walk.tests, "tests");
+  checks.equal(c.overflowed, expected.walk.overflowed, "entries put aside");
+  checks.equal(c.groups_empty, expected.empty, "empty groups");
+  checks.equal(c.groups_saturated, std::uint64_t{0}, "finished groups");
+  checks.equal(busy, expected.cycles, "busy cycles");
+  // A cache that holds the whole tree reads each node once.
+  const std::uint64_t tree_bytes = plan.tree.nodes.size() * sizeof(ChunkNode);
+  if (4 * tree_bytes <= plan.config.node_cache_bytes) {
+    checks.that(c.node_misses <= plan.tree.nodes.size(), "nodes read again");
+  }
+}
+
+void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
+  const Expected expected = expect(plan);
+  UnitBench bench(test, bench_config);
+  bench.load(0, plan.image.bytes);
+  SaturationBoard board(plan.job.groups.size());
+  for (std::uint32_t g = 0; plan.finished_before && g < plan.job.groups.size(); ++g) board.set(g);
+  std::vector<TimedFifo<VisitShare>*> visits;
+  for (std::uint32_t h = 0; h < plan.hfus; ++h) {
+    visits.push_back(&bench.add_fifo<VisitShare>(fmt::format("to_hfu{}", h), plan.fifo_entries, 1));
+  }
+  ChunkVsu unit("vsu", plan.config, bench.clock(), plan.job, board, bench.port(), visits,
+                plan.job.layout[Region::kSpill].base);
+  std::vector<VisitShare> received;
+  bench.add_thread("hfus", [&](Activity& activity) {
+    for (std::size_t ends = 0; ends < plan.job.groups.size();) {
+      received.push_back(visits[received.size() % plan.hfus]->pop(activity));
+      ends += received.back().mark == Mark::kEndOfGroup ? 1 : 0;
+      if (plan.saturate_one_in > 0 &&
+          test.random() % static_cast<unsigned>(plan.saturate_one_in) == 0) {
+        board.set(received.back().group);
+      }
+    }
+    // What the last group put aside may still be on its way.
+    constexpr std::uint64_t kLongerThanMemoryTakes = 10'000;
+    bench.clock().wait_cycles(kLongerThanMemoryTakes);
+  });
+  bench.run(unit);
+  bench.check_times(unit.activities());
+
+  std::size_t at = 0;
+  std::uint64_t visits_seen = 0;
+  for (std::uint32_t g = 0; g < plan.job.groups.size(); ++g, ++at) {
+    const std::size_t first = at;
+    while (at < received.size() && received[at].mark == Mark::kEndOfVisit) ++at;
+    bench.checks().that(at < received.size(), fmt::format("group {}: no end", g));
+    if (at == received.size()) return;
+    check_group(bench.checks(), g, expected.groups[g], received, first, at, board.saturated(g));
+    visits_seen += at - first;
+  }
+  const ChunkVsuCounters counters = unit.counters();
+  bench.checks().equal(counters.visits, visits_seen, "visits handed out");
+  if (plan.finished_before) bench.checks().equal(visits_seen, std::uint64_t{0}, "visits");
+  check_counters(bench, plan, expected, counters, unit.walk_activity().busy_cycles());
+}
+
+BenchConfig still_bench(const Plan& plan) {
+  BenchConfig config;
+  config.memory_bytes = plan.job.layout.total_bytes();
+  return config;
+}
+
+void directed(Case& test, const SceneShape& shape, std::uint32_t chunk,
+              std::uint32_t queue_entries) {
+  Plan plan = plan_of(random_scene(test.random, shape), chunk);
+  plan.config.queue_entries = queue_entries;
+  run_plan(test, still_bench(plan), plan);
+}
+
+void random_case(Case& test) {
+  std::mt19937_64& random = test.random;
+  Plan plan = plan_of(random_scene(random, random_shape(random)),
+                      1 + static_cast<std::uint32_t>(random() % 20));
+  plan.hfus = 1 + static_cast<std::uint32_t>(random() % 6);
+  plan.fifo_entries = 1 + static_cast<std::uint32_t>(random() % 6);
+  plan.config.tests_per_cycle = 1 + static_cast<std::uint32_t>(random() % 8);
+  plan.config.queue_entries =
+      kChunkNodeWidth + 1 + static_cast<std::uint32_t>(random() % (random() % 2 == 0 ? 10 : 500));
+  plan.config.node_cache_bytes = 64U << (random() % 14);
+  plan.saturate_one_in = random() % 3 == 0 ? 10 : 0;
+  run_plan(test, random_bench(random, plan.job.layout.total_bytes()), plan);
+}
+
+}  // namespace
+}  // namespace sgs::tb
+
+int sc_main(int argc, char* argv[]) {
+  using namespace sgs;
+  using namespace sgs::tb;
+  CaseRunner runner("tb_chunk_vsu", "Voxel sorting unit in exact order, against the walk alone");
+  SceneShape shape;
+  shape.gaussians = 600;
+  runner.add_directed("several groups", [=](Case& test) { directed(test, shape, 8, 512); });
+  runner.add_directed("a queue of nine entries", [=](Case& test) { directed(test, shape, 1, 9); });
+  SceneShape empty = shape;
+  empty.gaussians = 0;
+  runner.add_directed("empty scene", [=](Case& test) { directed(test, empty, 16, 512); });
+  SceneShape one = shape;
+  one.gaussians = 1;
+  runner.add_directed("one Gaussian", [=](Case& test) { directed(test, one, 16, 512); });
+  SceneShape pixel = shape;
+  pixel.width_px = pixel.height_px = 1;
+  runner.add_directed("1x1 frame", [=](Case& test) { directed(test, pixel, 16, 512); });
+  SceneShape whole = shape;
+  whole.group_px = 64;
+  runner.add_directed("group larger than the frame",
+                      [=](Case& test) { directed(test, whole, 16, 512); });
+  runner.add_directed("groups finished before they begin", [=](Case& test) {
+    Plan plan = plan_of(random_scene(test.random, shape), 8);
+    plan.finished_before = true;
+    run_plan(test, still_bench(plan), plan);
+  });
+  // Entries put aside for a group that ends early must not come back in the next.
+  runner.add_directed("groups that finish while entries are put aside", [=](Case& test) {
+    SceneShape crowded = shape;
+    crowded.gaussians = 1000;
+    crowded.group_px = 8;
+    Plan plan = plan_of(random_scene(test.random, crowded), 1);
+    plan.config.queue_entries = kChunkNodeWidth + 1;
+    plan.saturate_one_in = 12;
+    plan.fifo_entries = 1;
+    run_plan(test, still_bench(plan), plan);
+  });
+  runner.set_random(random_case);
+  return runner.run(argc, argv);
+}
