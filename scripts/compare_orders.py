@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Exact order beside paper order, every view of the given scenes: quality, traffic by region,
-cycles, and the unit that binds. Writes compare_orders.md and .csv, and compare_orders_summary.md
-with the means of each scene.
+cycles, and the unit that binds. For each size writes compare_orders_SIZE.md and .csv, a line each
+view, and compare_orders_SIZE_summary.md with the means of each scene.
 
 Traffic and time are of frames stored as rgb8 (3 B a pixel). Their PSNR would be that of 8-bit
 pixels, so quality is taken from a second simulation of each view that stores floats; the picture
@@ -20,7 +20,7 @@ from collections.abc import Sequence
 
 import run_arguments
 import tables
-from scenes import find_scenes
+from scenes import Scene, find_scenes
 from simulations import REPOSITORY, Failure, Outcome, Run, psnr_text, region_bytes, simulate_all
 
 ORDERS = ("exact", "paper")
@@ -53,11 +53,10 @@ class Measured:
         return {name: count for name in names if (count := region_bytes(self.traffic, name))}
 
 
-def measure(arguments: argparse.Namespace) -> list[Measured]:
-    scenes = find_scenes(arguments.scenes)
-    cases = list(itertools.product(arguments.sizes, scenes, ORDERS))
+def measure(arguments: argparse.Namespace, scenes: Sequence[Scene], size: str) -> list[Measured]:
+    cases = list(itertools.product(scenes, ORDERS))
     runs = []
-    for size, scene, order in cases:
+    for scene, order in cases:
         run = Run(scene, arguments.view, size, order, tuple(arguments.set), arguments.timing)
         floats = dataclasses.replace(
             run, overrides=(*run.overrides, "framebuffer=rgb32f"), timing="fast"
@@ -65,7 +64,7 @@ def measure(arguments: argparse.Namespace) -> list[Measured]:
         runs += [run, floats]
     outcomes = simulate_all(arguments.streaminggs, runs, arguments.side_by_side)
     measured = []
-    for size, scene, order in cases:
+    for scene, order in cases:
         traffic, quality = accepted(next(outcomes)), accepted(next(outcomes))
         pairs = zip(traffic.views, quality.views)
         measured += [Measured(scene.name, size, order, t, q) for t, q in pairs]
@@ -81,7 +80,6 @@ def accepted(outcome: Outcome) -> Outcome:
 
 
 HEAD = (
-    "size",
     "scene",
     "view",
     "order",
@@ -99,7 +97,6 @@ def text_row(m: Measured) -> tuple:
     t = m.traffic
     regions = ", ".join(f"{name} {count / MB:.2f}" for name, count in m.regions().items())
     return (
-        m.size,
         m.scene,
         t["view"],
         m.order,
@@ -136,7 +133,6 @@ def csv_rows(measured: Sequence[Measured]) -> tuple[list[str], list[list]]:
 
 
 SUMMARY_HEAD = (
-    "size",
     "scene",
     "exact MB",
     "yardstick MB",
@@ -154,7 +150,7 @@ SUMMARY_HEAD = (
 
 
 def summary_row(size: str, scene: str, of: dict[str, list[Measured]]) -> tuple:
-    """Means over the views of a scene; PSNR as a range."""
+    """Means over the views of a scene, frames a second of the mean time; PSNR as a range."""
 
     def mean(order: str, *path: str) -> float:
         return statistics.fmean(value_at(m.traffic, path) for m in of[order])
@@ -164,8 +160,9 @@ def summary_row(size: str, scene: str, of: dict[str, list[Measured]]) -> tuple:
         finite = [value for value in values if value is not None]
         if not finite:
             return "equal"
-        return f"{min(finite):.1f} .. " + (
-            "equal" if len(finite) < len(values) else f"{max(finite):.1f}"
+        return span(
+            f"{min(finite):.1f}",
+            "equal" if len(finite) < len(values) else f"{max(finite):.1f}",
         )
 
     yardstick = YARDSTICK_MB.get(scene) if size == YARDSTICK_SIZE else None
@@ -175,7 +172,6 @@ def summary_row(size: str, scene: str, of: dict[str, list[Measured]]) -> tuple:
     units = sorted({b["unit"] for b in binders})
     lowest, highest = (pick(b["utilisation"] for b in binders) for pick in (min, max))
     return (
-        size,
         scene,
         f"{mean('exact', 'dram', 'bytes') / MB:.1f}",
         "" if yardstick is None else f"{yardstick:.1f}",
@@ -183,13 +179,17 @@ def summary_row(size: str, scene: str, of: dict[str, list[Measured]]) -> tuple:
         f"{mean('exact', 'limit', 'ratio'):.2f}",
         f"{mean('exact', 'frame', 'cycles') / 1e6:.2f}",
         f"{mean('paper', 'frame', 'cycles') / 1e6:.2f}",
-        f"{mean('exact', 'frame', 'fps'):.0f}",
-        f"{mean('paper', 'frame', 'fps'):.0f}",
+        f"{1 / mean('exact', 'frame', 'time_s'):.0f}",
+        f"{1 / mean('paper', 'frame', 'time_s'):.0f}",
         psnr("exact"),
         psnr("paper"),
         f"{misordered / max(1, blends):.0%}",
-        f"{', '.join(units)} {lowest:.0%} .. {highest:.0%}",
+        f"{', '.join(units)} {span(f'{lowest:.0%}', f'{highest:.0%}')}",
     )
+
+
+def span(low: str, high: str) -> str:
+    return low if low == high else f"{low} .. {high}"
 
 
 def value_at(report: dict, path: Sequence[str]) -> float:
@@ -206,15 +206,17 @@ def summary_rows(measured: Sequence[Measured]) -> list[tuple]:
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
-    measured = measure(arguments)
-    made = run_arguments.how_made(arguments)
-    summary = made + tables.markdown(SUMMARY_HEAD, summary_rows(measured))
-    views = made + tables.markdown(HEAD, [text_row(m) for m in measured])
-    tables.write_text(arguments.out / "compare_orders.md", views)
-    tables.write_text(arguments.out / "compare_orders.csv", tables.csv_text(*csv_rows(measured)))
-    tables.write_text(arguments.out / "compare_orders_summary.md", summary)
-    print(views)
-    print(summary)
+    scenes = find_scenes(arguments.scenes)
+    for size in arguments.sizes:
+        measured = measure(arguments, scenes, size)
+        made = run_arguments.how_made(arguments)
+        summary = made + tables.markdown(SUMMARY_HEAD, summary_rows(measured))
+        views = made + tables.markdown(HEAD, [text_row(m) for m in measured])
+        name = f"compare_orders_{size}"
+        tables.write_text(arguments.out / f"{name}.md", views)
+        tables.write_text(arguments.out / f"{name}.csv", tables.csv_text(*csv_rows(measured)))
+        tables.write_text(arguments.out / f"{name}_summary.md", summary)
+        print(f"{size} px\n\n{views}\n{summary}")
 
 
 def main() -> int:

@@ -14,15 +14,22 @@ import simulations
 BAD_INPUT = 2
 
 
-def parser(about: str, default_timing: str) -> argparse.ArgumentParser:
-    made = argparse.ArgumentParser(description=about)
-    made.add_argument(
+def add_scenes(to: argparse.ArgumentParser) -> None:
+    """SCENE..., and the program to run them with."""
+    to.add_argument(
         "scenes",
         nargs="*",
         metavar="SCENE",
         help="builtin:NAME?n=COUNT, a real scene of ../shared by name, or a .ply file with its "
         "cameras beside it (NAME.json); default: the built-in scenes and all real ones",
     )
+    to.add_argument("--streaminggs", type=pathlib.Path, default=simulations.BINARY)
+
+
+def parser(about: str, default_timing: str) -> argparse.ArgumentParser:
+    """For scripts that run many simulations in one timing mode."""
+    made = argparse.ArgumentParser(description=about)
+    add_scenes(made)
     made.add_argument("--timing", choices=("accurate", "fast"), default=default_timing)
     made.add_argument(
         "--side-by-side",
@@ -31,15 +38,23 @@ def parser(about: str, default_timing: str) -> argparse.ArgumentParser:
         default=simulations.MOST_SIDE_BY_SIDE,
         help="simulations at a time; 1 for wall times that nothing disturbs",
     )
-    made.add_argument("--streaminggs", type=pathlib.Path, default=simulations.BINARY)
     return made
 
 
 def how_made(arguments: argparse.Namespace) -> str:
-    """A paragraph that says where a table comes from."""
-    command = shlex.join([f"scripts/{pathlib.Path(sys.argv[0]).name}", *sys.argv[1:]])
-    where = f"at {commit()}" if arguments.streaminggs == simulations.BINARY else "elsewhere built"
-    return f"Made by `{command}` ({where}, {arguments.timing} timing).\n\n"
+    """A paragraph that says where a table comes from: the command, without where it found the
+    program and put the table, and the commit."""
+    words = iter(sys.argv[1:])
+    kept = []
+    for word in words:
+        if word in ("--streaminggs", "--out"):
+            next(words, None)
+        elif not word.startswith(("--streaminggs=", "--out=")):
+            kept.append(word)
+    command = shlex.join([f"scripts/{pathlib.Path(sys.argv[0]).name}", *kept])
+    timing = f", {arguments.timing} timing" if "timing" in arguments else ""
+    where = f" at {commit()}" if arguments.streaminggs == simulations.BINARY else ""
+    return f"Made by `{command}`{where}{timing}.\n\n"
 
 
 def commit() -> str:

@@ -6,24 +6,28 @@ import csv
 import io
 import os
 import pathlib
+import re
 from collections.abc import Sequence
 
 Row = Sequence[object]
 
+NUMBER = re.compile(r"-?[\d,]+(\.\d+)?%?")
+
 
 def markdown(head: Sequence[str], rows: Sequence[Row]) -> str:
-    """A Markdown table; numbers stand at the right."""
+    """A Markdown table; columns of numbers stand at the right."""
 
     def numeric(column: int) -> bool:
-        return all(isinstance(row[column], (int, float)) for row in rows)
+        filled = [text for row in rows if (text := cell_text(row[column]))]
+        return bool(filled) and all(NUMBER.fullmatch(text) for text in filled)
 
-    rule = ["---:" if rows and numeric(column) else "---" for column in range(len(head))]
+    rule = ["---:" if numeric(column) else "---" for column in range(len(head))]
     lines = [head, rule, *([cell_text(cell) for cell in row] for row in rows)]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
 def cell_text(cell: object) -> str:
-    """Integers with thousands marked; floats as given by their caller's rounding."""
+    """Integers with thousands marked; anything else as its caller formatted it."""
     if isinstance(cell, int) and not isinstance(cell, bool):
         return f"{cell:,}"
     return str(cell).replace("|", "\\|")
