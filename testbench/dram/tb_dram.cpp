@@ -14,6 +14,7 @@
 #include "testbench/dram/bench_table.h"
 #include "testbench/dram/self_check.h"
 #include "testbench/dram/stats_table.h"
+#include "tlm/no_banner.h"
 #include "tlm/time_resolution.h"
 
 namespace {

@@ -1,18 +1,13 @@
 // streaminggs: renders, simulates, compares and describes scenes.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <systemc>
 #include <utility>
 #include <vector>
 
 #include "algorithm/input_error.h"
 #include "testbench/streaminggs/commands.h"
-
-namespace {
-// The kernel prints its banner before sc_main begins, unless this is set by then.
-const int kNoBanner = ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 0);
-}  // namespace
+#include "tlm/no_banner.h"
 
 int sc_main(int argc, char* argv[]) {
   constexpr int kBadInput = 2;

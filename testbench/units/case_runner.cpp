@@ -10,13 +10,11 @@
 #include <exception>
 #include <systemc>
 
+#include "tlm/no_banner.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs::tb {
 namespace {
-
-// The kernel prints its banner before sc_main begins, unless this is set by then.
-const int kNoBanner = ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 0);
 
 constexpr unsigned kCaseSeconds = 120;  // units that chase each other forever are a failure too
 
