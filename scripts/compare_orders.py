@@ -209,7 +209,7 @@ def make_tables(arguments: argparse.Namespace) -> None:
     scenes = find_scenes(arguments.scenes)
     for size in arguments.sizes:
         measured = measure(arguments, scenes, size)
-        made = run_arguments.how_made(arguments)
+        made = run_arguments.how_made(arguments, (m.traffic for m in measured))
         summary = made + tables.markdown(SUMMARY_HEAD, summary_rows(measured))
         views = made + tables.markdown(HEAD, [text_row(m) for m in measured])
         name = f"compare_orders_{size}"

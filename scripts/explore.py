@@ -145,7 +145,7 @@ def write(
     tables.write_text(arguments.out / "explore.csv", tables.csv_text(head, rows))
 
     kept = sorted((row[:-1] for row in rows if row[-1]), key=lambda row: row[len(keys)])
-    text = run_arguments.how_made(arguments)
+    text = run_arguments.how_made(arguments, (view for _, views in built for view in views))
     text += f"{len(kept)} of {len(rows)} configurations are on the Pareto front.\n\n"
     text += tables.markdown(head[:-1], kept)
     text += "".join(f"\nRefused: `{' '.join(o.run.overrides)}`: {o.refused}\n" for o in refused)

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 import pathlib
 import shlex
-import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import simulations
 
@@ -41,9 +40,9 @@ def parser(about: str, default_timing: str) -> argparse.ArgumentParser:
     return made
 
 
-def how_made(arguments: argparse.Namespace) -> str:
+def how_made(arguments: argparse.Namespace, views: Iterable[dict]) -> str:
     """A paragraph that says where a table comes from: the command, without where it found the
-    program and put the table, and the commit."""
+    program and put the table, and the commit that the reports of the views name."""
     words = iter(sys.argv[1:])
     kept = []
     for word in words:
@@ -53,19 +52,8 @@ def how_made(arguments: argparse.Namespace) -> str:
             kept.append(word)
     command = shlex.join([f"scripts/{pathlib.Path(sys.argv[0]).name}", *kept])
     timing = f", {arguments.timing} timing" if "timing" in arguments else ""
-    where = f" at {commit()}" if arguments.streaminggs == simulations.BINARY else ""
-    return f"Made by `{command}`{where}{timing}.\n\n"
-
-
-def commit() -> str:
-    """The commit of the sources, marked when they have been changed since."""
-    said = subprocess.run(
-        ["git", "-C", str(simulations.REPOSITORY), "describe", "--always", "--dirty"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    return said.stdout.strip() or "no commit"
+    commits = sorted({view["provenance"].get("commit", "") for view in views} - {""})
+    return f"Made by `{command}`{timing}; commit {', '.join(commits) or 'unknown'}.\n\n"
 
 
 def main(work: Callable[[], None]) -> int:

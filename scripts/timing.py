@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Wall time of a view, accurate and fast timing in turn, so that both meet the same machine; medians
-over the repeats. `whole command` is a process that reads the scene, lays it out, renders both golden
-images, simulates and writes everything."""
+"""Wall time of a view, accurate and fast timing in turn, so that both meet the same machine;
+medians over the repeats. `whole command` is a process that reads the scene, lays it out, renders both
+golden images, simulates and writes everything."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ HEAD = (
     "whole command s",
     "fast: simulation s",
     "whole command s",
-    "cycles, fast / accurate",
+    "fast / accurate: cycles",
+    "bytes",
     "peak MB",
 )
 
@@ -32,7 +33,7 @@ HEAD = (
 def make_table(arguments: argparse.Namespace) -> None:
     if arguments.repeats < 1:
         raise ValueError(f"--repeats: {arguments.repeats}, expected at least 1")
-    rows = []
+    rows, measured = [], []
     for scene in find_scenes(arguments.scenes):
         for order in arguments.orders:
             runs = [
@@ -46,6 +47,7 @@ def make_table(arguments: argparse.Namespace) -> None:
                     raise Failure(f"{outcome.run.label()}: {outcome.refused}")
                 views.append(outcome.views[0])
             accurate, fast = views[0::2], views[1::2]
+            measured += views
 
             def median(of: list[dict], key: str) -> str:
                 return f"{statistics.median(view['host'][key] for view in of):.2f}"
@@ -60,10 +62,11 @@ def make_table(arguments: argparse.Namespace) -> None:
                     median(fast, "simulation_wall_s"),
                     median(fast, "wall_s"),
                     f"{fast[0]['frame']['cycles'] / accurate[0]['frame']['cycles']:.2f}",
+                    f"{fast[0]['dram']['bytes'] / accurate[0]['dram']['bytes']:.3f}",
                     round(max(view["host"]["peak_rss_bytes"] for view in views) / 1e6),
                 )
             )
-    text = run_arguments.how_made(arguments) + tables.markdown(HEAD, rows)
+    text = run_arguments.how_made(arguments, measured) + tables.markdown(HEAD, rows)
     tables.write_text(arguments.out / "timing.md", text)
     print(text)
 

@@ -149,14 +149,15 @@ def make_table(arguments: argparse.Namespace) -> None:
         for scene in scenes
         for point in combinations(preset, arguments.cross)
     ]
-    text_rows, csv_rows = [], []
+    text_rows, csv_rows, measured = [], [], []
     for outcome in simulate_all(arguments.streaminggs, runs, arguments.side_by_side):
         if outcome.refused:
             print(f"left out: {outcome.run.label()}: {outcome.refused}", file=sys.stderr)
         more_text, more_csv = rows_of(outcome)
+        measured += outcome.views
         text_rows += more_text
         csv_rows += more_csv
-    text = run_arguments.how_made(arguments) + tables.markdown(HEAD, text_rows)
+    text = run_arguments.how_made(arguments, measured) + tables.markdown(HEAD, text_rows)
     tables.write_text(arguments.out / "work_precision.md", text)
     tables.write_text(arguments.out / "work_precision.csv", tables.csv_text(CSV_HEAD, csv_rows))
     print(text)
