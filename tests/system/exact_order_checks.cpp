@@ -1,0 +1,94 @@
+// Random options and random scenes.
+#include "tests/system/exact_order_checks.h"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+
+#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/ply_writer.h"
+#include "tests/algorithm/voxel/hard_scenes.h"
+#include "tests/support/shared_inputs.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+
+std::vector<std::string> random_exact_options(std::mt19937_64& random) {
+  std::vector<std::string> options = {"--config", "exact"};
+  const auto set = [&](const char* key, std::uint64_t value) {
+    options.insert(options.end(), {"--set", fmt::format("{}={}", key, value)});
+  };
+  const auto between = [&](std::uint64_t low, std::uint64_t high) {
+    return low + random() % (high - low + 1);
+  };
+  set("sram.shared_bytes", 1U << 30U);
+  set("sram.input_bytes", 1U << 30U);
+  set("group_px", 4 * between(1, random() % 2 == 0 ? 8 : 50));
+  set("chunk_gaussians", between(1, random() % 2 == 0 ? 16 : 256));
+  set("merge.entries", between(2, random() % 2 == 0 ? 32 : 4096));
+  set("merge.spill_runs", between(2, 8));
+  set("merge.spill_block_entries", between(1, 16));
+  set("vsu.queue_entries", between(9, random() % 2 == 0 ? 16 : 512));
+  set("vsu.node_cache_bytes", 64U << between(0, 8));
+  set("hfus", between(1, 6));
+  set("sorting_units", between(1, 4));
+  set("hfu.second_half_slots", between(1, 16));
+  set("hfu.slice_gaussians", 2 * between(1, 64));
+  set("merge.output_fifo_entries", between(1, 4));
+  set("rendering.pixel_buffers", between(1, 2));
+  if (random() % 2 == 0) options.insert(options.end(), {"--timing", "fast"});
+  if (random() % 2 == 0) {
+    options.insert(options.end(), {"--stalls", "0.02", "--seed", std::to_string(random() % 1000)});
+  }
+  return options;
+}
+
+void fuzz_exact_frames(unsigned first_seed, unsigned scenes) {
+  std::uint64_t blends = 0, spilled = 0, put_aside = 0, saturated = 0, ties = 0;
+  for (unsigned seed = first_seed; seed < first_seed + scenes; ++seed) {
+    HardScenes hard(seed);
+    std::mt19937_64 random(seed);
+    constexpr std::size_t kCounts[] = {1, 30, 300, 1500};
+    const HardScene scene = hard.next(kCounts[random() % 4], 120);
+    const ScratchFolder scratch;
+    write_ply(scratch.path("scene.ply"), scene.cloud);
+    write_cameras(scratch.path("cameras.json"), {scene.camera});
+    std::vector<std::string> arguments = {scratch.path("scene.ply"), "--cameras",
+                                          scratch.path("cameras.json")};
+    const std::vector<std::string> options = random_exact_options(random);
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    INFO("seed " << seed);
+    const Simulation simulation(arguments);
+    simulation.check();
+    const auto& view = simulation.views()[0];
+    const auto of = [&](const char* unit, const char* counter) {
+      return view["units"][unit][counter].get<std::uint64_t>();
+    };
+    blends += view["image"]["blends"].get<std::uint64_t>();
+    spilled += of("merge", "keys_spilled");
+    put_aside += of("vsu.walk", "queue_entries_put_aside");
+    saturated += of("vsu.walk", "groups_saturated");
+    ties += of("merge", "ties_looked_up");
+  }
+  fmt::print("{} blends, {} keys spilled, {} entries put aside, {} groups ended early, {} ties\n",
+             blends, spilled, put_aside, saturated, ties);
+  CHECK(blends > 1000 * std::uint64_t{scenes});
+  CHECK(spilled > 10 * std::uint64_t{scenes});
+  CHECK(put_aside > scenes);
+  CHECK(saturated > 0);
+  CHECK(ties > scenes);
+}
+
+void check_exact_under_pressure(const std::string& name) {
+  const Simulation simulation({shared_scene(name), "--cameras",
+                               shared_path("cameras/" + name + ".json"), "--view", "all",
+                               "--config", "exact", "--timing", "fast", "--stalls", "0.02", "--set",
+                               "group_px=64", "--set", "merge.entries=128", "--set",
+                               "vsu.queue_entries=48", "--set", "sram.shared_bytes=1073741824"});
+  simulation.check();
+  for (const auto& view : simulation.views()) {
+    CHECK(view["units"]["merge"]["keys_spilled"].get<std::uint64_t>() > 0);
+  }
+}
+
+}  // namespace sgs::test

@@ -1,0 +1,15 @@
+// Exact order through the whole accelerator: every view of the real scenes under pressure, and many
+// random scenes.
+#include <catch2/catch.hpp>
+
+#include "tests/system/exact_order_checks.h"
+
+using namespace sgs::test;
+
+TEST_CASE("exact under pressure: truck") { check_exact_under_pressure("truck"); }
+TEST_CASE("exact under pressure: playbot") { check_exact_under_pressure("playbot"); }
+TEST_CASE("exact under pressure: platform") { check_exact_under_pressure("platform"); }
+TEST_CASE("exact under pressure: yard") { check_exact_under_pressure("yard"); }
+TEST_CASE("exact under pressure: garden") { check_exact_under_pressure("garden"); }
+TEST_CASE("exact under pressure: park") { check_exact_under_pressure("park"); }
+TEST_CASE("exact under pressure: many hard scenes") { fuzz_exact_frames(1000, 800); }

@@ -1,0 +1,288 @@
+// Exact order through the whole accelerator: the reference image whatever the configuration, every
+// byte computed a second time, and what the report says of it.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "algorithm/render/group_state.h"
+#include "algorithm/scene/builtin_scene.h"
+#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/ply_writer.h"
+#include "algorithm/splat/activate.h"
+#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/voxel/chunk_test.h"
+#include "algorithm/voxel/chunk_tree.h"
+#include "tests/support/shared_inputs.h"
+#include "tests/system/exact_order_checks.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using Json = nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+Arguments join(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::uint64_t of(const Json& view, const char* unit, const char* counter) {
+  return view["units"][unit][counter].get<std::uint64_t>();
+}
+
+std::uint64_t asked(const Json& view, const char* region, const char* requester,
+                    const char* direction) {
+  const Json& regions = view["dram"]["bytes_by_region"];
+  if (!regions.contains(region) || !regions[region].contains(requester) ||
+      !regions[region][requester].contains(direction)) {
+    return 0;
+  }
+  return regions[region][requester][direction].get<std::uint64_t>();
+}
+
+// What a frame needs when no group ever finishes early, counted over the tree without a queue, a
+// cache or a clock.
+struct Counts {
+  std::uint64_t visits = 0, nodes = 0, first_halves = 0, second_halves = 0;
+};
+
+void count_below(const View<float>& view, const ActivatedCloud& cloud, const ChunkTree& tree,
+                 const PixelRect& group, std::uint32_t at, Counts& counts) {
+  ++counts.nodes;
+  const ChunkNode& node = tree.nodes[at];
+  std::uint32_t slot = node.first_slot, inner = node.first_node;
+  for (int c = 0; c < node.children; ++c) {
+    const bool touching = GroupFrustum(view, group).test(child_bound(node, c)).touches;
+    const std::uint32_t count = node.count[c];
+    if (count == 0) {
+      if (touching) count_below(view, cloud, tree, group, inner, counts);
+      ++inner;
+      continue;
+    }
+    counts.visits += touching ? 1 : 0;
+    counts.first_halves += touching ? count : 0;
+    for (std::uint32_t i = slot; touching && i < slot + count; ++i) {
+      const Gaussian<float>& g = cloud.gaussians[tree.storage_order[i]];
+      const CoarseBound bound =
+          coarse_bound(view, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
+      counts.second_halves += bound.in_front && touches(bound, group) ? 1 : 0;
+    }
+    slot += count;
+  }
+}
+
+Counts count_frame(const Camera& camera, const ActivatedCloud& cloud, const ChunkTree& tree,
+                   int group_px) {
+  const View<float> view = make_view<float>(camera);
+  Counts counts;
+  for (const PixelRect& group : pixel_groups(camera.width, camera.height, group_px)) {
+    count_below(view, cloud, tree, group, 0, counts);
+  }
+  return counts;
+}
+
+TEST_CASE("exact frames: hard scenes under random configurations") { fuzz_exact_frames(0, 40); }
+
+TEST_CASE("exact frames: built-in scenes under random configurations") {
+  std::mt19937_64 random(5);
+  for (int round = 0; round < 12; ++round) {
+    INFO("round " << round);
+    const Arguments scene = {round % 2 == 0 ? "builtin:object?n=4000" : "builtin:outdoor?n=5000",
+                             "--size", "129x73", "--view", std::to_string(round % 4)};
+    Simulation(join(scene, random_exact_options(random))).check();
+  }
+}
+
+TEST_CASE("exact frames: bytes are counts times sizes, counted without the accelerator") {
+  const BuiltinScene scene = make_builtin_scene("builtin:outdoor?n=6000");
+  const ActivatedCloud cloud = activate(scene.cloud);
+  const Camera camera = scaled_to(scene.cameras[2], 150, 90);
+  constexpr std::uint64_t kSecondHalf = 220, kNode = 128;
+  for (const std::uint32_t chunk : {1U, 16U, 100U}) {
+    for (const int group : {16, 64}) {
+      INFO("chunk " << chunk << ", group " << group);
+      const ChunkTree tree = build_chunk_tree(cloud, chunk);
+      const Counts counts = count_frame(camera, cloud, tree, group);
+      const Arguments arguments = {"builtin:outdoor?n=6000",
+                                   "--size",
+                                   "150x90",
+                                   "--view",
+                                   "2",
+                                   "--set",
+                                   "rendering.saturation_feedback=false",
+                                   "--set",
+                                   "chunk_gaussians=" + std::to_string(chunk),
+                                   "--set",
+                                   "group_px=" + std::to_string(group),
+                                   "--set",
+                                   "sram.shared_bytes=1073741824",
+                                   "--set",
+                                   "vsu.node_cache_bytes=64"};
+      const Simulation roomy(
+          join(arguments, {"--set", "merge.entries=100000", "--set", "vsu.queue_entries=100000"}));
+      roomy.check();
+      const Json& view = roomy.views()[0];
+      CHECK(of(view, "vsu.walk", "visits") == counts.visits);
+      CHECK(region_bytes(view, "first_halves", "read") == 16 * counts.first_halves);
+      CHECK(region_bytes(view, "second_halves", "read") == kSecondHalf * counts.second_halves);
+      CHECK(of(view, "merge", "released") == counts.second_halves);
+      CHECK(region_bytes(view, "frame_buffer", "write") == 150 * 90 * 12);
+      CHECK(region_bytes(view, "spill", "write") == 0);
+      CHECK(region_bytes(view, "spill", "read") == 0);
+      CHECK(of(view, "vsu.walk", "nodes") == counts.nodes);
+      // The cache holds four nodes: whatever it spares is no more than all but one read of each.
+      CHECK(region_bytes(view, "chunk_table", "read") ==
+            kNode * of(view, "vsu.walk", "node_cache_misses"));
+      CHECK(region_bytes(view, "chunk_table", "read") <= kNode * counts.nodes);
+
+      const Simulation tight(
+          join(arguments, {"--set", "merge.entries=32", "--set", "vsu.queue_entries=9"}));
+      tight.check();
+      CHECK(tight.frame(0) == roomy.frame(0));
+      const Json& small = tight.views()[0];
+      CHECK(region_bytes(small, "first_halves", "read") == 16 * counts.first_halves);
+      CHECK(region_bytes(small, "second_halves", "read") == kSecondHalf * counts.second_halves);
+      const std::uint64_t spilled = of(small, "merge", "keys_spilled");
+      CHECK(spilled > 0);
+      CHECK(asked(small, "spill", "merge", "write") == 28 * spilled);
+      CHECK(asked(small, "spill", "merge", "read") == 28 * spilled);
+      const std::uint64_t aside = of(small, "vsu.walk", "queue_entries_put_aside");
+      CHECK(asked(small, "spill", "vsu", "write") == 12 * aside);
+      CHECK(asked(small, "spill", "vsu", "read") == 12 * aside);
+      // An index for each key that was spilled at least once or tied.
+      const std::uint64_t indices = region_bytes(small, "indices", "read");
+      CHECK(indices > 0);
+      CHECK(indices >= region_bytes(view, "indices", "read"));
+      CHECK(indices % 4 == 0);
+    }
+  }
+}
+
+TEST_CASE("exact frames: without ties and spills no index is read") {
+  GaussianCloud cloud;
+  cloud.resize(500, 0);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const auto at = static_cast<float>(i);
+    cloud.means[i] = {0.3F * std::sin(at), 0.3F * std::cos(3 * at), 2 + 0.01F * at};
+    cloud.log_scales[i] = glm::vec3(-4);
+    cloud.quats[i] = {1, 0, 0, 0};
+  }
+  Camera camera;
+  camera.width = camera.height = 64;
+  camera.focal_x = camera.focal_y = 80;
+  const ScratchFolder scratch;
+  write_ply(scratch.path("scene.ply"), cloud);
+  write_cameras(scratch.path("cameras.json"), {camera});
+  const Arguments arguments = {scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"),
+                               "--set", "rendering.saturation_feedback=false"};
+  const Simulation none(arguments);
+  none.check();
+  CHECK(region_bytes(none.views()[0], "indices", "read") == 0);
+  CHECK(of(none.views()[0], "merge", "ties_looked_up") == 0);
+
+  // Each of 500 depths twice, the second time far away in the file.
+  GaussianCloud twice = cloud;
+  twice.means.insert(twice.means.end(), cloud.means.begin(), cloud.means.end());
+  twice.log_scales.insert(twice.log_scales.end(), cloud.log_scales.begin(), cloud.log_scales.end());
+  twice.quats.insert(twice.quats.end(), cloud.quats.begin(), cloud.quats.end());
+  twice.opacity_logits.resize(1000);
+  twice.sh_coeffs.resize(1000, glm::vec3(0.5F));
+  write_ply(scratch.path("scene.ply"), twice);
+  const Simulation pairs(arguments);
+  pairs.check();
+  const Json& view = pairs.views()[0];
+  CHECK(of(view, "merge", "ties_looked_up") == of(view, "merge", "released"));
+  CHECK(region_bytes(view, "indices", "read") >= 4 * of(view, "merge", "released"));
+}
+
+TEST_CASE("exact frames: 20,000 Gaussians at one point, the buffer holds 64 keys") {
+  GaussianCloud cloud;
+  cloud.resize(20000, 0);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    cloud.means[i] = {0.01F, 0.02F, 2};
+    cloud.log_scales[i] = glm::vec3(-2 - static_cast<float>(i % 5));
+    cloud.quats[i] = {1, 0, 0, 0};
+    cloud.opacity_logits[i] = -5;
+    cloud.sh_coeffs[i] = glm::vec3(static_cast<float>(i % 7), static_cast<float>(i % 3), 1);
+  }
+  Camera camera;
+  camera.width = 40;
+  camera.height = 30;
+  camera.focal_x = camera.focal_y = 50;
+  const ScratchFolder scratch;
+  write_ply(scratch.path("scene.ply"), cloud);
+  write_cameras(scratch.path("cameras.json"), {camera});
+  const Arguments arguments = {scratch.path("scene.ply"),
+                               "--cameras",
+                               scratch.path("cameras.json"),
+                               "--set",
+                               "merge.entries=64",
+                               "--timing",
+                               "fast"};
+  Simulation(arguments).check();
+  const Simulation unfinished(join(arguments, {"--set", "rendering.saturation_feedback=false"}));
+  unfinished.check();
+  CHECK(of(unfinished.views()[0], "merge", "ties_looked_up") >= 20000);
+}
+
+TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and says so") {
+  const Arguments arguments = {
+      "builtin:outdoor?n=8000",       "--size", "160x90", "--set", "group_px=64", "--set",
+      "merge.on_overflow=blend_early"};
+  const Simulation early(join(arguments, {"--set", "merge.entries=16"}));
+  const Json& view = early.views()[0];
+  CHECK(view["image"]["equals_streaming_renderer"] == true);
+  CHECK(of(view, "merge", "forced_early") > 0);
+  CHECK(view["image"]["misordered"].get<std::uint64_t>() > 0);
+  CHECK(view["image"]["max_abs_error"].get<double>() > 0);
+  CHECK(view["image"]["psnr_db"].get<double>() > 15);
+  CHECK(of(view, "merge", "runs_spilled") == 0);
+  CHECK(region_bytes(view, "spill", "write") == 0);
+
+  const Simulation enough(join(arguments, {"--set", "merge.entries=10000"}));
+  enough.check();  // the reference image
+  CHECK(of(enough.views()[0], "merge", "forced_early") == 0);
+}
+
+TEST_CASE("exact frames: what the report holds") {
+  const Simulation simulation({"builtin:object?n=2000", "--size", "80x45"});
+  const Json& view = simulation.views()[0];
+  CHECK(view["config"]["ordering"] == "exact");  // the default
+  for (const char* key : {"scene", "view", "image", "frame", "units", "binding", "dram", "limit",
+                          "left_out", "host", "provenance", "sram"}) {
+    INFO(key);
+    CHECK(view.contains(key));
+  }
+  CHECK(view["image"]["psnr_db"].is_null());  // equal pictures
+  CHECK(view["image"]["missed"] == 0);
+  CHECK(view["image"]["misordered"] == 0);
+  for (const char* counter :
+       {"keys", "released", "forced_early", "dropped_saturated", "pending_keys_max",
+        "ties_looked_up", "runs_spilled", "keys_spilled"}) {
+    INFO(counter);
+    CHECK(view["units"]["merge"].contains(counter));
+  }
+  for (const char* counter : {"nodes", "node_cache_misses", "tests", "visits", "groups_saturated",
+                              "queue_entries_max", "queue_entries_put_aside"}) {
+    INFO(counter);
+    CHECK(view["units"]["vsu.walk"].contains(counter));
+  }
+  // Once each: what contributes, and the pixels.
+  const std::uint64_t once =
+      view["limit"]["contributing_gaussians"].get<std::uint64_t>() * (16 + 220) + 80 * 45 * 12;
+  CHECK(view["limit"]["bytes_read_once"] == once);
+  CHECK(view["limit"]["ratio"].get<double>() ==
+        Approx(view["dram"]["bytes"].get<double>() / static_cast<double>(once)));
+}
+
+TEST_CASE("exact frames: truck and playbot") {
+  for (const std::string name : {"truck", "playbot"}) {
+    Simulation({shared_scene(name), "--cameras", shared_path("cameras/" + name + ".json"), "--view",
+                "all", "--timing", "fast"})
+        .check();
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test

@@ -1,0 +1,177 @@
+// Extreme inputs through the whole accelerator: right to the bit, or refused by name.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/ply_writer.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+constexpr float kUnitScale = -3;  // logarithm of a scale of 0.05
+
+void add(GaussianCloud& cloud, const glm::vec3& mean, float log_scale, float opacity_logit,
+         const glm::vec3& colour) {
+  cloud.means.push_back(mean);
+  cloud.log_scales.emplace_back(log_scale);
+  cloud.quats.push_back({1, 0, 0, 0});
+  cloud.opacity_logits.push_back(opacity_logit);
+  cloud.sh_coeffs.push_back(colour);
+}
+
+// Looks along z from `position`.
+Camera camera_at(const glm::dvec3& position, int width = 65, int height = 49) {
+  Camera camera;
+  camera.name = "test";
+  camera.width = width;
+  camera.height = height;
+  camera.focal_x = camera.focal_y = 60;
+  camera.position = position;
+  return camera;
+}
+
+// Simulates in both orders and checks; `options` go to both.
+std::vector<nlohmann::json> check_scene(const GaussianCloud& cloud,
+                                        const std::vector<Camera>& cameras,
+                                        const std::vector<std::string>& options = {}) {
+  const ScratchFolder scratch;
+  write_ply(scratch.path("scene.ply"), cloud);
+  write_cameras(scratch.path("cameras.json"), cameras);
+  std::vector<nlohmann::json> views;
+  for (const char* order : {"paper", "exact"}) {
+    std::vector<std::string> arguments = {scratch.path("scene.ply"),
+                                          "--cameras",
+                                          scratch.path("cameras.json"),
+                                          "--view",
+                                          "all",
+                                          "--config",
+                                          order};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    INFO(order);
+    const Simulation simulation(arguments);
+    simulation.check();
+    views.insert(views.end(), simulation.views().begin(), simulation.views().end());
+  }
+  return views;
+}
+
+TEST_CASE("extreme input: a scene of nothing") {
+  for (const auto& view : check_scene({}, {camera_at({0, 0, -5})})) {
+    CHECK(region_bytes(view, "first_halves", "read") == 0);
+    CHECK(region_bytes(view, "frame_buffer", "write") == 65 * 49 * 12);
+  }
+}
+
+TEST_CASE("extreme input: one Gaussian in front, behind, on the camera, on the near plane") {
+  GaussianCloud cloud;
+  add(cloud, {0, 0, 0}, kUnitScale, 2, {1, 0.5F, 0});
+  const auto views = check_scene(cloud, {camera_at({0, 0, -5}), camera_at({0, 0, 5}),
+                                         camera_at({0, 0, 0}), camera_at({0, 0, -0.2})});
+  CHECK(views[0]["image"]["blends"].get<int>() > 0);
+  CHECK(views[1]["image"]["blends"] == 0);
+  CHECK(views[2]["image"]["blends"] == 0);
+}
+
+TEST_CASE("extreme input: nobody can see any of it") {
+  GaussianCloud cloud;
+  for (int i = 0; i < 50; ++i)
+    add(cloud, {0.1F * static_cast<float>(i), 0, 0}, kUnitScale, -7, {1, 1, 1});
+  for (const auto& view : check_scene(cloud, {camera_at({0, 0, -5})})) {
+    CHECK(view["image"]["blends"] == 0);
+  }
+}
+
+TEST_CASE("extreme input: thousands at one point, all of one depth") {
+  GaussianCloud cloud;
+  for (int i = 0; i < 3000; ++i) {
+    add(cloud, {0.01F, 0.02F, 0}, kUnitScale - static_cast<float>(i % 7) * 0.1F,
+        -4 + static_cast<float>(i % 5), {0.3F * static_cast<float>(i % 3), 0.5F, 1});
+  }
+  const auto views = check_scene(cloud, {camera_at({0, 0, -5})});
+  CHECK(total(views[0], "entries_spilled") >= 3000);  // paper order sorts one list of them
+  // Long lists and no feedback: every pass runs to its end.
+  check_scene(cloud, {camera_at({0, 0, -5})},
+              {"--set", "rendering.saturation_feedback=false", "--set", "sorting.buffer_entries=16",
+               "--set", "merge.entries=1024"});
+}
+
+TEST_CASE("extreme input: coordinates of a million, details of a thousandth") {
+  GaussianCloud cloud;
+  const glm::vec3 far(1e6F, -1e6F, 5e5F);
+  for (int i = 0; i < 200; ++i) {
+    add(cloud, far + glm::vec3(i % 10, i / 10 % 10, i / 100) * 0.25F, -4, 1,
+        {1, 0.1F * static_cast<float>(i % 10), 0});
+  }
+  add(cloud, -far, 3, 1, {0, 0, 1});
+  const auto views = check_scene(
+      cloud, {camera_at({1e6 + 1, -1e6 + 1, 5e5 - 4}), camera_at({-1e6, 1e6, -5e5 - 50})},
+      {"--set", "voxel_size=10"});
+  for (const auto& view : views) CHECK(view["image"]["blends"].get<int>() > 0);
+}
+
+TEST_CASE("extreme input: a giant around everything, and a needle") {
+  GaussianCloud cloud;
+  for (int i = 0; i < 100; ++i) {
+    add(cloud, {0.1F * static_cast<float>(i % 10), 0.1F * static_cast<float>(i / 10), 0},
+        kUnitScale, 0, {0, 1, 0});
+  }
+  add(cloud, {0, 0, 1}, 8, -1, {1, 0, 0});
+  add(cloud, {0, 0, 0.5F}, 0, 3, {0, 0, 1});
+  cloud.log_scales.back() = {5, -18, -18};  // 10^10 from end to end of its scales
+  cloud.quats.back() = {0.9F, 0.1F, 0.4F, 0.1F};
+  check_scene(cloud, {camera_at({0, 0, -5}), camera_at({0.5, 0.5, 0.1})});
+}
+
+TEST_CASE("extreme input: the camera in a voxel, on a face, on an edge, in a corner, outside") {
+  GaussianCloud cloud;
+  for (int i = 0; i < 1000; ++i) {
+    add(cloud,
+        {0.4F * static_cast<float>(i % 10) - 1.9F, 0.4F * static_cast<float>(i / 10 % 10) - 1.9F,
+         0.4F * static_cast<float>(i / 100) - 1.9F},
+        kUnitScale, 1, {0.1F * static_cast<float>(i % 10), 0.5F, 0.5F});
+  }
+  std::vector<Camera> cameras;
+  for (const glm::dvec3& position : {glm::dvec3(0.1, 0.13, 0.17),
+                                     {0, 0.13, 0.17},
+                                     {0, 0.5, 0.17},
+                                     {0, 0.5, -0.5},
+                                     {0, 0, -20},
+                                     {0.1, 0.2, -4}}) {
+    cameras.push_back(camera_at(position));  // odd sizes: the middle ray is parallel to z
+  }
+  check_scene(cloud, cameras, {"--set", "voxel_size=0.5"});
+}
+
+TEST_CASE("extreme input: many layers too faint for one splat to show much") {
+  GaussianCloud cloud;
+  // Opacity 1.5/255.
+  for (int i = 0; i < 4000; ++i) {
+    add(cloud, {0, 0, 0.001F * static_cast<float>(i)}, 0, -5.13F, {1, 1, 1});
+  }
+  const auto views = check_scene(cloud, {camera_at({0, 0, -5}, 16, 16)});
+  for (const auto& view : views) CHECK(view["image"]["blends"].get<int>() > 100000);
+}
+
+TEST_CASE("extreme input: SH of every degree") {
+  for (int degree = 0; degree <= 3; ++degree) {
+    GaussianCloud cloud;
+    cloud.resize(60, degree);
+    for (std::size_t i = 0; i < 60; ++i) {
+      const auto at = static_cast<float>(i);
+      cloud.means[i] = {0.2F * std::sin(at), 0.2F * std::cos(2 * at), 0.01F * at};
+      cloud.log_scales[i] = glm::vec3(-3, -2.5F, -4);
+      cloud.quats[i] = {1, 0.3F * std::sin(at), 0.2F, 0};
+      cloud.opacity_logits[i] = 1;
+    }
+    for (std::size_t k = 0; k < cloud.sh_coeffs.size(); ++k) {
+      cloud.sh_coeffs[k] = glm::vec3(0.3F * std::sin(static_cast<float>(k)));
+    }
+    check_scene(cloud, {camera_at({0, 0, -2})});
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test

@@ -1,0 +1,114 @@
+// What cannot be built or read is refused with exit status 2 and one line that says why.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+// Runs and expects status 2, one line on stderr that holds every one of `words`, and no output
+// folder.
+void check_refused(Arguments arguments, const std::vector<std::string>& words) {
+  const ScratchFolder scratch;
+  arguments.insert(arguments.end(), {"--out", scratch.path("out")});
+  const Outcome outcome = run_streaminggs(arguments);
+  INFO(outcome.err);
+  CHECK(outcome.status == 2);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  for (const std::string& word : words) {
+    INFO(word);
+    CHECK(outcome.err.find(word) != std::string::npos);
+  }
+  CHECK(scratch.file_count() == 0);
+}
+
+void check_set_refused(const std::string& order, const Arguments& settings,
+                       const std::vector<std::string>& words) {
+  Arguments arguments = {"simulate", "builtin:object?n=100", "--size", "16x16", "--config", order};
+  for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+  check_refused(arguments, words);
+}
+
+TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
+  check_set_refused("paper", {"group_px=128"},
+                    {"sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
+                     "128 px x 128 px x 16 B"});
+  check_set_refused("paper", {"hfu.slice_gaussians=256"},
+                    {"sram.input_bytes: 16384 bytes are there", "4 HFUs"});
+  check_set_refused("exact", {"group_px=128", "sram.shared_bytes=10000"},
+                    {"sram.shared_bytes: 10000", "pixel state"});
+}
+
+TEST_CASE("refusals: none of a unit") {
+  for (const char* order : {"paper", "exact"}) {
+    check_set_refused(order, {"hfus=0"}, {"hfus", "0"});
+    check_set_refused(order, {"sorting_units=0"}, {"sorting_units", "0"});
+    check_set_refused(order, {"rendering.clusters=0"}, {"rendering.clusters", "0"});
+    check_set_refused(order, {"dram.channels=0"}, {"dram.channels", "0"});
+  }
+}
+
+TEST_CASE("refusals: keys, types, ranges and combinations") {
+  check_set_refused("paper", {"grop_px=32"}, {"grop_px"});
+  check_set_refused("paper", {"group_px=big"}, {"group_px"});
+  check_set_refused("paper", {"group_px=30"}, {"group_px: 30 is not a multiple of 4"});
+  check_set_refused("paper", {"clock_mhz=0"}, {"clock_mhz"});
+  check_set_refused("paper", {"ordering=random"}, {"ordering", "random", "paper"});
+  check_set_refused("paper", {"sorting.buffer_entries=16", "sorting.spill_block_entries=8"},
+                    {"sorting.buffer_entries: 16", "at least 32"});
+  check_set_refused("paper", {"dram.memspec=ddr9"}, {"ddr9"});
+  check_set_refused("no_such_preset", {}, {"no_such_preset"});
+}
+
+TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
+  check_set_refused("paper", {"voxel_size=0.0000001"}, {"voxel_size", "2^20", "at least"});
+}
+
+TEST_CASE("refusals: an ordering table that a group outgrows ends the run by name") {
+  const ScratchFolder scratch;
+  const Outcome outcome =
+      run_streaminggs({"simulate", "builtin:object?n=3000", "--size", "64x64", "--config", "paper",
+                       "--set", "vsu.table_bytes=64", "--out", scratch.path("out")});
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.find("vsu.table_bytes is 64") != std::string::npos);
+  CHECK(outcome.err.find("raise it, or take larger voxels") != std::string::npos);
+}
+
+TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
+  check_refused({"simulate", "/no/such/scene.ply", "--cameras", "/no/such/cameras.json"},
+                {"/no/such/scene.ply"});
+  check_refused({"simulate", "builtin:castle"}, {"castle"});
+  check_refused({"simulate", "builtin:object?n=0"}, {"n="});
+  check_refused({"simulate", "builtin:object?n=100", "--cameras", "/no/such/cameras.json"},
+                {"/no/such/cameras.json"});
+  check_refused({"simulate", "builtin:object?n=100", "--view", "99"}, {"--view", "99"});
+  check_refused({"simulate", "builtin:object?n=100", "--size", "64"}, {"--size", "WIDTHxHEIGHT"});
+  check_refused({"simulate", "builtin:object?n=100", "--size", "0x64"}, {"--size"});
+}
+
+TEST_CASE("refusals: bad arguments exit with 2 and say which") {
+  for (const Arguments& arguments :
+       {Arguments{},
+        {"fly"},
+        {"simulate"},
+        {"simulate", "builtin:object", "--no-such-option"},
+        {"simulate", "builtin:object", "--timing", "slow", "--out", "/tmp/never"},
+        {"simulate", "builtin:object", "--stalls", "2", "--out", "/tmp/never"},
+        {"compare", "one.png"},
+        {"render", "builtin:object"}}) {
+    const Outcome outcome = run_streaminggs(arguments);
+    INFO(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK_FALSE(outcome.err.empty());
+  }
+  CHECK(run_streaminggs({"--help"}).status == 0);
+  CHECK(run_streaminggs({"simulate", "--help"}).status == 0);
+}
+
+}  // namespace
+}  // namespace sgs::test

@@ -1,0 +1,21 @@
+// Every view of a scene of ../shared through the accelerator.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sgs::test {
+
+// Options of one run over all views.
+using Variant = std::vector<std::string>;
+
+inline const Variant kAccurate = {"--timing", "accurate"};
+inline const Variant kFast = {"--timing", "fast"};
+inline const Variant kStalled = {"--timing", "accurate", "--stalls", "0.05"};
+
+// Each view equals the streaming renderer's frame (in exact order also the reference's) to the bit,
+// and its accounts add up. order: "paper" or "exact".
+void check_shared_scene(const std::string& name, const std::string& order,
+                        const std::vector<Variant>& variants);
+
+}  // namespace sgs::test

@@ -1,0 +1,23 @@
+// Every view of the small scenes.
+#include "tests/system/shared_scenes.h"
+
+#include <catch2/catch.hpp>
+
+namespace sgs::test {
+namespace {
+
+TEST_CASE("shared scenes: truck, paper order") {
+  check_shared_scene("truck", "paper", {kFast, kStalled});
+}
+TEST_CASE("shared scenes: truck, exact order") {
+  check_shared_scene("truck", "exact", {kFast, kStalled});
+}
+TEST_CASE("shared scenes: playbot, paper order") {
+  check_shared_scene("playbot", "paper", {kFast, kStalled});
+}
+TEST_CASE("shared scenes: playbot, exact order") {
+  check_shared_scene("playbot", "exact", {kFast, kStalled});
+}
+
+}  // namespace
+}  // namespace sgs::test
