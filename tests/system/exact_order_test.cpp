@@ -144,7 +144,7 @@ TEST_CASE("exact frames: bytes are counts times sizes, counted without the accel
       CHECK(region_bytes(small, "first_halves", "read") == 16 * counts.first_halves);
       CHECK(region_bytes(small, "second_halves", "read") == kSecondHalf * counts.second_halves);
       const std::uint64_t spilled = of(small, "merge", "keys_spilled");
-      CHECK(spilled > 0);
+      CHECK((spilled > 0) == (chunk > 1));  // one key a visit waits for nothing
       CHECK(asked(small, "spill", "merge", "write") == 28 * spilled);
       CHECK(asked(small, "spill", "merge", "read") == 28 * spilled);
       const std::uint64_t aside = of(small, "vsu.walk", "queue_entries_put_aside");
@@ -152,7 +152,7 @@ TEST_CASE("exact frames: bytes are counts times sizes, counted without the accel
       CHECK(asked(small, "spill", "vsu", "read") == 12 * aside);
       // An index for each key that was spilled at least once or tied.
       const std::uint64_t indices = region_bytes(small, "indices", "read");
-      CHECK(indices > 0);
+      CHECK((indices > 0) == (chunk > 1));
       CHECK(indices >= region_bytes(view, "indices", "read"));
       CHECK(indices % 4 == 0);
     }
@@ -240,7 +240,7 @@ TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and say
   CHECK(of(view, "merge", "runs_spilled") == 0);
   CHECK(region_bytes(view, "spill", "write") == 0);
 
-  const Simulation enough(join(arguments, {"--set", "merge.entries=10000"}));
+  const Simulation enough(join(arguments, {"--set", "merge.entries=5000"}));
   enough.check();  // the reference image
   CHECK(of(enough.views()[0], "merge", "forced_early") == 0);
 }
