@@ -5,7 +5,7 @@
 
 #include "modules/merge/merge_unit.h"
 #include "testbench/units/case_runner.h"
-#include "testbench/units/random_splats.h"
+#include "testbench/units/merge_plan.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
@@ -13,91 +13,9 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-struct Key {
-  float depth;
-  std::uint32_t slot;
-};
-
-struct Visit {
-  std::vector<Key> keys;            // by depth, then slot, as a sorting unit hands them on
-  float release_below = kInfinity;  // no key of a later visit is nearer
-};
-
-struct Group {
-  std::vector<Visit> visits;
-  std::uint64_t saturates_after = ~std::uint64_t{0};  // released keys
-};
-
-struct Plan {
-  MergeConfig config;
-  std::uint32_t sorters = 2, hfus = 4;
-  std::uint32_t input_entries = 16, output_entries = 4;
-  std::uint32_t slots = 0;              // of the scene: what the spill area is sized for
-  std::vector<std::uint32_t> index_of;  // [slots] in the file
-  std::vector<Group> groups;
-};
-
-// A frame whose groups are the plan's, with an index region and a spill region.
-FrameJob job_of(const Plan& plan) {
-  const std::uint64_t spill_bytes = 2ULL * plan.slots * kSpilledKeyBytes;
-  FrameJob job =
-      frame_job(16 * static_cast<int>(plan.groups.size()), 16, 16, FrameFormat::kRgb8, spill_bytes);
-  const RegionRange& frame = job.layout[Region::kFrameBuffer];
-  constexpr std::uint64_t kAlignment = 4096;
-  job.layout.regions[region_id(Region::kIndices)] = {(frame.end() / kAlignment + 1) * kAlignment,
-                                                     plan.slots * sizeof(std::uint32_t)};
-  job.layout.gaussian_count = plan.slots;
-  return job;
-}
-
-std::vector<std::byte> index_bytes(const Plan& plan) {
-  std::vector<std::byte> bytes(plan.index_of.size() * sizeof(std::uint32_t));
-  if (!bytes.empty()) std::memcpy(bytes.data(), plan.index_of.data(), bytes.size());
-  return bytes;
-}
-
-FineCandidate candidate(std::uint32_t group, std::uint32_t visit, const Key& key) {
-  FineCandidate c;
-  c.group = group;
-  c.visit = visit;
-  c.slot = key.slot;
-  c.depth = key.depth;
-  // Anything that must arrive as it left.
-  c.mean_x = static_cast<float>(key.slot) + 0.25F;
-  c.mean_y = -c.mean_x;
-  c.mean_z = key.depth + 1;
-  c.scale_max = 0.5F + static_cast<float>(key.slot % 7);
-  return c;
-}
-
 bool same_payload(const FineCandidate& a, const FineCandidate& b) {
   return a.slot == b.slot && a.depth == b.depth && a.mean_x == b.mean_x && a.mean_y == b.mean_y &&
          a.mean_z == b.mean_z && a.scale_max == b.scale_max;
-}
-
-// Slots in the order of release. Exact: all by (depth, index). blend_early: what the renderer of
-// algorithm/ does, in words: after a visit what is final goes, then the nearest until the rest
-// fits.
-std::vector<Key> expected_order(const Plan& plan, const Group& group) {
-  const auto in_order = [&](const Key& a, const Key& b) {
-    return a.depth < b.depth ||
-           (a.depth == b.depth && plan.index_of[a.slot] < plan.index_of[b.slot]);
-  };
-  std::vector<Key> waiting, out;
-  for (const Visit& visit : group.visits) {
-    waiting.insert(waiting.end(), visit.keys.begin(), visit.keys.end());
-    if (plan.config.on_overflow == OnOverflow::kSpill) continue;
-    std::sort(waiting.begin(), waiting.end(), in_order);
-    std::size_t gone = 0;
-    while (gone < waiting.size() && (waiting[gone].depth < visit.release_below ||
-                                     waiting.size() - gone > plan.config.entries)) {
-      out.push_back(waiting[gone++]);
-    }
-    waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(gone));
-  }
-  std::sort(waiting.begin(), waiting.end(), in_order);
-  out.insert(out.end(), waiting.begin(), waiting.end());
-  return out;
 }
 
 struct Run {
@@ -107,9 +25,9 @@ struct Run {
   std::vector<TimedFifo<FineCandidate>*> inputs, outputs;
   MergeUnit unit;
 
-  Run(Case& test, const BenchConfig& config, const Plan& plan)
+  Run(Case& test, const BenchConfig& config, const MergePlan& plan)
       : bench(test, config),
-        job(job_of(plan)),
+        job(merge_job(plan)),
         board(plan.groups.size()),
         inputs(fifos("sorted_by", plan.sorters, plan.input_entries)),
         outputs(fifos("to_hfu", plan.hfus, plan.output_entries)),
@@ -129,12 +47,12 @@ struct Run {
 };
 
 // One thread a sorting unit: its visits, each with its mark; a group's end is a visit of its own.
-void add_sorters(Run& run, const Plan& plan) {
+void add_sorters(Run& run, const MergePlan& plan) {
   for (std::uint32_t s = 0; s < plan.sorters; ++s) {
     run.bench.add_thread(fmt::format("sorter{}", s), [&, s](Activity& activity) {
       std::uint32_t number = 0;
       for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-        const std::vector<Visit>& visits = plan.groups[g].visits;
+        const std::vector<MergeVisit>& visits = plan.groups[g].visits;
         for (std::size_t v = 0; v <= visits.size(); ++v, ++number) {
           if (number % plan.sorters != s) continue;
           FineCandidate end;
@@ -143,7 +61,7 @@ void add_sorters(Run& run, const Plan& plan) {
           end.mark = v < visits.size() ? Mark::kEndOfVisit : Mark::kEndOfGroup;
           end.release_below = v < visits.size() ? visits[v].release_below : kInfinity;
           if (v < visits.size()) {
-            for (const Key& key : visits[v].keys) {
+            for (const MergeKey& key : visits[v].keys) {
               run.inputs[s]->push(candidate(g, number, key), activity);
             }
           }
@@ -155,14 +73,14 @@ void add_sorters(Run& run, const Plan& plan) {
 }
 
 // Takes the keys in turn, as rendering takes their splats.
-void add_reader(Run& run, const Plan& plan) {
+void add_reader(Run& run, const MergePlan& plan) {
   run.bench.add_thread("reader", [&](Activity& activity) {
     Checks& checks = run.bench.checks();
     std::size_t turn = 0;
     const auto next = [&] { return run.outputs[turn++ % plan.hfus]->pop(activity); };
     for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-      const Group& group = plan.groups[g];
-      const std::vector<Key> expected = expected_order(plan, group);
+      const MergeGroup& group = plan.groups[g];
+      const std::vector<MergeKey> expected = expected_order(plan, group);
       std::size_t got = 0;
       FineCandidate key = next();
       for (; key.mark == Mark::kNone; key = next(), ++got) {
@@ -187,14 +105,14 @@ void add_reader(Run& run, const Plan& plan) {
   });
 }
 
-void check_counters(Run& run, const Plan& plan) {
+void check_counters(Run& run, const MergePlan& plan) {
   Checks& checks = run.bench.checks();
   const MergeCounters& c = run.unit.counters();
   std::uint64_t keys = 0;
   bool saturating = false;
-  for (const Group& group : plan.groups) {
+  for (const MergeGroup& group : plan.groups) {
     saturating = saturating || group.saturates_after != ~std::uint64_t{0};
-    for (const Visit& visit : group.visits) keys += visit.keys.size();
+    for (const MergeVisit& visit : group.visits) keys += visit.keys.size();
   }
   checks.equal(c.keys, keys, "keys received");
   checks.equal(c.released + c.dropped_saturated, keys, "keys accounted for");
@@ -223,7 +141,7 @@ void check_counters(Run& run, const Plan& plan) {
       "written past the spill area");
 }
 
-MergeCounters run_plan(Case& test, const BenchConfig& config, const Plan& plan) {
+MergeCounters run_plan(Case& test, const BenchConfig& config, const MergePlan& plan) {
   Run run(test, config, plan);
   add_sorters(run, plan);
   add_reader(run, plan);
@@ -233,63 +151,15 @@ MergeCounters run_plan(Case& test, const BenchConfig& config, const Plan& plan) 
   return run.unit.counters();
 }
 
-BenchConfig still_bench(const Plan& plan) {
+BenchConfig still_bench(const MergePlan& plan) {
   BenchConfig config;
-  config.memory_bytes = job_of(plan).layout[Region::kIndices].end();
+  config.memory_bytes = merge_job(plan).layout[Region::kIndices].end();
   return config;
-}
-
-Plan plan_of(std::mt19937_64& random, std::uint32_t slots) {
-  Plan plan;
-  plan.slots = slots;
-  for (std::uint32_t slot = 0; slot < slots; ++slot) plan.index_of.push_back(slot);
-  std::shuffle(plan.index_of.begin(), plan.index_of.end(), random);
-  return plan;
-}
-
-// Visits of up to `chunk` neighbouring slots each. depths: how many different ones, so that ties
-// lie within visits and across them; a visit's nearest key may be as near as the visit before
-// allowed, and no nearer. Some visits have no key, some slots are left out.
-Group random_group(std::mt19937_64& random, const Plan& plan, std::uint32_t chunk,
-                   std::uint32_t depths) {
-  Group group;
-  std::vector<std::uint32_t> firsts;
-  for (std::uint32_t slot = 0; slot < plan.slots; slot += chunk) firsts.push_back(slot);
-  std::shuffle(firsts.begin(), firsts.end(), random);
-  std::uint32_t nearest = 0;
-  for (const std::uint32_t first : firsts) {
-    Visit visit;
-    for (std::uint32_t slot = first; slot < std::min(first + chunk, plan.slots); ++slot) {
-      if (random() % 4 == 0) continue;
-      const auto depth = nearest + static_cast<std::uint32_t>(random() % (depths - nearest));
-      visit.keys.push_back({0.5F + static_cast<float>(depth), slot});
-    }
-    std::sort(visit.keys.begin(), visit.keys.end(), [](const Key& a, const Key& b) {
-      return a.depth < b.depth || (a.depth == b.depth && a.slot < b.slot);
-    });
-    if (random() % 3 == 0) {
-      nearest += static_cast<std::uint32_t>(random() % (1 + (depths - 1 - nearest) / 4));
-    }
-    visit.release_below = 0.5F + static_cast<float>(nearest);
-    group.visits.push_back(visit);
-  }
-  if (!group.visits.empty()) group.visits.back().release_below = kInfinity;
-  return group;
-}
-
-// One group, one visit: n keys, depths descending with the slot so that spills take from the front.
-Group one_visit(std::uint32_t n, bool tied) {
-  Group group;
-  group.visits.emplace_back();
-  for (std::uint32_t i = 0; i < n; ++i) {
-    group.visits[0].keys.push_back({tied ? 1.0F : 1.0F + static_cast<float>(i), i});
-  }
-  return group;
 }
 
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
-  Plan plan = plan_of(random, static_cast<std::uint32_t>(random() % 400));
+  MergePlan plan = merge_plan(random, static_cast<std::uint32_t>(random() % 400));
   plan.sorters = 1 + static_cast<std::uint32_t>(random() % 4);
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 5);
   plan.input_entries = 1 + static_cast<std::uint32_t>(random() % 16);
@@ -309,7 +179,7 @@ void random_case(Case& test) {
 
 // n keys without ties that wait at the input: one cycle each in, one each out.
 void exact_time(Case& test, std::uint32_t n) {
-  Plan plan = plan_of(test.random, n);
+  MergePlan plan = merge_plan(test.random, n);
   plan.sorters = plan.hfus = 1;
   plan.input_entries = n + 2;
   plan.output_entries = n + 1;
@@ -332,14 +202,14 @@ void exact_time(Case& test, std::uint32_t n) {
 
 // What is final comes out although nothing more goes in; what ties with the bound does not.
 void final_keys_do_not_wait(Case& test) {
-  Plan plan = plan_of(test.random, 4);
+  MergePlan plan = merge_plan(test.random, 4);
   plan.sorters = plan.hfus = 1;
   plan.groups.emplace_back();
   Run run(test, still_bench(plan), plan);
   std::uint64_t last_in = 0;
   run.bench.add_thread("sorter", [&](Activity& activity) {
-    const Key keys[] = {{1, 0}, {2, 1}, {3, 2}};
-    for (const Key& key : keys) run.inputs[0]->push(candidate(0, 0, key), activity);
+    const MergeKey keys[] = {{1, 0}, {2, 1}, {3, 2}};
+    for (const MergeKey& key : keys) run.inputs[0]->push(candidate(0, 0, key), activity);
     FineCandidate end;
     end.mark = Mark::kEndOfVisit;
     end.release_below = 2;
@@ -371,7 +241,7 @@ void final_keys_do_not_wait(Case& test) {
 
 void one_group(Case& test, std::uint32_t n, std::uint32_t entries, bool tied,
                const std::function<void(Checks&, const MergeCounters&)>& also) {
-  Plan plan = plan_of(test.random, n);
+  MergePlan plan = merge_plan(test.random, n);
   plan.config.entries = entries;
   plan.config.spill_runs = 3;
   plan.groups.push_back(one_visit(n, tied));
@@ -386,7 +256,7 @@ int sc_main(int argc, char* argv[]) {
   using namespace sgs::tb;
   CaseRunner runner("tb_merge", "Merge unit alone, against std::sort by depth and file index");
   runner.add_directed("groups without a visit, visits without a key", [](Case& test) {
-    Plan plan = plan_of(test.random, 8);
+    MergePlan plan = merge_plan(test.random, 8);
     plan.groups.resize(5);
     plan.groups[1].visits.resize(3);
     plan.groups[3].visits.resize(1);
@@ -419,7 +289,7 @@ int sc_main(int argc, char* argv[]) {
   runner.add_directed("all keys at one depth, capacity of two keys",
                       [=](Case& test) { one_group(test, 40, 2, true, spills); });
   runner.add_directed("groups finished while keys wait on chip and in DRAM", [](Case& test) {
-    Plan plan = plan_of(test.random, 300);
+    MergePlan plan = merge_plan(test.random, 300);
     plan.config.entries = 24;
     for (const std::uint64_t after : {1U, 10U, 60U, 299U}) {
       plan.groups.push_back(random_group(test.random, plan, 16, 20));
@@ -429,7 +299,7 @@ int sc_main(int argc, char* argv[]) {
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("blend_early", [](Case& test) {
-    Plan plan = plan_of(test.random, 300);
+    MergePlan plan = merge_plan(test.random, 300);
     plan.config.entries = 8;
     plan.config.on_overflow = OnOverflow::kBlendEarly;
     for (int g = 0; g < 3; ++g) plan.groups.push_back(random_group(test.random, plan, 16, 30));
@@ -437,7 +307,7 @@ int sc_main(int argc, char* argv[]) {
     test.checks.that(c.forced_early > 0, "nothing was forced out");
   });
   runner.add_directed("bytes of a spill: keys out and back, an index each", [](Case& test) {
-    Plan plan = plan_of(test.random, 70);
+    MergePlan plan = merge_plan(test.random, 70);
     plan.config.entries = 64;
     plan.groups.push_back(one_visit(70, false));
     Run run(test, still_bench(plan), plan);
