@@ -77,10 +77,23 @@ class Waveform {
   sc_core::sc_trace_file* file_ = nullptr;
 };
 
+// An error that a unit reports ends the child where it is: thrown through the stack of a SystemC
+// process it would upset AddressSanitizer, and there is nothing to unwind for.
+void end_on_error(const sc_core::sc_report& report, const sc_core::sc_actions& actions) {
+  if (report.get_severity() < sc_core::SC_ERROR) {
+    sc_core::sc_report_handler::default_handler(report, actions);
+    return;
+  }
+  std::fprintf(stderr, "streaminggs: %s: %s\n", report.get_msg_type(), report.get_msg());
+  std::fflush(nullptr);
+  ::_exit(1);
+}
+
 void simulate(const AcceleratorConfig& config, const FrameJob& job, const MemoryImage& image,
               const RunOptions& options, int result) {
   use_femtosecond_resolution();
   sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
+  sc_core::sc_report_handler::set_handler(end_on_error);
   std::optional<StallInjector> stalls;
   constexpr std::uint32_t kLongestStallCycles = 20;
   if (options.stall_probability > 0) {
@@ -109,9 +122,6 @@ void simulate(const AcceleratorConfig& config, const FrameJob& job, const Memory
   int status = 0;
   try {
     simulate(config, job, image, options, result);
-  } catch (const sc_core::sc_report& report) {
-    std::fprintf(stderr, "streaminggs: %s: %s\n", report.get_msg_type(), report.get_msg());
-    status = 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "streaminggs: %s\n", error.what());
     status = 1;
