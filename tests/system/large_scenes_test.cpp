@@ -7,16 +7,16 @@ namespace sgs::test {
 namespace {
 
 TEST_CASE("shared scenes: truck, paper order, no stalls") {
-  check_shared_scene("truck", "paper", {kAccurate});
+  check_shared_scene("truck", "paper", {kAccurate, kFast});
 }
 TEST_CASE("shared scenes: truck, exact order, no stalls") {
-  check_shared_scene("truck", "exact", {kAccurate});
+  check_shared_scene("truck", "exact", {kAccurate, kFast});
 }
 TEST_CASE("shared scenes: playbot, paper order, no stalls") {
-  check_shared_scene("playbot", "paper", {kAccurate});
+  check_shared_scene("playbot", "paper", {kAccurate, kFast});
 }
 TEST_CASE("shared scenes: playbot, exact order, no stalls") {
-  check_shared_scene("playbot", "exact", {kAccurate});
+  check_shared_scene("playbot", "exact", {kAccurate, kFast});
 }
 TEST_CASE("shared scenes: platform, paper order") {
   check_shared_scene("platform", "paper", {kAccurate, kFast, kStalled});

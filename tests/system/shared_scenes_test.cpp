@@ -6,17 +6,13 @@
 namespace sgs::test {
 namespace {
 
-TEST_CASE("shared scenes: truck, paper order") {
-  check_shared_scene("truck", "paper", {kFast, kStalled});
-}
-TEST_CASE("shared scenes: truck, exact order") {
-  check_shared_scene("truck", "exact", {kFast, kStalled});
-}
+TEST_CASE("shared scenes: truck, paper order") { check_shared_scene("truck", "paper", {kStalled}); }
+TEST_CASE("shared scenes: truck, exact order") { check_shared_scene("truck", "exact", {kStalled}); }
 TEST_CASE("shared scenes: playbot, paper order") {
-  check_shared_scene("playbot", "paper", {kFast, kStalled});
+  check_shared_scene("playbot", "paper", {kStalled});
 }
 TEST_CASE("shared scenes: playbot, exact order") {
-  check_shared_scene("playbot", "exact", {kFast, kStalled});
+  check_shared_scene("playbot", "exact", {kStalled});
 }
 
 }  // namespace
