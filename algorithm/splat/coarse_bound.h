@@ -10,8 +10,6 @@
 // lambda of the radius is mid + sqrt(max(0.1, mid^2 - det)) <= lambda + sqrt(0.1).
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "algorithm/splat/footprint.h"
@@ -19,50 +17,56 @@
 
 namespace sgs {
 
-struct CoarseBound {
-  bool in_front;    // v_z > near plane
-  float depth;      // v_z
-  float x, y;       // px
-  float reach_px;   // nothing is blended farther from the centre (Euclidean)
-  float square_px;  // nor farther along either axis
+template <class T>
+struct CoarseBoundOf {
+  bool in_front;  // v_z > near plane
+  T depth;        // v_z
+  T x, y;         // px
+  T reach_px;     // nothing is blended farther from the centre (Euclidean)
+  T square_px;    // nor farther along either axis
 };
+using CoarseBound = CoarseBoundOf<float>;
 
-inline CoarseBound coarse_bound(const View<float>& view, const glm::vec3& mean, float scale_max) {
-  CoarseBound out{};
-  const glm::vec3 v = to_camera(view, mean);
+template <class T>
+CoarseBoundOf<T> coarse_bound(const View<T>& view, const glm::vec<3, T>& mean, T scale_max) {
+  CoarseBoundOf<T> out{};
+  const glm::vec<3, T> v = to_camera(view, mean);
   out.depth = v.z;
-  out.in_front = v.z > constant<float>(kNearPlane);
+  out.in_front = v.z > constant<T>(kNearPlane);
   if (!out.in_front) return out;
   const auto pixel = to_pixel(view, v);
   out.x = pixel.x;
   out.y = pixel.y;
   const auto [u, w] = clamped_ratio(view, v);
-  const float spread = std::max(view.focal_x, view.focal_y) * view.stretch * (scale_max / v.z);
+  const T spread = T(max_of(view.focal_x, view.focal_y) * view.stretch * T(scale_max / v.z));
   // 1e-5: the covariance of projection.h is a sum of squares, exact to a few units in the last
   // place.
-  const float lambda =
-      (spread * spread * (1 + u * u + w * w) + constant<float>(kLowPass)) * 1.00001F;
-  const float sigma = std::sqrt(lambda);
-  const float widening = ellipse_widening(4 / constant<float>(kLowPass) * lambda);
-  constexpr float kSlackPx = 0.05F;
-  out.reach_px = widening < kMaxWidening
-                     ? constant<float>(kVisibleSigmas) * sigma * (1.0002F + widening) + kSlackPx
-                     : std::numeric_limits<float>::max();
-  constexpr float kRadiusExtra = 0.3163F;  // sqrt(kMinDiscriminant), rounded up
-  out.square_px =
-      constant<float>(kRadiusSigmas) * std::sqrt(lambda + kRadiusExtra) * 1.00001F + 1 + kTilePx;
+  const T lambda =
+      T(T(spread * spread * T(T(1.0F) + u * u + w * w) + constant<T>(kLowPass)) * T(1.00001F));
+  const T sigma = sqrt_of(lambda);
+  const T widening = ellipse_widening(T(T(4.0F) / constant<T>(kLowPass) * lambda));
+  const T slack_px = T(0.05F);
+  out.reach_px = widening < T(kMaxWidening)
+                     ? T(constant<T>(kVisibleSigmas) * sigma * T(T(1.0002F) + widening) + slack_px)
+                     : T(std::numeric_limits<float>::max());
+  const T radius_extra = T(0.3163F);  // sqrt(kMinDiscriminant), rounded up
+  out.square_px = T(constant<T>(kRadiusSigmas) * sqrt_of(T(lambda + radius_extra)) * T(1.00001F) +
+                    T(1.0F) + constant<T>(kTilePx));
   return out;
 }
 
 // Whether the bound touches a rectangle of pixels.
-inline bool touches(const CoarseBound& bound, const PixelRect& pixels) {
-  const auto outside = [](float at, int low, int high) {
-    return std::max({static_cast<float>(low) - at, at - static_cast<float>(high - 1), 0.0F});
+template <class T>
+bool touches(const CoarseBoundOf<T>& bound, const PixelRect& pixels) {
+  const auto outside = [](T at, int low, int high) {
+    const T before = T(T(static_cast<float>(low)) - at);
+    const T behind = T(at - T(static_cast<float>(high - 1)));
+    return max_of(max_of(before, behind), T(0.0F));
   };
-  const float dx = outside(bound.x, pixels.x0, pixels.x1);
-  const float dy = outside(bound.y, pixels.y0, pixels.y1);
-  return std::max(dx, dy) <= bound.square_px &&
-         dx * dx + dy * dy <= bound.reach_px * bound.reach_px;
+  const T dx = outside(bound.x, pixels.x0, pixels.x1);
+  const T dy = outside(bound.y, pixels.y0, pixels.y1);
+  return max_of(dx, dy) <= bound.square_px &&
+         T(dx * dx + dy * dy) <= T(bound.reach_px * bound.reach_px);
 }
 
 }  // namespace sgs

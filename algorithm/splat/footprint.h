@@ -30,12 +30,18 @@ constexpr float kRoundoff = 0x1p-24F;  // half a unit in the last place of 1.0F
 
 // Widening of q by which an ellipse of condition tr^2/det surely holds what is computed as visible;
 // to be used below kMaxWidening only.
-inline float ellipse_widening(float condition) { return 64 * kRoundoff * condition; }
+template <class T>
+T ellipse_widening(T condition) {
+  return T(T(64 * kRoundoff) * condition);
+}
 constexpr float kMaxWidening = 0.5F;
 
 // Largest q = d^T conic d with alpha = opacity exp(-q/2) >= 1/255, with room for the rounding of
 // exp and of the product (relative 1e-6 in alpha is 2e-6 in q). Negative: never visible.
-inline float visible_cutoff(float opacity) { return 2.0F * std::log(255.0F * opacity) + 1e-4F; }
+template <class T>
+T visible_cutoff(T opacity) {
+  return T(T(2.0F) * log_of(T(T(255.0F) * opacity)) + T(1e-4F));
+}
 
 // Tile rectangle of section 2.7, in tiles.
 template <class T>
@@ -51,26 +57,27 @@ PixelRect tile_rect(T x, T y, T radius, int width_px, int height_px) {
 
 // Sub-tiles that a splat may touch: its tiles, cut to the box around its visible ellipse.
 // Empty for a splat that is never visible or off the frame.
-inline SubtileRect footprint(const Projected<float>& p, float opacity, int width_px,
-                             int height_px) {
-  const float cutoff = visible_cutoff(opacity);
+template <class T>
+SubtileRect footprint(const Projected<T>& p, T opacity, int width_px, int height_px) {
+  const T cutoff = visible_cutoff(opacity);
   const PixelRect tiles = tile_rect(p.x, p.y, p.radius, width_px, height_px);
-  if (tiles.empty() || !(cutoff >= 0)) return {};
+  if (tiles.empty() || !(cutoff >= T(0.0F))) return {};
   PixelRect box{tiles.x0 * kTilePx, tiles.y0 * kTilePx, std::min(tiles.x1 * kTilePx, width_px),
                 std::min(tiles.y1 * kTilePx, height_px)};
-  const float trace = p.cov_a + p.cov_c;
-  const float widening = ellipse_widening(trace * trace / p.determinant);
-  if (widening < kMaxWidening) {
+  const T trace = T(p.cov_a + p.cov_c);
+  const T widening = ellipse_widening(T(trace * trace / p.determinant));
+  if (widening < T(kMaxWidening)) {
     // Rounding of x -+ half: below 2^-6 px while |x| < 2^18 (twice the largest frame); farther off,
     // half is at least |x| / 2 and the factor 1.0001 covers it.
-    constexpr float kSlackPx = 0.02F;
-    const float q = cutoff * (1 + widening);
-    const float half_x = std::sqrt(q * p.cov_a) * 1.0001F + kSlackPx;
-    const float half_y = std::sqrt(q * p.cov_c) * 1.0001F + kSlackPx;
-    const auto low = [](float v, int high) { return truncated_index(std::ceil(v), high); };
-    const auto past = [](float v, int high) { return truncated_index(std::floor(v) + 1, high); };
-    box = intersection(box, {low(p.x - half_x, width_px), low(p.y - half_y, height_px),
-                             past(p.x + half_x, width_px), past(p.y + half_y, height_px)});
+    const T slack_px = T(0.02F);
+    const T q = T(cutoff * T(T(1.0F) + widening));
+    const T half_x = T(sqrt_of(T(q * p.cov_a)) * T(1.0001F) + slack_px);
+    const T half_y = T(sqrt_of(T(q * p.cov_c)) * T(1.0001F) + slack_px);
+    using std::ceil, std::floor;
+    const auto low = [](T v, int high) { return truncated_index(T(ceil(v)), high); };
+    const auto past = [](T v, int high) { return truncated_index(T(floor(v) + T(1.0F)), high); };
+    box = intersection(box, {low(T(p.x - half_x), width_px), low(T(p.y - half_y), height_px),
+                             past(T(p.x + half_x), width_px), past(T(p.y + half_y), height_px)});
     if (box.empty()) return {};
   }
   const auto down = [](int px) { return static_cast<std::uint16_t>(px / kSubtilePx); };
@@ -82,25 +89,25 @@ inline SubtileRect footprint(const Projected<float>& p, float opacity, int width
 
 // Lower bound of q over all points of a rectangle of pixel centres (inclusive bounds, px).
 // q is convex: its minimum is 0 inside, else on an edge that faces the centre.
-inline float least_q(float x, float y, float a, float b, float c, const PixelRect& pixels) {
-  const float left = static_cast<float>(pixels.x0) - x,
-              right = static_cast<float>(pixels.x1 - 1) - x;
-  const float top = static_cast<float>(pixels.y0) - y,
-              bottom = static_cast<float>(pixels.y1 - 1) - y;
-  if (left <= 0 && right >= 0 && top <= 0 && bottom >= 0) return 0;
-  const auto q = [&](float dx, float dy) { return a * dx * dx + 2 * b * dx * dy + c * dy * dy; };
+template <class T>
+T least_q(T x, T y, T a, T b, T c, const PixelRect& pixels) {
+  const T left = T(T(static_cast<float>(pixels.x0)) - x),
+          right = T(T(static_cast<float>(pixels.x1 - 1)) - x);
+  const T top = T(T(static_cast<float>(pixels.y0)) - y),
+          bottom = T(T(static_cast<float>(pixels.y1 - 1)) - y);
+  const T zero = T(0.0F);
+  if (left <= zero && right >= zero && top <= zero && bottom >= zero) return zero;
+  const auto q = [&](T dx, T dy) { return T(a * dx * dx + T(2.0F) * b * dx * dy + c * dy * dy); };
   // Not std::clamp: a quotient that is no number (flat conic of an overflowing determinant) must
   // become a point of the edge, whichever.
-  const auto clamp = [](float at, float low, float high) {
-    return std::max(low, std::min(high, at));
-  };
-  const auto on_vertical = [&](float dx) { return q(dx, clamp(-b * dx / c, top, bottom)); };
-  const auto on_horizontal = [&](float dy) { return q(clamp(-b * dy / a, left, right), dy); };
-  float least = std::numeric_limits<float>::max();
-  if (left > 0) least = std::min(least, on_vertical(left));
-  if (right < 0) least = std::min(least, on_vertical(right));
-  if (top > 0) least = std::min(least, on_horizontal(top));
-  if (bottom < 0) least = std::min(least, on_horizontal(bottom));
+  const auto clamp = [](T at, T low, T high) { return max_of(low, min_of(high, at)); };
+  const auto on_vertical = [&](T dx) { return q(dx, clamp(T(-b * dx / c), top, bottom)); };
+  const auto on_horizontal = [&](T dy) { return q(clamp(T(-b * dy / a), left, right), dy); };
+  T least = T(std::numeric_limits<float>::max());
+  if (left > zero) least = min_of(least, on_vertical(left));
+  if (right < zero) least = min_of(least, on_vertical(right));
+  if (top > zero) least = min_of(least, on_horizontal(top));
+  if (bottom < zero) least = min_of(least, on_horizontal(bottom));
   return least;
 }
 
@@ -108,16 +115,19 @@ inline float least_q(float x, float y, float a, float b, float c, const PixelRec
 // what rounding can do is given away at the farthest corner, where S is largest: 17 eps S between Q
 // and the pixel's q as above, 9 eps S between Q and the conic here, 6 eps S in evaluating it here,
 // the rest for S itself.
-inline bool reaches(float x, float y, float a, float b, float c, float cutoff,
-                    const PixelRect& pixels) {
-  const float far_x = std::max(std::abs(static_cast<float>(pixels.x0) - x),
-                               std::abs(static_cast<float>(pixels.x1 - 1) - x));
-  const float far_y = std::max(std::abs(static_cast<float>(pixels.y0) - y),
-                               std::abs(static_cast<float>(pixels.y1 - 1) - y));
-  const float rounding =
-      40 * kRoundoff * (a * far_x * far_x + 2 * std::abs(b) * far_x * far_y + c * far_y * far_y);
+template <class T>
+bool reaches(T x, T y, T a, T b, T c, T cutoff, const PixelRect& pixels) {
+  using std::abs;
+  const auto distance = [](int px, T centre) {
+    return T(abs(T(T(static_cast<float>(px)) - centre)));
+  };
+  const T far_x = max_of(distance(pixels.x0, x), distance(pixels.x1 - 1, x));
+  const T far_y = max_of(distance(pixels.y0, y), distance(pixels.y1 - 1, y));
+  const T rounding =
+      T(T(40 * kRoundoff) *
+        T(a * far_x * far_x + T(2.0F) * T(abs(b)) * far_x * far_y + c * far_y * far_y));
   // Negated, so that a conic that is not a number keeps the splat.
-  return !(least_q(x, y, a, b, c, pixels) > cutoff + rounding);
+  return !(least_q(x, y, a, b, c, pixels) > T(cutoff + rounding));
 }
 
 }  // namespace sgs

@@ -12,12 +12,14 @@ namespace sgs {
 // The geometric part. False where nothing of g can be seen in the frame: behind the near plane,
 // never visible, off the frame, or a centre or covariance that overflows float (a splat farther or
 // wider than 10^19 px).
-inline bool make_geometry(const View<float>& view, const Gaussian<float>& g, Splat& out) {
-  const glm::vec3 v = to_camera(view, g.mean);
-  if (!(v.z > constant<float>(kNearPlane))) return false;
-  const Projected<float> p = project(view, g, v);
-  if (!std::isfinite(p.cov_a + p.cov_c) || !std::isfinite(p.x + p.y)) return false;
-  if (!std::isfinite(p.depth)) return false;  // nothing can be in order with it
+template <class T>
+bool make_geometry(const View<T>& view, const Gaussian<T>& g, SplatOf<T>& out) {
+  const glm::vec<3, T> v = to_camera(view, g.mean);
+  if (!(v.z > constant<T>(kNearPlane))) return false;
+  const Projected<T> p = project(view, g, v);
+  using std::isfinite;
+  if (!isfinite(T(p.cov_a + p.cov_c)) || !isfinite(T(p.x + p.y))) return false;
+  if (!isfinite(p.depth)) return false;  // nothing can be in order with it
   out.x = p.x;
   out.y = p.y;
   out.conic_a = p.conic_a;
@@ -38,15 +40,17 @@ inline PixelRect footprint_px(const SubtileRect& footprint, const PixelRect& wit
 
 // Whether a splat can change a pixel of the group `pixels`: its footprint overlaps and so does its
 // visible ellipse.
-inline bool reaches_group(const Splat& s, const PixelRect& pixels) {
+template <class T>
+bool reaches_group(const SplatOf<T>& s, const PixelRect& pixels) {
   const PixelRect overlap = footprint_px(s.footprint, pixels);
   return !overlap.empty() &&
          reaches(s.x, s.y, s.conic_a, s.conic_b, s.conic_c, visible_cutoff(s.opacity), overlap);
 }
 
-inline void add_colour(const View<float>& view, int sh_degree, const glm::vec3& mean,
-                       const glm::vec3* sh, Splat& out) {
-  out.rgb = sh_colour(sh_degree, sh, from_eye(view, mean), glm::vec3(0.0F));
+template <class T>
+void add_colour(const View<T>& view, int sh_degree, const glm::vec<3, T>& mean,
+                const glm::vec<3, T>* sh, SplatOf<T>& out) {
+  out.rgb = sh_colour(sh_degree, sh, from_eye(view, mean));
 }
 
 }  // namespace sgs

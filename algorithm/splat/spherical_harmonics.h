@@ -35,12 +35,11 @@ void sh_basis(int degree, T x, T y, T z, T (&basis)[16]) {
   basis[15] = T(c(-0.5900435899266435) * x * T(xx - three * yy));
 }
 
-// Colour of a Gaussian at `mean` seen from `eye` (world): SH of (mean - eye)/|mean - eye|, plus
-// 0.5, clamped below at 0. coeffs: [(degree+1)^2] rgb.
+// Colour of a Gaussian whose centre lies at `offset` from the eye (world axes): SH of
+// offset/|offset|, plus 0.5, clamped below at 0. coeffs: [(degree+1)^2] rgb.
 template <class T>
-glm::vec<3, T> sh_colour(int degree, const glm::vec<3, T>* coeffs, const glm::vec<3, T>& mean,
-                         const glm::vec<3, T>& eye) {
-  T x = T(mean.x - eye.x), y = T(mean.y - eye.y), z = T(mean.z - eye.z);
+glm::vec<3, T> sh_colour(int degree, const glm::vec<3, T>* coeffs, const glm::vec<3, T>& offset) {
+  T x = offset.x, y = offset.y, z = offset.z;
   if (degree > 0) {
     const T inverse = T(T(1.0F) / sqrt_of(T(x * x + y * y + z * z)));
     x = T(x * inverse);

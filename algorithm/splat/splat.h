@@ -8,15 +8,17 @@
 
 namespace sgs {
 
-struct Splat {
-  float x, y;                       // px, centre
-  float conic_a, conic_b, conic_c;  // 1/px^2
-  float opacity;
-  float depth;          // v_z, the sorting key
+template <class T>
+struct SplatOf {
+  T x, y;                       // px, centre
+  T conic_a, conic_b, conic_c;  // 1/px^2
+  T opacity;
+  T depth;              // v_z, the sorting key
   std::uint32_t index;  // tie-break of equal depths
-  glm::vec3 rgb;
+  glm::vec<3, T> rgb;
   SubtileRect footprint;  // sub-tiles that may be blended, in the whole frame
 };
+using Splat = SplatOf<float>;
 
 // Bytes of a splat between the units: 11 words and, relative to the group, four 8-bit sub-tile
 // bounds.

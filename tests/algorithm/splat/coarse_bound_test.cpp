@@ -39,10 +39,10 @@ TEST_CASE("coarse bound by hand") {
 
 TEST_CASE("coarse bound: on and behind the near plane nothing is in front") {
   const auto view = make_view<float>(camera_at_origin());
-  CHECK_FALSE(coarse_bound(view, {0, 0, 0.2F}, 1).in_front);
-  CHECK_FALSE(coarse_bound(view, {0, 0, -4}, 1).in_front);
-  CHECK_FALSE(coarse_bound(view, {0, 0, 0}, 1).in_front);
-  CHECK(coarse_bound(view, {0, 0, std::nextafter(0.2F, 1.0F)}, 1).in_front);
+  CHECK_FALSE(coarse_bound(view, {0, 0, 0.2F}, 1.0F).in_front);
+  CHECK_FALSE(coarse_bound(view, {0, 0, -4}, 1.0F).in_front);
+  CHECK_FALSE(coarse_bound(view, {0, 0, 0}, 1.0F).in_front);
+  CHECK(coarse_bound(view, {0, 0, std::nextafter(0.2F, 1.0F)}, 1.0F).in_front);
 }
 
 TEST_CASE("touches: circle and square against a rectangle of pixels") {
@@ -83,7 +83,7 @@ TEST_CASE("a rotation that stretches by a thousandth stretches the bound") {
 
 TEST_CASE("a splat wider than the bound on rounding reaches everything in its square") {
   const auto view = make_view<float>(camera_at_origin());
-  const auto bound = coarse_bound(view, {0, 0, 4}, 1000);
+  const auto bound = coarse_bound(view, {0, 0, 4}, 1000.0F);
   CHECK(touches(bound, {0, 0, 100, 50}));
   CHECK(bound.reach_px > 1e30F);
 }

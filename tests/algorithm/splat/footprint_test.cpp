@@ -85,19 +85,19 @@ TEST_CASE("footprint: beyond the condition that the bound covers, only the tiles
 
 TEST_CASE("least_q by hand") {
   // Unit circle: the corner (3, 4) of the rectangle is nearest.
-  CHECK(least_q(0, 0, 1, 0, 1, {3, 4, 5, 6}) == 25);
-  CHECK(least_q(0, 0, 1, 0, 1, {-6, -5, -2, -3}) == 25);  // corner (-3, -4)
-  CHECK(least_q(0, 0, 1, 0, 1, {-1, -1, 2, 2}) == 0);
+  CHECK(least_q<float>(0, 0, 1, 0, 1, {3, 4, 5, 6}) == 25);
+  CHECK(least_q<float>(0, 0, 1, 0, 1, {-6, -5, -2, -3}) == 25);  // corner (-3, -4)
+  CHECK(least_q<float>(0, 0, 1, 0, 1, {-1, -1, 2, 2}) == 0);
   // 2 + 2 dy + 2 dy^2 along dx = 1: least at dy = -1/2.
-  CHECK(least_q(0, 0, 2, 1, 2, {1, -5, 3, 6}) == 1.5F);
+  CHECK(least_q<float>(0, 0, 2, 1, 2, {1, -5, 3, 6}) == 1.5F);
   // The minimum of that edge lies outside it: at dy = 1, 2 + 2 + 2.
-  CHECK(least_q(0, 0, 2, 1, 2, {1, 1, 3, 6}) == 6);
+  CHECK(least_q<float>(0, 0, 2, 1, 2, {1, 1, 3, 6}) == 6);
 }
 
 TEST_CASE("reaches: touching, just missing, and a conic that is flat") {
   const float cutoff = 25;
-  CHECK(reaches(0, 0, 1, 0, 1, cutoff, {3, 4, 5, 6}));
-  CHECK_FALSE(reaches(0, 0, 1, 0, 1, 24.9F, {3, 4, 5, 6}));
-  CHECK(reaches(0, 0, 0, 0, 0, cutoff, {3, 4, 5, 6}));
-  CHECK(reaches(0, 0, std::numeric_limits<float>::quiet_NaN(), 0, 1, cutoff, {3, 4, 5, 6}));
+  CHECK(reaches<float>(0, 0, 1, 0, 1, cutoff, {3, 4, 5, 6}));
+  CHECK_FALSE(reaches<float>(0, 0, 1, 0, 1, 24.9F, {3, 4, 5, 6}));
+  CHECK(reaches<float>(0, 0, 0, 0, 0, cutoff, {3, 4, 5, 6}));
+  CHECK(reaches<float>(0, 0, std::numeric_limits<float>::quiet_NaN(), 0, 1, cutoff, {3, 4, 5, 6}));
 }

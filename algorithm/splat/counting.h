@@ -1,0 +1,96 @@
+// A float that records in a DataFlow every operation it goes through. The templates of
+// algorithm/splat instantiated with it compute what they compute with float, and count it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "algorithm/splat/data_flow.h"
+#include "algorithm/splat/scalar.h"
+
+namespace sgs {
+
+struct Counting {
+  float value;
+  DataFlow* flow;      // null: a constant
+  std::uint32_t node;  // in the flow
+
+  Counting() = default;  // trivial, as glm wants it
+  explicit Counting(float constant) : value(constant), flow(nullptr), node(0) {}
+  Counting(float result, DataFlow* in, std::uint32_t at) : value(result), flow(in), node(at) {}
+
+  explicit operator int() const;  // toward zero
+  explicit operator double() const { return static_cast<double>(value); }
+};
+
+inline Counting input(DataFlow& flow, float value) { return {value, &flow, flow.input()}; }
+
+inline DataFlow::Operand operand_of(Counting a) {
+  if (a.flow != nullptr) return {false, a.node};
+  return {true, __builtin_bit_cast(std::uint32_t, a.value)};
+}
+
+inline Counting recorded(float result, Operation operation, Counting a, Counting b) {
+  DataFlow* const flow = a.flow != nullptr ? a.flow : b.flow;
+  if (flow == nullptr) return Counting(result);
+  return {result, flow, flow->apply(operation, operand_of(a), operand_of(b))};
+}
+inline Counting recorded(float result, Operation operation, Counting a) {
+  return recorded(result, operation, a, a);
+}
+
+inline Counting operator-(Counting a) { return recorded(-a.value, Operation::kNegate, a); }
+inline Counting operator+(Counting a, Counting b) {
+  return recorded(a.value + b.value, Operation::kAdd, a, b);
+}
+inline Counting operator-(Counting a, Counting b) {
+  return recorded(a.value - b.value, Operation::kSubtract, a, b);
+}
+inline Counting operator*(Counting a, Counting b) {
+  return recorded(a.value * b.value, Operation::kMultiply, a, b);
+}
+// The reciprocal of a power of two is exact: the product is the quotient.
+inline Counting operator/(Counting a, Counting b) {
+  int exponent = 0;
+  const bool by_power_of_two = b.flow == nullptr && std::frexp(b.value, &exponent) == 0.5F;
+  if (by_power_of_two) return a * Counting(1 / b.value);
+  return recorded(a.value / b.value, Operation::kDivide, a, b);
+}
+
+inline Counting sqrt(Counting a) { return recorded(std::sqrt(a.value), Operation::kSquareRoot, a); }
+inline Counting log(Counting a) { return recorded(std::log(a.value), Operation::kLogarithm, a); }
+inline Counting exp(Counting a) { return recorded(exp_of(a.value), Operation::kExponential, a); }
+inline Counting abs(Counting a) { return recorded(std::abs(a.value), Operation::kAbsolute, a); }
+inline Counting ceil(Counting a) { return recorded(std::ceil(a.value), Operation::kCeil, a); }
+inline Counting floor(Counting a) { return recorded(std::floor(a.value), Operation::kFloor, a); }
+inline Counting::operator int() const {
+  recorded(value, Operation::kTruncate, *this);
+  return static_cast<int>(value);
+}
+
+inline bool isfinite(Counting a) {
+  recorded(a.value, Operation::kIsFinite, a);
+  return std::isfinite(a.value);
+}
+inline bool operator<(Counting a, Counting b) {
+  recorded(0, Operation::kCompare, a, b);
+  return a.value < b.value;
+}
+inline bool operator>(Counting a, Counting b) { return b < a; }
+inline bool operator<=(Counting a, Counting b) {
+  recorded(0, Operation::kCompare, a, b);
+  return a.value <= b.value;
+}
+inline bool operator>=(Counting a, Counting b) { return b <= a; }
+
+// The result is a value of its own, whichever operand it is.
+template <>
+inline Counting max_of<Counting>(Counting a, Counting b) {
+  return recorded(max_of(a.value, b.value), Operation::kMaximum, a, b);
+}
+template <>
+inline Counting min_of<Counting>(Counting a, Counting b) {
+  return recorded(min_of(a.value, b.value), Operation::kMinimum, a, b);
+}
+
+}  // namespace sgs

@@ -1,0 +1,72 @@
+// The operations of one computation as a graph: what is computed from what.
+// An operation on the same operands as an earlier one is the earlier one, as it would be in a
+// datapath or behind a compiler. Operations on constants alone are made beforehand.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "algorithm/splat/operation_counts.h"
+
+namespace sgs {
+
+enum class Operation : std::uint8_t {
+  kInput,
+  kNegate,
+  kAbsolute,
+  kMultiply,
+  kAdd,
+  kSubtract,
+  kDivide,
+  kSquareRoot,
+  kLogarithm,
+  kExponential,
+  kCompare,
+  kMinimum,
+  kMaximum,
+  kIsFinite,
+  kCeil,
+  kFloor,
+  kTruncate
+};
+
+class DataFlow {
+ public:
+  // A constant's bits, or the number of a node.
+  struct Operand {
+    bool is_constant;
+    std::uint32_t of;
+  };
+
+  // A new value that comes from outside; its node.
+  std::uint32_t input();
+
+  // The node that holds the result; operations of one operand have it twice.
+  std::uint32_t apply(Operation operation, Operand a, Operand b);
+
+  std::size_t size() const { return nodes_.size(); }
+
+  // Operations among nodes [first, last). A sum fuses with a product only if nothing in the whole
+  // graph takes the product a second time.
+  OperationCounts counts(std::size_t first, std::size_t last) const;
+
+ private:
+  struct Node {
+    Operation operation;
+    Operand a, b;
+    std::uint32_t uses;  // operations that take it, twice where they take it twice
+    bool new_divisor;    // of a division: the first by this divisor
+  };
+  using Key = std::tuple<Operation, bool, std::uint32_t, bool, std::uint32_t>;
+
+  bool is_lone_product(Operand operand) const;
+  bool is_new_divisor(Operand divisor) const;
+
+  std::vector<Node> nodes_;
+  std::map<Key, std::uint32_t> known_;
+};
+
+}  // namespace sgs

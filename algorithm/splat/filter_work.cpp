@@ -1,0 +1,78 @@
+// The filters run with the counting scalar.
+#include "algorithm/splat/filter_work.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/counting.h"
+#include "algorithm/splat/make_splat.h"
+
+namespace sgs {
+namespace {
+
+glm::vec<3, Counting> input(DataFlow& flow, const glm::vec3& v) {
+  return {input(flow, v.x), input(flow, v.y), input(flow, v.z)};
+}
+
+Gaussian<Counting> input(DataFlow& flow, const Gaussian<float>& g) {
+  Gaussian<Counting> out{};
+  out.mean = input(flow, g.mean);
+  out.scale = input(flow, g.scale);
+  for (std::size_t k = 0; k < g.quat.size(); ++k) out.quat[k] = input(flow, g.quat[k]);
+  out.opacity = input(flow, g.opacity);
+  return out;
+}
+
+}  // namespace
+
+// No two values of the camera are equal and none is 0, so that no two operations coincide.
+FilterCase longest_case() {
+  FilterCase out;
+  out.camera.width = 256;
+  out.camera.height = 192;
+  out.camera.focal_x = 250;
+  out.camera.focal_y = 240;
+  out.camera.position = {1, 2, 3};
+  const glm::dvec3 z = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
+  const glm::dvec3 x = glm::normalize(glm::cross(z, glm::dvec3(0.2, 0.9, 0.1)));
+  out.camera.world_from_camera = glm::dmat3(x, glm::cross(z, x), z);
+  // In the middle of the frame, some 20 px wide; the group begins 10 px farther right and below.
+  const glm::dvec3 mean = out.camera.position + 4.0 * z;
+  out.gaussian = {glm::vec3(mean), {0.3F, 0.25F, 0.35F}, {0.8F, 0.36F, 0.48F, 0}, 0.9F};
+  out.group = {138, 106, 170, 138};
+  return out;
+}
+
+OperationCounts coarse_work(const FilterCase& tested) {
+  DataFlow flow;
+  const auto view = make_view<Counting>(tested.camera);
+  const glm::vec3& scale = tested.gaussian.scale;
+  const auto bound = coarse_bound(view, input(flow, tested.gaussian.mean),
+                                  input(flow, std::max({scale.x, scale.y, scale.z})));
+  // Counted whatever it says.
+  if (bound.in_front) static_cast<void>(touches(bound, tested.group));
+  return flow.counts(0, flow.size());
+}
+
+FineWork fine_work(const FilterCase& tested, int sh_degree) {
+  DataFlow flow;
+  const auto view = make_view<Counting>(tested.camera);
+  const Gaussian<Counting> gaussian = input(flow, tested.gaussian);
+  std::array<glm::vec<3, Counting>, 16> sh;
+  for (auto& coefficient : sh) coefficient = input(flow, glm::vec3(1.0F));
+
+  SplatOf<Counting> splat{};
+  const bool on_screen = make_geometry(view, gaussian, splat);
+  const std::size_t geometry_end = flow.size();
+  const bool kept = on_screen && reaches_group(splat, tested.group);
+  const std::size_t test_end = flow.size();
+  if (kept) add_colour(view, sh_degree, gaussian.mean, sh.data(), splat);
+  return {flow.counts(0, geometry_end), flow.counts(geometry_end, test_end),
+          flow.counts(test_end, flow.size())};
+}
+
+OperationCounts FineWork::total() const { return geometry + group_test + colour; }
+
+}  // namespace sgs

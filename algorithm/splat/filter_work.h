@@ -1,0 +1,38 @@
+// What one test of the coarse and of the fine filter executes, counted by running it.
+// Values of the camera and of the group are constants: what depends on them alone is computed once
+// a frame or a group and kept. The decoding of a second half is not included.
+#pragma once
+
+#include "algorithm/scene/camera.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/operation_counts.h"
+#include "algorithm/splat/rects.h"
+
+namespace sgs {
+
+// A Gaussian, and the view and group it is tested against.
+struct FilterCase {
+  Camera camera;
+  Gaussian<float> gaussian;
+  PixelRect group;
+};
+
+// A case that passes every test of both filters and takes the longest way: its centre lies off a
+// corner of the group, so that two edges are to be looked at. A unit that starts a test at fixed
+// intervals has to be built for this.
+FilterCase longest_case();
+
+// Of the coarse test, up to where it fails or to its end.
+OperationCounts coarse_work(const FilterCase& tested);
+
+// Of the fine test, up to where it fails or to its end. An operation that two parts need counts
+// with the first.
+struct FineWork {
+  OperationCounts geometry;    // to the screen, footprint
+  OperationCounts group_test;  // visible ellipse against the group
+  OperationCounts colour;      // spherical harmonics
+  OperationCounts total() const;
+};
+FineWork fine_work(const FilterCase& tested, int sh_degree);
+
+}  // namespace sgs

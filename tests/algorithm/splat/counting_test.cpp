@@ -1,0 +1,124 @@
+// The counting scalar on expressions counted by hand.
+#include "algorithm/splat/counting.h"
+
+#include <catch2/catch.hpp>
+
+#include "algorithm/splat/blend.h"
+#include "algorithm/splat/spherical_harmonics.h"
+
+namespace sgs {
+namespace {
+
+OperationCounts all(const DataFlow& flow) { return flow.counts(0, flow.size()); }
+
+OperationCounts basis_counts(int degree) {
+  DataFlow flow;
+  Counting basis[16];
+  sh_basis(degree, input(flow, 0.1F), input(flow, 0.2F), input(flow, 0.3F), basis);
+  return all(flow);
+}
+
+}  // namespace
+
+TEST_CASE("counting: a dot product is three multiplies, two of which the adds follow") {
+  DataFlow flow;
+  const Counting a = input(flow, 2), b = input(flow, 3), c = input(flow, 4);
+  const Counting x = input(flow, 5), y = input(flow, 6), z = input(flow, 7);
+  CHECK((a * x + b * y + c * z).value == 56);
+  const OperationCounts counts = all(flow);
+  CHECK(counts.multiplies == 3);
+  CHECK(counts.adds == 2);
+  CHECK(counts.fused == 2);
+  CHECK(folded_macs(counts) == 3);
+}
+
+TEST_CASE("counting: a product that is taken twice leaves its lane, and the adds take cycles") {
+  DataFlow flow;
+  const Counting a = input(flow, 2), b = input(flow, 3), c = input(flow, 4);
+  const Counting product = a * b;
+  CHECK((product + c).value == 10);
+  CHECK(all(flow).fused == 1);
+  CHECK((product - c).value == 2);
+  CHECK(all(flow).adds == 2);
+  CHECK(all(flow).fused == 0);
+  CHECK(folded_macs(all(flow)) == 3);
+}
+
+TEST_CASE("counting: the same operation again, and operations on constants, cost nothing") {
+  DataFlow flow;
+  const Counting a = input(flow, 2), b = input(flow, 2);
+  CHECK((a * b + b * a).value == 8);
+  CHECK(all(flow).multiplies == 1);
+  CHECK((a * a).value == 4);  // of equal value, but another operand
+  CHECK(all(flow).multiplies == 2);
+  CHECK((Counting(3.0F) * Counting(5.0F) * a).value == 30);
+  CHECK(all(flow).multiplies == 3);
+  CHECK((-abs(a)).value == -2);
+  CHECK(all(flow).adds == 1);
+}
+
+TEST_CASE("counting: quotients share the reciprocal of their divisor") {
+  DataFlow flow;
+  const Counting a = input(flow, 6), b = input(flow, 9), c = input(flow, 3);
+  CHECK((a / c).value == 2);
+  CHECK((b / c).value == 3);
+  CHECK(all(flow).divisions == 2);
+  CHECK(all(flow).divisors == 1);
+  CHECK(folded_macs(all(flow)) == kReciprocalMacs + 2 * kQuotientMacs);
+  CHECK((a / b).value == 6.0F / 9.0F);
+  CHECK(all(flow).divisors == 2);
+  CHECK((a / Counting(16.0F)).value == 0.375F);
+  CHECK(all(flow).divisions == 3);
+  CHECK(all(flow).multiplies == 1);
+  CHECK((a / Counting(3.0F)).value == 2);
+  CHECK(all(flow).divisions == 4);
+  CHECK(all(flow).divisors == 2);
+}
+
+TEST_CASE("counting: functions, comparisons and roundings apart") {
+  DataFlow flow;
+  const Counting a = input(flow, 2.5F), b = input(flow, 4);
+  CHECK(sqrt_of(b).value == 2);
+  CHECK(log_of(b).value == std::log(4.0F));
+  CHECK(exp_of(a).value == exp_of(2.5F));
+  CHECK(a < b);
+  CHECK_FALSE(a >= b);  // the comparator has said so already
+  CHECK(max_of(a, b).value == 4);
+  CHECK(isfinite(a));
+  CHECK(truncated_index(a, 10) == 2);  // above 0? below 10? then toward zero
+  CHECK(floor(a).value == 2);
+  const OperationCounts counts = all(flow);
+  CHECK(counts.square_roots == 1);
+  CHECK(counts.logarithms == 1);
+  CHECK(counts.exponentials == 1);
+  CHECK(counts.comparisons == 5);
+  CHECK(counts.roundings == 2);
+  CHECK(counts.multiplies + counts.adds + counts.divisions == 0);
+  CHECK(folded_macs(counts) == kSquareRootMacs + kLogarithmMacs + kExponentialMacs + 7);
+}
+
+TEST_CASE("counting: alpha of a pixel") {
+  DataFlow flow;
+  const Counting a = input(flow, 0.5F), b = input(flow, 0.1F), c = input(flow, 0.4F);
+  const Counting dx = input(flow, 1), dy = input(flow, -1);
+  CHECK(alpha_at(a, b, c, input(flow, 0.8F), dx, dy).value ==
+        alpha_at(0.5F, 0.1F, 0.4F, 0.8F, 1.0F, -1.0F));
+  const OperationCounts counts = all(flow);
+  CHECK(counts.multiplies == 8);  // a dx dx, c dy dy, -1/2, b dx dy, opacity
+  CHECK(counts.adds == 2);
+  CHECK(counts.fused == 2);
+  CHECK(counts.exponentials == 1);
+  CHECK(counts.comparisons == 3);
+}
+
+TEST_CASE("counting: each degree of spherical harmonics takes more than the one below") {
+  CHECK(folded_macs(basis_counts(0)) == 0);
+  CHECK(basis_counts(1).multiplies == 3);
+  for (int degree = 1; degree <= 3; ++degree) {
+    CAPTURE(degree);
+    CHECK(basis_counts(degree).multiplies > basis_counts(degree - 1).multiplies);
+    CHECK(folded_macs(basis_counts(degree)) > folded_macs(basis_counts(degree - 1)));
+  }
+}
+
+}  // namespace sgs

@@ -1,0 +1,133 @@
+// Counted filters against the filters in float, and the longest case against random ones.
+#include "algorithm/splat/filter_work.h"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/counting.h"
+#include "algorithm/splat/make_splat.h"
+#include "tests/algorithm/splat/random_gaussian.h"
+
+namespace sgs::test {
+namespace {
+
+bool same_bits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+// Nothing is counted of constants, but their arithmetic is the same.
+glm::vec<3, Counting> constants(const glm::vec3& v) {
+  return {Counting(v.x), Counting(v.y), Counting(v.z)};
+}
+
+void check_same(const FilterCase& tested, const std::vector<glm::vec3>& sh) {
+  DataFlow flow;
+  const auto number = [&](float value) { return input(flow, value); };
+  const auto vector = [&](const glm::vec3& v) {
+    return glm::vec<3, Counting>(number(v.x), number(v.y), number(v.z));
+  };
+  const auto view = make_view<float>(tested.camera);
+  const auto counting_view = make_view<Counting>(tested.camera);
+  const Gaussian<float>& g = tested.gaussian;
+  Gaussian<Counting> counting_g{};
+  counting_g.mean = vector(g.mean);
+  counting_g.scale = vector(g.scale);
+  for (std::size_t k = 0; k < 4; ++k) counting_g.quat[k] = number(g.quat[k]);
+  counting_g.opacity = number(g.opacity);
+
+  const CoarseBound bound = coarse_bound(view, g.mean, g.scale.x);
+  const auto counted = coarse_bound(counting_view, counting_g.mean, counting_g.scale.x);
+  REQUIRE(counted.in_front == bound.in_front);
+  if (!bound.in_front) return;
+  CHECK(same_bits(counted.reach_px.value, bound.reach_px));
+  CHECK(same_bits(counted.square_px.value, bound.square_px));
+  CHECK(touches(counted, tested.group) == touches(bound, tested.group));
+
+  Splat splat{};
+  SplatOf<Counting> counted_splat{};
+  REQUIRE(make_geometry(counting_view, counting_g, counted_splat) == make_geometry(view, g, splat));
+  if (splat.footprint.empty()) return;
+  CHECK(same_bits(counted_splat.x.value, splat.x));
+  CHECK(same_bits(counted_splat.conic_a.value, splat.conic_a));
+  CHECK(same_bits(counted_splat.conic_b.value, splat.conic_b));
+  CHECK(counted_splat.footprint == splat.footprint);
+  CHECK(reaches_group(counted_splat, tested.group) == reaches_group(splat, tested.group));
+
+  std::vector<glm::vec<3, Counting>> counted_sh;
+  for (const glm::vec3& coefficient : sh) counted_sh.push_back(constants(coefficient));
+  add_colour(view, 3, g.mean, sh.data(), splat);
+  add_colour(counting_view, 3, counting_g.mean, counted_sh.data(), counted_splat);
+  for (int k = 0; k < 3; ++k) CHECK(same_bits(counted_splat.rgb[k].value, splat.rgb[k]));
+}
+
+bool none_exceeds(const OperationCounts& a, const OperationCounts& most) {
+  return a.multiplies <= most.multiplies && a.adds <= most.adds && a.divisions <= most.divisions &&
+         a.divisors <= most.divisors && a.square_roots <= most.square_roots &&
+         a.logarithms <= most.logarithms && a.exponentials <= most.exponentials &&
+         a.comparisons <= most.comparisons && a.roundings <= most.roundings &&
+         folded_macs(a) <= folded_macs(most);
+}
+
+// Gaussians of every kind, each against a group of 32 px.
+template <class Check>
+void for_random_cases(int cases, Check&& check) {
+  RandomGaussians random(7, 200, 120);
+  for (int i = 0; i < cases; ++i) {
+    const Camera camera = random.camera();
+    const int x = 32 * random.pick(6), y = 32 * random.pick(3);
+    check(FilterCase{camera, random.gaussian(camera), {x, y, x + 32, y + 32}}, random);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("filter work: the counting scalar takes the same decisions and gives the same bits") {
+  for_random_cases(3000, [](const FilterCase& tested, RandomGaussians& random) {
+    std::vector<glm::vec3> sh(16);
+    for (glm::vec3& coefficient : sh) {
+      for (int k = 0; k < 3; ++k) coefficient[k] = static_cast<float>(random.normal());
+    }
+    check_same(tested, sh);
+  });
+}
+
+TEST_CASE("filter work: no Gaussian takes more of any operation than the longest case") {
+  const OperationCounts coarse = coarse_work(longest_case());
+  const FineWork fine = fine_work(longest_case(), 3);
+  int as_long = 0;
+  for_random_cases(3000, [&](const FilterCase& tested, RandomGaussians&) {
+    CHECK(none_exceeds(coarse_work(tested), coarse));
+    const FineWork work = fine_work(tested, 3);
+    CHECK(none_exceeds(work.total(), fine.total()));
+    as_long += folded_macs(work.total()) == folded_macs(fine.total()) ? 1 : 0;
+  });
+  CHECK(as_long > 0);
+}
+
+TEST_CASE("filter work: a higher degree costs colour and nothing else") {
+  for (int degree = 1; degree <= 3; ++degree) {
+    CAPTURE(degree);
+    const FineWork lower = fine_work(longest_case(), degree - 1);
+    const FineWork higher = fine_work(longest_case(), degree);
+    CHECK(folded_macs(higher.colour) > folded_macs(lower.colour));
+    CHECK(folded_macs(higher.geometry) == folded_macs(lower.geometry));
+    CHECK(folded_macs(higher.group_test) == folded_macs(lower.group_test));
+    CHECK(folded_macs(higher.total()) == folded_macs(higher.geometry) +
+                                             folded_macs(higher.group_test) +
+                                             folded_macs(higher.colour));
+  }
+}
+
+TEST_CASE("filter work: a test that fails early has executed less") {
+  FilterCase behind = longest_case();
+  behind.gaussian.mean = glm::vec3(behind.camera.position);
+  // p - c in two parts, its rotation, and a comparison.
+  const OperationCounts coarse = coarse_work(behind);
+  CHECK(coarse.comparisons == 1);
+  CHECK(coarse.multiplies == 9);
+  CHECK(coarse.adds == 12);
+  CHECK(coarse.fused == 6);
+  CHECK(folded_macs(coarse) == 16);
+  CHECK(folded_macs(fine_work(behind, 3).total()) == 16);
+}
+
+}  // namespace sgs::test
