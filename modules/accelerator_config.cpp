@@ -35,6 +35,9 @@ void visit(ConfigVisitor& v, VsuConfig& c) {
 }
 
 void visit(ConfigVisitor& v, HfuConfig& c) {
+  v("cost", c.cost,
+    names<FilterCost>({{"paper", FilterCost::kPaper}, {"counted", FilterCost::kCounted}}),
+    "of a test: cfu_macs and ffu_macs as given, or as counted on our filters");
   v("cfus", c.cfus, in_range(1, 64), "coarse filters in one HFU");
   v("cfu_macs", c.cfu_macs, in_range(1, 10000), "multiply-accumulates of a coarse test");
   v("cfu_lanes", c.cfu_lanes, in_range(1, 10000), "MAC lanes of one CFU");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "algorithm/image/quality.h"
+#include "testbench/streaminggs/datapath.h"
 #include "testbench/streaminggs/left_out.h"
 
 namespace sgs {
@@ -55,6 +56,7 @@ Json view_report(const ViewFacts& facts, const AcceleratorConfig& config) {
   report["view"] = facts.view;
   report["image"] = image_of(facts);
   for (const auto& [key, value] : measured.items()) report[key] = value;
+  report["datapath"] = datapath_of(config.hfu, facts.layout.sh_degree);
   report["limit"] = limit_of(facts, measured["dram"]["bytes"].get<std::uint64_t>());
   report["left_out"] = left_out(facts, config, measured);
   report["host"] = {{"simulation_wall_s", facts.run.wall_s}};
@@ -93,6 +95,7 @@ void print_details(const Json& r) {
     }
     fmt::print("  {:<14} {:>14} {:>14}\n", region, asked, bus_bytes.get<std::uint64_t>());
   }
+  print_datapath(r);
 }
 
 }  // namespace sgs

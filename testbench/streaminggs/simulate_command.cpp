@@ -17,6 +17,7 @@
 #include "algorithm/render/reference_renderer.h"
 #include "modules/auto_config.h"
 #include "modules/config/strict_json.h"
+#include "modules/filter_cost.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/provenance.h"
@@ -115,8 +116,12 @@ Json list_choices(const std::vector<AutoChoice>& chosen) {
 
 int run(const Arguments& arguments) {
   std::vector<AutoChoice> chosen;
-  const AcceleratorConfig config = read_config(arguments, chosen);
+  AcceleratorConfig config = read_config(arguments, chosen);
   if (arguments.print_config) {
+    // Only this key waits for the scene.
+    if (config.hfu.cost == FilterCost::kCounted) {
+      resolve_filter_cost(config, arguments.load().cloud.sh_degree);
+    }
     fmt::print("{}\n", config_to_json(config));
     return 0;
   }
@@ -127,6 +132,9 @@ int run(const Arguments& arguments) {
   }
   const auto began = std::chrono::steady_clock::now();
   Scene scene = arguments.load();
+  for (const AutoChoice& cost : resolve_filter_cost(config, scene.cloud.sh_degree)) {
+    chosen.push_back(cost);
+  }
   const auto views = arguments.cameras(scene);
   const PreparedScene prepared(std::move(scene), config);
 

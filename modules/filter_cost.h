@@ -1,0 +1,14 @@
+// What a test of the filters costs when it is counted rather than taken from the paper.
+#pragma once
+
+#include <vector>
+
+#include "modules/auto_config.h"
+
+namespace sgs {
+
+// With hfu.cost counted, replaces hfu.cfu_macs and hfu.ffu_macs by what the filters execute on a
+// scene of this SH degree (algorithm/splat/filter_work.h), and says so; with paper does nothing.
+std::vector<AutoChoice> resolve_filter_cost(AcceleratorConfig& config, int sh_degree);
+
+}  // namespace sgs

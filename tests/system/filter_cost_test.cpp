@@ -1,0 +1,125 @@
+// hfu.cost: what a test costs, in cycles and energy, by the paper or as counted.
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "algorithm/scene/builtin_scene.h"
+#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/ply_writer.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using Json = nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+const Arguments kObject = {"builtin:object?n=3000", "--size", "96x54", "--set", "group_px=32"};
+
+Arguments with(Arguments arguments, const std::string& setting) {
+  arguments.insert(arguments.end(), {"--set", setting});
+  return arguments;
+}
+
+std::uint64_t fine_busy(const Json& view) {
+  std::uint64_t sum = 0;
+  for (const auto& [name, unit] : view["units"].items()) {
+    if (name.find(".fine") != std::string::npos) sum += unit["busy_cycles"].get<std::uint64_t>();
+  }
+  return sum;
+}
+
+// The fine filters are busy for as long as the report says that their tests take.
+void check_charged(const Json& view, const char* whose) {
+  const Json& fine = view["datapath"]["fine"];
+  const Json& coarse = view["datapath"]["coarse"];
+  CHECK(fine["used"] == fine[whose]);
+  CHECK(coarse["used"] == coarse[whose]);
+  const Json& hfu = view["config"]["hfu"];
+  CHECK(hfu["ffu_macs"] == fine[whose]["macs"]);
+  CHECK(hfu["cfu_macs"] == coarse[whose]["macs"]);
+  const auto tests = total(view, "fine_tests");
+  CHECK(fine_busy(view) == tests * fine[whose]["interval_cycles"].get<std::uint64_t>());
+}
+
+double joules_a_mac(const Json& view, const char* filter, const char* counter) {
+  return view["energy"][std::string(filter) + "_j"].get<double>() /
+         static_cast<double>(total(view, counter)) /
+         view["datapath"][filter]["used"]["macs"].get<double>();
+}
+
+TEST_CASE("filter cost: the paper's is the default, counted changes time and energy, no pixel") {
+  const Simulation paper(kObject), counted(with(kObject, "hfu.cost=counted"));
+  paper.check();
+  counted.check();
+  CHECK(counted.frame(0) == paper.frame(0));
+  const Json &p = paper.views()[0], &c = counted.views()[0];
+  check_charged(p, "paper");
+  check_charged(c, "counted");
+  CHECK(p["datapath"]["fine"]["paper"]["macs"] == 427);
+  CHECK(p["datapath"]["coarse"]["paper"]["macs"] == 55);
+  CHECK(p["datapath"]["fine"]["counted"] == c["datapath"]["fine"]["counted"]);
+  CHECK(joules_a_mac(p, "fine", "fine_tests") ==
+        Approx(joules_a_mac(c, "fine", "fine_tests")).epsilon(1e-12));
+  CHECK(joules_a_mac(p, "coarse", "coarse_tests") ==
+        Approx(joules_a_mac(c, "coarse", "coarse_tests")).epsilon(1e-12));
+  CHECK(p["chosen"].size() + 2 == c["chosen"].size());
+}
+
+TEST_CASE("filter cost: counted, a scene of degree 0 pays for no SH bands") {
+  BuiltinScene scene = make_builtin_scene(kObject[0]);
+  std::vector<glm::vec3> constant_terms;
+  for (std::size_t i = 0; i < scene.cloud.size(); ++i) {
+    constant_terms.push_back(scene.cloud.sh_coeffs[16 * i]);
+  }
+  scene.cloud.sh_degree = 0;
+  scene.cloud.sh_coeffs = constant_terms;
+  const ScratchFolder scratch;
+  write_ply(scratch.path("scene.ply"), scene.cloud);
+  write_cameras(scratch.path("cameras.json"), scene.cameras);
+  Arguments flat = with(kObject, "hfu.cost=counted");
+  flat[0] = scratch.path("scene.ply");
+  flat.insert(flat.end(), {"--cameras", scratch.path("cameras.json")});
+  const Simulation degree_0(flat), degree_3(with(kObject, "hfu.cost=counted"));
+  degree_0.check();
+  const Json &low = degree_0.views()[0], &high = degree_3.views()[0];
+  check_charged(low, "counted");
+  CHECK(low["datapath"]["fine"]["paper"] == high["datapath"]["fine"]["paper"]);
+  CHECK(low["datapath"]["fine"]["counted"]["interval_cycles"] <
+        high["datapath"]["fine"]["counted"]["interval_cycles"]);
+  CHECK(low["datapath"]["coarse"] == high["datapath"]["coarse"]);
+  CHECK(low["energy"]["fine_j"].get<double>() / static_cast<double>(total(low, "fine_tests")) <
+        high["energy"]["fine_j"].get<double>() / static_cast<double>(total(high, "fine_tests")));
+}
+
+TEST_CASE("filter cost: --print-config shows the counts of the scene, and is read back as it is") {
+  Arguments print = {"simulate"};
+  const Arguments arguments = with(kObject, "hfu.cost=counted");
+  print.insert(print.end(), arguments.begin(), arguments.end());
+  print.emplace_back("--print-config");
+  const Outcome shown = run_streaminggs(print);
+  REQUIRE(shown.status == 0);
+  const Json config = Json::parse(shown.out);
+  CHECK(config["hfu"]["cost"] == "counted");
+  CHECK(config["hfu"]["cfu_macs"] != 55);
+
+  const ScratchFolder scratch;
+  scratch.write("config.json", shown.out);
+  const Outcome again = run_streaminggs(
+      {"simulate", kObject[0], "--config", scratch.path("config.json"), "--print-config"});
+  CHECK(again.out == shown.out);
+}
+
+TEST_CASE("filter cost: only the two names are known") {
+  Arguments arguments = {"simulate"};
+  const Arguments wrong = with(kObject, "hfu.cost=free");
+  arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+  arguments.emplace_back("--print-config");
+  const Outcome refused = run_streaminggs(arguments);
+  CHECK(refused.status == 2);
+  CHECK(refused.err.find("hfu.cost") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace sgs::test
