@@ -1,0 +1,195 @@
+// Seeding and iterations of k-means.
+#include "algorithm/vq/kmeans.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <random>
+
+#include "algorithm/vq/nearest.h"
+
+namespace sgs {
+namespace {
+
+constexpr std::size_t kBlock = 2048;  // points summed in one piece: fixed, so that sums are too
+
+// Sum over blocks of points of what `of_block(begin, end)` returns, in the order of the blocks.
+template <class OfBlock>
+double ordered_sum(std::size_t count, OfBlock&& of_block) {
+  std::vector<double> sums((count + kBlock - 1) / kBlock);
+  tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t block) {
+    sums[block] = of_block(block * kBlock, std::min(count, (block + 1) * kBlock));
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+float squared_distance(const float* a, const float* b, int dims) {
+  float sum = 0;
+  for (int d = 0; d < dims; ++d) sum += (a[d] - b[d]) * (a[d] - b[d]);
+  return sum;
+}
+
+// The point at which the running sum of `mass` passes `target`; the last of any mass for rounding.
+std::size_t point_at(const std::vector<double>& mass, double target) {
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    if (mass[i] <= 0) continue;
+    last = i;
+    target -= mass[i];
+    if (target < 0) break;
+  }
+  return last;
+}
+
+// Each next centroid is a point drawn in proportion to weight times squared distance to the nearest
+// one so far.
+std::vector<float> seed_centroids(const PointSet& points, std::uint32_t entries,
+                                  std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  const int dims = points.dims;
+  std::vector<float> centroids;
+  std::vector<double> mass(points.weights.begin(), points.weights.end());
+  std::vector<float> nearest(points.size(), std::numeric_limits<float>::infinity());
+  double total = std::accumulate(mass.begin(), mass.end(), 0.0);
+  while (centroids.size() < std::size_t{entries} * static_cast<std::size_t>(dims) && total > 0) {
+    const float* chosen = points[point_at(mass, uniform() * total)];
+    centroids.insert(centroids.end(), chosen, chosen + dims);
+    total = ordered_sum(points.size(), [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for (std::size_t i = begin; i != end; ++i) {
+        nearest[i] = std::min(nearest[i], squared_distance(points[i], chosen, dims));
+        mass[i] = static_cast<double>(points.weights[i]) * nearest[i];
+        sum += mass[i];
+      }
+      return sum;
+    });
+  }
+  return centroids;
+}
+
+struct Assignment {
+  std::vector<std::uint32_t> labels;     // [N]
+  std::vector<float> squared_distances;  // [N]
+};
+
+// Labels of the points; returns the weighted mean squared error.
+double assign(const PointSet& points, const std::vector<float>& centroids, Assignment& assignment) {
+  const std::unique_ptr<NearestSearch> search = make_search(centroids, points.dims);
+  const double error = ordered_sum(points.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i != end; ++i) {
+      const Nearest nearest = search->find(points[i], assignment.labels[i]);
+      assignment.labels[i] = nearest.index;
+      assignment.squared_distances[i] = nearest.squared_distance;
+      sum += static_cast<double>(points.weights[i]) * nearest.squared_distance;
+    }
+    return sum;
+  });
+  const double weight = std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+  return weight > 0 ? error / weight : 0;
+}
+
+// Weighted means of the points of each label. Labels without weight are put on the points that add
+// most to the error.
+void move_centroids(const PointSet& points, const Assignment& assignment,
+                    std::vector<float>& centroids) {
+  const auto dims = static_cast<std::size_t>(points.dims);
+  const std::size_t entries = centroids.size() / dims;
+  std::vector<std::size_t> first(entries + 1, 0);
+  for (const std::uint32_t label : assignment.labels) ++first[label + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> members(points.size());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    members[next[assignment.labels[i]]++] = static_cast<std::uint32_t>(i);
+  }
+  std::vector<std::uint8_t> empty(entries, 0);
+  tbb::parallel_for(std::size_t{0}, entries, [&](std::size_t entry) {
+    std::vector<double> sums(dims, 0.0);
+    double weight = 0;
+    for (std::size_t m = first[entry]; m != first[entry + 1]; ++m) {
+      const float* point = points[members[m]];
+      const double w = points.weights[members[m]];
+      weight += w;
+      for (std::size_t d = 0; d < dims; ++d) sums[d] += w * point[d];
+    }
+    empty[entry] = weight > 0 ? 0 : 1;
+    if (weight <= 0) return;
+    for (std::size_t d = 0; d < dims; ++d) {
+      centroids[entry * dims + d] = static_cast<float>(sums[d] / weight);
+    }
+  });
+
+  const auto missing =
+      static_cast<std::size_t>(std::accumulate(empty.begin(), empty.end(), std::size_t{0}));
+  if (missing == 0) return;
+  std::vector<std::uint32_t> worst(points.size());
+  std::iota(worst.begin(), worst.end(), 0U);
+  const auto error = [&](std::uint32_t i) {
+    return points.weights[i] * assignment.squared_distances[i];
+  };
+  const std::size_t taken = std::min(missing, worst.size());
+  std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(taken), worst.end(),
+                    [&](std::uint32_t a, std::uint32_t b) {
+                      return error(a) > error(b) || (error(a) == error(b) && a < b);
+                    });
+  for (std::size_t entry = 0, at = 0; entry < entries && at < taken; ++entry) {
+    if (empty[entry] == 0) continue;
+    std::copy_n(points[worst[at++]], dims,
+                centroids.begin() + static_cast<std::ptrdiff_t>(entry * dims));
+  }
+}
+
+// Refines the centroids on the training points.
+std::uint32_t iterate(const PointSet& training, const KMeansConfig& config,
+                      const KMeansProgress& progress, std::vector<float>& centroids) {
+  constexpr double kLeastGain = 1e-3;
+  Assignment assignment{std::vector<std::uint32_t>(training.size(), 0),
+                        std::vector<float>(training.size(), 0)};
+  double before = std::numeric_limits<double>::infinity();
+  std::uint32_t made = 0;
+  while (made < config.iterations) {
+    const double error = assign(training, centroids, assignment);
+    if (progress) progress(made, error);
+    if (error >= before * (1 - kLeastGain)) break;
+    before = error;
+    move_centroids(training, assignment, centroids);
+    ++made;
+  }
+  return made;
+}
+
+}  // namespace
+
+KMeansResult kmeans(const PointSet& points, const KMeansConfig& config,
+                    const KMeansProgress& progress) {
+  KMeansResult result;
+  if (points.size() == 0) return result;
+  const DistinctPoints distinct = merge_equal(points);
+  if (distinct.points.size() <= config.entries) {
+    result.centroids = distinct.points.values;
+    result.labels = distinct.original;
+    return result;
+  }
+  const PointSet training = draw(distinct.points, config.training_points, config.seed);
+  constexpr std::size_t kSeedPointsPerEntry = 16;
+  const PointSet seeds = draw(training, kSeedPointsPerEntry * config.entries, config.seed + 1);
+  result.centroids = seed_centroids(seeds, config.entries, config.seed + 2);
+  result.iterations = iterate(training, config, progress, result.centroids);
+
+  Assignment assignment{std::vector<std::uint32_t>(distinct.points.size(), 0),
+                        std::vector<float>(distinct.points.size(), 0)};
+  result.mean_squared_error = assign(distinct.points, result.centroids, assignment);
+  result.labels.resize(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    result.labels[i] = assignment.labels[distinct.original[i]];
+  });
+  return result;
+}
+
+}  // namespace sgs

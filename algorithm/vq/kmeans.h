@@ -1,0 +1,41 @@
+// Weighted k-means: the entries of a codebook.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "algorithm/vq/point_set.h"
+
+namespace sgs {
+
+struct KMeansConfig {
+  std::uint32_t entries = 4096;
+  std::uint32_t iterations = 20;  // of Lloyd, at most
+  std::uint64_t seed = 1;
+  std::size_t training_points = 1U << 18;  // drawn by weight for the iterations
+};
+
+struct KMeansResult {
+  std::vector<float> centroids;       // [K, dims]; K <= entries
+  std::vector<std::uint32_t> labels;  // [N] nearest centroid of each point
+  double mean_squared_error = 0;      // weighted, of all points
+  std::uint32_t iterations = 0;       // made
+
+  std::uint32_t entries(int dims) const {
+    return static_cast<std::uint32_t>(centroids.size() / static_cast<std::size_t>(dims));
+  }
+};
+
+// Called after each iteration with its number and the points' weighted mean squared error.
+using KMeansProgress = std::function<void(std::uint32_t iteration, double mean_squared_error)>;
+
+// k-means++ (Arthur and Vassilvitskii 2007) seeding, then Lloyd until an iteration gains less than
+// a thousandth or `iterations` are made; an entry that no point is nearest to is put on the point
+// that adds most to the error. No more distinct points than entries: they are the codebook, and the
+// error is 0. Points of weight 0 do not move entries but get labels. The same result whatever the
+// number of threads.
+KMeansResult kmeans(const PointSet& points, const KMeansConfig& config,
+                    const KMeansProgress& progress = {});
+
+}  // namespace sgs
