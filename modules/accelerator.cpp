@@ -21,9 +21,10 @@ std::uint64_t aside_bytes(std::uint64_t chunks, std::uint64_t nodes) {
   return (chunks + nodes) * kWalkEntryBytes;
 }
 
-// VSU, HFUs, rendering, and whoever spills: the sorting units or the merge unit.
-std::uint32_t initiators(const AcceleratorConfig& config) {
-  return 2 + config.hfus + (config.ordering == Ordering::kPaper ? config.sorting_units : 1);
+// VSU, HFUs, rendering, whoever spills (the sorting units or the merge unit), the codebook buffer.
+std::uint32_t initiators(const AcceleratorConfig& config, const SecondHalfFormat& format) {
+  return 2 + config.hfus + (config.ordering == Ordering::kPaper ? config.sorting_units : 1) +
+         (format.quantised() ? 1 : 0);
 }
 
 }  // namespace
@@ -44,9 +45,16 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
       clock_(config.clock_mhz),
       board_(job.groups.size()),
       dram_("dram", config.dram),
-      router_("router", initiators(config)) {
+      router_("router", initiators(config, job.layout.second_half)) {
   router_.map(0, dram_.capacity_bytes(), dram_.socket);
   dram_.load(0, image.bytes.data(), image.bytes.size());
+  if (job_.layout.second_half.quantised()) {
+    codebooks_ = std::make_unique<CodebookBuffer>("codebooks", config.codebook, clock_, job_,
+                                                  add_port("codebooks"));
+    if (config.codebook.preloaded) {
+      codebooks_->preload(image.bytes.data() + job_.layout[Region::kCodebooks].base);
+    }
+  }
   if (config.ordering == Ordering::kPaper) {
     add_rendering(wire_paper_order(), Arrival::kByVisit);
   } else {
@@ -79,7 +87,7 @@ std::vector<TimedFifo<SplatToken>*> Accelerator::wire_paper_order() {
     for (const auto& inputs : to_sorting) splats.push_back(inputs[h]);
     const std::string hfu = fmt::format("hfu{}", h);
     hfus_.push_back(std::make_unique<Hfu>(hfu.c_str(), config_.hfu, clock_, job_, board_,
-                                          add_port(hfu), *shares[h], splats));
+                                          add_port(hfu), codebooks_.get(), *shares[h], splats));
   }
   std::vector<TimedFifo<SplatToken>*> sorted;
   const std::uint64_t spill = job_.layout[Region::kSpill].bytes / config_.sorting_units;
@@ -119,8 +127,8 @@ std::vector<TimedFifo<SplatToken>*> Accelerator::wire_exact_order() {
                               config_.rendering.input_fifo_entries, config_.hfu.ffu_depth_cycles));
     const std::string hfu = fmt::format("hfu{}", h);
     hfus_.push_back(std::make_unique<Hfu>(hfu.c_str(), config_.hfu, clock_, job_, board_,
-                                          add_port(hfu), *visits[h], keys, *released.back(),
-                                          *splats.back()));
+                                          add_port(hfu), codebooks_.get(), *visits[h], keys,
+                                          *released.back(), *splats.back()));
   }
   for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
     const std::string unit = fmt::format("sorting{}", s);
@@ -184,6 +192,7 @@ std::vector<Activity*> Accelerator::activities() {
   };
   if (vsu_) add(vsu_->activities());
   if (chunk_vsu_) add(chunk_vsu_->activities());
+  if (codebooks_) all.push_back(&codebooks_->load_activity());
   for (auto& hfu : hfus_) add(hfu->activities());
   for (auto& unit : sorting_) all.push_back(&unit->activity());
   for (auto& unit : key_sorters_) all.push_back(&unit->activity());
@@ -204,6 +213,7 @@ bool Accelerator::drained() const {
 void Accelerator::trace(sc_core::sc_trace_file* file) const {
   if (vsu_) vsu_->trace(file);
   if (chunk_vsu_) chunk_vsu_->trace(file);
+  if (codebooks_) codebooks_->trace(file);
   for (const auto& hfu : hfus_) hfu->trace(file);
   for (const auto& unit : sorting_) unit->trace(file);
   for (const auto& unit : key_sorters_) unit->trace(file);

@@ -51,6 +51,8 @@ class Accelerator : public sc_core::sc_module {
   // Exact order; null or empty in paper order.
   const ChunkVsu* chunk_vsu() const { return chunk_vsu_.get(); }
   const std::vector<std::unique_ptr<KeySorter>>& key_sorters() const { return key_sorters_; }
+  // Null where second halves are not quantised.
+  CodebookBuffer* codebooks() { return codebooks_.get(); }
   const MergeUnit* merge() const { return merge_.get(); }
   const RenderingUnit& rendering() const { return *rendering_; }
   DramController& dram() { return dram_; }
@@ -89,6 +91,7 @@ class Accelerator : public sc_core::sc_module {
   std::deque<TimedFifo<FineCandidate>> key_fifos_;  // exact order: to sorting, merge, HFUs
   std::unique_ptr<Vsu> vsu_;
   std::unique_ptr<ChunkVsu> chunk_vsu_;
+  std::unique_ptr<CodebookBuffer> codebooks_;
   std::vector<std::unique_ptr<Hfu>> hfus_;
   std::vector<std::unique_ptr<SortingUnit>> sorting_;
   std::vector<std::unique_ptr<KeySorter>> key_sorters_;

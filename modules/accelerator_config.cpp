@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "algorithm/input_error.h"
-#include "algorithm/memory/records.h"
+#include "algorithm/memory/second_half.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/order/chunk_walk.h"
 #include "algorithm/splat/constants.h"
@@ -51,6 +51,23 @@ void visit(ConfigVisitor& v, HfuConfig& c) {
   v("candidate_fifo_entries", c.candidate_fifo_entries, in_range(1, 4096), "coarse to fine");
   v("second_half_slots", c.second_half_slots, in_range(1, 1024),
     "second halves on their way or waiting");
+}
+
+void visit(ConfigVisitor& v, VqConfig& c) {
+  const ConfigRange entries = in_range(1, kMaxCodebookEntries);
+  v("scale_entries", c.scale_entries, entries, "most entries of the scale codebook");
+  v("rotation_entries", c.rotation_entries, entries, "of the rotation codebook");
+  v("dc_entries", c.dc_entries, entries, "of the codebook of base colours");
+  v("sh_entries", c.sh_entries, entries, "of the codebook of the higher bands");
+  v("iterations", c.iterations, in_range(0, 1000), "of k-means, at most");
+  v("seed", c.seed, at_least(0), "of k-means");
+}
+
+void visit(ConfigVisitor& v, CodebookConfig& c) {
+  v("banks", c.banks, in_range(1, 64), "of the codebook buffer, lines interleaved over them");
+  v("line_bytes", c.line_bytes, in_range(4, 256), "of a bank, read in one cycle");
+  v("latency_cycles", c.latency_cycles, in_range(1, 100), "from the last line to the FFU");
+  v("preloaded", c.preloaded, "filled by an earlier frame: no traffic, no time");
 }
 
 void visit(ConfigVisitor& v, SortingConfig& c) {
@@ -107,6 +124,16 @@ SramUse product(const std::string& name,
     use.arithmetic += fmt::format("{}{} {}", use.arithmetic.empty() ? "" : " x ", value, what);
   }
   return use;
+}
+
+// What buffers must be built for: degree 3, full codebooks.
+SecondHalfFormat widest_format(const AcceleratorConfig& c) {
+  constexpr int kMostDegree = 3;
+  SecondHalfFormat format{c.encoding, kMostDegree, {}};
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    format.entries[id] = c.vq.entries(static_cast<Codebook>(id));
+  }
+  return format;
 }
 
 void check_budget(const char* key, std::uint64_t available, const std::vector<SramUse>& uses) {
@@ -182,6 +209,13 @@ void visit(ConfigVisitor& v, AcceleratorConfig& c) {
     "world units; 0: 0.4 for a scene below 10 units across, else 2");
   v("chunk_gaussians", c.chunk_gaussians, in_range(0, 65535),
     "exact order: most Gaussians in a chunk; 0: as many as lie together in a DRAM row");
+  v("encoding", c.encoding,
+    names<SecondHalfEncoding>({{"raw", SecondHalfEncoding::kRaw},
+                               {"half", SecondHalfEncoding::kHalf},
+                               {"vq", SecondHalfEncoding::kVq},
+                               {"vq_packed", SecondHalfEncoding::kVqPacked}}),
+    "of second halves: 32-bit floats, 16-bit floats, codebook indices of 32 bits or packed");
+  v.section("vq", c.vq, "how codebooks are made");
   v("framebuffer", c.framebuffer,
     names<FrameFormat>({{"rgb8", FrameFormat::kRgb8}, {"rgb32f", FrameFormat::kRgb32f}}),
     "pixels in DRAM");
@@ -191,6 +225,7 @@ void visit(ConfigVisitor& v, AcceleratorConfig& c) {
   v.section("sram", c.sram, "on-chip memory");
   v.section("vsu", c.vsu, "voxel sorting unit");
   v.section("hfu", c.hfu, "each hierarchical filtering unit");
+  v.section("codebook", c.codebook, "codebook buffer of all HFUs");
   v.section("sorting", c.sorting, "each sorting unit");
   v.section("merge", c.merge, "merge unit of exact order");
   v.section("rendering", c.rendering, "rendering unit");
@@ -214,17 +249,34 @@ SramBudget sram_budget(const AcceleratorConfig& c) {
                                                  {c.group_px, "px"},
                                                  {c.group_px, "px"},
                                                  {kPixelStateBytes, "B"}});
+  const SecondHalfFormat format = widest_format(c);
   const SramUse second_halves =
       product("second halves",
-              {{c.hfus, "HFUs"}, {c.hfu.second_half_slots, "slots"}, {kMaxSecondHalfBytes, "B"}});
+              {{c.hfus, "HFUs"}, {c.hfu.second_half_slots, "slots"}, {format.bytes(), "B"}});
   const SramUse nodes = product("node cache", {{c.vsu.node_cache_bytes, "B"}});
   const SramUse visits =
       product("visits", {{c.hfus, "HFUs"}, {kVisitFifoEntries, "visits"}, {kVisitShareBytes, "B"}});
   budget.shared = {pixels, second_halves, nodes, visits};
+  if (format.quantised()) {
+    budget.shared.push_back(
+        product("decoded Gaussians",
+                {{c.hfus, "HFUs"}, {kDecodedEntries, "entries"}, {kDecodedBytes, "B"}}));
+  }
   const std::vector<SramUse> of_order =
       c.ordering == Ordering::kPaper ? paper_order_uses(c) : exact_order_uses(c);
   budget.shared.insert(budget.shared.end(), of_order.begin(), of_order.end());
   return budget;
+}
+
+void check_codebooks(const AcceleratorConfig& config, const SecondHalfFormat& format) {
+  if (!format.quantised()) return;
+  std::vector<SramUse> uses;
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    uses.push_back(product(
+        kCodebookNames[id],
+        {{format.entries[id], "entries"}, {format.entry_bytes(static_cast<Codebook>(id)), "B"}}));
+  }
+  check_budget("sram.codebook_bytes", config.sram.codebook_bytes, uses);
 }
 
 void AcceleratorConfig::validate() const {

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/second_half.h"
 #include "modules/config/config_visitor.h"
 #include "modules/dram/dram_config.h"
+#include "modules/hfu/codebook_config.h"
 #include "modules/hfu/hfu_config.h"
 #include "modules/merge/merge_config.h"
 #include "modules/rendering/rendering_config.h"
@@ -22,7 +24,7 @@ enum class Ordering { kExact, kPaper };
 
 struct SramConfig {
   std::uint32_t input_bytes = 16 * 1024;      // first halves, double-buffered
-  std::uint32_t codebook_bytes = 250 * 1024;  // idle with raw second halves
+  std::uint32_t codebook_bytes = 250 * 1024;  // idle unless second halves are quantised
   std::uint32_t shared_bytes = 89 * 1024;     // everything between the stages
 };
 
@@ -37,6 +39,8 @@ struct AcceleratorConfig {
   std::uint32_t group_px = 32;
   double voxel_size = 0;               // paper order: world units; 0: from the scene's extent
   std::uint32_t chunk_gaussians = 16;  // exact order: most Gaussians in a chunk
+  SecondHalfEncoding encoding = SecondHalfEncoding::kRaw;
+  VqConfig vq;  // how codebooks are made
   FrameFormat framebuffer = FrameFormat::kRgb8;
   bool store_invisible = false;  // also Gaussians that no view can show
   std::uint32_t hfus = 4;
@@ -44,6 +48,7 @@ struct AcceleratorConfig {
   SramConfig sram;
   VsuConfig vsu;
   HfuConfig hfu;
+  CodebookConfig codebook;
   SortingConfig sorting;
   MergeConfig merge;
   RenderingConfig rendering;
@@ -67,9 +72,15 @@ struct SramBudget {
 };
 SramBudget sram_budget(const AcceleratorConfig& config);
 
+// Throws InputError when the codebooks of a scene do not fit their buffer; the message shows the
+// sum.
+void check_codebooks(const AcceleratorConfig& config, const SecondHalfFormat& format);
+
 void visit(ConfigVisitor& v, SramConfig& config);
 void visit(ConfigVisitor& v, VsuConfig& config);
 void visit(ConfigVisitor& v, HfuConfig& config);
+void visit(ConfigVisitor& v, VqConfig& config);
+void visit(ConfigVisitor& v, CodebookConfig& config);
 void visit(ConfigVisitor& v, SortingConfig& config);
 void visit(ConfigVisitor& v, MergeConfig& config);
 void visit(ConfigVisitor& v, RenderingConfig& config);

@@ -17,17 +17,6 @@ std::uint64_t aligned(std::uint64_t bytes) {
 
 using RegionSizes = std::array<std::uint64_t, kRegionCount>;
 
-// Sizes of what every order stores.
-RegionSizes common_sizes(const ActivatedCloud& cloud, std::size_t stored, std::uint64_t spill_bytes,
-                         std::uint64_t frame_bytes) {
-  RegionSizes sizes{};
-  sizes[region_id(Region::kFirstHalves)] = stored * kFirstHalfBytes;
-  sizes[region_id(Region::kSecondHalves)] = stored * raw_second_half_bytes(cloud.sh_degree);
-  sizes[region_id(Region::kSpill)] = spill_bytes;
-  sizes[region_id(Region::kFrameBuffer)] = frame_bytes;
-  return sizes;
-}
-
 void place_regions(const RegionSizes& sizes, MemoryLayout& layout) {
   std::uint64_t base = 0;
   for (std::size_t region = 0; region < kRegionCount; ++region) {
@@ -42,60 +31,77 @@ void copy_table(const std::vector<Record>& records, std::uint64_t address, Memor
   std::memcpy(image.bytes.data() + address, records.data(), records.size() * sizeof(Record));
 }
 
-void store_gaussians(const ActivatedCloud& cloud, const std::vector<std::uint32_t>& storage_order,
+// What every order stores. `tables`: sizes of the order's own regions.
+MemoryImage place_scene(const EncodedCloud& scene, std::size_t stored, RegionSizes tables) {
+  MemoryImage image;
+  MemoryLayout& layout = image.layout;
+  layout.gaussian_count = static_cast<std::uint32_t>(stored);
+  layout.second_half = scene.format;
+  tables[region_id(Region::kFirstHalves)] = stored * kFirstHalfBytes;
+  tables[region_id(Region::kSecondHalves)] = stored * layout.second_half_bytes();
+  tables[region_id(Region::kCodebooks)] = scene.codebooks.size();
+  place_regions(tables, layout);
+  image.bytes.resize(layout[Region::kSpill].base);
+  copy_table(scene.codebooks, layout[Region::kCodebooks].base, image);
+  return image;
+}
+
+void store_gaussians(const EncodedCloud& scene, const std::vector<std::uint32_t>& storage_order,
                      MemoryImage& image) {
   const MemoryLayout& layout = image.layout;
   tbb::parallel_for(
       tbb::blocked_range<std::uint32_t>(0, layout.gaussian_count, 4096), [&](const auto& range) {
         for (std::uint32_t slot = range.begin(); slot != range.end(); ++slot) {
           const std::uint32_t index = storage_order[slot];
-          const Gaussian<float>& g = cloud.gaussians[index];
-          encode_first_half(g, image.bytes.data() + layout.first_half_address(slot));
-          encode_raw_second_half(g, cloud.sh(index), cloud.sh_degree,
-                                 image.bytes.data() + layout.second_half_address(slot));
+          encode_first_half(scene.decoded.gaussians[index],
+                            image.bytes.data() + layout.first_half_address(slot));
+          scene.write_second_half(index, image.bytes.data() + layout.second_half_address(slot));
         }
       });
 }
 
 }  // namespace
 
-MemoryImage build_memory_image(const ActivatedCloud& cloud, const VoxelGrid& grid,
-                               std::uint64_t spill_bytes, std::uint64_t frame_bytes) {
-  MemoryImage image;
+MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid) {
+  RegionSizes sizes{};
+  sizes[region_id(Region::kVoxelTable)] =
+      grid.nodes.size() * sizeof(VoxelNode) + grid.voxels.size() * sizeof(VoxelRecord);
+  MemoryImage image = place_scene(scene, grid.storage_order.size(), sizes);
   MemoryLayout& layout = image.layout;
   layout.voxel_frame = grid.frame;
   layout.node_count = static_cast<std::uint32_t>(grid.nodes.size());
   layout.voxel_count = static_cast<std::uint32_t>(grid.voxels.size());
-  layout.gaussian_count = static_cast<std::uint32_t>(grid.storage_order.size());
-  layout.sh_degree = cloud.sh_degree;
-  RegionSizes sizes = common_sizes(cloud, grid.storage_order.size(), spill_bytes, frame_bytes);
-  sizes[region_id(Region::kVoxelTable)] =
-      grid.nodes.size() * sizeof(VoxelNode) + grid.voxels.size() * sizeof(VoxelRecord);
-  place_regions(sizes, layout);
-  image.bytes.resize(layout[Region::kSpill].base);
   copy_table(grid.nodes, layout.node_address(0), image);
   copy_table(grid.voxels, layout.voxel_address(0), image);
-  store_gaussians(cloud, grid.storage_order, image);
+  store_gaussians(scene, grid.storage_order, image);
   return image;
 }
 
-MemoryImage build_memory_image(const ActivatedCloud& cloud, const ChunkTree& tree,
-                               std::uint64_t spill_bytes, std::uint64_t frame_bytes) {
-  MemoryImage image;
-  MemoryLayout& layout = image.layout;
-  layout.chunk_node_count = static_cast<std::uint32_t>(tree.nodes.size());
-  layout.chunk_count = tree.chunk_count;
-  layout.gaussian_count = static_cast<std::uint32_t>(tree.storage_order.size());
-  layout.sh_degree = cloud.sh_degree;
-  RegionSizes sizes = common_sizes(cloud, tree.storage_order.size(), spill_bytes, frame_bytes);
+MemoryImage build_memory_image(const EncodedCloud& scene, const ChunkTree& tree) {
+  RegionSizes sizes{};
   sizes[region_id(Region::kChunkTable)] = tree.nodes.size() * sizeof(ChunkNode);
   sizes[region_id(Region::kIndices)] = tree.storage_order.size() * sizeof(std::uint32_t);
-  place_regions(sizes, layout);
-  image.bytes.resize(layout[Region::kSpill].base);
+  MemoryImage image = place_scene(scene, tree.storage_order.size(), sizes);
+  MemoryLayout& layout = image.layout;
+  layout.storage_order = StorageOrder::kChunks;
+  layout.chunk_node_count = static_cast<std::uint32_t>(tree.nodes.size());
+  layout.chunk_count = tree.chunk_count;
   copy_table(tree.nodes, layout.chunk_node_address(0), image);
   copy_table(tree.storage_order, layout.index_address(0), image);
-  store_gaussians(cloud, tree.storage_order, image);
+  store_gaussians(scene, tree.storage_order, image);
   return image;
+}
+
+MemoryLayout with_working_regions(MemoryLayout layout, std::uint64_t spill_bytes,
+                                  std::uint64_t frame_bytes) {
+  RegionSizes sizes;
+  for (std::size_t region = 0; region < kRegionCount; ++region) {
+    sizes[region] = layout.regions[region].bytes;
+  }
+  sizes[region_id(Region::kSpill)] = spill_bytes;
+  sizes[region_id(Region::kFrameBuffer)] = frame_bytes;
+  place_regions(sizes, layout);
+  return layout;
 }
 
 }  // namespace sgs

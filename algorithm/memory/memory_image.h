@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithm/memory/encoded_cloud.h"
 #include "algorithm/memory/frame_buffer.h"
-#include "algorithm/memory/records.h"
 #include "algorithm/memory/region.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"
@@ -19,19 +19,24 @@ struct RegionRange {
   std::uint64_t end() const { return base + bytes; }
 };
 
+// What the records are sorted by, and which table finds them.
+enum class StorageOrder : std::uint8_t { kVoxels, kChunks };
+
 // Addresses of the records; what the units are configured with before a frame. Regions begin on
 // multiples of 4 KiB, the row size of a DRAM page.
 struct MemoryLayout {
   std::array<RegionRange, kRegionCount> regions;
+  StorageOrder storage_order = StorageOrder::kVoxels;
   VoxelFrame voxel_frame;
-  std::uint32_t node_count = 0, voxel_count = 0;        // paper order
-  std::uint32_t chunk_node_count = 0, chunk_count = 0;  // exact order
+  std::uint32_t node_count = 0, voxel_count = 0;        // by voxels
+  std::uint32_t chunk_node_count = 0, chunk_count = 0;  // by chunks
   std::uint32_t gaussian_count = 0;                     // stored
-  int sh_degree = 0;
+  SecondHalfFormat second_half;
 
   const RegionRange& operator[](Region region) const { return regions[region_id(region)]; }
   std::uint64_t total_bytes() const { return regions.back().end(); }
-  std::uint32_t second_half_bytes() const { return raw_second_half_bytes(sh_degree); }
+  int sh_degree() const { return second_half.sh_degree; }
+  std::uint32_t second_half_bytes() const { return second_half.bytes(); }
 
   std::uint64_t node_address(std::uint32_t node) const {
     return (*this)[Region::kVoxelTable].base + std::uint64_t{node} * sizeof(VoxelNode);
@@ -57,18 +62,18 @@ struct MemoryLayout {
   }
 };
 
-// A scene laid out for one of the orders: its layout, and the bytes of the regions that hold the
-// scene.
+// A scene laid out for one of the orders: its layout, and the bytes of the regions that hold it.
 struct MemoryImage {
-  MemoryLayout layout;
+  MemoryLayout layout;           // spill and frame buffer are still empty
   std::vector<std::byte> bytes;  // from address 0 to the first region that a frame writes
 };
 
-// spill_bytes, frame_bytes: sizes of the regions that a frame writes. The grid or tree is this
-// cloud's.
-MemoryImage build_memory_image(const ActivatedCloud& cloud, const VoxelGrid& grid,
-                               std::uint64_t spill_bytes, std::uint64_t frame_bytes);
-MemoryImage build_memory_image(const ActivatedCloud& cloud, const ChunkTree& tree,
-                               std::uint64_t spill_bytes, std::uint64_t frame_bytes);
+// The grid or tree is of scene.decoded.
+MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid);
+MemoryImage build_memory_image(const EncodedCloud& scene, const ChunkTree& tree);
+
+// The layout with room for what a frame writes.
+MemoryLayout with_working_regions(MemoryLayout layout, std::uint64_t spill_bytes,
+                                  std::uint64_t frame_bytes);
 
 }  // namespace sgs

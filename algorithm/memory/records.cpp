@@ -7,14 +7,6 @@
 namespace sgs {
 namespace {
 
-int largest_axis(const glm::vec3& scale) {
-  int axis = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (scale[k] > scale[axis]) axis = k;
-  }
-  return axis;
-}
-
 void put(std::byte*& out, float value) {
   std::memcpy(out, &value, sizeof value);
   out += sizeof value;
@@ -28,6 +20,14 @@ float take(const std::byte*& bytes) {
 }
 
 }  // namespace
+
+int largest_axis(const glm::vec3& scale) {
+  int axis = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (scale[k] > scale[axis]) axis = k;
+  }
+  return axis;
+}
 
 void encode_first_half(const Gaussian<float>& g, std::byte* out) {
   for (int k = 0; k < 3; ++k) put(out, g.mean[k]);

@@ -1,5 +1,6 @@
-// The bytes of one Gaussian in the modelled DRAM: little-endian 32-bit floats, nothing stored
-// twice, nothing rounded.
+// The bytes of one Gaussian in the modelled DRAM: first half, and second half as it is:
+// little-endian 32-bit floats, nothing stored twice, nothing rounded. (Other encodings:
+// second_half.h.)
 #pragma once
 
 #include <cstddef>
@@ -10,9 +11,8 @@
 
 namespace sgs {
 
-// Largest raw second half: 55 words at degree 3.
 constexpr std::uint32_t kFirstHalfBytes = 16;
-constexpr std::uint32_t kMaxSecondHalfBytes = 220;
+constexpr std::uint32_t kMaxSecondHalfBytes = 220;  // raw: 55 words at degree 3
 
 // x, y, z, largest scale.
 struct FirstHalf {
@@ -20,7 +20,7 @@ struct FirstHalf {
   float scale_max;
 };
 
-// What the fine filter knows of a Gaussian once both halves are there.
+// What the fine filter knows of a Gaussian once both halves are there; sh: those of its degree.
 struct DecodedGaussian {
   Gaussian<float> gaussian;
   glm::vec3 sh[16];
@@ -32,6 +32,9 @@ struct DecodedGaussian {
 constexpr std::uint32_t raw_second_half_bytes(int sh_degree) {
   return 4U * (2 + 4 + 1 + 3 * static_cast<std::uint32_t>((sh_degree + 1) * (sh_degree + 1)));
 }
+
+// The first of equal ones.
+int largest_axis(const glm::vec3& scale);
 
 void encode_first_half(const Gaussian<float>& g, std::byte* out);
 FirstHalf decode_first_half(const std::byte* bytes);

@@ -1,16 +1,19 @@
-// The fine half of an HFU: fetches the second half of each candidate and puts it through the FFU:
-// projection, exact test against the group, colour.
-// Timing: one candidate every ffu_interval_cycles, second_half_slots fetches ahead.
-// Function: algorithm/splat/make_splat.h.
+// The fine half of an HFU: fetches the second half of each candidate, decodes it and puts it
+// through the FFU: projection, exact test against the group, colour. Timing: one candidate every
+// ffu_interval_cycles, second_half_slots fetches ahead; quantised second halves pass a stage before
+// the FFU that reads the codebook buffer. Function: algorithm/splat/make_splat.h.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <systemc>
 #include <vector>
 
+#include "algorithm/memory/records.h"
 #include "modules/frame_job.h"
+#include "modules/hfu/codebook_buffer.h"
 #include "modules/hfu/hfu_config.h"
 #include "modules/messages.h"
 #include "modules/saturation_board.h"
@@ -33,22 +36,32 @@ enum class Rejects { kDropped, kReported };
 class FineFilter : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(FineFilter);
-  // unit: prefix of the activities' names. splats: visit v goes to v modulo their number.
+  // unit: prefix of the activities' names. codebooks: null where second halves are not quantised.
+  // splats: visit v goes to v modulo their number.
   FineFilter(const sc_core::sc_module_name& name, const std::string& unit, const HfuConfig& config,
              const ClockDomain& clock, const FrameJob& job, const SaturationBoard& board,
-             MemoryPort& port, TimedFifo<FineCandidate>& candidates,
+             MemoryPort& port, CodebookBuffer* codebooks, TimedFifo<FineCandidate>& candidates,
              std::vector<TimedFifo<SplatToken>*> splats, Rejects rejects);
 
   const FineCounters& counters() const { return counters_; }
-  Activity& fetch_activity() { return fetch_activity_; }
-  Activity& fine_activity() { return fine_activity_; }
+  // Fetch, decoding (where there is something to decode), fine filter.
+  std::vector<Activity*> activities();
+  const Activity* decode_activity() const { return codebooks_ ? &decode_activity_ : nullptr; }
   const Activity& fine_activity() const { return fine_activity_; }
   void trace(sc_core::sc_trace_file* file) const;
 
  private:
-  void fetch();  // thread: second halves of the candidates
-  void fine();   // thread: FFU
-  void filter(const FineCandidate& candidate);
+  // A candidate whose second half has been read; with a mark there is none.
+  struct Decoded {
+    FineCandidate candidate;
+    DecodedGaussian second;
+  };
+
+  void fetch();   // thread: second halves of the candidates
+  void decode();  // thread: codebook entries of quantised ones
+  void fine();    // thread: FFU
+  Decoded take_fetched(Activity& activity);
+  void filter(const Decoded& decoded);
   void reject(const FineCandidate& candidate);
   void drop_saturated(const FineCandidate& candidate);
 
@@ -56,12 +69,15 @@ class FineFilter : public sc_core::sc_module {
   const FrameJob& job_;
   const SaturationBoard& board_;
   MemoryPort& port_;
+  CodebookBuffer* const codebooks_;
   TimedFifo<FineCandidate>& candidates_;
   std::vector<TimedFifo<SplatToken>*> splats_;
   const Rejects rejects_;
-  Activity fetch_activity_, fine_activity_;
+  Activity fetch_activity_, decode_activity_, fine_activity_;
+  const std::uint32_t record_bytes_;
   std::vector<std::byte> second_halves_;  // [second_half_slots] records
   TimedFifo<FineCandidate> fetched_;
+  std::unique_ptr<TimedFifo<Decoded>> decoded_;  // null without codebooks
   TimedFifo<std::uint32_t> free_slots_;
   FineCounters counters_;
 };

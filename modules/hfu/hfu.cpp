@@ -5,25 +5,33 @@ namespace sgs {
 
 Hfu::Hfu(const sc_core::sc_module_name& name, const HfuConfig& config, const ClockDomain& clock,
          const FrameJob& job, const SaturationBoard& board, MemoryPort& port,
-         TimedFifo<VisitShare>& shares, std::vector<TimedFifo<SplatToken>*> splats)
+         CodebookBuffer* codebooks, TimedFifo<VisitShare>& shares,
+         std::vector<TimedFifo<SplatToken>*> splats)
     : sc_module(name),
       candidates_(std::make_unique<TimedFifo<FineCandidate>>(
           std::string(this->name()) + ".candidates", clock, config.candidate_fifo_entries,
           config.cfu_depth_cycles)),
       coarse_("coarse_filter", this->name(), config, clock, job, board, port, shares,
               {candidates_.get()}),
-      fine_("fine_filter", this->name(), config, clock, job, board, port, *candidates_,
+      fine_("fine_filter", this->name(), config, clock, job, board, port, codebooks, *candidates_,
             std::move(splats), Rejects::kDropped) {}
 
 Hfu::Hfu(const sc_core::sc_module_name& name, const HfuConfig& config, const ClockDomain& clock,
          const FrameJob& job, const SaturationBoard& board, MemoryPort& port,
-         TimedFifo<VisitShare>& shares, std::vector<TimedFifo<FineCandidate>*> to_sorting,
-         TimedFifo<FineCandidate>& released, TimedFifo<SplatToken>& splats)
+         CodebookBuffer* codebooks, TimedFifo<VisitShare>& shares,
+         std::vector<TimedFifo<FineCandidate>*> to_sorting, TimedFifo<FineCandidate>& released,
+         TimedFifo<SplatToken>& splats)
     : sc_module(name),
       coarse_("coarse_filter", this->name(), config, clock, job, board, port, shares,
               std::move(to_sorting)),
-      fine_("fine_filter", this->name(), config, clock, job, board, port, released, {&splats},
-            Rejects::kReported) {}
+      fine_("fine_filter", this->name(), config, clock, job, board, port, codebooks, released,
+            {&splats}, Rejects::kReported) {}
+
+std::vector<Activity*> Hfu::activities() {
+  std::vector<Activity*> all = {&coarse_.load_activity(), &coarse_.coarse_activity()};
+  for (Activity* activity : fine_.activities()) all.push_back(activity);
+  return all;
+}
 
 HfuCounters Hfu::counters() const {
   const CoarseCounters& c = coarse_.counters();

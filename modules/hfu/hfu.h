@@ -2,7 +2,6 @@
 // paper order the one feeds the other; in exact order the keys are merged in between.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <systemc>
@@ -26,25 +25,27 @@ struct HfuCounters {
 
 class Hfu : public sc_core::sc_module {
  public:
+  // codebooks: null where second halves are not quantised.
   // Paper order. splats: one FIFO a sorting unit; visit v goes to v modulo their number.
   Hfu(const sc_core::sc_module_name& name, const HfuConfig& config, const ClockDomain& clock,
       const FrameJob& job, const SaturationBoard& board, MemoryPort& port,
-      TimedFifo<VisitShare>& shares, std::vector<TimedFifo<SplatToken>*> splats);
+      CodebookBuffer* codebooks, TimedFifo<VisitShare>& shares,
+      std::vector<TimedFifo<SplatToken>*> splats);
 
   // Exact order. to_sorting: one FIFO a sorting unit; visit v goes to v modulo their number.
   // released: keys in final order, each of which gives one token in `splats`.
   Hfu(const sc_core::sc_module_name& name, const HfuConfig& config, const ClockDomain& clock,
       const FrameJob& job, const SaturationBoard& board, MemoryPort& port,
-      TimedFifo<VisitShare>& shares, std::vector<TimedFifo<FineCandidate>*> to_sorting,
-      TimedFifo<FineCandidate>& released, TimedFifo<SplatToken>& splats);
+      CodebookBuffer* codebooks, TimedFifo<VisitShare>& shares,
+      std::vector<TimedFifo<FineCandidate>*> to_sorting, TimedFifo<FineCandidate>& released,
+      TimedFifo<SplatToken>& splats);
 
   HfuCounters counters() const;
-  std::array<Activity*, 4> activities() {
-    return {&coarse_.load_activity(), &coarse_.coarse_activity(), &fine_.fetch_activity(),
-            &fine_.fine_activity()};
-  }
+  std::vector<Activity*> activities();
   const Activity& coarse_activity() const { return coarse_.coarse_activity(); }
   const Activity& fine_activity() const { return fine_.fine_activity(); }
+  // Null where second halves are not quantised.
+  const Activity* decode_activity() const { return fine_.decode_activity(); }
   void trace(sc_core::sc_trace_file* file) const;
 
  private:

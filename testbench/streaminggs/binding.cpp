@@ -44,18 +44,20 @@ std::string waiting(const ResourceUse& use) {
 
 std::vector<ResourceUse> resource_uses(Accelerator& accelerator) {
   const std::uint64_t frame = std::max<std::uint64_t>(1, accelerator.frame_cycles());
-  std::vector<const Activity*> vsu, coarse, fine, sorting, merge;
+  std::vector<const Activity*> vsu, coarse, decode, fine, sorting, merge;
   if (accelerator.vsu() != nullptr) vsu.push_back(&accelerator.vsu()->traverse_activity());
   if (accelerator.chunk_vsu() != nullptr) vsu.push_back(&accelerator.chunk_vsu()->walk_activity());
   if (accelerator.merge() != nullptr) merge.push_back(&accelerator.merge()->activity());
   for (const auto& hfu : accelerator.hfus()) {
     coarse.push_back(&hfu->coarse_activity());
     fine.push_back(&hfu->fine_activity());
+    if (hfu->decode_activity() != nullptr) decode.push_back(hfu->decode_activity());
   }
   for (const auto& unit : accelerator.sorting_units()) sorting.push_back(&unit->activity());
   for (const auto& unit : accelerator.key_sorters()) sorting.push_back(&unit->activity());
   return {busiest("vsu", vsu, frame),
           busiest("coarse", coarse, frame),
+          busiest("decode", decode, frame),
           busiest("fine", fine, frame),
           busiest("sorting", sorting, frame),
           busiest("merge", merge, frame),

@@ -16,7 +16,8 @@ struct ResourceUse {
   const Activity* activity = nullptr;  // whose share it is; null for the memory
 };
 
-// VSU, coarse filters, fine filters, sorting, rendering, draining, the memory's data buses.
+// VSU, coarse filters, decoding, fine filters, sorting, rendering, draining, the memory's data
+// buses.
 std::vector<ResourceUse> resource_uses(Accelerator& accelerator);
 
 struct Binding {

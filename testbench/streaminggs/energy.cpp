@@ -89,6 +89,13 @@ Json energy_of(Accelerator& accelerator) {
                           w.splats * kSplatEntryBytes,
                       kSmallSramPjPerBit) *
       kPj;
+  if (accelerator.codebooks() != nullptr) {
+    const CodebookCounters& c = accelerator.codebooks()->counters();
+    e["codebooks_j"] =
+        8 * kLargeSramPjPerBit *
+        (count(c.lines) * config.codebook.line_bytes + count(c.bytes_loaded) * kWriteOverRead) *
+        kPj;
+  }
   e["sram_leakage_j"] = sram_kb(config) * kSramLeakageMwPerKb * 1e-3 * time_s;
   e["dram_j"] = dram.energy.total_pj() * kPj;
   double total = 0;

@@ -99,6 +99,14 @@ Json work_of(const RenderingCounters& c) {
           {"contributors", c.contributors}};
 }
 
+Json work_of(const CodebookCounters& c) {
+  return {{"bytes_loaded", c.bytes_loaded},
+          {"loaded_at_cycle", c.loaded_at_cycle},
+          {"records_decoded", c.records},
+          {"lines_read", c.lines},
+          {"bank_conflict_cycles", c.conflict_cycles}};
+}
+
 Json units_of(Accelerator& accelerator) {
   Json units;
   for (const Activity* activity : accelerator.activities()) {
@@ -120,6 +128,9 @@ Json units_of(Accelerator& accelerator) {
   }
   for (std::size_t s = 0; s < accelerator.key_sorters().size(); ++s) {
     add(fmt::format("sorting{}", s), work_of(accelerator.key_sorters()[s]->counters()));
+  }
+  if (accelerator.codebooks() != nullptr) {
+    add("codebooks.load", work_of(accelerator.codebooks()->counters()));
   }
   if (accelerator.merge() != nullptr) add("merge", work_of(accelerator.merge()->counters()));
   add("rendering.blend", work_of(accelerator.rendering().counters()));
@@ -165,7 +176,7 @@ Json dram_of(Accelerator& accelerator) {
           {"read_latency_p99_ns", latency_ns(0.99)}};
 }
 
-Json sram_of(const AcceleratorConfig& config) {
+Json sram_of(const AcceleratorConfig& config, const SecondHalfFormat& format) {
   const SramBudget budget = sram_budget(config);
   const auto list = [](const std::vector<SramUse>& uses) {
     Json out = Json::array();
@@ -176,6 +187,8 @@ Json sram_of(const AcceleratorConfig& config) {
   };
   return {{"input_bytes", SramBudget::total(budget.input)},
           {"input_available_bytes", config.sram.input_bytes},
+          {"codebook_bytes", format.codebook_bytes()},
+          {"codebook_available_bytes", config.sram.codebook_bytes},
           {"shared_bytes", SramBudget::total(budget.shared)},
           {"shared_available_bytes", config.sram.shared_bytes},
           {"uses", list(budget.shared)}};
@@ -201,7 +214,7 @@ std::string measure(Accelerator& accelerator) {
   out["dram"] = dram_of(accelerator);
   out["energy"] = energy_of(accelerator);
   out["area_mm2"] = area_of(accelerator);
-  out["sram"] = sram_of(accelerator.config());
+  out["sram"] = sram_of(accelerator.config(), accelerator.job().layout.second_half);
   return out.dump();
 }
 

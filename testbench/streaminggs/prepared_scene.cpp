@@ -1,4 +1,4 @@
-// Layout of a scene, and its golden images.
+// Encoding and layout of a scene, and its golden images.
 #include "testbench/streaminggs/prepared_scene.h"
 
 #include <fmt/format.h>
@@ -8,36 +8,72 @@
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/activate.h"
+#include "algorithm/vq/image_weights.h"
 #include "modules/accelerator.h"
 #include "modules/dram/address_mapping.h"
+#include "testbench/streaminggs/progress.h"
 
 namespace sgs {
 
-PreparedScene::PreparedScene(Scene scene, const AcceleratorConfig& config)
-    : config_(config), scene_(std::move(scene)), cloud_(activate(scene_.cloud)) {
-  const Stored stored = config.store_invisible ? Stored::kAll : Stored::kVisible;
-  if (config.ordering == Ordering::kExact) {
-    tree_ = build_chunk_tree(cloud_, config.chunk_gaussians, stored);
-    return;
-  }
-  const float voxel_size =
-      config.voxel_size > 0 ? static_cast<float>(config.voxel_size) : paper_voxel_size(cloud_);
-  grid_ = build_voxel_grid(cloud_, voxel_size, stored);
+namespace {
+
+bool is_lossy(SecondHalfEncoding encoding) { return encoding != SecondHalfEncoding::kRaw; }
+
+EncodedCloud encode(const ActivatedCloud& cloud, const AcceleratorConfig& config,
+                    const std::vector<Camera>& weighing) {
+  if (config.encoding == SecondHalfEncoding::kHalf) return encode_half(cloud);
+  return encode_quantised(
+      cloud, quantise(cloud, image_weights(cloud, weighing), config.vq, quantisation_progress()),
+      config.encoding);
 }
 
-MemoryImage PreparedScene::memory_image(std::uint64_t frame_bytes) const {
-  MemoryImage image =
-      config_.ordering == Ordering::kExact
-          ? build_memory_image(cloud_, tree_, spill_region_bytes(tree_), frame_bytes)
-          : build_memory_image(cloud_, grid_, spill_region_bytes(config_, grid_), frame_bytes);
+StoredScene store(EncodedCloud encoded, const AcceleratorConfig& config) {
+  const Stored stored = config.store_invisible ? Stored::kAll : Stored::kVisible;
+  if (config.ordering == Ordering::kExact) {
+    return store_by_chunks(std::move(encoded), config.chunk_gaussians, stored);
+  }
+  const float voxel_size = config.voxel_size > 0 ? static_cast<float>(config.voxel_size)
+                                                 : paper_voxel_size(encoded.decoded);
+  return store_by_voxels(std::move(encoded), voxel_size, stored);
+}
+
+std::uint64_t spill_bytes(const AcceleratorConfig& config, const StoredScene& scene) {
+  return config.ordering == Ordering::kExact ? spill_region_bytes(scene.tree)
+                                             : spill_region_bytes(config, scene.grid);
+}
+
+}  // namespace
+
+PreparedScene::PreparedScene(Scene scene, const AcceleratorConfig& config,
+                             const std::vector<Camera>& weighing)
+    : config_(config), name_(std::move(scene.name)), dropped_invalid_(scene.dropped_invalid) {
+  ActivatedCloud cloud = activate(scene.cloud);
+  if (is_lossy(config.encoding)) {
+    stored_ = store(encode(cloud, config, weighing), config);
+    original_ = std::move(cloud);
+  } else {
+    stored_ = store(encode_raw(std::move(cloud)), config);
+  }
+  check_codebooks(config, stored_.image.layout.second_half);
+}
+
+FrameJob PreparedScene::job(const Camera& camera) const {
+  FrameJob job;
+  job.view = make_view<float>(camera);
+  job.frame_format = config_.framebuffer;
+  job.group_px = static_cast<int>(config_.group_px);
+  job.groups = pixel_groups(camera.width, camera.height, job.group_px);
+  job.layout = with_working_regions(
+      stored_.image.layout, spill_bytes(config_, stored_),
+      std::uint64_t{pixel_bytes(config_.framebuffer)} * camera.width * camera.height);
   const DramConfig& dram = config_.dram;
   const std::uint64_t capacity = AddressMapping(dram, load_memspec(dram.memspec)).capacity_bytes();
-  if (image.layout.total_bytes() > capacity) {
+  if (job.layout.total_bytes() > capacity) {
     throw InputError(
         fmt::format("dram: the scene and its frame take {} bytes, {} channels x {} ranks hold {}",
-                    image.layout.total_bytes(), dram.channels, dram.ranks, capacity));
+                    job.layout.total_bytes(), dram.channels, dram.ranks, capacity));
   }
-  return image;
+  return job;
 }
 
 StreamingResult PreparedScene::golden(const FrameJob& job) const {
@@ -48,22 +84,13 @@ StreamingResult PreparedScene::golden(const FrameJob& job) const {
     order.on_overflow = config_.merge.on_overflow;
     order.walk_queue_entries = config_.vsu.queue_entries;
     order.background = job.background;
-    return render_exact_order(job.view, cloud_, tree_, order);
+    return render_exact_order(job.view, stored_.decoded, stored_.tree, order);
   }
   PaperOrderConfig order;
   order.group_px = job.group_px;
   order.sample_step_voxels = static_cast<float>(config_.vsu.sample_step_voxels);
   order.background = job.background;
-  return render_paper_order(job.view, cloud_, grid_, order);
-}
-
-FrameJob make_job(const Camera& camera, const AcceleratorConfig& config) {
-  FrameJob job;
-  job.view = make_view<float>(camera);
-  job.frame_format = config.framebuffer;
-  job.group_px = static_cast<int>(config.group_px);
-  job.groups = pixel_groups(camera.width, camera.height, job.group_px);
-  return job;
+  return render_paper_order(job.view, stored_.decoded, stored_.grid, order);
 }
 
 }  // namespace sgs

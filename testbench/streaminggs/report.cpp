@@ -23,10 +23,24 @@ Json image_of(const ViewFacts& facts) {
   return {{"psnr_db", finite(psnr_db(facts.frame, facts.reference))},
           {"ssim", ssim(facts.frame, facts.reference)},
           {"max_abs_error", max_abs_error(facts.frame, facts.reference)},
+          {"decoded_psnr_db", finite(psnr_db(facts.frame, facts.decoded_reference))},
+          {"encoding_psnr_db", finite(psnr_db(facts.decoded_reference, facts.reference))},
           {"equals_streaming_renderer", facts.equals_golden},
           {"missed", s.missed},
           {"misordered", s.misordered},
           {"blends", s.contributors}};
+}
+
+Json codebooks_of(const SecondHalfFormat& format) {
+  Json out = Json::object();
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    if (format.entries[id] == 0) continue;
+    const auto codebook = static_cast<Codebook>(id);
+    out[kCodebookNames[id]] = {{"entries", format.entries[id]},
+                               {"words", codebook_words(codebook, format.sh_degree)},
+                               {"bytes", format.entries[id] * format.entry_bytes(codebook)}};
+  }
+  return out;
 }
 
 // Each Gaussian that contributes to the frame read once, and the pixels written once.
@@ -47,16 +61,18 @@ Json view_report(const ViewFacts& facts, const AcceleratorConfig& config) {
   report["schema_version"] = 1;
   report["scene"] = {{"name", facts.scene},
                      {"gaussians", facts.gaussians},
-                     {"sh_degree", facts.layout.sh_degree},
+                     {"sh_degree", facts.layout.sh_degree()},
                      {"dropped_invalid", facts.dropped_invalid},
                      {"voxel_size", facts.layout.voxel_frame.voxel_size},
                      {"voxels", facts.layout.voxel_count},
                      {"chunks", facts.layout.chunk_count},
+                     {"second_half_bytes", facts.layout.second_half_bytes()},
+                     {"codebooks", codebooks_of(facts.layout.second_half)},
                      {"stored_bytes", facts.layout[Region::kSpill].base}};
   report["view"] = facts.view;
   report["image"] = image_of(facts);
   for (const auto& [key, value] : measured.items()) report[key] = value;
-  report["datapath"] = datapath_of(config.hfu, facts.layout.sh_degree);
+  report["datapath"] = datapath_of(config.hfu, facts.layout.sh_degree());
   report["limit"] = limit_of(facts, measured["dram"]["bytes"].get<std::uint64_t>());
   report["left_out"] = left_out(facts, config, measured);
   report["host"] = {{"simulation_wall_s", facts.run.wall_s}};

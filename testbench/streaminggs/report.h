@@ -14,8 +14,9 @@ namespace sgs {
 struct ViewFacts {
   std::string scene;
   int view = 0;
-  Image frame;  // as read back from the modelled DRAM
-  Image reference;
+  Image frame;              // as read back from the modelled DRAM
+  Image reference;          // of the scene as given
+  Image decoded_reference;  // of the scene as encoded
   StreamingResult golden;
   bool equals_golden = false;  // bytes of the frame buffer against the streaming renderer's
   FrameRun run;

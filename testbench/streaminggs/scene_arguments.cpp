@@ -45,6 +45,13 @@ void SceneArguments::add_views_to(CLI::App& app) {
   app.add_option("--size", size, "WIDTHxHEIGHT in px; scales the intrinsics");
 }
 
+void SceneArguments::add_weighing_to(CLI::App& app) {
+  app.add_option("--weigh-by", weigh_by,
+                 "numbers of the cameras that weigh the Gaussians for vector quantisation, as in "
+                 "0,2,3; all if not given")
+      ->delimiter(',');
+}
+
 Scene SceneArguments::load() const { return load_scene(scene, {drop_invalid}); }
 
 std::vector<std::pair<int, Camera>> SceneArguments::cameras(const Scene& loaded) const {
@@ -71,6 +78,21 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const Scene& loaded)
       throw InputError(fmt::format("view {}: {}x{} px, at most {} a side", index, camera.width,
                                    camera.height, kMaxSizePx));
     }
+  }
+  return chosen;
+}
+
+std::vector<Camera> SceneArguments::weighing_cameras(const Scene& loaded) const {
+  const std::vector<Camera> all =
+      cameras_path.empty() ? loaded.cameras : read_cameras(cameras_path);
+  if (weigh_by.empty()) return all;
+  std::vector<Camera> chosen;
+  for (const int number : weigh_by) {
+    if (number < 0 || number >= static_cast<int>(all.size())) {
+      throw InputError(fmt::format("--weigh-by: {}, expected 0 to {}", number,
+                                   static_cast<int>(all.size()) - 1));
+    }
+    chosen.push_back(all[static_cast<std::size_t>(number)]);
   }
   return chosen;
 }

@@ -15,10 +15,10 @@
 #include "algorithm/input_error.h"
 #include "algorithm/output_file.h"
 #include "algorithm/render/reference_renderer.h"
-#include "modules/auto_config.h"
 #include "modules/config/strict_json.h"
 #include "modules/filter_cost.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/config_arguments.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/report.h"
@@ -30,9 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct Arguments : SceneArguments {
-  std::string config = "exact";
-  std::vector<std::string> overrides;
+struct Arguments : SceneArguments, ConfigArguments {
   std::string out;
   std::string vcd;
   std::string dram_trace;
@@ -43,24 +41,6 @@ struct Arguments : SceneArguments {
   std::string command;  // the whole command line
 };
 
-// A preset's name, or a file.
-std::string config_path(const std::string& config) {
-  const fs::path preset = fs::path(SGS_SOURCE_DIR) / "testbench" / "configs" / (config + ".json");
-  if (config.find_first_of("./") == std::string::npos && fs::exists(preset)) return preset.string();
-  return config;
-}
-
-AcceleratorConfig read_config(const Arguments& arguments, std::vector<AutoChoice>& chosen) {
-  ConfigDocument document;
-  document.add_file(config_path(arguments.config));
-  for (const std::string& assignment : arguments.overrides) document.add_override(assignment);
-  AcceleratorConfig config;
-  document.read_into(config);
-  chosen = resolve_auto(config);
-  config.validate();
-  return config;
-}
-
 double seconds_since(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
@@ -68,24 +48,25 @@ double seconds_since(std::chrono::steady_clock::time_point began) {
 ViewFacts simulate_view(const PreparedScene& prepared, int number, const Camera& camera,
                         const AcceleratorConfig& config, const RunOptions& options) {
   ViewFacts facts;
-  facts.scene = prepared.scene().name;
+  facts.scene = prepared.name();
   facts.view = number;
-  facts.gaussians = prepared.cloud().size();
-  facts.dropped_invalid = prepared.scene().dropped_invalid;
+  facts.gaussians = prepared.gaussians();
+  facts.dropped_invalid = prepared.dropped_invalid();
   facts.frame_format = config.framebuffer;
 
-  FrameJob job = make_job(camera, config);
-  const std::uint64_t frame_bytes =
-      std::uint64_t{pixel_bytes(config.framebuffer)} * camera.width * camera.height;
-  const MemoryImage image = prepared.memory_image(frame_bytes);
-  job.layout = image.layout;
-  facts.layout = image.layout;
-  facts.image_hash = fnv1a64(image.bytes);
+  const FrameJob job = prepared.job(camera);
+  facts.layout = job.layout;
+  facts.image_hash = fnv1a64(prepared.image().bytes);
 
-  facts.reference = render_reference(job.view, prepared.cloud(), job.background).image;
+  const auto reference_of = [&](const ActivatedCloud& cloud) {
+    return render_reference(job.view, cloud, job.background).image;
+  };
+  facts.decoded_reference = reference_of(prepared.decoded());
+  facts.reference =
+      prepared.original() != nullptr ? reference_of(*prepared.original()) : facts.decoded_reference;
   facts.golden = prepared.golden(job);
 
-  facts.run = run_frame(config, job, image, options);
+  facts.run = run_frame(config, job, prepared.image(), options);
   facts.equals_golden =
       facts.run.frame == encode_frame(config.framebuffer, facts.golden.frame.image);
   facts.frame = decode_frame(config.framebuffer, camera.width, camera.height, facts.run.frame);
@@ -116,7 +97,7 @@ Json list_choices(const std::vector<AutoChoice>& chosen) {
 
 int run(const Arguments& arguments) {
   std::vector<AutoChoice> chosen;
-  AcceleratorConfig config = read_config(arguments, chosen);
+  AcceleratorConfig config = arguments.read_config(chosen);
   if (arguments.print_config) {
     // Only this key waits for the scene.
     if (config.hfu.cost == FilterCost::kCounted) {
@@ -136,7 +117,8 @@ int run(const Arguments& arguments) {
     chosen.push_back(cost);
   }
   const auto views = arguments.cameras(scene);
-  const PreparedScene prepared(std::move(scene), config);
+  const std::vector<Camera> weighing = arguments.weighing_cameras(scene);
+  const PreparedScene prepared(std::move(scene), config, weighing);
 
   const RunOptions options{arguments.timing == "fast" ? TimingMode::kFast : TimingMode::kAccurate,
                            arguments.vcd, arguments.dram_trace, arguments.stalls, arguments.seed};
@@ -177,8 +159,8 @@ SubCommand add_simulate_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   arguments->add_scene_to(app);
   arguments->add_views_to(app);
-  app.add_option("--config", arguments->config, "preset or JSON file")->capture_default_str();
-  app.add_option("--set", arguments->overrides, "key.path=value, over the configuration");
+  arguments->add_weighing_to(app);
+  arguments->add_config_to(app);
   app.add_option("--out", arguments->out, "folder for pictures and reports");
   app.add_option("--vcd", arguments->vcd, "write a waveform");
   app.add_option("--dram-trace", arguments->dram_trace,

@@ -72,10 +72,10 @@ TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   job.view = make_view<float>(camera);
   job.group_px = shape.group_px;
   job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
-  scene.image = build_memory_image(
-      scene.cloud, scene.grid, 0,
+  scene.image = build_memory_image(encode_raw(scene.cloud), scene.grid);
+  job.layout = with_working_regions(
+      scene.image.layout, 0,
       std::uint64_t{pixel_bytes(job.frame_format)} * camera.width * camera.height);
-  job.layout = scene.image.layout;
   return scene;
 }
 

@@ -32,10 +32,10 @@ Plan plan_of(const TestScene& scene, std::uint32_t chunk) {
   const std::uint64_t aside_bytes =
       (plan.tree.chunk_count + plan.tree.nodes.size()) * kWalkEntryBytes;
   plan.job = scene.job;
-  plan.image = build_memory_image(scene.cloud, plan.tree, aside_bytes,
-                                  std::uint64_t{pixel_bytes(plan.job.frame_format)} *
-                                      plan.job.view.width * plan.job.view.height);
-  plan.job.layout = plan.image.layout;
+  plan.image = build_memory_image(encode_raw(scene.cloud), plan.tree);
+  plan.job.layout = with_working_regions(plan.image.layout, aside_bytes,
+                                         std::uint64_t{pixel_bytes(plan.job.frame_format)} *
+                                             plan.job.view.width * plan.job.view.height);
   return plan;
 }
 

@@ -93,7 +93,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     outputs.push_back(
         &bench.add_fifo<SplatToken>(fmt::format("to_sorting{}", s), plan.output_entries, 1));
   }
-  Hfu unit("hfu", plan.config, bench.clock(), plan.scene.job, board, bench.port(), input, outputs);
+  Hfu unit("hfu", plan.config, bench.clock(), plan.scene.job, board, bench.port(), nullptr, input,
+           outputs);
 
   std::vector<ExpectedShare> expected;
   std::vector<std::vector<bool>> passes;
@@ -178,7 +179,7 @@ Plan plan_of(TestScene scene) {
 BenchConfig still_bench(const Plan& plan, std::uint32_t latency_cycles = 20) {
   BenchConfig config;
   config.latency_cycles = latency_cycles;
-  config.memory_bytes = plan.scene.image.layout.total_bytes();
+  config.memory_bytes = plan.scene.job.layout.total_bytes();
   return config;
 }
 
@@ -217,15 +218,15 @@ void exact_coarse_time(Case& test, std::uint32_t n) {
     }
   }
   plan.scene.grid = build_voxel_grid(plan.scene.cloud, shape.voxel_size);
-  plan.scene.image = build_memory_image(plan.scene.cloud, plan.scene.grid, 0, 4096);
-  plan.scene.job.layout = plan.scene.image.layout;
+  plan.scene.image = build_memory_image(encode_raw(plan.scene.cloud), plan.scene.grid);
+  plan.scene.job.layout = with_working_regions(plan.scene.image.layout, 0, 4096);
   constexpr std::uint64_t kLatency = 37, kInterval = 14, kDepth = 12;  // ceil(55 / 4)
   UnitBench bench(test, still_bench(plan, kLatency));
   bench.load(0, plan.scene.image.bytes);
   SaturationBoard board(plan.scene.job.groups.size());
   auto& input = bench.add_fifo<VisitShare>("shares", 4, 1);
   auto& output = bench.add_fifo<SplatToken>("to_sorting0", 4, 1);
-  Hfu unit("hfu", plan.config, bench.clock(), plan.scene.job, board, bench.port(), input,
+  Hfu unit("hfu", plan.config, bench.clock(), plan.scene.job, board, bench.port(), nullptr, input,
            {&output});
   bench.add_thread("vsu", [&](Activity& activity) {
     input.push({0, 0, 0, n, Mark::kEndOfVisit}, activity);
@@ -255,7 +256,7 @@ void random_case(Case& test) {
   config.candidate_fifo_entries = 1 + static_cast<std::uint32_t>(random() % 16);
   config.second_half_slots = 1 + static_cast<std::uint32_t>(random() % 8);
   plan.sorting_units = 1 + static_cast<std::uint32_t>(random() % 3);
-  const BenchConfig bench = random_bench(random, plan.scene.image.layout.total_bytes());
+  const BenchConfig bench = random_bench(random, plan.scene.job.layout.total_bytes());
   plan.saturate_one_in = random() % 3 == 0 ? 10 : 0;
   if (bench.stall_probability > 0)
     plan.output_entries = 1 + static_cast<std::uint32_t>(random() % 4);

@@ -212,7 +212,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
 
 BenchConfig still_bench(const Plan& plan) {
   BenchConfig config;
-  config.memory_bytes = plan.scene.image.layout.total_bytes();
+  config.memory_bytes = plan.scene.job.layout.total_bytes();
   return config;
 }
 
@@ -234,7 +234,7 @@ void random_case(Case& test) {
   plan.config.min_share = 2 + static_cast<std::uint32_t>(random() % 40);
   plan.config.sample_step_voxels = random() % 4 == 0 ? 0.5 : 0;
   plan.saturate_one_in = random() % 3 == 0 ? 5 : 0;
-  run_plan(test, random_bench(random, plan.scene.image.layout.total_bytes()), plan);
+  run_plan(test, random_bench(random, plan.scene.job.layout.total_bytes()), plan);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ struct Scene2k {
 
 TEST_CASE("memory image: regions do not overlap and begin on rows of 4 KiB") {
   const Scene2k scene;
-  const MemoryLayout layout = build_memory_image(scene.cloud, scene.grid, 12345, 678).layout;
+  const MemoryLayout layout = with_working_regions(
+      build_memory_image(encode_raw(scene.cloud), scene.grid).layout, 12345, 678);
   std::uint64_t end = 0;
   for (const RegionRange& range : layout.regions) {
     CHECK(range.base % 4096 == 0);
@@ -41,7 +42,7 @@ TEST_CASE("memory image: addresses are base plus record size times number") {
   layout.regions[region_id(Region::kSecondHalves)] = {12288, 76 * 10};
   layout.regions[region_id(Region::kFrameBuffer)] = {16384, 3 * 64};
   layout.node_count = 5;
-  layout.sh_degree = 1;
+  layout.second_half.sh_degree = 1;
   CHECK(layout.node_address(3) == 4096 + 3 * 16);
   CHECK(layout.voxel_address(2) == 4096 + 5 * 16 + 2 * 8);
   CHECK(layout.first_half_address(7) == 8192 + 7 * 16);
@@ -54,7 +55,7 @@ TEST_CASE("memory image: addresses are base plus record size times number") {
 
 TEST_CASE("memory image: every record lies at its address") {
   const Scene2k scene;
-  const MemoryImage image = build_memory_image(scene.cloud, scene.grid, 0, 0);
+  const MemoryImage image = build_memory_image(encode_raw(scene.cloud), scene.grid);
   const MemoryLayout& layout = image.layout;
   REQUIRE(image.bytes.size() >= layout[Region::kSecondHalves].end());
   for (std::uint32_t n = 0; n < scene.grid.nodes.size(); ++n) {
@@ -75,10 +76,11 @@ TEST_CASE("memory image: every record lies at its address") {
 }
 
 TEST_CASE("memory image: an empty scene has empty regions and a frame") {
-  const MemoryImage image = build_memory_image({}, VoxelGrid{}, 0, 300);
-  CHECK(image.layout.gaussian_count == 0);
-  CHECK(image.layout[Region::kFirstHalves].bytes == 0);
-  CHECK(image.layout[Region::kFrameBuffer].bytes == 300);
+  const MemoryLayout layout =
+      with_working_regions(build_memory_image(EncodedCloud{}, VoxelGrid{}).layout, 0, 300);
+  CHECK(layout.gaussian_count == 0);
+  CHECK(layout[Region::kFirstHalves].bytes == 0);
+  CHECK(layout[Region::kFrameBuffer].bytes == 300);
 }
 
 }  // namespace
