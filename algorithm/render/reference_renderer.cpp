@@ -17,16 +17,6 @@ namespace sgs {
 namespace {
 
 constexpr std::size_t kBatchSplats = 32768;
-constexpr std::size_t kMostPairs = std::size_t{1} << 23;  // (splat, tile): 32 MB of bin entries
-
-// How many of splats[begin ..) can be binned at once, at least one.
-std::size_t run_length(const CellGrid& grid, const std::vector<Splat>& splats, std::size_t begin) {
-  std::size_t pairs = 0, end = begin;
-  while (end < splats.size() && (end == begin || pairs < kMostPairs)) {
-    pairs += cells_of(grid, splats[end++].footprint).size();
-  }
-  return end - begin;
-}
 
 void blend_run(const CellGrid& grid, const Splat* splats, std::size_t count,
                std::vector<GroupState>& tiles) {
@@ -56,7 +46,7 @@ RenderResult render_reference(const View<float>& view, const ActivatedCloud& clo
   while (!sequence.at_end() && std::any_of(tiles.begin(), tiles.end(), unfinished)) {
     sequence.next(kBatchSplats, batch);
     for (std::size_t begin = 0; begin != batch.size();) {
-      const std::size_t count = run_length(grid, batch, begin);
+      const std::size_t count = binnable(grid, batch, begin);
       blend_run(grid, batch.data() + begin, count, tiles);
       begin += count;
     }

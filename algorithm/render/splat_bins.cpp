@@ -36,6 +36,15 @@ CellRect cells_of(const CellGrid& grid, const SubtileRect& footprint) {
           (footprint.y1 + side - 1) / side};
 }
 
+std::size_t binnable(const CellGrid& grid, const std::vector<Splat>& splats, std::size_t begin) {
+  constexpr std::size_t kMostPairs = std::size_t{1} << 23;  // (splat, cell): 32 MB of entries
+  std::size_t pairs = 0, end = begin;
+  while (end < splats.size() && (end == begin || pairs < kMostPairs)) {
+    pairs += cells_of(grid, splats[end++].footprint).size();
+  }
+  return end - begin;
+}
+
 SplatBins bin_splats(const CellGrid& grid, const Splat* splats, std::size_t count) {
   const std::size_t block_size = (count + kBlocks - 1) / kBlocks;
   const auto for_block = [&](std::size_t block, const auto& body) {

@@ -27,6 +27,10 @@ struct CellRect {
 };
 CellRect cells_of(const CellGrid& grid, const SubtileRect& footprint);
 
+// How many of splats[begin ..) can be binned at once, at least one: bins of giants would fill the
+// memory.
+std::size_t binnable(const CellGrid& grid, const std::vector<Splat>& splats, std::size_t begin);
+
 struct SplatBins {
   std::vector<std::size_t> first;      // [cells + 1] where each cell's list begins
   std::vector<std::uint32_t> entries;  // positions in the splats given, ascending in each cell

@@ -63,6 +63,17 @@ class WatchedTile {
   std::vector<float> before_;  // T of each pixel after the last blend
 };
 
+void blend_run(const CellGrid& grid, const Splat* splats, std::size_t count,
+               std::vector<WatchedTile>& tiles, FixedPointSums& sums) {
+  const SplatBins bins = bin_splats(grid, splats, count);
+  tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t tile) {
+    for (std::size_t i = bins.first[tile]; i != bins.first[tile + 1]; ++i) {
+      if (tiles[tile].saturated()) return;
+      tiles[tile].blend(splats[bins.entries[i]], sums);
+    }
+  });
+}
+
 void add_view(const ActivatedCloud& cloud, const Camera& camera, FixedPointSums& sums) {
   constexpr std::size_t kBatchSplats = 32768;
   const View<float> view = make_view<float>(camera);
@@ -76,13 +87,11 @@ void add_view(const ActivatedCloud& cloud, const Camera& camera, FixedPointSums&
   while (!sequence.at_end() && std::any_of(tiles.begin(), tiles.end(),
                                            [](const auto& tile) { return !tile.saturated(); })) {
     sequence.next(kBatchSplats, batch);
-    const SplatBins bins = bin_splats(grid, batch.data(), batch.size());
-    tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t tile) {
-      for (std::size_t i = bins.first[tile]; i != bins.first[tile + 1]; ++i) {
-        if (tiles[tile].saturated()) return;
-        tiles[tile].blend(batch[bins.entries[i]], sums);
-      }
-    });
+    for (std::size_t begin = 0; begin != batch.size();) {
+      const std::size_t count = binnable(grid, batch, begin);
+      blend_run(grid, batch.data() + begin, count, tiles, sums);
+      begin += count;
+    }
   }
 }
 

@@ -60,3 +60,17 @@ TEST_CASE("every splat is in exactly the cells of its footprint, in order") {
     }
   }
 }
+
+TEST_CASE("splats are binned in runs that bound the memory") {
+  // 1024x1024 px in cells of 16 px: a giant takes 4096 pairs of at most 2^23 and one splat more.
+  const CellGrid grid = cell_grid(1024, 1024, 16);
+  std::vector<Splat> splats(5000);
+  CHECK(binnable(grid, splats, 0) == 5000);  // nothing of them is in the frame
+  for (Splat& splat : splats) splat.footprint = {0, 0, 256, 256};
+  CHECK(binnable(grid, splats, 0) == 2048);
+  CHECK(binnable(grid, splats, 4000) == 1000);
+  CHECK(binnable(grid, splats, 4999) == 1);
+  const CellGrid huge = cell_grid(65536, 65536, 16);
+  splats[0].footprint = {0, 0, 16384, 16384};
+  CHECK(binnable(huge, splats, 0) == 1);  // at least one, however large
+}
