@@ -17,9 +17,13 @@ namespace {
 // not seen, and entries spent on it would be lost to others.
 constexpr double kThinnest = 0.02;
 
+// A length by the largest one, in [0, 1] also where both are 0 or have overflowed to infinity.
+double ratio_of(float scale, float largest) {
+  return scale == largest ? 1 : static_cast<double>(scale) / largest;
+}
+
 float log_ratio(float scale, float largest) {
-  const double ratio = largest > 0 ? static_cast<double>(scale) / largest : 1;
-  return static_cast<float>(std::log(ratio + kThinnest));
+  return static_cast<float>(std::log(ratio_of(scale, largest) + kThinnest));
 }
 float ratio_of_log(float value) {
   return static_cast<float>(std::clamp(std::exp(static_cast<double>(value)) - kThinnest, 0.0, 1.0));
@@ -27,9 +31,7 @@ float ratio_of_log(float value) {
 
 // By how much a small turn changes the covariance, relative to a disc's: 0 for a ball.
 float turn_sensitivity(const glm::vec3& falling) {
-  const double largest = falling[0];
-  if (!(largest > 0)) return 0;
-  const double b = falling[1] / largest, c = falling[2] / largest;
+  const double b = ratio_of(falling[1], falling[0]), c = ratio_of(falling[2], falling[0]);
   const double bb = b * b, cc = c * c;
   const double sum = (1 - bb) * (1 - bb) + (1 - cc) * (1 - cc) + (bb - cc) * (bb - cc);
   return static_cast<float>(sum / 2);

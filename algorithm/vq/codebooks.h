@@ -59,7 +59,7 @@ using VqProgress = std::function<void(Codebook, std::uint32_t, double)>;
 
 // weights: [N], positive (image_weights.h). Scales are compared as logarithms relative to the
 // largest, which the first half stores exactly; rotations between canonical forms
-// (canonical_shape.h), where nearest means largest absolute dot product. A round ellipsoid's
+// (canonical_shape.h), by the distance of their quaternions. A round ellipsoid's
 // rotation counts less: the weight has the factor by which a small turn changes its covariance.
 // Opacities below 1/255, which no view can show, become 0, others at least 1. Deterministic by seed
 // whatever the number of threads.

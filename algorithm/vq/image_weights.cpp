@@ -118,7 +118,8 @@ std::vector<double> size_weights(const ActivatedCloud& cloud) {
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const Gaussian<float>& g = cloud.gaussians[i];
     const double x = g.scale.x, y = g.scale.y, z = g.scale.z;
-    weights[i] = g.opacity * (x * y + y * z + z * x);
+    const double weight = g.opacity * (x * y + y * z + z * x);
+    weights[i] = std::isfinite(weight) ? weight : 0;  // scales that overflowed are never drawn
   }
   std::vector<double> sorted = weights;
   const auto cap = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 99 / 100);

@@ -27,10 +27,13 @@ double ordered_sum(std::size_t count, OfBlock&& of_block) {
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
+// Squares that overflow count as the largest number: infinite errors cannot be compared.
+float bounded(float squared) { return std::min(squared, std::numeric_limits<float>::max()); }
+
 float squared_distance(const float* a, const float* b, int dims) {
   float sum = 0;
   for (int d = 0; d < dims; ++d) sum += (a[d] - b[d]) * (a[d] - b[d]);
-  return sum;
+  return bounded(sum);
 }
 
 // The point at which the running sum of `mass` passes `target`; the last of any mass for rounding.
@@ -85,8 +88,8 @@ double assign(const PointSet& points, const std::vector<float>& centroids, Assig
     for (std::size_t i = begin; i != end; ++i) {
       const Nearest nearest = search->find(points[i], assignment.labels[i]);
       assignment.labels[i] = nearest.index;
-      assignment.squared_distances[i] = nearest.squared_distance;
-      sum += static_cast<double>(points.weights[i]) * nearest.squared_distance;
+      assignment.squared_distances[i] = bounded(nearest.squared_distance);
+      sum += static_cast<double>(points.weights[i]) * assignment.squared_distances[i];
     }
     return sum;
   });
@@ -170,11 +173,15 @@ KMeansResult kmeans(const PointSet& points, const KMeansConfig& config,
                     const KMeansProgress& progress) {
   KMeansResult result;
   if (points.size() == 0) return result;
-  const DistinctPoints distinct = merge_equal(points);
+  DistinctPoints distinct = merge_equal(points);
   if (distinct.points.size() <= config.entries) {
     result.centroids = distinct.points.values;
     result.labels = distinct.original;
     return result;
+  }
+  std::vector<float>& weights = distinct.points.weights;
+  if (std::none_of(weights.begin(), weights.end(), [](float weight) { return weight > 0; })) {
+    std::fill(weights.begin(), weights.end(), 1.0F);
   }
   const PointSet training = draw(distinct.points, config.training_points, config.seed);
   constexpr std::size_t kSeedPointsPerEntry = 16;

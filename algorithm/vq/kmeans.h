@@ -33,8 +33,9 @@ using KMeansProgress = std::function<void(std::uint32_t iteration, double mean_s
 // k-means++ (Arthur and Vassilvitskii 2007) seeding, then Lloyd until an iteration gains less than
 // a thousandth or `iterations` are made; an entry that no point is nearest to is put on the point
 // that adds most to the error. No more distinct points than entries: they are the codebook, and the
-// error is 0. Points of weight 0 do not move entries but get labels. The same result whatever the
-// number of threads.
+// error is 0. Points of weight 0 do not move entries but get labels; where all weights are 0 all
+// count alike. Squared distances beyond the range of float count as its largest number. The same
+// result whatever the number of threads.
 KMeansResult kmeans(const PointSet& points, const KMeansConfig& config,
                     const KMeansProgress& progress = {});
 

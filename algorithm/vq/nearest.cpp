@@ -66,14 +66,15 @@ class CentroidBlocks {
   std::vector<std::uint32_t> indices_;  // [blocks, lanes]
 };
 
-constexpr Nearest kNone{std::numeric_limits<std::uint32_t>::max(),
-                        std::numeric_limits<float>::infinity()};
-
+// The sum of CentroidBlocks::compare, to the bit.
 float squared_distance(const float* a, const float* b, std::size_t dims) {
   float sum = 0;
   for (std::size_t d = 0; d < dims; ++d) sum += (a[d] - b[d]) * (a[d] - b[d]);
   return sum;
 }
+
+constexpr Nearest kNone{std::numeric_limits<std::uint32_t>::max(),
+                        std::numeric_limits<float>::infinity()};
 
 class ExhaustiveSearch : public NearestSearch {
  public:
@@ -106,7 +107,6 @@ class KdTree : public NearestSearch {
   }
 
   Nearest find(const float* point, std::uint32_t hint) const override {
-    // The hint's distance, one unit in the last place up: it only has to bound.
     Nearest best = kNone;
     if (hint < centroids_.size() / kDims) {
       best = {hint, squared_distance(point, centroids_.data() + std::size_t{hint} * kDims, kDims)};

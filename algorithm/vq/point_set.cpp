@@ -4,7 +4,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 #include <random>
 
 namespace sgs {
@@ -65,7 +67,10 @@ DistinctPoints merge_equal(const PointSet& points) {
       weights[out.original[i]] += points.weights[i];
     }
   }
-  out.points.weights.assign(weights.begin(), weights.end());
+  for (const double weight : weights) {
+    out.points.weights.push_back(static_cast<float>(
+        std::min(weight, static_cast<double>(std::numeric_limits<float>::max()))));
+  }
   return out;
 }
 

@@ -18,7 +18,7 @@ struct PointSet {
   }
 };
 
-// Points of equal bits made one, their weights added up.
+// Points of equal bits made one, their weights added up (to no more than a float holds).
 struct DistinctPoints {
   PointSet points;                      // [M], by first occurrence
   std::vector<std::uint32_t> original;  // [N] index of each original point among them
