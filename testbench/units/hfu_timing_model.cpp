@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "modules/hfu/codebook_config.h"
+
 namespace sgs::tb {
 namespace {
 
@@ -22,7 +24,8 @@ Cycle before(const std::vector<Cycle>& times, std::size_t places) {
 
 class Pipeline {
  public:
-  Pipeline(const HfuConfig& config, Cycle latency) : config_(config), latency_(latency) {}
+  Pipeline(const HfuConfig& config, Cycle latency, const std::optional<DecodeTiming>& decode)
+      : config_(config), latency_(latency), decode_timing_(decode) {}
 
   void share(const std::vector<bool>& passes) {
     std::size_t at = 0;
@@ -35,7 +38,8 @@ class Pipeline {
       half_free_.push_back(coarse_);
       at += count;
     } while (at < passes.size());
-    candidate(true);
+    candidate(nullptr);
+    ++share_;
     times_.shares_done.push_back(fine_);
   }
 
@@ -63,7 +67,8 @@ class Pipeline {
       if (i % config_.cfus == 0 && config_.coarse_filter) owed += config_.cfu_interval_cycles();
       if (!passes[at + i]) continue;
       spend(owed);
-      candidate(false);
+      const std::size_t gaussian = at + i;
+      candidate(&gaussian);
     }
     spend(owed);
   }
@@ -74,38 +79,60 @@ class Pipeline {
     owed = 0;
   }
 
-  // From the coarse filter to sorting.
-  void candidate(bool mark) {
+  // From the coarse filter to sorting. gaussian: its place in the share; null: a mark.
+  void candidate(const std::size_t* gaussian) {
     coarse_ = std::max(coarse_, before(candidate_taken_, config_.candidate_fifo_entries));
     fetch_ = std::max(fetch_, coarse_ + config_.cfu_depth_cycles);
     candidate_taken_.push_back(fetch_);
     Cycle data = 0;
-    if (!mark) {
+    if (gaussian != nullptr) {
       fetch_ = std::max(fetch_, before(slot_free_, config_.second_half_slots)) + 1;
       data = fetch_ + latency_;
     }
     fetch_ = std::max(fetch_, before(fetched_taken_, config_.second_half_slots + 1));
-    fine_ = std::max(fine_, fetch_ + 1);
-    fetched_taken_.push_back(fine_);
-    if (mark) return;
-    fine_ = std::max(fine_, data);
-    slot_free_.push_back(fine_);
+    // The thread behind the fetches: the decode stage where there is one, else the FFU.
+    Cycle& taker = decode_timing_ ? decode_ : fine_;
+    taker = std::max(taker, fetch_ + 1);
+    fetched_taken_.push_back(taker);
+    if (gaussian != nullptr) {
+      taker = std::max(taker, data);
+      if (decode_timing_) read_lines(decode_timing_->lines[share_][*gaussian]);
+      slot_free_.push_back(taker);
+    }
+    if (decode_timing_) hand_on();
+    if (gaussian == nullptr) return;
     fine_ += config_.ffu_interval_cycles();
     times_.fine_busy += config_.ffu_interval_cycles();
   }
 
+  void read_lines(Cycle lines) {
+    decode_ += lines;
+    times_.decode_busy += lines;
+  }
+
+  // From the decode stage to the FFU.
+  void hand_on() {
+    decode_ = std::max(decode_, before(decoded_taken_, kDecodedEntries));
+    fine_ = std::max(fine_, decode_ + decode_timing_->latency_cycles);
+    decoded_taken_.push_back(fine_);
+  }
+
   const HfuConfig& config_;
   const Cycle latency_;
-  Cycle loaded_ = 0, coarse_ = 0, fetch_ = 0, fine_ = 0;  // when each thread is free
-  std::vector<Cycle> half_free_, slice_taken_, candidate_taken_, fetched_taken_, slot_free_;
+  const std::optional<DecodeTiming>& decode_timing_;
+  std::size_t share_ = 0;
+  // When each thread is free.
+  Cycle loaded_ = 0, coarse_ = 0, fetch_ = 0, decode_ = 0, fine_ = 0;
+  std::vector<Cycle> half_free_, slice_taken_, candidate_taken_, fetched_taken_, slot_free_,
+      decoded_taken_;
   HfuTimes times_;
 };
 
 }  // namespace
 
 HfuTimes hfu_times(const HfuConfig& config, const std::vector<std::vector<bool>>& passes,
-                   std::uint64_t latency_cycles) {
-  Pipeline pipeline(config, latency_cycles);
+                   std::uint64_t latency_cycles, const std::optional<DecodeTiming>& decode) {
+  Pipeline pipeline(config, latency_cycles, decode);
   for (const auto& share : passes) pipeline.share(share);
   return pipeline.times();
 }

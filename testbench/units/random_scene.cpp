@@ -61,18 +61,33 @@ Camera random_camera(std::mt19937_64& random, const SceneShape& shape) {
   return camera;
 }
 
+// Codebooks of few entries, so that small scenes fill them.
+EncodedCloud encode(ActivatedCloud cloud, SecondHalfEncoding encoding) {
+  if (encoding == SecondHalfEncoding::kRaw) return encode_raw(std::move(cloud));
+  if (encoding == SecondHalfEncoding::kHalf) return encode_half(cloud);
+  VqConfig config;
+  config.scale_entries = 48;
+  config.rotation_entries = 100;
+  config.dc_entries = 64;
+  config.sh_entries = 20;
+  config.iterations = 2;
+  const std::vector<float> weights(cloud.size(), 1.0F);
+  return encode_quantised(cloud, quantise(cloud, weights, config), encoding);
+}
+
 }  // namespace
 
 TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   TestScene scene;
-  scene.cloud = random_cloud(random, shape);
-  scene.grid = build_voxel_grid(scene.cloud, shape.voxel_size);
+  EncodedCloud encoded = encode(random_cloud(random, shape), shape.encoding);
+  scene.grid = build_voxel_grid(encoded.decoded, shape.voxel_size);
   const Camera camera = random_camera(random, shape);
   FrameJob& job = scene.job;
   job.view = make_view<float>(camera);
   job.group_px = shape.group_px;
   job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
-  scene.image = build_memory_image(encode_raw(scene.cloud), scene.grid);
+  scene.image = build_memory_image(encoded, scene.grid);
+  scene.cloud = std::move(encoded.decoded);
   job.layout = with_working_regions(
       scene.image.layout, 0,
       std::uint64_t{pixel_bytes(job.frame_format)} * camera.width * camera.height);

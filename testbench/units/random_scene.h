@@ -13,13 +13,14 @@ namespace sgs::tb {
 struct SceneShape {
   std::size_t gaussians = 200;
   int sh_degree = 1;
+  SecondHalfEncoding encoding = SecondHalfEncoding::kRaw;
   float extent = 4;  // world units, half the side of the cube that holds the centres
   float voxel_size = 1;
   int width_px = 48, height_px = 40, group_px = 16;
 };
 
 struct TestScene {
-  ActivatedCloud cloud;
+  ActivatedCloud cloud;  // what the image's records decode to
   VoxelGrid grid;
   MemoryImage image;
   FrameJob job;

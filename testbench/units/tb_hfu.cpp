@@ -1,6 +1,9 @@
 // Hierarchical filtering unit alone: shares of visits in, splats out to several sorting units.
-// Checked against the coarse bound and make_splat; times against hfu_timing_model.h.
+// Checked against the coarse bound and make_splat on what the bytes in memory decode to; times
+// against hfu_timing_model.h.
 #include <algorithm>
+#include <memory>
+#include <optional>
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/make_splat.h"
@@ -16,6 +19,7 @@ namespace {
 
 struct Plan {
   HfuConfig config;
+  CodebookConfig codebook;
   TestScene scene;
   std::vector<VisitShare> shares;
   std::uint32_t sorting_units = 2;
@@ -26,26 +30,54 @@ struct Plan {
 
 // What must come of one share, slot by slot.
 struct ExpectedShare {
-  std::vector<bool> passes;  // coarse filter
+  std::vector<bool> passes;          // coarse filter
+  std::vector<std::uint32_t> lines;  // of the codebook buffer, of each Gaussian's record
   std::vector<Splat> splats;
 };
+
+DecodedGaussian decode_slot(const TestScene& scene, std::uint32_t slot) {
+  const MemoryLayout& layout = scene.job.layout;
+  const std::byte* bytes = scene.image.bytes.data();
+  return decode_second_half(
+      layout.second_half, decode_first_half(bytes + layout.first_half_address(slot)),
+      bytes + layout.second_half_address(slot), bytes + layout[Region::kCodebooks].base);
+}
+
+// Lines that hold a byte of one of the record's entries, counted entry by entry.
+std::uint32_t lines_of(const Plan& plan, std::uint32_t slot) {
+  const MemoryLayout& layout = plan.scene.job.layout;
+  const SecondHalfFormat& format = layout.second_half;
+  const CodebookIndices indices =
+      decode_indices(format, plan.scene.image.bytes.data() + layout.second_half_address(slot));
+  std::uint32_t lines = 0;
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    if (format.entries[id] == 0) continue;
+    const EntryRange range = format.entry(static_cast<Codebook>(id), indices[id]);
+    const std::uint32_t end = range.begin + range.bytes;
+    for (std::uint32_t line = 0; line < format.codebook_bytes(); line += plan.codebook.line_bytes) {
+      lines += line < end && line + plan.codebook.line_bytes > range.begin ? 1 : 0;
+    }
+  }
+  return lines;
+}
 
 ExpectedShare expect(const Plan& plan, const VisitShare& share) {
   ExpectedShare out;
   const TestScene& scene = plan.scene;
   const PixelRect& pixels = scene.job.groups[share.group];
   for (std::uint32_t slot = share.first; slot < share.first + share.count; ++slot) {
-    const std::uint32_t index = scene.grid.storage_order[slot];
-    const Gaussian<float>& g = scene.cloud.gaussians[index];
+    const DecodedGaussian decoded = decode_slot(scene, slot);
+    const Gaussian<float>& g = decoded.gaussian;
     const CoarseBound bound =
         coarse_bound(scene.job.view, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
     const bool near = bound.in_front && touches(bound, pixels);
     out.passes.push_back(near || !plan.config.coarse_filter);
+    if (scene.job.layout.second_half.quantised()) out.lines.push_back(lines_of(plan, slot));
     Splat splat{};
     // What the coarse filter would drop must not come through the fine one either.
     if (!near || !make_geometry(scene.job.view, g, splat) || !reaches_group(splat, pixels))
       continue;
-    add_colour(scene.job.view, scene.cloud.sh_degree, g.mean, scene.cloud.sh(index), splat);
+    add_colour(scene.job.view, scene.job.layout.sh_degree(), g.mean, decoded.sh, splat);
     splat.index = slot;
     out.splats.push_back(splat);
   }
@@ -75,6 +107,16 @@ void check_share(Checks& checks, const Plan& plan, const VisitShare& share,
   }
 }
 
+// Null where the scene has none. (Its loading is tb_codebook's.)
+std::unique_ptr<CodebookBuffer> full_codebooks(UnitBench& bench, const Plan& plan) {
+  const MemoryLayout& layout = plan.scene.job.layout;
+  if (!layout.second_half.quantised()) return nullptr;
+  auto codebooks = std::make_unique<CodebookBuffer>("codebooks", plan.codebook, bench.clock(),
+                                                    plan.scene.job, bench.port());
+  codebooks->preload(plan.scene.image.bytes.data() + layout[Region::kCodebooks].base);
+  return codebooks;
+}
+
 void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
@@ -93,21 +135,25 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     outputs.push_back(
         &bench.add_fifo<SplatToken>(fmt::format("to_sorting{}", s), plan.output_entries, 1));
   }
-  Hfu unit("hfu", plan.config, bench.clock(), plan.scene.job, board, bench.port(), nullptr, input,
-           outputs);
+  const std::unique_ptr<CodebookBuffer> codebooks = full_codebooks(bench, plan);
+  Hfu unit("hfu", plan.config, bench.clock(), plan.scene.job, board, bench.port(), codebooks.get(),
+           input, outputs);
 
   std::vector<ExpectedShare> expected;
   std::vector<std::vector<bool>> passes;
+  std::optional<DecodeTiming> decode;
+  if (codebooks) decode = DecodeTiming{plan.codebook.latency_cycles, {}};
   Totals totals;
   for (const VisitShare& share : plan.shares) {
     expected.push_back(expect(plan, share));
     passes.push_back(expected.back().passes);
+    if (decode) decode->lines.push_back(expected.back().lines);
     totals.gaussians += share.count;
     totals.candidates +=
         static_cast<std::uint64_t>(std::count(passes.back().begin(), passes.back().end(), true));
     totals.splats += expected.back().splats.size();
   }
-  const HfuTimes times = hfu_times(plan.config, passes, bench_config.latency_cycles);
+  const HfuTimes times = hfu_times(plan.config, passes, bench_config.latency_cycles, decode);
   bench.add_thread("vsu", [&](Activity& activity) {
     for (const VisitShare& share : plan.shares) input.push(share, activity);
   });
@@ -154,6 +200,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     return;
   }
   if (plan.saturate_one_in > 0) {
+    checks.that(!codebooks || (codebooks->counters().records <= counters.second_halves &&
+                               codebooks->counters().records >= counters.fine_tests),
+                "records decoded");
     checks.that(counters.first_halves <= totals.gaussians &&
                     counters.second_halves <= totals.candidates && counters.splats <= totals.splats,
                 "more work than there is");
@@ -168,6 +217,11 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   checks.equal(counters.dropped_saturated, 0U, "dropped");
   checks.equal(unit.coarse_activity().busy_cycles(), times.coarse_busy, "busy cycles, coarse");
   checks.equal(unit.fine_activity().busy_cycles(), times.fine_busy, "busy cycles, fine");
+  if (!codebooks) return;
+  checks.equal(codebooks->counters().records, totals.candidates, "records decoded");
+  checks.equal(codebooks->counters().lines, times.decode_busy, "lines read");
+  checks.equal(codebooks->counters().conflict_cycles, 0U, "bank conflicts of one reader");
+  checks.equal(unit.decode_activity()->busy_cycles(), times.decode_busy, "busy cycles, decode");
 }
 
 Plan plan_of(TestScene scene) {
@@ -245,8 +299,13 @@ void exact_coarse_time(Case& test, std::uint32_t n) {
 
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
-  Plan plan = plan_of(random_scene(random, random_shape(random)));
+  SceneShape shape = random_shape(random);
+  shape.encoding = static_cast<SecondHalfEncoding>(random() % 4);
+  Plan plan = plan_of(random_scene(random, shape));
   HfuConfig& config = plan.config;
+  plan.codebook.banks = 1 + static_cast<std::uint32_t>(random() % 16);
+  plan.codebook.line_bytes = 4U << random() % 5;
+  plan.codebook.latency_cycles = 1 + static_cast<std::uint32_t>(random() % 10);
   config.cfus = 1 + static_cast<std::uint32_t>(random() % 6);
   config.cfu_lanes = 1 + static_cast<std::uint32_t>(random() % 60);
   config.cfu_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 20);
@@ -288,6 +347,28 @@ int sc_main(int argc, char* argv[]) {
       directed(test, of_degree, {}, 2, 100);
     });
   }
+  for (const auto& [name, encoding] : {std::pair{"half", SecondHalfEncoding::kHalf},
+                                       {"vq", SecondHalfEncoding::kVq},
+                                       {"vq_packed", SecondHalfEncoding::kVqPacked}}) {
+    for (const int degree : {0, 3}) {
+      runner.add_directed(fmt::format("{}, SH degree {}", name, degree), [=](Case& test) {
+        SceneShape encoded = shape;
+        encoded.encoding = encoding;
+        encoded.sh_degree = degree;
+        directed(test, encoded, {}, 2, 100);
+      });
+    }
+  }
+  runner.add_directed("decoding binds: an FFU of one cycle, lines of 4 B", [=](Case& test) {
+    SceneShape encoded = shape;
+    encoded.encoding = SecondHalfEncoding::kVqPacked;
+    encoded.sh_degree = 3;
+    Plan plan = plan_of(random_scene(test.random, encoded));
+    plan.config.ffu_lanes = 10000;
+    plan.codebook.line_bytes = 4;
+    add_shares(test.random, plan, 2, 200);
+    run_plan(test, still_bench(plan), plan);
+  });
   runner.add_directed("no coarse filter", [=](Case& test) {
     HfuConfig config;
     config.coarse_filter = false;
