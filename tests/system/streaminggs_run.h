@@ -28,8 +28,9 @@ class Simulation {
   std::string folder() const { return out_.path(""); }
 
   // Everything that holds for any frame, of every view: it equals the streaming renderer's (and, in
-  // exact order, the reference), nothing is left over, accounts add up, bytes are visits times
-  // sizes, and no resource does more than the frame has cycles for.
+  // exact order, the reference picture of what second halves decode to), nothing is left over,
+  // accounts add up, bytes are visits times sizes, and no resource does more than the frame has
+  // cycles for.
   void check() const;
 
  private:

@@ -105,6 +105,47 @@ TEST_CASE("waveform: exact order") { check_waveform("exact", "accurate"); }
 TEST_CASE("waveform: paper order") { check_waveform("paper", "accurate"); }
 TEST_CASE("waveform: fast timing") { check_waveform("paper", "fast"); }
 
+TEST_CASE("waveform: quantised scenes show the codebook buffer and what decodes") {
+  for (const char* order : {"exact", "paper"}) {
+    const ScratchFolder scratch;
+    const std::string vcd = scratch.path("wave.vcd");
+    const std::vector<std::string> scene = {
+        "builtin:object?n=1000",      "--size", "48x27", "--config", order, "--set",
+        "sram.codebook_bytes=256000", "--vcd",  vcd};
+    std::vector<std::string> quantised = scene;
+    quantised.insert(quantised.end(), {"--set", "encoding=vq_packed", "--weigh-by", "0"});
+    const Simulation run(quantised);
+    run.check();
+    const auto signals = signals_of(vcd);
+    const std::string prefix = "SystemC.accelerator.";
+    // The memory may end the frame between two edges of the units' clock.
+    const auto check_time = [&](const std::string& signal, std::uint64_t cycles) {
+      constexpr std::uint64_t kCycle = 1000;
+      const std::uint64_t high = time_high(vcd, signals.at(signal));
+      CHECK(high >= kCycle * cycles);
+      CHECK(high < kCycle * (cycles + 1));
+    };
+    for (const char* unit : {"codebooks.load", "hfu0.decode", "hfu3.decode"}) {
+      for (const char* state : {".busy", ".starved", ".blocked"}) {
+        INFO(unit << state);
+        REQUIRE(signals.count(prefix + unit + state) == 1);
+        check_time(prefix + unit + state,
+                   run.views()[0]["units"][unit][std::string(state).substr(1) + "_cycles"]);
+      }
+    }
+    CHECK(signals.count(prefix + "hfu1.decoded.fill[31:0]") == 1);
+    REQUIRE(signals.count(prefix + "codebooks.full") == 1);
+    check_time(prefix + "codebooks.full", run.views()[0]["frame"]["cycles"].get<std::uint64_t>() -
+                                              total(run.views()[0], "loaded_at_cycle"));
+    // What is not there is not shown.
+    const Simulation raw(scene);
+    const auto without = signals_of(vcd);
+    CHECK(without.count(prefix + "hfu0.fine.busy") == 1);
+    CHECK(without.count(prefix + "hfu0.decode.busy") == 0);
+    CHECK(without.count(prefix + "codebooks.full") == 0);
+  }
+}
+
 TEST_CASE("waveform: tracing changes nothing") {
   const ScratchFolder scratch;
   for (const char* timing : {"accurate", "fast"}) {
