@@ -59,6 +59,8 @@ void check_codebooks(const Json& view) {
   const bool preloaded = view["config"]["codebook"]["preloaded"];
   CHECK(region_bytes(view, "codebooks", "read") == (preloaded ? 0 : bytes));
   CHECK(total(view, "bytes_loaded") == (preloaded ? 0 : bytes));
+  CHECK(count(view["sram"]["codebook_bytes"]) == bytes);
+  CHECK(bytes <= count(view["config"]["sram"]["codebook_bytes"]));
   const std::string encoding = view["config"]["encoding"];
   const bool quantised = encoding == "vq" || encoding == "vq_packed";
   CHECK(view["units"].contains("codebooks.load") == quantised);
@@ -81,6 +83,7 @@ void check_codebooks(const Json& view) {
 void check_bytes(const Json& view) {
   const Json& config = view["config"];
   const std::uint64_t second_half = second_half_bytes(view);
+  CHECK(count(view["scene"]["second_half_bytes"]) == second_half);
   CHECK(region_bytes(view, "first_halves", "read") == 16 * total(view, "first_halves"));
   CHECK(region_bytes(view, "second_halves", "read") == second_half * total(view, "second_halves"));
   for (const auto& [name, unit] : view["units"].items()) {
