@@ -9,6 +9,7 @@
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/vq/canonical_shape.h"
 #include "algorithm/vq/kmeans.h"
+#include "algorithm/vq/rotation_codebook.h"
 
 namespace sgs {
 namespace {
@@ -27,14 +28,6 @@ float log_ratio(float scale, float largest) {
 }
 float ratio_of_log(float value) {
   return static_cast<float>(std::clamp(std::exp(static_cast<double>(value)) - kThinnest, 0.0, 1.0));
-}
-
-// By how much a small turn changes the covariance, relative to a disc's: 0 for a ball.
-float turn_sensitivity(const glm::vec3& falling) {
-  const double b = ratio_of(falling[1], falling[0]), c = ratio_of(falling[2], falling[0]);
-  const double bb = b * b, cc = c * c;
-  const double sum = (1 - bb) * (1 - bb) + (1 - cc) * (1 - cc) + (bb - cc) * (bb - cc);
-  return static_cast<float>(sum / 2);
 }
 
 // Points [N, dims] of which `fill(i, point, weight)` writes each.
@@ -65,13 +58,7 @@ class Quantiser {
   template <class EntryOf>
   void train(Codebook codebook, const PointSet& points, std::uint32_t words, EntryOf&& entry_of) {
     const auto id = static_cast<std::size_t>(codebook);
-    KMeansConfig kmeans_config;
-    kmeans_config.entries = config_.entries(codebook);
-    kmeans_config.iterations = config_.iterations;
-    kmeans_config.seed = config_.seed + 16 * id;
-    KMeansResult result = kmeans(points, kmeans_config, [&](std::uint32_t iteration, double error) {
-      if (progress_) progress_(codebook, iteration, error);
-    });
+    KMeansResult result = kmeans(points, config_of(codebook), progress_of(codebook));
     const auto dims = static_cast<std::size_t>(points.dims);
     const std::size_t entries = result.centroids.size() / dims;
     out_.codebooks[id].resize(entries * words);
@@ -81,23 +68,42 @@ class Quantiser {
     out_.indices[id] = std::move(result.labels);
   }
 
+  void train_rotations(const std::vector<CanonicalShape>& shapes, const std::vector<float>& weights,
+                       const std::vector<float>& pixel_sizes) {
+    constexpr auto kId = static_cast<std::size_t>(Codebook::kRotation);
+    RotationCodebook rotations =
+        sgs::train_rotations(shapes, weights, pixel_sizes, config_of(Codebook::kRotation),
+                             progress_of(Codebook::kRotation));
+    out_.codebooks[kId] = std::move(rotations.quats);
+    out_.indices[kId] = std::move(rotations.labels);
+  }
+
  private:
+  KMeansConfig config_of(Codebook codebook) const {
+    constexpr std::size_t kLeastTraining = 1U << 16, kTrainingPerEntry = 64;
+    KMeansConfig config;
+    config.entries = config_.entries(codebook);
+    config.iterations = config_.iterations;
+    config.seed = config_.seed + 16 * static_cast<std::uint64_t>(codebook);
+    config.training_points = std::max(kLeastTraining, kTrainingPerEntry * config.entries);
+    return config;
+  }
+  KMeansProgress progress_of(Codebook codebook) const {
+    return [this, codebook](std::uint32_t iteration, double error) {
+      if (progress_) progress_(codebook, iteration, error);
+    };
+  }
+
   const VqConfig& config_;
   const VqProgress& progress_;
   QuantisedCloud& out_;
 };
 
-void normalise(const float* quat, float* out) {
-  double length = 0;
-  for (int k = 0; k < 4; ++k) length += static_cast<double>(quat[k]) * quat[k];
-  length = std::sqrt(length);
-  for (int k = 0; k < 4; ++k) out[k] = static_cast<float>(quat[k] / length);
-}
-
 }  // namespace
 
 QuantisedCloud quantise(const ActivatedCloud& cloud, const std::vector<float>& weights,
-                        const VqConfig& config, const VqProgress& progress) {
+                        const std::vector<float>& pixel_sizes, const VqConfig& config,
+                        const VqProgress& progress) {
   QuantisedCloud out;
   const std::size_t count = cloud.size();
   out.opacities.resize(count);
@@ -119,13 +125,7 @@ QuantisedCloud quantise(const ActivatedCloud& cloud, const std::vector<float>& w
     entry[2] = ratio_of_log(centroid[1]);
   });
 
-  constexpr float kLeastSensitivity = 1e-4F;
-  const PointSet rotations =
-      make_points(weights, 4, [&](std::size_t i, float* point, float& weight) {
-        std::copy(shapes[i].quat.begin(), shapes[i].quat.end(), point);
-        weight *= turn_sensitivity(shapes[i].scale) + kLeastSensitivity;
-      });
-  quantiser.train(Codebook::kRotation, rotations, 4, normalise);
+  quantiser.train_rotations(shapes, weights, pixel_sizes);
 
   const auto colours = [&](std::uint32_t first_word, std::uint32_t words) {
     return make_points(weights, words, [&](std::size_t i, float* point, float&) {

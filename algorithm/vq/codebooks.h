@@ -57,13 +57,13 @@ struct QuantisedCloud {
 // Told after each iteration: codebook, iteration, weighted mean squared error.
 using VqProgress = std::function<void(Codebook, std::uint32_t, double)>;
 
-// weights: [N], positive (image_weights.h). Scales are compared as logarithms relative to the
-// largest, which the first half stores exactly; rotations between canonical forms
-// (canonical_shape.h), by the distance of their quaternions. A round ellipsoid's
-// rotation counts less: the weight has the factor by which a small turn changes its covariance.
-// Opacities below 1/255, which no view can show, become 0, others at least 1. Deterministic by seed
-// whatever the number of threads.
+// weights: [N], not negative; pixel_sizes: [N] world units of a pixel at each Gaussian, 0 where not
+// known (image_weights.h has both). Scales are compared as logarithms relative to the largest,
+// which the first half stores exactly; rotations by what a wrong one does to the picture
+// (rotation_codebook.h), all in canonical form (canonical_shape.h). Opacities below 1/255, which no
+// view can show, become 0, others at least 1. Deterministic by seed whatever the number of threads.
 QuantisedCloud quantise(const ActivatedCloud& cloud, const std::vector<float>& weights,
-                        const VqConfig& config, const VqProgress& progress = {});
+                        const std::vector<float>& pixel_sizes, const VqConfig& config,
+                        const VqProgress& progress = {});
 
 }  // namespace sgs

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 
 #include "algorithm/render/group_state.h"
@@ -149,6 +151,20 @@ std::vector<float> image_weights(const ActivatedCloud& cloud, const std::vector<
     weights[i] = static_cast<float>(seen[i] + anywhere[i] + kLeast);
   }
   return weights;
+}
+
+std::vector<float> pixel_sizes(const ActivatedCloud& cloud, const std::vector<Camera>& cameras) {
+  std::vector<float> sizes(cloud.size(), 0.0F);
+  if (cameras.empty()) return sizes;
+  tbb::parallel_for(std::size_t{0}, cloud.size(), [&](std::size_t i) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Camera& camera : cameras) {
+      const double distance = glm::distance(glm::dvec3(cloud.gaussians[i].mean), camera.position);
+      least = std::min(least, distance / std::max(camera.focal_x, camera.focal_y));
+    }
+    sizes[i] = static_cast<float>(least);
+  });
+  return sizes;
 }
 
 }  // namespace sgs

@@ -20,4 +20,8 @@ namespace sgs {
 // number of threads.
 std::vector<float> image_weights(const ActivatedCloud& cloud, const std::vector<Camera>& cameras);
 
+// World units of a pixel at each Gaussian [N], from the nearest camera: distance over focal length.
+// 0 without cameras.
+std::vector<float> pixel_sizes(const ActivatedCloud& cloud, const std::vector<Camera>& cameras);
+
 }  // namespace sgs

@@ -102,7 +102,9 @@ void measure(const std::string& spec) {
   const auto ours = [&](const std::vector<Camera>& weighing, Quality& quality) {
     const auto began = Clock::now();
     const EncodedCloud encoded = encode_quantised(
-        cloud, quantise(cloud, image_weights(cloud, weighing), config), SecondHalfEncoding::kVq);
+        cloud,
+        quantise(cloud, image_weights(cloud, weighing), pixel_sizes(cloud, weighing), config),
+        SecondHalfEncoding::kVq);
     quality.seconds = seconds_since(began);
     return encoded.decoded;
   };

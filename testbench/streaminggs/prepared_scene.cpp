@@ -23,7 +23,9 @@ EncodedCloud encode(const ActivatedCloud& cloud, const AcceleratorConfig& config
                     const std::vector<Camera>& weighing) {
   if (config.encoding == SecondHalfEncoding::kHalf) return encode_half(cloud);
   return encode_quantised(
-      cloud, quantise(cloud, image_weights(cloud, weighing), config.vq, quantisation_progress()),
+      cloud,
+      quantise(cloud, image_weights(cloud, weighing), pixel_sizes(cloud, weighing), config.vq,
+               quantisation_progress()),
       config.encoding);
 }
 

@@ -32,7 +32,9 @@ EncodedCloud encode(const ActivatedCloud& cloud, Encoding encoding) {
   if (encoding == Encoding::kRaw) return encode_raw(cloud);
   if (encoding == Encoding::kHalf) return encode_half(cloud);
   const std::vector<float> weights(cloud.size(), 1.0F);
-  return encode_quantised(cloud, quantise(cloud, weights, small_config()), encoding);
+  return encode_quantised(
+      cloud, quantise(cloud, weights, std::vector<float>(cloud.size(), 0.0F), small_config()),
+      encoding);
 }
 
 constexpr Encoding kAll[] = {Encoding::kRaw, Encoding::kHalf, Encoding::kVq, Encoding::kVqPacked};

@@ -25,6 +25,10 @@ std::vector<float> even(const ActivatedCloud& cloud) {
   return std::vector<float>(cloud.size(), 1.0F);
 }
 
+std::vector<float> unknown(const ActivatedCloud& cloud) {
+  return std::vector<float>(cloud.size(), 0.0F);
+}
+
 VqConfig small_config() {
   VqConfig config;
   config.scale_entries = 40;
@@ -51,7 +55,7 @@ TEST_CASE("quantise: no more entries than configured, an index for each Gaussian
   for (int degree = 0; degree <= 3; ++degree) {
     const ActivatedCloud cloud = cloud_of(1, 2000, degree);
     const VqConfig config = small_config();
-    const QuantisedCloud quantised = quantise(cloud, even(cloud), config);
+    const QuantisedCloud quantised = quantise(cloud, even(cloud), unknown(cloud), config);
     for (std::size_t id = 0; id < kCodebookCount; ++id) {
       const auto codebook = static_cast<Codebook>(id);
       if (codebook == Codebook::kSh && degree == 0) {
@@ -81,7 +85,7 @@ TEST_CASE("quantise: words of an entry") {
 
 TEST_CASE("quantise: ratios fall from exactly 1, quaternions have length 1") {
   const ActivatedCloud cloud = cloud_of(2, 3000, 1);
-  const QuantisedCloud quantised = quantise(cloud, even(cloud), small_config());
+  const QuantisedCloud quantised = quantise(cloud, even(cloud), unknown(cloud), small_config());
   const auto& ratios = quantised.codebooks[static_cast<std::size_t>(Codebook::kScale)];
   for (std::size_t at = 0; at < ratios.size(); at += 3) {
     CHECK(ratios[at] == 1.0F);
@@ -99,7 +103,7 @@ TEST_CASE("quantise: ratios fall from exactly 1, quaternions have length 1") {
 
 TEST_CASE("quantise: with room for all, each Gaussian gets its own values back") {
   const ActivatedCloud cloud = cloud_of(3, 400, 2);
-  const QuantisedCloud quantised = quantise(cloud, even(cloud), VqConfig{});
+  const QuantisedCloud quantised = quantise(cloud, even(cloud), unknown(cloud), VqConfig{});
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Gaussian<float>& g = cloud.gaussians[i];
     const CanonicalShape shape = canonical_shape(g.scale, g.quat);
@@ -126,14 +130,14 @@ TEST_CASE("quantise: codebooks hold no more entries than there are distinct valu
     cloud.gaussians[i] = cloud.gaussians[i % 3];
     std::copy_n(cloud.sh(i % 5), 4, cloud.sh_coeffs.begin() + static_cast<std::ptrdiff_t>(4 * i));
   }
-  const QuantisedCloud quantised = quantise(cloud, even(cloud), VqConfig{});
+  const QuantisedCloud quantised = quantise(cloud, even(cloud), unknown(cloud), VqConfig{});
   CHECK(entries_of(quantised, Codebook::kScale, 1) == 3);
   CHECK(entries_of(quantised, Codebook::kRotation, 1) == 3);
   CHECK(entries_of(quantised, Codebook::kDc, 1) == 5);
   CHECK(entries_of(quantised, Codebook::kSh, 1) == 5);
 
   const ActivatedCloud nothing;
-  const QuantisedCloud empty = quantise(nothing, {}, VqConfig{});
+  const QuantisedCloud empty = quantise(nothing, {}, {}, VqConfig{});
   for (const auto& codebook : empty.codebooks) CHECK(codebook.empty());
 }
 
@@ -148,7 +152,7 @@ TEST_CASE("quantise: opacities to the nearest 255th, visible or not as before") 
     cloud.gaussians.push_back({{}, {1, 1, 1}, {1, 0, 0, 0}, opacity});
     cloud.sh_coeffs.emplace_back(0.0F);
   }
-  CHECK(quantise(cloud, even(cloud), VqConfig{}).opacities == expected);
+  CHECK(quantise(cloud, even(cloud), unknown(cloud), VqConfig{}).opacities == expected);
 }
 
 TEST_CASE("quantise: the same for one and four threads, another seed gives others") {
@@ -156,24 +160,25 @@ TEST_CASE("quantise: the same for one and four threads, another seed gives other
   std::vector<QuantisedCloud> results;
   for (const std::size_t threads : {1U, 4U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    results.push_back(quantise(cloud, even(cloud), small_config()));
+    results.push_back(quantise(cloud, even(cloud), unknown(cloud), small_config()));
   }
   CHECK(results[0].codebooks == results[1].codebooks);
   CHECK(results[0].indices == results[1].indices);
   VqConfig other = small_config();
   other.seed = 2;
-  CHECK(quantise(cloud, even(cloud), other).codebooks != results[0].codebooks);
+  CHECK(quantise(cloud, even(cloud), unknown(cloud), other).codebooks != results[0].codebooks);
 }
 
 TEST_CASE("quantise: progress of each codebook, errors that do not rise") {
   const ActivatedCloud cloud = cloud_of(6, 3000, 1);
   std::array<double, kCodebookCount> last;
   last.fill(std::numeric_limits<double>::infinity());
-  quantise(cloud, even(cloud), small_config(), [&](Codebook codebook, std::uint32_t, double error) {
-    double& before = last[static_cast<std::size_t>(codebook)];
-    CHECK(error <= before * (1 + 1e-6));
-    before = error;
-  });
+  quantise(cloud, even(cloud), unknown(cloud), small_config(),
+           [&](Codebook codebook, std::uint32_t, double error) {
+             double& before = last[static_cast<std::size_t>(codebook)];
+             CHECK(error <= before * (1 + 1e-6));
+             before = error;
+           });
   for (const double error : last) CHECK(std::isfinite(error));
 }
 
@@ -181,7 +186,7 @@ TEST_CASE("quantise: a heavy Gaussian is served at the cost of light ones") {
   const ActivatedCloud cloud = cloud_of(7, 2000, 1);
   std::vector<float> weights = even(cloud);
   weights[77] = 1e6F;
-  const QuantisedCloud quantised = quantise(cloud, weights, small_config());
+  const QuantisedCloud quantised = quantise(cloud, weights, unknown(cloud), small_config());
   const float* dc = entry_of(quantised, Codebook::kDc, 1, 77);
   for (int channel = 0; channel < 3; ++channel) {
     CHECK(std::abs(dc[channel] - cloud.sh(77)[0][channel]) < 1e-3F);
@@ -200,7 +205,7 @@ TEST_CASE("quantise: extreme shapes and colours leave every entry finite") {
     cloud.sh_coeffs[16 * 5 + static_cast<std::size_t>(k)] = glm::vec3(1e30F);
     cloud.sh_coeffs[16 * 6 + static_cast<std::size_t>(k)] = glm::vec3(-3e38F);
   }
-  const QuantisedCloud quantised = quantise(cloud, even(cloud), small_config());
+  const QuantisedCloud quantised = quantise(cloud, even(cloud), unknown(cloud), small_config());
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
     CHECK(entries_of(quantised, static_cast<Codebook>(id), 3) ==
           small_config().entries(static_cast<Codebook>(id)));
