@@ -15,33 +15,18 @@ std::uint64_t aligned(std::uint64_t bytes) {
   return (bytes + kRegionAlignment - 1) / kRegionAlignment * kRegionAlignment;
 }
 
-using RegionSizes = std::array<std::uint64_t, kRegionCount>;
-
-void place_regions(const RegionSizes& sizes, MemoryLayout& layout) {
-  std::uint64_t base = 0;
-  for (std::size_t region = 0; region < kRegionCount; ++region) {
-    layout.regions[region] = {base, sizes[region]};
-    base = aligned(base + sizes[region]);
-  }
-}
-
 template <class Record>
 void copy_table(const std::vector<Record>& records, std::uint64_t address, MemoryImage& image) {
   if (records.empty()) return;
   std::memcpy(image.bytes.data() + address, records.data(), records.size() * sizeof(Record));
 }
 
-// What every order stores. `tables`: sizes of the order's own regions.
-MemoryImage place_scene(const EncodedCloud& scene, std::size_t stored, RegionSizes tables) {
-  MemoryImage image;
-  MemoryLayout& layout = image.layout;
+// What every order stores. The counts of the order's own tables are in `layout`.
+MemoryImage place_scene(const EncodedCloud& scene, std::size_t stored, MemoryLayout layout) {
   layout.gaussian_count = static_cast<std::uint32_t>(stored);
   layout.second_half = scene.format;
-  tables[region_id(Region::kFirstHalves)] = stored * kFirstHalfBytes;
-  tables[region_id(Region::kSecondHalves)] = stored * layout.second_half_bytes();
-  tables[region_id(Region::kCodebooks)] = scene.codebooks.size();
-  place_regions(tables, layout);
-  image.bytes.resize(layout[Region::kSpill].base);
+  place_regions(layout, 0, 0);
+  MemoryImage image{layout, std::vector<std::byte>(layout[Region::kSpill].base)};
   copy_table(scene.codebooks, layout[Region::kCodebooks].base, image);
   return image;
 }
@@ -63,44 +48,53 @@ void store_gaussians(const EncodedCloud& scene, const std::vector<std::uint32_t>
 }  // namespace
 
 MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid) {
-  RegionSizes sizes{};
-  sizes[region_id(Region::kVoxelTable)] =
-      grid.nodes.size() * sizeof(VoxelNode) + grid.voxels.size() * sizeof(VoxelRecord);
-  MemoryImage image = place_scene(scene, grid.storage_order.size(), sizes);
-  MemoryLayout& layout = image.layout;
+  MemoryLayout layout;
   layout.voxel_frame = grid.frame;
   layout.node_count = static_cast<std::uint32_t>(grid.nodes.size());
   layout.voxel_count = static_cast<std::uint32_t>(grid.voxels.size());
-  copy_table(grid.nodes, layout.node_address(0), image);
-  copy_table(grid.voxels, layout.voxel_address(0), image);
+  MemoryImage image = place_scene(scene, grid.storage_order.size(), layout);
+  copy_table(grid.nodes, image.layout.node_address(0), image);
+  copy_table(grid.voxels, image.layout.voxel_address(0), image);
   store_gaussians(scene, grid.storage_order, image);
   return image;
 }
 
 MemoryImage build_memory_image(const EncodedCloud& scene, const ChunkTree& tree) {
-  RegionSizes sizes{};
-  sizes[region_id(Region::kChunkTable)] = tree.nodes.size() * sizeof(ChunkNode);
-  sizes[region_id(Region::kIndices)] = tree.storage_order.size() * sizeof(std::uint32_t);
-  MemoryImage image = place_scene(scene, tree.storage_order.size(), sizes);
-  MemoryLayout& layout = image.layout;
+  MemoryLayout layout;
   layout.storage_order = StorageOrder::kChunks;
   layout.chunk_node_count = static_cast<std::uint32_t>(tree.nodes.size());
   layout.chunk_count = tree.chunk_count;
-  copy_table(tree.nodes, layout.chunk_node_address(0), image);
-  copy_table(tree.storage_order, layout.index_address(0), image);
+  MemoryImage image = place_scene(scene, tree.storage_order.size(), layout);
+  copy_table(tree.nodes, image.layout.chunk_node_address(0), image);
+  copy_table(tree.storage_order, image.layout.index_address(0), image);
   store_gaussians(scene, tree.storage_order, image);
   return image;
 }
 
-MemoryLayout with_working_regions(MemoryLayout layout, std::uint64_t spill_bytes,
-                                  std::uint64_t frame_bytes) {
-  RegionSizes sizes;
-  for (std::size_t region = 0; region < kRegionCount; ++region) {
-    sizes[region] = layout.regions[region].bytes;
-  }
+void place_regions(MemoryLayout& layout, std::uint64_t spill_bytes, std::uint64_t frame_bytes) {
+  const std::uint64_t stored = layout.gaussian_count;
+  const bool by_chunks = layout.storage_order == StorageOrder::kChunks;
+  std::array<std::uint64_t, kRegionCount> sizes{};
+  sizes[region_id(Region::kVoxelTable)] = std::uint64_t{layout.node_count} * sizeof(VoxelNode) +
+                                          std::uint64_t{layout.voxel_count} * sizeof(VoxelRecord);
+  sizes[region_id(Region::kFirstHalves)] = stored * kFirstHalfBytes;
+  sizes[region_id(Region::kSecondHalves)] = stored * layout.second_half_bytes();
+  sizes[region_id(Region::kCodebooks)] = layout.second_half.codebook_bytes();
+  sizes[region_id(Region::kChunkTable)] =
+      std::uint64_t{layout.chunk_node_count} * sizeof(ChunkNode);
+  sizes[region_id(Region::kIndices)] = by_chunks ? stored * sizeof(std::uint32_t) : 0;
   sizes[region_id(Region::kSpill)] = spill_bytes;
   sizes[region_id(Region::kFrameBuffer)] = frame_bytes;
-  place_regions(sizes, layout);
+  std::uint64_t base = 0;
+  for (std::size_t region = 0; region < kRegionCount; ++region) {
+    layout.regions[region] = {base, sizes[region]};
+    base = aligned(base + sizes[region]);
+  }
+}
+
+MemoryLayout with_working_regions(MemoryLayout layout, std::uint64_t spill_bytes,
+                                  std::uint64_t frame_bytes) {
+  place_regions(layout, spill_bytes, frame_bytes);
   return layout;
 }
 

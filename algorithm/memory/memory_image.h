@@ -72,6 +72,9 @@ struct MemoryImage {
 MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid);
 MemoryImage build_memory_image(const EncodedCloud& scene, const ChunkTree& tree);
 
+// Gives every region its place and size, which follow from the layout's counts and its format.
+void place_regions(MemoryLayout& layout, std::uint64_t spill_bytes, std::uint64_t frame_bytes);
+
 // The layout with room for what a frame writes.
 MemoryLayout with_working_regions(MemoryLayout layout, std::uint64_t spill_bytes,
                                   std::uint64_t frame_bytes);

@@ -18,6 +18,8 @@ enum class SecondHalfEncoding : std::uint8_t {
   kVqPacked,  // 8-bit opacity, then the indices in as many bits as they need, in 1, 2, 4, 8 or 16 B
 };
 
+constexpr std::array<const char*, 4> kEncodingNames = {"raw", "half", "vq", "vq_packed"};
+
 constexpr std::uint32_t kMaxCodebookEntries = 1U << 16;
 
 // Where an entry lies among the codebooks' bytes.
