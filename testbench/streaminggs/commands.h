@@ -15,6 +15,7 @@ using SubCommand = std::function<int()>;
 SubCommand add_render_command(CLI::App& app);
 SubCommand add_simulate_command(CLI::App& app);
 SubCommand add_compare_command(CLI::App& app);
+SubCommand add_pack_command(CLI::App& app);
 SubCommand add_info_command(CLI::App& app);
 
 }  // namespace sgs

@@ -25,15 +25,18 @@ void ConfigArguments::add_config_to(CLI::App& app) {
   app.add_option("--set", overrides, "key.path=value, over the configuration");
 }
 
-AcceleratorConfig ConfigArguments::read_config(std::vector<AutoChoice>& chosen) const {
+AcceleratorConfig ConfigArguments::given_config() const {
   ConfigDocument document;
   document.add_file(config_path(config));
   for (const std::string& assignment : overrides) document.add_override(assignment);
-  AcceleratorConfig resolved;
-  document.read_into(resolved);
-  chosen = resolve_auto(resolved);
-  resolved.validate();
-  return resolved;
+  AcceleratorConfig given;
+  document.read_into(given);
+  return given;
+}
+
+void resolve(AcceleratorConfig& config, std::vector<AutoChoice>& chosen) {
+  for (const AutoChoice& choice : resolve_auto(config)) chosen.push_back(choice);
+  config.validate();
 }
 
 }  // namespace sgs

@@ -19,8 +19,12 @@ struct ConfigArguments {
 
   void add_config_to(CLI::App& app);
 
-  // The resolved, valid configuration; chosen: what was left to the model. Throws InputError.
-  AcceleratorConfig read_config(std::vector<AutoChoice>& chosen) const;
+  // As given; what is left to the model is not resolved yet. Throws InputError.
+  AcceleratorConfig given_config() const;
 };
+
+// Makes it the resolved, valid configuration, and adds to `chosen` what was left to the model.
+// Throws InputError.
+void resolve(AcceleratorConfig& config, std::vector<AutoChoice>& chosen);
 
 }  // namespace sgs

@@ -8,6 +8,7 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/voxel/voxel_grid.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/describe_packed.h"
 #include "testbench/streaminggs/scene_arguments.h"
 
 namespace sgs {
@@ -24,6 +25,12 @@ SubCommand add_info_command(CLI::App& app) {
   auto arguments = std::make_shared<SceneArguments>();
   arguments->add_scene_to(app);
   return [arguments] {
+    if (const auto packed = arguments->load_packed()) {
+      fmt::print("{:<26}{}\n{:<26}{:08x} (CRC-32)\n", "memory image, version", kImageFileVersion,
+                 "checksum", packed->checksum);
+      print_packed(packed->facts, packed->image.layout);
+      return 0;
+    }
     const Scene scene = arguments->load();
     const SceneSummary s = summarise(scene.cloud);
     const auto line = [](const char* name, auto value, const char* unit) {

@@ -1,4 +1,4 @@
-// streaminggs: renders, simulates, compares and describes scenes.
+// streaminggs: packs, renders, simulates, compares and describes scenes.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <systemc>
@@ -20,6 +20,7 @@ int sc_main(int argc, char* argv[]) {
     commands.emplace_back(command, make(*command));
   };
   add("simulate", "send a scene through the accelerator", sgs::add_simulate_command);
+  add("pack", "write the memory image of a scene into a file", sgs::add_pack_command);
   add("render", "write one golden image", sgs::add_render_command);
   add("compare", "PSNR, SSIM and largest error of two images", sgs::add_compare_command);
   add("info", "print what a scene holds", sgs::add_info_command);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "algorithm/input_error.h"
+#include "algorithm/memory/restore_scene.h"
 #include "algorithm/render/exact_renderer.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/paper_renderer.h"
@@ -57,6 +58,13 @@ PreparedScene::PreparedScene(Scene scene, const AcceleratorConfig& config,
     stored_ = store(encode_raw(std::move(cloud)), config);
   }
   check_codebooks(config, stored_.image.layout.second_half);
+}
+
+PreparedScene::PreparedScene(PackedScene packed, const std::string& path,
+                             const AcceleratorConfig& config)
+    : config_(config), name_(packed.facts.name), dropped_invalid_(packed.facts.dropped_invalid) {
+  check_codebooks(config, packed.image.layout.second_half);
+  stored_ = restore_scene(std::move(packed), path);
 }
 
 FrameJob PreparedScene::job(const Camera& camera) const {

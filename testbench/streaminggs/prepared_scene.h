@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/memory/image_file.h"
 #include "algorithm/memory/stored_scene.h"
 #include "algorithm/render/streaming_result.h"
 #include "algorithm/scene/load_scene.h"
@@ -19,6 +20,9 @@ class PreparedScene {
   // weighing: cameras that weigh the Gaussians where second halves are quantised; progress of that
   // goes to stderr if it is a terminal.
   PreparedScene(Scene scene, const AcceleratorConfig& config, const std::vector<Camera>& weighing);
+
+  // Of the file `path` made by pack; config has adopted it (packed_config.h).
+  PreparedScene(PackedScene packed, const std::string& path, const AcceleratorConfig& config);
 
   const std::string& name() const { return name_; }
   std::uint64_t dropped_invalid() const { return dropped_invalid_; }

@@ -7,6 +7,7 @@
 
 #include "algorithm/image/image_io.h"
 #include "algorithm/input_error.h"
+#include "algorithm/memory/restore_scene.h"
 #include "algorithm/render/exact_renderer.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/reference_renderer.h"
@@ -15,6 +16,26 @@
 #include "testbench/streaminggs/scene_arguments.h"
 
 namespace sgs {
+namespace {
+
+// What to render; with tables where it is packed for one of the streaming orders.
+struct RenderedScene {
+  ActivatedCloud cloud;
+  std::vector<Camera> cameras;
+  ChunkTree tree;
+  VoxelGrid grid;
+};
+
+RenderedScene load(const SceneArguments& arguments) {
+  if (auto packed = arguments.load_packed()) {
+    StoredScene stored = restore_scene(std::move(*packed), arguments.scene);
+    return {std::move(stored.decoded), {}, std::move(stored.tree), std::move(stored.grid)};
+  }
+  Scene scene = arguments.load();
+  return {activate(scene.cloud), std::move(scene.cameras), {}, {}};
+}
+
+}  // namespace
 
 SubCommand add_render_command(CLI::App& app) {
   struct Arguments : SceneArguments {
@@ -34,15 +55,15 @@ SubCommand add_render_command(CLI::App& app) {
       ->check(CLI::Range(4, 1020))
       ->capture_default_str();
   app.add_option("--voxel-size", arguments->voxel_size,
-                 "paper order: world units; 0: from the scene's extent");
+                 "paper order: world units; 0: as packed, or from the scene's extent");
   return [arguments] {
-    const Scene scene = arguments->load();
-    const auto views = arguments->cameras(scene);
+    RenderedScene scene = load(*arguments);
+    const auto views = arguments->cameras(scene.cameras);
     if (views.size() != 1)
       throw InputError("--view: 'all' writes more than one image, expected a number");
     if (arguments->group_px % 4 != 0) throw InputError("--group: expected a multiple of 4");
     const View<float> view = make_view<float>(views.front().second);
-    const ActivatedCloud cloud = activate(scene.cloud);
+    const ActivatedCloud& cloud = scene.cloud;
     if (arguments->ordering == "reference") {
       write_image(arguments->out, render_reference(view, cloud).image);
       return 0;
@@ -51,17 +72,17 @@ SubCommand add_render_command(CLI::App& app) {
       ExactOrderConfig config;
       config.group_px = arguments->group_px;
       constexpr std::uint32_t kChunkGaussians = 16;
-      write_image(arguments->out,
-                  render_exact_order(view, cloud, build_chunk_tree(cloud, kChunkGaussians), config)
-                      .frame.image);
+      if (scene.tree.nodes.empty()) scene.tree = build_chunk_tree(cloud, kChunkGaussians);
+      write_image(arguments->out, render_exact_order(view, cloud, scene.tree, config).frame.image);
       return 0;
     }
-    const float voxel_size =
-        arguments->voxel_size > 0 ? arguments->voxel_size : paper_voxel_size(cloud);
+    if (arguments->voxel_size > 0 || scene.grid.nodes.empty()) {
+      scene.grid = build_voxel_grid(
+          cloud, arguments->voxel_size > 0 ? arguments->voxel_size : paper_voxel_size(cloud));
+    }
     PaperOrderConfig config;
     config.group_px = arguments->group_px;
-    const StreamingResult result =
-        render_paper_order(view, cloud, build_voxel_grid(cloud, voxel_size), config);
+    const StreamingResult result = render_paper_order(view, cloud, scene.grid, config);
     write_image(arguments->out, result.frame.image);
     fmt::print("missed {} (group, splat) pairs\nmisordered {} of {} blends\n", result.stats.missed,
                result.stats.misordered, result.stats.contributors);

@@ -34,7 +34,8 @@ std::pair<int, int> parse_size(const std::string& size) {
 }  // namespace
 
 void SceneArguments::add_scene_to(CLI::App& app) {
-  app.add_option("SCENE", scene, "a .ply file or builtin:NAME?n=COUNT")->required();
+  app.add_option("SCENE", scene, "a .ply file, builtin:NAME?n=COUNT, or a file made by pack")
+      ->required();
   app.add_flag("--drop-invalid", drop_invalid,
                "leave out Gaussians with values that are not finite, and count them");
 }
@@ -54,9 +55,19 @@ void SceneArguments::add_weighing_to(CLI::App& app) {
 
 Scene SceneArguments::load() const { return load_scene(scene, {drop_invalid}); }
 
-std::vector<std::pair<int, Camera>> SceneArguments::cameras(const Scene& loaded) const {
-  const std::vector<Camera> all =
-      cameras_path.empty() ? loaded.cameras : read_cameras(cameras_path);
+std::optional<PackedScene> SceneArguments::load_packed() const {
+  if (!is_image_file(scene)) return {};
+  const auto refuse = [&](const char* argument) {
+    throw InputError(fmt::format("{}: {} is packed already, expected it where the scene is packed",
+                                 argument, scene));
+  };
+  if (drop_invalid) refuse("--drop-invalid");
+  if (!weigh_by.empty()) refuse("--weigh-by");
+  return read_image_file(scene);
+}
+
+std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Camera>& own) const {
+  const std::vector<Camera> all = cameras_path.empty() ? own : read_cameras(cameras_path);
   if (all.empty()) {
     throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
   }
@@ -82,9 +93,8 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const Scene& loaded)
   return chosen;
 }
 
-std::vector<Camera> SceneArguments::weighing_cameras(const Scene& loaded) const {
-  const std::vector<Camera> all =
-      cameras_path.empty() ? loaded.cameras : read_cameras(cameras_path);
+std::vector<Camera> SceneArguments::weighing_cameras(const std::vector<Camera>& own) const {
+  const std::vector<Camera> all = cameras_path.empty() ? own : read_cameras(cameras_path);
   if (weigh_by.empty()) return all;
   std::vector<Camera> chosen;
   for (const int number : weigh_by) {

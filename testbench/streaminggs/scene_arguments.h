@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithm/memory/image_file.h"
 #include "algorithm/scene/load_scene.h"
 
 namespace CLI {
@@ -28,11 +29,15 @@ struct SceneArguments {
   void add_weighing_to(CLI::App& app);
 
   Scene load() const;
-  // Cameras of the chosen views with their numbers, scaled to `size`. Throws InputError.
-  std::vector<std::pair<int, Camera>> cameras(const Scene& loaded) const;
+  // The scene where it is a file made by pack, else nothing. Throws InputError, also for arguments
+  // that only a scene that is not packed yet can take.
+  std::optional<PackedScene> load_packed() const;
+  // Cameras of the chosen views with their numbers, scaled to `size`. own: those that the scene
+  // brings. Throws InputError.
+  std::vector<std::pair<int, Camera>> cameras(const std::vector<Camera>& own) const;
   // Those that weigh the Gaussians of a scene for vector quantisation, in their own size; none
   // where there are none. Throws InputError.
-  std::vector<Camera> weighing_cameras(const Scene& loaded) const;
+  std::vector<Camera> weighing_cameras(const std::vector<Camera>& own) const;
 };
 
 }  // namespace sgs

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "modules/filter_cost.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/config_arguments.h"
+#include "testbench/streaminggs/packed_config.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/report.h"
@@ -73,6 +75,11 @@ ViewFacts simulate_view(const PreparedScene& prepared, int number, const Camera&
   return facts;
 }
 
+// A scene's name may be any bytes.
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 void write_text(const fs::path& path, const std::string& text) {
   write_whole_file(path.string(), text.data(), text.size());
 }
@@ -84,7 +91,7 @@ void write_view(const fs::path& folder, const ViewFacts& facts, const Json& repo
   write_image((folder / "reference.exr").string(), facts.reference);
   write_image((folder / "reference.png").string(), facts.reference);
   write_image((folder / "error.png").string(), error_image(facts.frame, facts.reference));
-  write_text(folder / "report.json", report.dump(2) + "\n");
+  write_text(folder / "report.json", text_of(report));
 }
 
 Json list_choices(const std::vector<AutoChoice>& chosen) {
@@ -95,13 +102,25 @@ Json list_choices(const std::vector<AutoChoice>& chosen) {
   return list;
 }
 
+PreparedScene prepare(std::optional<PackedScene> packed, Scene scene, const Arguments& arguments,
+                      const AcceleratorConfig& config) {
+  if (packed) return {std::move(*packed), arguments.scene, config};
+  const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
+  return {std::move(scene), config, weighing};
+}
+
 int run(const Arguments& arguments) {
+  const auto began = std::chrono::steady_clock::now();
   std::vector<AutoChoice> chosen;
-  AcceleratorConfig config = arguments.read_config(chosen);
+  AcceleratorConfig config = arguments.given_config();
+  std::optional<PackedScene> packed = arguments.load_packed();
+  if (packed) adopt(*packed, arguments.scene, config, chosen);
+  resolve(config, chosen);
   if (arguments.print_config) {
     // Only this key waits for the scene.
     if (config.hfu.cost == FilterCost::kCounted) {
-      resolve_filter_cost(config, arguments.load().cloud.sh_degree);
+      resolve_filter_cost(
+          config, packed ? packed->image.layout.sh_degree() : arguments.load().cloud.sh_degree);
     }
     fmt::print("{}\n", config_to_json(config));
     return 0;
@@ -111,14 +130,12 @@ int run(const Arguments& arguments) {
   if (one_view_only && arguments.view == "all") {
     throw InputError("--vcd, --dram-trace: one file holds one view; expected --view with a number");
   }
-  const auto began = std::chrono::steady_clock::now();
-  Scene scene = arguments.load();
-  for (const AutoChoice& cost : resolve_filter_cost(config, scene.cloud.sh_degree)) {
-    chosen.push_back(cost);
-  }
-  const auto views = arguments.cameras(scene);
-  const std::vector<Camera> weighing = arguments.weighing_cameras(scene);
-  const PreparedScene prepared(std::move(scene), config, weighing);
+  Scene scene;
+  if (!packed) scene = arguments.load();
+  const int sh_degree = packed ? packed->image.layout.sh_degree() : scene.cloud.sh_degree;
+  for (const AutoChoice& cost : resolve_filter_cost(config, sh_degree)) chosen.push_back(cost);
+  const auto views = arguments.cameras(scene.cameras);
+  const PreparedScene prepared = prepare(std::move(packed), std::move(scene), arguments, config);
 
   const RunOptions options{arguments.timing == "fast" ? TimingMode::kFast : TimingMode::kAccurate,
                            arguments.vcd, arguments.dram_trace, arguments.stalls, arguments.seed};
@@ -147,7 +164,7 @@ int run(const Arguments& arguments) {
     equal = equal && facts.equals_golden;
     all["views"].push_back(std::move(report));
   }
-  write_text(fs::path(arguments.out) / "report.json", all.dump(2) + "\n");
+  write_text(fs::path(arguments.out) / "report.json", text_of(all));
   for (const auto& report : all["views"]) print_details(report);
   if (!equal) fmt::print("\nthe frame differs from the streaming renderer's\n");
   return equal ? 0 : 1;

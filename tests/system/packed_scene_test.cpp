@@ -1,0 +1,236 @@
+// pack, and simulate, render and info on what it wrote.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "algorithm/scene/builtin_scene.h"
+#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/ply_writer.h"
+#include "algorithm/splat/activate.h"
+#include "algorithm/voxel/voxel_grid.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using Json = nlohmann::json;
+using Arguments = std::vector<std::string>;
+using Catch::Matchers::Contains;
+
+Arguments joined(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+// A scene as .ply with its cameras, and the files that pack makes of it.
+class PackedScenes {
+ public:
+  PackedScenes() {
+    BuiltinScene scene = make_builtin_scene("builtin:outdoor?n=4000");
+    for (std::size_t i = 0; i < scene.cloud.size(); i += 9) scene.cloud.opacity_logits[i] = -9;
+    visible_ = stored_gaussians(activate(scene.cloud), Stored::kVisible).size();
+    write_ply(ply(), scene.cloud);
+    write_cameras(cameras(), scene.cameras);
+  }
+
+  std::string ply() const { return folder_.path("outdoor.ply"); }
+  std::string cameras() const { return folder_.path("cameras.json"); }
+  std::string packed() const { return folder_.path("scene.sgs"); }
+  std::string path(const std::string& name) const { return folder_.path(name); }
+
+  Outcome pack(const Arguments& options) const {
+    return run_streaminggs(
+        joined({"pack", ply(), "--cameras", cameras(), "--out", packed()}, options));
+  }
+  Arguments view(const std::string& scene) const {
+    return {scene, "--cameras", cameras(), "--view", "2", "--size", "160x90"};
+  }
+
+  std::size_t visible() const { return visible_; }
+
+ private:
+  ScratchFolder folder_;
+  std::size_t visible_ = 0;
+};
+
+const Arguments kQuantised = {"--set", "sram.codebook_bytes=65536", "--set", "vq.scale_entries=50",
+                              "--set", "vq.rotation_entries=70",    "--set", "vq.dc_entries=60",
+                              "--set", "vq.sh_entries=30",          "--set", "vq.iterations=3"};
+
+struct Case {
+  const char* order;
+  const char* encoding;
+  Arguments options;  // of the accelerator: for pack and for simulate
+};
+
+TEST_CASE("pack: the file gives the very run that the scene gives") {
+  const PackedScenes scenes;
+  const Arguments memory = {"--set", "sram.codebook_bytes=65536"};
+  for (const Case& c :
+       {Case{"exact", "raw", {}}, Case{"paper", "raw", {}}, Case{"exact", "vq", memory},
+        Case{"paper", "vq_packed", memory}, Case{"exact", "half", {"--set", "chunk_gaussians=20"}},
+        Case{"paper", "half", {"--set", "hfu.cost=counted"}}}) {
+    INFO(c.order << " " << c.encoding);
+    const std::string encoding = std::string("encoding=") + c.encoding;
+    Arguments making = {"--config", c.order, "--set", encoding};
+    if (encoding.find("vq") != std::string::npos) making = joined(making, kQuantised);
+    making = joined(making, c.options);
+    const Outcome packed = scenes.pack(making);
+    INFO(packed.err);
+    REQUIRE(packed.status == 0);
+
+    const Simulation direct(joined(scenes.view(scenes.ply()), making));
+    const Simulation from_file(
+        joined(scenes.view(scenes.packed()), joined({"--config", c.order}, c.options)));
+    CHECK(from_file.frame(0) == direct.frame(0));
+    const Json &a = from_file.views()[0], &b = direct.views()[0];
+    CHECK(a["image"]["equals_streaming_renderer"] == true);
+    for (const char* same : {"frame", "units", "dram", "sram", "energy", "limit", "left_out"}) {
+      INFO(same);
+      CHECK(a[same] == b[same]);
+    }
+    CHECK(a["provenance"]["memory_image_fnv1a64"] == b["provenance"]["memory_image_fnv1a64"]);
+    CHECK(a["scene"] == b["scene"]);
+    Json shown = a["config"], expected = b["config"];
+    if (std::string(c.order) == "paper") {  // which the scene alone leaves to the model
+      CHECK(shown["voxel_size"] == a["scene"]["voxel_size"]);
+      shown.erase("voxel_size");
+      expected.erase("voxel_size");
+    }
+    CHECK(shown == expected);
+    // The original is not at hand.
+    CHECK(a["image"]["encoding_psnr_db"].is_null());
+    CHECK(a["image"]["psnr_db"] == a["image"]["decoded_psnr_db"]);
+    if (std::string(c.order) == "exact") {
+      CHECK(a["image"]["decoded_psnr_db"] == b["image"]["decoded_psnr_db"]);
+    }
+  }
+}
+
+TEST_CASE("pack: render draws the decoded scene in every order") {
+  const PackedScenes scenes;
+  const auto render = [&](const std::string& scene, const char* ordering, const char* out) {
+    const Arguments options = {"--ordering", ordering, "--out", scenes.path(out)};
+    const Outcome outcome =
+        run_streaminggs(joined(joined({"render"}, scenes.view(scene)), options));
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return bytes_of(scenes.path(out));
+  };
+  const std::string reference = render(scenes.ply(), "reference", "ply.pfm");
+  REQUIRE(scenes.pack({}).status == 0);
+  CHECK(render(scenes.packed(), "reference", "a.pfm") == reference);
+  CHECK(render(scenes.packed(), "exact", "b.pfm") == reference);
+
+  const std::string paper = render(scenes.ply(), "paper", "ply_paper.pfm");
+  CHECK(paper != reference);
+  REQUIRE(scenes.pack({"--config", "paper", "--set", "encoding=raw"}).status == 0);
+  CHECK(render(scenes.packed(), "paper", "c.pfm") == paper);
+  CHECK(render(scenes.packed(), "exact", "d.pfm") == reference);
+}
+
+TEST_CASE("pack: info says what the file holds, as pack did") {
+  const PackedScenes scenes;
+  const Outcome packed =
+      scenes.pack(joined({"--config", "exact", "--set", "encoding=vq_packed"}, kQuantised));
+  REQUIRE(packed.status == 0);
+  const Outcome info = run_streaminggs({"info", scenes.packed()});
+  REQUIRE(info.status == 0);
+  const std::size_t stored = scenes.visible();
+  REQUIRE(stored < 4000);
+  for (const std::string& line :
+       {std::string("scene                     outdoor\n"),
+        "gaussians stored          " + std::to_string(stored) + " of 4000\n",
+        std::string("second halves             vq_packed, 4 B each\n"),
+        std::string("codebook rotation         70 entries x 4 words, 1120 B\n"),
+        std::string("codebook sh               30 entries x 45 words, 5400 B\n"),
+        "region first_halves       " + std::to_string(16 * stored) + " B\n",
+        "region indices            " + std::to_string(4 * stored) + " B\n",
+        std::string("storage order             by chunks, for ordering exact: ")}) {
+    INFO(line << "\n" << packed.out << info.out);
+    CHECK(packed.out.find(line) != std::string::npos);
+    CHECK(info.out.find(line) != std::string::npos);
+  }
+  CHECK_THAT(info.out, Contains("version     1\n") && Contains("checksum"));
+  CHECK_THAT(packed.out, Contains("packed in"));
+  const Outcome of_scene = run_streaminggs({"info", scenes.ply()});
+  CHECK(of_scene.status == 0);
+  CHECK_THAT(of_scene.out, Contains("median opacity"));
+}
+
+// Status 2 and one line on stderr that holds `words`.
+void check_refused(const Arguments& arguments, const std::vector<std::string>& words) {
+  const Outcome outcome = run_streaminggs(arguments);
+  INFO(outcome.err);
+  CHECK(outcome.status == 2);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  for (const std::string& word : words) CHECK_THAT(outcome.err, Contains(word));
+}
+
+TEST_CASE("pack: what a packed scene cannot be used for is refused") {
+  const PackedScenes scenes;
+  const std::string& file = scenes.packed();
+  REQUIRE(scenes.pack(joined({"--config", "exact", "--set", "encoding=vq"}, kQuantised)).status ==
+          0);
+  const Arguments simulate = joined({"simulate"}, scenes.view(file));
+  const Arguments out = {"--out", scenes.path("out")};
+  check_refused(joined(joined(simulate, out), {"--config", "paper"}),
+                {file, "stored by chunks", "ordering is paper", "--config exact"});
+  check_refused(joined(joined(simulate, out), {"--set", "sram.codebook_bytes=1000"}),
+                {"sram.codebook_bytes: 1000 bytes are there", "50 entries"});
+  check_refused(joined(joined(simulate, out), {"--weigh-by", "0"}), {"--weigh-by", file});
+  check_refused(joined(joined(simulate, out), {"--drop-invalid"}), {"--drop-invalid", file});
+  check_refused(joined({"simulate", file}, out), {file, "--cameras FILE is needed"});
+  check_refused({"pack", file, "--out", scenes.path("b.sgs")}, {file, "expected a .ply"});
+  check_refused({"pack", scenes.ply(), "--out", scenes.path("b.bin")}, {"b.bin", ".sgs"});
+  check_refused({"pack", scenes.ply(), "--out", scenes.path("no/b.sgs")}, {"no/b.sgs"});
+  CHECK_FALSE(std::filesystem::exists(scenes.path("out")));
+}
+
+TEST_CASE("pack: a damaged file is refused by every command") {
+  const PackedScenes scenes;
+  REQUIRE(scenes.pack({}).status == 0);
+  std::string bytes = bytes_of(scenes.packed());
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+  std::ofstream(scenes.packed(), std::ios::binary) << bytes;
+  for (const char* command : {"simulate", "render"}) {
+    check_refused(
+        joined(joined({command}, scenes.view(scenes.packed())), {"--out", scenes.path("out.png")}),
+        {scenes.packed(), "checksum"});
+  }
+  check_refused({"info", scenes.packed()}, {scenes.packed(), "checksum"});
+}
+
+TEST_CASE("pack: a scene that no reader would take is refused and leaves nothing") {
+  BuiltinScene scene = make_builtin_scene("builtin:object?n=50");
+  scene.cloud.log_scales[7].y = 200;  // e^200 is no float
+  const ScratchFolder scratch;
+  write_ply(scratch.path("a.ply"), scene.cloud);
+  check_refused({"pack", scratch.path("a.ply"), "--out", scratch.path("a.sgs")},
+                {"a.ply: Gaussian in slot", "scales: got", "inf"});
+  CHECK(scratch.file_count() == 1);
+}
+
+TEST_CASE("pack: --print-config shows what the image decides") {
+  const PackedScenes scenes;
+  REQUIRE(scenes
+              .pack(joined({"--config", "exact", "--set", "encoding=vq_packed", "--set",
+                            "chunk_gaussians=24"},
+                           kQuantised))
+              .status == 0);
+  const Outcome shown = run_streaminggs({"simulate", scenes.packed(), "--set", "encoding=raw",
+                                         "--set", "hfu.cost=counted", "--print-config"});
+  INFO(shown.err);
+  REQUIRE(shown.status == 0);
+  const Json config = Json::parse(shown.out);
+  CHECK(config["encoding"] == "vq_packed");
+  CHECK(config["chunk_gaussians"] == 24);
+  CHECK(config["vq"]["rotation_entries"] == 70);
+  CHECK(config["hfu"]["ffu_macs"] != 427);
+}
+
+}  // namespace
+}  // namespace sgs::test
