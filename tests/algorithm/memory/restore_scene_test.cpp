@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <random>
 
 #include "algorithm/render/exact_renderer.h"
 #include "algorithm/render/paper_renderer.h"
@@ -235,6 +236,40 @@ TEST_CASE("restore: chunk tables that lead astray are refused") {
        }},
       {kRaw, kChunks, "expected at most 4", [](P& p) { p.facts.chunk_gaussians = 4; }},
   });
+}
+
+TEST_CASE("restore: random changes are refused or can be rendered") {
+  const View<float> view = small_view();
+  const ActivatedCloud cloud = cut_object(200, 1);
+  std::mt19937 random(7);
+  const auto below = [&](std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+  };
+  for (const StorageOrder order : kStorageOrders) {
+    for (const SecondHalfEncoding encoding : kEncodings) {
+      const PackedScene packed = make_packing(cloud, encoding, order).packed();
+      std::vector<RegionRange> regions;
+      for (const RegionRange& region : packed.image.layout.regions) {
+        if (region.bytes > 0) regions.push_back(region);
+      }
+      int refused = 0, rendered = 0;
+      for (int round = 0; round < 150; ++round) {
+        PackedScene changed = packed;
+        const RegionRange& region = regions[below(regions.size())];
+        changed.image.bytes[region.base + below(region.bytes)] ^=
+            static_cast<std::byte>(std::size_t{1} << below(8));
+        try {
+          golden(view, restore_scene(changed, "scene.sgs"));
+          ++rendered;
+        } catch (const InputError&) {
+          ++refused;
+        }
+      }
+      CAPTURE(static_cast<int>(order), static_cast<int>(encoding));
+      CHECK(refused > 0);
+      CHECK(rendered > 0);
+    }
+  }
 }
 
 }  // namespace
