@@ -71,8 +71,8 @@ EncodedCloud encode(ActivatedCloud cloud, SecondHalfEncoding encoding) {
   config.dc_entries = 64;
   config.sh_entries = 20;
   config.iterations = 2;
-  const std::vector<float> weights(cloud.size(), 1.0F);
-  return encode_quantised(cloud, quantise(cloud, weights, config), encoding);
+  const std::vector<float> weights(cloud.size(), 1.0F), pixel_sizes(cloud.size(), 0.0F);
+  return encode_quantised(cloud, quantise(cloud, weights, pixel_sizes, config), encoding);
 }
 
 }  // namespace

@@ -37,8 +37,10 @@ Packing make_packing(const ActivatedCloud& cloud, SecondHalfEncoding encoding, S
   const auto encode = [&] {
     if (encoding == SecondHalfEncoding::kRaw) return encode_raw(cloud);
     if (encoding == SecondHalfEncoding::kHalf) return encode_half(cloud);
-    return encode_quantised(
-        cloud, quantise(cloud, std::vector<float>(cloud.size(), 1.0F), facts.vq), encoding);
+    return encode_quantised(cloud,
+                            quantise(cloud, std::vector<float>(cloud.size(), 1.0F),
+                                     std::vector<float>(cloud.size(), 0.0F), facts.vq),
+                            encoding);
   };
   if (order == StorageOrder::kChunks) {
     facts.chunk_gaussians = 16;
