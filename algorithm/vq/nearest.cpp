@@ -36,21 +36,26 @@ class CentroidBlocks {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(indices_.size() / kLanes); }
 
-  // Best of block `block` and `best`.
+  // Best of block `block` and `best`. Of many dimensions the block is left as soon as the first
+  // few put all of it too far away.
   template <int kDims>
   void compare(std::uint32_t block, const float* point, Nearest& best) const {
     const std::size_t dims = kDims > 0 ? kDims : dims_;
+    constexpr std::size_t kRun = 15;  // dimensions between two looks
     const float* values = values_.data() + block * dims * kLanes;
     float sums[kLanes] = {};
-    for (std::size_t d = 0; d < dims; ++d) {
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const float difference = point[d] - values[d * kLanes + lane];
-        sums[lane] += difference * difference;
+    for (std::size_t begin = 0; begin < dims; begin += kRun) {
+      const std::size_t end = kDims > 0 ? dims : std::min(dims, begin + kRun);
+      for (std::size_t d = begin; d < end; ++d) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          const float difference = point[d] - values[d * kLanes + lane];
+          sums[lane] += difference * difference;
+        }
       }
+      float least = sums[0];
+      for (std::size_t lane = 1; lane < kLanes; ++lane) least = std::min(least, sums[lane]);
+      if (least > best.squared_distance) return;
     }
-    float least = sums[0];
-    for (std::size_t lane = 1; lane < kLanes; ++lane) least = std::min(least, sums[lane]);
-    if (least > best.squared_distance) return;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t index = indices_[block * kLanes + lane];
       if (sums[lane] < best.squared_distance ||
@@ -76,16 +81,24 @@ float squared_distance(const float* a, const float* b, std::size_t dims) {
 constexpr Nearest kNone{std::numeric_limits<std::uint32_t>::max(),
                         std::numeric_limits<float>::infinity()};
 
+// Where the search begins: at the hint, if it is a centroid.
+Nearest first_guess(const std::vector<float>& centroids, std::size_t dims, const float* point,
+                    std::uint32_t hint) {
+  if (hint >= centroids.size() / dims) return kNone;
+  return {hint, squared_distance(point, centroids.data() + hint * dims, dims)};
+}
+
 class ExhaustiveSearch : public NearestSearch {
  public:
-  ExhaustiveSearch(const std::vector<float>& centroids, int dims) : blocks_(dims) {
+  ExhaustiveSearch(const std::vector<float>& centroids, int dims)
+      : dims_(static_cast<std::size_t>(dims)), centroids_(centroids), blocks_(dims) {
     std::vector<std::uint32_t> all(centroids.size() / static_cast<std::size_t>(dims));
     std::iota(all.begin(), all.end(), 0U);
     blocks_.add(centroids, all.data(), all.size());
   }
 
-  Nearest find(const float* point, std::uint32_t) const override {
-    Nearest best = kNone;
+  Nearest find(const float* point, std::uint32_t hint) const override {
+    Nearest best = first_guess(centroids_, dims_, point, hint);
     for (std::uint32_t block = 0; block < blocks_.size(); ++block) {
       blocks_.compare<0>(block, point, best);
     }
@@ -93,6 +106,8 @@ class ExhaustiveSearch : public NearestSearch {
   }
 
  private:
+  const std::size_t dims_;
+  const std::vector<float> centroids_;
   CentroidBlocks blocks_;
 };
 
@@ -107,10 +122,7 @@ class KdTree : public NearestSearch {
   }
 
   Nearest find(const float* point, std::uint32_t hint) const override {
-    Nearest best = kNone;
-    if (hint < centroids_.size() / kDims) {
-      best = {hint, squared_distance(point, centroids_.data() + std::size_t{hint} * kDims, kDims)};
-    }
+    Nearest best = first_guess(centroids_, kDims, point, hint);
     std::array<float, kDims> outside{};
     descend(0, point, outside, 0, best);
     return best;

@@ -17,7 +17,7 @@ class NearestSearch {
  public:
   virtual ~NearestSearch() = default;
   // Of equal distances the lowest index. May be called from many threads. hint: a centroid that is
-  // probably near.
+  // probably near, which makes it faster; any number will do.
   virtual Nearest find(const float* point, std::uint32_t hint) const = 0;
 };
 

@@ -49,7 +49,7 @@ void check_searches(Random& random, std::size_t entries, std::size_t dims,
     const Nearest expected = plain_loop(centroids, dims, point);
     const auto anywhere = static_cast<std::uint32_t>(random() % entries);
     for (const std::uint32_t hint :
-         {0U, expected.index, anywhere, static_cast<std::uint32_t>(entries - 1)}) {
+         {0U, expected.index, anywhere, static_cast<std::uint32_t>(entries - 1), ~0U}) {
       for (const NearestSearch* search : {tree.get(), all.get(), chosen.get()}) {
         const Nearest got = search->find(point, hint);
         REQUIRE(got.index == expected.index);
