@@ -205,6 +205,7 @@ void normalise(std::vector<float>& quats) {
 std::array<float, 3> turn_sensitivity(const glm::vec3& falling_scale, float pixel_size) {
   // Where pixels are not known, thinner than this share of the longest axis is not seen.
   constexpr double kThinnest = 0.02;
+  constexpr double kLeastPixel = 1e-4;  // of the longest axis; keeps quotients finite
   constexpr double kSaturation = 0.05;  // radians of half angle at sensitivity 1
   double squares[3], seen[3];
   const double longest = falling_scale[0];
@@ -212,7 +213,8 @@ std::array<float, 3> turn_sensitivity(const glm::vec3& falling_scale, float pixe
     // Of equal scales the ratio is 1 also where both are 0 or have overflowed.
     const double ratio =
         falling_scale[k] == falling_scale[0] ? 1 : static_cast<double>(falling_scale[k]) / longest;
-    const double pixel = longest > 0 && pixel_size > 0 ? pixel_size / longest : kThinnest;
+    const double pixel =
+        longest > 0 && pixel_size > 0 ? std::max(kLeastPixel, pixel_size / longest) : kThinnest;
     squares[k] = ratio * ratio;
     seen[k] = std::sqrt(squares[k] + kLowPass * pixel * pixel);
   }

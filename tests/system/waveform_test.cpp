@@ -138,7 +138,9 @@ TEST_CASE("waveform: quantised scenes show the codebook buffer and what decodes"
     check_time(prefix + "codebooks.full", run.views()[0]["frame"]["cycles"].get<std::uint64_t>() -
                                               total(run.views()[0], "loaded_at_cycle"));
     // What is not there is not shown.
-    const Simulation raw(scene);
+    std::vector<std::string> raw_scene = scene;
+    raw_scene.insert(raw_scene.end(), {"--set", "encoding=raw"});
+    const Simulation raw(raw_scene);
     const auto without = signals_of(vcd);
     CHECK(without.count(prefix + "hfu0.fine.busy") == 1);
     CHECK(without.count(prefix + "hfu0.decode.busy") == 0);
