@@ -89,7 +89,7 @@ void write_image_file(const std::string& path, const PackedFacts& facts, const M
                                  std::strerror(errno)));
   }
   const auto write = [&](const void* bytes, std::size_t size) {
-    return std::fwrite(bytes, 1, size, file.get()) == size;
+    return size == 0 || std::fwrite(bytes, 1, size, file.get()) == size;
   };
   const bool written = write(header.data(), header.size()) &&
                        write(image.bytes.data(), image.bytes.size()) &&
