@@ -214,8 +214,10 @@ def write(
 
 def make_tables(arguments: argparse.Namespace) -> None:
     scenes = find_scenes(arguments.scenes)
-    compare_variants(arguments, scenes)
-    compare_filters(arguments, scenes)
+    for make in {"variants": [compare_variants], "filters": [compare_filters]}.get(
+        arguments.only, [compare_variants, compare_filters]
+    ):
+        make(arguments, scenes)
 
 
 def main() -> int:
@@ -224,6 +226,9 @@ def main() -> int:
     parser.add_argument("--size", default="640x360", metavar="WxH", help="in px")
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="over all presets"
+    )
+    parser.add_argument(
+        "--only", choices=("variants", "filters"), help="the first two tables, or the third"
     )
     parser.add_argument("--out", type=pathlib.Path, default=REPOSITORY / "out")
     arguments = parser.parse_args()

@@ -43,5 +43,24 @@ TEST_CASE("shared scenes: park, exact order") {
   check_shared_scene("park", "exact", {kAccurate, kFast, kStalled});
 }
 
+// The encodings that the presets above do not have, all views.
+void check_encodings(const char* scene) {
+  for (const char* order : {"paper_no_vq", "exact"}) {
+    std::vector<Variant> variants;
+    for (const char* encoding : {"encoding=half", "encoding=vq", "encoding=vq_packed"}) {
+      Variant variant = kFast;
+      variant.insert(variant.end(), {"--set", encoding, "--set", "sram.codebook_bytes=256000"});
+      variants.push_back(variant);
+    }
+    check_shared_scene(scene, order, variants);
+  }
+}
+TEST_CASE("shared scenes: truck, every encoding") { check_encodings("truck"); }
+TEST_CASE("shared scenes: playbot, every encoding") { check_encodings("playbot"); }
+TEST_CASE("shared scenes: platform, every encoding") { check_encodings("platform"); }
+TEST_CASE("shared scenes: yard, every encoding") { check_encodings("yard"); }
+TEST_CASE("shared scenes: garden, every encoding") { check_encodings("garden"); }
+TEST_CASE("shared scenes: park, every encoding") { check_encodings("park"); }
+
 }  // namespace
 }  // namespace sgs::test

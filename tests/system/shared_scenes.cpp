@@ -8,14 +8,14 @@
 
 namespace sgs::test {
 
-void check_shared_scene(const std::string& name, const std::string& order,
+void check_shared_scene(const std::string& name, const std::string& preset,
                         const std::vector<Variant>& variants) {
   const std::string cameras = shared_path("cameras/" + name + ".json");
   const std::string scene = shared_scene(name);
   for (const Variant& variant : variants) {
-    INFO(name << " " << order << " " << variant[1] << " " << variant.size());
+    INFO(name << " " << preset << " " << variant[1] << " " << variant.size());
     std::vector<std::string> arguments = {scene, "--cameras", cameras, "--view",
-                                          "all", "--config",  order};
+                                          "all", "--config",  preset};
     arguments.insert(arguments.end(), variant.begin(), variant.end());
     Simulation(arguments).check();
   }

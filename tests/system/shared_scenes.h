@@ -14,8 +14,8 @@ inline const Variant kFast = {"--timing", "fast"};
 inline const Variant kStalled = {"--timing", "accurate", "--stalls", "0.05"};
 
 // Each view equals the streaming renderer's frame (in exact order also the reference's) to the bit,
-// and its accounts add up. order: "paper" or "exact".
-void check_shared_scene(const std::string& name, const std::string& order,
+// and its accounts add up. preset: of the configuration.
+void check_shared_scene(const std::string& name, const std::string& preset,
                         const std::vector<Variant>& variants);
 
 }  // namespace sgs::test
