@@ -23,11 +23,11 @@ bool is_lossy(SecondHalfEncoding encoding) { return encoding != SecondHalfEncodi
 EncodedCloud encode(const ActivatedCloud& cloud, const AcceleratorConfig& config,
                     const std::vector<Camera>& weighing) {
   if (config.encoding == SecondHalfEncoding::kHalf) return encode_half(cloud);
-  return encode_quantised(
-      cloud,
+  const ProgressLine progress;
+  const QuantisedCloud quantised =
       quantise(cloud, image_weights(cloud, weighing), pixel_sizes(cloud, weighing), config.vq,
-               quantisation_progress()),
-      config.encoding);
+               progress.of_quantisation());
+  return encode_quantised(cloud, quantised, config.encoding);
 }
 
 StoredScene store(EncodedCloud encoded, const AcceleratorConfig& config) {

@@ -5,17 +5,31 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <string>
 
 namespace sgs {
+namespace {
 
-VqProgress quantisation_progress() {
-  if (::isatty(STDERR_FILENO) == 0) return {};
+// Over whatever stood there; the cursor stays at its beginning.
+void rewrite(const std::string& line) {
+  constexpr int kWidth = 79;
+  fmt::print(stderr, "\r{:<{}}\r", line, kWidth);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+  if (terminal_) rewrite("");
+}
+
+VqProgress ProgressLine::of_quantisation() const {
+  if (!terminal_) return {};
   return [](Codebook codebook, std::uint32_t iteration, double error) {
-    const bool last = error == 0;
-    fmt::print(stderr, "\r{:<10} codebook: iteration {:>3}, mean squared error {:<12.4g}{}",
-               kCodebookNames[static_cast<std::size_t>(codebook)], iteration, error,
-               last ? "\n" : "");
-    std::fflush(stderr);
+    rewrite(fmt::format("{} codebook: iteration {}, mean squared error {:.4g}",
+                        kCodebookNames[static_cast<std::size_t>(codebook)], iteration, error));
   };
 }
 

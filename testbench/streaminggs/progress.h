@@ -5,7 +5,20 @@
 
 namespace sgs {
 
-// Rewrites one line of stderr after each iteration; does nothing where stderr is no terminal.
-VqProgress quantisation_progress();
+// A line of stderr, rewritten after each iteration and wiped when the work is done; nothing where
+// stderr is no terminal.
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  // For the time of this object.
+  VqProgress of_quantisation() const;
+
+ private:
+  const bool terminal_;
+};
 
 }  // namespace sgs
