@@ -2,14 +2,22 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace sgs {
 
+// `text` as it may reach a terminal: control characters and bytes that are no UTF-8 as \n, \x1b,
+// ..., and only the beginning and the end of what is longer than kMostMessageBytes.
+std::string one_line(std::string_view text);
+constexpr std::size_t kMostMessageBytes = 2000;
+
 // The message is one line: file, place (offset, line, property or key), what was found, what was
-// expected. The executables print it and end with exit status 2.
+// expected. Values may be put into it as they were found: it goes through one_line(). The
+// executables print it and end with exit status 2.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(std::string_view message) : std::runtime_error(one_line(message)) {}
 };
 
 }  // namespace sgs

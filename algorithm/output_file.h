@@ -1,16 +1,23 @@
 // An output file that appears under its name only once it is complete.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
+#include <cstdio>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace sgs {
 
-// Write to temporary_path() by whatever means, then call commit(). A reader of `path` sees the old
-// file or the whole new one, never a part; without commit() the temporary is removed.
+// A reader of `path` sees the old file or the whole new one, never a part. Bytes go to a temporary
+// beside it; without commit() that is removed again, with every folder that was made for it. A
+// child process may write and call finish(): the process that made the file commits it.
 class OutputFile {
  public:
-  // Throws InputError when the folder of `path` does not exist or `path` is a folder itself.
+  // Throws InputError unless a file can be made, or replaced, as `path`: a folder, device or pipe
+  // stands there, or one that may not be written to, or no temporary can be made beside it.
   explicit OutputFile(std::string path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -19,17 +26,34 @@ class OutputFile {
   const std::string& path() const { return path_; }
   const std::string& temporary_path() const { return temporary_path_; }
 
-  // Renames the temporary to path(). Throws std::runtime_error when the system refuses.
+  // What goes wrong is remembered for finish().
+  void write(const void* data, std::size_t size_bytes);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+
+  // Every byte is with the system. Throws std::runtime_error where one could not be written.
+  void finish();
+
+  // finish(), and what was written is the file `path`.
   void commit();
 
  private:
+  // Removes folders again, as far as nothing is in them.
+  struct MadeFolders {
+    std::vector<std::string> paths;  // outermost first
+    pid_t owner;
+    ~MadeFolders();
+  };
+  void make_folders();
+
   std::string path_;
   std::string temporary_path_;
+  MadeFolders made_folders_;
+  std::FILE* file_ = nullptr;
+  int error_ = 0;  // the first; as errno
   bool committed_ = false;
 };
 
-// Writes `size_bytes` bytes as the whole content of `path`. Throws InputError when the file cannot
-// be created and std::runtime_error when it cannot be written (disk full).
+// Writes `size_bytes` bytes as the whole content of `path`. Throws as OutputFile does.
 void write_whole_file(const std::string& path, const void* data, std::size_t size_bytes);
 
 }  // namespace sgs

@@ -1,11 +1,10 @@
-// What the host writes into the accelerator's registers before a frame.
+// What the host writes into an accelerator's registers before a frame.
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <vector>
 
-#include "algorithm/memory/memory_image.h"
-#include "algorithm/splat/rects.h"
+#include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/splat/view.h"
 
 namespace sgs {
@@ -13,10 +12,15 @@ namespace sgs {
 struct FrameJob {
   View<float> view{};
   glm::vec3 background{0.0F};
-  MemoryLayout layout;
+  SceneLayout
+      layout;  // its regions: the scene's, and behind them those that the machine works with
   FrameFormat frame_format = FrameFormat::kRgb8;
-  int group_px = 64;
-  std::vector<PixelRect> groups;  // in the order in which they are rendered
+  RegionSpan frame_buffer;  // rows from the top, pixels without padding
+
+  std::uint64_t pixel_address(int x, int y) const {
+    return frame_buffer.base +
+           (static_cast<std::uint64_t>(y) * view.width + x) * pixel_bytes(frame_format);
+  }
 };
 
 }  // namespace sgs

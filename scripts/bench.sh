@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Builds the release preset and runs every benchmark (build/release/bin/bench_*) on the real scenes
+# Builds the benchmarks and runs every one (build/release/bin/bench_*) on the real scenes
 # of ../shared, or on the built-in scenes where those are missing. Each benchmark takes scenes as
 # its arguments: .ply files with their cameras beside them (NAME.json), or builtin:NAME?n=COUNT.
 # Arguments replace the scenes. Exit status 1 when a benchmark misses its budget.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scripts/setup.sh
+scripts/setup.sh release benchmarks
 
 shared=${SGS_SHARED:-../shared}
 scenes=("$@")

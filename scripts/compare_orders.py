@@ -4,8 +4,7 @@ cycles, and the unit that binds. For each size writes compare_orders_SIZE.md and
 view, and compare_orders_SIZE_summary.md with the means of each scene.
 
 Traffic and time are of frames stored as rgb8 (3 B a pixel). Their PSNR would be that of 8-bit
-pixels, so quality is taken from a second simulation of each view that stores floats; the picture
-does not depend on timing, so that one runs with fast timing.
+pixels, so quality is taken from a second simulation of each view that stores floats.
 """
 
 from __future__ import annotations
@@ -13,7 +12,6 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import itertools
-import pathlib
 import statistics
 import sys
 from collections.abc import Sequence
@@ -21,7 +19,7 @@ from collections.abc import Sequence
 import run_arguments
 import tables
 from scenes import Scene, find_scenes
-from simulations import REPOSITORY, Failure, Outcome, Run, psnr_text, region_bytes, simulate_all
+from simulations import Run, psnr_text, region_bytes, simulate_all
 
 # Second halves as they are in both: what codebooks cost is compare_variants.py's business.
 PRESETS = {"exact": "exact", "paper": "paper_no_vq"}
@@ -58,27 +56,15 @@ def measure(arguments: argparse.Namespace, scenes: Sequence[Scene], size: str) -
     cases = list(itertools.product(scenes, PRESETS))
     runs = []
     for scene, order in cases:
-        preset, overrides = PRESETS[order], tuple(arguments.set)
-        run = Run(scene, arguments.view, size, preset, overrides, arguments.timing)
-        floats = dataclasses.replace(
-            run, overrides=(*run.overrides, "framebuffer=rgb32f"), timing="fast"
-        )
-        runs += [run, floats]
+        run = Run(scene, arguments.view, size, PRESETS[order], tuple(arguments.set))
+        floats = (*run.overrides, "framebuffer=rgb32f")
+        runs += [run, dataclasses.replace(run, overrides=floats)]
     outcomes = simulate_all(arguments.streaminggs, runs, arguments.side_by_side)
     measured = []
     for scene, order in cases:
-        traffic, quality = accepted(next(outcomes)), accepted(next(outcomes))
-        pairs = zip(traffic.views, quality.views)
-        measured += [Measured(scene.name, size, order, t, q) for t, q in pairs]
+        traffic, quality = next(outcomes).accepted(), next(outcomes).accepted()
+        measured += [Measured(scene.name, size, order, t, q) for t, q in zip(traffic, quality)]
     return measured
-
-
-def accepted(outcome: Outcome) -> Outcome:
-    """The comparison is of the presets as shipped: nothing may be refused or enlarged."""
-    if outcome.refused or outcome.raised:
-        grown = ", ".join(f"{key} would have to be {count}" for key, count in outcome.raised)
-        raise Failure(f"{outcome.run.label()}: {outcome.refused or grown}")
-    return outcome
 
 
 HEAD = (
@@ -211,7 +197,7 @@ def make_tables(arguments: argparse.Namespace) -> None:
     scenes = find_scenes(arguments.scenes)
     for size in arguments.sizes:
         measured = measure(arguments, scenes, size)
-        made = run_arguments.how_made(arguments, (m.traffic for m in measured))
+        made = run_arguments.how_made(m.traffic for m in measured)
         summary = made + tables.markdown(SUMMARY_HEAD, summary_rows(measured))
         views = made + tables.markdown(HEAD, [text_row(m) for m in measured])
         name = f"compare_orders_{size}"
@@ -222,7 +208,8 @@ def make_tables(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__, default_timing="accurate")
+    parser = run_arguments.parser(__doc__)
+    run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="all", help="number of a camera, or all")
     parser.add_argument(
         "--sizes", nargs="+", default=["640x360", "1280x720"], metavar="WxH", help="in px"
@@ -230,9 +217,7 @@ def main() -> int:
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="over both presets"
     )
-    parser.add_argument("--out", type=pathlib.Path, default=REPOSITORY / "out")
-    arguments = parser.parse_args()
-    return run_arguments.main(lambda: make_tables(arguments))
+    return run_arguments.main_of_tables(make_tables, parser.parse_args())
 
 
 if __name__ == "__main__":

@@ -12,7 +12,6 @@ the views of a scene:
 from __future__ import annotations
 
 import argparse
-import pathlib
 import statistics
 import sys
 from collections.abc import Callable, Sequence
@@ -20,11 +19,17 @@ from collections.abc import Callable, Sequence
 import run_arguments
 import tables
 from scenes import Scene, find_scenes
-from simulations import REPOSITORY, Failure, Run, region_bytes, simulate_all, work
+from simulations import SRAM_AS_NEEDED, Run, region_bytes, simulate_all, work
 
 PAPER_VARIANTS = ("paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf")
 EXACT_VARIANTS = ("exact", "exact_half", "exact_vq", "exact_vq_packed")
 VARIANTS = PAPER_VARIANTS + EXACT_VARIANTS
+# Preset and overrides. The ordering table of a group of 128 px does not fit what the preset has for
+# it.
+FILTER_ORDERS = {
+    "paper": ("paper_no_vq", ("vsu.table_bytes=65536",)),
+    "exact": ("exact", ()),
+}
 GROUPS_PX = (16, 32, 64, 128)
 PAPER_REMOVED = "76.3%"
 # StreamingGS, DAC 2025: speed 45.7 with both, 22.2 without the coarse filter, times the GPU's; "VQ
@@ -154,24 +159,21 @@ def removed(views: Views) -> str:
         work(v, "coarse_tests") for v in views
     )
     # Other units count the splats that they were given.
-    splats = sum(u["splats"] for v in views for u in v["units"].values() if "fine_tests" in u)
+    counters = (unit["counters"] for v in views for unit in v["units"].values())
+    splats = sum(of_unit["splats"] for of_unit in counters if "fine_tests" in of_unit)
     reached = splats / sum(work(v, "fine_tests") for v in views)
     return f"{1 - passed:.0%} / {1 - reached:.0%} / {1 - passed * reached:.1%}"
 
 
 def simulated(arguments: argparse.Namespace, runs: Sequence[Run]) -> list[Views]:
-    views = []
-    for outcome in simulate_all(arguments.streaminggs, runs, arguments.side_by_side):
-        if outcome.refused:
-            raise Failure(f"{outcome.run.label()}: {outcome.refused}")
-        views.append(outcome.views)
-    return views
+    outcomes = simulate_all(arguments.streaminggs, runs, arguments.side_by_side)
+    return [outcome.accepted() for outcome in outcomes]
 
 
 def compare_variants(arguments: argparse.Namespace, scenes: Sequence[Scene]) -> None:
     cases = [(scene, variant) for scene in scenes for variant in VARIANTS]
     runs = [
-        Run(scene, arguments.view, arguments.size, variant, tuple(arguments.set), arguments.timing)
+        Run(scene, arguments.view, arguments.size, variant, tuple(arguments.set))
         for scene, variant in cases
     ]
     results = simulated(arguments, runs)
@@ -180,24 +182,20 @@ def compare_variants(arguments: argparse.Namespace, scenes: Sequence[Scene]) -> 
     for (scene, variant), views in zip(cases, results):
         by_scene.setdefault(scene.name, {})[variant] = views
     effects = [effect_row(name, of) for name, of in by_scene.items()] + [PAPER_EFFECTS]
-    made = run_arguments.how_made(arguments, (v for views in results for v in views))
+    made = run_arguments.how_made(v for views in results for v in views)
     write(arguments, "compare_variants", made, VARIANT_HEAD, rows)
     write(arguments, "compare_variants_effects", made, EFFECT_HEAD, effects)
 
 
 def compare_filters(arguments: argparse.Namespace, scenes: Sequence[Scene]) -> None:
-    """Fast timing: what the filters see hardly depends on time. The ordering table of a group of
-    128 px does not fit what the preset has for it."""
-    orders = ("paper_no_vq", "exact")
-    cases = [(scene, order) for scene in scenes for order in orders]
+    cases = [(scene, order) for scene in scenes for order in FILTER_ORDERS]
     runs = [
         Run(
             scene,
             arguments.view,
             arguments.size,
-            order,
-            (f"group_px={px}", "vsu.table_bytes=65536"),
-            "fast",
+            FILTER_ORDERS[order][0],
+            (*SRAM_AS_NEEDED, *FILTER_ORDERS[order][1], *arguments.set, f"group_px={px}"),
         )
         for scene, order in cases
         for px in GROUPS_PX
@@ -206,10 +204,10 @@ def compare_filters(arguments: argparse.Namespace, scenes: Sequence[Scene]) -> N
     rows = []
     for number, (scene, order) in enumerate(cases):
         of_groups = results[number * len(GROUPS_PX) : (number + 1) * len(GROUPS_PX)]
-        rows.append((scene.name, order.split("_")[0], *map(removed, of_groups)))
+        rows.append((scene.name, order, *map(removed, of_groups)))
     rows.append(("StreamingGS", "paper", *[f"both {PAPER_REMOVED}; group not stated"] * 4))
     head = ("scene", "order", *(f"{px} px: coarse / fine / both" for px in GROUPS_PX))
-    made = run_arguments.how_made(arguments, (v for views in results for v in views))
+    made = run_arguments.how_made(v for views in results for v in views)
     write(arguments, "compare_variants_filters", made, head, rows)
 
 
@@ -231,7 +229,8 @@ def make_tables(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__, default_timing="accurate")
+    parser = run_arguments.parser(__doc__)
+    run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="all", help="number of a camera, or all")
     parser.add_argument("--size", default="640x360", metavar="WxH", help="in px")
     parser.add_argument(
@@ -240,9 +239,7 @@ def main() -> int:
     parser.add_argument(
         "--only", choices=("variants", "filters"), help="the first two tables, or the third"
     )
-    parser.add_argument("--out", type=pathlib.Path, default=REPOSITORY / "out")
-    arguments = parser.parse_args()
-    return run_arguments.main(lambda: make_tables(arguments))
+    return run_arguments.main_of_tables(make_tables, parser.parse_args())
 
 
 if __name__ == "__main__":

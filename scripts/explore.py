@@ -5,71 +5,39 @@ shows those that no other one beats in everything (the Pareto front).
   explore.py builtin:object --axis hfus=2,4,8 --axis hfu.ffu_lanes=8,16,32 --axis group_px=64,128
 
 --axis KEY=V1,V2,... spans a grid; --points FILE takes a list instead, one configuration a line:
-KEY=VALUE KEY=VALUE ... A configuration that needs more on-chip memory than the preset has is given
-it: on-chip memory is what it costs, not what stops it. Any other refusal is printed at the end.
+KEY=VALUE KEY=VALUE ... Every configuration gets as much input and shared on-chip memory as it
+needs, unless --set, --axis or the list say how much: memory is what it costs, not what stops it,
+and no other size follows from it. What the command refuses is printed at the end. The tables show
+what was simulated: values as the resolved configuration has them, group_px always among them.
 
-Objectives, all to be as small as possible, sums over the views simulated:
-  cycles      frame cycles
-  dram_bytes  bytes that units moved
-  sram_bytes  on-chip memory that the configuration uses
+Objectives, all to be as small as possible:
+  cycles      frame cycles, sum over the views simulated
+  dram_bytes  bytes that units moved, sum over the views
+  sram_bytes  on-chip memory
   mac_lanes   multiply-accumulate lanes of all filters: hfus x (cfus x cfu_lanes + ffu_lanes)
-or any number of a view's report.json by its path, such as `dram.row_conflicts`.
+or any number of a view's report.json by its path, such as `dram.row_conflicts`: a sum over the
+views, but for what an accelerator has or is (`config`, `sram`, `area_mm2`).
+
+Writes explore.csv and explore.md. An exploration that is interrupted or fails midway leaves what it
+has simulated so far as explore_partial.csv and .md.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import itertools
 import pathlib
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 
 import run_arguments
 import tables
-from scenes import find_scenes
-from simulations import REPOSITORY, Outcome, Run, simulate_all, sram_bytes
+from objectives import objective, pareto_front, value_at
+from scenes import Scene, find_scenes
+from simulations import SRAM_AS_NEEDED, Failure, Outcome, Run, simulate_all
 
-Objectives = Sequence[float]
-
-
-def mac_lanes(view: dict) -> int:
-    hfu = view["config"]["hfu"]
-    return view["config"]["hfus"] * (hfu["cfus"] * hfu["cfu_lanes"] + hfu["ffu_lanes"])
-
-
-# Counts add up over views; what a configuration costs does not.
-COUNTS: dict[str, Callable[[dict], float]] = {
-    "cycles": lambda view: view["frame"]["cycles"],
-    "dram_bytes": lambda view: view["dram"]["bytes"],
-}
-COSTS: dict[str, Callable[[dict], float]] = {"sram_bytes": sram_bytes, "mac_lanes": mac_lanes}
-
-
-def report_value(view: dict, path: str) -> float:
-    """A number of the report. Raises ValueError when there is none at the path."""
-    value: object = view
-    for key in path.split("."):
-        value = value.get(key) if isinstance(value, dict) else None
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ValueError(f"--objectives: report.json has no number at '{path}'")
-    return value
-
-
-def objective(name: str, views: Sequence[dict]) -> float:
-    if name in COSTS:
-        return COSTS[name](views[0])
-    count = COUNTS.get(name, lambda view: report_value(view, name))
-    return sum(count(view) for view in views)
-
-
-def dominates(a: Objectives, b: Objectives) -> bool:
-    """a is nowhere worse than b, and somewhere better."""
-    return all(x <= y for x, y in zip(a, b)) and any(x < y for x, y in zip(a, b))
-
-
-def pareto_front(points: Sequence[Objectives]) -> list[bool]:
-    """For each point, whether no other one dominates it."""
-    return [not any(dominates(other, point) for other in points) for point in points]
+Assignments = tuple[str, ...]
 
 
 def parse_axis(text: str) -> list[str]:
@@ -80,82 +48,126 @@ def parse_axis(text: str) -> list[str]:
     return [f"{key}={value}" for value in values.split(",")]
 
 
-def read_points(path: pathlib.Path) -> list[tuple[str, ...]]:
+def read_points(path: pathlib.Path) -> list[Assignments]:
     """Configurations of a file, one a line; `#` begins a comment. Raises ValueError."""
     points = []
-    for number, line in enumerate(path.read_text().splitlines(), start=1):
+    for number, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
         assignments = tuple(line.partition("#")[0].split())
         for assignment in assignments:
             if "=" not in assignment:
                 raise ValueError(f"{path}:{number}: '{assignment}', expected KEY=VALUE")
         if assignments:
             points.append(assignments)
+    if not points:
+        raise ValueError(f"{path}: no configurations, expected KEY=VALUE ... on each line")
     return points
 
 
-def configurations(arguments: argparse.Namespace) -> list[tuple[str, ...]]:
+def configurations(arguments: argparse.Namespace) -> list[Assignments]:
     if arguments.points:
         return read_points(arguments.points)
     return list(itertools.product(*(parse_axis(axis) for axis in arguments.axis)))
 
 
-def explore(arguments: argparse.Namespace) -> None:
-    scenes = find_scenes(arguments.scenes)
-    points = configurations(arguments)
-    runs = [
-        Run(
-            scene,
-            arguments.view,
-            arguments.size,
-            arguments.config,
-            (*arguments.set, *point),
-            arguments.timing,
-        )
-        for point in points
-        for scene in scenes
-    ]
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """A configuration that was simulated in every scene."""
+
+    assignments: Assignments
+    views: tuple[dict, ...]
+    values: tuple[float, ...]  # of the objectives
+
+    def setting(self, key: str) -> object:
+        """The value that was simulated; empty where its machine has no such key."""
+        value = value_at(self.views[0]["config"], key)
+        if isinstance(value, bool):
+            return str(value).lower()
+        return "" if value is None else value
+
+
+class Exploration:
+    """What has been simulated so far."""
+
+    def __init__(self, objectives: Sequence[str]):
+        self.objectives = objectives
+        self.points: list[Point] = []
+        self.refused: list[Outcome] = []
+
+    def add(self, assignments: Assignments, outcomes: Sequence[Outcome]) -> None:
+        """Takes a configuration's outcomes, one for each scene."""
+        if refused := [outcome for outcome in outcomes if outcome.refused]:
+            self.refused.append(refused[0])
+            return
+        views = tuple(view for outcome in outcomes for view in outcome.views)
+        values = tuple(objective(name, views) for name in self.objectives)
+        self.points.append(Point(assignments, views, values))
+
+    def head(self) -> tuple[str, ...]:
+        keys = [a.partition("=")[0] for point in self.points for a in point.assignments]
+        return (*dict.fromkeys([*keys, "group_px"]), *self.objectives, "binding", "pareto")
+
+    def rows(self) -> list[tuple]:
+        keys = self.head()[: -len(self.objectives) - 2]
+        rows = []
+        for point, best in zip(self.points, pareto_front([p.values for p in self.points])):
+            binders = sorted({view["binding"]["unit"] for view in point.views})
+            settings = [point.setting(key) for key in keys]
+            rows.append((*settings, *point.values, "+".join(binders), "yes" if best else ""))
+        return rows
+
+    def markdown(self) -> str:
+        head, rows = self.head(), self.rows()
+        first_objective = len(head) - len(self.objectives) - 2
+        kept = sorted((row[:-1] for row in rows if row[-1]), key=lambda row: row[first_objective])
+        text = run_arguments.how_made(view for point in self.points for view in point.views)
+        text += f"{len(kept)} of {len(rows)} configurations are on the Pareto front.\n\n"
+        text += tables.markdown(head[:-1], kept)
+        return text + "".join(f"\nRefused: {o.run.label()}: {o.refused}\n" for o in self.refused)
+
+    def write(self, out: pathlib.Path, name: str, remark: str = "") -> None:
+        text = remark + self.markdown()
+        tables.write_text(out / f"{name}.csv", tables.csv_text(self.head(), self.rows()))
+        tables.write_text(out / f"{name}.md", text)
+        print(text)
+
+
+def run_of(arguments: argparse.Namespace, scene: Scene, point: Assignments) -> Run:
+    overrides = (*SRAM_AS_NEEDED, *arguments.set, *point)
+    return Run(scene, arguments.view, arguments.size, arguments.config, overrides)
+
+
+def simulate_points(
+    arguments: argparse.Namespace, scenes: Sequence[Scene], points: Sequence[Assignments]
+) -> Iterator[tuple[Assignments, list[Outcome]]]:
+    """Each configuration with its outcomes, one for each scene."""
+    runs = [run_of(arguments, scene, point) for point in points for scene in scenes]
     outcomes = simulate_all(arguments.streaminggs, runs, arguments.side_by_side)
-    built: list[tuple[tuple[str, ...], list[dict]]] = []
-    refused: list[Outcome] = []
     for point in points:
-        of_point = [next(outcomes) for _ in scenes]
-        refused += [outcome for outcome in of_point[:1] if outcome.refused]
-        if views := [view for outcome in of_point for view in outcome.views]:
-            built.append((point, views))
-    write(arguments, built, refused)
+        yield point, [next(outcomes) for _ in scenes]
 
 
-def write(
-    arguments: argparse.Namespace,
-    built: Sequence[tuple[tuple[str, ...], list[dict]]],
-    refused: Sequence[Outcome],
-) -> None:
-    names = arguments.objectives.split(",")
-    values = [[objective(name, views) for name in names] for _, views in built]
-    front = pareto_front(values)
-    keys = list(dict.fromkeys(a.partition("=")[0] for point, _ in built for a in point))
-
-    rows = []
-    for (point, views), of_point, best in zip(built, values, front):
-        chosen = dict(a.split("=", 1) for a in point)
-        binders = sorted({view["binding"]["unit"] for view in views})
-        settings = [chosen.get(key, "") for key in keys]
-        rows.append((*settings, *of_point, "+".join(binders), "yes" if best else ""))
-    head = (*keys, *names, "binding", "pareto")
-    tables.write_text(arguments.out / "explore.csv", tables.csv_text(head, rows))
-
-    kept = sorted((row[:-1] for row in rows if row[-1]), key=lambda row: row[len(keys)])
-    text = run_arguments.how_made(arguments, (view for _, views in built for view in views))
-    text += f"{len(kept)} of {len(rows)} configurations are on the Pareto front.\n\n"
-    text += tables.markdown(head[:-1], kept)
-    text += "".join(f"\nRefused: `{' '.join(o.run.overrides)}`: {o.refused}\n" for o in refused)
-    tables.write_text(arguments.out / "explore.md", text)
-    print(text)
+def explore(arguments: argparse.Namespace) -> None:
+    points = configurations(arguments)
+    scenes = find_scenes(arguments.scenes)
+    made = Exploration(arguments.objectives.split(","))
+    try:
+        for point, outcomes in simulate_points(arguments, scenes, points):
+            made.add(point, outcomes)
+    except (KeyboardInterrupt, Failure, ValueError):
+        if made.points:
+            done = len(made.points) + len(made.refused)
+            remark = f"Not complete: {done} of {len(points)} configurations.\n\n"
+            made.write(arguments.out, "explore_partial", remark)
+        raise
+    if not made.points:
+        made.refused[0].accepted()
+    made.write(arguments.out, "explore")
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__, default_timing="fast")
+    parser = run_arguments.parser(__doc__)
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    run_arguments.add_side_by_side(parser)
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--axis", action="append", default=[], metavar="KEY=V1,V2,...")
     which.add_argument("--points", type=pathlib.Path, metavar="FILE")
@@ -168,9 +180,7 @@ def main() -> int:
     parser.add_argument(
         "--objectives", default="cycles,dram_bytes,sram_bytes,mac_lanes", metavar="NAME,..."
     )
-    parser.add_argument("--out", type=pathlib.Path, default=REPOSITORY / "out")
-    arguments = parser.parse_args()
-    return run_arguments.main(lambda: explore(arguments))
+    return run_arguments.main_of_tables(explore, parser.parse_args())
 
 
 if __name__ == "__main__":

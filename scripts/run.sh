@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and sends a built-in scene through the accelerator.
+# Installs what is missing, builds the one program it needs, and sends a built-in scene through the accelerator.
 # Any arguments are handed to `streaminggs simulate` in place of the built-in job.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scripts/setup.sh
+scripts/setup.sh release streaminggs
 if [ $# -gt 0 ]; then
   exec build/release/bin/streaminggs simulate "$@"
 fi
@@ -17,7 +17,7 @@ cat <<TEXT
 Look at
   $out/view_0/frame.png       the frame, read back from the modelled DRAM
   $out/view_0/reference.png   the reference renderer's
-  $out/view_0/error.png       their difference (black below 1e-5 ... white from 1)
-  $out/view_0/report.json     every number, explained in README.md
+  $out/view_0/error.png       their difference: black where there is none, a legend beside it
+  $out/view_0/report.json     every number, explained in testbench/streaminggs/README.md
   $out/small_frame.vcd        a waveform: gtkwave $out/small_frame.vcd traces/accelerator.gtkw
 TEXT

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import pathlib
 import shlex
 import sys
@@ -10,60 +11,91 @@ from collections.abc import Callable, Iterable
 
 import simulations
 
+FAILED = 1
 BAD_INPUT = 2
+INTERRUPTED = 130
+
+# What made a table, where it was put and at what pace: no number of it depends on them.
+NOT_IN_TABLES = ("--streaminggs", "--out", "--side-by-side")
 
 
-def add_scenes(to: argparse.ArgumentParser) -> None:
-    """SCENE..., and the program to run them with."""
-    to.add_argument(
+def parser(about: str) -> argparse.ArgumentParser:
+    """SCENE..., the program to run them with, and a folder for tables."""
+    made = argparse.ArgumentParser(description=about, allow_abbrev=False)
+    made.add_argument(
         "scenes",
         nargs="*",
         metavar="SCENE",
         help="builtin:NAME?n=COUNT, a real scene of ../shared by name, or a .ply file with its "
         "cameras beside it (NAME.json); default: the built-in scenes and all real ones",
     )
-    to.add_argument("--streaminggs", type=pathlib.Path, default=simulations.BINARY)
+    made.add_argument("--streaminggs", type=pathlib.Path, default=simulations.BINARY)
+    made.add_argument("--out", type=pathlib.Path, default=simulations.REPOSITORY / "out")
+    return made
 
 
-def parser(about: str, default_timing: str) -> argparse.ArgumentParser:
-    """For scripts that run many simulations in one timing mode."""
-    made = argparse.ArgumentParser(description=about)
-    add_scenes(made)
-    made.add_argument("--timing", choices=("accurate", "fast"), default=default_timing)
-    made.add_argument(
+def add_side_by_side(to: argparse.ArgumentParser) -> None:
+    to.add_argument(
         "--side-by-side",
         type=int,
         choices=range(1, simulations.MOST_SIDE_BY_SIDE + 1),
         default=simulations.MOST_SIDE_BY_SIDE,
         help="simulations at a time; 1 for wall times that nothing disturbs",
     )
-    return made
 
 
-def how_made(arguments: argparse.Namespace, views: Iterable[dict]) -> str:
-    """A paragraph that says where a table comes from: the command, without where it found the
-    program and put the table, and the commit that the reports of the views name."""
+def how_made(views: Iterable[dict]) -> str:
+    """A paragraph that says where a table comes from: the command, and the commit that the reports
+    of the views name."""
     words = iter(sys.argv[1:])
     kept = []
     for word in words:
-        if word in ("--streaminggs", "--out"):
+        if word in NOT_IN_TABLES:
             next(words, None)
-        elif not word.startswith(("--streaminggs=", "--out=")):
+        elif word.partition("=")[0] not in NOT_IN_TABLES:
             kept.append(word)
     command = shlex.join([f"scripts/{pathlib.Path(sys.argv[0]).name}", *kept])
-    timing = f", {arguments.timing} timing" if "timing" in arguments else ""
     commits = sorted({view["provenance"].get("commit", "") for view in views} - {""})
-    return f"Made by `{command}`{timing}; commit {', '.join(commits) or 'unknown'}.\n\n"
+    return f"Made by `{command}`; commit {', '.join(commits) or 'unknown'}.\n\n"
+
+
+def make_folder(out: pathlib.Path) -> None:
+    """Makes the folder for tables, before an hour of simulations is spent. Raises ValueError."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(f"--out: {out}: {error.strerror}, expected a folder") from error
+    if not os.access(out, os.W_OK):
+        raise ValueError(f"--out: {out}: cannot be written to")
 
 
 def main(work: Callable[[], None]) -> int:
-    """Exit status: 0 done, 1 a simulation failed, 2 bad arguments."""
+    """Exit status: 0 done, 1 a simulation failed, 2 bad arguments or input, 130 interrupted."""
+
+    def ended(text: object, status: int) -> int:
+        print(f"{sys.argv[0]}: {text}", file=sys.stderr)
+        return status
+
     try:
         work()
     except simulations.Failure as failure:
-        print(f"{sys.argv[0]}: {failure}", file=sys.stderr)
-        return 1
+        return ended(failure, FAILED)
     except ValueError as error:
-        print(f"{sys.argv[0]}: {error}", file=sys.stderr)
-        return BAD_INPUT
+        return ended(error, BAD_INPUT)
+    except OSError as error:
+        return ended(f"{error.filename or 'error'}: {error.strerror or error}", BAD_INPUT)
+    except KeyboardInterrupt:
+        return ended("interrupted", INTERRUPTED)
     return 0
+
+
+def main_of_tables(
+    make: Callable[[argparse.Namespace], None], arguments: argparse.Namespace
+) -> int:
+    """Exit status of a script that makes tables in the folder of --out."""
+
+    def work() -> None:
+        make_folder(arguments.out)
+        make(arguments)
+
+    return main(work)

@@ -36,9 +36,10 @@ def find_scene(text: str) -> Scene:
     if text.startswith("builtin:"):
         return Scene(text, text)
     if text in shared_names():
-        subprocess.run(
-            ["sh", str(shared_folder() / "scenes" / "expand.sh"), str(UNPACKED), text], check=True
-        )
+        unpack = [str(shared_folder() / "scenes" / "expand.sh"), str(UNPACKED), text]
+        done = subprocess.run(["sh", *unpack], stderr=subprocess.PIPE, text=True, check=False)
+        if done.returncode != 0:
+            raise ValueError(f"{text}: cannot be unpacked: {' '.join(done.stderr.split())}")
         cameras = shared_folder() / "cameras" / f"{text}.json"
         return Scene(text, str(UNPACKED / f"{text}.ply"), str(cameras))
     path = pathlib.Path(text)

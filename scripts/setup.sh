@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
+# usage: setup.sh [PRESET [TARGET...]]
 # Installs the Debian packages that are missing (and says which before it does), then builds the
-# release preset. Sourced or run by run.sh, test.sh and bench.sh; needs root only to install.
+# targets of the preset (release) in CMakePresets.json; all of them if none is given. Needs root
+# only to install.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(g++ cmake ninja-build pkg-config libsystemc-dev libglm-dev libopenexr-dev catch2
-  libcli11-dev nlohmann-json3-dev libfmt-dev libpng-dev libtbb-dev zlib1g-dev xz-utils python3)
+  libcli11-dev libcereal-dev nlohmann-json3-dev libfmt-dev libpng-dev libtbb-dev zlib1g-dev xz-utils python3)
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
@@ -21,6 +23,7 @@ if [ ${#missing[@]} -gt 0 ]; then
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq "${missing[@]}"
 fi
 
-preset=${SGS_PRESET:-release}
+preset=${1:-release}
+targets=("${@:2}")
 [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset"
-cmake --build --preset "$preset"
+cmake --build --preset "$preset" ${targets:+--target "${targets[@]}"}

@@ -6,7 +6,6 @@ import concurrent.futures
 import dataclasses
 import json
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -18,9 +17,11 @@ REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
 BINARY = REPOSITORY / "build" / "release" / "bin" / "streaminggs"
 # The machine the model is meant for has two cores, and wall times are read off these runs.
 MOST_SIDE_BY_SIDE = 2
-
-# "streaminggs: sram.shared_bytes: 347136 bytes are there, 412672 are needed: ..."
-SRAM_REFUSAL = re.compile(r"(sram\.\w+): (\d+) bytes are there, (\d+) are needed")
+# Exit status of the command for arguments, a configuration or an input that it does not take.
+REFUSED = 2
+# On-chip memory as large as the rest of the configuration needs, neither more nor less; the
+# report's config says what that came to. Beside it group_px has to be a number of pixels.
+SRAM_AS_NEEDED = ("sram.input_bytes=0", "sram.shared_bytes=0")
 
 
 class Failure(Exception):
@@ -29,14 +30,13 @@ class Failure(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """One call of the command. overrides: `key.path=value`, as for --set."""
+    """One call of the command. overrides: `key.path=value`, as for --set; the last one counts."""
 
     scene: Scene
     view: str = "0"
     size: str = ""
     config: str = "exact"
     overrides: tuple[str, ...] = ()
-    timing: str = "accurate"
 
     def configuration_arguments(self) -> list[str]:
         return ["--config", self.config] + [a for o in self.overrides for a in ("--set", o)]
@@ -47,10 +47,10 @@ class Run:
             arguments += ["--cameras", self.scene.cameras]
         if self.size:
             arguments += ["--size", self.size]
-        return arguments + ["--view", self.view, "--timing", self.timing]
+        return [*arguments, "--view", self.view]
 
     def label(self) -> str:
-        return " ".join([self.scene.name, self.size, self.config, self.timing, *self.overrides])
+        return " ".join(filter(None, [self.scene.name, self.size, self.config, *self.overrides]))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,57 +59,54 @@ class Outcome:
 
     run: Run
     views: tuple[dict, ...] = ()
-    refused: str = ""  # what the command said about the configuration
-    raised: tuple[tuple[str, int], ...] = ()  # SRAM keys and the bytes they were raised to
+    refused: str = ""  # what the command said about the arguments or the configuration
+
+    def accepted(self) -> tuple[dict, ...]:
+        """The views. Raises ValueError when the run was refused."""
+        if self.refused:
+            raise ValueError(f"{self.run.label()}: {self.refused}")
+        return self.views
 
 
 def call(binary: pathlib.Path, arguments: Sequence[str]) -> subprocess.CompletedProcess[str]:
+    """Raises ValueError when the program cannot be run."""
     if not binary.exists():
-        raise Failure(f"{binary}: not there; scripts/setup.sh builds it")
-    return subprocess.run(
-        [str(binary), "simulate", *arguments], capture_output=True, text=True, check=False
-    )
+        raise ValueError(f"{binary}: not there; scripts/setup.sh builds it")
+    command = [str(binary.absolute()), "simulate", *arguments]
+    try:
+        return subprocess.run(
+            command, capture_output=True, text=True, errors="replace", check=False
+        )
+    except OSError as error:
+        raise ValueError(f"{binary}: cannot be run: {error.strerror}") from error
 
 
-def refusal(binary: pathlib.Path, run: Run) -> str:
-    """What the command has against the configuration; empty when it can be built."""
-    done = call(binary, [run.scene.spec, *run.configuration_arguments(), "--print-config"])
-    return "" if done.returncode == 0 else done.stderr.strip()
+def said(done: subprocess.CompletedProcess[str]) -> str:
+    """What a call that went wrong has to say, in one line. Where it is not an error message, it
+    stands below the table of views."""
+    verdict = done.stderr or done.stdout.rstrip().rpartition("\n")[2]
+    return " ".join(verdict.split()) or f"exit status {done.returncode}"
 
 
 def resolved_config(binary: pathlib.Path, run: Run) -> dict:
-    """Every key of the run's configuration. Raises Failure when it is refused."""
+    """Every key of the run's configuration. Raises ValueError when it is refused."""
     done = call(binary, [run.scene.spec, *run.configuration_arguments(), "--print-config"])
     if done.returncode != 0:
-        raise Failure(done.stderr.strip())
+        raise ValueError(said(done))
     return json.loads(done.stdout)
-
-
-def with_enough_sram(binary: pathlib.Path, run: Run) -> tuple[Run, tuple[tuple[str, int], ...]]:
-    """The run with those SRAM sizes raised that its configuration does not fit into, and which."""
-    raised: dict[str, int] = {}
-    while match := SRAM_REFUSAL.search(refusal(binary, run)):
-        key, needed = match.group(1), int(match.group(3))
-        if raised.get(key, 0) >= needed:
-            raise Failure(f"{run.label()}: {key} stays too small at {needed} bytes")
-        raised[key] = needed
-        run = dataclasses.replace(run, overrides=(*run.overrides, f"{key}={needed}"))
-    return run, tuple(raised.items())
 
 
 def simulate(binary: pathlib.Path, run: Run) -> Outcome:
     """Simulates a run. Raises Failure when it fails, or when the frame that the accelerator wrote
     is not the streaming renderer's, bit for bit."""
-    run, raised = with_enough_sram(binary, run)
-    if said := refusal(binary, run):
-        return Outcome(run, refused=said, raised=raised)
     with tempfile.TemporaryDirectory(prefix="streaminggs-") as out:
         done = call(binary, [*run.arguments(), "--out", out])
+        if done.returncode == REFUSED:
+            return Outcome(run, refused=said(done))
         if done.returncode != 0:
-            said = (done.stderr or done.stdout).strip() or f"exit status {done.returncode}"
-            raise Failure(f"{run.label()}: {said}")
+            raise Failure(f"{run.label()}: {said(done)}")
         report = json.loads((pathlib.Path(out) / "report.json").read_text())
-    return Outcome(run, views=tuple(report["views"]), raised=raised)
+    return Outcome(run, views=tuple(report["views"]))
 
 
 def simulate_all(binary: pathlib.Path, runs: Sequence[Run], side_by_side: int) -> Iterator[Outcome]:
@@ -132,17 +129,13 @@ def region_bytes(view: dict, region: str) -> int:
 
 
 def work(view: dict, counter: str) -> int:
-    """Sum of a work counter over all units that have it."""
-    return sum(unit.get(counter, 0) for unit in view["units"].values())
+    """Sum of a counter over all units that have it."""
+    return sum(unit["counters"].get(counter, 0) for unit in view["units"].values())
 
 
 def sram_bytes(view: dict) -> int:
-    """On-chip memory that the configuration uses, codebook buffer included."""
-    return (
-        view["sram"]["input_bytes"]
-        + view["sram"]["shared_bytes"]
-        + view["config"]["sram"]["codebook_bytes"]
-    )
+    """On-chip memory that the accelerator has, whether or not this configuration fills it."""
+    return sum(count for key, count in view["sram"].items() if key.endswith("_available_bytes"))
 
 
 def psnr_text(view: dict) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 Row = Sequence[object]
 
-NUMBER = re.compile(r"-?[\d,]+(\.\d+)?%?")
+NUMBER = re.compile(r"-?[\d,]+(\.\d+)?(e[-+]\d+|%)?")
 
 
 def markdown(head: Sequence[str], rows: Sequence[Row]) -> str:
@@ -27,9 +27,12 @@ def markdown(head: Sequence[str], rows: Sequence[Row]) -> str:
 
 
 def cell_text(cell: object) -> str:
-    """Integers with thousands marked; anything else as its caller formatted it."""
+    """Integers with thousands marked, six digits of a fraction; anything else as its caller
+    formatted it."""
     if isinstance(cell, int) and not isinstance(cell, bool):
         return f"{cell:,}"
+    if isinstance(cell, float):
+        return f"{cell:.6g}"
     return str(cell).replace("|", "\\|")
 
 

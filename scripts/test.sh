@@ -1,12 +1,16 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the tests. With `full` also those on the big scenes and
-# the long fuzzing; with `asan` the normal tests under AddressSanitizer and UBSan.
+# usage: test.sh [release|asan|full]
+# Installs what is missing, builds, and runs the tests: `release` those of a normal build, `asan`
+# the same ones under AddressSanitizer and UBSan; first one, then the other if neither is named.
+# `full` also runs those on the big scenes and the long fuzzing. Stops at the first suite that fails.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-preset=${1:-release}
-case "$preset" in
-  release | full) scripts/setup.sh ;;
-  asan) SGS_PRESET=asan scripts/setup.sh ;;
-  *) echo "usage: test.sh [release|full|asan]" >&2; exit 2 ;;
+case "${1:-}" in
+  release | asan | full) suites=("$1") ;;
+  '') suites=(release asan) ;;
+  *) echo "usage: test.sh [release|asan|full]" >&2; exit 2 ;;
 esac
-exec ctest --preset "$preset"
+for suite in "${suites[@]}"; do
+  scripts/setup.sh "${suite/full/release}"
+  ctest --preset "$suite"
+done

@@ -3,22 +3,21 @@
 blending early), another pixel group or another chunk costs in quality, traffic and cycles.
 
 Frames are written as floats (framebuffer=rgb32f), so that PSNR sees every error; that is 12 B a
-pixel in DRAM. A combination that needs more on-chip memory than the preset has is given it, and
-the column `SRAM raised to` says what it then takes.
+pixel in DRAM. Every combination gets the shared on-chip memory that it needs; the column `shared
+SRAM B` says what that is.
 """
 
 from __future__ import annotations
 
 import argparse
 import itertools
-import pathlib
 import sys
 
 import run_arguments
 import tables
 from scenes import find_scenes
 from simulations import (
-    REPOSITORY,
+    SRAM_AS_NEEDED,
     Outcome,
     Run,
     psnr_text,
@@ -45,8 +44,7 @@ HEAD = (
     "spill MB",
     "forced early",
     "k cycles",
-    "wall s",
-    "SRAM raised to",
+    "shared SRAM B",
 )
 CSV_HEAD = (
     "scene",
@@ -61,7 +59,7 @@ CSV_HEAD = (
     "keys_forced_early",
     "cycles",
     "simulation_wall_s",
-    "sram_shared_bytes_raised_to",
+    "sram_shared_bytes",
 )
 
 
@@ -70,7 +68,7 @@ def combinations(preset: dict, cross: bool) -> list[tuple]:
     the preset, but for the merge buffer, whose size and overflow policy go together."""
     if cross:
         return list(itertools.product(GROUP_PX, CHUNK_GAUSSIANS, MERGE_ENTRIES, ON_OVERFLOW))
-    group_px, chunk = preset["group_px"], preset["chunk_gaussians"]
+    group_px, chunk = preset["group_px"], preset["storage"]["chunk_gaussians"]
     entries, on_overflow = preset["merge"]["entries"], preset["merge"]["on_overflow"]
     points = [
         (group_px, chunk, n, policy) for policy, n in itertools.product(ON_OVERFLOW, MERGE_ENTRIES)
@@ -84,7 +82,7 @@ def overrides(point: tuple) -> tuple[str, ...]:
     group_px, chunk, entries, on_overflow = point
     return (
         f"group_px={group_px}",
-        f"chunk_gaussians={chunk}",
+        f"storage.chunk_gaussians={chunk}",
         f"merge.entries={entries}",
         f"merge.on_overflow={on_overflow}",
         "framebuffer=rgb32f",
@@ -100,11 +98,11 @@ def rows_of(outcome: Outcome) -> tuple[list[tuple], list[tuple]]:
             outcome.run.scene.name,
             view["view"],
             config["group_px"],
-            config["chunk_gaussians"],
+            config["storage"]["chunk_gaussians"],
             config["merge"]["entries"],
             config["merge"]["on_overflow"],
         )
-        raised = dict(outcome.raised).get("sram.shared_bytes", 0)
+        shared = config["sram"]["shared_bytes"]
         dram, spill = view["dram"]["bytes"], region_bytes(view, "spill")
         forced, cycles = work(view, "forced_early"), view["frame"]["cycles"]
         wall_s = view["host"]["simulation_wall_s"]
@@ -116,8 +114,7 @@ def rows_of(outcome: Outcome) -> tuple[list[tuple], list[tuple]]:
                 f"{spill / 1e6:.2f}",
                 forced,
                 round(cycles / 1e3),
-                f"{wall_s:.2f}",
-                f"{raised:,} B" if raised else "",
+                shared,
             )
         )
         psnr_db = view["image"]["psnr_db"]
@@ -130,7 +127,7 @@ def rows_of(outcome: Outcome) -> tuple[list[tuple], list[tuple]]:
                 forced,
                 cycles,
                 wall_s,
-                raised or "",
+                shared,
             )
         )
     return text_rows, csv_rows
@@ -138,41 +135,39 @@ def rows_of(outcome: Outcome) -> tuple[list[tuple], list[tuple]]:
 
 def make_table(arguments: argparse.Namespace) -> None:
     scenes = find_scenes(arguments.scenes)
-    preset = resolved_config(arguments.streaminggs, Run(scenes[0], overrides=tuple(arguments.set)))
+    base = (*SRAM_AS_NEEDED, *arguments.set)
+    preset = resolved_config(arguments.streaminggs, Run(scenes[0], overrides=base))
     runs = [
-        Run(
-            scene,
-            arguments.view,
-            overrides=(*arguments.set, *overrides(point)),
-            timing=arguments.timing,
-        )
+        Run(scene, arguments.view, overrides=(*base, *overrides(point)))
         for scene in scenes
         for point in combinations(preset, arguments.cross)
     ]
-    text_rows, csv_rows, measured = [], [], []
+    text_rows, csv_rows, measured, refused = [], [], [], []
     for outcome in simulate_all(arguments.streaminggs, runs, arguments.side_by_side):
         if outcome.refused:
             print(f"left out: {outcome.run.label()}: {outcome.refused}", file=sys.stderr)
+            refused.append(outcome)
         more_text, more_csv = rows_of(outcome)
         measured += outcome.views
         text_rows += more_text
         csv_rows += more_csv
-    text = run_arguments.how_made(arguments, measured) + tables.markdown(HEAD, text_rows)
+    if not measured:
+        refused[0].accepted()
+    text = run_arguments.how_made(measured) + tables.markdown(HEAD, text_rows)
     tables.write_text(arguments.out / "work_precision.md", text)
     tables.write_text(arguments.out / "work_precision.csv", tables.csv_text(CSV_HEAD, csv_rows))
     print(text)
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__, default_timing="fast")
+    parser = run_arguments.parser(__doc__)
+    run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="0", help="number of a camera, or all")
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="over the exact preset"
     )
     parser.add_argument("--cross", action="store_true", help="every combination: 240 a scene")
-    parser.add_argument("--out", type=pathlib.Path, default=REPOSITORY / "out")
-    arguments = parser.parse_args()
-    return run_arguments.main(lambda: make_table(arguments))
+    return run_arguments.main_of_tables(make_table, parser.parse_args())
 
 
 if __name__ == "__main__":

@@ -12,11 +12,11 @@ namespace sgs {
 
 enum class ActivityState : std::uint8_t { kBusy, kStarved, kBlocked };
 
-class Activity {
+// A child of the unit that it belongs to, made while that unit is constructed.
+class Activity : public sc_core::sc_object {
  public:
-  Activity(std::string name, const ClockDomain& clock) : name_(std::move(name)), clock_(clock) {}
+  Activity(const char* name, const ClockDomain& clock) : sc_object(name), clock_(clock) {}
 
-  const std::string& name() const { return name_; }
   const ClockDomain& clock() const { return clock_; }
 
   // From now on the activity is in `state`. Called at clock edges, from its own thread.
@@ -48,14 +48,15 @@ class Activity {
   std::uint64_t starved_cycles() const { return cycles_[1]; }
   std::uint64_t blocked_cycles() const { return cycles_[2]; }
 
-  void trace(sc_core::sc_trace_file* file) const {
-    sc_core::sc_trace(file, busy_, name_ + ".busy");
-    sc_core::sc_trace(file, starved_, name_ + ".starved");
-    sc_core::sc_trace(file, blocked_, name_ + ".blocked");
+  void trace(sc_core::sc_trace_file* file) const override {
+    sc_core::sc_trace(file, busy_, std::string(name()) + ".busy");
+    sc_core::sc_trace(file, starved_, std::string(name()) + ".starved");
+    sc_core::sc_trace(file, blocked_, std::string(name()) + ".blocked");
   }
 
+  const char* kind() const override { return "sgs::Activity"; }
+
  private:
-  const std::string name_;
   const ClockDomain& clock_;
   ActivityState state_ = ActivityState::kStarved;
   bool busy_ = false, starved_ = true, blocked_ = false;

@@ -8,7 +8,9 @@ namespace sgs {
 
 class ClockDomain {
  public:
-  explicit ClockDomain(double clock_mhz) : period_(1e3 / clock_mhz, sc_core::SC_NS) {}
+  explicit ClockDomain(double mhz) : mhz_(mhz), period_(1e3 / mhz, sc_core::SC_NS) {}
+
+  double mhz() const { return mhz_; }
 
   const sc_core::sc_time& period() const { return period_; }
 
@@ -30,6 +32,7 @@ class ClockDomain {
   }
 
  private:
+  const double mhz_;
   const sc_core::sc_time period_;
 };
 

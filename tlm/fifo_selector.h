@@ -2,30 +2,30 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <systemc>
-#include <vector>
 
-#include "tlm/timed_fifo.h"
+#include "tlm/fifo_if.h"
 
 namespace sgs {
 
+// All FIFOs have the same latency, of at least one cycle.
 template <class T>
 class FifoSelector {
  public:
-  explicit FifoSelector(std::vector<TimedFifo<T>*> fifos) : fifos_(std::move(fifos)) {
-    for (TimedFifo<T>* fifo : fifos_) fifo->announce_to(&arrival_);
+  // To be made once the ports are bound: by the thread that reads them.
+  explicit FifoSelector(FifoIns<T>& fifos) : fifos_(fifos) {
+    for (int i = 0; i < fifos.size(); ++i) fifos[i]->announce_to(arrival_);
   }
 
   // Blocks until one of the FIFOs for which wanted(index) holds has an entry that is ready, and
   // returns that FIFO's index. Round robin, from the one after the last.
   template <class Wanted>
-  std::size_t select(Activity& reader, Wanted&& wanted) {
+  int select(Activity& reader, Wanted&& wanted) {
     while (true) {
       bool any = false;
       sc_core::sc_time earliest;
-      for (std::size_t k = 1; k <= fifos_.size(); ++k) {
-        const std::size_t index = (last_ + k) % fifos_.size();
+      for (int k = 1; k <= fifos_.size(); ++k) {
+        const int index = (last_ + k) % fifos_.size();
         if (!wanted(index) || fifos_[index]->empty()) continue;
         if (fifos_[index]->can_pop()) {
           last_ = index;
@@ -46,13 +46,10 @@ class FifoSelector {
     }
   }
 
-  TimedFifo<T>& fifo(std::size_t index) { return *fifos_[index]; }
-  std::size_t size() const { return fifos_.size(); }
-
  private:
-  std::vector<TimedFifo<T>*> fifos_;
+  FifoIns<T>& fifos_;
   sc_core::sc_event arrival_;
-  std::size_t last_ = 0;
+  int last_ = 0;
 };
 
 }  // namespace sgs

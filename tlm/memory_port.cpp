@@ -11,15 +11,12 @@ namespace sgs {
 
 namespace {
 constexpr std::size_t kFirstSlots = 64;
-
-bool later(const sc_core::sc_time& a, const sc_core::sc_time& b) { return a > b; }
 }  // namespace
 
-MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const Config& config, PayloadPool& pool)
+MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config)
     : sc_module(name),
       socket("socket"),
       config_(config),
-      pool_(pool),
       delayed_(this, &MemoryPort::on_phase),
       slots_(kFirstSlots) {
   if (config.max_transaction_bytes == 0 || config.max_outstanding == 0)
@@ -27,7 +24,6 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const Config& config
         fmt::format("{}: max_transaction_bytes {} and max_outstanding {} must be at least 1",
                     this->name(), config.max_transaction_bytes, config.max_outstanding));
   socket.register_nb_transport_bw(this, &MemoryPort::nb_transport_bw);
-  in_flight_.reserve(config.max_outstanding);
 }
 
 MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint32_t bytes,
@@ -45,49 +41,21 @@ MemoryPort::Ticket MemoryPort::write(std::uint64_t address, const void* from, st
 }
 
 bool MemoryPort::done(Ticket ticket) const {
-  if (ticket < oldest_) return true;
-  const Slot& s = slot(ticket);
-  return s.remaining == 0 &&
-         (config_.timing == TimingMode::kAccurate || s.done_at <= sc_core::sc_time_stamp());
+  return ticket < oldest_ || slot(ticket).remaining == 0;
 }
 
 void MemoryPort::wait_for(Ticket ticket) {
   while (!done(ticket)) {
-    Slot& s = slot(ticket);
-    if (config_.timing == TimingMode::kFast && s.remaining == 0) {
-      sc_core::wait(s.done_at - sc_core::sc_time_stamp());
-    } else {
-      s.waited_for = true;
-      sc_core::wait(answered_);
-    }
+    slot(ticket).waited_for = true;
+    sc_core::wait(answered_);
   }
-  note_answered();
 }
 
 void MemoryPort::wait_all() {
-  if (config_.timing == TimingMode::kFast) {
-    while (last_done_ > sc_core::sc_time_stamp())
-      sc_core::wait(last_done_ - sc_core::sc_time_stamp());
-    note_answered();
-    return;
-  }
   while (outstanding_ > 0) {
     waiting_for_all_ = true;
     sc_core::wait(drained_);
   }
-}
-
-bool MemoryPort::idle() const {
-  return outstanding_ == 0 ||
-         (config_.timing == TimingMode::kFast && last_done_ <= sc_core::sc_time_stamp());
-}
-
-std::uint64_t MemoryPort::bytes_outstanding() const {
-  if (config_.timing == TimingMode::kAccurate) return bytes_outstanding_;
-  std::uint64_t sum = 0;
-  for (const InFlight& one : in_flight_)
-    if (one.done_at > sc_core::sc_time_stamp()) sum += one.bytes;
-  return sum;
 }
 
 MemoryPort::Ticket MemoryPort::start(tlm::tlm_command command, std::uint64_t address,
@@ -104,7 +72,6 @@ MemoryPort::Ticket MemoryPort::start(tlm::tlm_command command, std::uint64_t add
     payload.set_address(address);
     payload.set_data_length(length);
     payload.set_streaming_width(length);
-    payload.memory().requester = config_.requester;
     payload.memory().region = region;
     payload.memory().tag = ticket;
     if (command == tlm::TLM_WRITE_COMMAND) {
@@ -113,10 +80,7 @@ MemoryPort::Ticket MemoryPort::start(tlm::tlm_command command, std::uint64_t add
     } else {
       payload.set_data_ptr(data);
     }
-    if (config_.timing == TimingMode::kAccurate)
-      send_accurate(payload);
-    else
-      send_fast(payload);
+    send(payload);
     address += length;
     data += length;
   }
@@ -130,11 +94,11 @@ MemoryPort::Ticket MemoryPort::new_ticket(std::uint32_t transactions) {
     for (Ticket t = oldest_; t < next_; ++t) wider[t & (wider.size() - 1)] = slot(t);
     slots_ = std::move(wider);
   }
-  slot(next_) = Slot{transactions, false, sc_core::SC_ZERO_TIME};
+  slot(next_) = Slot{transactions, false};
   return next_++;
 }
 
-void MemoryPort::send_accurate(PooledPayload& payload) {
+void MemoryPort::send(PooledPayload& payload) {
   while (request_ != nullptr || outstanding_ == config_.max_outstanding) {
     ++waiting_for_room_;
     sc_core::wait(room_);
@@ -156,46 +120,8 @@ void MemoryPort::send_accurate(PooledPayload& payload) {
   }
 }
 
-void MemoryPort::send_fast(PooledPayload& payload) {
-  drop_answered();
-  while (outstanding_ == config_.max_outstanding) {
-    sc_core::wait(in_flight_.front().done_at - sc_core::sc_time_stamp());
-    drop_answered();
-  }
-  ++outstanding_;
-  ++transactions_;
-  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-  socket->b_transport(payload, delay);
-  check_response(payload);
-  const sc_core::sc_time done_at = sc_core::sc_time_stamp() + delay;
-  in_flight_.push_back({done_at, payload.get_data_length()});
-  std::push_heap(in_flight_.begin(), in_flight_.end(),
-                 [](const InFlight& a, const InFlight& b) { return later(a.done_at, b.done_at); });
-  last_done_ = std::max(last_done_, done_at);
-  Slot& s = slot(payload.memory().tag);
-  --s.remaining;
-  s.done_at = std::max(s.done_at, done_at);
-  if (s.remaining == 0 && s.waited_for) answered_.notify(sc_core::SC_ZERO_TIME);
-  payload.release();
-  note_answered();
-}
-
-void MemoryPort::note_answered() {
-  if (traced_ && config_.timing == TimingMode::kFast) bytes_outstanding_ = bytes_outstanding();
-}
-
-void MemoryPort::trace(sc_core::sc_trace_file* file) {
-  traced_ = true;
+void MemoryPort::trace(sc_core::sc_trace_file* file) const {
   sc_core::sc_trace(file, bytes_outstanding_, std::string(name()) + ".bytes_outstanding");
-}
-
-void MemoryPort::drop_answered() {
-  while (!in_flight_.empty() && in_flight_.front().done_at <= sc_core::sc_time_stamp()) {
-    std::pop_heap(in_flight_.begin(), in_flight_.end(),
-                  [](const InFlight& a, const InFlight& b) { return later(a.done_at, b.done_at); });
-    in_flight_.pop_back();
-    --outstanding_;
-  }
 }
 
 void MemoryPort::request_taken(const tlm::tlm_generic_payload& payload) {
@@ -224,9 +150,8 @@ void MemoryPort::check_response(const tlm::tlm_generic_payload& payload) const {
   if (payload.is_response_ok()) return;
   SC_REPORT_ERROR(
       "/sgs/memory_port",
-      fmt::format("{}: requester {}: {} of {} bytes at {:#x}: {}", name(), config_.requester,
-                  payload.is_read() ? "read" : "write", payload.get_data_length(),
-                  payload.get_address(), payload.get_response_string())
+      fmt::format("{}: {} of {} bytes at {:#x}: {}", name(), payload.is_read() ? "read" : "write",
+                  payload.get_data_length(), payload.get_address(), payload.get_response_string())
           .c_str());
 }
 

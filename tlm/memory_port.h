@@ -1,9 +1,6 @@
-// One initiator of memory traffic, used from a unit's SC_THREADs: reads and writes of any length,
-// split into transactions, several in flight, finished in any order.
-//
-// kAccurate: four-phase non-blocking transport; a request holds the port until the target's
-// END_REQ (back-pressure). kFast: blocking transport with annotated delay, no wait inside the call;
-// the target's device timing in arrival order.
+// One initiator of memory traffic, a member of its unit: reads and writes of any length, split into
+// transactions, several in flight, finished in any order. Four-phase non-blocking transport; a
+// request holds the port until the target's END_REQ (back-pressure).
 #pragma once
 
 #include <tlm_utils/peq_with_cb_and_phase.h>
@@ -18,21 +15,19 @@
 
 namespace sgs {
 
-enum class TimingMode { kAccurate, kFast };
+struct MemoryPortConfig {
+  std::uint32_t max_transaction_bytes = 256;
+  std::uint32_t max_outstanding = 16;  // transactions
+};
 
+// One thread asks; any thread of its unit may wait for what was asked for. (Two that asked at the
+// same time would be served in the order in which the kernel runs them.)
 class MemoryPort : public sc_core::sc_module {
  public:
   tlm_utils::simple_initiator_socket<MemoryPort> socket;
 
-  struct Config {
-    std::uint8_t requester = 0;
-    std::uint32_t max_transaction_bytes = 256;
-    std::uint32_t max_outstanding = 16;  // transactions
-    TimingMode timing = TimingMode::kAccurate;
-  };
-
   // std::invalid_argument when max_transaction_bytes or max_outstanding is 0.
-  MemoryPort(const sc_core::sc_module_name& name, const Config& config, PayloadPool& pool);
+  MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config);
 
   using Ticket = std::uint64_t;
 
@@ -46,32 +41,28 @@ class MemoryPort : public sc_core::sc_module {
 
   bool done(Ticket ticket) const;
 
-  // Block the calling thread until all transactions of the ticket, or of the port, have answered
-  // (kFast: until the annotated time has come). Cost nothing when that is so already.
+  // Block the calling thread until all transactions of the ticket, or of the port, have answered.
+  // Cost nothing when that is so already.
   void wait_for(Ticket ticket);
   void wait_all();
 
-  bool idle() const;
-  std::uint64_t bytes_outstanding() const;
+  bool idle() const { return outstanding_ == 0; }
+  std::uint64_t bytes_outstanding() const { return bytes_outstanding_; }
 
   std::uint64_t transactions() const { return transactions_; }
   std::uint64_t bytes_read() const { return bytes_read_; }
   std::uint64_t bytes_written() const { return bytes_written_; }
 
-  // Adds the bytes outstanding to a waveform; before the simulation starts. kFast: an answer shows
-  // when the unit next uses or waits for the port, since an event of its own would change the order
-  // in which things of one time happen.
-  void trace(sc_core::sc_trace_file* file);
+  // Those of its transactions; when it is idle, none is in use.
+  const PayloadPool& payloads() const { return pool_; }
+
+  // Adds the bytes outstanding to a waveform.
+  void trace(sc_core::sc_trace_file* file) const override;
 
  private:
   struct Slot {
     std::uint32_t remaining = 0;  // transactions not yet sent or not yet answered
     bool waited_for = false;
-    sc_core::sc_time done_at;  // kFast only
-  };
-  struct InFlight {  // kFast only
-    sc_core::sc_time done_at;
-    std::uint64_t bytes;
   };
 
   Ticket start(tlm::tlm_command command, std::uint64_t address, std::uint8_t* data,
@@ -80,10 +71,7 @@ class MemoryPort : public sc_core::sc_module {
   Slot& slot(Ticket ticket) { return slots_[ticket & (slots_.size() - 1)]; }
   const Slot& slot(Ticket ticket) const { return slots_[ticket & (slots_.size() - 1)]; }
 
-  void send_accurate(PooledPayload& payload);
-  void send_fast(PooledPayload& payload);
-  void note_answered();  // kFast, while traced
-  void drop_answered();  // kFast: forgets transactions whose time has come
+  void send(PooledPayload& payload);
   void request_taken(const tlm::tlm_generic_payload& payload);
   void finish(tlm::tlm_generic_payload& payload);
   void check_response(const tlm::tlm_generic_payload& payload) const;
@@ -91,8 +79,8 @@ class MemoryPort : public sc_core::sc_module {
   tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                      sc_core::sc_time& delay);
 
-  const Config config_;
-  PayloadPool& pool_;
+  const MemoryPortConfig config_;
+  PayloadPool pool_;
   tlm_utils::peq_with_cb_and_phase<MemoryPort> delayed_;  // answers with an annotated delay
 
   std::vector<Slot> slots_;  // ring over the tickets [oldest_, next_); a power of two
@@ -100,16 +88,13 @@ class MemoryPort : public sc_core::sc_module {
   Ticket next_ = 0;
 
   std::uint32_t outstanding_ = 0;
-  std::uint64_t bytes_outstanding_ = 0;                // kFast: kept while traced only
+  std::uint64_t bytes_outstanding_ = 0;
   const tlm::tlm_generic_payload* request_ = nullptr;  // BEGIN_REQ sent, END_REQ not seen
   std::uint32_t waiting_for_room_ = 0;
   bool waiting_for_all_ = false;
-  std::vector<InFlight> in_flight_;  // kFast: heap, earliest on top
-  sc_core::sc_time last_done_;       // kFast
   sc_core::sc_event room_;
   sc_core::sc_event answered_;  // a ticket that someone waits for is done
   sc_core::sc_event drained_;
-  bool traced_ = false;
 
   std::uint64_t transactions_ = 0;
   std::uint64_t bytes_read_ = 0;

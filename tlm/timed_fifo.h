@@ -2,40 +2,58 @@
 // was put in, and a full FIFO holds its writer back.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <utility>
 #include <vector>
 
-#include "tlm/activity.h"
+#include "tlm/fifo_if.h"
 #include "tlm/stall_injector.h"
 
 namespace sgs {
 
+// What can be said of a FIFO whatever it holds.
+class FifoChannel : public sc_core::sc_prim_channel {
+ public:
+  std::uint32_t fill() const { return fill_; }
+  virtual std::uint32_t capacity() const = 0;
+
+  // Random stalls on both sides from now on. Each side draws from a sequence of its own, so that
+  // they do not depend on which of two sides the kernel runs first.
+  void inject(const StallConfig& stalls) {
+    writer_stalls_.emplace(stalls, std::string(name()) + ".writer");
+    reader_stalls_.emplace(stalls, std::string(name()) + ".reader");
+  }
+
+  void trace(sc_core::sc_trace_file* file) const override {
+    sc_core::sc_trace(file, fill_, std::string(name()) + ".fill");
+  }
+  const char* kind() const override { return "sgs::TimedFifo"; }
+
+ protected:
+  explicit FifoChannel(const char* name) : sc_prim_channel(name) {}
+
+  std::uint32_t fill_ = 0;
+  std::optional<StallInjector> writer_stalls_, reader_stalls_;
+};
+
 // One writer thread, one reader thread. The waiting times are charged to the Activity that waits:
 // blocked for the writer, starved for the reader.
 template <class T>
-class TimedFifo {
+class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T> {
  public:
   // capacity: entries, at least 1.
-  TimedFifo(std::string name, const ClockDomain& clock, std::uint32_t capacity,
+  TimedFifo(const char* name, const ClockDomain& clock, std::uint32_t capacity,
             std::uint32_t latency_cycles = 1)
-      : name_(std::move(name)),
+      : FifoChannel(name),
         clock_(clock),
         latency_(static_cast<double>(latency_cycles) * clock.period()),
         entries_(capacity) {}
 
-  TimedFifo(const TimedFifo&) = delete;
-  TimedFifo& operator=(const TimedFifo&) = delete;
-
-  // Lets random stalls happen on both sides from now on.
-  void inject(StallInjector* stalls) { stalls_ = stalls; }
-
-  // Puts an entry in; blocks the calling thread while the FIFO is full.
-  void push(T value, Activity& writer) {
-    stall(writer, ActivityState::kBlocked);
+  void push(T value, Activity& writer) override {
+    stall(writer_stalls_, writer, ActivityState::kBlocked);
     if (fill_ == entries_.size()) {
       writer.enter(ActivityState::kBlocked);
       writer_waits_ = true;
@@ -47,16 +65,13 @@ class TimedFifo {
     entry.value = std::move(value);
     entry.ready = sc_core::sc_time_stamp() + latency_;
     ++fill_;
-    max_fill_ = std::max(max_fill_, fill_);
-    ++pushed_;
     if (reader_waits_) filled_.notify(sc_core::SC_ZERO_TIME);
     if (listener_ != nullptr) listener_->notify(sc_core::SC_ZERO_TIME);
   }
 
-  // Takes the oldest entry; blocks the calling thread until there is one and it is ready. A reader
-  // that waits for a credit to come back, not for input, passes kBlocked.
-  T pop(Activity& reader, ActivityState waiting = ActivityState::kStarved) {
-    stall(reader, waiting);
+  using FifoReadIf<T>::pop;
+  T pop(Activity& reader, ActivityState waiting) override {
+    stall(reader_stalls_, reader, waiting);
     if (!can_pop()) {
       reader.enter(waiting);
       reader_waits_ = true;
@@ -73,23 +88,13 @@ class TimedFifo {
     return value;
   }
 
-  // Whether pop() would return at once.
-  bool can_pop() const { return fill_ > 0 && entries_[head_].ready <= sc_core::sc_time_stamp(); }
-  bool empty() const { return fill_ == 0; }
-  // When the oldest entry can be taken; only for a FIFO that is not empty.
-  const sc_core::sc_time& ready_at() const { return entries_[head_].ready; }
-  // Also notifies `event` of every entry put in: for a reader of several FIFOs.
-  void announce_to(sc_core::sc_event* event) { listener_ = event; }
-
-  const std::string& name() const { return name_; }
-  std::uint32_t fill() const { return fill_; }
-  std::uint32_t max_fill() const { return max_fill_; }
-  std::uint32_t capacity() const { return static_cast<std::uint32_t>(entries_.size()); }
-  std::uint64_t pushed() const { return pushed_; }
-
-  void trace(sc_core::sc_trace_file* file) const {
-    sc_core::sc_trace(file, fill_, name_ + ".fill");
+  bool can_pop() const override {
+    return fill_ > 0 && entries_[head_].ready <= sc_core::sc_time_stamp();
   }
+  bool empty() const override { return fill_ == 0; }
+  const sc_core::sc_time& ready_at() const override { return entries_[head_].ready; }
+  void announce_to(sc_core::sc_event& event) override { listener_ = &event; }
+  std::uint32_t capacity() const override { return static_cast<std::uint32_t>(entries_.size()); }
 
  private:
   struct Entry {
@@ -101,23 +106,20 @@ class TimedFifo {
     return at < entries_.size() ? at : at - static_cast<std::uint32_t>(entries_.size());
   }
 
-  void stall(Activity& side, ActivityState state) {
-    if (stalls_ == nullptr) return;
-    if (const std::uint32_t cycles = stalls_->draw(); cycles > 0) {
+  void stall(std::optional<StallInjector>& stalls, Activity& side, ActivityState state) {
+    if (!stalls) return;
+    if (const std::uint32_t cycles = stalls->draw(); cycles > 0) {
       side.enter(state);
       clock_.wait_cycles(cycles);
       side.enter(ActivityState::kBusy);
     }
   }
 
-  const std::string name_;
   const ClockDomain& clock_;
   const sc_core::sc_time latency_;
   std::vector<Entry> entries_;  // ring
-  std::uint32_t head_ = 0, fill_ = 0, max_fill_ = 0;
-  std::uint64_t pushed_ = 0;
+  std::uint32_t head_ = 0;
   bool writer_waits_ = false, reader_waits_ = false;
-  StallInjector* stalls_ = nullptr;
   sc_core::sc_event* listener_ = nullptr;
   sc_core::sc_event room_, filled_;
 };

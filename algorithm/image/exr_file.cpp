@@ -7,14 +7,16 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <new>
 
 #include "algorithm/input_error.h"
-#include "algorithm/output_file.h"
+#include "algorithm/input_file.h"
 
 namespace sgs {
 namespace {
@@ -73,31 +75,30 @@ Image read_pixels(const std::string& path) {
 
 }  // namespace
 
-void write_exr(const std::string& path, const Image& image) {
-  OutputFile output(path);
+std::string encode_exr(const Image& image) {
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
   for (const char* name : kChannels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-  try {
-    Imf::OutputFile file(output.temporary_path().c_str(), header);
+  Imf::StdOSStream bytes;
+  {
+    Imf::OutputFile file(bytes, header);
     // OpenEXR takes a pointer to non-const for reading and for writing; here it only reads.
     file.setFrameBuffer(frame_of(const_cast<glm::vec3*>(image.pixels.data()), 0, 0, image.width));
     file.writePixels(image.height);
-  } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, error.what()));
   }
-  output.commit();
+  return bytes.str();
 }
 
 Image read_exr(const std::string& path) {
+  { const InputFile regular(path); }  // OpenEXR would wait for the writer of a pipe
   try {
     return read_pixels(path);
   } catch (const InputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    std::string why = error.what();
-    std::replace(why.begin(), why.end(), '\n', ' ');
-    throw InputError(fmt::format("{}: {}, expected an OpenEXR image", path, why));
+    throw InputError(fmt::format("{}: {}, expected an OpenEXR image", path, error.what()));
   }
 }
 

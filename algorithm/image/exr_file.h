@@ -7,9 +7,9 @@
 
 namespace sgs {
 
-// Writes `image` as channels R, G, B of 32-bit float, ZIP compression; values are kept bit for bit.
-// Throws InputError when `path` cannot be created, std::runtime_error when writing fails.
-void write_exr(const std::string& path, const Image& image);
+// The file that holds `image`, of at least one pixel, as channels R, G, B of 32-bit float, ZIP
+// compression; values are kept bit for bit.
+std::string encode_exr(const Image& image);
 
 // Reads the channels R, G, B of a single-part file, of any pixel type, inside its data window.
 // Throws InputError: not an OpenEXR file, damaged, channels missing or subsampled, a side above

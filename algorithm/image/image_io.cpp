@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 
@@ -22,32 +23,45 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-[[noreturn]] void refuse_extension(const std::string& path, const std::string& extension) {
+struct Format {
+  const char* extension;
+  std::string (*encode)(const Image&);
+  Image (*read)(const std::string&);
+};
+
+const Format& format_of(const std::string& path) {
+  static const std::array<Format, 3> kFormats = {
+      {{".exr", encode_exr, read_exr},
+       {".pfm", encode_pfm, read_pfm},
+       {".png", encode_png, [](const std::string& png) { return read_png(png); }}}};
+  const std::string extension = extension_of(path);
+  for (const Format& format : kFormats) {
+    if (extension == format.extension) return format;
+  }
   throw InputError(
       fmt::format("{}: got the extension \"{}\", expected .exr, .pfm or .png", path, extension));
 }
 
 }  // namespace
 
-void write_image(const std::string& path, const Image& image) {
-  const std::string extension = extension_of(path);
+void check_image_name(const std::string& path) { format_of(path); }
+
+void write_image(OutputFile& to, const Image& image) {
   if (image.width < 1 || image.height < 1 ||
       image.pixels.size() != static_cast<std::size_t>(image.width) * image.height) {
     throw InputError(fmt::format("{}: got an image of {}x{} with {} pixels, expected at least one",
-                                 path, image.width, image.height, image.pixels.size()));
+                                 to.path(), image.width, image.height, image.pixels.size()));
   }
-  if (extension == ".exr") return write_exr(path, image);
-  if (extension == ".pfm") return write_pfm(path, image);
-  if (extension == ".png") return write_png(path, image);
-  refuse_extension(path, extension);
+  to.write(format_of(to.path()).encode(image));
 }
 
-Image read_image(const std::string& path) {
-  const std::string extension = extension_of(path);
-  if (extension == ".exr") return read_exr(path);
-  if (extension == ".pfm") return read_pfm(path);
-  if (extension == ".png") return read_png(path);
-  refuse_extension(path, extension);
+void write_image(const std::string& path, const Image& image) {
+  check_image_name(path);
+  OutputFile output(path);
+  write_image(output, image);
+  output.commit();
 }
+
+Image read_image(const std::string& path) { return format_of(path).read(path); }
 
 }  // namespace sgs

@@ -4,14 +4,22 @@
 #include <string>
 
 #include "algorithm/image/image.h"
+#include "algorithm/output_file.h"
 
 namespace sgs {
 
 // Writes `image` to `path` in the format of its extension: .exr (float RGB), .pfm (float,
 // little-endian) or .png (8 bits: values clamped to [0, 1], times 255, rounded; no gamma, because
 // the colours of 3D Gaussian Splatting are display-referred already). Throws InputError for another
-// extension, an image without pixels or a path that cannot be created.
+// extension, an image without pixels or a path that cannot be created, std::runtime_error when
+// writing fails.
 void write_image(const std::string& path, const Image& image);
+
+// The same without the last step: the caller commits `to`.
+void write_image(OutputFile& to, const Image& image);
+
+// Throws InputError for an extension that write_image() refuses.
+void check_image_name(const std::string& path);
 
 // Reads such a file: .exr with channels R, G, B; .pfm of either byte order, colour or grey; .png of
 // any kind, to [0, 1], transparent pixels over black (png_file.h). Throws InputError with file,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <glm/vec3.hpp>
 
 #include "algorithm/image/image.h"
 
@@ -12,5 +13,12 @@ void check_same_size(const Image& a, const Image& b);
 
 // Value limited to [0, 1]; NaN stays NaN.
 inline float clamp_to_unit(float value) { return std::clamp(value, 0.0f, 1.0f); }
+inline glm::vec3 clamp_to_unit(const glm::vec3& pixel) {
+  return {clamp_to_unit(pixel.x), clamp_to_unit(pixel.y), clamp_to_unit(pixel.z)};
+}
+
+// Largest |a - b| of a channel. Equal infinities and two NaN agree; a NaN on one side only is an
+// infinite error, so that it cannot hide.
+double pixel_error(const glm::vec3& a, const glm::vec3& b);
 
 }  // namespace sgs

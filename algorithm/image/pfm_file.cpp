@@ -13,7 +13,6 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/input_file.h"
-#include "algorithm/output_file.h"
 
 namespace sgs {
 namespace {
@@ -69,16 +68,16 @@ void swap_bytes(std::vector<float>& values) {
 
 }  // namespace
 
-void write_pfm(const std::string& path, const Image& image) {
-  const std::string header = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
+std::string encode_pfm(const Image& image) {
+  std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
+  const std::size_t header_bytes = bytes.size();
   const std::size_t row_bytes = static_cast<std::size_t>(image.width) * sizeof(glm::vec3);
-  std::vector<char> bytes(header.begin(), header.end());
-  bytes.resize(header.size() + row_bytes * image.height);
-  char* to = bytes.data() + header.size();
+  bytes.resize(header_bytes + row_bytes * static_cast<std::size_t>(image.height));
+  char* to = bytes.data() + header_bytes;
   for (int y = image.height - 1; y >= 0; --y, to += row_bytes) {
     std::memcpy(to, &image.at(0, y), row_bytes);
   }
-  write_whole_file(path, bytes.data(), bytes.size());
+  return bytes;
 }
 
 Image read_pfm(const std::string& path) {

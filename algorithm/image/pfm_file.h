@@ -7,9 +7,9 @@
 
 namespace sgs {
 
-// Writes `image` as "PF", little-endian, bottom row first as the format wants; values go out bit
-// for bit. Throws InputError when `path` cannot be created.
-void write_pfm(const std::string& path, const Image& image);
+// The file that holds `image` as "PF", little-endian, bottom row first as the format wants; values
+// are kept bit for bit.
+std::string encode_pfm(const Image& image);
 
 // Reads "PF" (colour) or "Pf" (grey, to all three channels) of either byte order; values are
 // multiplied by the magnitude of the header's scale. Throws InputError: not a PFM, a size that does

@@ -8,12 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "algorithm/input_error.h"
 #include "algorithm/input_file.h"
-#include "algorithm/output_file.h"
 
 namespace sgs {
 namespace {
@@ -38,23 +37,24 @@ struct PngImage : png_image {
 
 }  // namespace
 
-void write_png(const std::string& path, const Image& image) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(3 * image.pixels.size());
+std::string encode_png(const Image& image) {
+  std::vector<std::uint8_t> values;
+  values.reserve(3 * image.pixels.size());
   for (const glm::vec3& pixel : image.pixels) {
-    bytes.insert(bytes.end(), {quantised(pixel.x), quantised(pixel.y), quantised(pixel.z)});
+    values.insert(values.end(), {quantised(pixel.x), quantised(pixel.y), quantised(pixel.z)});
   }
   PngImage png;
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
-  OutputFile output(path);
-  if (png_image_write_to_file(&png, output.temporary_path().c_str(), 0, bytes.data(), 0, nullptr) ==
-      0) {
-    throw InputError(
-        fmt::format("{}: cannot be written ({}), expected a writable place", path, png.message));
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, values.data(), 0, nullptr) == 0) {
+    throw std::runtime_error(fmt::format("PNG of {}x{} pixels: {}", image.width, image.height,
+                                         static_cast<const char*>(png.message)));
   }
-  output.commit();
+  bytes.resize(size);
+  return bytes;
 }
 
 Image read_png(const std::string& path, const glm::vec3& background) {

@@ -8,9 +8,9 @@
 
 namespace sgs {
 
-// Writes `image` with 8 bits a channel: values clamped to [0, 1] (NaN: 0), times 255, rounded; no
-// gamma, the file says sRGB. Throws InputError when `path` cannot be created.
-void write_png(const std::string& path, const Image& image);
+// The file that holds `image`, of at least one pixel, with 8 bits a channel: values clamped to
+// [0, 1] (NaN: 0), times 255, rounded; no gamma, the file says sRGB.
+std::string encode_png(const Image& image);
 
 // Reads a PNG of any kind as 8 bits a channel to values in [0, 1] as stored (converted to sRGB only
 // where the file states another gamma), transparent pixels blended over `background`. Throws

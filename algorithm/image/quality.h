@@ -13,7 +13,8 @@ double psnr_db(const Image& a, const Image& b);
 
 // Structural similarity, mean over pixels and channels, both pictures clamped to [0, 1]: 11x11
 // Gaussian window of sigma 1.5 px, zero padding, C1 = 0.01^2, C2 = 0.03^2, as in the loss of
-// Kerbl et al. 2023. 1 for equal pictures. The result does not depend on the number of threads.
+// Kerbl et al. 2023. 1 for equal pictures, NaN (without a sign) where a picture holds NaN. The
+// result does not depend on the number of threads.
 double ssim(const Image& a, const Image& b);
 
 // Largest |a - b| over pixels and channels, not clamped. A NaN on one side only counts as infinity.
@@ -21,9 +22,5 @@ double max_abs_error(const Image& a, const Image& b);
 
 // Share of the pixels, 0 to 1, whose three channels all differ by at most `tolerance`.
 double fraction_within(const Image& a, const Image& b, double tolerance);
-
-// The largest channel error of each pixel as a colour on a logarithmic scale: black below 1e-5,
-// then blue 1e-4, green 1e-3, yellow 1e-2, red 1e-1, white from 1.
-Image error_image(const Image& a, const Image& b);
 
 }  // namespace sgs

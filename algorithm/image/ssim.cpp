@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -94,8 +95,10 @@ double ssim(const Image& a, const Image& b) {
       }
     }
   });
-  return std::accumulate(row_sums.begin(), row_sums.end(), 0.0) /
-         static_cast<double>(row_size * row_sums.size());
+  const double mean = std::accumulate(row_sums.begin(), row_sums.end(), 0.0) /
+                      static_cast<double>(row_size * row_sums.size());
+  // Whatever the sign of a picture's NaN, it is printed as one.
+  return std::isnan(mean) ? std::numeric_limits<double>::quiet_NaN() : mean;
 }
 
 }  // namespace sgs

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "algorithm/memory/codebook.h"
 #include "algorithm/memory/records.h"
-#include "algorithm/vq/codebooks.h"
 
 namespace sgs {
 
@@ -19,8 +19,6 @@ enum class SecondHalfEncoding : std::uint8_t {
 };
 
 constexpr std::array<const char*, 4> kEncodingNames = {"raw", "half", "vq", "vq_packed"};
-
-constexpr std::uint32_t kMaxCodebookEntries = 1U << 16;
 
 // Where an entry lies among the codebooks' bytes.
 struct EntryRange {
@@ -53,8 +51,6 @@ struct SecondHalfFormat {
  private:
   std::uint32_t codebook_begin(std::size_t codebook) const;
 };
-
-using CodebookIndices = std::array<std::uint32_t, kCodebookCount>;
 
 // Each writes format.bytes() bytes.
 void encode_half_second_half(const Gaussian<float>& g, const glm::vec3* sh, int sh_degree,

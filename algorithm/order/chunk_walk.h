@@ -10,13 +10,12 @@
 
 namespace sgs {
 
-// An entry of the walk's queue, 12 B in hardware.
+// An entry of the walk's queue.
 struct WalkEntry {
   float nearest = 0;        // no Gaussian below is nearer than this
   std::uint32_t at = 0;     // node, or first storage slot of a chunk
   std::uint32_t count = 0;  // Gaussians of a chunk; 0: a node
 };
-constexpr std::uint32_t kWalkEntryBytes = 12;
 
 // Nodes before chunks of the same depth: a chunk is handed out only when nothing nearer can follow.
 inline bool walks_before(const WalkEntry& a, const WalkEntry& b) {

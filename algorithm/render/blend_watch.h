@@ -7,26 +7,25 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithm/splat/blend.h"
+#include "algorithm/render/group_state.h"
 
 namespace sgs {
 
 // Watches the sub-tiles of one group.
 class BlendWatch {
  public:
-  explicit BlendWatch(std::size_t subtiles) : seen_(subtiles) {}
+  explicit BlendWatch(std::size_t subtiles) : deepest_(subtiles) {}
 
-  // To be called after each blend into sub-tile `at` of the group. Whether the splat at `depth` was
-  // blended into any of its pixels.
-  bool after_blend(std::size_t at, const SubtileState& state, float depth) {
-    Seen& seen = seen_[at];
+  // To be called with each blend into the group. Whether the splat at `depth` was blended into any
+  // of the sub-tile's pixels.
+  bool see(const SubtileBlend& blend, float depth) {
+    Deepest& deepest = deepest_[blend.at];
     bool any = false;
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
-      const bool blended = state.contributors[lane] != seen.contributors[lane];
+      const bool blended = blend.shares.alpha[lane] > 0;
       any |= blended;
-      misordered_ += blended && depth < seen.deepest[lane] ? 1 : 0;
-      seen.deepest[lane] = blended ? std::max(depth, seen.deepest[lane]) : seen.deepest[lane];
-      seen.contributors[lane] = state.contributors[lane];
+      misordered_ += blended && depth < deepest.depth[lane] ? 1 : 0;
+      deepest.depth[lane] = blended ? std::max(depth, deepest.depth[lane]) : deepest.depth[lane];
     }
     return any;
   }
@@ -35,11 +34,10 @@ class BlendWatch {
   std::uint64_t misordered() const { return misordered_; }
 
  private:
-  struct Seen {
-    float deepest[kSubtilePixels] = {};
-    std::int32_t contributors[kSubtilePixels] = {};
+  struct Deepest {
+    float depth[kSubtilePixels] = {};  // of what is blended there
   };
-  std::vector<Seen> seen_;
+  std::vector<Deepest> deepest_;
   std::uint64_t misordered_ = 0;
 };
 

@@ -58,7 +58,7 @@ class GroupStream {
       const Gaussian<float>& g = cloud_.gaussians[index];
       const CoarseBound bound =
           coarse_bound(view_, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
-      if (!bound.in_front || !touches(bound, state_.pixels())) continue;
+      if (config_.coarse_filter && (!bound.in_front || !touches(bound, state_.pixels()))) continue;
       pending_.push({bound.depth, index});
       ++stats_.coarse_passed;
     }
@@ -94,13 +94,10 @@ class GroupStream {
     if (!make_geometry(view_, g, splat) || !reaches_group(splat, state_.pixels())) return;
     add_colour(view_, cloud_.sh_degree, g.mean, cloud_.sh(index), splat);
     ++stats_.splats;
-    stats_.subtile_blends += state_
-                                 .blend(splat,
-                                        [&](std::size_t at, const SubtileState& subtile) {
-                                          if (watch_.after_blend(at, subtile, splat.depth))
-                                            contributing_.set(index);
-                                        })
-                                 .blended;
+    const auto observe = [&](const SubtileBlend& blend) {
+      if (watch_.see(blend, splat.depth)) contributing_.set(index);
+    };
+    stats_.subtile_blends += state_.blend(splat, observe).blended;
   }
 
   const View<float>& view_;

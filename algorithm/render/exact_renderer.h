@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "algorithm/order/on_overflow.h"
 #include "algorithm/render/streaming_result.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/view.h"
@@ -13,14 +14,9 @@
 
 namespace sgs {
 
-// What happens when more keys wait than the merge buffer holds.
-enum class OnOverflow {
-  kSpill,       // sorted runs go to DRAM and come back: the image stays exact
-  kBlendEarly,  // the nearest keys are released before they are final: the image may suffer
-};
-
 struct ExactOrderConfig {
   int group_px = 64;                   // side of a pixel group, a multiple of 4
+  bool coarse_filter = true;           // off: keys of whole chunks wait
   std::uint32_t merge_entries = 4096;  // keys that wait at most, between two visits
   OnOverflow on_overflow = OnOverflow::kSpill;
   std::uint32_t walk_queue_entries = 512;  // of the front-to-back walk

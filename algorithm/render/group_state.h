@@ -20,6 +20,14 @@ struct BlendWork {
   std::uint32_t blended = 0;  // sub-tiles blended
 };
 
+// One splat in one sub-tile, as an observer of blending sees it.
+struct SubtileBlend {
+  std::size_t at;              // the sub-tile's place in the group
+  int x, y;                    // the sub-tile, in the whole frame
+  const LaneShares& shares;    // alpha and T in front of the splat
+  const SubtileState& behind;  // the pixels with the splat in them
+};
+
 class GroupState {
  public:
   // pixels: corner on a multiple of 4 px, cut to the frame of width x height px.
@@ -27,34 +35,17 @@ class GroupState {
              SubtileTest test = SubtileTest::kEllipse);
 
   // Blends a splat into the unfinished 4x4 sub-tiles of its footprint that it reaches.
-  // after(sub-tile's place in the group, its state) is called behind each.
-  template <class After>
-  BlendWork blend(const Splat& splat, After&& after) {
-    const SubtileRect reach = intersection(splat.footprint, subtiles_);
-    const int columns = subtiles_.x1 - subtiles_.x0;
-    const int count = (reach.x1 - reach.x0) * (reach.y1 - reach.y0);
-    const bool test = test_ == SubtileTest::kEllipse && count > kUntestedSubtiles;
-    const float cutoff = test ? visible_cutoff(splat.opacity) : 0;
-    BlendWork work;
-    for (int y = reach.y0; y < reach.y1; ++y) {
-      for (int x = reach.x0; x < reach.x1; ++x) {
-        const auto at = static_cast<std::size_t>((y - subtiles_.y0) * columns + (x - subtiles_.x0));
-        if (finished_[at] != 0) continue;
-        work.tested += test ? 1 : 0;
-        if (test && !reaches_subtile(splat, cutoff, x, y)) continue;
-        sgs::blend(states_[at], x, y, splat);
-        ++work.blended;
-        if (finished(states_[at])) {
-          finished_[at] = 1;
-          --unfinished_;
-        }
-        after(at, states_[at]);
-      }
-    }
-    return work;
-  }
   BlendWork blend(const Splat& splat) {
-    return blend(splat, [](std::size_t, const SubtileState&) {});
+    return for_reached(splat,
+                       [&](std::size_t at, int x, int y) { sgs::blend(states_[at], x, y, splat); });
+  }
+  // The same, observed: observer(SubtileBlend) is called behind each.
+  template <class Observer>
+  BlendWork blend(const Splat& splat, Observer&& observer) {
+    return for_reached(splat, [&](std::size_t at, int x, int y) {
+      const LaneShares shares = blend_and_tell(states_[at], x, y, splat);
+      observer(SubtileBlend{at, x, y, shares, states_[at]});
+    });
   }
   std::size_t subtile_count() const { return states_.size(); }
 
@@ -71,6 +62,31 @@ class GroupState {
   // A splat on so few sub-tiles is blended in one cycle anyway.
   static constexpr int kUntestedSubtiles = 4;
 
+  // blend_into(place in the group, x, y) for each unfinished sub-tile that the splat reaches.
+  template <class BlendInto>
+  BlendWork for_reached(const Splat& splat, const BlendInto& blend_into) {
+    const SubtileRect reach = intersection(splat.footprint, subtiles_);
+    const int columns = subtiles_.x1 - subtiles_.x0;
+    const int count = (reach.x1 - reach.x0) * (reach.y1 - reach.y0);
+    const bool test = test_ == SubtileTest::kEllipse && count > kUntestedSubtiles;
+    const float cutoff = test ? visible_cutoff(splat.opacity) : 0;
+    BlendWork work;
+    for (int y = reach.y0; y < reach.y1; ++y) {
+      for (int x = reach.x0; x < reach.x1; ++x) {
+        const auto at = static_cast<std::size_t>((y - subtiles_.y0) * columns + (x - subtiles_.x0));
+        if (finished_[at] != 0) continue;
+        work.tested += test ? 1 : 0;
+        if (test && !reaches_subtile(splat, cutoff, x, y)) continue;
+        blend_into(at, x, y);
+        ++work.blended;
+        if (finished(states_[at])) {
+          finished_[at] = 1;
+          --unfinished_;
+        }
+      }
+    }
+    return work;
+  }
   static bool reaches_subtile(const Splat& s, float cutoff, int x, int y) {
     const PixelRect pixels{x * kSubtilePx, y * kSubtilePx, (x + 1) * kSubtilePx,
                            (y + 1) * kSubtilePx};

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "algorithm/render/blend_watch.h"
@@ -23,15 +24,17 @@ struct GridTable {
 
 // Splats of one visit, front to back.
 void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
-                     const VoxelRecord& voxel, const PixelRect& pixels, std::vector<Splat>& run,
-                     StreamingStats& stats) {
+                     const VoxelRecord& voxel, const PixelRect& pixels, bool coarse_filter,
+                     std::vector<Splat>& run, StreamingStats& stats) {
   run.clear();
   for (std::uint32_t slot = voxel.first; slot < voxel.first + voxel.count; ++slot) {
     const std::uint32_t index = grid.storage_order[slot];
     const Gaussian<float>& g = cloud.gaussians[index];
-    const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
-    const CoarseBound bound = coarse_bound(view, g.mean, scale_max);
-    if (!bound.in_front || !touches(bound, pixels)) continue;
+    if (coarse_filter) {
+      const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
+      const CoarseBound bound = coarse_bound(view, g.mean, scale_max);
+      if (!bound.in_front || !touches(bound, pixels)) continue;
+    }
     ++stats.coarse_passed;
     ++stats.second_halves;
     Splat splat;
@@ -72,13 +75,13 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
   const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group_px);
   const MissedSplats missed(view, cloud, grid, config.group_px);
   std::vector<StreamingStats> stats(groups.size());
+  out.group_voxels.resize(groups.size());
   Flags contributing(grid.storage_order.size()), visited(grid.voxels.size());
   tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size());
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t index) {
     const PixelRect& group = groups[index];
     StreamingStats& s = stats[index];
-    const GroupVisits visits =
-        paper_visits(view, group, grid, config.sample_step_voxels, tables.local());
+    GroupVisits visits = paper_visits(view, group, grid, config.sample_step_voxels, tables.local());
     s.groups = 1;
     s.ray_steps = visits.steps;
     s.edges_offered = visits.edges_offered;
@@ -95,21 +98,19 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
       }
       ++s.visits;
       visited.set(voxel);
-      filter_and_sort(view, cloud, grid, grid.voxels[voxel], group, run, s);
+      filter_and_sort(view, cloud, grid, grid.voxels[voxel], group, config.coarse_filter, run, s);
       for (const Splat& splat : run) {
         if (state.saturated()) break;
-        s.subtile_blends += state
-                                .blend(splat,
-                                       [&](std::size_t at, const SubtileState& subtile) {
-                                         if (watch.after_blend(at, subtile, splat.depth))
-                                           contributing.set(splat.index);
-                                       })
-                                .blended;
+        const auto observe = [&](const SubtileBlend& blend) {
+          if (watch.see(blend, splat.depth)) contributing.set(splat.index);
+        };
+        s.subtile_blends += state.blend(splat, observe).blended;
       }
     }
     s.misordered = watch.misordered();
     s.contributors = state.contributors();
     state.store(config.background, out.frame);
+    out.group_voxels[index] = std::move(visits.voxels);
   });
   for (const StreamingStats& s : stats) out.stats += s;
   out.stats.contributing = contributing.count();

@@ -13,6 +13,7 @@ namespace sgs {
 
 struct PaperOrderConfig {
   int group_px = 64;             // side of a pixel group, a multiple of 4
+  bool coarse_filter = true;     // off: every Gaussian of a voxel goes to the fine filter
   float sample_step_voxels = 0;  // 0: exact traversal of every cell; else the distance of samples
   glm::vec3 background{0.0F};
 };

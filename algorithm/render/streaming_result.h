@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "algorithm/render/render_result.h"
 
@@ -40,6 +41,8 @@ struct StreamingStats {
 struct StreamingResult {
   RenderResult frame;
   StreamingStats stats;
+  // Paper order: [group, row by row] the voxels that its rays cross, in visiting order.
+  std::vector<std::vector<std::uint32_t>> group_voxels;
 };
 
 }  // namespace sgs

@@ -9,13 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/input_json.h"
 #include "algorithm/output_file.h"
 
 namespace sgs {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr double kOrthonormalTolerance = 1e-3;
 
@@ -47,14 +47,14 @@ class EntryReader {
     // 640.0 is written by programs that know floats only.
     const double number = value.is_number() ? value.get<double>() : NAN;
     if (!(number >= least && number <= 2147483647.0) || number != std::floor(number)) {
-      fail(key, value.dump(), expected);
+      fail(key, shown(value), expected);
     }
     return static_cast<int>(number);
   }
 
   double number(const std::string& key, const Json& value) const {
     if (!value.is_number() || !std::isfinite(value.get<double>())) {
-      fail(key, value.dump(), "a finite number");
+      fail(key, shown(value), "a finite number");
     }
     return value.get<double>();
   }
@@ -66,7 +66,7 @@ class EntryReader {
   }
 
   glm::dvec3 triple(const std::string& key, const Json& value) const {
-    if (!value.is_array() || value.size() != 3) fail(key, value.dump(), "an array of 3 numbers");
+    if (!value.is_array() || value.size() != 3) fail(key, shown(value), "an array of 3 numbers");
     glm::dvec3 out(0.0);
     for (int i = 0; i < 3; ++i) out[i] = number(fmt::format("{}[{}]", key, i), value[i]);
     return out;
@@ -75,7 +75,7 @@ class EntryReader {
   // Rows as stored; glm::dmat3 is made of columns.
   glm::dmat3 rotation(const char* key) const {
     const Json& value = at(key, "3 rows of 3 numbers");
-    if (!value.is_array() || value.size() != 3) fail(key, value.dump(), "3 rows of 3 numbers");
+    if (!value.is_array() || value.size() != 3) fail(key, shown(value), "3 rows of 3 numbers");
     glm::dmat3 rows(1.0);
     for (int row = 0; row < 3; ++row) {
       rows[row] = triple(fmt::format("{}[{}]", key, row), value[row]);
@@ -104,7 +104,7 @@ Camera read_camera(const std::string& path, std::size_t index, const Json& entry
   Camera camera;
   camera.id = reader.integer("id", -2147483647, "a whole number");
   const Json& name = reader.at("img_name", "a text");
-  if (!name.is_string()) reader.fail("img_name", name.dump(), "a text");
+  if (!name.is_string()) reader.fail("img_name", shown(name), "a text");
   camera.name = name.get<std::string>();
   camera.width = reader.integer("width", 1, "a whole number of px from 1");
   camera.height = reader.integer("height", 1, "a whole number of px from 1");
@@ -118,14 +118,7 @@ Camera read_camera(const std::string& path, std::size_t index, const Json& entry
 }  // namespace
 
 std::vector<Camera> read_cameras(const std::string& path) {
-  const InputFile file(path);
-  Json json;
-  try {
-    json = Json::parse(file.text_from(0, file.size_bytes()));
-  } catch (const Json::exception& error) {
-    throw InputError(
-        fmt::format("{}: not JSON ({}), expected an array of cameras", path, error.what()));
-  }
+  const Json json = read_json(path);
   if (!json.is_array()) {
     throw InputError(
         fmt::format("{}: got {}, expected an array of cameras", path, json.type_name()));
@@ -136,10 +129,10 @@ std::vector<Camera> read_cameras(const std::string& path) {
 }
 
 void write_cameras(const std::string& path, const std::vector<Camera>& cameras) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  Json json = Json::array();
   for (const Camera& camera : cameras) {
     const glm::dmat3 rows = glm::transpose(camera.world_from_camera);
-    nlohmann::ordered_json rotation = nlohmann::ordered_json::array();
+    Json rotation = Json::array();
     for (int row = 0; row < 3; ++row) rotation.push_back({rows[row].x, rows[row].y, rows[row].z});
     json.push_back({{"id", camera.id},
                     {"img_name", camera.name},

@@ -1,4 +1,4 @@
-// The choice of the source for load_scene.h.
+// The choice of the format for load_scene.h.
 #include "algorithm/scene/load_scene.h"
 
 #include <fmt/format.h>
@@ -9,27 +9,20 @@
 #include <utility>
 
 #include "algorithm/input_error.h"
-#include "algorithm/scene/builtin_scene.h"
 
 namespace sgs {
 
-Scene load_scene(const std::string& spec, const PlyReadOptions& options) {
-  if (is_builtin_scene(spec)) {
-    BuiltinScene made = make_builtin_scene(spec);
-    const std::size_t begin = spec.find(':') + 1;
-    return {spec.substr(begin, spec.find('?') - begin), std::move(made.cloud),
-            std::move(made.cameras), 0};
-  }
-  const std::filesystem::path path(spec);
-  std::string extension = path.extension().string();
+Scene load_scene(const std::string& path, const PlyReadOptions& options) {
+  const std::filesystem::path file(path);
+  std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".ply") {
-    throw InputError(fmt::format(
-        "{}: got the extension \"{}\", expected a .ply file or builtin:NAME", spec, extension));
+    throw InputError(
+        fmt::format("{}: got the extension \"{}\", expected a .ply file", path, extension));
   }
-  PlyReadResult read = read_ply(spec, options);
-  return {path.stem().string(), std::move(read.cloud), {}, read.dropped_invalid};
+  PlyReadResult read = read_ply(path, options);
+  return {file.stem().string(), std::move(read.cloud), {}, read.dropped_invalid};
 }
 
 }  // namespace sgs

@@ -1,4 +1,4 @@
-// One entrance for whatever the command line calls a SCENE.
+// A scene out of a file.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,13 @@
 namespace sgs {
 
 struct Scene {
-  std::string name;  // file name without folder and extension, or NAME of builtin:NAME
+  std::string name;  // file name without folder and extension
   GaussianCloud cloud;
-  std::vector<Camera> cameras;        // of a built-in scene; a .ply brings none
+  std::vector<Camera> cameras;        // where the source brings some; a .ply does not
   std::uint64_t dropped_invalid = 0;  // Gaussians left out, see PlyReadOptions
 };
 
-// Loads a .ply file or makes a scene "builtin:NAME?n=...". Throws InputError as read_ply and
-// make_builtin_scene do, and when `spec` is neither.
-Scene load_scene(const std::string& spec, const PlyReadOptions& options = {});
+// Loads a .ply file. Throws InputError as read_ply does, and for any other extension.
+Scene load_scene(const std::string& path, const PlyReadOptions& options = {});
 
 }  // namespace sgs

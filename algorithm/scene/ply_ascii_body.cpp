@@ -107,6 +107,10 @@ std::vector<VertexFault> read_ascii_vertices(const InputFile& file, const PlyHea
       store_vertex(slots.data(), record, cloud, faults);
     }
   }
+  if (std::string_view line; lines.next(line)) {
+    throw InputError(fmt::format("{}: line {}: got \"{}\" after the last record, expected the end",
+                                 file.path(), lines.line_number(), line.substr(0, 40)));
+  }
   return faults;
 }
 

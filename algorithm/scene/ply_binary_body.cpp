@@ -151,6 +151,11 @@ std::vector<VertexFault> read_binary_vertices(const InputFile& file, const PlyHe
     if (i == vertex_element) vertex_offset_bytes = reader.offset_bytes();
     skip_element(file, header.format, header.elements[i], reader);
   }
+  if (reader.offset_bytes() != file.size_bytes()) {
+    throw InputError(
+        fmt::format("{}: byte {}: got {} bytes after the last record, expected the end of the file",
+                    file.path(), reader.offset_bytes(), file.size_bytes() - reader.offset_bytes()));
+  }
 
   const std::vector<VertexLayout::Column>& columns = layout.columns;
   const bool plain_floats =

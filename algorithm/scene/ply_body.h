@@ -14,7 +14,7 @@ namespace sgs {
 
 // Both fill `cloud`, already resized to the count of element number `vertex_element` of `header`,
 // and return the vertices that cannot be used, ascending. They throw InputError when the file ends
-// before the last record of any element, or with a record that cannot be read.
+// before the last record of any element, with a record that cannot be read, or goes on behind it.
 
 // Runs on all threads; binary of either byte order.
 std::vector<VertexFault> read_binary_vertices(const InputFile& file, const PlyHeader& header,

@@ -9,8 +9,8 @@
 namespace sgs {
 
 struct PlyReadOptions {
-  // Leave out Gaussians with NaN, infinite values or a zero quaternion instead of refusing the
-  // file.
+  // Leave out Gaussians with NaN, infinite values, values beyond gaussian_limits.h or a zero
+  // quaternion instead of refusing the file.
   bool drop_invalid = false;
 };
 
@@ -23,8 +23,9 @@ struct PlyReadResult {
 // 24 or 45: SH degree 0 to 3), opacity, scale_0..2, rot_0..3 (w, x, y, z), in any order, among any
 // other properties, in ascii or binary of either byte order, of any scalar type (converted to
 // float). Other elements are skipped. Throws InputError: not a PLY, an unknown format, a missing,
-// duplicate or list property, a count that the file cannot hold, a truncated file, text that is no
-// number, or (unless dropped) a value that is not finite or a quaternion of length zero.
+// duplicate or list property, a count that the file cannot hold, a truncated file or bytes behind
+// its last record, text that is no number, or (unless dropped) a value that is not finite or too
+// large to be drawn (gaussian_limits.h), or a quaternion of length zero.
 PlyReadResult read_ply(const std::string& path, const PlyReadOptions& options = {});
 
 }  // namespace sgs

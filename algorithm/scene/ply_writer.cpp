@@ -4,10 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <vector>
 
 #include "algorithm/input_error.h"
@@ -71,23 +67,13 @@ void append_record(const GaussianCloud& cloud, std::size_t i, std::vector<float>
 void write_ply(const std::string& path, const GaussianCloud& cloud) {
   check_lengths(path, cloud);
   OutputFile output(path);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-      std::fopen(output.temporary_path().c_str(), "wb"), &std::fclose);
-  if (!file) {
-    throw InputError(fmt::format("{}: cannot be created ({}), expected a writable place", path,
-                                 std::strerror(errno)));
-  }
-  const std::string header = header_of(cloud);
-  bool written = std::fwrite(header.data(), 1, header.size(), file.get()) == header.size();
+  output.write(header_of(cloud));
   std::vector<float> block;
-  for (std::size_t begin = 0; written && begin < cloud.size(); begin += kBlockRecords) {
+  for (std::size_t begin = 0; begin < cloud.size(); begin += kBlockRecords) {
     block.clear();
     const std::size_t end = std::min(cloud.size(), begin + kBlockRecords);
     for (std::size_t i = begin; i < end; ++i) append_record(cloud, i, block);
-    written = std::fwrite(block.data(), sizeof(float), block.size(), file.get()) == block.size();
-  }
-  if (!written || std::fflush(file.get()) != 0) {
-    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+    output.write(block.data(), sizeof(float) * block.size());
   }
   output.commit();
 }

@@ -3,28 +3,64 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
-#include <cstring>
+#include <limits>
 
+#include "algorithm/scene/gaussian_limits.h"
 #include "algorithm/scene/vertex_layout.h"
 
 namespace sgs {
 namespace {
 
-// Whether all slots are finite, without a branch a value: the loop is most of the reader's work.
-bool all_finite(const float* slots, int count) {
-  constexpr std::uint32_t kExponent = 0x7f800000;
-  std::uint32_t any_bad = 0;
+constexpr std::uint32_t magnitude_bits(float value) {
+  return __builtin_bit_cast(std::uint32_t, value) & 0x7fffffff;
+}
+
+// The largest magnitude of each slot as the bits of a float: magnitudes are in the order of their
+// bits, and behind the largest come infinity and NaN.
+constexpr std::array<std::uint32_t, kMaxSlots> largest_magnitudes() {
+  std::array<std::uint32_t, kMaxSlots> largest{};
+  for (int slot = 0; slot < kMaxSlots; ++slot) {
+    const bool finite_is_enough = slot >= kOpacitySlot && slot < kRestSlot;
+    const double limit = slot < kDcSlot ? kMaxCoordinate : kMaxCoefficient;
+    largest[slot] = magnitude_bits(finite_is_enough ? std::numeric_limits<float>::max()
+                                                    : static_cast<float>(limit));
+  }
+  return largest;
+}
+constexpr std::array<std::uint32_t, kMaxSlots> kLargest = largest_magnitudes();
+
+// Of scales, which are logarithms, only the upper end matters: exp makes 0 of the others.
+bool is_usable(int slot, float value) {
+  const bool is_scale = slot >= kScaleSlot && slot < kScaleSlot + 3;
+  return magnitude_bits(value) <= kLargest[slot] &&
+         !(is_scale && value > static_cast<float>(kMaxLogScale));
+}
+
+// Whether all slots are, without a branch a value: the loop is most of the reader's work.
+bool all_usable(const float* slots, int count) {
+  std::int32_t any_bad = 0;
   for (int slot = 0; slot < count; ++slot) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &slots[slot], sizeof bits);
-    any_bad |= static_cast<std::uint32_t>((bits & kExponent) == kExponent);
+    any_bad |= static_cast<std::int32_t>(magnitude_bits(slots[slot]) > kLargest[slot]);
+  }
+  for (int slot = kScaleSlot; slot < kScaleSlot + 3; ++slot) {
+    any_bad |= static_cast<std::int32_t>(slots[slot] > static_cast<float>(kMaxLogScale));
   }
   return any_bad == 0;
 }
 
 bool is_zero_quaternion(const float* rotation) {
   return rotation[0] == 0 && rotation[1] == 0 && rotation[2] == 0 && rotation[3] == 0;
+}
+
+std::string expected_of(const VertexFault& fault) {
+  if (!std::isfinite(fault.value)) return "a finite number";
+  if (fault.slot < kDcSlot) return fmt::format("a magnitude of at most {}", kMaxCoordinate);
+  if (fault.slot >= kScaleSlot && fault.slot < kRotationSlot) {
+    return fmt::format("at most {}, the logarithm of {}", kMaxLogScale, kMaxScale);
+  }
+  return fmt::format("a magnitude of at most {}", kMaxCoefficient);
 }
 
 }  // namespace
@@ -44,9 +80,9 @@ void store_vertex(const float* slots, std::uint64_t index, GaussianCloud& cloud,
   for (int k = 0; k < rest; ++k) sh[k + 1] = {red[k], green[k], blue[k]};
 
   const int slot_count = kRestSlot + 3 * rest;
-  if (!all_finite(slots, slot_count)) {
+  if (!all_usable(slots, slot_count)) {
     int slot = 0;
-    while (std::isfinite(slots[slot])) ++slot;
+    while (is_usable(slot, slots[slot])) ++slot;
     faults.push_back({index, slot, slots[slot]});
   } else if (is_zero_quaternion(rotation)) {
     faults.push_back({index, kRotationSlot, 0.0f});
@@ -54,13 +90,13 @@ void store_vertex(const float* slots, std::uint64_t index, GaussianCloud& cloud,
 }
 
 std::string describe_fault(const std::string& path, const VertexFault& fault) {
-  if (std::isfinite(fault.value)) {
+  if (fault.slot == kRotationSlot && fault.value == 0) {
     return fmt::format(
         "{}: vertex {}, properties rot_0..3: got the quaternion 0 0 0 0, expected a length above 0",
         path, fault.vertex);
   }
-  return fmt::format("{}: vertex {}, property {}: got {}, expected a finite number", path,
-                     fault.vertex, slot_name(fault.slot), fault.value);
+  return fmt::format("{}: vertex {}, property {}: got {}, expected {}", path, fault.vertex,
+                     slot_name(fault.slot), fault.value, expected_of(fault));
 }
 
 void remove_faulty(const std::vector<VertexFault>& faults, GaussianCloud& cloud) {

@@ -9,8 +9,8 @@
 
 namespace sgs {
 
-// A vertex that cannot be used: the slot (vertex_layout.h) with a value that is not finite, or
-// kRotationSlot with the finite value 0 when the quaternion has length zero.
+// A vertex that cannot be used: the slot (vertex_layout.h) with a value that is not finite or
+// beyond gaussian_limits.h, or kRotationSlot with the value 0 when the quaternion has length zero.
 struct VertexFault {
   std::uint64_t vertex = 0;
   int slot = 0;

@@ -3,33 +3,22 @@
 // bits. Leaving early where no lane is hit costs more than it saves.
 #include "algorithm/splat/blend.h"
 
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define SGS_WIDEST_LANES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+#else
+#define SGS_WIDEST_LANES
+#endif
+
 namespace sgs {
 namespace {
 constexpr float kFinish = static_cast<float>(kTransmittanceMin);
-}
 
-SubtileState make_subtile(int subtile_x, int subtile_y, int width_px, int height_px) {
-  SubtileState state{};
-  for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    const int x = subtile_x * kSubtilePx + lane % kSubtilePx;
-    const int y = subtile_y * kSubtilePx + lane / kSubtilePx;
-    state.transmittance[lane] = 1.0F;
-    state.active[lane] = x < width_px && y < height_px ? -1 : 0;
-  }
-  return state;
-}
-
-bool finished(const SubtileState& state) {
-  std::int32_t any = 0;
-  for (const std::int32_t active : state.active) any |= active;
-  return any == 0;
-}
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-__attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
-#endif
-void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
+// note(lane, alpha, T before) is told of each lane, with alpha 0 where nothing is blended. Inlined,
+// so that it is compiled for the same machine as its caller.
+template <class Note>
+[[gnu::always_inline]] inline void blend_lanes(SubtileState& state, int subtile_x, int subtile_y,
+                                               const Splat& splat, const Note& note) {
   const float left = splat.x - static_cast<float>(subtile_x * kSubtilePx);
   const float top = splat.y - static_cast<float>(subtile_y * kSubtilePx);
   const float a = splat.conic_a, b = splat.conic_b, c = splat.conic_c, opacity = splat.opacity;
@@ -53,7 +42,42 @@ void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat
     state.transmittance[lane] = blends != 0 ? after : before;
     state.active[lane] &= ~ends;
     state.contributors[lane] -= blends;
+    note(lane, blends != 0 ? alpha[lane] : 0.0F, before);
   }
+}
+
+}  // namespace
+
+SubtileState make_subtile(int subtile_x, int subtile_y, int width_px, int height_px) {
+  SubtileState state{};
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    const int x = subtile_x * kSubtilePx + lane % kSubtilePx;
+    const int y = subtile_y * kSubtilePx + lane / kSubtilePx;
+    state.transmittance[lane] = 1.0F;
+    state.active[lane] = x < width_px && y < height_px ? -1 : 0;
+  }
+  return state;
+}
+
+bool finished(const SubtileState& state) {
+  std::int32_t any = 0;
+  for (const std::int32_t active : state.active) any |= active;
+  return any == 0;
+}
+
+SGS_WIDEST_LANES
+void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
+  blend_lanes(state, subtile_x, subtile_y, splat, [](int, float, float) {});
+}
+
+SGS_WIDEST_LANES
+LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
+  LaneShares shares;
+  blend_lanes(state, subtile_x, subtile_y, splat, [&](int lane, float alpha, float before) {
+    shares.alpha[lane] = alpha;
+    shares.before[lane] = before;
+  });
+  return shares;
 }
 
 }  // namespace sgs

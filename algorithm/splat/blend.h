@@ -32,8 +32,16 @@ struct SubtileState {
 // Fresh state; lanes whose pixel lies outside the frame (width x height px) begin finished.
 SubtileState make_subtile(int subtile_x, int subtile_y, int width_px, int height_px);
 
+// What one splat took of the light of each lane.
+struct LaneShares {
+  float alpha[kSubtilePixels];   // 0 where it was not blended
+  float before[kSubtilePixels];  // T in front of it; behind it is the state's
+};
+
 // Blends `splat` into the sub-tile (subtile_x, subtile_y) of the frame.
 void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
+// The same, and what the splat took. A function of its own: who does not look pays nothing.
+LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
 
 // Whether every pixel of the block is finished.
 bool finished(const SubtileState& state);

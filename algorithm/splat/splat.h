@@ -20,10 +20,6 @@ struct SplatOf {
 };
 using Splat = SplatOf<float>;
 
-// Bytes of a splat between the units: 11 words and, relative to the group, four 8-bit sub-tile
-// bounds.
-constexpr std::uint32_t kSplatEntryBytes = 48;
-
 // Front to back; equal depths by index.
 inline bool in_front(const Splat& a, const Splat& b) {
   return a.depth < b.depth || (a.depth == b.depth && a.index < b.index);

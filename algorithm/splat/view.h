@@ -5,9 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <string>
 
-#include "algorithm/input_error.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/splat/constants.h"
 #include "algorithm/splat/scalar.h"
@@ -38,15 +36,14 @@ inline double largest_stretch(const glm::dmat3& r) {
   return std::sqrt(squared);
 }
 
-// Throws InputError when the frame has no pixels or more than kMaxFramePx a side.
+// Throws InputError when the frame has no pixels or more than kMaxFramePx a side, or when focal
+// lengths or position are beyond gaussian_limits.h.
+void check_drawable(const Camera& camera);
+
+// Throws InputError as check_drawable does.
 template <class T>
 View<T> make_view(const Camera& camera) {
-  const auto [low, high] = std::minmax(camera.width, camera.height);
-  if (low < 1 || high > kMaxFramePx) {
-    throw InputError("camera " + std::to_string(camera.id) + ": size " +
-                     std::to_string(camera.width) + "x" + std::to_string(camera.height) +
-                     " px, expected 1 to " + std::to_string(kMaxFramePx) + " a side");
-  }
+  check_drawable(camera);
   View<T> view{};
   for (int k = 0; k < 3; ++k) {
     view.position[k] = constant<T>(camera.position[k]);

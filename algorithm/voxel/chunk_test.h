@@ -16,7 +16,8 @@
 // w^2) in place of the sum. Rounding: a Gaussian's v is off by at most 5 eps sum_a |axis_a| |p_a -
 // c_a|, its pixel position by that times fx / v_z and 4 eps |x|; the test itself loses as much
 // again. 64 eps (fx + |cx - x0| + c) sum_a |p_a - c_a|, taken at the far corner of the box, covers
-// both.
+// both. It is needed where fx eps reaches a pixel: exact_renderer_test.cpp has frames that lose
+// pixels without it.
 #pragma once
 
 #include <algorithm>

@@ -149,10 +149,9 @@ VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size, Stored
   return grid;
 }
 
-float paper_voxel_size(const ActivatedCloud& cloud) {
-  constexpr float kSmall = 0.4F, kReal = 2.0F;
-  constexpr float kSmallExtent = 10.0F;
-  if (cloud.size() == 0) return kSmall;
+float inner_extent(const ActivatedCloud& cloud) {
+  if (cloud.size() == 0) return 0;
+  float longest = 0;
   std::vector<float> along(cloud.size());
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < along.size(); ++i) along[i] = cloud.gaussians[i].mean[axis];
@@ -163,9 +162,14 @@ float paper_voxel_size(const ActivatedCloud& cloud) {
       return *at;
     };
     const float low = quantile(0.001), high = quantile(0.999);
-    if (high - low > kSmallExtent) return kReal;
+    longest = std::max(longest, high - low);
   }
-  return kSmall;
+  return longest;
+}
+
+double paper_voxel_size(float inner_extent) {
+  constexpr double kSmall = 0.4, kReal = 2;
+  return inner_extent > kSmallSceneExtent ? kReal : kSmall;
 }
 
 }  // namespace sgs

@@ -63,9 +63,12 @@ int cell_of(float coordinate, float voxel_size);
 VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size,
                            Stored stored = Stored::kVisible);
 
-// The paper's voxel sizes: 0.4 for small synthetic scenes, 2 for real ones. The choice is made on
-// the 0.1 % to 99.9 % extent of the centres: below 10 units along every axis the scene counts as
-// small.
-float paper_voxel_size(const ActivatedCloud& cloud);
+// Longest side of the box between the 0.1 % and 99.9 % quantiles of the centres; world units.
+float inner_extent(const ActivatedCloud& cloud);
+
+// The paper's voxel sizes, in world units: 0.4 for small synthetic scenes, 2 for real ones. A scene
+// counts as small when its inner extent is at most kSmallSceneExtent.
+constexpr float kSmallSceneExtent = 10;
+double paper_voxel_size(float inner_extent);
 
 }  // namespace sgs

@@ -4,16 +4,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 
-#include "algorithm/render/group_state.h"
-#include "algorithm/render/splat_bins.h"
-#include "algorithm/render/splat_sequence.h"
+#include "algorithm/fixed_point_sums.h"
+#include "algorithm/render/blend_pass.h"
 #include "algorithm/scene/cameras.h"
 
 namespace sgs {
@@ -23,78 +20,16 @@ constexpr std::size_t kMostCameras = 64;
 constexpr double kMostPixels = 1 << 20;
 constexpr double kSeenShare = 0.7;
 
-// Sums in units of 2^-32, which come out the same in whatever order threads add to them.
-class FixedPointSums {
- public:
-  explicit FixedPointSums(std::size_t count) : sums_(count) {}
-  void add(std::size_t index, double value) {
-    sums_[index].fetch_add(static_cast<std::uint64_t>(value * 0x1p32), std::memory_order_relaxed);
-  }
-  double operator[](std::size_t index) const {
-    return static_cast<double>(sums_[index].load()) * 0x1p-32;
-  }
-
- private:
-  std::vector<std::atomic<std::uint64_t>> sums_;
-};
-
-// Blends a tile and notes what each splat takes of the light in it.
-class WatchedTile {
- public:
-  WatchedTile(const PixelRect& pixels, int width_px, int height_px)
-      : state_(pixels, width_px, height_px), before_(state_.subtile_count() * kSubtilePixels, 1) {}
-
-  bool saturated() const { return state_.saturated(); }
-
-  void blend(const Splat& splat, FixedPointSums& sums) {
-    double squares = 0;
-    state_.blend(splat, [&](std::size_t at, const SubtileState& subtile) {
-      for (std::size_t lane = 0; lane < kSubtilePixels; ++lane) {
-        float& before = before_[at * kSubtilePixels + lane];
-        const double taken = static_cast<double>(before) - subtile.transmittance[lane];
-        // Pixels outside the frame begin with no light.
-        if (subtile.contributors[lane] > 0) squares += taken * taken;
-        before = subtile.transmittance[lane];
-      }
-    });
-    sums.add(splat.index, squares);
-  }
-
- private:
-  GroupState state_;
-  std::vector<float> before_;  // T of each pixel after the last blend
-};
-
-void blend_run(const CellGrid& grid, const Splat* splats, std::size_t count,
-               std::vector<WatchedTile>& tiles, FixedPointSums& sums) {
-  const SplatBins bins = bin_splats(grid, splats, count);
-  tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t tile) {
-    for (std::size_t i = bins.first[tile]; i != bins.first[tile + 1]; ++i) {
-      if (tiles[tile].saturated()) return;
-      tiles[tile].blend(splats[bins.entries[i]], sums);
-    }
-  });
-}
-
+// Adds to each Gaussian's sum what it takes of the light of a view: (T alpha)^2 over its pixels.
 void add_view(const ActivatedCloud& cloud, const Camera& camera, FixedPointSums& sums) {
-  constexpr std::size_t kBatchSplats = 32768;
-  const View<float> view = make_view<float>(camera);
-  const CellGrid grid = cell_grid(view.width, view.height, kTilePx);
-  std::vector<WatchedTile> tiles;
-  for (const PixelRect& pixels : pixel_groups(view.width, view.height, kTilePx)) {
-    tiles.emplace_back(pixels, view.width, view.height);
-  }
-  SplatSequence sequence(view, cloud);
-  std::vector<Splat> batch;
-  while (!sequence.at_end() && std::any_of(tiles.begin(), tiles.end(),
-                                           [](const auto& tile) { return !tile.saturated(); })) {
-    sequence.next(kBatchSplats, batch);
-    for (std::size_t begin = 0; begin != batch.size();) {
-      const std::size_t count = binnable(grid, batch, begin);
-      blend_run(grid, batch.data() + begin, count, tiles, sums);
-      begin += count;
-    }
-  }
+  blend_scene(make_view<float>(camera), cloud, [&](GroupState& tile, const Splat& splat) {
+    double squares = 0;
+    tile.blend(splat, each_pixel([&](const PixelBlend& pixel) {
+                 const double taken = static_cast<double>(pixel.before) - pixel.after;
+                 squares += taken * taken;
+               }));
+    sums.add(splat.index, squares);
+  });
 }
 
 Camera at_most(const Camera& camera, double pixels) {

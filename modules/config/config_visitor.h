@@ -78,6 +78,12 @@ class ConfigVisitor {
     value = allowed[index].second;
   }
 
+  // One of `texts`, by its number.
+  void choice(const char* key, std::size_t& index, const std::vector<const char*>& texts,
+              const char* doc) {
+    on_choice(key, index, texts, doc);
+  }
+
   template <class Struct>
   void section(const char* key, Struct& value, const char* doc) {
     begin_section(key, doc);

@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "algorithm/input_error.h"
+#include "algorithm/input_json.h"
 #include "modules/config/join.h"
 
 namespace sgs {
@@ -18,24 +17,7 @@ namespace sgs {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// nlohmann keeps the last of two equal keys without a word; this parse refuses them.
-Json parse_object(const std::string& text, const std::string& origin) {
-  std::vector<std::set<std::string>> open_objects;
-  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) open_objects.emplace_back();
-    if (event == Json::parse_event_t::object_end) open_objects.pop_back();
-    if (event == Json::parse_event_t::key &&
-        !open_objects.back().insert(parsed.get<std::string>()).second)
-      throw InputError(fmt::format("{}: key '{}' twice in one object, expected once", origin,
-                                   parsed.get<std::string>()));
-    return true;
-  };
-  Json json;
-  try {
-    json = Json::parse(text, watch, true, true);
-  } catch (const Json::parse_error& error) {
-    throw InputError(fmt::format("{}: byte {}: not JSON ({})", origin, error.byte, error.what()));
-  }
+Json object_of(Json json, const std::string& origin) {
   if (!json.is_object())
     throw InputError(
         fmt::format("{}: got a JSON {}, expected an object", origin, json.type_name()));
@@ -72,6 +54,16 @@ class JsonReader : public ConfigVisitor {
   }
 
   void check_root() const { check_all_used(levels_.front()); }
+
+  // After the visit to a section alone.
+  void check_misplaced(const char* section) const {
+    for (const auto& item : levels_.front().json->items()) {
+      if (section_keys_.count(item.key()) == 0) continue;
+      throw InputError(fmt::format("{}: {}: got it outside of {}, expected {}.{}",
+                                   origin_of(item.key()), item.key(), section, section,
+                                   item.key()));
+    }
+  }
 
  protected:
   void on_bool(const char* key, bool& value, const char*) override {
@@ -139,6 +131,7 @@ class JsonReader : public ConfigVisitor {
 
   void end_section() override {
     check_all_used(levels_.back());
+    if (levels_.size() == 2) section_keys_ = levels_.back().known;
     levels_.pop_back();
   }
 
@@ -184,7 +177,7 @@ class JsonReader : public ConfigVisitor {
   [[noreturn]] void refuse(const char* key, const Json& got, const std::string& allowed) const {
     const std::string path = path_of(key);
     throw InputError(
-        fmt::format("{}: {}: got {}, expected {}", origin_of(path), path, got.dump(), allowed));
+        fmt::format("{}: {}: got {}, expected {}", origin_of(path), path, shown(got), allowed));
   }
 
   void check_all_used(const Level& level) const {
@@ -198,6 +191,7 @@ class JsonReader : public ConfigVisitor {
 
   const std::map<std::string, std::string>& origins_;
   std::vector<Level> levels_;
+  std::set<std::string> section_keys_;  // of the last section of the top level
 };
 
 }  // namespace
@@ -208,46 +202,49 @@ ConfigDocument::ConfigDocument(ConfigDocument&&) noexcept = default;
 ConfigDocument& ConfigDocument::operator=(ConfigDocument&&) noexcept = default;
 
 void ConfigDocument::add_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file.good() && !file.eof())
-    throw InputError(fmt::format("{}: cannot be read, expected a JSON file", path));
-  add_text(text, path);
+  content_->merge(content_->root, object_of(read_json(path), path), "", path);
 }
 
 void ConfigDocument::add_text(const std::string& text, const std::string& origin) {
-  content_->merge(content_->root, parse_object(text, origin), "", origin);
+  content_->merge(content_->root, object_of(parse_json(text, origin), origin), "", origin);
 }
 
 void ConfigDocument::add_override(const std::string& assignment) {
+  constexpr std::size_t kMostShownBytes = 100;
+  const std::string origin = "--set " + (assignment.size() <= kMostShownBytes
+                                             ? assignment
+                                             : assignment.substr(0, kMostShownBytes) + "...");
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw InputError(
-        fmt::format("--set {}: got no '=' after a key, expected key.path=value", assignment));
+    throw InputError(fmt::format("{}: got no '=' after a key, expected key.path=value", origin));
   const std::string path = assignment.substr(0, equals);
+  if (std::count(path.begin(), path.end(), '.') >= kMostJsonDepth)
+    throw InputError(fmt::format("{}: got more than {} keys in each other, expected fewer", origin,
+                                 kMostJsonDepth));
   const std::string text = assignment.substr(equals + 1);
-  Json value = Json::parse(text, nullptr, false);
-  if (value.is_discarded()) value = text;
-  Json nested = std::move(value);
+  Json nested = Json::accept(text) ? parse_json(text, origin) : Json(text);
   std::size_t end = path.size();
   while (true) {
     const std::size_t dot = path.rfind('.', end - 1);
     const std::size_t begin = dot == std::string::npos ? 0 : dot + 1;
     const std::string key = path.substr(begin, end - begin);
     if (key.empty())
-      throw InputError(
-          fmt::format("--set {}: got an empty key, expected key.path=value", assignment));
+      throw InputError(fmt::format("{}: got an empty key, expected key.path=value", origin));
     Json outer = Json::object();
     outer[key] = std::move(nested);
     nested = std::move(outer);
     if (begin < 2) break;
     end = begin - 1;
   }
-  content_->merge(content_->root, nested, "", "--set " + assignment);
+  content_->merge(content_->root, nested, "", origin);
 }
 
 std::unique_ptr<ConfigVisitor> ConfigDocument::make_reader() const {
   return std::make_unique<JsonReader>(content_->root, content_->origins);
+}
+
+void ConfigDocument::finish_section(const ConfigVisitor& reader, const char* section) {
+  static_cast<const JsonReader&>(reader).check_misplaced(section);
 }
 
 void ConfigDocument::finish(const ConfigVisitor& reader) {

@@ -19,7 +19,7 @@ class ConfigDocument {
   ConfigDocument& operator=(ConfigDocument&&) noexcept;
 
   // Adds a file's, or a text's, object: objects are merged key by key, all else replaces. `origin`
-  // stands for the file in messages. InputError: unreadable, not JSON, not an object, doubled key.
+  // stands for the file in messages. InputError as in input_json.h, and for what is no object.
   void add_file(const std::string& path);
   void add_text(const std::string& text, const std::string& origin);
 
@@ -35,10 +35,20 @@ class ConfigDocument {
     finish(*reader);
   }
 
+  // The same from the section `key` alone. The rest of the document is for others to read; only
+  // keys of this section that stand outside of it are refused.
+  template <class Struct>
+  void read_section_into(const char* key, Struct& config) const {
+    const std::unique_ptr<ConfigVisitor> reader = make_reader();
+    reader->section(key, config, "");
+    finish_section(*reader, key);
+  }
+
  private:
   struct Content;
   std::unique_ptr<ConfigVisitor> make_reader() const;
   static void finish(const ConfigVisitor& reader);
+  static void finish_section(const ConfigVisitor& reader, const char* section);
 
   std::unique_ptr<Content> content_;
 };

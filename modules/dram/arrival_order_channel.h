@@ -1,5 +1,5 @@
 // A channel that serves requests in the order of their arrival: each reserves its commands on the
-// device's tables when it comes. The timing of --timing fast.
+// device's tables when it comes. The timing of blocking transport.
 //
 // Rows are opened ahead of the columns before them, as a queue would; columns keep to the order of
 // arrival, so reads and writes are not grouped, hits do not overtake, and a bank conflict holds up

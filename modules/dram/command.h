@@ -49,6 +49,18 @@ class CommandSink {
   virtual void on_command(const CommandRecord& record) = 0;
 };
 
+// Whoever sends commands. They may be worked out late: up to which moment sinks have heard of them
+// shows only after catch_up().
+class CommandSource {
+ public:
+  virtual ~CommandSource() = default;
+  // `sink` hears every command from now on; it must be removed before it goes.
+  virtual void add_command_sink(CommandSink& sink) = 0;
+  virtual void remove_command_sink(CommandSink& sink) = 0;
+  // Hands on everything that happened before now.
+  virtual void catch_up() = 0;
+};
+
 constexpr bool is_read(Command c) { return c == Command::kRead || c == Command::kReadAuto; }
 constexpr bool is_write(Command c) { return c == Command::kWrite || c == Command::kWriteAuto; }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -29,51 +30,44 @@ std::string name_of(const std::map<std::string, Value>& names, Value value) {
 }
 }  // namespace
 
-CommandTraceWriter::CommandTraceWriter(const std::string& path, const CommandTraceHeader& header)
-    : path_(path), file_(std::fopen((path + ".part").c_str(), "wb")) {
-  if (file_ == nullptr)
-    throw InputError(fmt::format("{}: cannot be written, expected a writable path", path));
-  fmt::print(file_,
-             "{}\n# memspec {}\n# channels {}\n# ranks {}\n# write_latency_set {}\n# refresh {}\n",
-             kFirstLine, header.memspec, header.channels, header.ranks,
-             name_of(kSets, header.write_latency_set), name_of(kModes, header.refresh));
+CommandTraceWriter::CommandTraceWriter(OutputFile& to, const CommandTraceHeader& header,
+                                       CommandSource& source)
+    : to_(to), source_(source) {
+  to_.write(fmt::format(
+      "{}\n# memspec {}\n# channels {}\n# ranks {}\n# write_latency_set {}\n# refresh {}\n",
+      kFirstLine, header.memspec, header.channels, header.ranks,
+      name_of(kSets, header.write_latency_set), name_of(kModes, header.refresh)));
+  source_.add_command_sink(*this);
 }
 
-CommandTraceWriter::~CommandTraceWriter() {
-  if (file_ != nullptr) std::fclose(file_);
-}
+CommandTraceWriter::~CommandTraceWriter() { source_.remove_command_sink(*this); }
 
 void CommandTraceWriter::on_command(const CommandRecord& r) {
   const std::uint32_t argument = r.command == Command::kActivate ? r.row : r.burst;
-  std::fprintf(file_, "%llu %u %s %u %u %u\n", static_cast<unsigned long long>(r.cycle),
-               static_cast<unsigned>(r.channel), kCommandNames[static_cast<std::size_t>(r.command)],
-               static_cast<unsigned>(r.rank), static_cast<unsigned>(r.bank),
-               static_cast<unsigned>(argument));
+  fmt::memory_buffer line;
+  fmt::format_to(std::back_inserter(line), "{} {} {} {} {} {}\n", r.cycle, r.channel,
+                 kCommandNames[static_cast<std::size_t>(r.command)], r.rank, r.bank, argument);
+  to_.write(line.data(), line.size());
 }
 
 void CommandTraceWriter::close() {
-  const bool failed = std::ferror(file_) != 0;
-  const bool closed = std::fclose(file_) == 0;
-  file_ = nullptr;
-  if (failed || !closed || std::rename((path_ + ".part").c_str(), path_.c_str()) != 0)
-    throw InputError(fmt::format("{}: could not be written completely", path_));
+  source_.catch_up();
+  source_.remove_command_sink(*this);
+  to_.finish();
 }
 
-CommandTraceReader::CommandTraceReader(const std::string& path) : path_(path), file_(path) {
-  if (!file_) throw InputError(fmt::format("{}: cannot be read, expected a command trace", path));
-  read_header();
-}
+CommandTraceReader::CommandTraceReader(const std::string& path) : lines_(path) { read_header(); }
 
 void CommandTraceReader::refuse(const std::string& got, const std::string& expected) const {
-  throw InputError(fmt::format("{}: line {}: got '{}', expected {}", path_, line_, got, expected));
+  throw InputError(fmt::format("{}: line {}: got '{}', expected {}", lines_.path(),
+                               lines_.line_number(), got, expected));
 }
 
 void CommandTraceReader::read_header() {
   std::string text;
   const auto next_line = [&] {
-    text.clear();
-    std::getline(file_, text);
-    ++line_;
+    std::string_view line;
+    text = lines_.next(line) ? line : "";
   };
   const auto value = [&](const std::string& key) {
     next_line();
@@ -103,9 +97,9 @@ void CommandTraceReader::read_header() {
 }
 
 bool CommandTraceReader::next(CommandRecord& record) {
-  std::string text;
-  if (!std::getline(file_, text)) return false;
-  ++line_;
+  std::string_view line;
+  if (!lines_.next(line)) return false;
+  const std::string text(line);
   std::istringstream fields(text);
   std::uint64_t channel = 0, rank = 0, bank = 0, argument = 0;
   std::string command, rest;

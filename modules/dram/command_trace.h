@@ -13,10 +13,10 @@
 // are in the order of their cycles; channels are mixed.
 #pragma once
 
-#include <cstdio>
-#include <fstream>
 #include <string>
 
+#include "algorithm/line_reader.h"
+#include "algorithm/output_file.h"
 #include "modules/dram/command.h"
 #include "modules/dram/dram_config.h"
 
@@ -38,20 +38,21 @@ struct CommandTraceHeader {
 
 class CommandTraceWriter : public CommandSink {
  public:
-  // Writes to `path`.part; close() renames. InputError when the file cannot be made.
-  CommandTraceWriter(const std::string& path, const CommandTraceHeader& header);
+  // Writes the commands of `source` from now on to `to`, which whoever made it commits.
+  CommandTraceWriter(OutputFile& to, const CommandTraceHeader& header, CommandSource& source);
   ~CommandTraceWriter() override;
   CommandTraceWriter(const CommandTraceWriter&) = delete;
   CommandTraceWriter& operator=(const CommandTraceWriter&) = delete;
 
   void on_command(const CommandRecord& record) override;
 
-  // InputError when something could not be written.
+  // Everything up to now is in the file, and nothing later, whatever the source is asked for then.
+  // std::runtime_error when something could not be written.
   void close();
 
  private:
-  const std::string path_;
-  std::FILE* file_;
+  OutputFile& to_;
+  CommandSource& source_;
 };
 
 class CommandTraceReader {
@@ -60,7 +61,7 @@ class CommandTraceReader {
   explicit CommandTraceReader(const std::string& path);
 
   const CommandTraceHeader& header() const { return header_; }
-  std::uint64_t line() const { return line_; }
+  std::uint64_t line() const { return lines_.line_number(); }
 
   // False at the end. InputError with file and line: a line that is no command.
   bool next(CommandRecord& record);
@@ -69,9 +70,7 @@ class CommandTraceReader {
   void read_header();
   [[noreturn]] void refuse(const std::string& got, const std::string& expected) const;
 
-  const std::string path_;
-  std::ifstream file_;
-  std::uint64_t line_ = 0;
+  LineReader lines_;
   CommandTraceHeader header_;
 };
 

@@ -27,6 +27,10 @@ void DramController::Commands::on_command(const CommandRecord& record) {
   for (CommandSink* other : others_) other->on_command(record);
 }
 
+void DramController::Commands::remove(CommandSink& sink) {
+  others_.erase(std::remove(others_.begin(), others_.end(), &sink), others_.end());
+}
+
 std::uint64_t DramController::row_hits() const {
   std::uint64_t hits = 0;
   for (const Channel& channel : channels_)
@@ -35,16 +39,25 @@ std::uint64_t DramController::row_hits() const {
   return hits;
 }
 
-DramStats DramController::stats() {
-  const bool blocking = transport_ == Transport::kBlocking;
+std::uint64_t DramController::accounted_until() const {
   // Annotated delays may reach beyond the kernel's time; commands then lie in the future.
-  const std::uint64_t cycle = std::max(now(), blocking ? busy_until_ : 0);
+  return std::max(now(), transport_ == Transport::kBlocking ? busy_until_ : 0);
+}
+
+void DramController::catch_up() {
+  const std::uint64_t cycle = accounted_until();
   for (Channel& channel : channels_) {
-    if (blocking)
+    if (transport_ == Transport::kBlocking)
       channel.arrival_order.finish(cycle);
     else
       channel.queued.advance(cycle);
   }
+}
+
+DramStats DramController::stats() {
+  catch_up();
+  const bool blocking = transport_ == Transport::kBlocking;
+  const std::uint64_t cycle = accounted_until();
   DramStats stats = commands_.counts;
   stats.elapsed_cycles = cycle;
   if (open_transactions_ > 0) stats.busy_cycles += cycle - busy_from_;
@@ -65,10 +78,9 @@ DramStats DramController::stats() {
   return stats;
 }
 
-void DramController::trace(sc_core::sc_trace_file* file, TimingMode timing) const {
+void DramController::trace(sc_core::sc_trace_file* file) const {
   for (std::size_t c = 0; c < channels_.size(); ++c) {
-    const RowCounts& rows = timing == TimingMode::kFast ? channels_[c].arrival_order.rows()
-                                                        : channels_[c].queued.rows();
+    const RowCounts& rows = channels_[c].queued.rows();
     const std::string channel = fmt::format("{}.channel{}", name(), c);
     sc_core::sc_trace(file, rows.bursts[0], channel + ".row_hits");
     sc_core::sc_trace(file, rows.bursts[1], channel + ".row_misses");

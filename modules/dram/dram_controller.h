@@ -25,14 +25,14 @@
 #include "modules/dram/queued_channel.h"
 #include "modules/dram/request_trace.h"
 #include "modules/dram/ring_queue.h"
-#include "tlm/memory_port.h"
+#include "tlm/counters.h"
 
 namespace sgs {
 
 // Non-blocking transport is served by queues and policies, with back-pressure through END_REQ.
 // Blocking transport is served in order of arrival with the delay annotated. One simulation uses
 // one of the two; mixing them is reported as an error.
-class DramController : public sc_core::sc_module {
+class DramController : public sc_core::sc_module, public CommandSource {
  public:
   tlm_utils::multi_passthrough_target_socket<DramController> socket;
 
@@ -48,8 +48,9 @@ class DramController : public sc_core::sc_module {
   void load(std::uint64_t address, const void* from, std::size_t bytes);
   void read_back(std::uint64_t address, void* into, std::size_t bytes) const;
 
-  // Sends every command on to `sink`, which must live as long as the controller is used.
-  void add_command_sink(CommandSink& sink) { commands_.add(sink); }
+  void add_command_sink(CommandSink& sink) override { commands_.add(sink); }
+  void remove_command_sink(CommandSink& sink) override { commands_.remove(sink); }
+  void catch_up() override;
 
   // Records every request as it arrives, from now on.
   void record_requests(RequestTraceWriter& writer) { request_trace_ = &writer; }
@@ -64,9 +65,9 @@ class DramController : public sc_core::sc_module {
   // caught up with first.
   DramStats stats();
 
-  // Adds each channel's row hits, misses and conflicts to a waveform. timing: of the ports that
-  // will ask.
-  void trace(sc_core::sc_trace_file* file, TimingMode timing) const;
+  // Adds each channel's row hits, misses and conflicts to a waveform: those of non-blocking
+  // requests.
+  void trace(sc_core::sc_trace_file* file) const override;
 
  private:
   enum class Transport { kUnused, kNonBlocking, kBlocking };
@@ -107,6 +108,7 @@ class DramController : public sc_core::sc_module {
     Commands(const Memspec& memspec, const DramConfig& config);
     void on_command(const CommandRecord& record) override;
     void add(CommandSink& sink) { others_.push_back(&sink); }
+    void remove(CommandSink& sink);
     DramStats counts;
     ActivityMeter activity;
 
@@ -137,6 +139,7 @@ class DramController : public sc_core::sc_module {
                                const sc_core::sc_time& arrival);
   std::uint64_t cycle_of(const sc_core::sc_time& time) const;
   std::uint64_t now() const { return cycle_of(sc_core::sc_time_stamp()); }
+  std::uint64_t accounted_until() const;
   sc_core::sc_time time_of(std::uint64_t cycle) const;
 
   const DramConfig config_;

@@ -97,8 +97,9 @@ std::vector<std::string> shipped_memspecs() {
 
 Memspec load_memspec(const std::string& name_or_path) {
   const std::string shipped = std::string(SGS_MEMSPEC_DIR) + "/" + name_or_path + ".json";
-  const std::string path = fs::exists(shipped) ? shipped : name_or_path;
-  if (!fs::is_regular_file(path))
+  std::error_code missing;
+  const std::string path = fs::exists(shipped, missing) ? shipped : name_or_path;
+  if (!fs::exists(path, missing))
     throw InputError(fmt::format("memspec: got '{}', expected a JSON file or one of {}",
                                  name_or_path, join(shipped_memspecs())));
   ConfigDocument document;
@@ -159,10 +160,6 @@ class MemspecCheck {
 
   void timing() const {
     const Memspec::Timing& t = m_.timing_cycles;
-    require(t.refi > t.rfc_all, "timing_cycles.refi", t.refi,
-            fmt::format("more than rfc_all {}: the device would only refresh", t.rfc_all));
-    require(t.refi_bank > t.rfc_bank, "timing_cycles.refi_bank", t.refi_bank,
-            fmt::format("more than rfc_bank {}", t.rfc_bank));
     require(t.ccd >= m_.burst_cycles(), "timing_cycles.ccd", t.ccd,
             fmt::format("at least burst_length / 2 = {}", m_.burst_cycles()));
     require(t.ras >= t.rcd, "timing_cycles.ras", t.ras, fmt::format("at least rcd {}", t.rcd));
@@ -177,6 +174,30 @@ class MemspecCheck {
     require(t.read_latency + t.dqsck_max + m_.burst_cycles() + 1 >
                 std::max(t.write_latency_a, t.write_latency_b),
             "timing_cycles.write_latency_b", t.write_latency_b, "less than RL + DQSCK + BL/2 + 1");
+  }
+
+  // Refresh goes before requests. Where one of these does not hold it leaves no request room, and
+  // a simulation would never end.
+  void refresh() const {
+    const Memspec::Timing& t = m_.timing_cycles;
+    require(t.refi > t.rfc_all + t.rcd, "timing_cycles.refi", t.refi,
+            fmt::format("more than rfc_all {} + rcd {}: room for an activate between refreshes",
+                        t.rfc_all, t.rcd));
+    require(t.refi_bank > t.rfc_bank, "timing_cycles.refi_bank", t.refi_bank,
+            fmt::format("more than rfc_bank {}", t.rfc_bank));
+    // A per-bank refresh counts as an activate.
+    require(
+        t.rrd < t.refi_bank, "timing_cycles.rrd", t.rrd,
+        fmt::format("less than refi_bank {}: room for an activate between refreshes", t.refi_bank));
+    require(t.faw < 4 * t.refi_bank, "timing_cycles.faw", t.faw,
+            fmt::format("less than 4 x refi_bank {}: room for an activate among four refreshes",
+                        t.refi_bank));
+    const std::uint32_t banks = m_.organisation.banks;
+    const std::uint32_t row_cycle = t.rfc_bank + t.rrd + t.ras + t.rp_bank;
+    require(banks * t.refi_bank > row_cycle, "timing_cycles.refi_bank", t.refi_bank,
+            fmt::format("{} banks x refi_bank above {}, which is rfc_bank {} + rrd {} + ras {} + "
+                        "rp_bank {}: room for a row between a bank's refreshes",
+                        banks, row_cycle, t.rfc_bank, t.rrd, t.ras, t.rp_bank));
   }
 
   void sources(const std::vector<std::string>& timing_keys) const {
@@ -226,6 +247,7 @@ std::vector<std::string> check_memspec(const Memspec& memspec, const std::string
   const MemspecCheck check(memspec, origin);
   check.organisation();
   check.timing();
+  check.refresh();
   if (memspec.currents.count(memspec.default_currents) == 0)
     throw InputError(fmt::format("{}: default_currents: got '{}', expected the name of a set",
                                  origin, memspec.default_currents));

@@ -5,10 +5,10 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 #include "algorithm/input_error.h"
+#include "algorithm/line_reader.h"
 
 namespace sgs {
 
@@ -28,18 +28,16 @@ bool parse_address(const std::string& text, std::uint64_t& address) {
 }  // namespace
 
 std::vector<MemoryRequest> read_request_trace(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(fmt::format("{}: cannot be read, expected a request trace", path));
+  LineReader lines(path);
   std::vector<MemoryRequest> requests;
-  std::string text;
   double last_ns = 0;
-  for (std::uint64_t line = 1; std::getline(file, text); ++line) {
-    if (text.empty() || text[0] == '#') continue;
+  for (std::string_view line; lines.next(line);) {
+    if (line.empty() || line[0] == '#') continue;
     const auto refuse = [&](const char* expected) {
-      throw InputError(
-          fmt::format("{}: line {}: got '{}', expected {}", path, line, text, expected));
+      throw InputError(fmt::format("{}: line {}: got '{}', expected {}", path, lines.line_number(),
+                                   line, expected));
     };
-    std::istringstream fields(text);
+    std::istringstream fields{std::string(line)};
     std::string address, direction, time, bytes, rest;
     fields >> address >> direction >> time >> bytes >> rest;
     MemoryRequest request;
@@ -65,28 +63,13 @@ std::vector<MemoryRequest> read_request_trace(const std::string& path) {
   return requests;
 }
 
-RequestTraceWriter::RequestTraceWriter(const std::string& path)
-    : path_(path), file_(std::fopen((path + ".part").c_str(), "wb")) {
-  if (file_ == nullptr)
-    throw InputError(fmt::format("{}: cannot be written, expected a writable path", path));
-  std::fputs("# address R|W nanoseconds bytes\n", file_);
-}
-
-RequestTraceWriter::~RequestTraceWriter() {
-  if (file_ != nullptr) std::fclose(file_);
+RequestTraceWriter::RequestTraceWriter(OutputFile& to) : to_(to) {
+  to_.write("# address R|W nanoseconds bytes\n");
 }
 
 void RequestTraceWriter::add(const MemoryRequest& r) {
-  std::fprintf(file_, "0x%llx %c %.6f %u\n", static_cast<unsigned long long>(r.address),
-               r.write ? 'W' : 'R', r.not_before_ns, static_cast<unsigned>(r.bytes));
-}
-
-void RequestTraceWriter::close() {
-  const bool failed = std::ferror(file_) != 0;
-  const bool closed = std::fclose(file_) == 0;
-  file_ = nullptr;
-  if (failed || !closed || std::rename((path_ + ".part").c_str(), path_.c_str()) != 0)
-    throw InputError(fmt::format("{}: could not be written completely", path_));
+  to_.write(fmt::format("0x{:x} {} {:.6f} {}\n", r.address, r.write ? 'W' : 'R', r.not_before_ns,
+                        r.bytes));
 }
 
 }  // namespace sgs

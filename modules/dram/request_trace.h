@@ -5,9 +5,10 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <vector>
+
+#include "algorithm/output_file.h"
 
 namespace sgs {
 
@@ -23,20 +24,13 @@ std::vector<MemoryRequest> read_request_trace(const std::string& path);
 
 class RequestTraceWriter {
  public:
-  // Writes to `path`.part; close() renames. InputError when the file cannot be made.
-  explicit RequestTraceWriter(const std::string& path);
-  ~RequestTraceWriter();
-  RequestTraceWriter(const RequestTraceWriter&) = delete;
-  RequestTraceWriter& operator=(const RequestTraceWriter&) = delete;
+  // Writes to `to`, which whoever made it commits.
+  explicit RequestTraceWriter(OutputFile& to);
 
   void add(const MemoryRequest& request);
 
-  // InputError when something could not be written.
-  void close();
-
  private:
-  const std::string path_;
-  std::FILE* file_;
+  OutputFile& to_;
 };
 
 }  // namespace sgs

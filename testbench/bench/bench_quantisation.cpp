@@ -11,12 +11,13 @@
 
 #include "algorithm/image/quality.h"
 #include "algorithm/input_error.h"
-#include "algorithm/memory/encoded_cloud.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
+#include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/vq/image_weights.h"
 #include "algorithm/vq/kmeans.h"
 #include "testbench/bench/bench_scene.h"
+#include "testbench/command_line/guard.h"
 
 namespace sgs {
 namespace {
@@ -131,11 +132,8 @@ void measure(const std::string& spec) {
 }  // namespace sgs
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    fmt::print(stderr, "usage: bench_quantisation SCENE...\n");
-    return 2;
-  }
-  try {
+  return sgs::run_guarded("bench_quantisation", [&] {
+    if (argc < 2) throw sgs::InputError("got no scene, expected bench_quantisation SCENE...");
     fmt::print(
         "vector quantisation, codebooks of the paper's sizes: PSNR of each view against the scene "
         "as given, seconds of one training\n"
@@ -144,9 +142,6 @@ int main(int argc, char** argv) {
         "weighed by the other views, dB | s | ours, weighed by all views, dB | s |\n"
         "| --- | ---: | --- | ---: | --- | ---: | --- | ---: | --- | ---: |\n");
     for (int i = 1; i < argc; ++i) sgs::measure(argv[i]);
-  } catch (const sgs::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
-  return 0;
+    return sgs::kDone;
+  });
 }

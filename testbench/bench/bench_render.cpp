@@ -10,7 +10,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <numeric>
 
@@ -21,6 +20,8 @@
 #include "algorithm/render/splat_sequence.h"
 #include "algorithm/splat/activate.h"
 #include "testbench/bench/bench_scene.h"
+#include "testbench/bench/stopwatch.h"
+#include "testbench/command_line/guard.h"
 
 namespace {
 
@@ -28,14 +29,6 @@ using namespace sgs;
 
 constexpr int kRuns = 9;
 constexpr double kBudgetMs = 250;  // a view of 640x360 on two cores
-
-template <class Work>
-double time_ms(const Work& work) {
-  const auto began = std::chrono::steady_clock::now();
-  work();
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
-  return took.count();
-}
 
 struct ViewCounts {
   std::uint64_t splats = 0;          // visible in the frame
@@ -101,13 +94,13 @@ double bench_scene(const std::string& spec) {
       project.push_back(time_ms([&] { project_all(view, cloud); }));
       floor.push_back(time_ms([&] { blend_floor(counts.subtile_blends); }));
     }
-    for (auto* times : {&whole, &project, &floor}) std::sort(times->begin(), times->end());
-    const double median = whole[kRuns / 2];
+    const double whole_ms = median(whole), floor_ms = median(floor);
     fmt::print("{:<10} {:>4} {:>10} {:>9} {:>9.2f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>6.1f}\n",
                scene.name, camera.id, cloud.size(), counts.splats,
-               1e-6 * static_cast<double>(counts.subtile_blends), whole[0], median,
-               project[kRuns / 2], floor[kRuns / 2], median / floor[kRuns / 2]);
-    slowest_ms = std::max(slowest_ms, median);
+               1e-6 * static_cast<double>(counts.subtile_blends),
+               *std::min_element(whole.begin(), whole.end()), whole_ms, median(project), floor_ms,
+               whole_ms / floor_ms);
+    slowest_ms = std::max(slowest_ms, whole_ms);
   }
   return slowest_ms;
 }
@@ -115,12 +108,9 @@ double bench_scene(const std::string& spec) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> scenes(argv + 1, argv + argc);
-  if (scenes.empty()) {
-    fmt::print(stderr, "usage: bench_render SCENE...\n");
-    return 2;
-  }
-  try {
+  return run_guarded("bench_render", [&] {
+    const std::vector<std::string> scenes(argv + 1, argv + argc);
+    if (scenes.empty()) throw InputError("got no scene, expected bench_render SCENE...");
     fmt::print("reference renderer, {} threads, {} runs, times in ms\n",
                tbb::this_task_arena::max_concurrency(), kRuns);
     fmt::print("{:<10} {:>4} {:>10} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>6}\n", "scene", "view",
@@ -130,9 +120,6 @@ int main(int argc, char** argv) {
     const bool met = slowest_ms <= kBudgetMs;
     fmt::print("slowest view {:.1f} ms, budget {:.0f} ms: {}\n", slowest_ms, kBudgetMs,
                met ? "met" : "MISSED");
-    return met ? 0 : 1;
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
+    return met ? kDone : kFailed;
+  });
 }

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "algorithm/scene/cameras.h"
-#include "algorithm/scene/load_scene.h"
+#include "testbench/builtin/open_scene.h"
 
 namespace sgs {
 
 // Loads `spec`: a built-in scene, or a .ply whose cameras lie beside it under the same name with
 // the ending .json. Throws InputError.
 inline Scene load_bench_scene(const std::string& spec) {
-  Scene scene = load_scene(spec);
+  Scene scene = open_scene(spec);
   if (scene.cameras.empty()) {
     scene.cameras = read_cameras(spec.substr(0, spec.rfind('.')) + ".json");
   }

@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "algorithm/input_error.h"
+#include "algorithm/input_json.h"
 
 namespace sgs {
 
 namespace {
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 std::optional<double> number(const Json& row, const char* key) {
   return row.contains(key) ? std::optional<double>(row.at(key).get<double>()) : std::nullopt;
@@ -50,11 +50,9 @@ std::string difference(double ours, const std::optional<double>& theirs) {
 
 std::vector<PublishedRow> published_rows(const std::string& path, const std::string& section,
                                          std::uint64_t requests) {
-  std::ifstream file(path);
-  if (!file) throw InputError(fmt::format("{}: cannot be read, expected published rows", path));
+  const Json json = read_json(path);
   std::vector<PublishedRow> rows;
   try {
-    const Json json = Json::parse(file);
     for (const Json& row : json.at(section)) {
       PublishedRow r;
       r.name = row.at("name");

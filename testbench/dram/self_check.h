@@ -2,20 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
+#include "algorithm/output_file.h"
 #include "modules/dram/dram_config.h"
-#include "tlm/memory_port.h"
 
 namespace sgs {
 
 struct SelfCheck {
   DramConfig dram;
-  TimingMode timing = TimingMode::kAccurate;
   std::uint64_t seed = 1;
   std::uint64_t transactions = 3000;  // of each random initiator
-  std::string vcd;                    // path; empty: none
-  std::string dram_trace;             // path; empty: none
+  OutputFile* vcd = nullptr;          // null: none
+  OutputFile* dram_trace = nullptr;   // null: none
 };
 
 // Elaborates and simulates here: once a process, after use_femtosecond_resolution(). Prints a PASS

@@ -47,10 +47,9 @@ StreamResult result_of(const DramStats& stats, double wall_s, std::uint64_t requ
 DramStats run_stream(const StreamBench& bench, double& wall_s) {
   DramController dram("dram", bench.dram);
   std::unique_ptr<CommandTraceWriter> trace;
-  if (!bench.dram_trace.empty()) {
-    trace =
-        std::make_unique<CommandTraceWriter>(bench.dram_trace, CommandTraceHeader::of(bench.dram));
-    dram.add_command_sink(*trace);
+  if (bench.dram_trace != nullptr) {
+    trace = std::make_unique<CommandTraceWriter>(*bench.dram_trace,
+                                                 CommandTraceHeader::of(bench.dram), dram);
   }
   RequestGenerator generator(bench.stream);
   ClosedLoopDriver::Config config;
@@ -66,8 +65,8 @@ DramStats run_stream(const StreamBench& bench, double& wall_s) {
   const auto start = std::chrono::steady_clock::now();
   sc_core::sc_start();
   wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const DramStats stats = dram.stats();
   if (trace) trace->close();
+  const DramStats stats = dram.stats();
   if (driver.answered() != bench.requests || !dram.idle())
     throw std::runtime_error("stream: not every request was answered");
   return stats;

@@ -16,7 +16,7 @@ struct StreamBench {
   StreamSpec stream;
   std::uint32_t window = 32;
   std::uint64_t requests = 1000000;
-  std::string dram_trace;               // path; empty: none
+  OutputFile* dram_trace = nullptr;     // null: none
   std::function<MemoryRequest()> next;  // instead of the stream's requests, when set
 };
 

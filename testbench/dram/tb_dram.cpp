@@ -2,15 +2,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <memory>
 #include <systemc>
 
 #include "algorithm/input_error.h"
+#include "algorithm/output_plan.h"
+#include "algorithm/output_set.h"
 #include "modules/config/strict_json.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/command_trace.h"
 #include "modules/dram/request_trace.h"
 #include "modules/dram/trace_checker.h"
+#include "testbench/command_line/config_source.h"
+#include "testbench/command_line/option_checks.h"
+#include "testbench/command_line/program.h"
 #include "testbench/dram/bench_table.h"
 #include "testbench/dram/self_check.h"
 #include "testbench/dram/stats_table.h"
@@ -29,21 +33,50 @@ struct Arguments {
   std::uint32_t bytes = 32;
   std::uint64_t stride = 4096;
   std::uint32_t write_percent = 0;
-  std::string timing = "accurate";
-  std::string vcd, dram_trace, check, replay, stream, config;
+  std::string vcd, dram_trace, check, replay, stream;
   std::string published = SGS_PUBLISHED_ROWS;
-  std::vector<std::string> overrides;
+  ConfigSource config;
   bool table = false, curve = false, speed = false, print_config = false;
 };
 
+// As the accelerator's configuration names it.
+struct Section {
+  DramConfig dram;
+};
+void visit(ConfigVisitor& v, Section& section) { v.section("dram", section.dram, "the memory"); }
+
 DramConfig read_config(const Arguments& a) {
-  ConfigDocument document;
-  if (!a.config.empty()) document.add_file(a.config);
-  for (const std::string& assignment : a.overrides) document.add_override(assignment);
+  constexpr std::string_view kSection = "dram.";
+  for (const std::string& assignment : a.config.overrides) {
+    if (assignment.compare(0, kSection.size(), kSection) != 0) {
+      throw InputError(
+          fmt::format("--set {}: not of the memory, expected dram.KEY=VALUE", assignment));
+    }
+  }
   DramConfig config;
-  document.read_into(config);
+  a.config.document().read_section_into("dram", config);
   config.validate();
   return config;
+}
+
+// Where --vcd and --dram-trace go.
+struct Outputs {
+  OutputSet files;
+  OutputFile* vcd = nullptr;
+  OutputFile* dram_trace = nullptr;
+};
+
+void open_outputs(const Arguments& a, const DramConfig& config, Outputs& outputs) {
+  OutputPlan plan;
+  for (const std::string& input : {a.replay, a.published, a.config.path(), config.memspec}) {
+    plan.add_input(input);
+  }
+  for (const std::string& output : {a.vcd, a.dram_trace}) {
+    if (!output.empty()) plan.add_output(output);
+  }
+  plan.check();
+  if (!a.vcd.empty()) outputs.vcd = &outputs.files.add(a.vcd);
+  if (!a.dram_trace.empty()) outputs.dram_trace = &outputs.files.add(a.dram_trace);
 }
 
 int check_trace(const std::string& path) {
@@ -74,12 +107,31 @@ int print_benchmarks(const Arguments& a) {
   return status;
 }
 
+std::vector<MemoryRequest> requests_to_replay(const Arguments& a, std::uint64_t capacity_bytes) {
+  std::vector<MemoryRequest> requests = read_request_trace(a.replay);
+  if (requests.empty())
+    throw InputError(fmt::format("{}: got no request, expected at least one", a.replay));
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    const std::uint64_t bytes = requests[i].bytes != 0 ? requests[i].bytes : a.bytes;
+    if (requests[i].address >= capacity_bytes || bytes > capacity_bytes - requests[i].address) {
+      throw InputError(
+          fmt::format("{}: request {}: got {} bytes from {}, expected them below the "
+                      "memory's {}",
+                      a.replay, i + 1, bytes, requests[i].address, capacity_bytes));
+    }
+  }
+  return requests;
+}
+
 int run_requests(const Arguments& a, const DramConfig& config) {
+  if (!a.vcd.empty()) throw InputError("--vcd: is of the self-check, expected no other mode");
+  Outputs outputs;
+  open_outputs(a, config, outputs);
   StreamBench bench;
   bench.dram = config;
   bench.window = a.window;
   bench.requests = a.requests;
-  bench.dram_trace = a.dram_trace;
+  bench.dram_trace = outputs.dram_trace;
   bench.stream.request_bytes = a.bytes;
   bench.stream.stride_bytes = a.stride;
   bench.stream.write_percent = a.write_percent;
@@ -90,7 +142,7 @@ int run_requests(const Arguments& a, const DramConfig& config) {
   std::vector<MemoryRequest> requests;
   std::size_t next = 0;
   if (!a.replay.empty()) {
-    requests = read_request_trace(a.replay);
+    requests = requests_to_replay(a, bench.stream.span_bytes);
     bench.requests = requests.size();
     bench.next = [&] { return requests[next++]; };
   }
@@ -100,76 +152,75 @@ int run_requests(const Arguments& a, const DramConfig& config) {
   print_stats(stats);
   fmt::print("{:<24} {:>14.0f}  requests per wall second\n", "speed",
              static_cast<double>(bench.requests) / wall_s);
-  return 0;
+  outputs.files.commit();
+  return kDone;
+}
+
+int run_self_check(const Arguments& a, const DramConfig& config) {
+  Outputs outputs;
+  open_outputs(a, config, outputs);
+  SelfCheck check;
+  check.dram = config;
+  check.seed = a.seed;
+  check.transactions = a.transactions;
+  check.vcd = outputs.vcd;
+  check.dram_trace = outputs.dram_trace;
+  use_femtosecond_resolution();
+  const bool passed = sgs::run_self_check(check);
+  outputs.files.commit();
+  return passed ? kDone : kFailed;
 }
 
 int run(const Arguments& a) {
   if (!a.check.empty()) return check_trace(a.check);
   const DramConfig config = read_config(a);
   if (a.print_config) {
-    fmt::print("{}", config_to_json(config));
-    return 0;
+    fmt::print("{}", config_to_json(Section{config}));
+    return kDone;
   }
   const Memspec memspec = load_memspec(config.memspec);
   for (const std::string& warning : check_memspec(memspec, config.memspec))
-    fmt::print(stderr, "note: {}\n", warning);
+    fmt::print(stderr, "tb_dram: note: {}\n", warning);
   if (a.table || a.curve || a.speed) {
-    const int status = a.table ? print_benchmarks(a) : 0;
+    const int status = a.table ? print_benchmarks(a) : kDone;
     if (a.curve) print_latency_curve(config, std::min<std::uint64_t>(a.requests, 200000));
     if (a.speed) print_speed(a.requests);
     return status;
   }
   if (!a.stream.empty() || !a.replay.empty()) return run_requests(a, config);
-  SelfCheck check;
-  check.dram = config;
-  check.timing = a.timing == "fast" ? TimingMode::kFast : TimingMode::kAccurate;
-  check.seed = a.seed;
-  check.transactions = a.transactions;
-  check.vcd = a.vcd;
-  check.dram_trace = a.dram_trace;
-  use_femtosecond_resolution();
-  return run_self_check(check) ? 0 : 1;
+  return run_self_check(a, config);
 }
 
 }  // namespace
 
 int sc_main(int argc, char* argv[]) {
+  constexpr std::uint64_t kMost = 1'000'000'000'000;
   Arguments a;
-  CLI::App app{"The memory alone: self-check, benchmarks, replay, trace checking"};
-  app.add_option("--seed", a.seed, "seed of the random check");
-  app.add_option("--transactions", a.transactions, "of each random initiator of the check");
-  app.add_option("--timing", a.timing, "of the check")->check(CLI::IsMember({"accurate", "fast"}));
-  app.add_option("--vcd", a.vcd, "waveform of the check");
-  app.add_option("--config", a.config, "JSON file of the memory's configuration");
-  app.add_option("--set", a.overrides, "key=value over the configuration");
+  CLI::App app{"The memory alone: self-check, benchmarks, replay, trace checking", "tb_dram"};
+  app.add_option("--seed", a.seed, "seed of the random check")->check(whole_number(0, kMostSeed));
+  app.add_option("--transactions", a.transactions, "of each random initiator of the check")
+      ->check(whole_number(1, kMost));
+  app.add_option("--vcd", a.vcd, "waveform of the check")->check(not_empty());
+  a.config.add_to(app);
   app.add_flag("--print-config", a.print_config, "print the resolved configuration and stop");
-  app.add_option("--dram-trace", a.dram_trace, "write the DRAM commands to this file");
-  app.add_option("--check", a.check, "check a command trace against the device's constraints");
+  app.add_option("--dram-trace", a.dram_trace, "write the DRAM commands to this file")
+      ->check(not_empty());
+  app.add_option("--check", a.check, "check a command trace against the device's constraints")
+      ->check(not_empty());
   app.add_flag("--table", a.table, "benchmarks beside public simulators and closed forms");
   app.add_flag("--curve", a.curve, "latency against throughput");
   app.add_flag("--speed", a.speed, "requests per wall second");
-  app.add_option("--published", a.published, "data file of the published figures");
+  app.add_option("--published", a.published, "data file of the published figures")
+      ->check(not_empty());
   app.add_option("--stream", a.stream, "measure one stream")
       ->check(CLI::IsMember({"seq", "rnd", "stride"}));
-  app.add_option("--replay", a.replay,
-                 "measure a request trace: ADDRESS R|W [NANOSECONDS [BYTES]]");
-  app.add_option("--requests", a.requests, "how many")->check(CLI::PositiveNumber);
-  app.add_option("--window", a.window, "outstanding requests")->check(CLI::PositiveNumber);
-  app.add_option("--bytes", a.bytes, "of a request")->check(CLI::Range(1, 65536));
-  app.add_option("--stride", a.stride, "bytes, for --stream stride")->check(CLI::PositiveNumber);
-  app.add_option("--write-percent", a.write_percent, "of a stream")->check(CLI::Range(0, 100));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    return run(a);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "tb_dram: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "tb_dram: {}\n", error.what());
-    return 1;
-  }
+  app.add_option("--replay", a.replay, "measure a request trace: ADDRESS R|W [NANOSECONDS [BYTES]]")
+      ->check(not_empty());
+  app.add_option("--requests", a.requests, "how many")->check(whole_number(1, kMost));
+  app.add_option("--window", a.window, "outstanding requests")->check(whole_number(1, 1 << 20));
+  app.add_option("--bytes", a.bytes, "of a request")->check(whole_number(1, 65536));
+  app.add_option("--stride", a.stride, "bytes, for --stream stride")
+      ->check(whole_number(1, std::uint64_t{1} << 40));
+  app.add_option("--write-percent", a.write_percent, "of a stream")->check(whole_number(0, 100));
+  return run_program(app, argc, argv, [&] { return run(a); });
 }

@@ -4,28 +4,27 @@
 #include <string>
 #include <vector>
 
+#include "testbench/result/frame_result.h"
+
 namespace sgs {
 
-class Accelerator;
-class Activity;
-
-// A resource's share of the frame in which it worked; of several alike, the busiest.
+// A resource's share of the frame in which it worked, 0 to 1: that of its busiest activity.
 struct ResourceUse {
   std::string name;
-  double utilisation = 0;              // 0 to 1
-  const Activity* activity = nullptr;  // whose share it is; null for the memory
+  double utilisation = 0;
+  std::string waits;  // for what, when it does not work
 };
 
-// VSU, coarse filters, decoding, fine filters, sorting, rendering, draining, the memory's data
+// Every resource that an activity names, in the order of the data sheets, and the memory's data
 // buses.
-std::vector<ResourceUse> resource_uses(Accelerator& accelerator);
+std::vector<ResourceUse> resource_uses(const FrameResult& frame);
 
 struct Binding {
-  std::string unit, next;
+  std::string unit, next;  // the busiest resource, and the one after it
   double utilisation = 0, next_utilisation = 0;
   std::string explanation;  // a sentence with the numbers
 };
 
-Binding find_binding(Accelerator& accelerator);
+Binding find_binding(const FrameResult& frame);
 
 }  // namespace sgs

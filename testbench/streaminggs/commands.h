@@ -2,6 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <vector>
+
+#include "modules/machine_design.h"
 
 namespace CLI {
 class App;
@@ -12,10 +15,18 @@ namespace sgs {
 // Exit status: 0 done, 1 the run failed or a check did not hold. Bad input throws InputError.
 using SubCommand = std::function<int()>;
 
-SubCommand add_render_command(CLI::App& app);
-SubCommand add_simulate_command(CLI::App& app);
-SubCommand add_compare_command(CLI::App& app);
-SubCommand add_pack_command(CLI::App& app);
-SubCommand add_info_command(CLI::App& app);
+// kinds: the machines that there are, which outlive the command.
+using Kinds = std::vector<MachineKind>;
+
+SubCommand add_render_command(CLI::App& app, const Kinds& kinds);
+SubCommand add_simulate_command(CLI::App& app, const Kinds& kinds);
+SubCommand add_compare_command(CLI::App& app, const Kinds& kinds);
+SubCommand add_pack_command(CLI::App& app, const Kinds& kinds);
+SubCommand add_info_command(CLI::App& app, const Kinds& kinds);
+SubCommand add_describe_command(CLI::App& app, const Kinds& kinds);
+
+// All of them: parses the arguments, runs the command, prints errors. Exit status: as above, 2 for
+// bad arguments or input.
+int run_command_line(int argc, char* argv[], const Kinds& kinds);
 
 }  // namespace sgs

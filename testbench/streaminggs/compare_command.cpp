@@ -11,7 +11,7 @@
 
 namespace sgs {
 
-SubCommand add_compare_command(CLI::App& app) {
+SubCommand add_compare_command(CLI::App& app, const Kinds&) {
   struct Arguments {
     std::string a, b;
     bool exact = false;

@@ -5,8 +5,6 @@
 
 #include <string>
 
-#include "algorithm/memory/image_file_fields.h"
-
 namespace sgs {
 namespace {
 
@@ -16,18 +14,21 @@ void line(const std::string& name, const std::string& value) {
 
 }  // namespace
 
-void print_packed(const PackedFacts& facts, const MemoryLayout& layout) {
+void print_packed(const PackedFacts& facts, const StorageConfig& storage, const SceneLayout& layout,
+                  const std::string& readers) {
   const SecondHalfFormat& format = layout.second_half;
   line("scene", facts.name);
-  line("gaussians stored", fmt::format("{} of {}", layout.gaussian_count, facts.gaussians));
+  line("gaussians stored", fmt::format("{} of {}", layout.gaussian_count(), facts.gaussians));
   line("dropped invalid", fmt::format("{} Gaussians", facts.dropped_invalid));
   line("sh degree", std::to_string(format.sh_degree));
-  if (layout.storage_order == StorageOrder::kChunks) {
-    line("storage order", fmt::format("by chunks, for ordering exact: {} of at most {} Gaussians",
-                                      layout.chunk_count, facts.chunk_gaussians));
+  if (storage.order == StorageOrder::kChunks) {
+    line("storage order",
+         fmt::format("by chunks, for machine {}: {} of at most {} Gaussians", readers,
+                     layout.chunk_table().chunk_count, storage.chunk_gaussians));
   } else {
-    line("storage order", fmt::format("by voxels, for ordering paper: {} of {} world units",
-                                      layout.voxel_count, layout.voxel_frame.voxel_size));
+    line("storage order",
+         fmt::format("by voxels, for machine {}: {} of {} world units", readers,
+                     layout.voxel_table().voxels.count, layout.voxel_table().frame.voxel_size));
   }
   line("second halves",
        fmt::format("{}, {} B each", kEncodingNames[static_cast<std::size_t>(format.encoding)],
@@ -40,11 +41,10 @@ void print_packed(const PackedFacts& facts, const MemoryLayout& layout) {
                      codebook_words(codebook, format.sh_degree),
                      format.entries[id] * format.entry_bytes(codebook)));
   }
-  for (std::size_t region = 0; region < kFileRegions; ++region) {
-    line(fmt::format("region {}", kRegionNames[region]),
-         fmt::format("{} B", layout.regions[region].bytes));
+  for (const Region& region : layout.regions) {
+    line("region " + region.name, fmt::format("{} B", region.bytes));
   }
-  line("image", fmt::format("{} B", layout[Region::kSpill].base));
+  line("image", fmt::format("{} B", layout.stored_bytes));
 }
 
 }  // namespace sgs

@@ -1,11 +1,15 @@
 // What a packed scene holds, for `pack` and `info`.
 #pragma once
 
-#include "algorithm/memory/image_file.h"
+#include <string>
+
+#include "algorithm/storage/image_file.h"
 
 namespace sgs {
 
-// Prints a line each: scene, storage order, encoding, codebooks, regions with their bytes.
-void print_packed(const PackedFacts& facts, const MemoryLayout& layout);
+// Prints a line each: scene, storage order and the machines that read it, encoding, codebooks,
+// regions with their bytes.
+void print_packed(const PackedFacts& facts, const StorageConfig& storage, const SceneLayout& layout,
+                  const std::string& readers);
 
 }  // namespace sgs

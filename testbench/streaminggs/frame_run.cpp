@@ -1,7 +1,6 @@
-// The child process simulates and writes its result into a pipe; the parent reads it.
+// Machine and memory put together, and time.
 #include "testbench/streaminggs/frame_run.h"
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -12,69 +11,24 @@
 #include <stdexcept>
 #include <systemc>
 
-#include "modules/accelerator.h"
+#include "algorithm/output_set.h"
 #include "modules/dram/command_trace.h"
-#include "testbench/streaminggs/measurements.h"
+#include "modules/dram/dram_controller.h"
+#include "testbench/process/in_child.h"
+#include "testbench/result/collect.h"
+#include "testbench/result/collect_memory.h"
+#include "testbench/result/waveform_sheet.h"
+#include "testbench/result/wire.h"
+#include "testbench/waveform/waveform.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs {
 namespace {
 
-void write_all(int descriptor, const void* from, std::size_t bytes) {
-  const char* at = static_cast<const char*>(from);
-  while (bytes > 0) {
-    const ssize_t written = ::write(descriptor, at, bytes);
-    if (written <= 0) throw std::runtime_error("cannot hand the frame to the parent process");
-    at += written;
-    bytes -= static_cast<std::size_t>(written);
-  }
-}
-
-bool read_all(int descriptor, void* into, std::size_t bytes) {
-  char* at = static_cast<char*>(into);
-  while (bytes > 0) {
-    const ssize_t got = ::read(descriptor, at, bytes);
-    if (got <= 0) return false;
-    at += got;
-    bytes -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
-void send(int descriptor, const void* from, std::uint64_t bytes) {
-  write_all(descriptor, &bytes, sizeof bytes);
-  write_all(descriptor, from, bytes);
-}
-
-template <class Container>
-bool receive(int descriptor, Container& into) {
-  std::uint64_t bytes = 0;
-  if (!read_all(descriptor, &bytes, sizeof bytes)) return false;
-  into.resize(bytes);
-  return read_all(descriptor, into.data(), bytes);
-}
-
-// The waveform, closed (and so complete) when it goes out of scope.
-class Waveform {
- public:
-  Waveform(const std::string& path, const Accelerator& accelerator) {
-    if (path.empty()) return;
-    // SystemC adds the extension itself.
-    const std::string stem = path.size() > 4 && path.substr(path.size() - 4) == ".vcd"
-                                 ? path.substr(0, path.size() - 4)
-                                 : path;
-    file_ = sc_core::sc_create_vcd_trace_file(stem.c_str());
-    file_->set_time_unit(1, sc_core::SC_PS);
-    accelerator.trace(file_);
-  }
-  ~Waveform() {
-    if (file_ != nullptr) sc_core::sc_close_vcd_trace_file(file_);
-  }
-  Waveform(const Waveform&) = delete;
-  Waveform& operator=(const Waveform&) = delete;
-
- private:
-  sc_core::sc_trace_file* file_ = nullptr;
+// Null: not wanted.
+struct Outputs {
+  OutputFile* vcd = nullptr;
+  OutputFile* dram_trace = nullptr;
 };
 
 // An error that a unit reports ends the child where it is: thrown through the stack of a SystemC
@@ -89,76 +43,69 @@ void end_on_error(const sc_core::sc_report& report, const sc_core::sc_actions& a
   ::_exit(1);
 }
 
-void simulate(const AcceleratorConfig& config, const FrameJob& job, const MemoryImage& image,
-              const RunOptions& options, int result) {
+FrameResult simulate(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
+                     const DramConfig& dram, const BuildOptions& build, const Outputs& outputs) {
   use_femtosecond_resolution();
   sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
   sc_core::sc_report_handler::set_handler(end_on_error);
-  std::optional<StallInjector> stalls;
-  constexpr std::uint32_t kLongestStallCycles = 20;
-  if (options.stall_probability > 0) {
-    stalls.emplace(options.seed, options.stall_probability, kLongestStallCycles);
-  }
-  Accelerator accelerator("accelerator", config, job, image, options.timing,
-                          stalls ? &*stalls : nullptr);
+  DramController memory("dram", dram);
+  memory.load(0, image.bytes.data(), image.bytes.size());
+  const std::unique_ptr<Machine> machine = design.build("accelerator", job, build);
+  for (auto& socket : machine->memory) socket.bind(memory.socket);
   std::optional<CommandTraceWriter> dram_trace;
-  if (!options.dram_trace_path.empty()) {
-    dram_trace.emplace(options.dram_trace_path, CommandTraceHeader::of(config.dram));
-    accelerator.dram().add_command_sink(*dram_trace);
+  if (outputs.dram_trace != nullptr) {
+    dram_trace.emplace(*outputs.dram_trace, CommandTraceHeader::of(dram), memory);
   }
-  {
-    const Waveform waveform(options.vcd_path, accelerator);
-    accelerator.run();
+  std::optional<Waveform> waveform;
+  if (outputs.vcd != nullptr) {
+    waveform.emplace(*outputs.vcd);
+    WaveformSheet sheet(waveform->file());
+    machine->publish(sheet);
+    memory.trace(waveform->file());
   }
+  // Until nothing can happen any more: the frame ends when its last posted write is in the memory.
+  sc_core::sc_start();
+  if (waveform) waveform->close();
   if (dram_trace) dram_trace->close();
-  const std::string measurements = measure(accelerator);
-  send(result, measurements.data(), measurements.size());
-  const std::vector<std::byte> frame = accelerator.read_frame();
-  send(result, frame.data(), frame.size());
-}
-
-[[noreturn]] void child(const AcceleratorConfig& config, const FrameJob& job,
-                        const MemoryImage& image, const RunOptions& options, int result) {
-  int status = 0;
-  try {
-    simulate(config, job, image, options, result);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "streaminggs: %s\n", error.what());
-    status = 1;
+  if (!machine->done()) {
+    throw std::runtime_error("the simulation ran out of events before the frame was finished");
   }
-  std::fflush(nullptr);
-  ::_exit(status);
+  FrameResult result;
+  result.cycles = machine->clock().now_cycles();
+  result.clock_mhz = machine->clock().mhz();
+  result.drained = drained(*machine) && memory.idle();
+  result.machine = collect(*machine);
+  result.memory = collect_memory(memory, job.layout.regions, machine->requesters());
+  result.frame.resize(job.frame_buffer.bytes);
+  memory.read_back(job.frame_buffer.base, result.frame.data(), result.frame.size());
+  return result;
 }
 
 }  // namespace
 
-FrameRun run_frame(const AcceleratorConfig& config, const FrameJob& job, const MemoryImage& image,
-                   const RunOptions& options) {
+FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
+                      const DramConfig& dram, const RunOptions& options) {
   const auto began = std::chrono::steady_clock::now();
-  int ends[2];
-  if (::pipe(ends) != 0) throw std::runtime_error("cannot make a pipe for the simulation");
-  std::fflush(nullptr);
-  const pid_t process = ::fork();
-  if (process < 0) throw std::runtime_error("cannot start a process for the simulation");
-  if (process == 0) {
-    ::close(ends[0]);
-    child(config, job, image, options, ends[1]);
-  }
-  ::close(ends[1]);
-  FrameRun run;
-  const bool complete = receive(ends[0], run.measurements_json) && receive(ends[0], run.frame);
-  ::close(ends[0]);
-  int status = 0;
-  ::waitpid(process, &status, 0);
-  if (WIFSIGNALED(status)) {
+  // Made here, so that nothing is left of them whatever becomes of the child.
+  OutputSet files;
+  Outputs outputs;
+  if (!options.vcd_path.empty()) outputs.vcd = &files.add(options.vcd_path);
+  if (!options.dram_trace_path.empty()) outputs.dram_trace = &files.add(options.dram_trace_path);
+  std::string bytes;
+  const ChildEnd end = in_child(
+      "streaminggs",
+      [&] { return to_wire(simulate(design, job, image, dram, options.build, outputs)); }, bytes);
+  if (end.by_signal()) {
     throw std::runtime_error("the simulation of the frame was ended by signal " +
-                             std::to_string(WTERMSIG(status)));
+                             std::to_string(-end.status));
   }
-  if (!complete || WEXITSTATUS(status) != 0) {
+  if (bytes.empty() || end.status != 0) {
     throw std::runtime_error("the simulation of the frame failed");
   }
-  run.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  return run;
+  files.commit();
+  FrameResult result = from_wire(bytes);
+  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return result;
 }
 
 }  // namespace sgs

@@ -4,11 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "algorithm/input_error.h"
 #include "algorithm/scene/describe.h"
 #include "algorithm/splat/activate.h"
+#include "algorithm/storage/storage_choices.h"
 #include "algorithm/voxel/voxel_grid.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
+#include "testbench/streaminggs/run_config.h"
 #include "testbench/streaminggs/scene_arguments.h"
 
 namespace sgs {
@@ -19,16 +22,30 @@ void print_extent(const char* name, const Extent& extent) {
              extent.min.x, extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
 }
 
+void print_voxels(const ActivatedCloud& cloud) {
+  const auto voxel_size = static_cast<float>(choose_voxel_size(cloud).value);
+  fmt::print("{:<26}{} world units\n", "voxel size", voxel_size);
+  try {
+    const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
+    fmt::print("{:<26}{} \n{:<26}{} \n", "occupied voxels", grid.voxels.size(), "tree nodes",
+               grid.nodes.size());
+  } catch (const InputError& error) {
+    // Stored by chunks it can be drawn all the same.
+    fmt::print("{:<26}none: {}\n", "occupied voxels", error.what());
+  }
+}
+
 }  // namespace
 
-SubCommand add_info_command(CLI::App& app) {
+SubCommand add_info_command(CLI::App& app, const Kinds& kinds) {
   auto arguments = std::make_shared<SceneArguments>();
   arguments->add_scene_to(app);
-  return [arguments] {
+  return [arguments, &kinds] {
     if (const auto packed = arguments->load_packed()) {
       fmt::print("{:<26}{}\n{:<26}{:08x} (CRC-32)\n", "memory image, version", kImageFileVersion,
                  "checksum", packed->checksum);
-      print_packed(packed->facts, packed->image.layout);
+      print_packed(packed->facts, packed->storage, packed->image.layout,
+                   readers_of(kinds, packed->storage.order));
       return 0;
     }
     const Scene scene = arguments->load();
@@ -49,12 +66,7 @@ SubCommand add_info_command(CLI::App& app) {
     line("first halves", s.first_half_bytes, "B");
     line("second halves, raw", s.second_half_bytes, "B");
     line("cameras", scene.cameras.size(), "");
-    const ActivatedCloud cloud = activate(scene.cloud);
-    const float voxel_size = paper_voxel_size(cloud);
-    const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
-    line("voxel size, paper order", voxel_size, "world units");
-    line("occupied voxels", grid.voxels.size(), "");
-    line("tree nodes", grid.nodes.size(), "");
+    print_voxels(activate(scene.cloud));
     return 0;
   };
 }

@@ -10,48 +10,54 @@
 #include <vector>
 
 #include "algorithm/input_error.h"
-#include "algorithm/memory/decoded_image.h"
-#include "algorithm/memory/image_file.h"
-#include "algorithm/output_file.h"
+#include "algorithm/output_plan.h"
+#include "algorithm/storage/decoded_image.h"
+#include "algorithm/storage/image_file.h"
+#include "testbench/command_line/config_source.h"
+#include "testbench/command_line/option_checks.h"
 #include "testbench/streaminggs/commands.h"
-#include "testbench/streaminggs/config_arguments.h"
 #include "testbench/streaminggs/describe_packed.h"
-#include "testbench/streaminggs/packed_config.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/scene_arguments.h"
 
 namespace sgs {
 namespace {
 
-struct Arguments : SceneArguments, ConfigArguments {
+struct Arguments : SceneArguments {
+  ConfigSource config;
   std::string out;
 };
 
 // Throws InputError for what a reader of the file would refuse: scales beyond float, for example.
 void check_records(const MemoryImage& image, const std::string& scene) {
-  std::vector<std::uint32_t> slots(image.layout.gaussian_count);
+  std::vector<std::uint32_t> slots(image.layout.gaussian_count());
   std::iota(slots.begin(), slots.end(), 0U);
   decode_image(image, slots, scene);
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, const Kinds& kinds) {
   const auto began = std::chrono::steady_clock::now();
   if (!is_image_file(arguments.out)) {
     throw InputError(fmt::format("--out: {}, expected a name that ends in {}", arguments.out,
                                  kImageFileExtension));
   }
-  { const OutputFile place(arguments.out); }  // refused before the work, not behind it
-  AcceleratorConfig config = arguments.given_config();
-  std::vector<AutoChoice> chosen;
-  resolve(config, chosen);
+  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  OutputPlan plan;
+  arguments.add_inputs_to(plan);
+  plan.add_input(arguments.config.path());
+  plan.add_input(config.dram.memspec);
+  plan.add_output(arguments.out);
+  plan.check();
+  resolve(config);
   Scene scene = arguments.load();
   const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
-  const PreparedScene prepared(std::move(scene), config, weighing);
-  check_records(prepared.image(), arguments.scene);
-  const PackedFacts facts = packed_facts(config, prepared.image(), prepared.name(),
-                                         prepared.gaussians(), prepared.dropped_invalid());
-  write_image_file(arguments.out, facts, prepared.image());
-  print_packed(facts, prepared.image().layout);
+  const PreparedScene prepared = prepare(std::move(scene), config, weighing);
+  const MemoryImage& image = prepared.stored.image;
+  check_records(image, arguments.scene);
+  const PackedFacts facts{prepared.name, prepared.stored.gaussians, prepared.dropped_invalid};
+  write_image_file(arguments.out, facts, prepared.stored.storage, image);
+  print_packed(facts, prepared.stored.storage, image.layout,
+               readers_of(kinds, prepared.stored.storage.order));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   fmt::print("{:<26}{} B, {}\n", "file", std::filesystem::file_size(arguments.out), arguments.out);
   fmt::print("{:<26}{:.1f} s\n", "packed in", took.count());
@@ -60,15 +66,17 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
-SubCommand add_pack_command(CLI::App& app) {
+SubCommand add_pack_command(CLI::App& app, const Kinds& kinds) {
   auto arguments = std::make_shared<Arguments>();
   arguments->add_scene_to(app);
   app.add_option("--cameras", arguments->cameras_path,
-                 "cameras.json, for vector quantisation; built-in scenes bring their own");
+                 "cameras.json, for vector quantisation; built-in scenes bring their own")
+      ->check(not_empty());
   arguments->add_weighing_to(app);
-  arguments->add_config_to(app);
+  arguments->config.config = kinds.front().name;
+  arguments->config.add_to(app);
   app.add_option("--out", arguments->out, "file to write, .sgs")->required();
-  return [arguments] { return run(*arguments); };
+  return [arguments, &kinds] { return run(*arguments, kinds); };
 }
 
 }  // namespace sgs

@@ -1,7 +1,7 @@
 // Progress of long work, on a terminal only.
 #pragma once
 
-#include "algorithm/vq/codebooks.h"
+#include "algorithm/vq/quantise.h"
 
 namespace sgs {
 

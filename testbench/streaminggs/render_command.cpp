@@ -4,88 +4,96 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "algorithm/image/image_io.h"
 #include "algorithm/input_error.h"
-#include "algorithm/memory/restore_scene.h"
-#include "algorithm/render/exact_renderer.h"
-#include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
+#include "algorithm/storage/restore_scene.h"
+#include "testbench/command_line/option_checks.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/scene_arguments.h"
 
 namespace sgs {
 namespace {
 
-// What to render; with tables where it is packed for one of the streaming orders.
-struct RenderedScene {
-  ActivatedCloud cloud;
-  std::vector<Camera> cameras;
-  ChunkTree tree;
-  VoxelGrid grid;
+struct Arguments : SceneArguments {
+  std::string out;
+  std::string ordering = "reference";
+  std::vector<std::string> overrides;
+
+  Camera camera(const std::vector<Camera>& own) const {
+    const auto views = cameras(own);
+    if (views.size() == 1) return views.front().second;
+    throw InputError(
+        fmt::format("--view: '{}' names {} views, expected one for one image", view, views.size()));
+  }
 };
 
-RenderedScene load(const SceneArguments& arguments) {
+void render_reference_picture(const Arguments& arguments) {
+  Scene scene;
+  ActivatedCloud cloud;
   if (auto packed = arguments.load_packed()) {
-    StoredScene stored = restore_scene(std::move(*packed), arguments.scene);
-    return {std::move(stored.decoded), {}, std::move(stored.tree), std::move(stored.grid)};
+    cloud = restore_scene(std::move(*packed), arguments.scene).decoded;
+  } else {
+    scene = arguments.load();
+    cloud = activate(scene.cloud);
   }
-  Scene scene = arguments.load();
-  return {activate(scene.cloud), std::move(scene.cameras), {}, {}};
+  const View<float> view = make_view<float>(arguments.camera(scene.cameras));
+  write_image(arguments.out, render_reference(view, cloud).image);
+}
+
+// The picture that a machine must give, and what its order loses.
+void render_golden_picture(const Arguments& arguments, const Kinds& kinds) {
+  ConfigDocument document;
+  document.add_override("machine=" + arguments.ordering);
+  for (const std::string& assignment : arguments.overrides) document.add_override(assignment);
+  RunConfig config = read_run_config(document, kinds);
+  Scene scene;
+  PreparedScene prepared;
+  if (auto packed = arguments.load_packed()) {
+    resolve(config, *packed, arguments.scene);
+    prepared = prepare(std::move(*packed), arguments.scene, config);
+  } else {
+    resolve(config);
+    scene = arguments.load();
+    prepared = prepare(scene, config, arguments.weighing_cameras(scene.cameras));
+  }
+  const FrameJob job = config.design->job(prepared.stored, arguments.camera(scene.cameras));
+  const StreamingResult result = config.design->golden(prepared.stored, job);
+  write_image(arguments.out, result.frame.image);
+  fmt::print("missed {} (group, splat) pairs\nmisordered {} of {} blends\n", result.stats.missed,
+             result.stats.misordered, result.stats.contributors);
 }
 
 }  // namespace
 
-SubCommand add_render_command(CLI::App& app) {
-  struct Arguments : SceneArguments {
-    std::string out;
-    std::string ordering = "reference";
-    int group_px = PaperOrderConfig{}.group_px;
-    float voxel_size = 0;
-  };
+SubCommand add_render_command(CLI::App& app, const Kinds& kinds) {
   auto arguments = std::make_shared<Arguments>();
   arguments->add_scene_to(app);
   arguments->add_views_to(app);
   app.add_option("--out", arguments->out, "image: .exr, .pfm or .png")->required();
-  app.add_option("--ordering", arguments->ordering, "how splats are ordered")
-      ->check(CLI::IsMember({"reference", "paper", "exact"}))
+  std::vector<std::string> orderings = {arguments->ordering};
+  for (const MachineKind& kind : kinds) orderings.emplace_back(kind.name);
+  app.add_option("--ordering", arguments->ordering,
+                 "the reference renderer, or the picture that a machine must give")
+      ->check(CLI::IsMember(orderings))
       ->capture_default_str();
-  app.add_option("--group", arguments->group_px, "streaming orders: side of a pixel group")
-      ->check(CLI::Range(4, 1020))
-      ->capture_default_str();
-  app.add_option("--voxel-size", arguments->voxel_size,
-                 "paper order: world units; 0: as packed, or from the scene's extent");
-  return [arguments] {
-    RenderedScene scene = load(*arguments);
-    const auto views = arguments->cameras(scene.cameras);
-    if (views.size() != 1)
-      throw InputError("--view: 'all' writes more than one image, expected a number");
-    if (arguments->group_px % 4 != 0) throw InputError("--group: expected a multiple of 4");
-    const View<float> view = make_view<float>(views.front().second);
-    const ActivatedCloud& cloud = scene.cloud;
+  app.add_option("--set", arguments->overrides, "key.path=value of the machine's configuration")
+      ->allow_extra_args(false);
+  return [arguments, &kinds] {
+    check_image_name(arguments->out);
+    OutputPlan plan;
+    arguments->add_inputs_to(plan);
+    plan.add_output(arguments->out);
+    plan.check();
     if (arguments->ordering == "reference") {
-      write_image(arguments->out, render_reference(view, cloud).image);
-      return 0;
+      render_reference_picture(*arguments);
+    } else {
+      render_golden_picture(*arguments, kinds);
     }
-    if (arguments->ordering == "exact") {
-      ExactOrderConfig config;
-      config.group_px = arguments->group_px;
-      constexpr std::uint32_t kChunkGaussians = 16;
-      if (scene.tree.nodes.empty()) scene.tree = build_chunk_tree(cloud, kChunkGaussians);
-      write_image(arguments->out, render_exact_order(view, cloud, scene.tree, config).frame.image);
-      return 0;
-    }
-    if (arguments->voxel_size > 0 || scene.grid.nodes.empty()) {
-      scene.grid = build_voxel_grid(
-          cloud, arguments->voxel_size > 0 ? arguments->voxel_size : paper_voxel_size(cloud));
-    }
-    PaperOrderConfig config;
-    config.group_px = arguments->group_px;
-    const StreamingResult result = render_paper_order(view, cloud, scene.grid, config);
-    write_image(arguments->out, result.frame.image);
-    fmt::print("missed {} (group, splat) pairs\nmisordered {} of {} blends\n", result.stats.missed,
-               result.stats.misordered, result.stats.contributors);
     return 0;
   };
 }

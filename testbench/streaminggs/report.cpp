@@ -1,14 +1,10 @@
-// Assembly of the report, and the terminal's table made from it.
+// The report's sections, each from a part of the result.
 #include "testbench/streaminggs/report.h"
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "algorithm/image/quality.h"
-#include "testbench/streaminggs/datapath.h"
-#include "testbench/streaminggs/left_out.h"
 
 namespace sgs {
 namespace {
@@ -18,100 +14,192 @@ using Json = nlohmann::ordered_json;
 // JSON has no infinity: equal pictures report null and say so by max_abs_error 0.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json image_of(const ViewFacts& facts) {
-  const StreamingStats& s = facts.golden.stats;
-  return {{"psnr_db", finite(psnr_db(facts.frame, facts.reference))},
-          {"ssim", ssim(facts.frame, facts.reference)},
-          {"max_abs_error", max_abs_error(facts.frame, facts.reference)},
-          {"decoded_psnr_db", finite(psnr_db(facts.frame, facts.decoded_reference))},
-          {"encoding_psnr_db", finite(psnr_db(facts.decoded_reference, facts.reference))},
-          {"equals_streaming_renderer", facts.equals_golden},
-          {"missed", s.missed},
-          {"misordered", s.misordered},
-          {"blends", s.contributors}};
+// {name + suffix: value, ...}
+template <class Pairs>
+Json object_of(const Pairs& pairs, const char* suffix = "") {
+  Json out = Json::object();
+  for (const auto& [name, value] : pairs) out[name + suffix] = value;
+  return out;
 }
 
-Json codebooks_of(const SecondHalfFormat& format) {
-  Json out = Json::object();
+Json scene_of(const PreparedScene& scene) {
+  const SceneLayout& layout = scene.stored.image.layout;
+  const SecondHalfFormat& format = layout.second_half;
+  Json codebooks = Json::object();
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
     if (format.entries[id] == 0) continue;
     const auto codebook = static_cast<Codebook>(id);
-    out[kCodebookNames[id]] = {{"entries", format.entries[id]},
-                               {"words", codebook_words(codebook, format.sh_degree)},
-                               {"bytes", format.entries[id] * format.entry_bytes(codebook)}};
+    codebooks[kCodebookNames[id]] = {{"entries", format.entries[id]},
+                                     {"words", codebook_words(codebook, format.sh_degree)},
+                                     {"bytes", format.entries[id] * format.entry_bytes(codebook)}};
+  }
+  Json out = {{"name", scene.name},
+              {"gaussians", scene.stored.gaussians},
+              {"sh_degree", layout.sh_degree()},
+              {"dropped_invalid", scene.dropped_invalid}};
+  if (layout.order() == StorageOrder::kVoxels) {
+    out["voxel_size"] = layout.voxel_table().frame.voxel_size;
+    out["voxels"] = layout.voxel_table().voxels.count;
+  } else {
+    out["chunks"] = layout.chunk_table().chunk_count;
+  }
+  out["second_half_bytes"] = layout.second_halves.record_bytes;
+  out["codebooks"] = codebooks;
+  out["stored_bytes"] = layout.stored_bytes;
+  return out;
+}
+
+Json error_parts_of(const OrderLoss& loss) {
+  const auto part = [](const ErrorPart& p) -> Json {
+    return {{"share", finite(p.share)}, {"alone", finite(p.alone)}};
+  };
+  return {{"encoding", part(loss.encoding)},
+          {"missed", part(loss.missed)},
+          {"misordered", part(loss.misordered)},
+          {"pixel_format", part(loss.pixel_format)}};
+}
+
+Json image_of(const ViewResult& view) {
+  const StreamingStats& s = view.golden.stats;
+  Json out = {{"psnr_db", finite(view.psnr_db)},
+              {"ssim", view.ssim},
+              {"max_abs_error", max_abs_error(view.frame, view.reference)},
+              {"decoded_psnr_db", finite(psnr_db(view.frame, view.decoded_reference))},
+              {"encoding_psnr_db", finite(psnr_db(view.decoded_reference, view.reference))},
+              {"equals_streaming_renderer", view.equals_golden},
+              {"missed", s.missed},
+              {"misordered", s.misordered},
+              {"blends", s.contributors}};
+  if (view.order_loss) out["error_parts"] = error_parts_of(*view.order_loss);
+  return out;
+}
+
+Json units_of(const MachineResult& machine) {
+  Json units = Json::object();
+  for (const UnitResult& unit : machine.units) {
+    Json& out = units[unit.name];
+    out["activities"] = Json::object();
+    for (const ActivityResult& a : unit.activities) {
+      out["activities"][a.name] = {{"resource", a.resource},
+                                   {"busy_cycles", a.busy_cycles},
+                                   {"starved_cycles", a.starved_cycles},
+                                   {"blocked_cycles", a.blocked_cycles}};
+    }
+    out["counters"] = Json::object();
+    for (const CounterResult& c : unit.counters) out["counters"][c.name] = c.value;
+  }
+  return units;
+}
+
+Json dram_of(const MemoryResult& m) {
+  Json traffic = Json::object();
+  for (const RegionTraffic& t : m.traffic) {
+    Json& out = traffic[t.region][t.requester];
+    if (t.read_bytes > 0) out["read"] = t.read_bytes;
+    if (t.written_bytes > 0) out["write"] = t.written_bytes;
+  }
+  return {{"bytes", m.bytes},
+          {"bus_bytes", m.bus_bytes},
+          {"bytes_by_region", traffic},
+          {"bus_bytes_by_region", object_of(m.bus_bytes_by_region)},
+          {"transactions", m.transactions},
+          {"row_hits", m.row_hits},
+          {"row_misses", m.row_misses},
+          {"row_conflicts", m.row_conflicts},
+          {"refreshes", m.refreshes},
+          {"bandwidth_gb_s", m.bandwidth_gb_s},
+          {"busy_bandwidth_gb_s", m.busy_bandwidth_gb_s},
+          {"peak_gb_s", m.peak_gb_s},
+          {"of_peak", m.bandwidth_gb_s / m.peak_gb_s},
+          {"read_latency_mean_ns", m.read_latency_mean_ns},
+          {"read_latency_p50_ns", m.read_latency_p50_ns},
+          {"read_latency_p99_ns", m.read_latency_p99_ns}};
+}
+
+Json energy_section(const ViewResult& view) {
+  Json out = object_of(view.energy_j.by_component, "_j");
+  out["total_j"] = view.energy_j.total;
+  out["mean_power_w"] = view.mean_power_w();
+  out["dram_by_current_set_j"] = object_of(view.run.memory.energy_by_current_set_j);
+  out["dram_by_region_j"] = object_of(view.run.memory.energy_by_region_j);
+  return out;
+}
+
+Json area_section(const CostResult& area) {
+  Json out = object_of(area.by_component);
+  out["total"] = area.total;
+  return out;
+}
+
+Json sram_of(const MachineResult& machine) {
+  Json out;
+  for (const auto& [memory, available] : machine.sram_available) {
+    out[memory + "_bytes"] = sram_bytes(machine.sram_uses, memory);
+    out[memory + "_available_bytes"] = available;
+  }
+  out["uses"] = Json::array();
+  for (const SramUse& use : machine.sram_uses) {
+    out["uses"].push_back({{"name", use.name},
+                           {"memory", use.memory},
+                           {"bytes", use.bytes},
+                           {"arithmetic", use.arithmetic}});
   }
   return out;
 }
 
-// Each Gaussian that contributes to the frame read once, and the pixels written once.
-Json limit_of(const ViewFacts& facts, std::uint64_t moved_bytes) {
-  const std::uint64_t once =
-      facts.golden.stats.contributing * (kFirstHalfBytes + facts.layout.second_half_bytes()) +
-      facts.layout[Region::kFrameBuffer].bytes;
-  return {{"contributing_gaussians", facts.golden.stats.contributing},
-          {"bytes_read_once", once},
-          {"ratio", static_cast<double>(moved_bytes) / static_cast<double>(once)}};
+Json datapaths_of(const std::vector<Datapath>& datapaths) {
+  Json out = Json::object();
+  for (const Datapath& d : datapaths) {
+    const auto cost = [&](std::uint32_t macs) -> Json {
+      return {{"macs", macs}, {"interval_cycles", (macs + d.lanes - 1) / d.lanes}};
+    };
+    out[d.name] = {{"counts", object_of(d.counts)},
+                   {"counted", cost(d.counted_macs)},
+                   {"paper", cost(d.published_macs)},
+                   {"used", cost(d.used_macs)}};
+  }
+  return out;
+}
+
+Json left_out_section(const std::vector<LeftOut>& list) {
+  Json out = Json::array();
+  for (const LeftOut& entry : list) {
+    out.push_back(
+        {{"what", entry.what}, {"why", entry.why}, {"count", entry.count}, {"saves", entry.saves}});
+  }
+  return out;
 }
 
 }  // namespace
 
-Json view_report(const ViewFacts& facts, const AcceleratorConfig& config) {
-  const Json measured = Json::parse(facts.run.measurements_json);
+Json view_report(const ViewResult& view, const PreparedScene& scene) {
+  const FrameResult& run = view.run;
   Json report;
-  report["schema_version"] = 1;
-  report["scene"] = {{"name", facts.scene},
-                     {"gaussians", facts.gaussians},
-                     {"sh_degree", facts.layout.sh_degree()},
-                     {"dropped_invalid", facts.dropped_invalid},
-                     {"voxel_size", facts.layout.voxel_frame.voxel_size},
-                     {"voxels", facts.layout.voxel_count},
-                     {"chunks", facts.layout.chunk_count},
-                     {"second_half_bytes", facts.layout.second_half_bytes()},
-                     {"codebooks", codebooks_of(facts.layout.second_half)},
-                     {"stored_bytes", facts.layout[Region::kSpill].base}};
-  report["view"] = facts.view;
-  report["image"] = image_of(facts);
-  for (const auto& [key, value] : measured.items()) report[key] = value;
-  report["datapath"] = datapath_of(config.hfu, facts.layout.sh_degree());
-  report["limit"] = limit_of(facts, measured["dram"]["bytes"].get<std::uint64_t>());
-  report["left_out"] = left_out(facts, config, measured);
-  report["host"] = {{"simulation_wall_s", facts.run.wall_s}};
+  report["schema_version"] = 2;
+  report["scene"] = scene_of(scene);
+  report["view"] = view.view;
+  report["image"] = image_of(view);
+  report["frame"] = {{"cycles", run.cycles},
+                     {"time_s", run.time_s()},
+                     {"fps", 1 / run.time_s()},
+                     {"drained", run.drained}};
+  report["units"] = units_of(run.machine);
+  report["binding"] = {{"unit", view.binding.unit},
+                       {"utilisation", view.binding.utilisation},
+                       {"next", view.binding.next},
+                       {"next_utilisation", view.binding.next_utilisation},
+                       {"explanation", view.binding.explanation}};
+  report["dram"] = dram_of(run.memory);
+  report["energy"] = energy_section(view);
+  report["area_mm2"] = area_section(view.area_mm2);
+  report["sram"] = sram_of(run.machine);
+  report["datapath"] = datapaths_of(run.machine.datapaths);
+  report["limit"] = {{"contributing_gaussians", view.golden.stats.contributing},
+                     {"bytes_read_once", view.once_bytes},
+                     {"ratio", view.once_ratio()}};
+  report["left_out"] = left_out_section(view.left_out);
+  report["host"] = {{"simulation_wall_s", run.wall_s}};
   return report;
-}
-
-void print_table_head() {
-  fmt::print("{:>4} {:>9} {:>8} {:>7} {:>12} {:>8} {:>10} {:>6} {:>9} {:>5} {:>8}\n", "view",
-             "PSNR dB", "SSIM", "= model", "cycles", "fps", "DRAM MB", "x once", "binding", "busy",
-             "wall s");
-}
-
-void print_table_line(const Json& r) {
-  const Json& psnr = r["image"]["psnr_db"];
-  fmt::print(
-      "{:>4} {:>9} {:>8.5f} {:>7} {:>12} {:>8.1f} {:>10.2f} {:>6.2f} {:>9} {:>4.0f}% {:>8.2f}\n",
-      r["view"].get<int>(), psnr.is_null() ? "equal" : fmt::format("{:.2f}", psnr.get<double>()),
-      r["image"]["ssim"].get<double>(),
-      r["image"]["equals_streaming_renderer"].get<bool>() ? "yes" : "NO",
-      r["frame"]["cycles"].get<std::uint64_t>(), r["frame"]["fps"].get<double>(),
-      r["dram"]["bytes"].get<double>() / 1e6, r["limit"]["ratio"].get<double>(),
-      r["binding"]["unit"].get<std::string>(), 100 * r["binding"]["utilisation"].get<double>(),
-      r["host"]["simulation_wall_s"].get<double>());
-}
-
-void print_details(const Json& r) {
-  fmt::print("\nview {}: {}\n", r["view"].get<int>(),
-             r["binding"]["explanation"].get<std::string>());
-  fmt::print("  {:<14} {:>14} {:>14}\n", "DRAM region", "B asked for", "B on the bus");
-  for (const auto& [region, bus_bytes] : r["dram"]["bus_bytes_by_region"].items()) {
-    std::uint64_t asked = 0;
-    if (r["dram"]["bytes_by_region"].contains(region)) {
-      for (const auto& requester : r["dram"]["bytes_by_region"][region]) {
-        for (const auto& bytes : requester) asked += bytes.get<std::uint64_t>();
-      }
-    }
-    fmt::print("  {:<14} {:>14} {:>14}\n", region, asked, bus_bytes.get<std::uint64_t>());
-  }
-  print_datapath(r);
 }
 
 }  // namespace sgs

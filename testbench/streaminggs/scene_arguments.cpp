@@ -4,10 +4,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
+#include <filesystem>
+#include <numeric>
+#include <sstream>
 
 #include "algorithm/input_error.h"
 #include "algorithm/scene/cameras.h"
+#include "testbench/builtin/builtin_scene.h"
+#include "testbench/builtin/open_scene.h"
+#include "testbench/command_line/option_checks.h"
+#include "testbench/command_line/while_doing.h"
 
 namespace sgs {
 namespace {
@@ -31,6 +39,28 @@ std::pair<int, int> parse_size(const std::string& size) {
   return {width, height};
 }
 
+// The numbers that `view` names out of 0 to count - 1, in its order.
+std::vector<int> chosen_numbers(const std::string& view, int count) {
+  std::vector<int> numbers;
+  if (view == "all") {
+    numbers.resize(static_cast<std::size_t>(count));
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
+  }
+  std::istringstream parts(view + ",");
+  for (std::string part; std::getline(parts, part, ',');) {
+    int number = 0;
+    if (!read_int(part, number) || number < 0 || number >= count ||
+        std::find(numbers.begin(), numbers.end(), number) != numbers.end()) {
+      throw InputError(fmt::format(
+          "--view: '{}': got '{}', expected all, or numbers from 0 to {}, each once, as in 0,2",
+          view, part, count - 1));
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
 }  // namespace
 
 void SceneArguments::add_scene_to(CLI::App& app) {
@@ -41,8 +71,9 @@ void SceneArguments::add_scene_to(CLI::App& app) {
 }
 
 void SceneArguments::add_views_to(CLI::App& app) {
-  app.add_option("--cameras", cameras_path, "cameras.json; built-in scenes bring their own");
-  app.add_option("--view", view, "number of a camera, or all")->capture_default_str();
+  app.add_option("--cameras", cameras_path, "cameras.json; built-in scenes bring their own")
+      ->check(not_empty());
+  app.add_option("--view", view, "numbers of cameras, as in 0,2, or all")->capture_default_str();
   app.add_option("--size", size, "WIDTHxHEIGHT in px; scales the intrinsics");
 }
 
@@ -50,10 +81,27 @@ void SceneArguments::add_weighing_to(CLI::App& app) {
   app.add_option("--weigh-by", weigh_by,
                  "numbers of the cameras that weigh the Gaussians for vector quantisation, as in "
                  "0,2,3; all if not given")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);  // what follows the numbers is another argument
 }
 
-Scene SceneArguments::load() const { return load_scene(scene, {drop_invalid}); }
+std::string SceneArguments::default_out() const {
+  std::string name = std::filesystem::path(scene).stem().string();
+  if (is_builtin_scene(scene)) {
+    name = scene.substr(scene.find(':') + 1);
+    name = name.substr(0, name.find('?'));
+  }
+  return (std::filesystem::path("out") / name).string();
+}
+
+void SceneArguments::add_inputs_to(OutputPlan& plan) const {
+  plan.add_input(scene);
+  plan.add_input(cameras_path);
+}
+
+Scene SceneArguments::load() const {
+  return while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
+}
 
 std::optional<PackedScene> SceneArguments::load_packed() const {
   if (!is_image_file(scene)) return {};
@@ -63,7 +111,7 @@ std::optional<PackedScene> SceneArguments::load_packed() const {
   };
   if (drop_invalid) refuse("--drop-invalid");
   if (!weigh_by.empty()) refuse("--weigh-by");
-  return read_image_file(scene);
+  return while_doing("reading " + scene, [&] { return read_image_file(scene); });
 }
 
 std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Camera>& own) const {
@@ -72,13 +120,8 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Ca
     throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
   }
   std::vector<std::pair<int, Camera>> chosen;
-  int number = 0;
-  if (view == "all") {
-    for (const Camera& camera : all) chosen.emplace_back(number++, camera);
-  } else if (read_int(view, number) && number >= 0 && number < static_cast<int>(all.size())) {
+  for (const int number : chosen_numbers(view, static_cast<int>(all.size()))) {
     chosen.emplace_back(number, all[static_cast<std::size_t>(number)]);
-  } else {
-    throw InputError(fmt::format("--view: '{}', expected 0 to {} or all", view, all.size() - 1));
   }
   for (auto& [index, camera] : chosen) {
     if (!size.empty()) {

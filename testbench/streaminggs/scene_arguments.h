@@ -6,8 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/memory/image_file.h"
+#include "algorithm/output_plan.h"
 #include "algorithm/scene/load_scene.h"
+#include "algorithm/storage/image_file.h"
 
 namespace CLI {
 class App;
@@ -18,7 +19,7 @@ namespace sgs {
 struct SceneArguments {
   std::string scene;
   std::string cameras_path;   // empty: the cameras of a built-in scene
-  std::string view = "0";     // a number or "all"
+  std::string view = "0";     // numbers, separated by commas, or "all"
   std::string size;           // "WxH" or empty
   std::vector<int> weigh_by;  // numbers of cameras; empty: all
   bool drop_invalid = false;
@@ -27,6 +28,11 @@ struct SceneArguments {
   void add_views_to(CLI::App& app);
 
   void add_weighing_to(CLI::App& app);
+
+  // Where to write what the user gave no place for: out/ and the scene's name.
+  std::string default_out() const;
+  // No output may take the place of the scene or the cameras.
+  void add_inputs_to(OutputPlan& plan) const;
 
   Scene load() const;
   // The scene where it is a file made by pack, else nothing. Throws InputError, also for arguments

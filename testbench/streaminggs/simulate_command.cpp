@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -12,19 +11,17 @@
 #include <vector>
 
 #include "algorithm/image/image_io.h"
-#include "algorithm/image/quality.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_file.h"
-#include "algorithm/render/reference_renderer.h"
-#include "modules/config/strict_json.h"
-#include "modules/filter_cost.h"
+#include "algorithm/output_plan.h"
+#include "testbench/command_line/config_source.h"
+#include "testbench/command_line/version.h"
 #include "testbench/streaminggs/commands.h"
-#include "testbench/streaminggs/config_arguments.h"
-#include "testbench/streaminggs/packed_config.h"
-#include "testbench/streaminggs/prepared_scene.h"
+#include "testbench/streaminggs/error_maps.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/report.h"
 #include "testbench/streaminggs/scene_arguments.h"
+#include "testbench/streaminggs/terminal.h"
 
 namespace sgs {
 namespace {
@@ -32,47 +29,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct Arguments : SceneArguments, ConfigArguments {
+struct Arguments : SceneArguments {
+  ConfigSource config;
   std::string out;
-  std::string vcd;
-  std::string dram_trace;
-  std::string timing = "accurate";
-  double stalls = 0;
-  std::uint64_t seed = 1;
+  std::string technology = SGS_TECHNOLOGY;
+  RunOptions run;
   bool print_config = false;
   std::string command;  // the whole command line
 };
 
 double seconds_since(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-}
-
-ViewFacts simulate_view(const PreparedScene& prepared, int number, const Camera& camera,
-                        const AcceleratorConfig& config, const RunOptions& options) {
-  ViewFacts facts;
-  facts.scene = prepared.name();
-  facts.view = number;
-  facts.gaussians = prepared.gaussians();
-  facts.dropped_invalid = prepared.dropped_invalid();
-  facts.frame_format = config.framebuffer;
-
-  const FrameJob job = prepared.job(camera);
-  facts.layout = job.layout;
-  facts.image_hash = fnv1a64(prepared.image().bytes);
-
-  const auto reference_of = [&](const ActivatedCloud& cloud) {
-    return render_reference(job.view, cloud, job.background).image;
-  };
-  facts.decoded_reference = reference_of(prepared.decoded());
-  facts.reference =
-      prepared.original() != nullptr ? reference_of(*prepared.original()) : facts.decoded_reference;
-  facts.golden = prepared.golden(job);
-
-  facts.run = run_frame(config, job, prepared.image(), options);
-  facts.equals_golden =
-      facts.run.frame == encode_frame(config.framebuffer, facts.golden.frame.image);
-  facts.frame = decode_frame(config.framebuffer, camera.width, camera.height, facts.run.frame);
-  return facts;
 }
 
 // A scene's name may be any bytes.
@@ -84,13 +51,17 @@ void write_text(const fs::path& path, const std::string& text) {
   write_whole_file(path.string(), text.data(), text.size());
 }
 
-void write_view(const fs::path& folder, const ViewFacts& facts, const Json& report) {
-  fs::create_directories(folder);
-  write_image((folder / "frame.exr").string(), facts.frame);
-  write_image((folder / "frame.png").string(), facts.frame);
-  write_image((folder / "reference.exr").string(), facts.reference);
-  write_image((folder / "reference.png").string(), facts.reference);
-  write_image((folder / "error.png").string(), error_image(facts.frame, facts.reference));
+fs::path view_folder(const fs::path& out, int view) { return out / fmt::format("view_{}", view); }
+
+constexpr const char* kViewFiles[] = {"frame.exr", "frame.png", "reference.exr", "reference.png",
+                                      "report.json"};
+
+void write_view(const fs::path& folder, const ViewResult& view, const Json& report) {
+  write_image((folder / "frame.exr").string(), view.frame);
+  write_image((folder / "frame.png").string(), view.frame);
+  write_image((folder / "reference.exr").string(), view.reference);
+  write_image((folder / "reference.png").string(), view.reference);
+  write_error_maps(folder, view);
   write_text(folder / "report.json", text_of(report));
 }
 
@@ -102,97 +73,128 @@ Json list_choices(const std::vector<AutoChoice>& chosen) {
   return list;
 }
 
-PreparedScene prepare(std::optional<PackedScene> packed, Scene scene, const Arguments& arguments,
-                      const AcceleratorConfig& config) {
-  if (packed) return {std::move(*packed), arguments.scene, config};
-  const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
-  return {std::move(scene), config, weighing};
+// Refuses outputs that have no place, or would take that of an input, before the work begins.
+void check_places(const Arguments& arguments, const RunConfig& config, const fs::path& out,
+                  const std::vector<std::pair<int, Camera>>& views) {
+  OutputPlan plan;
+  arguments.add_inputs_to(plan);
+  plan.add_input(arguments.config.path());
+  plan.add_input(arguments.technology);
+  plan.add_input(config.dram.memspec);
+  for (const std::string& file : {arguments.run.vcd_path, arguments.run.dram_trace_path}) {
+    if (!file.empty()) plan.add_output(file);
+  }
+  plan.add_output((out / "report.json").string());
+  for (const auto& [number, camera] : views) {
+    for (const char* file : kViewFiles) {
+      plan.add_output((view_folder(out, number) / file).string());
+    }
+    for (const char* file : kErrorMapFiles) {
+      plan.add_output((view_folder(out, number) / file).string());
+    }
+  }
+  plan.check();
 }
 
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, const Kinds& kinds) {
   const auto began = std::chrono::steady_clock::now();
-  std::vector<AutoChoice> chosen;
-  AcceleratorConfig config = arguments.given_config();
+  RunConfig config = read_run_config(arguments.config.document(), kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
-  if (packed) adopt(*packed, arguments.scene, config, chosen);
-  resolve(config, chosen);
+  if (packed) {
+    resolve(config, *packed, arguments.scene);
+  } else {
+    resolve(config);
+  }
   if (arguments.print_config) {
-    // Only this key waits for the scene.
-    if (config.hfu.cost == FilterCost::kCounted) {
-      resolve_filter_cost(
-          config, packed ? packed->image.layout.sh_degree() : arguments.load().cloud.sh_degree);
+    if (packed) {
+      adapt(config, *packed);
+    } else {
+      adapt(config, arguments.load());
     }
-    fmt::print("{}\n", config_to_json(config));
+    fmt::print("{}\n", to_json(config));
     return 0;
   }
-  if (arguments.out.empty()) throw InputError("--out: expected a folder for pictures and reports");
-  const bool one_view_only = !arguments.vcd.empty() || !arguments.dram_trace.empty();
-  if (one_view_only && arguments.view == "all") {
-    throw InputError("--vcd, --dram-trace: one file holds one view; expected --view with a number");
+  const fs::path out = arguments.out.empty() ? arguments.default_out() : arguments.out;
+  const RunOptions& options = arguments.run;
+  const bool one_view_only = !options.vcd_path.empty() || !options.dram_trace_path.empty();
+  if (one_view_only && arguments.view.find_first_not_of("0123456789") != std::string::npos) {
+    throw InputError(
+        "--vcd, --dram-trace: one file holds one view; expected --view with one number");
   }
+  const Technology technology = load_technology(arguments.technology);
   Scene scene;
   if (!packed) scene = arguments.load();
-  const int sh_degree = packed ? packed->image.layout.sh_degree() : scene.cloud.sh_degree;
-  for (const AutoChoice& cost : resolve_filter_cost(config, sh_degree)) chosen.push_back(cost);
   const auto views = arguments.cameras(scene.cameras);
-  const PreparedScene prepared = prepare(std::move(packed), std::move(scene), arguments, config);
+  check_places(arguments, config, out, views);
+  PreparedScene prepared;
+  if (packed) {
+    prepared = prepare(std::move(*packed), arguments.scene, config);
+  } else {
+    const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
+    prepared = prepare(std::move(scene), config, weighing);
+  }
 
-  const RunOptions options{arguments.timing == "fast" ? TimingMode::kFast : TimingMode::kAccurate,
-                           arguments.vcd, arguments.dram_trace, arguments.stalls, arguments.seed};
-  const Json resolved = Json::parse(config_to_json(config));
+  const Json resolved = Json::parse(to_json(config));
   Json all;
-  all["schema_version"] = 1;
+  all["schema_version"] = 2;
   all["config"] = resolved;
+  std::vector<ViewResult> results;
   bool equal = true;
   print_table_head();
   for (const auto& [number, camera] : views) {
-    const ViewFacts facts = simulate_view(prepared, number, camera, config, options);
-    Json report = view_report(facts, config);
+    results.push_back(simulate_view(prepared, number, camera, config, technology, options));
+    const ViewResult& view = results.back();
+    Json report = view_report(view, prepared);
     report["config"] = resolved;
-    report["chosen"] = list_choices(chosen);
+    report["chosen"] = list_choices(config.chosen);
     report["host"]["wall_s"] = seconds_since(began);
     report["host"]["peak_rss_bytes"] = peak_rss_bytes();
-    report["provenance"] = {{"version", SGS_VERSION},
-                            {"commit", SGS_COMMIT},
-                            {"memory_image_fnv1a64", fmt::format("{:016x}", facts.image_hash)},
-                            {"timing", arguments.timing},
-                            {"seed", arguments.seed},
+    report["provenance"] = {{"version", version()},
+                            {"commit", commit()},
+                            {"memory_image_fnv1a64", fmt::format("{:016x}", view.image_hash)},
+                            {"technology", technology.name},
+                            {"seed", options.build.stalls.seed},
                             {"command", arguments.command}};
-    write_view(fs::path(arguments.out) / fmt::format("view_{}", number), facts, report);
-    print_table_line(report);
+    write_view(view_folder(out, number), view, report);
+    print_table_line(view);
     std::fflush(stdout);
-    equal = equal && facts.equals_golden;
+    equal = equal && view.equals_golden;
     all["views"].push_back(std::move(report));
   }
-  write_text(fs::path(arguments.out) / "report.json", text_of(all));
-  for (const auto& report : all["views"]) print_details(report);
-  if (!equal) fmt::print("\nthe frame differs from the streaming renderer's\n");
+  write_text(out / "report.json", text_of(all));
+  for (const ViewResult& view : results) print_details(view);
+  print_machine(results.front(), config.chosen, technology.name);
+  if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
   return equal ? 0 : 1;
 }
 
 }  // namespace
 
-SubCommand add_simulate_command(CLI::App& app) {
+SubCommand add_simulate_command(CLI::App& app, const Kinds& kinds) {
   auto arguments = std::make_shared<Arguments>();
   arguments->add_scene_to(app);
   arguments->add_views_to(app);
   arguments->add_weighing_to(app);
-  arguments->add_config_to(app);
-  app.add_option("--out", arguments->out, "folder for pictures and reports");
-  app.add_option("--vcd", arguments->vcd, "write a waveform");
-  app.add_option("--dram-trace", arguments->dram_trace,
+  arguments->config.config = kinds.front().name;
+  arguments->config.add_to(app);
+  app.add_option("--out", arguments->out,
+                 "folder for pictures and reports; out/ and the scene's name if not given");
+  app.add_option("--vcd", arguments->run.vcd_path, "write a waveform");
+  app.add_option("--dram-trace", arguments->run.dram_trace_path,
                  "write every DRAM command; tb_dram --check verifies it");
-  app.add_option("--timing", arguments->timing, "memory protocol: four-phase, or annotated delays")
-      ->check(CLI::IsMember({"accurate", "fast"}))
+  app.add_option("--technology", arguments->technology, "table of energy and area")
       ->capture_default_str();
-  app.add_option("--stalls", arguments->stalls,
+  BuildOptions& build = arguments->run.build;
+  app.add_option("--stalls", build.stalls.probability,
                  "probability of a random stall at each side of each FIFO, for tests")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--seed", arguments->seed, "of the random stalls")->capture_default_str();
+  app.add_option("--seed", build.stalls.seed, "of the random stalls")->capture_default_str();
+  app.add_option("--construction-order", build.construction_order,
+                 "seed that shuffles the order in which units are made; changes no number");
   app.add_flag("--print-config", arguments->print_config, "show the resolved configuration");
-  return [arguments] {
+  return [arguments, &kinds] {
     arguments->command = command_line();
-    return run(*arguments);
+    return run(*arguments, kinds);
   };
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/output_file.h"
 #include "testbench/units/checks.h"
 
 namespace sgs::tb {
@@ -15,7 +16,7 @@ namespace sgs::tb {
 // What a case is given.
 struct Case {
   Checks& checks;
-  std::string vcd_path;    // empty: no waveform
+  OutputFile* vcd;         // null: no waveform
   std::mt19937_64 random;  // seeded by the run's seed and the case
 };
 
@@ -30,8 +31,8 @@ class CaseRunner {
   // Run as often as --cases says, each with other random numbers; named "random 0", "random 1", ...
   void set_random(Body body) { random_ = std::move(body); }
 
-  // Parses --seed, --cases, --case and --vcd, runs the cases. Exit status: 0 all checks held, 1
-  // some did not, 2 bad arguments.
+  // Parses --seed, --cases, --case and --vcd, runs the cases. Exit status: kDone when all checks
+  // held, kFailed, or kBadInput for bad arguments.
   int run(int argc, char* argv[]);
 
  private:
@@ -39,8 +40,10 @@ class CaseRunner {
     std::string name;
     Body body;
   };
+  int run_all(std::uint64_t seed, std::uint64_t count, const std::string& only,
+              const std::string& vcd_path);
   // Whether the case passed; adds its checks to the totals.
-  bool run_one(const Named& named, std::uint64_t seed, const std::string& vcd_path);
+  bool run_one(const Named& named, std::uint64_t seed, OutputFile* vcd);
 
   const std::string program_, purpose_;
   std::vector<Named> directed_;

@@ -1,47 +1,50 @@
-// A memory that answers every blocking access after the same time: what a unit does can then be
-// computed to the cycle.
+// A memory that takes every request at once and answers every read after the same time, and every
+// write: what a unit does can then be computed to the cycle.
 #pragma once
 
-#include <tlm_utils/simple_target_socket.h>
+#include <tlm_utils/multi_passthrough_target_socket.h>
 
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
+#include <map>
 #include <systemc>
 #include <tlm>
 #include <vector>
 
 namespace sgs::tb {
 
+// Bytes move late: a write is in the memory, and what was read is in the initiator's buffer, when
+// it is answered and no sooner; a read gives what was in the memory when it came. Who does not wait
+// for an answer gets old bytes.
 class FixedLatencyMemory : public sc_core::sc_module {
  public:
-  tlm_utils::simple_target_socket<FixedLatencyMemory> socket;
+  tlm_utils::multi_passthrough_target_socket<FixedLatencyMemory> socket;
 
+  SC_HAS_PROCESS(FixedLatencyMemory);
   FixedLatencyMemory(const sc_core::sc_module_name& name, std::size_t bytes,
-                     const sc_core::sc_time& latency)
-      : sc_module(name), socket("socket"), latency_(latency), bytes_(bytes) {
-    socket.register_b_transport(this, &FixedLatencyMemory::b_transport);
-  }
+                     const sc_core::sc_time& read_latency, const sc_core::sc_time& write_latency);
 
   std::byte* at(std::size_t address) { return bytes_.data() + address; }
+  bool idle() const { return accesses_.empty(); }
 
  private:
-  void b_transport(::tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-    if (payload.get_address() + payload.get_data_length() > bytes_.size()) {
-      payload.set_response_status(::tlm::TLM_ADDRESS_ERROR_RESPONSE);
-      return;
-    }
-    std::byte* here = at(payload.get_address());
-    if (payload.is_read()) {
-      std::memcpy(payload.get_data_ptr(), here, payload.get_data_length());
-    } else {
-      std::memcpy(here, payload.get_data_ptr(), payload.get_data_length());
-    }
-    payload.set_response_status(::tlm::TLM_OK_RESPONSE);
-    delay += latency_;
-  }
+  struct Access {
+    int initiator;
+    ::tlm::tlm_generic_payload* payload;
+    std::vector<std::byte> read;
+  };
 
-  const sc_core::sc_time latency_;
+  ::tlm::tlm_sync_enum nb_transport_fw(int initiator, ::tlm::tlm_generic_payload& payload,
+                                       ::tlm::tlm_phase& phase, sc_core::sc_time& delay);
+  unsigned int transport_dbg(int initiator, ::tlm::tlm_generic_payload& payload);
+  bool holds(const ::tlm::tlm_generic_payload& payload) const;
+  void on_due();  // method
+  void answer(Access& access);
+
+  const sc_core::sc_time read_latency_, write_latency_;
   std::vector<std::byte> bytes_;
+  std::multimap<sc_core::sc_time, Access> accesses_;  // by the time of the answer
+  sc_core::sc_event due_;
 };
 
 }  // namespace sgs::tb

@@ -4,29 +4,36 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
-#include "modules/hfu/hfu_config.h"
+#include "modules/streaminggs/hfu/hfu_config.h"
 
 namespace sgs::tb {
 
+struct TimedShare {
+  std::vector<bool> passes;          // [Gaussian] the coarse filter
+  std::vector<std::uint32_t> lines;  // [Gaussian] of the codebook buffer, where there is one
+  // Cycle from which on the filters see that the share's group is finished.
+  std::uint64_t finished_from = std::numeric_limits<std::uint64_t>::max();
+};
+
 struct HfuTimes {
   std::vector<std::uint64_t> shares_done;  // [share] cycle in which its mark goes to sorting
+  std::vector<std::vector<bool>> tested;   // [share][Gaussian] by the fine filter
   std::uint64_t coarse_busy = 0, decode_busy = 0, fine_busy = 0;
+  std::uint64_t first_halves = 0, coarse_tests = 0, coarse_passed = 0;
+  std::uint64_t second_halves = 0, decoded = 0, fine_tests = 0;
+  std::uint64_t dropped = 0;  // their group was finished
 };
 
-// The stage before the FFU that quantised second halves pass. The codebook buffer is full from the
-// start and has no other reader.
-struct DecodeTiming {
-  std::uint32_t latency_cycles = 0;
-  std::vector<std::vector<std::uint32_t>> lines;  // [share][Gaussian] read for its record
-};
-
-// passes: [share][Gaussian] whether it passes the coarse filter. All shares wait at the input with
-// a latency of one cycle; memory answers after latency_cycles. decode: none where second halves are
-// not quantised.
-HfuTimes hfu_times(const HfuConfig& config, const std::vector<std::vector<bool>>& passes,
-                   std::uint64_t latency_cycles, const std::optional<DecodeTiming>& decode);
+// All shares wait at the input with a latency of one cycle; memory answers after latency_cycles.
+// decode_latency_cycles: of the stage that quantised second halves pass before the FFU; the
+// codebook buffer is full from the start and has no other reader. None where they are not
+// quantised.
+HfuTimes hfu_times(const HfuConfig& config, const std::vector<TimedShare>& shares,
+                   std::uint64_t latency_cycles,
+                   std::optional<std::uint32_t> decode_latency_cycles);
 
 }  // namespace sgs::tb

@@ -8,15 +8,13 @@
 
 namespace sgs::tb {
 
-FrameJob merge_job(const MergePlan& plan) {
+StreamingJob merge_job(const MergePlan& plan) {
   const std::uint64_t spill_bytes = 2ULL * plan.slots * kSpilledKeyBytes;
-  FrameJob job =
+  StreamingJob job =
       frame_job(16 * static_cast<int>(plan.groups.size()), 16, 16, FrameFormat::kRgb8, spill_bytes);
-  const RegionRange& frame = job.layout[Region::kFrameBuffer];
-  constexpr std::uint64_t kAlignment = 4096;
-  job.layout.regions[region_id(Region::kIndices)] = {(frame.end() / kAlignment + 1) * kAlignment,
-                                                     plan.slots * sizeof(std::uint32_t)};
-  job.layout.gaussian_count = plan.slots;
+  ChunkTableLayout table;
+  table.indices = job.layout.regions.add_records("indices", sizeof(std::uint32_t), plan.slots);
+  job.layout.table = table;
   return job;
 }
 

@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "modules/frame_job.h"
-#include "modules/merge/merge_config.h"
-#include "modules/messages.h"
+#include "modules/streaminggs/merge/merge_config.h"
+#include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/streaming_job.h"
 
 namespace sgs::tb {
 
@@ -34,6 +34,7 @@ struct MergePlan {
   MergeConfig config;
   std::uint32_t sorters = 2, hfus = 4;
   std::uint32_t input_entries = 16, output_entries = 4;
+  std::uint32_t feedback_cycles = 1;
   std::uint32_t slots = 0;              // of the scene: what the spill area is sized for
   std::vector<std::uint32_t> index_of;  // [slots] in the file
   std::vector<MergeGroup> groups;
@@ -51,8 +52,8 @@ MergeGroup random_group(std::mt19937_64& random, const MergePlan& plan, std::uin
 // One visit of n keys, in slots 0 to n - 1: all at one depth, or each behind the one before.
 MergeGroup one_visit(std::uint32_t n, bool tied);
 
-// A frame whose groups are the plan's, with an index region and a spill region.
-FrameJob merge_job(const MergePlan& plan);
+// A frame whose groups are the plan's, with a spill region and, behind it, an index region.
+StreamingJob merge_job(const MergePlan& plan);
 
 // What lies in the index region.
 std::vector<std::byte> index_bytes(const MergePlan& plan);

@@ -1,10 +1,13 @@
 // Making of random scenes.
 #include "testbench/units/random_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "algorithm/render/group_state.h"
+#include "algorithm/storage/build_memory_image.h"
+#include "testbench/units/job_memory.h"
 
 namespace sgs::tb {
 namespace {
@@ -82,15 +85,12 @@ TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   EncodedCloud encoded = encode(random_cloud(random, shape), shape.encoding);
   scene.grid = build_voxel_grid(encoded.decoded, shape.voxel_size);
   const Camera camera = random_camera(random, shape);
-  FrameJob& job = scene.job;
+  StreamingJob& job = scene.job;
   job.view = make_view<float>(camera);
-  job.group_px = shape.group_px;
   job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
   scene.image = build_memory_image(encoded, scene.grid);
   scene.cloud = std::move(encoded.decoded);
-  job.layout = with_working_regions(
-      scene.image.layout, 0,
-      std::uint64_t{pixel_bytes(job.frame_format)} * camera.width * camera.height);
+  place(scene.image.layout, 0, job);
   return scene;
 }
 

@@ -1,12 +1,14 @@
 // Small random scenes, laid out in memory and with a camera, as VSU and HFUs see them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <random>
 
+#include "algorithm/memory/memory_image.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/voxel/voxel_grid.h"
-#include "modules/frame_job.h"
+#include "modules/streaminggs/streaming_job.h"
 
 namespace sgs::tb {
 
@@ -23,7 +25,7 @@ struct TestScene {
   ActivatedCloud cloud;  // what the image's records decode to
   VoxelGrid grid;
   MemoryImage image;
-  FrameJob job;
+  StreamingJob job;
 };
 
 // Scales from a thousandth of the extent to the extent, opacities from 0 to 1, some never visible;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "algorithm/render/group_state.h"
+#include "testbench/units/job_memory.h"
 
 namespace sgs::tb {
 namespace {
@@ -35,21 +36,15 @@ SubtileRect subtiles_of(const PixelRect& pixels) {
           down(pixels.y1 + kSubtilePx - 1)};
 }
 
-FrameJob frame_job(int width_px, int height_px, int group_px, FrameFormat format,
-                   std::uint64_t spill_bytes) {
-  constexpr std::uint64_t kAlignment = 4096;
-  FrameJob job;
+StreamingJob frame_job(int width_px, int height_px, int group_px, FrameFormat format,
+                       std::uint64_t spill_bytes, const SceneLayout& layout) {
+  StreamingJob job;
   job.view.width = width_px;
   job.view.height = height_px;
   job.background = {0.25F, 0.5F, 0.75F};
   job.frame_format = format;
-  job.group_px = group_px;
   job.groups = pixel_groups(width_px, height_px, group_px);
-  RegionRange& spill = job.layout.regions[region_id(Region::kSpill)];
-  spill = {kAlignment, spill_bytes};
-  job.layout.regions[region_id(Region::kFrameBuffer)] = {
-      (spill.end() + kAlignment - 1) / kAlignment * kAlignment,
-      std::uint64_t{pixel_bytes(format)} * width_px * height_px};
+  place(layout, spill_bytes, job);
   return job;
 }
 

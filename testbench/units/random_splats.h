@@ -6,14 +6,14 @@
 #include <string>
 
 #include "algorithm/splat/splat.h"
-#include "modules/frame_job.h"
+#include "modules/streaminggs/streaming_job.h"
 
 namespace sgs::tb {
 
-// A frame of width x height px with its groups and a frame buffer behind a spill region, both at
-// multiples of 4 KiB. There is no scene.
-FrameJob frame_job(int width_px, int height_px, int group_px, FrameFormat format,
-                   std::uint64_t spill_bytes);
+// A frame of width x height px with its groups and, behind the layout's regions, a spill region and
+// a frame buffer.
+StreamingJob frame_job(int width_px, int height_px, int group_px, FrameFormat format,
+                       std::uint64_t spill_bytes, const SceneLayout& layout = {});
 
 // A splat whose footprint overlaps the group. Depths are few, so that many are equal. opacity: at
 // most this.

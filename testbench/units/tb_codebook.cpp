@@ -2,10 +2,10 @@
 // bytes in memory and against an arbiter that goes cycle by cycle.
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 
-#include "modules/hfu/codebook_buffer.h"
+#include "modules/streaminggs/hfu/codebook_buffer.h"
 #include "testbench/units/case_runner.h"
+#include "testbench/units/job_memory.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
@@ -14,7 +14,7 @@ namespace {
 // Codebooks of random bytes behind some other region.
 struct Plan {
   CodebookConfig config;
-  FrameJob job;
+  StreamingJob job;
   std::vector<std::byte> codebooks;
 };
 
@@ -23,14 +23,15 @@ Plan plan_of(std::mt19937_64& random, const SecondHalfFormat& format) {
   plan.job.layout.second_half = format;
   plan.codebooks.resize(format.codebook_bytes());
   for (std::byte& byte : plan.codebooks) byte = static_cast<std::byte>(random() % 256);
-  plan.job.layout.regions[region_id(Region::kCodebooks)] = {4096, plan.codebooks.size()};
+  plan.job.layout.regions.add("something_else", 4096);
+  plan.job.layout.codebooks = plan.job.layout.regions.add("codebooks", plan.codebooks.size());
   return plan;
 }
 
 BenchConfig bench_of(const Plan& plan, std::uint32_t latency_cycles) {
   BenchConfig config;
   config.latency_cycles = latency_cycles;
-  config.memory_bytes = 4096 + plan.codebooks.size();
+  config.memory_bytes = memory_bytes(plan.job);
   return config;
 }
 
@@ -43,6 +44,7 @@ constexpr std::uint32_t kScaleEntryBytes = 12;
 struct Request {
   CodebookIndices indices{};
   std::uint64_t asked = 0, done = 0;  // cycles
+  std::uint32_t reader = 0;
 };
 
 // Lines of the record's entries, codebook after codebook.
@@ -60,8 +62,9 @@ std::vector<std::uint32_t> lines_of(const Plan& plan, const CodebookIndices& ind
   return lines;
 }
 
-// When each request is done. In every cycle the requests that are under way, in the order in which
-// they were made, each take the bank of their next line if nobody has taken it.
+// When each request is done. In every cycle the requests that are under way each take the bank of
+// their next line if nobody has taken it: in the order of `requests`, which is that in which they
+// were made, those of one cycle by the readers' numbers.
 std::vector<std::uint64_t> arbitrate(const Plan& plan, const std::vector<Request>& requests) {
   std::vector<std::uint64_t> done(requests.size(), 0);
   std::vector<std::vector<std::uint32_t>> lines;
@@ -84,60 +87,61 @@ std::vector<std::uint64_t> arbitrate(const Plan& plan, const std::vector<Request
 }
 
 // Counters, and each request's time against the arbiter's.
-void check_requests(Checks& checks, const Plan& plan, const CodebookBuffer& buffer,
-                    const std::vector<Request>& requests) {
+void check_requests(UnitBench& bench, const Plan& plan, const std::vector<Request>& requests) {
   const std::vector<std::uint64_t> expected = arbitrate(plan, requests);
   std::uint64_t lines = 0, waited = 0;
   for (std::size_t r = 0; r < requests.size(); ++r) {
-    checks.equal(requests[r].done, expected[r], fmt::format("request {}: cycle of its end", r));
+    bench.checks().equal(requests[r].done, expected[r],
+                         fmt::format("request {}: cycle of its end", r));
     const std::size_t own = lines_of(plan, requests[r].indices).size();
     lines += own;
     waited += expected[r] - requests[r].asked - own;
   }
-  checks.equal(buffer.counters().records, requests.size(), "records");
-  checks.equal(buffer.counters().lines, lines, "lines");
-  checks.equal(buffer.counters().conflict_cycles, waited, "cycles of conflicts");
+  bench.check_counter("records_decoded", requests.size());
+  bench.check_counter("lines_read", lines);
+  bench.check_counter("bank_conflict_cycles", waited);
+  bench.check_operations("codebooks", "sram_large_read_bit", 8 * lines * plan.config.line_bytes);
 }
 
-// `requests` made at their times by a reader each, of a buffer that is full from the start; in one
-// cycle in the order given.
+// `requests` made at their times by a reader each, of a buffer that is full from the start.
+// by_hand: when each is done. Readers are made last first: their numbers decide, not who runs
+// first.
 void directed_readers(Case& test, const CodebookConfig& config, const SecondHalfFormat& format,
                       std::vector<Request> requests, const std::vector<std::uint64_t>& by_hand) {
   Plan plan = plan_of(test.random, format);
   plan.config = config;
+  plan.config.preloaded = true;
   UnitBench bench(test, bench_of(plan, 20));
-  CodebookBuffer buffer("codebooks", plan.config, bench.clock(), plan.job, bench.port());
-  buffer.preload(plan.codebooks.data());
-  for (std::size_t r = 0; r < requests.size(); ++r) {
+  bench.load(plan.job.layout.codebooks.base, plan.codebooks);
+  CodebookBuffer buffer("codebooks", plan.config, bench.context(plan.job), bench.instant_end(),
+                        static_cast<std::uint32_t>(requests.size()));
+  bench.add_unit(buffer);
+  for (std::size_t r = requests.size(); r-- > 0;) {
     bench.add_thread(fmt::format("reader{}", r), [&, r](Activity& activity) {
       bench.clock().wait_cycles(requests[r].asked);
-      buffer.read_entries(requests[r].indices, activity);
+      buffer.read_entries(static_cast<std::uint32_t>(r), requests[r].indices, activity);
       requests[r].done = bench.clock().now_cycles();
       activity.close();
       bench.checks().equal(activity.busy_cycles(), requests[r].done - requests[r].asked,
                            fmt::format("reader {}: busy cycles", r));
     });
   }
-  bench.run(buffer);
-  std::vector<std::uint64_t> done;
-  for (const Request& request : requests) done.push_back(request.done);
-  // Who of one cycle comes first is the kernel's choice.
-  std::sort(done.begin(), done.end());
-  for (std::size_t r = 0; r < by_hand.size(); ++r) {
-    bench.checks().equal(done[r], by_hand[r], fmt::format("cycle of end {}", r));
+  bench.run();
+  std::uint64_t took = 0, least = 0, lines = 0;
+  for (std::size_t r = 0; r < requests.size(); ++r) {
+    bench.checks().equal(requests[r].done, by_hand[r], fmt::format("cycle of end {}", r));
+    took += requests[r].done;
+    lines += lines_of(plan, requests[r].indices).size();
+    least += requests[r].asked;
   }
-  const std::uint64_t took = std::accumulate(done.begin(), done.end(), std::uint64_t{0});
-  std::uint64_t least = 0, lines = 0;
-  for (const Request& request : requests) {
-    lines += lines_of(plan, request.indices).size();
-    least += request.asked;
-  }
-  bench.checks().equal(buffer.counters().conflict_cycles, took - least - lines, "conflicts");
-  bench.checks().equal(buffer.counters().lines, lines, "lines");
-  bench.checks().equal(buffer.counters().records, requests.size(), "records");
-  bench.checks().equal(bench.port().bytes_read(), 0U, "bytes read for a buffer that was full");
-  bench.checks().equal(buffer.counters().bytes_loaded, 0U, "bytes loaded");
-  bench.check_times(std::vector<Activity*>{&buffer.load_activity()});
+  bench.check_counter("bank_conflict_cycles", took - least - lines);
+  bench.check_counter("lines_read", lines);
+  bench.check_counter("records_decoded", requests.size());
+  bench.checks().equal(bench.bytes_read(), 0U, "bytes read for a buffer that was full");
+  bench.checks().that(
+      std::memcmp(buffer.bytes(), plan.codebooks.data(), plan.codebooks.size()) == 0,
+      "the buffer holds other bytes than the memory");
+  bench.check_counter("bytes_loaded", 0);
 }
 
 CodebookConfig lines_of_an_entry(std::uint32_t banks) {
@@ -151,18 +155,19 @@ CodebookConfig lines_of_an_entry(std::uint32_t banks) {
 void load(Case& test, const SecondHalfFormat& format, const BenchConfig& memory) {
   Plan plan = plan_of(test.random, format);
   BenchConfig config = memory;
-  config.memory_bytes = 4096 + plan.codebooks.size();
+  config.memory_bytes = memory_bytes(plan.job);
   UnitBench bench(test, config);
   Checks& checks = bench.checks();
-  bench.load(4096, plan.codebooks);
-  CodebookBuffer buffer("codebooks", plan.config, bench.clock(), plan.job, bench.port());
+  bench.load(plan.job.layout.codebooks.base, plan.codebooks);
+  CodebookBuffer buffer("codebooks", plan.config, bench.context(plan.job), bench.instant_end(), 1);
+  bench.add_unit(buffer);
   bool asked = false;
   bench.add_thread("reader", [&](Activity& activity) {
     if (plan.codebooks.empty()) return;  // no record, no index
     asked = true;
     const CodebookIndices first{};
-    buffer.read_entries(first, activity);
-    const std::uint64_t full = buffer.counters().loaded_at_cycle;
+    buffer.read_entries(0, first, activity);
+    const std::uint64_t full = bench.counter("loaded_at_cycle");
     checks.equal(bench.clock().now_cycles(), full + lines_of(plan, first).size(),
                  "cycle in which the first record is read");
     activity.close();
@@ -170,23 +175,23 @@ void load(Case& test, const SecondHalfFormat& format, const BenchConfig& memory)
     checks.that(std::memcmp(buffer.bytes(), plan.codebooks.data(), plan.codebooks.size()) == 0,
                 "the buffer holds other bytes than the memory");
   });
-  bench.run(buffer);
-  const CodebookCounters& counters = buffer.counters();
+  bench.run();
   checks.equal(asked, !plan.codebooks.empty(), "the reader asked");
-  checks.equal(counters.bytes_loaded, plan.codebooks.size(), "bytes loaded");
-  checks.equal(bench.port().bytes_read(), plan.codebooks.size(), "bytes read");
-  checks.equal(bench.port().transactions(), (plan.codebooks.size() + 255) / 256, "transactions");
+  bench.check_counter("bytes_loaded", plan.codebooks.size());
+  bench.check_operations("codebooks", "sram_large_write_bit", 8 * plan.codebooks.size());
+  checks.equal(bench.bytes_read(), plan.codebooks.size(), "bytes read");
+  checks.equal(bench.transactions(), (plan.codebooks.size() + 255) / 256, "transactions");
   if (config.memory == Memory::kFixedLatency) {
     // All of it is asked for at once.
-    checks.equal(counters.loaded_at_cycle, plan.codebooks.empty() ? 0 : config.latency_cycles,
+    checks.equal(bench.counter("loaded_at_cycle"),
+                 plan.codebooks.empty() ? 0 : config.latency_cycles,
                  "cycle in which the buffer is full");
   } else {
     constexpr double kPeakBytesPerCycle = 25.6;
-    checks.that(static_cast<double>(counters.loaded_at_cycle) * kPeakBytesPerCycle >=
+    checks.that(static_cast<double>(bench.counter("loaded_at_cycle")) * kPeakBytesPerCycle >=
                     static_cast<double>(plan.codebooks.size()),
                 "loaded faster than the memory can");
   }
-  bench.check_times(std::vector<Activity*>{&buffer.load_activity()});
 }
 
 SecondHalfFormat random_format(std::mt19937_64& random) {
@@ -213,42 +218,46 @@ void random_case(Case& test) {
   Plan plan = plan_of(random, random_format(random));
   plan.config.banks = 1 + static_cast<std::uint32_t>(random() % 16);
   plan.config.line_bytes = 4 * (1 + static_cast<std::uint32_t>(random() % 16));
-  BenchConfig config = random_bench(random, 4096 + plan.codebooks.size());
+  BenchConfig config = random_bench(random, memory_bytes(plan.job));
   config.stall_probability = 0;  // there is no FIFO
-  UnitBench bench(test, config);
-  bench.load(4096, plan.codebooks);
-  CodebookBuffer buffer("codebooks", plan.config, bench.clock(), plan.job, bench.port());
   const bool preloaded = random() % 2 == 0;
-  if (preloaded) buffer.preload(plan.codebooks.data());
+  plan.config.preloaded = preloaded;
+  UnitBench bench(test, config);
+  bench.load(plan.job.layout.codebooks.base, plan.codebooks);
   constexpr std::uint64_t kFull = 100000;  // by then, whatever the memory
-  const auto readers = 1 + random() % 8;
+  const auto readers = 1 + static_cast<std::uint32_t>(random() % 8);
   const auto longest_pause = 1 + random() % 30;
-  std::vector<Request> requests;  // in the order in which they are made
-  for (std::uint64_t r = 0; r < readers; ++r) {
-    bench.add_thread(fmt::format("reader{}", r), [&](Activity& activity) {
+  CodebookBuffer buffer("codebooks", plan.config, bench.context(plan.job), bench.instant_end(),
+                        readers);
+  bench.add_unit(buffer);
+  std::vector<Request> requests;
+  for (std::uint32_t r = 0; r < readers; ++r) {
+    bench.add_thread(fmt::format("reader{}", r), [&, r](Activity& activity) {
       if (!preloaded) bench.clock().wait_cycles(kFull);
       for (int k = 0; k < 30; ++k) {
         bench.clock().wait_cycles(random() % longest_pause);
         const CodebookIndices indices = random_indices(random, plan.job.layout.second_half);
         const std::size_t mine = requests.size();
-        requests.push_back({indices, bench.clock().now_cycles(), 0});
-        buffer.read_entries(indices, activity);
+        requests.push_back({indices, bench.clock().now_cycles(), 0, r});
+        buffer.read_entries(r, indices, activity);
         requests[mine].done = bench.clock().now_cycles();
       }
     });
   }
-  bench.run(buffer);
-  check_requests(bench.checks(), plan, buffer, requests);
-  bench.checks().equal(bench.port().bytes_read(), preloaded ? 0 : plan.codebooks.size(),
-                       "bytes read");
-  bench.checks().that(buffer.counters().loaded_at_cycle < kFull, "not full in time");
+  bench.run();
+  std::sort(requests.begin(), requests.end(), [](const Request& a, const Request& b) {
+    return a.asked < b.asked || (a.asked == b.asked && a.reader < b.reader);
+  });
+  check_requests(bench, plan, requests);
+  bench.checks().equal(bench.bytes_read(), preloaded ? 0 : plan.codebooks.size(), "bytes read");
+  bench.checks().that(bench.counter("loaded_at_cycle") < kFull, "not full in time");
   bench.checks().that(
       std::memcmp(buffer.bytes(), plan.codebooks.data(), plan.codebooks.size()) == 0,
       "the buffer holds other bytes than the memory");
 }
 
 Request at(std::uint64_t cycle, std::uint32_t scale, std::uint32_t sh = 0) {
-  return {{scale, 0, 0, sh}, cycle, 0};
+  return {{scale, 0, 0, sh}, cycle, 0, 0};
 }
 
 }  // namespace
@@ -259,7 +268,7 @@ int sc_main(int argc, char* argv[]) {
   using namespace sgs::tb;
   CaseRunner runner("tb_codebook", "Codebook buffer alone, against a cycle-by-cycle arbiter");
   const SecondHalfFormat paper{SecondHalfEncoding::kVq, 3, {4096, 4096, 4096, 512}};
-  for (const auto memory : {Memory::kFixedLatency, Memory::kDramFast, Memory::kDramAccurate}) {
+  for (const auto memory : {Memory::kFixedLatency, Memory::kDram}) {
     const auto add = [&](const char* name, const SecondHalfFormat& format) {
       runner.add_directed(fmt::format("{} from memory {}", name, static_cast<int>(memory)),
                           [=](Case& test) {

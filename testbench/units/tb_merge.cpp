@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "modules/merge/merge_unit.h"
+#include "modules/streaminggs/merge/merge_unit.h"
 #include "testbench/units/case_runner.h"
+#include "testbench/units/job_memory.h"
 #include "testbench/units/merge_plan.h"
+#include "testbench/units/reported_groups.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
@@ -20,29 +22,23 @@ bool same_payload(const FineCandidate& a, const FineCandidate& b) {
 
 struct Run {
   UnitBench bench;
-  FrameJob job;
-  SaturationBoard board;
-  std::vector<TimedFifo<FineCandidate>*> inputs, outputs;
+  StreamingJob job;
+  ReportedGroups finished;
+  Fifos<FineCandidate> inputs, outputs;
   MergeUnit unit;
 
   Run(Case& test, const BenchConfig& config, const MergePlan& plan)
       : bench(test, config),
         job(merge_job(plan)),
-        board(plan.groups.size()),
-        inputs(fifos("sorted_by", plan.sorters, plan.input_entries)),
-        outputs(fifos("to_hfu", plan.hfus, plan.output_entries)),
-        unit("merge", plan.config, bench.clock(), job, board, bench.port(), inputs, outputs,
-             job.layout[Region::kSpill].base, job.layout[Region::kSpill].bytes) {
-    bench.load(job.layout[Region::kIndices].base, index_bytes(plan));
-  }
-
-  std::vector<TimedFifo<FineCandidate>*> fifos(const std::string& name, std::uint32_t count,
-                                               std::uint32_t entries) {
-    std::vector<TimedFifo<FineCandidate>*> out;
-    for (std::uint32_t k = 0; k < count; ++k) {
-      out.push_back(&bench.add_fifo<FineCandidate>(fmt::format("{}{}", name, k), entries, 1));
-    }
-    return out;
+        finished(bench.clock(), plan.groups.size(), plan.feedback_cycles),
+        inputs(bench.add_fifos<FineCandidate>("sorted_by", plan.sorters, plan.input_entries, 1)),
+        outputs(bench.add_fifos<FineCandidate>("to_hfu", plan.hfus, plan.output_entries, 1)),
+        unit("merge", plan.config, job.spill, bench.context(job)) {
+    bench.load(job.layout.chunk_table().indices.base, index_bytes(plan));
+    for (TimedFifo<FineCandidate>* input : inputs) unit.sorted(*input);
+    for (TimedFifo<FineCandidate>* output : outputs) unit.released(*output);
+    unit.finished(finished.channel);
+    bench.add_unit(unit);
   }
 };
 
@@ -92,10 +88,15 @@ void add_reader(Run& run, const MergePlan& plan) {
               fmt::format("group {}, key {}: slot {} at depth {}, expected {} at {}", g, got,
                           key.slot, key.depth, expected[got].slot, expected[got].depth));
         }
-        if (got + 1 >= group.saturates_after) run.board.set(g);
+        // Decided on a cycle before it was put into the FIFO.
+        if (run.bench.without_stalls()) {
+          checks.that(run.bench.clock().now_cycles() - 2 < run.finished.seen_from(g),
+                      fmt::format("group {}: key {} although the group is finished", g, got));
+        }
+        if (got + 1 >= group.saturates_after) run.finished.finish(g);
       }
       checks.that(key.mark == Mark::kEndOfGroup && key.group == g, fmt::format("group {}: end", g));
-      if (group.saturates_after == ~std::uint64_t{0}) {
+      if (!run.finished.finished(g)) {
         checks.equal(got, expected.size(), fmt::format("group {}: keys", g));
       }
     }
@@ -107,53 +108,60 @@ void add_reader(Run& run, const MergePlan& plan) {
 
 void check_counters(Run& run, const MergePlan& plan) {
   Checks& checks = run.bench.checks();
-  const MergeCounters& c = run.unit.counters();
+  const MergeUnit::Counters& c = run.unit.counters();
   std::uint64_t keys = 0;
   bool saturating = false;
-  for (const MergeGroup& group : plan.groups) {
-    saturating = saturating || group.saturates_after != ~std::uint64_t{0};
-    for (const MergeVisit& visit : group.visits) keys += visit.keys.size();
+  for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
+    saturating = saturating || run.finished.finished(g);
+    for (const MergeVisit& visit : plan.groups[g].visits) keys += visit.keys.size();
   }
-  checks.equal(c.keys, keys, "keys received");
+  run.bench.check_counter("keys", keys);
+  run.bench.check_counter("ties_looked_up", c.ties);
   checks.equal(c.released + c.dropped_saturated, keys, "keys accounted for");
-  if (!saturating) checks.equal(c.released, keys, "keys released");
+  if (!saturating) run.bench.check_counter("released", keys);
   // A cycle in, a cycle out, a cycle a mark, a cycle each time into DRAM.
-  checks.equal(run.unit.activity().busy_cycles(),
+  checks.equal(run.bench.busy_cycles("merge"),
                c.keys + c.released + plan.groups.size() + c.keys_spilled, "busy cycles");
-  checks.equal(run.bench.port().bytes_written(), c.keys_spilled * kSpilledKeyBytes,
+  checks.equal(run.bench.bytes_written(), run.bench.counter("keys_spilled") * kSpilledKeyBytes,
                "bytes written");
   if (!saturating) {
-    checks.that(run.bench.port().bytes_read() >= c.keys_spilled * kSpilledKeyBytes,
+    checks.that(run.bench.bytes_read() >= c.keys_spilled * kSpilledKeyBytes,
                 "spilled keys were read back");
   }
   if (plan.config.on_overflow == OnOverflow::kSpill) {
-    checks.that(c.pending_max <= plan.config.entries, "more keys wait than fit");
-    checks.equal(c.forced_early, std::uint64_t{0}, "keys forced out");
+    checks.that(run.bench.counter("pending_keys_max") <= plan.config.entries,
+                "more keys wait than fit");
+    run.bench.check_counter("forced_early", 0);
   } else {
-    checks.equal(c.runs_spilled, std::uint64_t{0}, "runs spilled");
+    run.bench.check_counter("runs_spilled", 0);
   }
+  // A key passes all levels of the heap on its way in and on its way out.
+  std::uint64_t levels = 0;
+  for (std::uint64_t held = plan.config.entries - 1; held > 0; held /= 2) ++levels;
+  const std::uint64_t moved_bytes = 2 * keys * levels * kWaitingKeyBytes;
+  run.bench.check_operations("merge", "sram_middle_read_bit", 8 * moved_bytes);
+  run.bench.check_operations("merge", "sram_middle_write_bit", 8 * moved_bytes);
   // Nothing went past the spill area.
-  const RegionRange& frame = run.job.layout[Region::kFrameBuffer];
-  const std::vector<std::byte> behind = run.bench.read_back(
-      run.job.layout[Region::kSpill].end(), frame.end() - run.job.layout[Region::kSpill].end());
+  const RegionSpan& spill = run.job.spill;
+  const std::vector<std::byte> behind =
+      run.bench.read_back(spill.end(), run.job.frame_buffer.end() - spill.end());
   checks.that(
       std::all_of(behind.begin(), behind.end(), [](std::byte b) { return b == std::byte{}; }),
       "written past the spill area");
 }
 
-MergeCounters run_plan(Case& test, const BenchConfig& config, const MergePlan& plan) {
+MergeUnit::Counters run_plan(Case& test, const BenchConfig& config, const MergePlan& plan) {
   Run run(test, config, plan);
   add_sorters(run, plan);
   add_reader(run, plan);
-  run.bench.run(run.unit);
-  run.bench.check_times(std::vector<Activity*>{&run.unit.activity()});
+  run.bench.run();
   check_counters(run, plan);
   return run.unit.counters();
 }
 
 BenchConfig still_bench(const MergePlan& plan) {
   BenchConfig config;
-  config.memory_bytes = merge_job(plan).layout[Region::kIndices].end();
+  config.memory_bytes = memory_bytes(merge_job(plan));
   return config;
 }
 
@@ -174,6 +182,7 @@ void random_case(Case& test) {
                                        kDepths[random() % 4]));
     if (random() % 4 == 0) plan.groups.back().saturates_after = 1 + random() % 100;
   }
+  plan.feedback_cycles = 1 + static_cast<std::uint32_t>(random() % 40);
   run_plan(test, random_bench(random, still_bench(plan).memory_bytes), plan);
 }
 
@@ -190,14 +199,14 @@ void exact_time(Case& test, std::uint32_t n) {
   run.bench.add_thread("reader", [&](Activity& activity) {
     // FIFO in, n in, the first out, FIFO out.
     const std::uint64_t first = 1 + n + 1 + 1;
-    run.bench.clock().wait_cycles(first - 1);
+    run.bench.wait_until_just_before(first);
     run.bench.checks().that(!run.outputs[0]->can_pop(), "released a cycle too soon");
     for (std::uint32_t i = 0; i <= n; ++i) {
       run.outputs[0]->pop(activity);
       run.bench.checks().equal(run.bench.clock().now_cycles(), first + i, "time of a key");
     }
   });
-  run.bench.run(run.unit);
+  run.bench.run();
 }
 
 // What is final comes out although nothing more goes in; what ties with the bound does not.
@@ -236,11 +245,11 @@ void final_keys_do_not_wait(Case& test) {
     checks.equal(run.outputs[0]->pop(activity).slot, 2U, "the last key");
     checks.that(run.outputs[0]->pop(activity).mark == Mark::kEndOfGroup, "the end");
   });
-  run.bench.run(run.unit);
+  run.bench.run();
 }
 
 void one_group(Case& test, std::uint32_t n, std::uint32_t entries, bool tied,
-               const std::function<void(Checks&, const MergeCounters&)>& also) {
+               const std::function<void(Checks&, const MergeUnit::Counters&)>& also) {
   MergePlan plan = merge_plan(test.random, n);
   plan.config.entries = entries;
   plan.config.spill_runs = 3;
@@ -263,15 +272,15 @@ int sc_main(int argc, char* argv[]) {
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("final keys do not wait, tied ones do", final_keys_do_not_wait);
-  const auto spills = [](Checks& checks, const MergeCounters& c) {
+  const auto spills = [](Checks& checks, const MergeUnit::Counters& c) {
     checks.that(c.runs_spilled > 0, "nothing was spilled");
   };
-  const auto merges_runs = [](Checks& checks, const MergeCounters& c) {
+  const auto merges_runs = [](Checks& checks, const MergeUnit::Counters& c) {
     checks.that(c.runs_spilled > 3, "runs were not merged");
     checks.that(c.keys_spilled > c.keys / 2, "too few keys were spilled");
   };
   runner.add_directed("keys that all fit", [](Case& test) {
-    one_group(test, 100, 100, false, [](Checks& checks, const MergeCounters& c) {
+    one_group(test, 100, 100, false, [](Checks& checks, const MergeUnit::Counters& c) {
       checks.equal(c.runs_spilled, std::uint64_t{0}, "runs spilled");
       checks.equal(c.ties, std::uint64_t{0}, "ties");
     });
@@ -303,7 +312,7 @@ int sc_main(int argc, char* argv[]) {
     plan.config.entries = 8;
     plan.config.on_overflow = OnOverflow::kBlendEarly;
     for (int g = 0; g < 3; ++g) plan.groups.push_back(random_group(test.random, plan, 16, 30));
-    const MergeCounters c = run_plan(test, still_bench(plan), plan);
+    const MergeUnit::Counters c = run_plan(test, still_bench(plan), plan);
     test.checks.that(c.forced_early > 0, "nothing was forced out");
   });
   runner.add_directed("bytes of a spill: keys out and back, an index each", [](Case& test) {
@@ -313,11 +322,11 @@ int sc_main(int argc, char* argv[]) {
     Run run(test, still_bench(plan), plan);
     add_sorters(run, plan);
     add_reader(run, plan);
-    run.bench.run(run.unit);
+    run.bench.run();
     // 64 wait: an eighth goes, 8 keys, and the other 6 fit.
     test.checks.equal(run.unit.counters().keys_spilled, std::uint64_t{8}, "keys spilled");
-    test.checks.equal(run.bench.port().bytes_written(), std::uint64_t{8 * 28}, "bytes written");
-    test.checks.equal(run.bench.port().bytes_read(), std::uint64_t{8 * 28 + 8 * 4}, "bytes read");
+    test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * 28}, "bytes written");
+    test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * 28 + 8 * 4}, "bytes read");
   });
   for (const std::uint32_t n : {0U, 1U, 2U, 16U, 100U}) {
     runner.add_directed(fmt::format("time of {} keys", n),

@@ -1,8 +1,11 @@
 // Rendering unit alone: sorted splats in, a frame buffer in memory out. Checked against GroupState;
 // times against a recurrence over the groups.
+#include <optional>
+
 #include "algorithm/render/group_state.h"
-#include "modules/rendering/rendering_unit.h"
+#include "modules/streaminggs/rendering/rendering_unit.h"
 #include "testbench/units/case_runner.h"
+#include "testbench/units/job_memory.h"
 #include "testbench/units/random_splats.h"
 #include "testbench/units/unit_bench.h"
 
@@ -11,7 +14,7 @@ namespace {
 
 struct Plan {
   RenderingConfig config;
-  FrameJob job;
+  StreamingJob job;
   std::uint32_t inputs = 2;
   Arrival arrival = Arrival::kByVisit;
   std::uint32_t input_entries = 8;
@@ -23,8 +26,9 @@ std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / 
 // What must come out, from the algorithm layer.
 struct Expected {
   std::vector<std::byte> frame;
-  RenderingCounters counters;
-  std::vector<bool> saturated;              // [group]
+  RenderingUnit::Counters counters;
+  // [group] blending until the last of its pixels is finished; none: some never are
+  std::vector<std::optional<std::uint64_t>> saturated_after;
   std::vector<std::uint64_t> blend_cycles;  // [group]
   std::vector<std::uint64_t> drain_cycles;  // [group]
 };
@@ -40,6 +44,7 @@ Expected expect(const Plan& plan) {
     GroupState state(pixels, plan.job.view.width, plan.job.view.height,
                      plan.config.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox);
     std::uint64_t cycles = 0;
+    std::optional<std::uint64_t> saturated_after;
     for (const auto& visit : plan.groups[g]) {
       for (const Splat& splat : visit) {
         if (state.saturated()) {
@@ -52,13 +57,14 @@ Expected expect(const Plan& plan) {
         out.counters.subtile_tests += work.tested;
         out.counters.subtile_blends += work.blended;
         out.counters.splats += work.blended > 0 ? 1 : 0;
+        if (state.saturated()) saturated_after = cycles;
       }
       cycles += plan.arrival == Arrival::kByToken ? 1 : 0;  // a rejected key
     }
     ++out.counters.groups;
     out.counters.groups_saturated += state.saturated() ? 1 : 0;
     out.counters.contributors += state.contributors();
-    out.saturated.push_back(state.saturated());
+    out.saturated_after.push_back(saturated_after);
     out.blend_cycles.push_back(cycles);
     out.drain_cycles.push_back(
         static_cast<std::uint64_t>(pixels.height()) *
@@ -69,22 +75,42 @@ Expected expect(const Plan& plan) {
   return out;
 }
 
-// End of the frame when splats are always there: a group is blended when the one before it is and a
-// buffer is free; drained when the one before it is, depth_cycles after its last blend.
-std::uint64_t expected_end(const Plan& plan, const Expected& expected,
-                           std::uint64_t latency_cycles) {
+struct Times {
+  std::vector<std::uint64_t> blend_begins;  // [group]
+  std::uint64_t end = 0;                    // of the frame
+};
+
+// When splats are always there: a group is blended when the one before it is and a buffer is free;
+// drained when the one before it is, depth_cycles after its last blend.
+Times expected_times(const Plan& plan, const Expected& expected,
+                     std::uint64_t write_latency_cycles) {
+  Times times;
   std::vector<std::uint64_t> drained;
   std::uint64_t blend_end = 1;  // input latency
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
     const std::size_t buffers = plan.config.pixel_buffers;
     if (g >= buffers) blend_end = std::max(blend_end, drained[g - buffers]);
+    times.blend_begins.push_back(blend_end);
     blend_end += expected.blend_cycles[g];
     std::uint64_t drain = blend_end + plan.config.depth_cycles;
     if (g > 0) drain = std::max(drain, drained[g - 1]);
     drained.push_back(drain + expected.drain_cycles[g]);
   }
-  return drained.back() + latency_cycles;
+  times.end = drained.back() + write_latency_cycles;
+  return times;
 }
+
+// Notes when groups are said to be finished.
+class Feedback : public sc_core::sc_module, public FinishGroupIf {
+ public:
+  Feedback(const sc_core::sc_module_name& name, const ClockDomain& clock, std::size_t groups)
+      : sc_module(name), cycles(groups), clock_(clock) {}
+  void finish(std::uint32_t group) override { cycles[group].push_back(clock_.now_cycles()); }
+  std::vector<std::vector<std::uint64_t>> cycles;  // [group]
+
+ private:
+  const ClockDomain& clock_;
+};
 
 // What comes through each FIFO. By visit: visits in turn, each with its end; behind a group's
 // visits its end takes a turn of its own. By token: each in turn, here with a rejected key behind a
@@ -112,18 +138,14 @@ std::vector<std::vector<SplatToken>> tokens_of(const Plan& plan) {
 void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
-  SaturationBoard board(plan.job.groups.size());
-  std::vector<TimedFifo<SplatToken>*> inputs;
-  for (std::uint32_t s = 0; s < plan.inputs; ++s) {
-    inputs.push_back(
-        &bench.add_fifo<SplatToken>(fmt::format("sorted{}", s), plan.input_entries, 1));
-  }
-  std::uint64_t ends = 0, end_cycle = 0;
-  RenderingUnit unit("rendering", plan.config, bench.clock(), plan.job, board, bench.port(), inputs,
-                     plan.arrival, [&] {
-                       ++ends;
-                       end_cycle = bench.clock().now_cycles();
-                     });
+  Feedback feedback("feedback", bench.clock(), plan.job.groups.size());
+  const auto inputs = bench.add_fifos<SplatToken>("sorted", plan.inputs, plan.input_entries, 1);
+  std::uint64_t ends = 0;
+  RenderingUnit unit("rendering", plan.config, plan.arrival, bench.context(plan.job),
+                     [&] { ++ends; });
+  for (TimedFifo<SplatToken>* input : inputs) unit.splats(*input);
+  unit.finish(feedback);
+  bench.add_unit(unit);
   const std::vector<std::vector<SplatToken>> tokens = tokens_of(plan);
   for (std::uint32_t s = 0; s < plan.inputs; ++s) {
     bench.add_thread(fmt::format("sorting{}", s), [&, s](Activity& activity) {
@@ -131,44 +153,50 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     });
   }
   const Expected expected = expect(plan);
-  const bool free_running =
-      bench_config.memory == Memory::kFixedLatency && bench_config.stall_probability == 0;
-  if (free_running) {
+  const Times times = expected_times(plan, expected, bench_config.write_latency_cycles);
+  if (bench_config.still()) {
     bench.add_thread("clock", [&](Activity&) {
-      bench.clock().wait_cycles(expected_end(plan, expected, bench_config.latency_cycles) - 1);
+      bench.wait_until_just_before(times.end);
       checks.equal(ends, 0U, "done a cycle too soon");
       bench.clock().wait_cycles(1);
-      sc_core::wait(sc_core::SC_ZERO_TIME);
       checks.equal(ends, 1U, "done in time");
     });
   }
-  bench.run(unit);
-  bench.check_times(unit.activities());
+  bench.run();
 
   checks.equal(ends, 1U, "ends of the frame reported");
-  const RegionRange& frame = plan.job.layout[Region::kFrameBuffer];
+  const RegionSpan& frame = plan.job.frame_buffer;
   checks.that(bench.read_back(frame.base, frame.bytes) == expected.frame,
               "the frame buffer differs from GroupState's pixels");
-  checks.equal(bench.port().bytes_written(), frame.bytes, "bytes written");
-  checks.equal(bench.port().bytes_read(), 0U, "bytes read");
-  const RenderingCounters& got = unit.counters();
-  const RenderingCounters& want = expected.counters;
-  checks.equal(got.groups, want.groups, "groups");
-  checks.equal(got.groups_saturated, want.groups_saturated, "groups saturated");
-  checks.equal(got.splats, want.splats, "splats");
-  checks.equal(got.splats_saturated, want.splats_saturated, "splats of finished groups");
-  checks.equal(got.subtile_tests, want.subtile_tests, "sub-tile tests");
-  checks.equal(got.subtile_blends, want.subtile_blends, "sub-tile blends");
-  checks.equal(got.contributors, want.contributors, "contributors");
+  checks.equal(bench.bytes_written(), frame.bytes, "bytes written");
+  checks.equal(bench.bytes_read(), 0U, "bytes read");
+  const RenderingUnit::Counters& want = expected.counters;
+  bench.check_counter("groups", want.groups);
+  bench.check_counter("groups_saturated", want.groups_saturated);
+  bench.check_counter("splats", want.splats);
+  bench.check_counter("splats_saturated", want.splats_saturated);
+  bench.check_counter("subtile_tests", want.subtile_tests);
+  bench.check_counter("subtile_blends", want.subtile_blends);
+  bench.check_counter("contributors", want.contributors);
+  const std::uint64_t pixels = 16 * want.subtile_blends;
+  bench.check_operations("rendering", "pixel_blend", pixels);
+  bench.check_operations("pixel_state", "sram_large_read_bit", 8 * pixels * kPixelStateBytes);
+  bench.check_operations("pixel_state", "sram_large_write_bit", 8 * pixels * kPixelStateBytes);
   std::uint64_t blend = 0, drain = 0;
   for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-    checks.equal(board.saturated(g), expected.saturated[g] && plan.config.saturation_feedback,
-                 fmt::format("feedback of group {}", g));
+    const std::optional<std::uint64_t>& saturated_after = expected.saturated_after[g];
+    const bool told = saturated_after && plan.config.saturation_feedback;
+    checks.equal(feedback.cycles[g].size(), told ? 1U : 0U,
+                 fmt::format("how often group {} was said to be finished", g));
+    if (bench_config.still() && told && !feedback.cycles[g].empty()) {
+      checks.equal(feedback.cycles[g][0], times.blend_begins[g] + *saturated_after,
+                   fmt::format("cycle in which group {} was finished", g));
+    }
     blend += expected.blend_cycles[g];
     drain += expected.drain_cycles[g];
   }
-  checks.equal(unit.blend_activity().busy_cycles(), blend, "busy cycles of blending");
-  checks.equal(unit.drain_activity().busy_cycles(), drain, "busy cycles of draining");
+  checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");
+  checks.equal(bench.busy_cycles("drain"), drain, "busy cycles of draining");
 }
 
 Plan make_plan(int width_px, int height_px, int group_px, FrameFormat format) {
@@ -191,7 +219,7 @@ std::vector<Splat> random_visit(std::mt19937_64& random, const Plan& plan, std::
 
 BenchConfig still_bench(const Plan& plan) {
   BenchConfig config;
-  config.memory_bytes = plan.job.layout.total_bytes();
+  config.memory_bytes = memory_bytes(plan.job);
   return config;
 }
 
@@ -220,7 +248,7 @@ void random_case(Case& test) {
   plan.config.ellipse_test = random() % 2 == 0;
   plan.config.subtile_tests_per_cycle = 1 + static_cast<std::uint32_t>(random() % 16);
   plan.arrival = random() % 2 == 0 ? Arrival::kByVisit : Arrival::kByToken;
-  const BenchConfig bench = random_bench(random, plan.job.layout.total_bytes());
+  const BenchConfig bench = random_bench(random, memory_bytes(plan.job));
   // With stalls, tokens may as well wait for room.
   if (bench.stall_probability > 0) {
     plan.input_entries = 1 + static_cast<std::uint32_t>(random() % 8);

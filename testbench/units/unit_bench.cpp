@@ -2,6 +2,11 @@
 #include "testbench/units/unit_bench.h"
 
 #include <cstring>
+#include <limits>
+#include <optional>
+
+#include "testbench/result/waveform_sheet.h"
+#include "testbench/waveform/waveform.h"
 
 namespace sgs::tb {
 
@@ -10,7 +15,7 @@ class UnitBench::Stimulus : public sc_core::sc_module {
   SC_HAS_PROCESS(Stimulus);
   Stimulus(const sc_core::sc_module_name& name, const ClockDomain& clock,
            std::function<void(Activity&)> body)
-      : sc_module(name), activity_(this->name(), clock), body_(std::move(body)) {
+      : sc_module(name), activity_("activity", clock), body_(std::move(body)) {
     SC_THREAD(run);
   }
   bool returned() const { return returned_; }
@@ -27,8 +32,9 @@ class UnitBench::Stimulus : public sc_core::sc_module {
 
 BenchConfig random_bench(std::mt19937_64& random, std::size_t memory_bytes) {
   BenchConfig config;
-  config.memory = static_cast<Memory>(random() % 3);
+  config.memory = random() % 2 == 0 ? Memory::kFixedLatency : Memory::kDram;
   config.latency_cycles = static_cast<std::uint32_t>(random() % 100);
+  config.write_latency_cycles = 5 * config.latency_cycles;
   config.memory_bytes = memory_bytes;
   constexpr double kProbabilities[] = {0, 0.02, 0.3};
   config.stall_probability = kProbabilities[random() % 3];
@@ -36,32 +42,23 @@ BenchConfig random_bench(std::mt19937_64& random, std::size_t memory_bytes) {
   return config;
 }
 
-UnitBench::UnitBench(Case& test, const BenchConfig& config) : test_(test) {
+UnitBench::UnitBench(Case& test, const BenchConfig& config) : test_(test), config_(config) {
   if (config.stall_probability > 0) {
-    stalls_ = std::make_unique<StallInjector>(test.random(), config.stall_probability,
-                                              config.longest_stall_cycles);
-  }
-  const bool accurate = config.memory == Memory::kDramAccurate;
-  // Where times are computed to the cycle the port must not hold anything back.
-  const std::uint32_t outstanding = config.memory == Memory::kFixedLatency ? 4096 : 16;
-  const MemoryPort::Config port{0, 256, outstanding,
-                                accurate ? TimingMode::kAccurate : TimingMode::kFast};
-  port_ = std::make_unique<MemoryPort>("port", port, pool_);
-  port_->socket.bind(checker_.from_initiator);
-  if (config.memory == Memory::kFixedLatency) {
-    fixed_ = std::make_unique<FixedLatencyMemory>(
-        "memory", config.memory_bytes,
-        static_cast<double>(config.latency_cycles) * clock_.period());
-    checker_.to_target.bind(fixed_->socket);
-  } else {
-    dram_ = std::make_unique<DramController>("memory", DramConfig{});
-    checker_.to_target.bind(dram_->socket);
+    stalls_ = {config.stall_probability, config.longest_stall_cycles, test.random()};
   }
 }
 
 UnitBench::~UnitBench() = default;
 
+UnitContext UnitBench::context(const StreamingJob& job) const {
+  constexpr std::uint32_t kUnlimited = 4096;
+  MemoryPortConfig port;
+  if (config_.memory == Memory::kFixedLatency) port.max_outstanding = kUnlimited;
+  return {clock_, job, port};
+}
+
 void UnitBench::load(std::uint64_t address, const std::vector<std::byte>& bytes) {
+  make_memory();
   if (bytes.empty()) return;
   if (dram_) {
     dram_->load(address, bytes.data(), bytes.size());
@@ -84,29 +81,124 @@ void UnitBench::add_thread(const std::string& name, std::function<void(Activity&
   stimuli_.push_back(std::make_unique<Stimulus>(name.c_str(), clock_, std::move(body)));
 }
 
-void UnitBench::simulate(const std::function<void(sc_core::sc_trace_file*)>& trace_unit) {
-  sc_core::sc_trace_file* file = nullptr;
-  if (!test_.vcd_path.empty()) {
-    // SystemC adds the extension itself.
-    std::string stem = test_.vcd_path;
-    if (stem.size() > 4 && stem.substr(stem.size() - 4) == ".vcd") stem.resize(stem.size() - 4);
-    file = sc_core::sc_create_vcd_trace_file(stem.c_str());
-    file->set_time_unit(1, sc_core::SC_PS);
-    trace_unit(file);
-    for (const AnyFifo& fifo : fifos_) fifo.trace(file);
+void UnitBench::run() {
+  connect_memory();
+  simulate();
+  check_end();
+}
+
+void UnitBench::make_memory() {
+  if (dram_ || fixed_) return;
+  if (config_.memory == Memory::kDram) {
+    dram_ = std::make_unique<DramController>("memory", DramConfig{});
+  } else {
+    fixed_ = std::make_unique<FixedLatencyMemory>(
+        "memory", config_.memory_bytes,
+        static_cast<double>(config_.latency_cycles) * clock_.period(),
+        static_cast<double>(config_.write_latency_cycles) * clock_.period());
+  }
+}
+
+void UnitBench::connect_memory() {
+  const std::size_t ports = published_.ports.size();
+  if (ports == 0) return;
+  make_memory();
+  router_ = std::make_unique<Router>("router", instant_end_, static_cast<std::uint32_t>(ports));
+  constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+  if (dram_) {
+    router_->map(0, kAll, dram_->socket);
+  } else {
+    router_->map(0, kAll, fixed_->socket);
+  }
+  for (std::size_t i = 0; i < ports; ++i) {
+    checkers_.push_back(std::make_unique<ProtocolChecker>(fmt::format("checker{}", i).c_str()));
+    published_.ports[i]->socket.bind(checkers_[i]->from_initiator);
+    checkers_[i]->to_target.bind(router_->from_initiators[i]);
+  }
+}
+
+void UnitBench::simulate() {
+  std::optional<Waveform> waveform;
+  if (test_.vcd != nullptr) {
+    waveform.emplace(*test_.vcd);
+    WaveformSheet sheet(waveform->file());
+    for (const auto& publish_unit : publishers_) publish_unit(sheet);
+    for (const auto& fifo : fifos_) fifo->trace(waveform->file());
+    if (dram_) dram_->trace(waveform->file());
   }
   sc_core::sc_start();
-  if (file != nullptr) sc_core::sc_close_vcd_trace_file(file);
+  if (waveform) waveform->close();
+}
 
+void UnitBench::check_end() {
   for (const auto& stimulus : stimuli_) {
-    checks().that(stimulus->returned(), std::string(stimulus->name()) + " waits forever");
+    checks().that(stimulus->returned(), fmt::format("{} waits forever", stimulus->name()));
   }
-  for (const AnyFifo& fifo : fifos_) checks().that(fifo.empty(), fifo.name + " is not empty");
-  checks().that(port_->idle(), "the memory port is not idle");
+  const auto check_empty = [this](const FifoChannel& fifo) {
+    checks().equal(fifo.fill(), 0U, fmt::format("{}: entries left", fifo.name()));
+  };
+  for (const auto& fifo : fifos_) check_empty(*fifo);
+  for (const FifoChannel* queue : published_.queues) check_empty(*queue);
+  for (const MemoryPort* port : published_.ports) {
+    checks().that(port->idle(), fmt::format("{} is not idle", port->name()));
+    checks().equal(port->payloads().in_use(), std::size_t{0},
+                   fmt::format("{}: payloads in use", port->name()));
+  }
   checks().that(!dram_ || dram_->idle(), "the memory is not idle");
-  checks().equal(checker_.violations().size(), std::size_t{0}, "violations of the TLM protocol");
-  checks().equal(checker_.in_flight(), std::size_t{0}, "transactions in flight");
-  checks().equal(pool_.in_use(), std::size_t{0}, "payloads in use");
+  checks().that(!fixed_ || fixed_->idle(), "the memory is not idle");
+  for (const auto& checker : checkers_) {
+    checks().equal(checker->violations().size(), std::size_t{0},
+                   fmt::format("{}: violations of the TLM protocol", checker->name()));
+    checks().equal(checker->in_flight(), std::size_t{0},
+                   fmt::format("{}: transactions in flight", checker->name()));
+  }
+  for (Activity* activity : published_.activities) {
+    activity->close();
+    checks().equal(
+        activity->busy_cycles() + activity->starved_cycles() + activity->blocked_cycles(),
+        clock_.now_cycles(), fmt::format("{}: busy + starved + blocked", activity->name()));
+  }
+}
+
+void UnitBench::wait_until_just_before(std::uint64_t cycle) const {
+  const sc_core::sc_time middle = (static_cast<double>(cycle) - 0.5) * clock_.period();
+  sc_core::wait(middle - sc_core::sc_time_stamp());
+}
+
+Published UnitBench::publish() const {
+  Published now;
+  for (const auto& publish_unit : publishers_) publish_unit(now);
+  return now;
+}
+
+std::uint64_t UnitBench::counter(const std::string& name) const { return publish().counter(name); }
+
+void UnitBench::check_counter(const std::string& name, std::uint64_t expected) {
+  checks().equal(counter(name), expected, name);
+}
+
+void UnitBench::check_operations(const std::string& component, const std::string& kind,
+                                 std::uint64_t expected) {
+  checks().equal(publish().operations(component, kind), static_cast<double>(expected),
+                 component + ": " + kind);
+}
+
+std::uint64_t UnitBench::bytes_read() const {
+  std::uint64_t sum = 0;
+  for (const MemoryPort* port : published_.ports) sum += port->bytes_read();
+  return sum;
+}
+
+std::uint64_t UnitBench::bytes_written() const {
+  std::uint64_t sum = 0;
+  for (const MemoryPort* port : published_.ports) sum += port->bytes_written();
+  return sum;
+}
+
+std::uint64_t UnitBench::transactions() const {
+  std::uint64_t sum = 0;
+  for (const MemoryPort* port : published_.ports) sum += port->transactions();
+  return sum;
 }
 
 }  // namespace sgs::tb

@@ -9,6 +9,7 @@
 #include "algorithm/scene/ply_writer.h"
 #include "tests/algorithm/voxel/hard_scenes.h"
 #include "tests/support/shared_inputs.h"
+#include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
 namespace sgs::test {
@@ -24,7 +25,7 @@ std::vector<std::string> random_exact_options(std::mt19937_64& random) {
   set("sram.shared_bytes", 1U << 30U);
   set("sram.input_bytes", 1U << 30U);
   set("group_px", 4 * between(1, random() % 2 == 0 ? 8 : 50));
-  set("chunk_gaussians", between(1, random() % 2 == 0 ? 16 : 256));
+  set("storage.chunk_gaussians", between(1, random() % 2 == 0 ? 16 : 256));
   set("merge.entries", between(2, random() % 2 == 0 ? 32 : 4096));
   set("merge.spill_runs", between(2, 8));
   set("merge.spill_block_entries", between(1, 16));
@@ -36,7 +37,6 @@ std::vector<std::string> random_exact_options(std::mt19937_64& random) {
   set("hfu.slice_gaussians", 2 * between(1, 64));
   set("merge.output_fifo_entries", between(1, 4));
   set("rendering.pixel_buffers", between(1, 2));
-  if (random() % 2 == 0) options.insert(options.end(), {"--timing", "fast"});
   if (random() % 2 == 0) {
     options.insert(options.end(), {"--stalls", "0.02", "--seed", std::to_string(random() % 1000)});
   }
@@ -61,14 +61,11 @@ void fuzz_exact_frames(unsigned first_seed, unsigned scenes) {
     const Simulation simulation(arguments);
     simulation.check();
     const auto& view = simulation.views()[0];
-    const auto of = [&](const char* unit, const char* counter) {
-      return view["units"][unit][counter].get<std::uint64_t>();
-    };
     blends += view["image"]["blends"].get<std::uint64_t>();
-    spilled += of("merge", "keys_spilled");
-    put_aside += of("vsu.walk", "queue_entries_put_aside");
-    saturated += of("vsu.walk", "groups_saturated");
-    ties += of("merge", "ties_looked_up");
+    spilled += counter(view, "merge", "keys_spilled");
+    put_aside += counter(view, "vsu", "queue_entries_put_aside");
+    saturated += counter(view, "vsu", "groups_saturated");
+    ties += counter(view, "merge", "ties_looked_up");
   }
   fmt::print("{} blends, {} keys spilled, {} entries put aside, {} groups ended early, {} ties\n",
              blends, spilled, put_aside, saturated, ties);
@@ -82,12 +79,12 @@ void fuzz_exact_frames(unsigned first_seed, unsigned scenes) {
 void check_exact_under_pressure(const std::string& name) {
   const Simulation simulation({shared_scene(name), "--cameras",
                                shared_path("cameras/" + name + ".json"), "--view", "all",
-                               "--config", "exact", "--timing", "fast", "--stalls", "0.02", "--set",
-                               "group_px=64", "--set", "merge.entries=128", "--set",
-                               "vsu.queue_entries=48", "--set", "sram.shared_bytes=1073741824"});
+                               "--config", "exact", "--stalls", "0.02", "--set", "group_px=64",
+                               "--set", "merge.entries=128", "--set", "vsu.queue_entries=48",
+                               "--set", "sram.shared_bytes=1073741824"});
   simulation.check();
   for (const auto& view : simulation.views()) {
-    CHECK(view["units"]["merge"]["keys_spilled"].get<std::uint64_t>() > 0);
+    CHECK(counter(view, "merge", "keys_spilled") > 0);
   }
 }
 

@@ -8,8 +8,7 @@
 namespace sgs::test {
 
 // --set options at random: group, chunk, merge buffer and walk queue from next to nothing to
-// roomy, numbers of units, FIFOs; with SRAM for all of them. Every other time also stalls or fast
-// timing.
+// roomy, numbers of units, FIFOs; with SRAM for all of them. Every other time also stalls.
 std::vector<std::string> random_exact_options(std::mt19937_64& random);
 
 // Random hard scenes (needles, giants, points, coincident centres, equal depths, the near plane,

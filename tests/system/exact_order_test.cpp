@@ -5,41 +5,22 @@
 #include <cmath>
 
 #include "algorithm/render/group_state.h"
-#include "algorithm/scene/builtin_scene.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/voxel/chunk_test.h"
 #include "algorithm/voxel/chunk_tree.h"
+#include "testbench/builtin/builtin_scene.h"
 #include "tests/support/shared_inputs.h"
 #include "tests/system/exact_order_checks.h"
+#include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
 namespace sgs::test {
 namespace {
 
 using Json = nlohmann::json;
-using Arguments = std::vector<std::string>;
-
-Arguments join(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-std::uint64_t of(const Json& view, const char* unit, const char* counter) {
-  return view["units"][unit][counter].get<std::uint64_t>();
-}
-
-std::uint64_t asked(const Json& view, const char* region, const char* requester,
-                    const char* direction) {
-  const Json& regions = view["dram"]["bytes_by_region"];
-  if (!regions.contains(region) || !regions[region].contains(requester) ||
-      !regions[region][requester].contains(direction)) {
-    return 0;
-  }
-  return regions[region][requester][direction].get<std::uint64_t>();
-}
 
 // What a frame needs when no group ever finishes early, counted over the tree without a queue, a
 // cache or a clock.
@@ -90,7 +71,7 @@ TEST_CASE("exact frames: built-in scenes under random configurations") {
     INFO("round " << round);
     const Arguments scene = {round % 2 == 0 ? "builtin:object?n=4000" : "builtin:outdoor?n=5000",
                              "--size", "129x73", "--view", std::to_string(round % 4)};
-    Simulation(join(scene, random_exact_options(random))).check();
+    Simulation(joined(scene, random_exact_options(random))).check();
   }
 }
 
@@ -112,44 +93,44 @@ TEST_CASE("exact frames: bytes are counts times sizes, counted without the accel
                                    "--set",
                                    "rendering.saturation_feedback=false",
                                    "--set",
-                                   "chunk_gaussians=" + std::to_string(chunk),
+                                   "storage.chunk_gaussians=" + std::to_string(chunk),
                                    "--set",
                                    "group_px=" + std::to_string(group),
                                    "--set",
                                    "sram.shared_bytes=1073741824",
                                    "--set",
                                    "vsu.node_cache_bytes=64"};
-      const Simulation roomy(
-          join(arguments, {"--set", "merge.entries=100000", "--set", "vsu.queue_entries=100000"}));
+      const Simulation roomy(joined(
+          arguments, {"--set", "merge.entries=100000", "--set", "vsu.queue_entries=100000"}));
       roomy.check();
       const Json& view = roomy.views()[0];
-      CHECK(of(view, "vsu.walk", "visits") == counts.visits);
+      CHECK(counter(view, "vsu", "visits") == counts.visits);
       CHECK(region_bytes(view, "first_halves", "read") == 16 * counts.first_halves);
       CHECK(region_bytes(view, "second_halves", "read") == kSecondHalf * counts.second_halves);
-      CHECK(of(view, "merge", "released") == counts.second_halves);
+      CHECK(counter(view, "merge", "released") == counts.second_halves);
       CHECK(region_bytes(view, "frame_buffer", "write") == 150 * 90 * 12);
       CHECK(region_bytes(view, "spill", "write") == 0);
       CHECK(region_bytes(view, "spill", "read") == 0);
-      CHECK(of(view, "vsu.walk", "nodes") == counts.nodes);
+      CHECK(counter(view, "vsu", "nodes") == counts.nodes);
       // The cache holds four nodes: whatever it spares is no more than all but one read of each.
       CHECK(region_bytes(view, "chunk_table", "read") ==
-            kNode * of(view, "vsu.walk", "node_cache_misses"));
+            kNode * counter(view, "vsu", "node_cache_misses"));
       CHECK(region_bytes(view, "chunk_table", "read") <= kNode * counts.nodes);
 
       const Simulation tight(
-          join(arguments, {"--set", "merge.entries=32", "--set", "vsu.queue_entries=9"}));
+          joined(arguments, {"--set", "merge.entries=32", "--set", "vsu.queue_entries=9"}));
       tight.check();
       CHECK(tight.frame(0) == roomy.frame(0));
       const Json& small = tight.views()[0];
       CHECK(region_bytes(small, "first_halves", "read") == 16 * counts.first_halves);
       CHECK(region_bytes(small, "second_halves", "read") == kSecondHalf * counts.second_halves);
-      const std::uint64_t spilled = of(small, "merge", "keys_spilled");
+      const std::uint64_t spilled = counter(small, "merge", "keys_spilled");
       CHECK((spilled > 0) == (chunk > 1));  // one key a visit waits for nothing
-      CHECK(asked(small, "spill", "merge", "write") == 28 * spilled);
-      CHECK(asked(small, "spill", "merge", "read") == 28 * spilled);
-      const std::uint64_t aside = of(small, "vsu.walk", "queue_entries_put_aside");
-      CHECK(asked(small, "spill", "vsu", "write") == 12 * aside);
-      CHECK(asked(small, "spill", "vsu", "read") == 12 * aside);
+      CHECK(asked_bytes(small, "spill", "merge", "write") == 28 * spilled);
+      CHECK(asked_bytes(small, "spill", "merge", "read") == 28 * spilled);
+      const std::uint64_t aside = counter(small, "vsu", "queue_entries_put_aside");
+      CHECK(asked_bytes(small, "spill", "vsu", "write") == 12 * aside);
+      CHECK(asked_bytes(small, "spill", "vsu", "read") == 12 * aside);
       // An index for each key that was spilled at least once or tied.
       const std::uint64_t indices = region_bytes(small, "indices", "read");
       CHECK((indices > 0) == (chunk > 1));
@@ -179,7 +160,7 @@ TEST_CASE("exact frames: without ties and spills no index is read") {
   const Simulation none(arguments);
   none.check();
   CHECK(region_bytes(none.views()[0], "indices", "read") == 0);
-  CHECK(of(none.views()[0], "merge", "ties_looked_up") == 0);
+  CHECK(counter(none.views()[0], "merge", "ties_looked_up") == 0);
 
   // Each of 500 depths twice, the second time far away in the file.
   GaussianCloud twice = cloud;
@@ -192,8 +173,8 @@ TEST_CASE("exact frames: without ties and spills no index is read") {
   const Simulation pairs(arguments);
   pairs.check();
   const Json& view = pairs.views()[0];
-  CHECK(of(view, "merge", "ties_looked_up") == of(view, "merge", "released"));
-  CHECK(region_bytes(view, "indices", "read") >= 4 * of(view, "merge", "released"));
+  CHECK(counter(view, "merge", "ties_looked_up") == counter(view, "merge", "released"));
+  CHECK(region_bytes(view, "indices", "read") >= 4 * counter(view, "merge", "released"));
 }
 
 TEST_CASE("exact frames: 20,000 Gaussians at one point, the buffer holds 64 keys") {
@@ -213,42 +194,37 @@ TEST_CASE("exact frames: 20,000 Gaussians at one point, the buffer holds 64 keys
   const ScratchFolder scratch;
   write_ply(scratch.path("scene.ply"), cloud);
   write_cameras(scratch.path("cameras.json"), {camera});
-  const Arguments arguments = {scratch.path("scene.ply"),
-                               "--cameras",
-                               scratch.path("cameras.json"),
-                               "--set",
-                               "merge.entries=64",
-                               "--timing",
-                               "fast"};
+  const Arguments arguments = {scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"),
+                               "--set", "merge.entries=64"};
   Simulation(arguments).check();
-  const Simulation unfinished(join(arguments, {"--set", "rendering.saturation_feedback=false"}));
+  const Simulation unfinished(joined(arguments, {"--set", "rendering.saturation_feedback=false"}));
   unfinished.check();
-  CHECK(of(unfinished.views()[0], "merge", "ties_looked_up") >= 20000);
+  CHECK(counter(unfinished.views()[0], "merge", "ties_looked_up") >= 20000);
 }
 
 TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and says so") {
   const Arguments arguments = {
       "builtin:outdoor?n=8000",       "--size", "160x90", "--set", "group_px=64", "--set",
       "merge.on_overflow=blend_early"};
-  const Simulation early(join(arguments, {"--set", "merge.entries=16"}));
+  const Simulation early(joined(arguments, {"--set", "merge.entries=16"}));
   const Json& view = early.views()[0];
   CHECK(view["image"]["equals_streaming_renderer"] == true);
-  CHECK(of(view, "merge", "forced_early") > 0);
+  CHECK(counter(view, "merge", "forced_early") > 0);
   CHECK(view["image"]["misordered"].get<std::uint64_t>() > 0);
   CHECK(view["image"]["max_abs_error"].get<double>() > 0);
   CHECK(view["image"]["psnr_db"].get<double>() > 15);
-  CHECK(of(view, "merge", "runs_spilled") == 0);
+  CHECK(counter(view, "merge", "runs_spilled") == 0);
   CHECK(region_bytes(view, "spill", "write") == 0);
 
-  const Simulation enough(join(arguments, {"--set", "merge.entries=5000"}));
+  const Simulation enough(joined(arguments, {"--set", "merge.entries=5000"}));
   enough.check();  // the reference image
-  CHECK(of(enough.views()[0], "merge", "forced_early") == 0);
+  CHECK(counter(enough.views()[0], "merge", "forced_early") == 0);
 }
 
 TEST_CASE("exact frames: what the report holds") {
   const Simulation simulation({"builtin:object?n=2000", "--size", "80x45"});
   const Json& view = simulation.views()[0];
-  CHECK(view["config"]["ordering"] == "exact");  // the default
+  CHECK(view["config"]["machine"] == "exact");  // the default
   for (const char* key : {"scene", "view", "image", "frame", "units", "binding", "dram", "limit",
                           "left_out", "host", "provenance", "sram"}) {
     INFO(key);
@@ -257,16 +233,15 @@ TEST_CASE("exact frames: what the report holds") {
   CHECK(view["image"]["psnr_db"].is_null());  // equal pictures
   CHECK(view["image"]["missed"] == 0);
   CHECK(view["image"]["misordered"] == 0);
-  for (const char* counter :
-       {"keys", "released", "forced_early", "dropped_saturated", "pending_keys_max",
-        "ties_looked_up", "runs_spilled", "keys_spilled"}) {
-    INFO(counter);
-    CHECK(view["units"]["merge"].contains(counter));
+  for (const char* name : {"keys", "released", "forced_early", "dropped_saturated",
+                           "pending_keys_max", "ties_looked_up", "runs_spilled", "keys_spilled"}) {
+    INFO(name);
+    CHECK(view["units"]["merge"]["counters"].contains(name));
   }
-  for (const char* counter : {"nodes", "node_cache_misses", "tests", "visits", "groups_saturated",
-                              "queue_entries_max", "queue_entries_put_aside"}) {
-    INFO(counter);
-    CHECK(view["units"]["vsu.walk"].contains(counter));
+  for (const char* name : {"nodes", "node_cache_misses", "tests", "visits", "groups_saturated",
+                           "queue_entries_max", "queue_entries_put_aside"}) {
+    INFO(name);
+    CHECK(view["units"]["vsu"]["counters"].contains(name));
   }
   // Once each: what contributes, and the pixels.
   const std::uint64_t once =
@@ -279,7 +254,7 @@ TEST_CASE("exact frames: what the report holds") {
 TEST_CASE("exact frames: truck and playbot") {
   for (const std::string name : {"truck", "playbot"}) {
     Simulation({shared_scene(name), "--cameras", shared_path("cameras/" + name + ".json"), "--view",
-                "all", "--timing", "fast"})
+                "all"})
         .check();
   }
 }

@@ -6,6 +6,7 @@
 
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_writer.h"
+#include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
 namespace sgs::test {
@@ -33,27 +34,29 @@ Camera camera_at(const glm::dvec3& position, int width = 65, int height = 49) {
   return camera;
 }
 
-// Simulates in both orders and checks; `options` go to both.
-std::vector<nlohmann::json> check_scene(const GaussianCloud& cloud,
-                                        const std::vector<Camera>& cameras,
-                                        const std::vector<std::string>& options = {}) {
+// Simulates all views and checks them.
+std::vector<nlohmann::json> check_machine(const char* machine, const GaussianCloud& cloud,
+                                          const std::vector<Camera>& cameras,
+                                          const Arguments& options = {}) {
   const ScratchFolder scratch;
   write_ply(scratch.path("scene.ply"), cloud);
   write_cameras(scratch.path("cameras.json"), cameras);
-  std::vector<nlohmann::json> views;
-  for (const char* order : {"paper", "exact"}) {
-    std::vector<std::string> arguments = {scratch.path("scene.ply"),
-                                          "--cameras",
-                                          scratch.path("cameras.json"),
-                                          "--view",
-                                          "all",
-                                          "--config",
-                                          order};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    INFO(order);
-    const Simulation simulation(arguments);
-    simulation.check();
-    views.insert(views.end(), simulation.views().begin(), simulation.views().end());
+  INFO(machine);
+  const Simulation simulation(
+      joined({scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"), "--view", "all",
+              "--config", machine},
+             options));
+  simulation.check();
+  return simulation.views();
+}
+
+// In both orders; voxels: options of paper order.
+std::vector<nlohmann::json> check_scene(const GaussianCloud& cloud,
+                                        const std::vector<Camera>& cameras,
+                                        const Arguments& voxels = {}) {
+  std::vector<nlohmann::json> views = check_machine("paper", cloud, cameras, voxels);
+  for (nlohmann::json& view : check_machine("exact", cloud, cameras)) {
+    views.push_back(std::move(view));
   }
   return views;
 }
@@ -93,9 +96,11 @@ TEST_CASE("extreme input: thousands at one point, all of one depth") {
   const auto views = check_scene(cloud, {camera_at({0, 0, -5})});
   CHECK(total(views[0], "entries_spilled") >= 3000);  // paper order sorts one list of them
   // Long lists and no feedback: every pass runs to its end.
-  check_scene(cloud, {camera_at({0, 0, -5})},
-              {"--set", "rendering.saturation_feedback=false", "--set", "sorting.buffer_entries=16",
-               "--set", "merge.entries=1024"});
+  const Arguments to_the_end = {"--set", "rendering.saturation_feedback=false"};
+  check_machine("paper", cloud, {camera_at({0, 0, -5})},
+                joined(to_the_end, {"--set", "sorting.buffer_entries=16"}));
+  check_machine("exact", cloud, {camera_at({0, 0, -5})},
+                joined(to_the_end, {"--set", "merge.entries=1024"}));
 }
 
 TEST_CASE("extreme input: coordinates of a million, details of a thousandth") {
@@ -108,7 +113,7 @@ TEST_CASE("extreme input: coordinates of a million, details of a thousandth") {
   add(cloud, -far, 3, 1, {0, 0, 1});
   const auto views = check_scene(
       cloud, {camera_at({1e6 + 1, -1e6 + 1, 5e5 - 4}), camera_at({-1e6, 1e6, -5e5 - 50})},
-      {"--set", "voxel_size=10"});
+      {"--set", "storage.voxel_size=10"});
   for (const auto& view : views) CHECK(view["image"]["blends"].get<int>() > 0);
 }
 
@@ -142,7 +147,7 @@ TEST_CASE("extreme input: the camera in a voxel, on a face, on an edge, in a cor
                                      {0.1, 0.2, -4}}) {
     cameras.push_back(camera_at(position));  // odd sizes: the middle ray is parallel to z
   }
-  check_scene(cloud, cameras, {"--set", "voxel_size=0.5"});
+  check_scene(cloud, cameras, {"--set", "storage.voxel_size=0.5"});
 }
 
 TEST_CASE("extreme input: many layers too faint for one splat to show much") {

@@ -3,17 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/builtin_scene.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_writer.h"
+#include "testbench/builtin/builtin_scene.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
 namespace sgs::test {
 namespace {
 
 using Json = nlohmann::json;
-using Arguments = std::vector<std::string>;
 
 const Arguments kObject = {"builtin:object?n=3000", "--size", "96x54", "--set", "group_px=32"};
 
@@ -25,7 +25,7 @@ Arguments with(Arguments arguments, const std::string& setting) {
 std::uint64_t fine_busy(const Json& view) {
   std::uint64_t sum = 0;
   for (const auto& [name, unit] : view["units"].items()) {
-    if (name.find(".fine") != std::string::npos) sum += unit["busy_cycles"].get<std::uint64_t>();
+    if (name.find(".fine") != std::string::npos) sum += cycles(view, name, "filter");
   }
   return sum;
 }

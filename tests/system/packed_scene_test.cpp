@@ -6,24 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/builtin_scene.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/voxel/voxel_grid.h"
+#include "testbench/builtin/builtin_scene.h"
 #include "tests/system/streaminggs_run.h"
 
 namespace sgs::test {
 namespace {
 
 using Json = nlohmann::json;
-using Arguments = std::vector<std::string>;
 using Catch::Matchers::Contains;
-
-Arguments joined(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 // A scene as .ply with its cameras, and the files that pack makes of it.
 class PackedScenes {
@@ -56,9 +50,10 @@ class PackedScenes {
   std::size_t visible_ = 0;
 };
 
-const Arguments kQuantised = {"--set", "sram.codebook_bytes=65536", "--set", "vq.scale_entries=50",
-                              "--set", "vq.rotation_entries=70",    "--set", "vq.dc_entries=60",
-                              "--set", "vq.sh_entries=30",          "--set", "vq.iterations=3"};
+const Arguments kQuantised = {
+    "--set", "sram.codebook_bytes=65536",      "--set", "storage.vq.scale_entries=50",
+    "--set", "storage.vq.rotation_entries=70", "--set", "storage.vq.dc_entries=60",
+    "--set", "storage.vq.sh_entries=30",       "--set", "storage.vq.iterations=3"};
 
 struct Case {
   const char* order;
@@ -69,12 +64,12 @@ struct Case {
 TEST_CASE("pack: the file gives the very run that the scene gives") {
   const PackedScenes scenes;
   const Arguments memory = {"--set", "sram.codebook_bytes=65536"};
-  for (const Case& c :
-       {Case{"exact", "raw", {}}, Case{"paper", "raw", {}}, Case{"exact", "vq", memory},
-        Case{"paper", "vq_packed", memory}, Case{"exact", "half", {"--set", "chunk_gaussians=20"}},
-        Case{"paper", "half", {"--set", "hfu.cost=counted"}}}) {
+  for (const Case& c : {Case{"exact", "raw", {}}, Case{"paper", "raw", {}},
+                        Case{"exact", "vq", memory}, Case{"paper", "vq_packed", memory},
+                        Case{"exact", "half", {"--set", "storage.chunk_gaussians=20"}},
+                        Case{"paper", "half", {"--set", "hfu.cost=counted"}}}) {
     INFO(c.order << " " << c.encoding);
-    const std::string encoding = std::string("encoding=") + c.encoding;
+    const std::string encoding = std::string("storage.encoding=") + c.encoding;
     Arguments making = {"--config", c.order, "--set", encoding};
     if (encoding.find("vq") != std::string::npos) making = joined(making, kQuantised);
     making = joined(making, c.options);
@@ -96,9 +91,9 @@ TEST_CASE("pack: the file gives the very run that the scene gives") {
     CHECK(a["scene"] == b["scene"]);
     Json shown = a["config"], expected = b["config"];
     if (std::string(c.order) == "paper") {  // which the scene alone leaves to the model
-      CHECK(shown["voxel_size"] == a["scene"]["voxel_size"]);
-      shown.erase("voxel_size");
-      expected.erase("voxel_size");
+      CHECK(shown["storage"]["voxel_size"] == a["scene"]["voxel_size"]);
+      shown["storage"].erase("voxel_size");
+      expected["storage"].erase("voxel_size");
     }
     CHECK(shown == expected);
     // The original is not at hand.
@@ -127,15 +122,15 @@ TEST_CASE("pack: render draws the decoded scene in every order") {
 
   const std::string paper = render(scenes.ply(), "paper", "ply_paper.pfm");
   CHECK(paper != reference);
-  REQUIRE(scenes.pack({"--config", "paper", "--set", "encoding=raw"}).status == 0);
+  REQUIRE(scenes.pack({"--config", "paper", "--set", "storage.encoding=raw"}).status == 0);
   CHECK(render(scenes.packed(), "paper", "c.pfm") == paper);
-  CHECK(render(scenes.packed(), "exact", "d.pfm") == reference);
+  CHECK(render(scenes.packed(), "reference", "d.pfm") == reference);
 }
 
 TEST_CASE("pack: info says what the file holds, as pack did") {
   const PackedScenes scenes;
   const Outcome packed =
-      scenes.pack(joined({"--config", "exact", "--set", "encoding=vq_packed"}, kQuantised));
+      scenes.pack(joined({"--config", "exact", "--set", "storage.encoding=vq_packed"}, kQuantised));
   REQUIRE(packed.status == 0);
   const Outcome info = run_streaminggs({"info", scenes.packed()});
   REQUIRE(info.status == 0);
@@ -149,12 +144,12 @@ TEST_CASE("pack: info says what the file holds, as pack did") {
         std::string("codebook sh               30 entries x 45 words, 5400 B\n"),
         "region first_halves       " + std::to_string(16 * stored) + " B\n",
         "region indices            " + std::to_string(4 * stored) + " B\n",
-        std::string("storage order             by chunks, for ordering exact: ")}) {
+        std::string("storage order             by chunks, for machine exact: ")}) {
     INFO(line << "\n" << packed.out << info.out);
     CHECK(packed.out.find(line) != std::string::npos);
     CHECK(info.out.find(line) != std::string::npos);
   }
-  CHECK_THAT(info.out, Contains("version     1\n") && Contains("checksum"));
+  CHECK_THAT(info.out, Contains("version     2\n") && Contains("checksum"));
   CHECK_THAT(packed.out, Contains("packed in"));
   const Outcome of_scene = run_streaminggs({"info", scenes.ply()});
   CHECK(of_scene.status == 0);
@@ -173,12 +168,15 @@ void check_refused(const Arguments& arguments, const std::vector<std::string>& w
 TEST_CASE("pack: what a packed scene cannot be used for is refused") {
   const PackedScenes scenes;
   const std::string& file = scenes.packed();
-  REQUIRE(scenes.pack(joined({"--config", "exact", "--set", "encoding=vq"}, kQuantised)).status ==
-          0);
+  REQUIRE(scenes.pack(joined({"--config", "exact", "--set", "storage.encoding=vq"}, kQuantised))
+              .status == 0);
   const Arguments simulate = joined({"simulate"}, scenes.view(file));
   const Arguments out = {"--out", scenes.path("out")};
   check_refused(joined(joined(simulate, out), {"--config", "paper"}),
-                {file, "stored by chunks", "ordering is paper", "--config exact"});
+                {file, "stored by chunks", "machine paper reads", "--config exact"});
+  check_refused({"render", file, "--cameras", scenes.cameras(), "--ordering", "paper", "--out",
+                 scenes.path("out.png")},
+                {file, "stored by chunks", "machine paper reads"});
   check_refused(joined(joined(simulate, out), {"--set", "sram.codebook_bytes=1000"}),
                 {"sram.codebook_bytes: 1000 bytes are there", "50 entries"});
   check_refused(joined(joined(simulate, out), {"--weigh-by", "0"}), {"--weigh-by", file});
@@ -186,7 +184,7 @@ TEST_CASE("pack: what a packed scene cannot be used for is refused") {
   check_refused(joined({"simulate", file}, out), {file, "--cameras FILE is needed"});
   check_refused({"pack", file, "--out", scenes.path("b.sgs")}, {file, "expected a .ply"});
   check_refused({"pack", scenes.ply(), "--out", scenes.path("b.bin")}, {"b.bin", ".sgs"});
-  check_refused({"pack", scenes.ply(), "--out", scenes.path("no/b.sgs")}, {"no/b.sgs"});
+  check_refused({"pack", scenes.ply(), "--out", file + "/b.sgs"}, {file + "/b.sgs"});
   CHECK_FALSE(std::filesystem::exists(scenes.path("out")));
 }
 
@@ -206,29 +204,31 @@ TEST_CASE("pack: a damaged file is refused by every command") {
 
 TEST_CASE("pack: a scene that no reader would take is refused and leaves nothing") {
   BuiltinScene scene = make_builtin_scene("builtin:object?n=50");
-  scene.cloud.log_scales[7].y = 200;  // e^200 is no float
+  scene.cloud.log_scales[7].y = 200;  // e^200 is beyond float
   const ScratchFolder scratch;
   write_ply(scratch.path("a.ply"), scene.cloud);
   check_refused({"pack", scratch.path("a.ply"), "--out", scratch.path("a.sgs")},
-                {"a.ply: Gaussian in slot", "scales: got", "inf"});
+                {"a.ply: vertex 7, property scale_1: got 200, expected at most"});
   CHECK(scratch.file_count() == 1);
 }
 
 TEST_CASE("pack: --print-config shows what the image decides") {
   const PackedScenes scenes;
   REQUIRE(scenes
-              .pack(joined({"--config", "exact", "--set", "encoding=vq_packed", "--set",
-                            "chunk_gaussians=24"},
+              .pack(joined({"--config", "exact", "--set", "storage.encoding=vq_packed", "--set",
+                            "storage.chunk_gaussians=24"},
                            kQuantised))
               .status == 0);
-  const Outcome shown = run_streaminggs({"simulate", scenes.packed(), "--set", "encoding=raw",
-                                         "--set", "hfu.cost=counted", "--print-config"});
+  const Arguments print = {"simulate", scenes.packed(),    "--set",         "storage.encoding=raw",
+                           "--set",    "hfu.cost=counted", "--print-config"};
+  check_refused(print, {"sram.codebook_bytes: 0 bytes are there"});
+  const Outcome shown = run_streaminggs(joined(print, {"--set", "sram.codebook_bytes=65536"}));
   INFO(shown.err);
   REQUIRE(shown.status == 0);
   const Json config = Json::parse(shown.out);
-  CHECK(config["encoding"] == "vq_packed");
-  CHECK(config["chunk_gaussians"] == 24);
-  CHECK(config["vq"]["rotation_entries"] == 70);
+  CHECK(config["storage"]["encoding"] == "vq_packed");
+  CHECK(config["storage"]["chunk_gaussians"] == 24);
+  CHECK(config["storage"]["vq"]["rotation_entries"] == 70);
   CHECK(config["hfu"]["ffu_macs"] != 427);
 }
 

@@ -56,17 +56,17 @@ TEST_CASE("refusals: none of a unit") {
 TEST_CASE("refusals: keys, types, ranges and combinations") {
   check_set_refused("paper", {"grop_px=32"}, {"grop_px"});
   check_set_refused("paper", {"group_px=big"}, {"group_px"});
-  check_set_refused("paper", {"group_px=30"}, {"group_px: 30 is not a multiple of 4"});
+  check_set_refused("paper", {"group_px=30"}, {"group_px: got 30, expected a multiple of 4"});
   check_set_refused("paper", {"clock_mhz=0"}, {"clock_mhz"});
-  check_set_refused("paper", {"ordering=random"}, {"ordering", "random", "paper"});
+  check_set_refused("paper", {"machine=random"}, {"machine", "random", "paper"});
   check_set_refused("paper", {"sorting.buffer_entries=16", "sorting.spill_block_entries=8"},
-                    {"sorting.buffer_entries: 16", "at least 32"});
+                    {"sorting.buffer_entries: got 16", "at least 32"});
   check_set_refused("paper", {"dram.memspec=ddr9"}, {"ddr9"});
   check_set_refused("no_such_preset", {}, {"no_such_preset"});
 }
 
 TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
-  check_set_refused("paper", {"voxel_size=0.0000001"}, {"voxel_size", "2^20", "at least"});
+  check_set_refused("paper", {"storage.voxel_size=0.0000001"}, {"voxel_size", "2^20", "at least"});
 }
 
 TEST_CASE("refusals: an ordering table that a group outgrows ends the run by name") {
@@ -97,7 +97,7 @@ TEST_CASE("refusals: bad arguments exit with 2 and say which") {
         {"fly"},
         {"simulate"},
         {"simulate", "builtin:object", "--no-such-option"},
-        {"simulate", "builtin:object", "--timing", "slow", "--out", "/tmp/never"},
+        {"simulate", "builtin:object", "--construction-order", "x", "--out", "/tmp/never"},
         {"simulate", "builtin:object", "--stalls", "2", "--out", "/tmp/never"},
         {"compare", "one.png"},
         {"render", "builtin:object"}}) {

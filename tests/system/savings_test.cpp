@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
 namespace sgs::test {
 namespace {
 
 using Json = nlohmann::json;
-using Arguments = std::vector<std::string>;
 
 struct Pair {
   Pair(Arguments scene, const std::string& off)
@@ -48,9 +48,9 @@ TEST_CASE("savings: Gaussians that no view can show are not stored") {
   // Voxels so large that each holds something visible: a voxel of its own would join the graph of a
   // group's rays and could change the order of others that no ray had put in order.
   Arguments paper = in_order("paper");
-  paper.insert(paper.end(), {"--set", "voxel_size=100"});
+  paper.insert(paper.end(), {"--set", "storage.voxel_size=100"});
   for (const Arguments& arguments : {paper, in_order("exact")}) {
-    const Pair pair(arguments, "store_invisible=true");
+    const Pair pair(arguments, "storage.store_invisible=true");
     pair.check_more([](const Json& v) { return total(v, "first_halves"); });
   }
 }

@@ -13,7 +13,7 @@ void check_shared_scene(const std::string& name, const std::string& preset,
   const std::string cameras = shared_path("cameras/" + name + ".json");
   const std::string scene = shared_scene(name);
   for (const Variant& variant : variants) {
-    INFO(name << " " << preset << " " << variant[1] << " " << variant.size());
+    INFO(name << " " << preset << " " << (variant.empty() ? "plain" : variant.back()));
     std::vector<std::string> arguments = {scene, "--cameras", cameras, "--view",
                                           "all", "--config",  preset};
     arguments.insert(arguments.end(), variant.begin(), variant.end());

@@ -9,9 +9,8 @@ namespace sgs::test {
 // Options of one run over all views.
 using Variant = std::vector<std::string>;
 
-inline const Variant kAccurate = {"--timing", "accurate"};
-inline const Variant kFast = {"--timing", "fast"};
-inline const Variant kStalled = {"--timing", "accurate", "--stalls", "0.05"};
+inline const Variant kPlain = {};
+inline const Variant kStalled = {"--stalls", "0.05"};
 
 // Each view equals the streaming renderer's frame (in exact order also the reference's) to the bit,
 // and its accounts add up. preset: of the configuration.

@@ -1,10 +1,8 @@
-// Pool, counters and router: reuse, sums, ranges.
+// Pool and counters: reuse, sums.
 #include <catch2/catch.hpp>
-#include <stdexcept>
 
 #include "tlm/counters.h"
 #include "tlm/payload_pool.h"
-#include "tlm/router.h"
 
 namespace sgs {
 namespace {
@@ -66,83 +64,6 @@ TEST_CASE("counters: sums by requester, region and direction agree") {
   CHECK(counters.of_direction(Direction::kRead).transactions == 3);
   CHECK(counters.total().bytes == 309);
   CHECK(counters.rows().size() == 3);
-}
-
-// Answers everything at once, and remembers from where it came.
-class Target : public sc_core::sc_module {
- public:
-  tlm_utils::multi_passthrough_target_socket<Target> socket;
-  explicit Target(const sc_core::sc_module_name& name) : sc_module(name), socket("socket") {
-    socket.register_b_transport(this, &Target::b_transport);
-    socket.register_nb_transport_fw(this, &Target::nb_transport_fw);
-    socket.register_transport_dbg(this, &Target::transport_dbg);
-  }
-  std::vector<std::pair<int, std::uint64_t>> seen;
-
- private:
-  void b_transport(int from, tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
-    seen.emplace_back(from, payload.get_address());
-    payload.set_response_status(tlm::TLM_OK_RESPONSE);
-  }
-  tlm::tlm_sync_enum nb_transport_fw(int from, tlm::tlm_generic_payload& payload, tlm::tlm_phase&,
-                                     sc_core::sc_time& delay) {
-    b_transport(from, payload, delay);
-    return tlm::TLM_COMPLETED;
-  }
-  unsigned int transport_dbg(int from, tlm::tlm_generic_payload& payload) {
-    seen.emplace_back(from, payload.get_address());
-    return payload.get_data_length();
-  }
-};
-
-struct Source : sc_core::sc_module {
-  tlm_utils::simple_initiator_socket<Source> socket{"socket"};
-  explicit Source(const sc_core::sc_module_name& name) : sc_module(name) {}
-};
-
-TEST_CASE("router: transactions reach the target of their range, others are refused") {
-  Router router("router", 2, 2);
-  Target low("low");
-  Target high("high");
-  Source a("a");
-  Source b("b");
-  a.socket.bind(router.from_initiators[0]);
-  b.socket.bind(router.from_initiators[1]);
-  router.map(0x1000, 0x1000, low.socket);
-  CHECK_THROWS_AS(router.map(0x1fff, 1, high.socket), std::invalid_argument);
-  CHECK_THROWS_AS(router.map(0x9000, 0, high.socket), std::invalid_argument);
-  CHECK_THROWS_AS(router.map(~std::uint64_t{0} - 7, 16, high.socket), std::invalid_argument);
-  router.map(0x2000, 0x1000, high.socket);
-  CHECK_THROWS_AS(router.map(0x5000, 0x1000, high.socket), std::invalid_argument);
-  sc_core::sc_start(sc_core::SC_ZERO_TIME);
-
-  PayloadPool pool;
-  const auto send = [&](Source& source, std::uint64_t address, unsigned length) {
-    PooledPayload& p = pool.acquire();
-    p.set_command(tlm::TLM_READ_COMMAND);
-    p.set_address(address);
-    p.set_data_ptr(p.buffer(length));
-    p.set_data_length(length);
-    p.set_streaming_width(length);
-    sc_core::sc_time delay;
-    source.socket->b_transport(p, delay);
-    const tlm::tlm_response_status blocking = p.get_response_status();
-    p.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-    tlm::tlm_phase phase = tlm::BEGIN_REQ;
-    CHECK(source.socket->nb_transport_fw(p, phase, delay) == tlm::TLM_COMPLETED);
-    CHECK(p.get_response_status() == blocking);
-    CHECK(source.socket->transport_dbg(p) == (blocking == tlm::TLM_OK_RESPONSE ? length : 0));
-    p.release();
-    return blocking;
-  };
-  CHECK(send(a, 0x1000, 4) == tlm::TLM_OK_RESPONSE);
-  CHECK(send(b, 0x2ffc, 4) == tlm::TLM_OK_RESPONSE);
-  CHECK(send(a, 0x1ffe, 4) == tlm::TLM_ADDRESS_ERROR_RESPONSE);  // over the border of two ranges
-  CHECK(send(a, 0x3000, 4) == tlm::TLM_ADDRESS_ERROR_RESPONSE);
-  CHECK(send(a, 0x0fff, 1) == tlm::TLM_ADDRESS_ERROR_RESPONSE);
-  using Seen = std::vector<std::pair<int, std::uint64_t>>;
-  CHECK(low.seen == Seen{{0, 0x1000}, {0, 0x1000}, {0, 0x1000}});
-  CHECK(high.seen == Seen{{1, 0x2ffc}, {1, 0x2ffc}, {1, 0x2ffc}});
 }
 
 }  // namespace

@@ -1,13 +1,17 @@
-// Memory ports through router and protocol checker to a DRAM: bytes, tickets, back-pressure.
+// Memory ports through router and protocol checker to a DRAM: bytes, tickets, back-pressure; and
+// answers of every kind.
 #include "tlm/memory_port.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "modules/dram/dram_controller.h"
+#include "tests/tlm/scripted_ends.h"
 #include "tlm/protocol_checker.h"
 #include "tlm/router.h"
 #include "tlm/time_resolution.h"
@@ -19,9 +23,9 @@ namespace {
 class Unit : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(Unit);
-  Unit(const sc_core::sc_module_name& name, const MemoryPort::Config& config, PayloadPool& pool,
+  Unit(const sc_core::sc_module_name& name, const MemoryPortConfig& config,
        std::vector<std::function<void(MemoryPort&)>> threads)
-      : sc_module(name), port("port", config, pool), threads_(std::move(threads)) {
+      : sc_module(name), port("port", config), threads_(std::move(threads)) {
     for (std::size_t i = 0; i < threads_.size(); ++i) SC_THREAD(run);
   }
 
@@ -41,25 +45,34 @@ class Unit : public sc_core::sc_module {
 
 struct System {
   explicit System(std::uint32_t initiators, const DramConfig& config = {})
-      : router("router", initiators), dram("dram", config), checkers("checker", initiators) {
+      : router("router", instant_end, initiators),
+        dram("dram", config),
+        checkers("checker", initiators) {
     router.map(0, dram.capacity_bytes(), dram.socket);
     for (std::uint32_t i = 0; i < initiators; ++i)
       checkers[i].to_target.bind(router.from_initiators[i]);
   }
-  void connect(std::uint32_t i, MemoryPort& port) { port.socket.bind(checkers[i].from_initiator); }
+  void connect(std::uint32_t i, MemoryPort& port) {
+    port.socket.bind(checkers[i].from_initiator);
+    ports.push_back(&port);
+  }
   void check_protocol() {
     for (ProtocolChecker& checker : checkers) {
       CHECK(checker.violations().empty());
       CHECK(checker.in_flight() == 0);
     }
-    CHECK(pool.in_use() == 0);
+    for (const MemoryPort* port : ports) {
+      CHECK(port->idle());
+      CHECK(port->payloads().in_use() == 0);
+    }
     CHECK(dram.idle());
   }
 
-  PayloadPool pool;
+  InstantEnd instant_end{"instant_end"};
   Router router;
   DramController dram;
   sc_core::sc_vector<ProtocolChecker> checkers;
+  std::vector<const MemoryPort*> ports;
 };
 
 std::vector<std::uint8_t> counting(std::size_t bytes) {
@@ -67,9 +80,6 @@ std::vector<std::uint8_t> counting(std::size_t bytes) {
   std::iota(data.begin(), data.end(), std::uint8_t{1});
   return data;
 }
-
-MemoryPort::Config accurate() { return {1, 256, 16, TimingMode::kAccurate}; }
-MemoryPort::Config fast() { return {1, 256, 16, TimingMode::kFast}; }
 
 void writes_then_reads(MemoryPort& port) {
   const std::vector<std::uint8_t> data = counting(5000);
@@ -88,10 +98,10 @@ void writes_then_reads(MemoryPort& port) {
   port.wait_all();
 }
 
-TEST_CASE("memory port: what was written is read back (accurate)") {
+TEST_CASE("memory port: what was written is read back") {
   use_femtosecond_resolution();
   System system(1);
-  Unit unit("unit", accurate(), system.pool, {writes_then_reads});
+  Unit unit("unit", MemoryPortConfig{}, {writes_then_reads});
   system.connect(0, unit.port);
   sc_core::sc_start();
   CHECK(unit.finished == 1);
@@ -99,18 +109,7 @@ TEST_CASE("memory port: what was written is read back (accurate)") {
   CHECK(unit.port.transactions() == 40);
   CHECK(unit.port.bytes_read() == 5000);
   CHECK(unit.port.bytes_written() == 5000);
-  CHECK(system.dram.stats().traffic.of(1, 3, Direction::kRead).bytes == 5000);
-  system.check_protocol();
-}
-
-TEST_CASE("memory port: what was written is read back (fast)") {
-  use_femtosecond_resolution();
-  System system(1);
-  Unit unit("unit", fast(), system.pool, {writes_then_reads});
-  system.connect(0, unit.port);
-  sc_core::sc_start();
-  CHECK(unit.finished == 1);
-  CHECK(unit.port.transactions() == 40);
+  CHECK(system.dram.stats().traffic.of(0, 3, Direction::kRead).bytes == 5000);
   system.check_protocol();
 }
 
@@ -136,8 +135,8 @@ TEST_CASE("memory port: threads share a port, tickets finish in any order") {
       }
     };
   };
-  Unit two("two", accurate(), system.pool, {body(0), body(10000)});
-  Unit one("one", accurate(), system.pool, {body(20000)});
+  Unit two("two", MemoryPortConfig{}, {body(0), body(10000)});
+  Unit one("one", MemoryPortConfig{}, {body(20000)});
   system.connect(0, two.port);
   system.connect(1, one.port);
   sc_core::sc_start();
@@ -149,10 +148,10 @@ TEST_CASE("memory port: threads share a port, tickets finish in any order") {
 TEST_CASE("memory port: no more than max_outstanding transactions are in flight") {
   use_femtosecond_resolution();
   System system(1);
-  MemoryPort::Config config = accurate();
+  MemoryPortConfig config;
   config.max_outstanding = 3;
   std::uint64_t most = 0;
-  Unit unit("unit", config, system.pool, {[&](MemoryPort& port) {
+  Unit unit("unit", config, {[&](MemoryPort& port) {
               static std::uint8_t into[20][256];
               for (std::uint32_t i = 0; i < 20; ++i) {
                 port.read(i * 256, into[i], 256, 0);
@@ -163,13 +162,13 @@ TEST_CASE("memory port: no more than max_outstanding transactions are in flight"
   system.connect(0, unit.port);
   sc_core::sc_start();
   CHECK(most == 3 * 256);
-  CHECK(system.pool.made() <= 4);
+  CHECK(unit.port.payloads().made() <= 4);
 }
 
 TEST_CASE("memory port: a finished ticket costs no waiting, an old one stays done") {
   use_femtosecond_resolution();
   System system(1);
-  Unit unit("unit", accurate(), system.pool, {[](MemoryPort& port) {
+  Unit unit("unit", MemoryPortConfig{}, {[](MemoryPort& port) {
               std::uint8_t byte = 0;
               const MemoryPort::Ticket first = port.read(0, &byte, 1, 0);
               port.wait_for(first);
@@ -187,41 +186,73 @@ TEST_CASE("memory port: a finished ticket costs no waiting, an old one stays don
   CHECK(unit.finished == 1);
 }
 
-TEST_CASE("memory port: fast mode annotates what accurate mode takes when nothing contends") {
-  use_femtosecond_resolution();
-  System slow_system(1);
-  std::vector<sc_core::sc_time> taken[2];
-  const auto body = [&](int mode) {
-    return [&taken, mode](MemoryPort& port) {
-      std::uint8_t into[256];
-      for (const std::uint64_t address : {0u, 32u, 1u << 17, 4096u}) {
-        const sc_core::sc_time start = sc_core::sc_time_stamp();
-        port.wait_for(port.read(address, into, 256, 0));
-        taken[mode].push_back(sc_core::sc_time_stamp() - start);
-        sc_core::wait(100, sc_core::SC_NS);
-      }
-    };
+TEST_CASE("memory port: takes answers in every way of the base protocol") {
+  using test::Answers;
+  struct Row {
+    Answers answers;
+    double sent_ns, answered_ns;  // the last request, and the last answer
   };
-  Unit slow("slow", accurate(), slow_system.pool, {body(0)});
-  slow_system.connect(0, slow.port);
-  DramController other("other", DramConfig{});
-  Unit quick("quick", fast(), slow_system.pool, {body(1)});
-  quick.port.socket.bind(other.socket);
+  // Four reads of one transaction each; a request goes when the one before has ended, and waits for
+  // the delay that it is answered with.
+  const std::vector<Row> rows = {
+      {Answers::kCompleted, 0, 0},
+      {Answers::kCompletedLater, 4 * 30, 4 * 30},
+      {Answers::kEndOfRequest, 0, 40},
+      {Answers::kResponse, 0, 0},
+      {Answers::kResponseLater, 4 * 20, 4 * 20},
+      {Answers::kCalls, 3 * 10, 3 * 10 + 50},
+      {Answers::kResponseCall, 3 * 25, 4 * 25},
+      // The first response, called at 15, lasts until 45 and holds up the calls that follow.
+      {Answers::kCallsWithDelays, 45 + 5, 15 + 4 * 30},
+      {Answers::kMixed, 30, 30 + 40},  // the first four ways
+  };
+  struct Chain {
+    explicit Chain(Answers answers)
+        : unit(sc_core::sc_gen_unique_name("unit"), MemoryPortConfig{},
+               {[this](MemoryPort& port) { read(port); }}),
+          target(sc_core::sc_gen_unique_name("target"), answers) {
+      unit.port.socket.bind(checker.from_initiator);
+      checker.to_target.bind(target.socket);
+    }
+    void read(MemoryPort& port) {
+      std::uint8_t into[4] = {};
+      for (std::uint64_t k = 0; k < 4; ++k) port.read(64 * k, &into[k], 1, 0);
+      sent = sc_core::sc_time_stamp();
+      port.wait_all();
+      answered = sc_core::sc_time_stamp();
+      for (std::uint8_t k = 0; k < 4; ++k) CHECK(into[k] == k);
+    }
+    Unit unit;
+    test::ScriptedTarget target;
+    ProtocolChecker checker{sc_core::sc_gen_unique_name("checker")};
+    sc_core::sc_time sent, answered;
+  };
+  std::vector<std::unique_ptr<Chain>> chains;
+  for (const Row& row : rows) chains.push_back(std::make_unique<Chain>(row.answers));
   sc_core::sc_start();
-  REQUIRE(taken[0].size() == 4);
-  CHECK(taken[0] == taken[1]);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    INFO("answers " << static_cast<int>(rows[i].answers));
+    const Chain& chain = *chains[i];
+    CHECK(chain.unit.finished == 1);
+    CHECK(chain.unit.port.idle());
+    CHECK(chain.unit.port.payloads().in_use() == 0);
+    CHECK(chain.checker.violations() == std::vector<std::string>{});
+    CHECK(chain.checker.finished() == 4);
+    CHECK(chain.sent.to_seconds() * 1e9 == Approx(rows[i].sent_ns));
+    CHECK(chain.answered.to_seconds() * 1e9 == Approx(rows[i].answered_ns));
+  }
 }
 
-TEST_CASE("memory port: an error response is reported with requester and address") {
+TEST_CASE("memory port: an error response is reported with port and address") {
   use_femtosecond_resolution();
   System system(1);
-  Unit unit("unit", accurate(), system.pool, {[&](MemoryPort& port) {
+  Unit unit("unit", MemoryPortConfig{}, {[&](MemoryPort& port) {
               std::uint8_t byte = 0;
               port.read(system.dram.capacity_bytes(), &byte, 1, 2);
             }});
   system.connect(0, unit.port);
   CHECK_THROWS_WITH(sc_core::sc_start(),
-                    Catch::Contains("requester 1: read of 1 bytes at 0x80000000") &&
+                    Catch::Contains("unit.port: read of 1 bytes at 0x80000000") &&
                         Catch::Contains("TLM_ADDRESS_ERROR_RESPONSE"));
 }
 

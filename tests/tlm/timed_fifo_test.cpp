@@ -2,8 +2,10 @@
 #include "tlm/timed_fifo.h"
 
 #include <catch2/catch.hpp>
+#include <string>
 #include <vector>
 
+#include "testbench/process/in_child.h"
 #include "tests/tlm/threads.h"
 #include "tlm/fifo_selector.h"
 
@@ -13,6 +15,12 @@ namespace {
 using test::Threads;
 
 const auto settle = [] { sc_core::wait(sc_core::SC_ZERO_TIME); };
+
+// Of one FIFO or more.
+struct Reader : sc_core::sc_module {
+  FifoIns<int> in{"in"};
+  explicit Reader(const sc_core::sc_module_name& name) : sc_module(name) {}
+};
 
 TEST_CASE("timed FIFO: an entry is there after the latency and not a cycle sooner") {
   const ClockDomain clock(1000);
@@ -100,8 +108,8 @@ TEST_CASE("timed FIFO: a full one holds its writer back, who is blocked meanwhil
   CHECK(got == std::vector<int>{1, 2, 3});
   CHECK(writer.blocked_cycles() == 20);
   CHECK(writer.starved_cycles() == 0);
-  CHECK(fifo.max_fill() == 2);
-  CHECK(fifo.pushed() == 3);
+  CHECK(fifo.capacity() == 2);
+  CHECK(fifo.fill() == 0);
   CHECK(fifo.empty());
 }
 
@@ -122,9 +130,8 @@ TEST_CASE("timed FIFO: one entry a cycle flows through a FIFO of one place") {
 TEST_CASE("timed FIFO: random stalls change times, not what comes out, and are accounted for") {
   const ClockDomain clock(1000);
   Activity writer("writer", clock), reader("reader", clock);
-  StallInjector stalls(3, 0.3, 7);
   TimedFifo<int> fifo("fifo", clock, 3, 2);
-  fifo.inject(&stalls);
+  fifo.inject({0.3, 7, 3});
   int next = 0;
   Threads threads({[&] {
                      for (int i = 0; i < 1000; ++i) {
@@ -147,7 +154,7 @@ TEST_CASE("timed FIFO: random stalls change times, not what comes out, and are a
 }
 
 TEST_CASE("stall injector: as often and as long as it is told") {
-  StallInjector stalls(1, 0.25, 10);
+  StallInjector stalls({0.25, 10, 1}, "here");
   int stalled = 0;
   std::uint32_t longest = 0;
   for (int i = 0; i < 100000; ++i) {
@@ -158,8 +165,20 @@ TEST_CASE("stall injector: as often and as long as it is told") {
   CHECK(stalled > 24500);  // 25000, sigma 137
   CHECK(stalled < 25500);
   CHECK(longest == 10);
-  StallInjector never(1, 0, 10);
+  StallInjector never({0, 10, 1}, "here");
   for (int i = 0; i < 1000; ++i) CHECK(never.draw() == 0);
+}
+
+TEST_CASE("stall injector: each place has a sequence of its own, the same in every run") {
+  const auto draws = [](std::uint64_t seed, const std::string& place) {
+    StallInjector stalls({0.5, 100, seed}, place);
+    std::vector<std::uint32_t> out;
+    for (int i = 0; i < 50; ++i) out.push_back(stalls.draw());
+    return out;
+  };
+  CHECK(draws(1, "top.fifo.writer") == draws(1, "top.fifo.writer"));
+  CHECK(draws(1, "top.fifo.writer") != draws(1, "top.fifo.reader"));
+  CHECK(draws(1, "top.fifo.writer") != draws(2, "top.fifo.writer"));
 }
 
 TEST_CASE("activity: every cycle is in one of three accounts") {
@@ -205,8 +224,9 @@ TEST_CASE("FIFO selector: in turn while several have entries, and none is forgot
   const ClockDomain clock(1000);
   Activity writer("writer", clock), reader("reader", clock);
   TimedFifo<int> a("a", clock, 100, 1), b("b", clock, 100, 1), c("c", clock, 100, 1);
-  FifoSelector<int> selector({&a, &b, &c});
-  std::vector<std::size_t> turns;
+  Reader inputs("inputs");
+  for (TimedFifo<int>* fifo : {&a, &b, &c}) inputs.in(*fifo);
+  std::vector<int> turns;
   Threads threads({[&] {
                      for (int i = 0; i < 4; ++i) {
                        a.push(0, writer);
@@ -215,41 +235,92 @@ TEST_CASE("FIFO selector: in turn while several have entries, and none is forgot
                      for (int i = 0; i < 2; ++i) b.push(1, writer);
                    },
                    [&] {
+                     FifoSelector<int> selector(inputs.in);
                      clock.wait_cycles(5);
                      for (int i = 0; i < 10; ++i) {
-                       const std::size_t from =
-                           selector.select(reader, [](std::size_t) { return true; });
-                       CHECK(selector.fifo(from).pop(reader) == static_cast<int>(from));
+                       const int from = selector.select(reader, [](int) { return true; });
+                       CHECK(inputs.in[from]->pop(reader) == from);
                        turns.push_back(from);
                      }
                    }});
   CHECK(threads.run_all());
-  CHECK(turns == std::vector<std::size_t>{1, 2, 0, 1, 2, 0, 2, 0, 2, 0});
+  CHECK(turns == std::vector<int>{1, 2, 0, 1, 2, 0, 2, 0, 2, 0});
 }
 
 TEST_CASE("FIFO selector: waits for the first that is wanted, and is starved meanwhile") {
   const ClockDomain clock(1000);
   Activity writer("writer", clock), reader("reader", clock);
   TimedFifo<int> a("a", clock, 4, 3), b("b", clock, 4, 3);
-  FifoSelector<int> selector({&a, &b});
+  Reader inputs("inputs");
+  for (TimedFifo<int>* fifo : {&a, &b}) inputs.in(*fifo);
   Threads threads({[&] {
                      a.push(1, writer);
                      clock.wait_cycles(10);
                      b.push(2, writer);
                    },
                    [&] {
+                     FifoSelector<int> selector(inputs.in);
                      reader.enter(ActivityState::kBusy);
-                     const auto only_b = [](std::size_t i) { return i == 1; };
+                     const auto only_b = [](int i) { return i == 1; };
                      CHECK(selector.select(reader, only_b) == 1);
                      CHECK(clock.now_cycles() == 13);
-                     CHECK(selector.fifo(1).pop(reader) == 2);
-                     CHECK(selector.select(reader, [](std::size_t) { return true; }) == 0);
+                     CHECK(inputs.in[1]->pop(reader) == 2);
+                     CHECK(selector.select(reader, [](int) { return true; }) == 0);
                      CHECK(clock.now_cycles() == 13);
-                     selector.fifo(0).pop(reader);
+                     inputs.in[0]->pop(reader);
                      reader.close();
                    }});
   CHECK(threads.run_all());
   CHECK(reader.starved_cycles() == 13);
+}
+
+// A unit between two FIFOs.
+struct Passer : sc_core::sc_module {
+  FifoIn<int> in{"in"};
+  FifoOut<int> out{"out"};
+  explicit Passer(const sc_core::sc_module_name& name) : sc_module(name) {}
+};
+
+TEST_CASE("FIFO ports: what is left open, or bound twice, fails elaboration by its name") {
+  struct Row {
+    const char* what;
+    std::vector<int> in, out, reader;  // numbers of the FIFOs that each port is bound to
+    std::vector<const char*> message;  // none: elaboration succeeds
+  };
+  const std::vector<Row> rows = {
+      {"an input left open", {}, {1}, {1}, {"port not bound", "unit.in"}},
+      {"an output left open", {0}, {}, {0}, {"port not bound", "unit.out"}},
+      {"an input of one FIFO or more left open", {0}, {1}, {}, {"port not bound", "reader.in"}},
+      {"an input bound to two", {0, 2}, {1}, {1}, {"exceeds maximum of 1", "unit.in"}},
+      {"all bound, one to two where that is meant", {0}, {1}, {1, 2}, {}},
+  };
+  for (const Row& row : rows) {
+    INFO(row.what);
+    // SystemC elaborates once a process.
+    std::string message;
+    in_child(
+        "timed_fifo_test",
+        [&] {
+          const ClockDomain clock(1000);
+          sc_core::sc_vector<TimedFifo<int>> fifos("fifo");
+          fifos.init(
+              3, [&](const char* name, std::size_t) { return new TimedFifo<int>(name, clock, 1); });
+          Passer unit("unit");
+          Reader reader("reader");
+          try {
+            for (const int k : row.in) unit.in(fifos[static_cast<std::size_t>(k)]);
+            for (const int k : row.out) unit.out(fifos[static_cast<std::size_t>(k)]);
+            for (const int k : row.reader) reader.in(fifos[static_cast<std::size_t>(k)]);
+            sc_core::sc_start(sc_core::SC_ZERO_TIME);
+          } catch (const sc_core::sc_report& report) {
+            return std::string(report.what());
+          }
+          return std::string("elaborated");
+        },
+        message);
+    if (row.message.empty()) CHECK(message == "elaborated");
+    for (const char* part : row.message) CHECK_THAT(message, Catch::Contains(part));
+  }
 }
 
 }  // namespace

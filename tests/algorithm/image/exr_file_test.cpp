@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "algorithm/image/image_io.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace sgs;
@@ -64,7 +65,7 @@ TEST_CASE("exr refuses: other files, and windows beyond 65,535 px") {
     CHECK_THAT(test::input_error_of([&] { read_exr(path); }),
                Contains("expected an OpenEXR image"));
   }
-  write_exr(scratch.path("b.exr"), Image(4, 4));
+  write_image(scratch.path("b.exr"), Image(4, 4));
   std::string forged = test::bytes_of(scratch.path("b.exr"));
   const std::string name("dataWindow\0box2i\0", 17);
   const std::size_t at = forged.find(name);

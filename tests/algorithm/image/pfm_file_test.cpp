@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "algorithm/image/image_io.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace sgs;
@@ -21,7 +22,7 @@ TEST_CASE("pfm: little-endian, bottom row first") {
   Image image(1, 2);
   image.at(0, 0) = glm::vec3(1, -2, 1);   // top
   image.at(0, 1) = glm::vec3(-2, -2, 1);  // bottom
-  write_pfm(scratch.path("a.pfm"), image);
+  write_image(scratch.path("a.pfm"), image);
   CHECK(test::bytes_of(scratch.path("a.pfm")) == "PF\n1 2\n-1.0\n" + kMinusTwoLittle +
                                                      kMinusTwoLittle + kOneLittle + kOneLittle +
                                                      kMinusTwoLittle + kOneLittle);

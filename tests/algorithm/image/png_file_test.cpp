@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "algorithm/image/image_io.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace sgs;
@@ -59,7 +60,7 @@ TEST_CASE("png: values are clamped, rounded, and NaN is black") {
   // 100.49 and 100.51 of 255; just below one.
   image.at(2, 0) = {100.49f / 255.0f, 100.51f / 255.0f, 0.9999f};
   image.at(3, 0) = {0.0019f, 0.0020f, 1.0f};
-  write_png(scratch.path("a.png"), image);
+  write_image(scratch.path("a.png"), image);
   const Image back = read_png(scratch.path("a.png"));
   check_colour(back.at(0, 0), 0, 1, 0);
   check_colour(back.at(1, 0), 1, 0, 0);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "algorithm/image/image.h"
-#include "algorithm/scene/builtin/random.h"
+#include "testbench/builtin/random.h"
 
 namespace sgs::test {
 

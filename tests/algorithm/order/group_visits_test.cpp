@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "algorithm/scene/load_scene.h"
 #include "algorithm/splat/activate.h"
+#include "testbench/builtin/open_scene.h"
 #include "tests/algorithm/order/order_checks.h"
 
 namespace sgs {
@@ -22,7 +22,7 @@ TEST_CASE("paper order: every ray respected, truck") { test::check_order_of_shar
 TEST_CASE("paper order: every ray respected, playbot") { test::check_order_of_shared("playbot"); }
 
 TEST_CASE("paper order: a camera that looks along an axis from a cell's corner") {
-  const Scene scene = load_scene("builtin:object?n=5000");
+  const Scene scene = open_scene("builtin:object?n=5000");
   const ActivatedCloud cloud = activate(scene.cloud);
   const VoxelGrid grid = build_voxel_grid(cloud, 0.5F);
   Camera camera;

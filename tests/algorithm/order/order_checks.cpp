@@ -10,8 +10,8 @@
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/scene/cameras.h"
-#include "algorithm/scene/load_scene.h"
 #include "algorithm/splat/activate.h"
+#include "testbench/builtin/open_scene.h"
 #include "tests/support/shared_inputs.h"
 
 namespace sgs::test {
@@ -109,10 +109,10 @@ void check_order(const ActivatedCloud& cloud, const VoxelGrid& grid, const Camer
 }
 
 void check_order(const std::string& spec, const std::vector<Camera>& cameras, float voxel_size) {
-  const Scene scene = load_scene(spec);
+  const Scene scene = open_scene(spec);
   const ActivatedCloud cloud = activate(scene.cloud);
-  const VoxelGrid grid =
-      build_voxel_grid(cloud, voxel_size > 0 ? voxel_size : paper_voxel_size(cloud));
+  if (voxel_size == 0) voxel_size = static_cast<float>(paper_voxel_size(inner_extent(cloud)));
+  const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
   for (const Camera& camera : cameras.empty() ? scene.cameras : cameras) {
     for (const int group_px : {16, 64}) check_order(cloud, grid, camera, group_px);
   }

@@ -7,6 +7,7 @@
 
 #include "algorithm/image/quality.h"
 #include "algorithm/render/reference_renderer.h"
+#include "algorithm/scene/gaussian_limits.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/against_double.h"
 #include "tests/algorithm/render/test_clouds.h"
@@ -173,6 +174,43 @@ TEST_CASE("a giant around everything") {
   GaussianCloud inside = test::random_cloud(15, 1000, 0, {0, 0, 4}, 3, 0.02F, 0.2F);
   add_ball(inside, {0.5F, -0.25F, 1}, 1e6, 0.6, {0.25F, 0.5F, 1});
   check_frame("giant in front", camera, inside);
+}
+
+TEST_CASE("at the limits of parameters: drawn as in double precision") {
+  struct Case {
+    const char* what;
+    glm::vec3 mean;
+    double scale, focal_px;
+    float rgb;
+    std::size_t pixels;  // that are covered, of 70x50
+  };
+  const auto limit = static_cast<float>(kMaxCoordinate);
+  for (const Case& c : {
+           Case{"the largest, before the eye of the longest", {0, 0, 0.21F}, 1e7, 1e9, 1, 3500},
+           {"the largest, to the side", {1e7F, 0, 1}, 1e7, 60, 1, 3500},
+           {"the largest, 2.95 sigma to the side", {3.7e7F, 0, 1}, 1e7, 60, 1, 3500},
+           {"the largest, 3.03 sigma to the side", {3.8e7F, 0, 1}, 1e7, 60, 1, 0},
+           {"far away, a point", {0, 0, limit}, 1e7, 60, 1, 12},
+           {"far away, seen from near", {0, 0, 1e16F}, 1e7, 1e9, 1, 44},
+           {"far to the side", {limit, -limit, 1}, 1e7, 1e9, 1, 0},
+           {"far behind", {0, 0, -limit}, 1e7, 60, 1, 0},
+           {"the brightest", {0, 0, 2}, 0.2, 60, 2e17F, 1152},
+           {"the darkest", {0, 0, 2}, 0.2, 60, -2e17F, 1152},
+       }) {
+    CAPTURE(c.what);
+    GaussianCloud cloud;
+    add_ball(cloud, c.mean, c.scale, 0.6, glm::vec3(c.rgb));
+    const Camera camera = forward_camera(70, 50, c.focal_px);
+    const RenderResult in_float = render(camera, cloud);
+    const test::OracleImage in_double = test::oracle_render(camera, cloud);
+    CHECK(in_float.contributors == in_double.contributors);
+    CHECK(total(in_float.contributors) == c.pixels);
+    const double unit = std::max(1.0, std::abs(static_cast<double>(c.rgb)));
+    for (std::size_t at = 0; at < in_double.pixels.size(); ++at) {
+      const double error = std::abs(in_float.image.pixels[at].y - in_double.pixels[at].y) / unit;
+      REQUIRE(error <= 1e-5);
+    }
+  }
 }
 
 TEST_CASE("frames of 1x1 and of no multiple of 16") {

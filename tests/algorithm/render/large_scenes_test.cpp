@@ -2,7 +2,7 @@
 // and on the built-in scenes of full size, against double precision.
 #include <catch2/catch.hpp>
 
-#include "algorithm/scene/builtin_scene.h"
+#include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/render/real_scene.h"
 
 using namespace sgs::test;

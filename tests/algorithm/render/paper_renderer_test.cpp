@@ -1,5 +1,6 @@
-// The streaming renderer in paper order against a renderer that takes each pixel by itself, and the
-// counts of what the order loses against a count over all pairs.
+// The streaming renderer in paper order, and the same visits in right order, against a renderer
+// that takes each pixel by itself; the counts of what the order loses against a count over all
+// pairs.
 #include "algorithm/render/paper_renderer.h"
 
 #include <algorithm>
@@ -9,10 +10,11 @@
 
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/reference_renderer.h"
+#include "algorithm/render/visited_in_order.h"
 #include "algorithm/scene/cameras.h"
-#include "algorithm/scene/load_scene.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/make_splat.h"
+#include "testbench/builtin/open_scene.h"
 
 namespace sgs {
 namespace {
@@ -53,9 +55,10 @@ struct Counts {
   std::uint64_t missed = 0, misordered = 0, contributors = 0;
 };
 
-// Every Gaussian tested against every group; no coarse filter, no early end of a group.
+// Every Gaussian tested against every group; no coarse filter, no early end of a group. in_order:
+// the same splats by depth.
 Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
-                     int group_px, Image& image) {
+                     int group_px, Image& image, Image& in_order) {
   Counts counts;
   std::vector<std::uint32_t> voxel_of(cloud.size(), ~0U);
   for (std::uint32_t v = 0; v < grid.voxels.size(); ++v) {
@@ -84,8 +87,11 @@ Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const
       of_voxel[voxel].clear();
     }
     for (const auto& left : of_voxel) counts.missed += left.size();
+    std::vector<Splat> by_depth = sequence;
+    std::sort(by_depth.begin(), by_depth.end(), in_front);
     for (int y = group.y0; y < group.y1; ++y) {
       for (int x = group.x0; x < group.x1; ++x) {
+        in_order.at(x, y) = render_pixel(x, y, by_depth).colour;
         const Pixel pixel = render_pixel(x, y, sequence);
         image.at(x, y) = pixel.colour;
         counts.misordered += pixel.misordered;
@@ -98,20 +104,24 @@ Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const
 
 void check_against_slow(const char* spec, float voxel_size, int group_px, int width_px,
                         int height_px) {
-  const Scene scene = load_scene(spec);
+  const Scene scene = open_scene(spec);
   const ActivatedCloud cloud = activate(scene.cloud);
   const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
   std::uint64_t missed = 0, misordered = 0;
   for (const Camera& camera : scene.cameras) {
     const View<float> view = make_view<float>(scaled_to(camera, width_px, height_px));
-    Image slow(width_px, height_px);
-    const Counts counts = render_slowly(view, cloud, grid, group_px, slow);
+    Image slow(width_px, height_px), slow_in_order = slow;
+    const Counts counts = render_slowly(view, cloud, grid, group_px, slow, slow_in_order);
     PaperOrderConfig config;
     config.group_px = group_px;
     const StreamingResult result = render_paper_order(view, cloud, grid, config);
     INFO(spec << " voxel " << voxel_size << " group " << group_px << " camera " << camera.id);
     CHECK(std::memcmp(result.frame.image.pixels.data(), slow.pixels.data(),
                       slow.pixels.size() * sizeof(glm::vec3)) == 0);
+    const Image in_order = render_visited_in_order(view, cloud, grid, group_px, result.group_voxels,
+                                                   config.background);
+    CHECK(std::memcmp(in_order.pixels.data(), slow_in_order.pixels.data(),
+                      slow_in_order.pixels.size() * sizeof(glm::vec3)) == 0);
     CHECK(result.stats.missed == counts.missed);
     CHECK(result.stats.misordered == counts.misordered);
     CHECK(result.stats.contributors == counts.contributors);
@@ -133,7 +143,7 @@ TEST_CASE("paper renderer: picture, missed and misordered as counted pixel by pi
 }
 
 TEST_CASE("paper renderer: one voxel that holds all is the reference image") {
-  const Scene scene = load_scene("builtin:object?n=3000");
+  const Scene scene = open_scene("builtin:object?n=3000");
   ActivatedCloud cloud = activate(scene.cloud);
   // Away from the origin, where eight voxels would meet.
   constexpr float kAway = 500;
@@ -146,6 +156,8 @@ TEST_CASE("paper renderer: one voxel that holds all is the reference image") {
     const RenderResult reference = render_reference(view, cloud);
     const StreamingResult result = render_paper_order(view, cloud, grid, {});
     CHECK(result.frame.image.pixels == reference.image.pixels);
+    CHECK(render_visited_in_order(view, cloud, grid, 64, result.group_voxels, {}).pixels ==
+          reference.image.pixels);
     CHECK(result.stats.misordered == 0);
     CHECK(result.stats.contributors > 1000);
   }

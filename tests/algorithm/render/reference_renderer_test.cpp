@@ -7,10 +7,10 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 
-#include "algorithm/scene/builtin_scene.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/make_splat.h"
+#include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/render/against_double.h"
 #include "tests/algorithm/render/test_clouds.h"
 

@@ -142,6 +142,10 @@ TEST_CASE("cameras: files that are no array of cameras") {
   // Numbers beyond double would read as infinity.
   const std::string huge = scratch.write("huge.json", "[{\"id\": 0, \"fx\": 1e999}]");
   test::input_error_of([&] { read_cameras(huge); });
+  const std::string twice = scratch.write("twice.json", "[{\"id\": 0, \"id\": 0}]");
+  CHECK_THAT(test::input_error_of([&] { read_cameras(twice); }), Contains("key 'id' twice"));
+  const std::string deep = scratch.write("deep.json", std::string(80000, '['));
+  CHECK_THAT(test::input_error_of([&] { read_cameras(deep); }), Contains("64 deep"));
 }
 
 TEST_CASE("cameras: resizing scales the focal lengths by width and by height") {

@@ -1,11 +1,11 @@
-// load_scene.h: names, sources, and what is neither.
+// load_scene.h: names, options, and what is no scene.
 #include "algorithm/scene/load_scene.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "algorithm/scene/builtin_scene.h"
 #include "algorithm/scene/ply_writer.h"
+#include "testbench/builtin/builtin_scene.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace sgs;
@@ -34,18 +34,10 @@ TEST_CASE("load scene: the options reach the reader") {
   CHECK(scene.dropped_invalid == 1);
 }
 
-TEST_CASE("load scene: built-in scenes bring their cameras") {
-  const Scene scene = load_scene("builtin:outdoor?n=100");
-  CHECK(scene.name == "outdoor");
-  CHECK(scene.cloud.size() == 100);
-  CHECK(scene.cameras.size() >= 4);
-}
-
-TEST_CASE("load scene refuses: other extensions, missing files, unknown names") {
+TEST_CASE("load scene refuses: other extensions, missing files") {
   const test::ScratchFolder scratch;
   CHECK_THAT(test::input_error_of([&] { load_scene(scratch.write("a.obj", "x")); }),
-             Contains("got the extension \".obj\", expected a .ply file or builtin:NAME"));
+             Contains("got the extension \".obj\", expected a .ply file"));
   test::input_error_of([] { load_scene(""); });
   test::input_error_of([&] { load_scene(scratch.path("none.ply")); });
-  test::input_error_of([] { load_scene("builtin:"); });
 }

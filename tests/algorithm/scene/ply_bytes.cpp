@@ -48,7 +48,10 @@ std::vector<PlyColumn> inria_columns(int rest_count) {
 std::vector<std::vector<double>> counting_rows(std::size_t vertices, std::size_t columns) {
   std::vector<std::vector<double>> rows(vertices, std::vector<double>(columns));
   for (std::size_t v = 0; v < vertices; ++v) {
-    for (std::size_t c = 0; c < columns; ++c) rows[v][c] = static_cast<double>(1000 * v + c);
+    const double base = 1000.0 * static_cast<double>(v);
+    for (std::size_t c = 0; c < columns; ++c) rows[v][c] = base + static_cast<double>(c);
+    for (std::size_t k = 0; k < 3; ++k)
+      rows[v][columns - 7 + k] = 10.0 + static_cast<double>(k) - base;
   }
   return rows;
 }

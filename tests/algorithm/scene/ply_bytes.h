@@ -24,7 +24,8 @@ struct PlyTable {
 // The columns of the original's files, all float: x y z nx ny nz f_dc f_rest opacity scale rot.
 std::vector<PlyColumn> inria_columns(int rest_count);
 
-// Rows for inria_columns in which every value differs: 1000 * vertex + column.
+// Rows for inria_columns: 1000 * vertex + column, but for the scales, which are logarithms:
+// 10, 11, 12 - 1000 * vertex.
 std::vector<std::vector<double>> counting_rows(std::size_t vertices, std::size_t columns);
 
 // One value as text or in the byte order of `format`.

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "algorithm/scene/builtin/random.h"
+#include "algorithm/scene/gaussian_limits.h"
 #include "algorithm/scene/ply_reader.h"
+#include "testbench/builtin/random.h"
 #include "tests/algorithm/scene/ply_bytes.h"
 #include "tests/support/scratch_folder.h"
 
@@ -160,6 +161,32 @@ TEST_CASE("ply reader refuses: truncated bodies, with the number of records that
   CHECK_THAT(message, Contains("byte " + std::to_string(test::header_of(table).size()) + ":"));
 }
 
+TEST_CASE("ply reader refuses: bytes behind the last record") {
+  struct Row {
+    const char *format, *header_after, *body_after, *message;
+  };
+  for (const Row& row : std::vector<Row>{
+           {"binary_little_endian", "", "\n",
+            "got 1 bytes after the last record, expected the end"},
+           {"binary_big_endian", "", "a record more", "got 13 bytes after the last record"},
+           {"binary_little_endian", "element e 1\nproperty uchar a\n", "12", "got 1 bytes after"},
+           {"binary_little_endian", "element e 1\nproperty list uchar uchar a\n", "\1ab",
+            "got 1 bytes after the last record"},
+           {"ascii", "", "more\n", "got \"more\" after the last record, expected the end"},
+           {"ascii", "element e 1\nproperty uchar a\n", "1\n2\n", "got \"2\" after"}}) {
+    PlyTable table = counting_table(3);
+    table.format = row.format;
+    table.header_after = row.header_after;
+    table.body_after = row.body_after;
+    CHECK_THAT(refusal(table), Contains(row.message));
+  }
+  PlyTable blank = counting_table(3);
+  blank.format = "ascii";
+  blank.body_after = "\n  \n";
+  const test::ScratchFolder scratch;
+  CHECK(read_ply(scratch.write("blank.ply", test::bytes_of(blank))).cloud.size() == 3);
+}
+
 TEST_CASE("ply reader refuses: a file cut at any byte") {
   const test::ScratchFolder scratch;
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
@@ -206,6 +233,56 @@ TEST_CASE("ply reader refuses: values that are not finite, by vertex and propert
   large.columns[2].type = "double";
   large.rows[1][2] = 1e300;
   CHECK_THAT(refusal(large), Contains("vertex 1, property z: got inf"));
+}
+
+TEST_CASE("ply reader: values too large to be drawn are refused, or dropped and counted") {
+  struct Case {
+    std::size_t column;  // of a degree-2 table
+    const char* property;
+    double limit;
+    const char* expected;
+  };
+  const char *coordinate = "expected a magnitude of at most 1e+18",
+             *scale = "expected at most 16.1180956, the logarithm of 10000000";
+  const test::ScratchFolder scratch;
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    for (const Case& c : {Case{0, "x", kMaxCoordinate, coordinate},
+                          {1, "y", -kMaxCoordinate, coordinate},
+                          {2, "z", kMaxCoordinate, coordinate},
+                          {6, "f_dc_0", kMaxCoefficient, coordinate},
+                          {8, "f_dc_2", -kMaxCoefficient, coordinate},
+                          {9, "f_rest_0", -kMaxCoefficient, coordinate},
+                          {32, "f_rest_23", kMaxCoefficient, coordinate},
+                          {34, "scale_0", kMaxLogScale, scale},
+                          {36, "scale_2", kMaxLogScale, scale}}) {
+      CAPTURE(format, c.property);
+      PlyTable table = counting_table(7, 24);
+      table.format = format;
+      table.rows[4][c.column] = c.limit;
+      const std::string path = scratch.write("a.ply", test::bytes_of(table));
+      CHECK(read_ply(path).cloud.size() == 7);
+      for (const double factor : {1.000001, 1e10, 3e38 / std::abs(c.limit)}) {
+        table.rows[4][c.column] = c.limit * factor;
+        const std::string message = refusal(table);
+        CHECK_THAT(message, Contains("vertex 4, property " + std::string(c.property) + ": got "));
+        CHECK_THAT(message, Contains(c.expected));
+        const PlyReadResult kept = read_ply(scratch.write("b.ply", test::bytes_of(table)), {true});
+        CHECK(kept.dropped_invalid == 1);
+        REQUIRE(kept.cloud.size() == 6);
+        CHECK(kept.cloud.means[4].x == 5000);
+      }
+    }
+  }
+}
+
+TEST_CASE("ply reader: what may be of any size") {
+  const test::ScratchFolder scratch;
+  PlyTable table = counting_table(1);
+  table.rows[0][9] = 3e38;    // opacity: a sigmoid
+  table.rows[0][10] = -3e38;  // the logarithm of a scale of nothing
+  for (std::size_t k = 13; k < 17; ++k) table.rows[0][k] = -3e38;  // a rotation, to be normalised
+  table.rows[0][3] = 3e38;                                         // a normal
+  CHECK(read_ply(scratch.write("a.ply", test::bytes_of(table))).cloud.size() == 1);
 }
 
 TEST_CASE("ply reader: values that are not finite do not matter in properties it ignores") {
@@ -260,13 +337,13 @@ TEST_CASE("ply reader refuses: text that is no number, by line") {
     return "line " + std::to_string(3 + table.columns.size() + 1 + vertex + 1) + ":";
   };
   for (const char* word : {"1.0.0", "12abc", "--3", "1,5", "0x10", "one", "+", "1e", "+-1"}) {
-    const std::string bytes = replaced(good, "1010 ", std::string(word) + " ");
+    const std::string bytes = replaced(good, "-990 ", std::string(word) + " ");
     CHECK_THAT(refusal(bytes), Contains(line_of(1) + " got \"" + word + "\" for scale_0"));
   }
-  CHECK_THAT(refusal(replaced(good, "1010 ", "")),
+  CHECK_THAT(refusal(replaced(good, "-990 ", "")),
              Contains(line_of(1) + " got 16 values, expected 17"));
-  CHECK_THAT(refusal(replaced(good, "1010 ", "1010 1 ")), Contains("got 18 values, expected 17"));
-  CHECK_THAT(refusal(replaced(good, "1010 ", "1e99 ")),
+  CHECK_THAT(refusal(replaced(good, "-990 ", "-990 1 ")), Contains("got 18 values, expected 17"));
+  CHECK_THAT(refusal(replaced(good, "-990 ", "1e99 ")),
              Contains("vertex 1, property scale_0: got inf"));
 }
 

@@ -29,7 +29,7 @@ void check_counting_cloud(const GaussianCloud& cloud, std::size_t vertices) {
     CHECK(cloud.means[v] == glm::vec3(base, base + 1, base + 2));
     CHECK(cloud.sh_coeffs[v] == glm::vec3(base + 6, base + 7, base + 8));
     CHECK(cloud.opacity_logits[v] == base + 9);
-    CHECK(cloud.log_scales[v] == glm::vec3(base + 10, base + 11, base + 12));
+    CHECK(cloud.log_scales[v] == glm::vec3(10 - base, 11 - base, 12 - base));
     CHECK(cloud.quats[v] == std::array<float, 4>{base + 13, base + 14, base + 15, base + 16});
   }
 }

@@ -3,8 +3,57 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
+
+#include "algorithm/splat/counting.h"
 
 using namespace sgs;
+
+namespace {
+
+// A number and its derivative along one direction.
+struct Dual {
+  double value, slope;
+  Dual() = default;
+  explicit Dual(float constant) : value(constant), slope(0) {}
+  Dual(double v, double s) : value(v), slope(s) {}
+};
+Dual operator-(Dual a) { return {-a.value, -a.slope}; }
+Dual operator+(Dual a, Dual b) { return {a.value + b.value, a.slope + b.slope}; }
+Dual operator*(Dual a, Dual b) {
+  return {a.value * b.value, a.slope * b.value + a.value * b.slope};
+}
+Dual operator/(Dual a, Dual b) {
+  return {a.value / b.value, (a.slope - a.value / b.value * b.slope) / b.value};
+}
+Dual sqrt(Dual a) { return {std::sqrt(a.value), a.slope / (2 * std::sqrt(a.value))}; }
+Dual exp(Dual a) { return {std::exp(a.value), a.slope * std::exp(a.value)}; }
+
+// The 11 parameters in the order of a record, in any scalar.
+template <class T, class Make>
+RawGaussian<T> raw_of(const std::array<double, 11>& p, const Make& make) {
+  const auto at = [&](std::size_t k) { return make(p[k], k); };
+  return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, {at(6), at(7), at(8), at(9)}, at(10)};
+}
+template <class T>
+std::array<T, 11> values_of(const Gaussian<T>& g) {
+  return {g.mean.x,  g.mean.y,  g.mean.z,  g.scale.x, g.scale.y, g.scale.z,
+          g.quat[0], g.quat[1], g.quat[2], g.quat[3], g.opacity};
+}
+
+// Numbers that float holds exactly.
+std::array<double, 11> random_parameters(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::array<double, 11> p{};
+  for (double& value : p) value = 0x1p-16 * std::round(0x1p17 * normal(random));
+  return p;
+}
+
+std::array<double, 11> in_double(const std::array<double, 11>& p) {
+  return values_of(activate(raw_of<double>(p, [](double v, std::size_t) { return v; })));
+}
+
+}  // namespace
 
 TEST_CASE("activation by hand: exp, sigmoid, unit quaternion, coefficients as they are") {
   GaussianCloud cloud;
@@ -33,3 +82,53 @@ TEST_CASE("activation by hand: exp, sigmoid, unit quaternion, coefficients as th
 }
 
 TEST_CASE("activation of an empty cloud is empty") { CHECK(activate(GaussianCloud{}).size() == 0); }
+
+TEST_CASE("activation in float is the one in double, rounded once") {
+  std::mt19937 random(1);
+  for (int round = 0; round < 2000; ++round) {
+    const std::array<double, 11> p = random_parameters(random);
+    const auto narrow =
+        values_of(activate(raw_of<float>(p, [](double v, std::size_t) { return float(v); })));
+    const auto wide = in_double(p);
+    for (std::size_t k = 0; k < p.size(); ++k) REQUIRE(narrow[k] == static_cast<float>(wide[k]));
+  }
+}
+
+TEST_CASE("activation of dual numbers carries the derivatives") {
+  std::mt19937 random(2);
+  for (int round = 0; round < 200; ++round) {
+    const std::array<double, 11> p = random_parameters(random);
+    for (std::size_t along = 0; along < p.size(); ++along) {
+      const auto dual = values_of(activate(
+          raw_of<Dual>(p, [&](double v, std::size_t k) { return Dual(v, k == along ? 1 : 0); })));
+      constexpr double kStep = 1e-5;
+      std::array<double, 11> low = p, high = p;
+      low[along] -= kStep;
+      high[along] += kStep;
+      const auto below = in_double(low), above = in_double(high);
+      for (std::size_t k = 0; k < p.size(); ++k) {
+        const double expected = (above[k] - below[k]) / (2 * kStep);
+        CAPTURE(round, along, k);
+        REQUIRE(dual[k].slope == Approx(expected).epsilon(1e-5).margin(1e-6));
+      }
+    }
+  }
+}
+
+TEST_CASE("activation counted: four exponentials, a length and five quotients") {
+  DataFlow flow;
+  const std::array<double, 11> p = {1, 2, 3, -1, 0, 1, 1, 2, 3, 4, 0.5};
+  const auto counted = values_of(activate(raw_of<Counting>(
+      p, [&](double v, std::size_t) { return input(flow, static_cast<float>(v)); })));
+  const auto expected = in_double(p);
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    CHECK(counted[k].value == Approx(expected[k]).epsilon(1e-6));
+  }
+  const OperationCounts counts = flow.counts(0, flow.size());
+  CHECK(counts.exponentials == 4);
+  CHECK(counts.square_roots == 1);
+  CHECK(counts.multiplies == 4);
+  CHECK(counts.adds == 4);  // three of the length, one of the sigmoid
+  CHECK(counts.divisions == 5);
+  CHECK(counts.divisors == 2);
+}

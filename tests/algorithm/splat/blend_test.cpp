@@ -41,6 +41,19 @@ void blend_pixel(SubtileState& state, int lane, float dx, float dy, const Splat&
   ++state.contributors[lane];
 }
 
+// Whether the shares say what led from one state to the other.
+bool explains(const LaneShares& shares, const SubtileState& before, const SubtileState& after,
+              const Splat& s) {
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    const float alpha = shares.alpha[lane], t = shares.before[lane];
+    const bool blended = after.contributors[lane] != before.contributors[lane];
+    if (blended != (alpha > 0) || t != before.transmittance[lane]) return false;
+    if (after.transmittance[lane] != t * (1 - alpha)) return false;
+    if (after.red[lane] != before.red[lane] + s.rgb.x * (alpha * t)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 TEST_CASE("alpha by hand, in every scalar") {
@@ -145,7 +158,7 @@ TEST_CASE("the vector kernel equals a scalar loop bit for bit") {
   long blended = 0, finished_lanes = 0;
   for (int round = 0; round < 400; ++round) {
     const int tile_x = static_cast<int>(random() % 160), tile_y = static_cast<int>(random() % 90);
-    SubtileState fast = make_subtile(tile_x, tile_y, 638, 359), slow = fast;
+    SubtileState fast = make_subtile(tile_x, tile_y, 638, 359), slow = fast, told = fast;
     for (int layer = 0; layer < 100; ++layer) {
       Splat s = flat(uniform(0, 1), {uniform(0, 2), uniform(0, 2), uniform(0, 2)});
       if (layer % 10 == 0) s.opacity = uniform(0.0035F, 0.0045F);
@@ -157,14 +170,17 @@ TEST_CASE("the vector kernel equals a scalar loop bit for bit") {
       s.conic_b = std::sqrt(s.conic_a * s.conic_c) * uniform(-1.0001F, 1.0001F);
       s.x = static_cast<float>(4 * tile_x) + uniform(-2, 5) + uniform(-1, 1) / std::sqrt(sharp);
       s.y = static_cast<float>(4 * tile_y) + uniform(-2, 5) + uniform(-1, 1) / std::sqrt(sharp);
+      const SubtileState before = fast;
       blend(fast, tile_x, tile_y, s);
+      const LaneShares shares = blend_and_tell(told, tile_x, tile_y, s);
       for (int lane = 0; lane < kSubtilePixels; ++lane) {
         const float left = s.x - static_cast<float>(4 * tile_x);
         const float top = s.y - static_cast<float>(4 * tile_y);
         blend_pixel(slow, lane, left - static_cast<float>(lane % 4),
                     top - static_cast<float>(lane / 4), s);
       }
-      if (std::memcmp(&fast, &slow, sizeof fast) != 0)
+      if (std::memcmp(&fast, &slow, sizeof fast) != 0 ||
+          std::memcmp(&fast, &told, sizeof fast) != 0 || !explains(shares, before, fast, s))
         FAIL("round " << round << " layer " << layer);
     }
     for (int lane = 0; lane < kSubtilePixels; ++lane) {

@@ -5,6 +5,7 @@
 
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/spherical_harmonics.h"
+#include "modules/streaminggs/hfu/lane_macs.h"
 
 namespace sgs {
 namespace {

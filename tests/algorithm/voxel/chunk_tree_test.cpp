@@ -8,9 +8,9 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 
-#include "algorithm/scene/builtin_scene.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/footprint.h"
+#include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/voxel/hard_scenes.h"
 
 using namespace sgs;

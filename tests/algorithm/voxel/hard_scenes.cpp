@@ -1,8 +1,11 @@
 // Making of hard scenes.
 #include "tests/algorithm/voxel/hard_scenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "algorithm/scene/gaussian_limits.h"
 
 namespace sgs::test {
 
@@ -70,7 +73,7 @@ HardScene HardScenes::next(std::size_t gaussians, int longest_px) {
     if (pick(12) == 0) current = cluster(scene.camera);
     const glm::dvec3 v = centre_in(current);
     scene.cloud.means[i] = glm::vec3(scene.camera.world_from_camera * v + scene.camera.position);
-    const double scale = current.scale * log_uniform(0.3, 3);
+    const double scale = std::min(kMaxScale, current.scale * log_uniform(0.3, 3));
     for (int axis = 0; axis < 3; ++axis) {
       const double thinner = pick(2) == 0 ? 1 : log_uniform(1, current.ratio);
       scene.cloud.log_scales[i][axis] = static_cast<float>(std::log(scale / thinner));

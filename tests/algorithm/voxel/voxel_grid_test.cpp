@@ -153,9 +153,13 @@ TEST_CASE("voxel grid: a centre on a face belongs to the cell above it") {
 TEST_CASE("voxel grid: the paper's voxel sizes, outliers aside") {
   ActivatedCloud small = random_cloud(1, 5000, 4.9F);
   small.gaussians[17].mean.x = 1e6F;  // one of 5000 is below 0.1 %
-  CHECK(paper_voxel_size(small) == 0.4F);
-  CHECK(paper_voxel_size(random_cloud(2, 5000, 5.1F)) == 2.0F);
-  CHECK(paper_voxel_size({}) == 0.4F);
+  CHECK(inner_extent(small) == Approx(9.8).epsilon(0.01));
+  CHECK(paper_voxel_size(inner_extent(small)) == 0.4);
+  CHECK(paper_voxel_size(inner_extent(random_cloud(2, 5000, 5.1F))) == 2);
+  CHECK(inner_extent({}) == 0);
+  CHECK(paper_voxel_size(0) == 0.4);
+  CHECK(paper_voxel_size(10) == 0.4);
+  CHECK(paper_voxel_size(std::nextafter(10.0F, 11.0F)) == 2);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <functional>
 #include <vector>
 
+#include "tests/modules/dram/test_initiator.h"
 #include "tlm/memory_port.h"
-#include "tlm/payload_pool.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs {
@@ -17,58 +17,7 @@ namespace {
 
 using sc_core::SC_NS;
 using sc_core::sc_time;
-
-// An initiator whose thread is the test, and which notes when phases come.
-class Initiator : public sc_core::sc_module {
- public:
-  tlm_utils::simple_initiator_socket<Initiator> socket;
-  SC_HAS_PROCESS(Initiator);
-  Initiator(const sc_core::sc_module_name& name, std::function<void(Initiator&)> body)
-      : sc_module(name), socket("socket"), body_(std::move(body)) {
-    socket.register_nb_transport_bw(this, &Initiator::nb_transport_bw);
-    SC_THREAD(run);
-  }
-
-  PooledPayload& make(tlm::tlm_command command, std::uint64_t address, std::uint32_t bytes) {
-    PooledPayload& p = pool.acquire();
-    p.set_command(command);
-    p.set_address(address);
-    p.set_data_ptr(p.buffer(bytes));
-    p.set_data_length(bytes);
-    p.set_streaming_width(bytes);
-    return p;
-  }
-  tlm::tlm_sync_enum begin(PooledPayload& p, sc_time delay = sc_core::SC_ZERO_TIME) {
-    tlm::tlm_phase phase = tlm::BEGIN_REQ;
-    return socket->nb_transport_fw(p, phase, delay);
-  }
-  tlm::tlm_response_status blocking(PooledPayload& p, sc_time& delay) {
-    socket->b_transport(p, delay);
-    return p.get_response_status();
-  }
-
-  PayloadPool pool;
-  std::vector<sc_time> end_requests;
-  std::vector<sc_time> answers;
-  bool finished = false;
-
- private:
-  void run() {
-    body_(*this);
-    finished = true;
-  }
-  tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& p, tlm::tlm_phase& phase, sc_time&) {
-    if (phase == tlm::END_REQ) {
-      end_requests.push_back(sc_core::sc_time_stamp());
-      return tlm::TLM_ACCEPTED;
-    }
-    answers.push_back(sc_core::sc_time_stamp());
-    phase = tlm::END_RESP;
-    p.release();
-    return tlm::TLM_COMPLETED;
-  }
-  std::function<void(Initiator&)> body_;
-};
+using test::Initiator;
 
 DramConfig quiet() {
   DramConfig c;
@@ -88,7 +37,7 @@ void run(const DramConfig& config, const std::function<void(Initiator&, DramCont
 
 constexpr double kHitNs = (12 + 5 + 4) * 1.25;
 
-TEST_CASE("dram controller: unloaded latencies through the socket (accurate)") {
+TEST_CASE("dram controller: unloaded latencies through the socket") {
   run(quiet(), [](Initiator& i, DramController&) {
     i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 32));
     sc_core::wait(1000, SC_NS);
@@ -103,7 +52,7 @@ TEST_CASE("dram controller: unloaded latencies through the socket (accurate)") {
   });
 }
 
-TEST_CASE("dram controller: the same latencies annotated (fast)") {
+TEST_CASE("dram controller: the same latencies annotated, through blocking transport") {
   run(quiet(), [](Initiator& i, DramController&) {
     const std::uint64_t addresses[] = {0, 32, std::uint64_t{4096} * 4 * 8};
     const double expected_ns[] = {kHitNs + 18.75, kHitNs, kHitNs + 37.5};
@@ -278,12 +227,13 @@ TEST_CASE("dram controller: time, bandwidth and refreshes of idle time are accou
 TEST_CASE("dram controller: recorded requests can be asked again") {
   const std::string path = std::string(SGS_BINARY_DIR) + "/recorded_" + std::to_string(getpid());
   run(quiet(), [&](Initiator& i, DramController& dram) {
-    RequestTraceWriter writer(path);
+    OutputFile file(path);
+    RequestTraceWriter writer(file);
     dram.record_requests(writer);
     i.begin(i.make(tlm::TLM_READ_COMMAND, 96, 20));
     sc_core::wait(1000, SC_NS);
     i.begin(i.make(tlm::TLM_WRITE_COMMAND, 4096, 256));
-    writer.close();
+    file.commit();
   });
   const auto requests = read_request_trace(path);
   std::remove(path.c_str());

@@ -1,8 +1,10 @@
 // Memspecs and configuration: what is shipped is sound, what cannot be is refused by name.
 #include "modules/dram/memspec.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
+#include <vector>
 
 #include "algorithm/input_error.h"
 #include "modules/config/strict_json.h"
@@ -71,8 +73,8 @@ TEST_CASE("memspecs: published tables that disagree by a cycle are named") {
 
 TEST_CASE("memspecs: the impossible is refused with the key's name") {
   CHECK(memspec_refusal([](Memspec& m) {
-          m.timing_cycles.refi = 104;
-        }).find("file: timing_cycles.refi: got 104, expected more than rfc_all 104") == 0);
+          m.timing_cycles.ras_max = m.timing_cycles.refi;
+        }).find("file: timing_cycles.ras_max: got 3120, expected more than refi 3120") == 0);
   CHECK(memspec_refusal([](Memspec& m) {
           m.organisation.banks = 0;
         }).find("file: organisation.banks: got 0") == 0);
@@ -100,6 +102,35 @@ TEST_CASE("memspecs: the impossible is refused with the key's name") {
   CHECK(memspec_refusal([](Memspec& m) {
           m.default_currents = "none";
         }).find("file: default_currents: got 'none'") == 0);
+}
+
+TEST_CASE("memspecs: refresh that leaves requests no room is refused, a cycle less is not") {
+  struct Row {
+    std::uint32_t Memspec::Timing::*key;
+    std::uint32_t refused, accepted;
+    const char* message;
+  };
+  using T = Memspec::Timing;
+  // rfc_all 104, rcd 15, refi_bank 390, rfc_bank 48, rrd 8, ras 34, rp_bank 15, 8 banks.
+  for (const Row& row : std::vector<Row>{
+           {&T::refi, 104, 120, "refi: got 104, expected more than rfc_all 104 + rcd 15"},
+           {&T::refi, 119, 120, "refi: got 119, expected more than rfc_all 104 + rcd 15"},
+           {&T::refi_bank, 48, 49, "refi_bank: got 48, expected more than rfc_bank 48"},
+           {&T::rrd, 390, 389, "rrd: got 390, expected less than refi_bank 390"},
+           {&T::faw, 1560, 1559, "faw: got 1560, expected less than 4 x refi_bank 390"},
+           {&T::ras, 3049, 3048, "refi_bank: got 390, expected 8 banks x refi_bank above 3120"}}) {
+    const auto with = [&](std::uint32_t value) {
+      return memspec_refusal([&](Memspec& m) {
+        T& t = m.timing_cycles;
+        t.*row.key = value;
+        t.faw = std::max(t.faw, t.rrd);
+        t.rc = std::max(t.rc, t.ras);
+      });
+    };
+    INFO(row.message);
+    CHECK(with(row.refused).find("file: timing_cycles." + std::string(row.message)) == 0);
+    CHECK(with(row.accepted) == "accepted");
+  }
 }
 
 TEST_CASE("memspecs: negative and fractional cycles are refused by the reader") {

@@ -76,10 +76,11 @@ TEST_CASE("request trace: addresses, directions, times, comments") {
 
 TEST_CASE("request trace: what is written reads back") {
   const RequestFile file("");
-  RequestTraceWriter writer(file.path());
+  OutputFile output(file.path());
+  RequestTraceWriter writer(output);
   writer.add({0x7fffffc0, true, 1234567.0625, 256});
   writer.add({64, false, 1234568.0, 20});
-  writer.close();
+  output.commit();
   const auto requests = read_request_trace(file.path());
   REQUIRE(requests.size() == 2);
   CHECK(requests[0].address == 0x7fffffc0);

@@ -1,0 +1,36 @@
+// Codebooks as they lie in memory: what quantised second halves point into. (Their making:
+// algorithm/vq.)
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace sgs {
+
+enum class Codebook : std::uint8_t { kScale, kRotation, kDc, kSh };
+constexpr std::size_t kCodebookCount = 4;
+constexpr std::array<const char*, kCodebookCount> kCodebookNames = {"scale", "rotation", "dc",
+                                                                    "sh"};
+
+constexpr std::uint32_t kMaxCodebookEntries = 1U << 16;
+
+// Words (floats) of an entry. Scale: ratios to the largest, falling, the first 1. Rotation: unit
+// quaternion (w, x, y, z). DC: rgb. SH: the higher bands, rgb each; none at degree 0.
+constexpr std::uint32_t codebook_words(Codebook codebook, int sh_degree) {
+  switch (codebook) {
+    case Codebook::kScale:
+      return 3;
+    case Codebook::kRotation:
+      return 4;
+    case Codebook::kDc:
+      return 3;
+    default:
+      return 3 * static_cast<std::uint32_t>((sh_degree + 1) * (sh_degree + 1) - 1);
+  }
+}
+
+// An entry of each codebook.
+using CodebookIndices = std::array<std::uint32_t, kCodebookCount>;
+
+}  // namespace sgs

@@ -1,0 +1,47 @@
+// Placing of a scene's regions.
+#include "algorithm/memory/scene_layout.h"
+
+#include "algorithm/voxel/chunk_node.h"
+
+namespace sgs {
+namespace {
+
+void place_records(const SecondHalfFormat& format, std::uint32_t gaussians, SceneLayout& layout) {
+  layout.second_half = format;
+  layout.first_halves = layout.regions.add_records("first_halves", kFirstHalfBytes, gaussians);
+  layout.second_halves = layout.regions.add_records("second_halves", format.bytes(), gaussians);
+  layout.codebooks = layout.regions.add("codebooks", format.codebook_bytes());
+}
+
+}  // namespace
+
+SceneLayout lay_out_voxels(const SecondHalfFormat& format, std::uint32_t gaussians,
+                           const VoxelFrame& frame, std::uint32_t nodes, std::uint32_t voxels) {
+  SceneLayout layout;
+  const std::uint64_t node_bytes = std::uint64_t{nodes} * sizeof(VoxelNode);
+  const RegionSpan region =
+      layout.regions.add("voxel_table", node_bytes + std::uint64_t{voxels} * sizeof(VoxelRecord));
+  VoxelTableLayout table;
+  table.frame = frame;
+  table.nodes = region.records(0, sizeof(VoxelNode), nodes);
+  table.voxels = region.records(node_bytes, sizeof(VoxelRecord), voxels);
+  layout.table = table;
+  place_records(format, gaussians, layout);
+  layout.stored_bytes = layout.regions.next_base();
+  return layout;
+}
+
+SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussians,
+                           std::uint32_t nodes, std::uint32_t chunks) {
+  SceneLayout layout;
+  place_records(format, gaussians, layout);
+  ChunkTableLayout table;
+  table.nodes = layout.regions.add_records("chunk_table", sizeof(ChunkNode), nodes);
+  table.indices = layout.regions.add_records("indices", sizeof(std::uint32_t), gaussians);
+  table.chunk_count = chunks;
+  layout.table = table;
+  layout.stored_bytes = layout.regions.next_base();
+  return layout;
+}
+
+}  // namespace sgs

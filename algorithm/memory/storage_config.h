@@ -1,0 +1,24 @@
+// How a scene is stored: a property of the bytes in memory, whatever machine reads them.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/memory/scene_layout.h"
+#include "algorithm/memory/second_half.h"
+#include "algorithm/vq/vq_config.h"
+
+namespace sgs {
+
+struct StorageConfig {
+  StorageOrder order = StorageOrder::kChunks;
+  SecondHalfEncoding encoding = SecondHalfEncoding::kRaw;
+  double voxel_size = 0;               // by voxels: world units; 0: to be chosen
+  std::uint32_t chunk_gaussians = 16;  // by chunks: most Gaussians in one; 0: to be chosen
+  bool store_invisible = false;        // also Gaussians that no view can show
+  VqConfig vq;                         // how codebooks are made, where the encoding has any
+
+  // The format of second halves with every codebook as large as it may become.
+  SecondHalfFormat widest_format(int sh_degree) const;
+};
+
+}  // namespace sgs

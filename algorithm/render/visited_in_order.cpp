@@ -1,0 +1,52 @@
+// The blend pass, group by group, over those splats that the group streamed.
+#include "algorithm/render/visited_in_order.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "algorithm/render/blend_pass.h"
+
+namespace sgs {
+namespace {
+
+// [Gaussian] its voxel; Gaussians that are not stored get one that nobody visits.
+std::vector<std::uint32_t> voxels_of(const VoxelGrid& grid, std::size_t gaussians) {
+  std::vector<std::uint32_t> voxel_of(gaussians, static_cast<std::uint32_t>(grid.voxels.size()));
+  for (std::uint32_t voxel = 0; voxel < grid.voxels.size(); ++voxel) {
+    const VoxelRecord& record = grid.voxels[voxel];
+    for (std::uint32_t slot = record.first; slot < record.first + record.count; ++slot) {
+      voxel_of[grid.storage_order[slot]] = voxel;
+    }
+  }
+  return voxel_of;
+}
+
+}  // namespace
+
+Image render_visited_in_order(const View<float>& view, const ActivatedCloud& cloud,
+                              const VoxelGrid& grid, int group_px,
+                              const std::vector<std::vector<std::uint32_t>>& group_voxels,
+                              const glm::vec3& background) {
+  const std::vector<std::uint32_t> voxel_of = voxels_of(grid, cloud.size());
+  std::vector<std::vector<std::uint32_t>> visited = group_voxels;
+  for (std::vector<std::uint32_t>& voxels : visited) std::sort(voxels.begin(), voxels.end());
+  const int columns = (view.width + group_px - 1) / group_px;
+  const auto blend_visited = [&](GroupState& group, const Splat& splat) {
+    const PixelRect& pixels = group.pixels();
+    const auto at = static_cast<std::size_t>(pixels.y0 / group_px * columns + pixels.x0 / group_px);
+    if (std::binary_search(visited[at].begin(), visited[at].end(), voxel_of[splat.index])) {
+      group.blend(splat);
+    }
+  };
+  RenderResult result;
+  result.image = Image(view.width, view.height);
+  result.transmittance.resize(result.image.pixels.size());
+  result.contributors.resize(result.image.pixels.size());
+  for (const GroupState& group : blend_scene(view, cloud, blend_visited, group_px)) {
+    group.store(background, result);
+  }
+  return std::move(result.image);
+}
+
+}  // namespace sgs

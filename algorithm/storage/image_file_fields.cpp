@@ -1,0 +1,72 @@
+// Headers of memory image files from layouts, and layouts from headers.
+#include "algorithm/storage/image_file_fields.h"
+
+#include <zlib.h>
+
+#include <filesystem>
+
+namespace sgs {
+namespace {
+
+struct FieldCounter {
+  std::size_t bytes = 0;
+  template <class T>
+  void operator()(const char*, const T&, double, double) {
+    bytes += field_bytes<T>();
+  }
+};
+
+}  // namespace
+
+ImageFileHeader empty_header(StorageOrder order) {
+  ImageFileHeader header;
+  header.storage.order = order;
+  const Regions regions = layout_of(header).regions;
+  header.regions.assign(regions.begin(), regions.end());
+  return header;
+}
+
+ImageFileHeader header_of(const PackedFacts& facts, const StorageConfig& storage,
+                          const SceneLayout& layout) {
+  ImageFileHeader header{facts, storage, layout.second_half, layout.gaussian_count(), 0, 0, {}, {}};
+  if (storage.order == StorageOrder::kVoxels) {
+    const VoxelTableLayout& table = layout.voxel_table();
+    header.frame = table.frame;
+    header.nodes = static_cast<std::uint32_t>(table.nodes.count);
+    header.leaves = static_cast<std::uint32_t>(table.voxels.count);
+  } else {
+    header.nodes = static_cast<std::uint32_t>(layout.chunk_table().nodes.count);
+    header.leaves = layout.chunk_table().chunk_count;
+  }
+  header.regions.assign(layout.regions.begin(), layout.regions.end());
+  return header;
+}
+
+SceneLayout layout_of(const ImageFileHeader& header) {
+  SecondHalfFormat format = header.format;
+  format.encoding = header.storage.encoding;
+  if (header.storage.order == StorageOrder::kChunks) {
+    return lay_out_chunks(format, header.stored, header.nodes, header.leaves);
+  }
+  VoxelFrame frame = header.frame;
+  frame.voxel_size = static_cast<float>(header.storage.voxel_size);
+  return lay_out_voxels(format, header.stored, frame, header.nodes, header.leaves);
+}
+
+std::size_t least_header_bytes(StorageOrder order) {
+  FieldCounter counter{kFieldsAt};
+  const ImageFileHeader header = empty_header(order);
+  visit_fields(counter, header);
+  return counter.bytes;
+}
+
+std::uint32_t checksum_of(std::uint32_t before, const void* bytes, std::size_t size) {
+  if (size == 0) return before;  // zlib begins anew where there is no buffer
+  return static_cast<std::uint32_t>(::crc32_z(before, static_cast<const Bytef*>(bytes), size));
+}
+
+bool is_image_file(const std::string& path) {
+  return std::filesystem::path(path).extension() == kImageFileExtension;
+}
+
+}  // namespace sgs

@@ -1,0 +1,101 @@
+// What writer and reader of memory image files share: where the header's fields lie, and one list
+// of them for each storage order. Eight bytes for std::uint64_t and double, four for everything
+// else (floating point as its bits, signed numbers as two's complement).
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "algorithm/storage/image_file.h"
+
+namespace sgs {
+
+constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'S', 'G', 'S', '\r', '\n', 0x1a, '\n'};
+constexpr std::size_t kVersionAt = 8, kHeaderBytesAt = 12, kLengthAt = 16, kFieldsAt = 24;
+constexpr std::size_t kChecksumBytes = 4;
+
+template <class T>
+constexpr std::size_t field_bytes() {
+  return sizeof(T) == 8 ? 8 : 4;
+}
+
+// What the fields say: all that a layout follows from, and the layout's regions once more, which
+// must be the same.
+struct ImageFileHeader {
+  PackedFacts facts;
+  StorageConfig storage;
+  SecondHalfFormat format;              // of storage.encoding
+  std::uint32_t stored = 0;             // Gaussians
+  std::uint32_t nodes = 0, leaves = 0;  // of the table; leaves: voxels or chunks
+  VoxelFrame frame;                     // by voxels, of storage.voxel_size
+  std::vector<Region> regions;
+};
+
+// Of a scene of nothing, with the regions that this order has.
+ImageFileHeader empty_header(StorageOrder order);
+
+ImageFileHeader header_of(const PackedFacts& facts, const StorageConfig& storage,
+                          const SceneLayout& layout);
+
+// What follows from all but the regions.
+SceneLayout layout_of(const ImageFileHeader& header);
+
+// Calls fields(name, value, lowest, highest) for each field in the order of the file. The first is
+// the storage order, which decides what follows: a reader begins with empty_header(). Header may be
+// const.
+template <class Fields, class Header>
+void visit_fields(Fields& fields, Header& header) {
+  constexpr double kWord = std::numeric_limits<std::uint32_t>::max();
+  constexpr double kAny = static_cast<double>(std::numeric_limits<std::uint64_t>::max());
+  constexpr double kLeastSize = std::numeric_limits<float>::denorm_min();
+  constexpr double kMostSize = std::numeric_limits<float>::max();
+  constexpr double kMostCells = 1 << 30;
+  constexpr double kMostDegree = 3, kMostLevels = 10, kMostChunk = 65535, kMostIterations = 1000;
+  auto& storage = header.storage;
+  fields("storage order", storage.order, 0, 1);  // voxels, chunks
+  fields("encoding", storage.encoding, 0, 3);    // as SecondHalfEncoding
+  fields("store_invisible", storage.store_invisible, 0, 1);
+  fields("vq.scale_entries", storage.vq.scale_entries, 1, kMaxCodebookEntries);
+  fields("vq.rotation_entries", storage.vq.rotation_entries, 1, kMaxCodebookEntries);
+  fields("vq.dc_entries", storage.vq.dc_entries, 1, kMaxCodebookEntries);
+  fields("vq.sh_entries", storage.vq.sh_entries, 1, kMaxCodebookEntries);
+  fields("vq.iterations", storage.vq.iterations, 0, kMostIterations);
+  fields("vq.seed", storage.vq.seed, 0, kAny);
+  fields("Gaussians in the scene", header.facts.gaussians, 0, kWord);  // indices have 32 bits
+  fields("Gaussians dropped as invalid", header.facts.dropped_invalid, 0, kAny);
+  fields("stored Gaussians", header.stored, 0, kWord);
+  fields("SH degree", header.format.sh_degree, 0, kMostDegree);
+  for (auto& entries : header.format.entries) {
+    fields("codebook entries", entries, 0, kMaxCodebookEntries);
+  }
+  if (storage.order == StorageOrder::kVoxels) {
+    fields("voxel_size", storage.voxel_size, kLeastSize, kMostSize);
+    fields("voxel levels", header.frame.levels, 1, kMostLevels);
+    fields("first cell, x", header.frame.origin_cell.x, -kMostCells, kMostCells);
+    fields("first cell, y", header.frame.origin_cell.y, -kMostCells, kMostCells);
+    fields("first cell, z", header.frame.origin_cell.z, -kMostCells, kMostCells);
+    fields("voxel nodes", header.nodes, 0, kWord);
+    fields("voxels", header.leaves, 0, kWord);
+  } else {
+    fields("chunk_gaussians", storage.chunk_gaussians, 1, kMostChunk);
+    fields("chunk nodes", header.nodes, 0, kWord);
+    fields("chunks", header.leaves, 0, kWord);
+  }
+  for (auto& region : header.regions) {
+    fields(region.name.c_str(), region.base, 0, kAny);
+    fields(region.name.c_str(), region.bytes, 0, kAny);
+  }
+}
+
+// As image_file.h says; bytes: of the image.
+void write_image_file(const std::string& path, const ImageFileHeader& header,
+                      const std::vector<std::byte>& bytes);
+
+// Of a header in this order with an empty name.
+std::size_t least_header_bytes(StorageOrder order);
+
+// CRC-32 of bytes behind those whose checksum is `before`; 0 to begin with.
+std::uint32_t checksum_of(std::uint32_t before, const void* bytes, std::size_t size);
+
+}  // namespace sgs

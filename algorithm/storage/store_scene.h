@@ -1,0 +1,18 @@
+// Storing of a scene: encoded, sorted and laid out as a storage configuration says.
+#pragma once
+
+#include <vector>
+
+#include "algorithm/scene/camera.h"
+#include "algorithm/storage/stored_scene.h"
+#include "algorithm/vq/quantise.h"
+
+namespace sgs {
+
+// weighing: cameras that weigh the Gaussians where codebooks are made; progress: of that. Throws
+// InputError where the size of voxels or chunks is still to be chosen (storage_choices.h), or
+// voxels are too small for the scene.
+StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
+                        const std::vector<Camera>& weighing, const VqProgress& progress = {});
+
+}  // namespace sgs

@@ -1,0 +1,34 @@
+// Vector quantisation of a scene: four codebooks, and for each Gaussian an entry of each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "algorithm/memory/codebook.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/vq/vq_config.h"
+
+namespace sgs {
+
+struct QuantisedCloud {
+  // [K, words] of each codebook; empty: the scene has none. No more entries than distinct values.
+  std::array<std::vector<float>, kCodebookCount> codebooks;
+  std::array<std::vector<std::uint32_t>, kCodebookCount> indices;  // [N]
+  std::vector<std::uint8_t> opacities;                             // [N] in units of 1/255
+};
+
+// Told after each iteration: codebook, iteration, weighted mean squared error.
+using VqProgress = std::function<void(Codebook, std::uint32_t, double)>;
+
+// weights: [N], not negative; pixel_sizes: [N] world units of a pixel at each Gaussian, 0 where not
+// known (image_weights.h has both). Scales are compared as logarithms relative to the largest,
+// which the first half stores exactly; rotations by what a wrong one does to the picture
+// (rotation_codebook.h), all in canonical form (canonical_shape.h). Opacities below 1/255, which no
+// view can show, become 0, others at least 1. Deterministic by seed whatever the number of threads.
+QuantisedCloud quantise(const ActivatedCloud& cloud, const std::vector<float>& weights,
+                        const std::vector<float>& pixel_sizes, const VqConfig& config,
+                        const VqProgress& progress = {});
+
+}  // namespace sgs

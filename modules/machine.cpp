@@ -1,0 +1,43 @@
+// Every machine's way to the memory.
+#include "modules/machine.h"
+
+#include <limits>
+
+namespace sgs {
+namespace {
+
+// The memory ports of all units, in the order of their data sheets.
+class Ports : public DataSheet {
+ public:
+  void port(MemoryPort& port) override { found.push_back(&port); }
+  std::vector<MemoryPort*> found;
+};
+
+// "machine.hfu0.coarse.memory" -> "hfu0.coarse"; a unit with several ports keeps their names.
+std::string requester_name(const MemoryPort& port, const Machine& machine) {
+  std::string path = std::string(port.name()).substr(std::string(machine.name()).size() + 1);
+  const std::string plain = ".memory";
+  if (path.size() > plain.size() &&
+      path.compare(path.size() - plain.size(), plain.size(), plain) == 0) {
+    path.resize(path.size() - plain.size());
+  }
+  return path;
+}
+
+}  // namespace
+
+void Machine::connect_memory() {
+  Ports ports;
+  publish(ports);
+  const std::size_t count = ports.found.size();
+  memory.init(count);
+  router_ = std::make_unique<Router>("router", instant_end_, static_cast<std::uint32_t>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    ports.found[i]->socket.bind(router_->from_initiators[i]);
+    requesters_.push_back(requester_name(*ports.found[i], *this));
+  }
+  // The memory says which addresses it has.
+  router_->map(0, std::numeric_limits<std::uint64_t>::max(), memory);
+}
+
+}  // namespace sgs

@@ -1,0 +1,77 @@
+// An accelerator before it is built: what can be chosen about it, what it needs of the scene's
+// storage, which picture it must give, and how to build it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "algorithm/render/streaming_result.h"
+#include "algorithm/scene/cameras.h"
+#include "algorithm/storage/stored_scene.h"
+#include "modules/auto_choice.h"
+#include "modules/config/config_visitor.h"
+#include "modules/frame_job.h"
+#include "modules/machine.h"
+#include "tlm/stall_injector.h"
+
+namespace sgs {
+
+// How a machine is put together; no number of a report may depend on the order.
+struct BuildOptions {
+  StallConfig stalls;                    // random waits at both sides of every FIFO, for tests
+  std::uint64_t construction_order = 0;  // units in order; else shuffled with this seed, for tests
+};
+
+class MachineDesign {
+ public:
+  virtual ~MachineDesign() = default;
+
+  // Its keys of the configuration.
+  virtual void visit(ConfigVisitor& v) = 0;
+
+  // How scenes must be stored for it.
+  virtual StorageOrder storage_order() const = 0;
+
+  // Fills in what the configuration left to the model, and adds it to `chosen`. Buffers are built
+  // for any scene that is stored so. Throws InputError for what cannot be built; the message shows
+  // the arithmetic.
+  virtual void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) = 0;
+
+  // The same once the scene is known. Throws InputError when the scene does not fit.
+  virtual void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) = 0;
+
+  // The registers of a frame; regions that the frame writes stand behind the scene's.
+  virtual FrameJob job(const StoredScene& scene, const Camera& camera) const = 0;
+
+  // What the machine must render, to the bit, and the work that the golden renderer counted.
+  virtual StreamingResult golden(const StoredScene& scene, const FrameJob& job) const = 0;
+
+  // The picture that golden's work would give in right order: each pixel blends all that was
+  // streamed for it by depth, so that only missed splats keep it from the reference picture of the
+  // decoded scene. Asked for only where golden.stats.missed is not 0: orders that miss nothing need
+  // not have it.
+  virtual Image golden_in_order(const StoredScene&, const FrameJob&,
+                                const StreamingResult& /*golden*/) const {
+    throw std::logic_error("machine design: splats were missed, and no picture tells which");
+  }
+
+  // What a frame of this scene did not need, as far as the golden renderer tells.
+  virtual void publish_left_out(const StoredScene& scene, const StreamingStats& stats,
+                                DataSheet& sheet) const = 0;
+
+  virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
+                                         const BuildOptions& options) const = 0;
+};
+
+// A line of the factory.
+struct MachineKind {
+  const char* name;     // value of the configuration's key `machine`
+  const char* summary;  // for --help
+  std::unique_ptr<MachineDesign> (*design)();
+};
+
+}  // namespace sgs

@@ -1,0 +1,15 @@
+// Keys of a unit's memory port.
+#pragma once
+
+#include "modules/config/config_visitor.h"
+#include "tlm/memory_port.h"
+
+namespace sgs {
+
+inline void visit(ConfigVisitor& v, MemoryPortConfig& c) {
+  v("max_transaction_bytes", c.max_transaction_bytes, in_range(32, 4096),
+    "a port's longest request");
+  v("max_outstanding", c.max_outstanding, in_range(1, 4096), "requests of a port in flight");
+}
+
+}  // namespace sgs

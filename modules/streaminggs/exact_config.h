@@ -1,0 +1,34 @@
+// What can be chosen about the machine of exact order.
+#pragma once
+
+#include "algorithm/memory/storage_config.h"
+#include "modules/streaminggs/merge/merge_config.h"
+#include "modules/streaminggs/sorting/sorting_config.h"
+#include "modules/streaminggs/streaming_config.h"
+#include "modules/streaminggs/vsu/exact_vsu_config.h"
+#include "tlm/sram_use.h"
+
+namespace sgs {
+
+struct ExactConfig : StreamingConfig {
+  ExactVsuConfig vsu;
+  SortingNetworkConfig sorting;
+  MergeConfig merge;
+
+  // The paper's 355 KB, divided as exact order needs them: shallow input, large groups.
+  ExactConfig() {
+    group_px = 128;
+    sram = {8192, 0, 355328};
+    hfu.slice_gaussians = 16;
+    hfu.input_slots = 8;
+    hfu.second_half_slots = 16;
+    rendering.pixel_buffers = 1;
+  }
+};
+
+void visit(ConfigVisitor& v, ExactConfig& config);
+
+// On-chip memory for any scene that is stored so.
+SramUses sram_uses(const ExactConfig& config, const StorageConfig& storage);
+
+}  // namespace sgs

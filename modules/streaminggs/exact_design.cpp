@@ -1,0 +1,51 @@
+// What exact order needs, must give, and is built from.
+#include "modules/streaminggs/exact_design.h"
+
+#include "algorithm/render/exact_renderer.h"
+#include "modules/streaminggs/exact_machine.h"
+#include "modules/streaminggs/streaming_design.h"
+#include "modules/streaminggs/streaming_sram.h"
+
+namespace sgs {
+
+void ExactDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
+  storage_ = storage;
+  resolve_sram(
+      config_, [&] { return sram_uses(config_, storage_); }, chosen);
+}
+
+void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
+  sgs::adapt(config_, format, chosen);
+}
+
+FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const {
+  return streaming_job(config_, scene, camera, exact_spill_bytes(scene.image.layout));
+}
+
+StreamingResult ExactDesign::golden(const StoredScene& scene, const FrameJob& job) const {
+  ExactOrderConfig order;
+  order.group_px = static_cast<int>(config_.group_px);
+  order.coarse_filter = config_.hfu.coarse_filter;
+  order.merge_entries = config_.merge.entries;
+  order.on_overflow = config_.merge.on_overflow;
+  order.walk_queue_entries = config_.vsu.queue_entries;
+  order.background = job.background;
+  return render_exact_order(job.view, scene.decoded, scene.tree(), order);
+}
+
+void ExactDesign::publish_left_out(const StoredScene& scene, const StreamingStats& stats,
+                                   DataSheet& sheet) const {
+  sgs::publish_left_out(config_, scene, sheet);
+  sheet.left_out("chunks_not_needed", "they cannot touch any group",
+                 scene.image.layout.chunk_table().chunk_count - stats.blocks_visited,
+                 "their Gaussians are never fetched");
+}
+
+std::unique_ptr<Machine> ExactDesign::build(const sc_core::sc_module_name& name,
+                                            const FrameJob& job,
+                                            const BuildOptions& options) const {
+  return std::make_unique<ExactMachine>(name, config_, streaming_job(config_, job),
+                                        sram_uses(config_, storage_), options);
+}
+
+}  // namespace sgs

@@ -1,0 +1,93 @@
+// Wiring of exact order.
+#include "modules/streaminggs/exact_machine.h"
+
+namespace sgs {
+namespace {
+
+std::uint64_t aside_bytes(const ChunkTableLayout& table) {
+  return (table.chunk_count + table.nodes.count) * kWalkEntryBytes;
+}
+
+}  // namespace
+
+std::uint64_t exact_spill_bytes(const SceneLayout& layout) {
+  return aside_bytes(layout.chunk_table()) +
+         2 * std::uint64_t{layout.gaussian_count()} * kSpilledKeyBytes;
+}
+
+ExactMachine::ExactMachine(const sc_core::sc_module_name& name, const ExactConfig& config,
+                           const StreamingJob& job, SramUses uses, const BuildOptions& options)
+    : StreamingMachine(name, config, job, std::move(uses), options),
+      config_(config),
+      sorters_(config.sorting_units) {
+  add_fifos();
+  const std::uint64_t aside = aside_bytes(job.layout.chunk_table());
+  Construction units;
+  units.push_back([=] {
+    vsu_ =
+        std::make_unique<ExactVsu>("vsu", config_.vsu, context(), this->job().spill.part(0, aside));
+  });
+  for (std::uint32_t s = 0; s < config.sorting_units; ++s) {
+    units.push_back([=] {
+      sorters_[s] =
+          std::make_unique<ExactSorter>(fmt::format("sorting{}", s).c_str(), config_.sorting, s,
+                                        config_.sorting_units, context());
+    });
+  }
+  units.push_back([=] {
+    const RegionSpan& spill = this->job().spill;
+    merge_ = std::make_unique<MergeUnit>("merge", config_.merge,
+                                         spill.part(aside, spill.bytes - aside), context());
+  });
+  make_units(std::move(units), Rejects::kReported, Arrival::kByToken);
+  bind();
+  connect_memory();
+}
+
+void ExactMachine::add_fifos() {
+  for (std::uint32_t h = 0; h < config_.hfus; ++h) {
+    for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
+      add_fifo(keys_, fmt::format("keys_hfu{}_to_sorting{}", h, s),
+               config_.hfu.candidate_fifo_entries, config_.hfu.cfu_depth_cycles);
+    }
+    add_fifo(released_, fmt::format("released_to_hfu{}", h), config_.merge.output_fifo_entries, 1);
+    add_fifo(splats_, fmt::format("splats_of_hfu{}", h), config_.rendering.input_fifo_entries,
+             config_.hfu.ffu_depth_cycles);
+  }
+  for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
+    add_fifo(sorted_keys_, fmt::format("keys_sorted_by_sorting{}", s),
+             config_.merge.input_fifo_entries, config_.merge.latency_cycles);
+  }
+}
+
+void ExactMachine::bind() {
+  vsu_->finished(finished_groups_);
+  merge_->finished(finished_groups_);
+  for (std::uint32_t h = 0; h < config_.hfus; ++h) {
+    vsu_->visits(*visits_[h]);
+    for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
+      TimedFifo<FineCandidate>& keys = *keys_[h * config_.sorting_units + s];
+      hfus_[h]->coarse.survivors(keys);
+      sorters_[s]->keys(keys);
+    }
+    merge_->released(*released_[h]);
+    hfus_[h]->fine.candidates(*released_[h]);
+    hfus_[h]->fine.splats(*splats_[h]);
+    rendering_->splats(*splats_[h]);
+  }
+  for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
+    sorters_[s]->sorted(*sorted_keys_[s]);
+    merge_->sorted(*sorted_keys_[s]);
+  }
+}
+
+void ExactMachine::publish_units(DataSheet& sheet) {
+  vsu_->publish(sheet);
+  if (codebooks_) codebooks_->publish(sheet);
+  for (const auto& hfu : hfus_) hfu->publish(sheet);
+  for (const auto& sorter : sorters_) sorter->publish(sheet);
+  merge_->publish(sheet);
+  rendering_->publish(sheet);
+}
+
+}  // namespace sgs

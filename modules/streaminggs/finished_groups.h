@@ -1,0 +1,54 @@
+// Rendering's feedback: "this group is finished, nothing can change it any more". It travels: who
+// asks sees it `latency` cycles after it was said, and drops what is left of the group.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "tlm/clock_domain.h"
+
+namespace sgs {
+
+class FinishedGroupsIf : public virtual sc_core::sc_interface {
+ public:
+  virtual bool finished(std::uint32_t group) const = 0;
+};
+
+class FinishGroupIf : public virtual sc_core::sc_interface {
+ public:
+  virtual void finish(std::uint32_t group) = 0;
+};
+
+class FinishedGroups : public sc_core::sc_prim_channel,
+                       public FinishedGroupsIf,
+                       public FinishGroupIf {
+ public:
+  // latency_cycles: at least 1, so that what units see does not depend on which of them the kernel
+  // runs first.
+  FinishedGroups(const char* name, const ClockDomain& clock, std::size_t groups,
+                 std::uint32_t latency_cycles)
+      : sc_prim_channel(name),
+        latency_(static_cast<double>(latency_cycles) * clock.period()),
+        seen_from_(groups, sc_core::sc_max_time()) {}
+
+  void finish(std::uint32_t group) override {
+    sc_core::sc_time& from = seen_from_[group];
+    if (from == sc_core::sc_max_time()) from = sc_core::sc_time_stamp() + latency_;
+  }
+  bool finished(std::uint32_t group) const override {
+    return seen_from_[group] <= sc_core::sc_time_stamp();
+  }
+
+  const char* kind() const override { return "sgs::FinishedGroups"; }
+
+ private:
+  const sc_core::sc_time latency_;
+  std::vector<sc_core::sc_time> seen_from_;  // [group]
+};
+
+using FinishedGroupsIn = sc_core::sc_port<FinishedGroupsIf>;
+using FinishGroupOut = sc_core::sc_port<FinishGroupIf>;
+
+}  // namespace sgs

@@ -1,0 +1,139 @@
+// The two threads of the coarse filter.
+#include "modules/streaminggs/hfu/coarse_filter.h"
+
+#include <algorithm>
+
+#include "algorithm/memory/records.h"
+#include "algorithm/splat/coarse_bound.h"
+
+namespace sgs {
+
+CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
+                           const UnitContext& context)
+    : sc_module(name),
+      memory("memory", context.memory_port),
+      config_(config),
+      job_(context.job),
+      load_("load", context.clock),
+      filter_("filter", context.clock),
+      input_(std::size_t{config.input_slots} * config.slice_gaussians * kFirstHalfBytes),
+      slices_("slices", context.clock, config.input_slots),
+      free_slots_("free_slots", context.clock, config.input_slots, 0) {
+  SC_THREAD(run_load);
+  SC_THREAD(run_filter);
+}
+
+void CoarseFilter::run_load() {
+  for (std::uint32_t slot = 0; slot < config_.input_slots; ++slot) {
+    free_slots_.push(slot, load_);
+  }
+  while (true) {
+    VisitShare share = shares->pop(load_);
+    if (share.count > 0 && finished->finished(share.group)) {
+      counters_.dropped_saturated += share.count;
+      share.count = 0;
+    }
+    const std::uint32_t end = share.first + share.count;
+    do {
+      Slice slice;
+      slice.share = share;
+      slice.share.count = std::min(end - share.first, config_.slice_gaussians);
+      slice.slot = free_slots_.pop(load_, ActivityState::kBlocked);
+      if (slice.share.count > 0) {
+        load_.work(1);
+        slice.ticket = start_read(
+            memory, load_, job_.layout.first_halves.address(share.first),
+            input_.data() + std::size_t{slice.slot} * config_.slice_gaussians * kFirstHalfBytes,
+            slice.share.count * kFirstHalfBytes, job_.layout.first_halves.region);
+        counters_.first_halves += slice.share.count;
+      }
+      share.first += slice.share.count;
+      if (share.first < end) slice.share.mark = Mark::kNone;
+      slices_.push(slice, load_);
+    } while (share.first < end);
+  }
+}
+
+void CoarseFilter::run_filter() {
+  while (true) {
+    const Slice slice = slices_.pop(filter_);
+    current_group_ = slice.share.group;
+    current_visit_ = slice.share.visit;
+    if (slice.share.count > 0) {
+      await(memory, filter_, slice.ticket);
+      filter_slice(slice);
+    }
+    free_slots_.push(slice.slot, filter_);
+    if (slice.share.mark != Mark::kNone) {
+      ++counters_.visits;
+      FineCandidate end;
+      end.group = slice.share.group;
+      end.visit = slice.share.visit;
+      end.mark = slice.share.mark;
+      end.release_below = slice.share.release_below;
+      in_turn(survivors, end.visit).push(end, filter_);
+    }
+  }
+}
+
+// The CFUs take `cfus` Gaussians at a time. Simulated time is only let pass where somebody could
+// see it: before a candidate is handed on, and at the end.
+void CoarseFilter::filter_slice(const Slice& slice) {
+  const PixelRect& pixels = job_.groups[slice.share.group];
+  const std::byte* records =
+      input_.data() + std::size_t{slice.slot} * config_.slice_gaussians * kFirstHalfBytes;
+  std::uint64_t pending_cycles = 0;
+  for (std::uint32_t i = 0; i < slice.share.count; ++i) {
+    if (i % config_.cfus == 0) {
+      if (finished->finished(slice.share.group)) {
+        counters_.dropped_saturated += slice.share.count - i;
+        break;
+      }
+      if (config_.coarse_filter) pending_cycles += config_.cfu_interval_cycles();
+    }
+    const FirstHalf first = decode_first_half(records + std::size_t{i} * kFirstHalfBytes);
+    const CoarseBound bound = coarse_bound(job_.view, first.mean, first.scale_max);
+    if (config_.coarse_filter) {
+      ++counters_.tests;
+      if (!bound.in_front || !touches(bound, pixels)) continue;
+    }
+    ++counters_.passed;
+    filter_.work(pending_cycles);
+    pending_cycles = 0;
+    FineCandidate candidate;
+    candidate.group = slice.share.group;
+    candidate.visit = slice.share.visit;
+    candidate.slot = slice.share.first + i;
+    candidate.depth = bound.depth;
+    candidate.mean_x = first.mean.x;
+    candidate.mean_y = first.mean.y;
+    candidate.mean_z = first.mean.z;
+    candidate.scale_max = first.scale_max;
+    in_turn(survivors, candidate.visit).push(candidate, filter_);
+  }
+  filter_.work(pending_cycles);
+}
+
+void CoarseFilter::publish(DataSheet& sheet) {
+  sheet.unit(*this);
+  sheet.activity(load_, "load", "fetches first halves into the input buffer");
+  sheet.activity(filter_, "coarse", "puts them through the CFUs");
+  sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
+  sheet.counter("coarse_tests", "Gaussians", "tested", counters_.tests);
+  sheet.counter("coarse_passed", "Gaussians", "that may touch their group", counters_.passed);
+  sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
+                counters_.dropped_saturated);
+  sheet.operations("coarse", "fp32_mac", static_cast<double>(counters_.tests) * config_.cfu_macs);
+  const double buffered = 8.0 * static_cast<double>(counters_.first_halves) * kFirstHalfBytes;
+  sheet.operations("buffers", "sram_small_write_bit", buffered);
+  sheet.operations("buffers", "sram_small_read_bit", buffered);
+  sheet.part("hfus", "mac_lane", config_.cfus * config_.cfu_lanes);
+  sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
+                 counters_.dropped_saturated, "filtering and second halves");
+  sheet.port(memory);
+  sheet.queue(slices_);
+  sheet.signal("group", current_group_);
+  sheet.signal("visit", current_visit_);
+}
+
+}  // namespace sgs

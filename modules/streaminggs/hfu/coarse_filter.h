@@ -1,0 +1,65 @@
+// The coarse half of an HFU: streams shares of visits through the CFUs, which know only centre and
+// largest scale.
+// Timing: `cfus` Gaussians every cfu_interval_cycles; the next slices are fetched while this one is
+// filtered. Function: algorithm/splat/coarse_bound.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "modules/streaminggs/finished_groups.h"
+#include "modules/streaminggs/hfu/hfu_config.h"
+#include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/unit_context.h"
+#include "tlm/data_sheet.h"
+#include "tlm/memory_access.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs {
+
+class CoarseFilter : public sc_core::sc_module {
+ public:
+  FifoIn<VisitShare> shares{"shares"};
+  FifoOuts<FineCandidate> survivors{"survivors"};  // visit v goes to v modulo their number
+  FinishedGroupsIn finished{"finished"};
+  MemoryPort memory;  // first halves
+
+  SC_HAS_PROCESS(CoarseFilter);
+  CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
+               const UnitContext& context);
+
+  struct Counters {
+    std::uint64_t visits = 0;        // shares of visits, empty ones included
+    std::uint64_t first_halves = 0;  // fetched
+    std::uint64_t tests = 0;
+    std::uint64_t passed = 0;
+    std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
+  };
+  const Counters& counters() const { return counters_; }
+  void publish(DataSheet& sheet);
+
+ private:
+  // One part of the input buffer, full of a visit's first halves.
+  struct Slice {
+    VisitShare share;  // mark: only with the last slice of a share
+    std::uint64_t ticket = 0;
+    std::uint32_t slot = 0;  // of the input buffer
+  };
+
+  void run_load();    // thread: first halves into the input buffer
+  void run_filter();  // thread: CFUs
+  void filter_slice(const Slice& slice);
+
+  const HfuConfig config_;
+  const StreamingJob& job_;
+  Activity load_, filter_;
+  std::vector<std::byte> input_;  // [input_slots, slice_gaussians] first halves
+  TimedFifo<Slice> slices_;       // filled slots
+  TimedFifo<std::uint32_t> free_slots_;
+  Counters counters_;
+  std::uint32_t current_group_ = 0, current_visit_ = 0;  // for the waveform
+};
+
+}  // namespace sgs

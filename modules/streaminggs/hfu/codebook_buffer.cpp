@@ -1,0 +1,115 @@
+// Filling of the codebook buffer, and who reads which bank when.
+#include "modules/streaminggs/hfu/codebook_buffer.h"
+
+namespace sgs {
+
+CodebookBuffer::CodebookBuffer(const sc_core::sc_module_name& name, const CodebookConfig& config,
+                               const UnitContext& context, InstantEnd& instant_end,
+                               std::uint32_t readers)
+    : sc_module(name),
+      memory("memory", context.memory_port),
+      config_(config),
+      job_(context.job),
+      instant_end_(instant_end),
+      load_("load", context.clock),
+      bytes_(job_.layout.second_half.codebook_bytes()),
+      requests_(readers) {
+  SC_THREAD(run_load);
+}
+
+// What an earlier frame left costs neither traffic nor time.
+void CodebookBuffer::start_of_simulation() {
+  if (!config_.preloaded) return;
+  ::tlm::tlm_generic_payload payload;
+  payload.set_read();
+  payload.set_address(job_.layout.codebooks.base);
+  payload.set_data_ptr(reinterpret_cast<unsigned char*>(bytes_.data()));
+  payload.set_data_length(static_cast<unsigned int>(bytes_.size()));
+  if (memory.socket->transport_dbg(payload) != bytes_.size()) {
+    SC_REPORT_ERROR("/sgs/codebooks",
+                    "codebook.preloaded: the memory gives nothing to a debug read");
+  }
+  full_ = true;
+}
+
+void CodebookBuffer::run_load() {
+  if (full_) return;
+  const std::uint64_t base = job_.layout.codebooks.base;
+  start_read(memory, load_, base, bytes_.data(), static_cast<std::uint32_t>(bytes_.size()),
+             job_.layout.codebooks.region);
+  await_all(memory, load_);
+  load_.enter(ActivityState::kStarved);
+  counters_.bytes_loaded = bytes_.size();
+  counters_.loaded_at_cycle = load_.clock().now_cycles();
+  full_ = true;
+  filled_.notify(sc_core::SC_ZERO_TIME);
+}
+
+void CodebookBuffer::read_entries(std::uint32_t reader, const CodebookIndices& indices,
+                                  Activity& activity) {
+  if (!full_) {
+    activity.enter(ActivityState::kStarved);
+    while (!full_) sc_core::wait(filled_);
+    activity.clock().align();
+    activity.enter(ActivityState::kBusy);
+  }
+  Request& request = requests_[reader];
+  request.indices = &indices;
+  instant_end_.ask_for(*this);
+  sc_core::wait(request.decided);
+  activity.work(request.done_cycle - activity.clock().now_cycles());
+}
+
+void CodebookBuffer::decide() {
+  const std::uint64_t now = load_.clock().now_cycles();
+  for (Request& request : requests_) {
+    if (request.indices == nullptr) continue;
+    request.done_cycle = take_record(*request.indices, now);
+    request.indices = nullptr;
+    request.decided.notify(sc_core::SC_ZERO_TIME);
+  }
+}
+
+// All entries of a record, one line a cycle from `cycle` on; returns the cycle behind the last.
+std::uint64_t CodebookBuffer::take_record(const CodebookIndices& indices, std::uint64_t cycle) {
+  const SecondHalfFormat& format = job_.layout.second_half;
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    if (format.entries[id] == 0) continue;
+    cycle = take_lines(format.entry(static_cast<Codebook>(id), indices[id]), cycle);
+  }
+  ++counters_.records;
+  return cycle;
+}
+
+std::uint64_t CodebookBuffer::take_lines(const EntryRange& entry, std::uint64_t cycle) {
+  if (entry.bytes == 0) return cycle;
+  const std::uint32_t first = entry.begin / config_.line_bytes;
+  const std::uint32_t last = (entry.begin + entry.bytes - 1) / config_.line_bytes;
+  for (std::uint32_t line = first; line <= last; ++line) {
+    const std::uint64_t taken = banks_.take(line % config_.banks, cycle);
+    counters_.conflict_cycles += taken - cycle;
+    ++counters_.lines;
+    cycle = taken + 1;
+  }
+  return cycle;
+}
+
+void CodebookBuffer::publish(DataSheet& sheet) {
+  sheet.unit(*this);
+  sheet.activity(load_, "codebook_load", "fills the buffer");
+  sheet.counter("bytes_loaded", "bytes", "of codebooks read from DRAM", counters_.bytes_loaded);
+  sheet.counter("loaded_at_cycle", "cycle", "in which the buffer was full",
+                counters_.loaded_at_cycle);
+  sheet.counter("records_decoded", "second halves", "whose entries were read", counters_.records);
+  sheet.counter("lines_read", "lines", "of the banks", counters_.lines);
+  sheet.counter("bank_conflict_cycles", "cycles", "that lines waited for a bank being read",
+                counters_.conflict_cycles);
+  sheet.operations("codebooks", "sram_large_read_bit",
+                   8.0 * static_cast<double>(counters_.lines) * config_.line_bytes);
+  sheet.operations("codebooks", "sram_large_write_bit",
+                   8.0 * static_cast<double>(counters_.bytes_loaded));
+  sheet.port(memory);
+  sheet.signal("full", full_);
+}
+
+}  // namespace sgs

@@ -1,0 +1,157 @@
+// The threads of the fine filter.
+#include "modules/streaminggs/hfu/fine_filter.h"
+
+#include "algorithm/memory/second_half.h"
+#include "algorithm/memory/splat_record.h"
+#include "algorithm/splat/make_splat.h"
+
+namespace sgs {
+
+FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
+                       const CodebookConfig& codebook, const FineFilterPlace& place,
+                       const UnitContext& context)
+    : sc_module(name),
+      memory("memory", context.memory_port),
+      config_(config),
+      place_(place),
+      job_(context.job),
+      fetch_("fetch", context.clock),
+      filter_("filter", context.clock),
+      record_bytes_(job_.layout.second_halves.record_bytes),
+      second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
+      fetched_("fetched", context.clock, config.second_half_slots + 1),
+      free_slots_("free_slots", context.clock, config.second_half_slots, 0) {
+  SC_THREAD(run_fetch);
+  SC_THREAD(run_filter);
+  if (!job_.layout.second_half.quantised()) return;
+  stage_ = std::make_unique<DecodeStage>(context.clock, codebook);
+  SC_THREAD(run_decode);
+}
+
+void FineFilter::run_fetch() {
+  for (std::uint32_t slot = 0; slot < config_.second_half_slots; ++slot) {
+    free_slots_.push(slot, fetch_);
+  }
+  while (true) {
+    FineCandidate candidate = candidates->pop(fetch_);
+    if (candidate.mark == Mark::kNone) {
+      if (finished->finished(candidate.group)) {
+        drop_saturated(candidate);
+        continue;
+      }
+      candidate.buffer = free_slots_.pop(fetch_, ActivityState::kBlocked);
+      fetch_.work(1);
+      candidate.ticket =
+          start_read(memory, fetch_, job_.layout.second_halves.address(candidate.slot),
+                     second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_,
+                     record_bytes_, job_.layout.second_halves.region);
+      ++counters_.second_halves;
+    }
+    fetched_.push(candidate, fetch_);
+  }
+}
+
+// A token that nothing follows keeps its place in the order all the same.
+void FineFilter::drop_saturated(const FineCandidate& candidate) {
+  ++counters_.dropped_saturated;
+  if (place_.rejects == Rejects::kDropped) return;
+  FineCandidate rejected = candidate;
+  rejected.mark = Mark::kRejected;
+  fetched_.push(rejected, fetch_);
+}
+
+// The next candidate in order, its second half read from what was fetched.
+FineFilter::Decoded FineFilter::take_fetched(Activity& activity) {
+  Decoded out;
+  out.candidate = fetched_.pop(activity);
+  const FineCandidate& candidate = out.candidate;
+  if (candidate.mark != Mark::kNone) return out;
+  await(memory, activity, candidate.ticket);
+  const SecondHalfFormat& format = job_.layout.second_half;
+  const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
+  if (stage_ && !finished->finished(candidate.group)) {
+    codebooks->read_entries(place_.reader, decode_indices(format, record), activity);
+  }
+  const FirstHalf first{{candidate.mean_x, candidate.mean_y, candidate.mean_z},
+                        candidate.scale_max};
+  out.second = decode_second_half(format, first, record, stage_ ? codebooks->bytes() : nullptr);
+  free_slots_.push(candidate.buffer, activity);
+  return out;
+}
+
+void FineFilter::run_decode() {
+  while (true) stage_->decoded.push(take_fetched(stage_->decode), stage_->decode);
+}
+
+void FineFilter::run_filter() {
+  while (true) {
+    const Decoded next = stage_ ? stage_->decoded.pop(filter_) : take_fetched(filter_);
+    if (next.candidate.mark == Mark::kNone) {
+      test(next);
+      continue;
+    }
+    SplatToken end;
+    end.group = next.candidate.group;
+    end.visit = next.candidate.visit;
+    end.mark = next.candidate.mark;
+    in_turn(splats, end.visit).push(end, filter_);
+  }
+}
+
+void FineFilter::test(const Decoded& decoded) {
+  const FineCandidate& candidate = decoded.candidate;
+  if (finished->finished(candidate.group)) {
+    ++counters_.dropped_saturated;
+    reject(candidate);
+    return;
+  }
+  filter_.work(config_.ffu_interval_cycles());
+  ++counters_.tests;
+  SplatToken token;
+  if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||
+      !reaches_group(token.splat, job_.groups[candidate.group])) {
+    reject(candidate);
+    return;
+  }
+  add_colour(job_.view, job_.layout.sh_degree(), decoded.second.gaussian.mean, decoded.second.sh,
+             token.splat);
+  token.splat.index = candidate.slot;
+  token.group = candidate.group;
+  token.visit = candidate.visit;
+  in_turn(splats, candidate.visit).push(token, filter_);
+  ++counters_.splats;
+}
+
+void FineFilter::reject(const FineCandidate& candidate) {
+  if (place_.rejects == Rejects::kDropped) return;
+  SplatToken token;
+  token.group = candidate.group;
+  token.visit = candidate.visit;
+  token.mark = Mark::kRejected;
+  in_turn(splats, candidate.visit).push(token, filter_);
+}
+
+void FineFilter::publish(DataSheet& sheet) {
+  sheet.unit(*this);
+  sheet.activity(fetch_, "fetch", "asks for second halves");
+  if (stage_) sheet.activity(stage_->decode, "decode", "reads their codebook entries");
+  sheet.activity(filter_, "fine", "puts them through the FFU");
+  sheet.counter("second_halves", "Gaussians", "fetched", counters_.second_halves);
+  sheet.counter("fine_tests", "Gaussians", "tested", counters_.tests);
+  sheet.counter("splats", "splats", "that touch their group, passed on", counters_.splats);
+  sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
+                counters_.dropped_saturated);
+  sheet.operations("fine", "fp32_mac", static_cast<double>(counters_.tests) * config_.ffu_macs);
+  const double buffered = 8.0 * (static_cast<double>(counters_.second_halves) * record_bytes_ +
+                                 static_cast<double>(counters_.splats) * kSplatEntryBytes);
+  sheet.operations("buffers", "sram_small_write_bit", buffered);
+  sheet.operations("buffers", "sram_small_read_bit", buffered);
+  sheet.part("hfus", "mac_lane", config_.ffu_lanes);
+  sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
+                 counters_.dropped_saturated, "filtering and second halves");
+  sheet.port(memory);
+  sheet.queue(fetched_);
+  if (stage_) sheet.queue(stage_->decoded);
+}
+
+}  // namespace sgs

@@ -1,0 +1,29 @@
+// Hierarchical filtering unit (HFU): a coarse and a fine filter. In paper order the one feeds the
+// other; in exact order the keys are merged in between: the machine binds their ports.
+#pragma once
+
+#include <systemc>
+
+#include "modules/streaminggs/hfu/coarse_filter.h"
+#include "modules/streaminggs/hfu/fine_filter.h"
+
+namespace sgs {
+
+class Hfu : public sc_core::sc_module {
+ public:
+  CoarseFilter coarse;
+  FineFilter fine;
+
+  Hfu(const sc_core::sc_module_name& name, const HfuConfig& config, const CodebookConfig& codebook,
+      const FineFilterPlace& place, const UnitContext& context)
+      : sc_module(name),
+        coarse("coarse", config, context),
+        fine("fine", config, codebook, place, context) {}
+
+  void publish(DataSheet& sheet) {
+    coarse.publish(sheet);
+    fine.publish(sheet);
+  }
+};
+
+}  // namespace sgs

@@ -1,0 +1,21 @@
+// Keys of the merge unit.
+#include "modules/streaminggs/merge/merge_config.h"
+
+namespace sgs {
+
+void visit(ConfigVisitor& v, MergeConfig& c) {
+  v("entries", c.entries, in_range(2, 1 << 24), "keys that wait on chip");
+  v("on_overflow", c.on_overflow,
+    names<OnOverflow>({{"spill", OnOverflow::kSpill}, {"blend_early", OnOverflow::kBlendEarly}}),
+    "when more keys wait: runs go to DRAM and the image stays exact, or it suffers");
+  v("spill_runs", c.spill_runs, in_range(2, 1024), "spilled runs read back side by side");
+  v("spill_block_entries", c.spill_block_entries, in_range(1, 1024),
+    "keys read and written at once");
+  v("latency_cycles", c.latency_cycles, in_range(1, 1000), "of the pipelined heap");
+  v("input_fifo_entries", c.input_fifo_entries, in_range(1, 4096),
+    "sorted keys waiting from each sorting unit");
+  v("output_fifo_entries", c.output_fifo_entries, in_range(1, 4096),
+    "released keys waiting for each HFU");
+}
+
+}  // namespace sgs

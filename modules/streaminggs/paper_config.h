@@ -1,0 +1,24 @@
+// What can be chosen about the machine of paper order.
+#pragma once
+
+#include "algorithm/memory/storage_config.h"
+#include "modules/streaminggs/sorting/sorting_config.h"
+#include "modules/streaminggs/streaming_config.h"
+#include "modules/streaminggs/vsu/paper_vsu_config.h"
+#include "tlm/sram_use.h"
+
+namespace sgs {
+
+struct PaperConfig : StreamingConfig {
+  PaperVsuConfig vsu;
+  PaperSorterConfig sorting;
+
+  PaperConfig() { sram = {16 * 1024, 250 * 1024, 89 * 1024}; }
+};
+
+void visit(ConfigVisitor& v, PaperConfig& config);
+
+// On-chip memory for any scene that is stored so.
+SramUses sram_uses(const PaperConfig& config, const StorageConfig& storage);
+
+}  // namespace sgs

@@ -1,0 +1,87 @@
+// What paper order needs, must give, and is built from.
+#include "modules/streaminggs/paper_design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "algorithm/input_error.h"
+#include "algorithm/memory/splat_record.h"
+#include "algorithm/render/paper_renderer.h"
+#include "algorithm/render/visited_in_order.h"
+#include "modules/streaminggs/paper_machine.h"
+#include "modules/streaminggs/streaming_design.h"
+#include "modules/streaminggs/streaming_sram.h"
+
+namespace sgs {
+namespace {
+
+// For each sorting unit two copies of the largest voxel's splats.
+std::uint64_t spill_bytes(const PaperConfig& config, const VoxelGrid& grid) {
+  std::uint64_t longest = 0;
+  for (const VoxelRecord& voxel : grid.voxels) {
+    longest = std::max<std::uint64_t>(longest, voxel.count);
+  }
+  return config.sorting_units * 2 * longest * kSplatEntryBytes;
+}
+
+}  // namespace
+
+void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
+  storage_ = storage;
+  resolve_sram(
+      config_, [&] { return sram_uses(config_, storage_); }, chosen);
+  const PaperSorterConfig& sorting = config_.sorting;
+  if (sorting.buffer_entries < 4 * sorting.spill_block_entries) {
+    throw InputError(fmt::format(
+        "sorting.buffer_entries: got {} splats, expected at least {}: two runs are merged with two "
+        "blocks of {} each",
+        sorting.buffer_entries, 4 * sorting.spill_block_entries, sorting.spill_block_entries));
+  }
+}
+
+void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
+  sgs::adapt(config_, format, chosen);
+}
+
+FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const {
+  return streaming_job(config_, scene, camera, spill_bytes(config_, scene.grid()));
+}
+
+StreamingResult PaperDesign::golden(const StoredScene& scene, const FrameJob& job) const {
+  PaperOrderConfig order;
+  order.group_px = static_cast<int>(config_.group_px);
+  order.coarse_filter = config_.hfu.coarse_filter;
+  order.sample_step_voxels = static_cast<float>(config_.vsu.sample_step_voxels);
+  order.background = job.background;
+  return render_paper_order(job.view, scene.decoded, scene.grid(), order);
+}
+
+Image PaperDesign::golden_in_order(const StoredScene& scene, const FrameJob& job,
+                                   const StreamingResult& golden) const {
+  return render_visited_in_order(job.view, scene.decoded, scene.grid(),
+                                 static_cast<int>(config_.group_px), golden.group_voxels,
+                                 job.background);
+}
+
+void PaperDesign::publish_left_out(const StoredScene& scene, const StreamingStats& stats,
+                                   DataSheet& sheet) const {
+  sgs::publish_left_out(config_, scene, sheet);
+  const VoxelTableLayout& table = scene.image.layout.voxel_table();
+  sheet.left_out("voxels_not_needed", "no ray of any group crosses them",
+                 table.voxels.count - stats.blocks_visited, "their Gaussians are never fetched");
+  const double side = table.frame.side_cells();
+  const double cells = side * side * side;
+  sheet.left_out("empty_cells", "only occupied cells exist in the voxel tree",
+                 static_cast<std::uint64_t>(cells - static_cast<double>(table.voxels.count)),
+                 fmt::format("a dense table would take {:.3g} B", cells * sizeof(VoxelRecord)));
+}
+
+std::unique_ptr<Machine> PaperDesign::build(const sc_core::sc_module_name& name,
+                                            const FrameJob& job,
+                                            const BuildOptions& options) const {
+  return std::make_unique<PaperMachine>(name, config_, streaming_job(config_, job),
+                                        sram_uses(config_, storage_), options);
+}
+
+}  // namespace sgs

@@ -1,0 +1,29 @@
+// The design of the machine of paper order.
+#pragma once
+
+#include "modules/machine_design.h"
+#include "modules/streaminggs/paper_config.h"
+
+namespace sgs {
+
+class PaperDesign : public MachineDesign {
+ public:
+  void visit(ConfigVisitor& v) override { sgs::visit(v, config_); }
+  StorageOrder storage_order() const override { return StorageOrder::kVoxels; }
+  void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
+  void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) override;
+  FrameJob job(const StoredScene& scene, const Camera& camera) const override;
+  StreamingResult golden(const StoredScene& scene, const FrameJob& job) const override;
+  Image golden_in_order(const StoredScene& scene, const FrameJob& job,
+                        const StreamingResult& golden) const override;
+  void publish_left_out(const StoredScene& scene, const StreamingStats& stats,
+                        DataSheet& sheet) const override;
+  std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
+                                 const BuildOptions& options) const override;
+
+ private:
+  PaperConfig config_;
+  StorageConfig storage_;  // of the scenes that it is built for
+};
+
+}  // namespace sgs

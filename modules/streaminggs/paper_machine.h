@@ -1,0 +1,30 @@
+// The accelerator of paper order (StreamingGS, DAC 2025): voxels in topological order of the rays,
+// splats sorted inside each voxel, nothing corrected across voxels.
+#pragma once
+
+#include "modules/streaminggs/paper_config.h"
+#include "modules/streaminggs/sorting/paper_sorter.h"
+#include "modules/streaminggs/streaming_machine.h"
+#include "modules/streaminggs/vsu/paper_vsu.h"
+
+namespace sgs {
+
+class PaperMachine : public StreamingMachine {
+ public:
+  PaperMachine(const sc_core::sc_module_name& name, const PaperConfig& config,
+               const StreamingJob& job, SramUses uses, const BuildOptions& options);
+
+ private:
+  void add_fifos();
+  void bind();
+  void publish_units(DataSheet& sheet) override;
+
+  const PaperConfig config_;
+  Fifos<FineCandidate> candidates_;  // [HFU]
+  Fifos<SplatToken> splats_;         // [sorting unit, HFU]
+  Fifos<SplatToken> sorted_;         // [sorting unit]
+  std::unique_ptr<PaperVsu> vsu_;
+  std::vector<std::unique_ptr<PaperSorter>> sorters_;
+};
+
+}  // namespace sgs

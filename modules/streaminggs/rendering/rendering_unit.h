@@ -1,0 +1,67 @@
+// Rendering unit: blends sorted splats into the pixels of the current group and writes finished
+// groups to the frame buffer. Timing: one splat covers `clusters` of its unfinished 4x4 sub-tiles a
+// cycle; a group drains at drain_pixels_per_cycle. Function: algorithm/render/group_state.h.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "algorithm/render/group_state.h"
+#include "modules/streaminggs/finished_groups.h"
+#include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/rendering/rendering_config.h"
+#include "modules/streaminggs/unit_context.h"
+#include "tlm/data_sheet.h"
+#include "tlm/memory_access.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs {
+
+// How the splats of one group are spread over the FIFOs that rendering reads: whole visits in turn
+// (paper order), or each token in turn (exact order).
+enum class Arrival { kByVisit, kByToken };
+
+class RenderingUnit : public sc_core::sc_module {
+ public:
+  FifoIns<SplatToken> splats{"splats"};  // read in turn
+  FinishGroupOut finish{"finish"};
+  MemoryPort memory;  // pixels
+
+  SC_HAS_PROCESS(RenderingUnit);
+  // on_done() is called when the last pixel of the last group has been written.
+  RenderingUnit(const sc_core::sc_module_name& name, const RenderingConfig& config, Arrival arrival,
+                const UnitContext& context, std::function<void()> on_done);
+
+  struct Counters {
+    std::uint64_t groups = 0;
+    std::uint64_t splats = 0;            // blended into at least one sub-tile
+    std::uint64_t splats_saturated = 0;  // arrived when their group was finished
+    std::uint64_t subtile_tests = 0;     // of the ellipse
+    std::uint64_t subtile_blends = 0;
+    std::uint64_t contributors = 0;  // (splat, pixel) blends
+    std::uint64_t groups_saturated = 0;
+  };
+  const Counters& counters() const { return counters_; }
+  void publish(DataSheet& sheet);
+
+ private:
+  void run_blend();  // thread
+  void run_drain();  // thread
+  void blend_splat(const Splat& splat, std::uint32_t group, GroupState& state);
+  void write_group(const GroupState& state);
+
+  const RenderingConfig config_;
+  const StreamingJob& job_;
+  const Arrival arrival_;
+  std::function<void()> on_done_;
+  Activity blend_, drain_;
+  TimedFifo<std::shared_ptr<GroupState>> finished_;
+  TimedFifo<std::uint32_t> free_buffers_;
+  Counters counters_;
+  std::uint32_t current_group_ = 0;  // for the waveform
+};
+
+}  // namespace sgs

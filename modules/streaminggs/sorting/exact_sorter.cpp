@@ -1,0 +1,65 @@
+// The thread of a sorting unit in exact order.
+#include "modules/streaminggs/sorting/exact_sorter.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "modules/streaminggs/sorting/sorting_cost.h"
+
+namespace sgs {
+
+ExactSorter::ExactSorter(const sc_core::sc_module_name& name, const SortingNetworkConfig& config,
+                         std::uint32_t first_visit, std::uint32_t visit_step,
+                         const UnitContext& context)
+    : sc_module(name),
+      config_(config),
+      visit_step_(visit_step),
+      sort_("sort", context.clock),
+      visit_(first_visit) {
+  SC_THREAD(run);
+}
+
+void ExactSorter::run() {
+  std::vector<FineCandidate> list;
+  for (;; visit_ += visit_step_) {
+    list.clear();
+    FifoReadIf<FineCandidate>& input = in_turn(keys, visit_);
+    FineCandidate key = input.pop(sort_);
+    while (key.mark == Mark::kNone) {
+      sort_.work(1);
+      list.push_back(key);
+      key = input.pop(sort_);
+    }
+    std::sort(list.begin(), list.end(), [](const FineCandidate& a, const FineCandidate& b) {
+      return a.depth < b.depth || (a.depth == b.depth && a.slot < b.slot);
+    });
+    const SortingCost cost = sort_cost(config_, list.size());
+    sort_.work(cost.cycles);
+    ++counters_.visits;
+    counters_.visits_trivial += list.size() < 2 ? 1 : 0;
+    counters_.keys += list.size();
+    counters_.compare_exchanges += cost.compare_exchanges;
+    for (const FineCandidate& next : list) {
+      sort_.work(1);
+      sorted->push(next, sort_);
+    }
+    sorted->push(key, sort_);
+  }
+}
+
+void ExactSorter::publish(DataSheet& sheet) {
+  sheet.unit(*this);
+  sheet.activity(sort_, "sorting", "takes, sorts and hands on the keys of one chunk");
+  sheet.counter("visits", "chunks", "sorted, once for each group", counters_.visits);
+  sheet.counter("visits_trivial", "chunks", "of these with one key or none",
+                counters_.visits_trivial);
+  sheet.counter("keys", "keys", "received", counters_.keys);
+  sheet.counter("compare_exchanges", "operations", "of the sorting network",
+                counters_.compare_exchanges);
+  sheet.operations("sorting", "compare_exchange", static_cast<double>(counters_.compare_exchanges));
+  sheet.part("sorting", "sorting_unit", 1);
+  publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
+  sheet.signal("visit", visit_);
+}
+
+}  // namespace sgs

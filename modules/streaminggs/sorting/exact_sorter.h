@@ -1,0 +1,45 @@
+// Sorting unit, exact order: puts the keys of one chunk in order by depth, then slot. A chunk is
+// small: it always fits. Timing: one key a cycle in and out, sorting_cost.h between.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+
+#include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/sorting/sorting_config.h"
+#include "modules/streaminggs/unit_context.h"
+#include "tlm/data_sheet.h"
+#include "tlm/fifo_if.h"
+
+namespace sgs {
+
+class ExactSorter : public sc_core::sc_module {
+ public:
+  FifoIns<FineCandidate> keys{"keys"};  // one a HFU; visit v comes from v modulo their number
+  FifoOut<FineCandidate> sorted{"sorted"};
+
+  SC_HAS_PROCESS(ExactSorter);
+  // This unit sorts visits first_visit, first_visit + visit_step, ...
+  ExactSorter(const sc_core::sc_module_name& name, const SortingNetworkConfig& config,
+              std::uint32_t first_visit, std::uint32_t visit_step, const UnitContext& context);
+
+  struct Counters {
+    std::uint64_t visits = 0;
+    std::uint64_t visits_trivial = 0;  // 0 or 1 keys: nothing to sort
+    std::uint64_t keys = 0;
+    std::uint64_t compare_exchanges = 0;
+  };
+  const Counters& counters() const { return counters_; }
+  void publish(DataSheet& sheet);
+
+ private:
+  void run();  // thread
+
+  const SortingNetworkConfig config_;
+  const std::uint32_t visit_step_;
+  Activity sort_;
+  Counters counters_;
+  std::uint32_t visit_;
+};
+
+}  // namespace sgs

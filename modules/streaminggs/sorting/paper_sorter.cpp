@@ -1,0 +1,222 @@
+// The thread of a sorting unit in paper order.
+#include "modules/streaminggs/sorting/paper_sorter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <queue>
+
+#include "algorithm/memory/splat_record.h"
+#include "modules/streaminggs/sorting/sorting_cost.h"
+
+namespace sgs {
+namespace {
+
+// Splats of one group.
+struct SplatCodec {
+  using Entry = Splat;
+  static constexpr std::uint32_t kBytes = kSplatEntryBytes;
+  SubtileRect group;
+  void encode(const Splat& splat, std::byte* out) const { encode_splat(splat, group, out); }
+  Splat decode(const std::byte* bytes) const { return decode_splat(bytes, group); }
+};
+
+}  // namespace
+
+PaperSorter::PaperSorter(const sc_core::sc_module_name& name, const PaperSorterConfig& config,
+                         const PaperSorterPlace& place, const UnitContext& context)
+    : sc_module(name),
+      memory("memory", context.memory_port),
+      config_(config),
+      place_(place),
+      job_(context.job),
+      sort_("sort", context.clock) {
+  buffer_.reserve(config.buffer_entries);
+  SC_THREAD(run);
+}
+
+void PaperSorter::run() {
+  FifoSelector<SplatToken> inputs(splats);
+  for (visit_ = place_.first_visit;; visit_ += place_.visit_step) {
+    SplatToken end = collect(inputs);
+    if (!finished->finished(group_)) {
+      sort_buffer();
+      if (runs_.empty()) {
+        for (const Splat& splat : buffer_) emit(splat);
+      } else {
+        spill_buffer();
+        merge_runs();
+      }
+    }
+    counters_.splats_saturated += received_ - emitted_;
+    buffer_.clear();
+    runs_.clear();
+    spill_used_ = 0;
+    sorted->push(end, sort_);
+  }
+}
+
+// Takes the visit's splats from all HFUs; returns the mark with which the visit ends.
+SplatToken PaperSorter::collect(FifoSelector<SplatToken>& inputs) {
+  const int count = splats.size();
+  std::vector<bool> ended(static_cast<std::size_t>(count), false);
+  received_ = 0;
+  emitted_ = 0;
+  SplatToken end;
+  for (int open = count; open > 0;) {
+    const int from =
+        inputs.select(sort_, [&](int i) { return !ended[static_cast<std::size_t>(i)]; });
+    const SplatToken token = splats[from]->pop(sort_);
+    group_ = token.group;
+    if (token.visit != visit_) {
+      SC_REPORT_ERROR("/sgs/sorting", fmt::format("{}: a splat of visit {} while sorting visit {}",
+                                                  name(), token.visit, visit_)
+                                          .c_str());
+    }
+    if (token.mark != Mark::kNone) {
+      ended[static_cast<std::size_t>(from)] = true;
+      end = token;
+      --open;
+    } else {
+      accept(token);
+      ++received_;
+    }
+  }
+  ++counters_.visits;
+  counters_.visits_trivial += received_ < 2 ? 1 : 0;
+  counters_.splats += received_;
+  counters_.list_max = std::max(counters_.list_max, received_);
+  return end;
+}
+
+void PaperSorter::accept(const SplatToken& token) {
+  sort_.work(1);
+  if (buffer_.size() == config_.buffer_entries) {
+    if (finished->finished(group_)) return;
+    sort_buffer();
+    spill_buffer();
+  }
+  buffer_.push_back(token.splat);
+}
+
+void PaperSorter::sort_buffer() {
+  std::sort(buffer_.begin(), buffer_.end(), in_front);
+  const SortingCost cost = sort_cost(config_, buffer_.size());
+  sort_.work(cost.cycles);
+  counters_.compare_exchanges += cost.compare_exchanges;
+}
+
+void PaperSorter::spill_buffer() {
+  if (buffer_.empty()) return;
+  SpillWriter<SplatCodec> writer(spill_port(), place_.spill.base + spill_used_,
+                                 SplatCodec{group_subtiles()});
+  for (const Splat& splat : buffer_) {
+    sort_.work(1);
+    writer.append(splat);
+  }
+  runs_.push_back(writer.finish());
+  spill_used_ += runs_.back().entries * kSplatEntryBytes;
+  ++counters_.runs_spilled;
+  counters_.entries_spilled += buffer_.size();
+  buffer_.clear();
+}
+
+// While there are more runs than block buffers, the oldest are merged into one longer run, in turns
+// between the two halves of the spill area; the last merge goes to rendering.
+void PaperSorter::merge_runs() {
+  const std::size_t fan_in =
+      std::max(2U, config_.buffer_entries / (2 * config_.spill_block_entries));
+  std::deque<SpillRun> open(runs_.begin(), runs_.end());
+  const std::uint64_t half = place_.spill.bytes / 2;
+  for (std::uint32_t pass = 1; open.size() > fan_in; ++pass) {
+    std::deque<SpillRun> longer;
+    std::uint64_t used = 0;
+    for (std::size_t at = 0; at < open.size(); at += fan_in) {
+      const std::vector<SpillRun> group(
+          open.begin() + static_cast<std::ptrdiff_t>(at),
+          open.begin() + static_cast<std::ptrdiff_t>(std::min(at + fan_in, open.size())));
+      SpillWriter<SplatCodec> writer(spill_port(), place_.spill.base + pass % 2 * half + used,
+                                     SplatCodec{group_subtiles()});
+      merge(group.data(), group.size(), [&](const Splat& splat) { writer.append(splat); });
+      longer.push_back(writer.finish());
+      used += longer.back().entries * kSplatEntryBytes;
+      counters_.entries_spilled += longer.back().entries;
+    }
+    open = std::move(longer);
+  }
+  const std::vector<SpillRun> last(open.begin(), open.end());
+  merge(last.data(), last.size(), [&](const Splat& splat) { emit(splat); });
+}
+
+// Merges runs through the network: each entry passes the levels of a binary tree, kMergeWidth
+// entries at a time.
+template <class Sink>
+void PaperSorter::merge(const SpillRun* runs, std::size_t count, Sink&& sink) {
+  await_all(memory, sort_);  // the runs have been written
+  std::deque<SpillReader<SplatCodec>> readers;
+  for (std::size_t i = 0; i < count; ++i) {
+    readers.emplace_back(spill_port(), runs[i], SplatCodec{group_subtiles()});
+  }
+  const auto behind = [&](std::size_t a, std::size_t b) {
+    return in_front(readers[b].front(), readers[a].front());
+  };
+  std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(behind)> heads(behind);
+  for (std::size_t i = 0; i < count; ++i) heads.push(i);
+  const std::uint32_t levels = merge_levels(count);
+  std::uint64_t owed = 0;  // merge cycles, in units of 1/kMergeWidth
+  while (!heads.empty() && !finished->finished(group_)) {
+    const std::size_t nearest = heads.top();
+    heads.pop();
+    owed += std::uint64_t{levels} * config_.merge_interval_cycles;
+    sort_.work(owed / kMergeWidth);
+    owed %= kMergeWidth;
+    counters_.compare_exchanges += std::uint64_t{levels} * kMergeStages;
+    sink(readers[nearest].front());
+    readers[nearest].pop();
+    if (!readers[nearest].exhausted()) heads.push(nearest);
+  }
+  await_all(memory, sort_);  // blocks asked for and no longer wanted
+}
+
+void PaperSorter::emit(const Splat& splat) {
+  sort_.work(1);
+  SplatToken token;
+  token.splat = splat;
+  token.group = group_;
+  token.visit = visit_;
+  sorted->push(token, sort_);
+  ++emitted_;
+}
+
+SubtileRect PaperSorter::group_subtiles() const {
+  const PixelRect& pixels = job_.groups[group_];
+  const auto subtile = [](int px) { return static_cast<std::uint16_t>(px / kSubtilePx); };
+  return {subtile(pixels.x0), subtile(pixels.y0), subtile(pixels.x1 + kSubtilePx - 1),
+          subtile(pixels.y1 + kSubtilePx - 1)};
+}
+
+void PaperSorter::publish(DataSheet& sheet) {
+  sheet.unit(*this);
+  sheet.activity(sort_, "sorting", "takes, sorts and hands on the splats of one visit");
+  sheet.counter("visits", "voxels", "sorted, once for each group", counters_.visits);
+  sheet.counter("visits_trivial", "voxels", "of these with one splat or none",
+                counters_.visits_trivial);
+  sheet.counter("splats", "splats", "received", counters_.splats);
+  sheet.counter("splats_saturated", "splats", "dropped: their group was finished",
+                counters_.splats_saturated);
+  sheet.counter("compare_exchanges", "operations", "of the sorting network",
+                counters_.compare_exchanges);
+  sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
+  sheet.counter("entries_spilled", "splats", "written to DRAM, over all passes",
+                counters_.entries_spilled);
+  sheet.counter("list_max", "splats", "longest list of one visit", counters_.list_max);
+  sheet.operations("sorting", "compare_exchange", static_cast<double>(counters_.compare_exchanges));
+  sheet.part("sorting", "sorting_unit", 1);
+  publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
+  sheet.port(memory);
+  sheet.signal("group", group_);
+  sheet.signal("visit", visit_);
+}
+
+}  // namespace sgs

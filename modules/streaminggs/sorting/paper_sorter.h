@@ -1,0 +1,79 @@
+// Sorting unit, paper order: puts the splats of one visit in order, front to back, equal depths by
+// index. Timing: one entry a cycle in and out, sorting_cost.h between. A visit with more splats
+// than the buffer holds spills sorted runs to DRAM and merges them back, in several passes if need
+// be.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "modules/streaminggs/finished_groups.h"
+#include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/sorting/sorting_config.h"
+#include "modules/streaminggs/spill_runs.h"
+#include "modules/streaminggs/unit_context.h"
+#include "tlm/data_sheet.h"
+#include "tlm/fifo_selector.h"
+
+namespace sgs {
+
+// Which visits a unit sorts, first_visit, first_visit + visit_step, ..., and its part of the spill
+// region, which holds two copies of the longest list.
+struct PaperSorterPlace {
+  std::uint32_t first_visit, visit_step;
+  RegionSpan spill;
+};
+
+class PaperSorter : public sc_core::sc_module {
+ public:
+  FifoIns<SplatToken> splats{"splats"};  // one a HFU
+  FifoOut<SplatToken> sorted{"sorted"};
+  FinishedGroupsIn finished{"finished"};
+  MemoryPort memory;
+
+  SC_HAS_PROCESS(PaperSorter);
+  PaperSorter(const sc_core::sc_module_name& name, const PaperSorterConfig& config,
+              const PaperSorterPlace& place, const UnitContext& context);
+
+  struct Counters {
+    std::uint64_t visits = 0;
+    std::uint64_t visits_trivial = 0;    // 0 or 1 splats: nothing to sort
+    std::uint64_t splats = 0;            // received
+    std::uint64_t splats_saturated = 0;  // dropped: the group was finished
+    std::uint64_t compare_exchanges = 0;
+    std::uint64_t runs_spilled = 0;
+    std::uint64_t entries_spilled = 0;  // written to DRAM, over all passes
+    std::uint64_t list_max = 0;         // longest list of one visit
+  };
+  const Counters& counters() const { return counters_; }
+  void publish(DataSheet& sheet);
+
+ private:
+  void run();  // thread
+  SplatToken collect(FifoSelector<SplatToken>& inputs);
+  void accept(const SplatToken& token);
+  void sort_buffer();
+  void spill_buffer();
+  void merge_runs();
+  template <class Sink>
+  void merge(const SpillRun* runs, std::size_t count, Sink&& sink);
+  void emit(const Splat& splat);
+  SubtileRect group_subtiles() const;
+  SpillPort spill_port() {
+    return {memory, sort_, config_.spill_block_entries, place_.spill.region};
+  }
+
+  const PaperSorterConfig config_;
+  const PaperSorterPlace place_;
+  const StreamingJob& job_;
+  Activity sort_;
+  std::vector<Splat> buffer_;
+  std::vector<SpillRun> runs_;
+  std::uint64_t spill_used_ = 0;
+  std::uint32_t group_ = 0, visit_ = 0;
+  std::uint64_t received_ = 0, emitted_ = 0;  // splats of this visit
+  Counters counters_;
+};
+
+}  // namespace sgs

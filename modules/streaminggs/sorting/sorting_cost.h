@@ -1,0 +1,47 @@
+// Cycles of a 16-wide bitonic network (Batcher, "Sorting networks and their applications", 1968)
+// that sorts blocks of 16 and merges sorted runs 8 entries at a time.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/streaminggs/sorting/sorting_config.h"
+#include "tlm/data_sheet.h"
+
+namespace sgs {
+
+constexpr std::uint32_t kNetworkWidth = 16;
+constexpr std::uint32_t kMergeWidth = kNetworkWidth / 2;
+constexpr std::uint32_t kSortStages = 10;  // log2(16) (log2(16) + 1) / 2
+constexpr std::uint32_t kMergeStages = 4;  // log2(16)
+
+// Levels of a binary merge tree over `runs` runs.
+constexpr std::uint32_t merge_levels(std::uint64_t runs) {
+  std::uint32_t levels = 0;
+  while ((std::uint64_t{1} << levels) < runs) ++levels;
+  return levels;
+}
+
+struct SortingCost {
+  std::uint64_t cycles = 0;
+  std::uint64_t compare_exchanges = 0;
+};
+
+// Sorting n entries on chip. A list of 0 or 1 is in order already: nothing need be done.
+constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_t n) {
+  if (n == 0 || (n == 1 && config.skip_trivial)) return {};
+  const std::uint64_t blocks = (n + kNetworkWidth - 1) / kNetworkWidth;
+  const std::uint64_t merges = merge_levels(blocks) * ((n + kMergeWidth - 1) / kMergeWidth);
+  return {config.sort_latency_cycles + blocks * config.sort_interval_cycles +
+              merges * config.merge_interval_cycles,
+          (blocks * kSortStages + merges * kMergeStages) * kMergeWidth};
+}
+
+// What lists of one entry or none spare, for the data sheet.
+inline void publish_trivial_sorts(DataSheet& sheet, const SortingNetworkConfig& config,
+                                  std::uint64_t lists) {
+  sheet.left_out(
+      "trivial_sorts", "a visit with one splat or none", lists,
+      config.skip_trivial ? "a pass of the sorting network each" : "nothing: switched off");
+}
+
+}  // namespace sgs

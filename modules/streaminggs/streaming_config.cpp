@@ -1,0 +1,53 @@
+// Keys that both orders share.
+#include "modules/streaminggs/streaming_config.h"
+
+#include <fmt/format.h>
+
+#include "algorithm/input_error.h"
+#include "algorithm/memory/records.h"
+#include "algorithm/memory/splat_record.h"
+#include "algorithm/splat/constants.h"
+#include "modules/memory_port_keys.h"
+
+namespace sgs {
+
+void visit(ConfigVisitor& v, SramConfig& c) {
+  v("input_bytes", c.input_bytes, in_range(0, 1 << 30),
+    "input buffer of all HFUs; 0: as large as the other parameters need");
+  v("codebook_bytes", c.codebook_bytes, in_range(0, 1 << 30), "codebook buffer");
+  v("shared_bytes", c.shared_bytes, in_range(0, 1 << 30),
+    "everything between the stages; 0: as large as the other parameters need");
+}
+
+void visit_head(ConfigVisitor& v, StreamingConfig& c) {
+  v("clock_mhz", c.clock_mhz, in_range(1, 10000), "clock of all units");
+  v("group_px", c.group_px, in_range(0, kMaxGroupPx),
+    "side of a pixel group, a multiple of 4; 0: the largest that fits the SRAM");
+  v("framebuffer", c.framebuffer,
+    names<FrameFormat>({{"rgb8", FrameFormat::kRgb8}, {"rgb32f", FrameFormat::kRgb32f}}),
+    "pixels in DRAM");
+  v("hfus", c.hfus, in_range(1, 64), "hierarchical filtering units");
+  v("sorting_units", c.sorting_units, in_range(1, 16), "sorting units");
+  v.section("sram", c.sram, "on-chip memory");
+}
+
+void visit_tail(ConfigVisitor& v, StreamingConfig& c) {
+  v.section("hfu", c.hfu, "each hierarchical filtering unit");
+  v.section("codebook", c.codebook, "codebook buffer of all HFUs");
+  v.section("rendering", c.rendering, "rendering unit");
+  v.section("memory_port", c.memory_port, "how units talk to memory");
+}
+
+void check(const StreamingConfig& c) {
+  if (c.group_px == 0 || c.group_px % kSubtilePx != 0) {
+    throw InputError(
+        fmt::format("group_px: got {}, expected a multiple of {}", c.group_px, kSubtilePx));
+  }
+  if (c.hfu.slice_gaussians * kFirstHalfBytes % 32 != 0) {
+    throw InputError(fmt::format(
+        "hfu.slice_gaussians: got {}, {} B each, expected a whole number of 32 B bursts",
+        c.hfu.slice_gaussians, kFirstHalfBytes));
+  }
+}
+
+}  // namespace sgs

@@ -1,0 +1,43 @@
+// What can be chosen about a streaming machine of either order; the defaults are the paper's
+// (StreamingGS, DAC 2025) or, where it leaves a parameter open, stated with a reason.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/memory/frame_buffer.h"
+#include "modules/config/config_visitor.h"
+#include "modules/streaminggs/hfu/codebook_config.h"
+#include "modules/streaminggs/hfu/hfu_config.h"
+#include "modules/streaminggs/rendering/rendering_config.h"
+#include "tlm/memory_port.h"
+
+namespace sgs {
+
+struct SramConfig {
+  std::uint32_t input_bytes;     // first halves, some slices ahead
+  std::uint32_t codebook_bytes;  // idle unless second halves are quantised
+  std::uint32_t shared_bytes;    // everything between the stages
+};
+
+struct StreamingConfig {
+  double clock_mhz = 1000;
+  std::uint32_t group_px = 32;  // 0: as large as the SRAM allows
+  FrameFormat framebuffer = FrameFormat::kRgb8;
+  std::uint32_t hfus = 4;
+  std::uint32_t sorting_units = 2;
+  SramConfig sram{};
+  HfuConfig hfu;
+  CodebookConfig codebook;
+  RenderingConfig rendering;
+  MemoryPortConfig memory_port;  // of each unit's port
+};
+
+void visit(ConfigVisitor& v, SramConfig& config);
+// The keys that stand before and behind those of the order's own units.
+void visit_head(ConfigVisitor& v, StreamingConfig& config);
+void visit_tail(ConfigVisitor& v, StreamingConfig& config);
+
+// Throws InputError for what neither order can build.
+void check(const StreamingConfig& config);
+
+}  // namespace sgs

@@ -1,0 +1,93 @@
+// Costs, regions and savings that do not depend on the order.
+#include "modules/streaminggs/streaming_design.h"
+
+#include <fmt/format.h>
+
+#include "algorithm/render/group_state.h"
+#include "modules/streaminggs/filter_cost.h"
+#include "modules/streaminggs/streaming_sram.h"
+
+namespace sgs {
+namespace {
+
+constexpr int kMaxDegree = 3;
+
+RegionSpan span_of(const Regions& regions, const std::string& name) {
+  for (std::size_t id = 0; id < regions.size(); ++id) {
+    const Region& region = regions[static_cast<RegionId>(id)];
+    if (region.name == name) return {static_cast<RegionId>(id), region.base, region.bytes};
+  }
+  throw std::logic_error(fmt::format("no region {}", name));
+}
+
+}  // namespace
+
+void adapt(StreamingConfig& config, const SecondHalfFormat& format,
+           std::vector<AutoChoice>& chosen) {
+  for (AutoChoice& cost : resolve_filter_cost(config.hfu, format.sh_degree)) {
+    chosen.push_back(std::move(cost));
+  }
+  check_sram("sram.codebook_bytes", config.sram.codebook_bytes, codebook_sram_uses(format),
+             "codebook");
+}
+
+StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {
+  StreamingJob out;
+  static_cast<FrameJob&>(out) = job;
+  out.groups = pixel_groups(job.view.width, job.view.height, static_cast<int>(config.group_px));
+  out.spill = span_of(job.layout.regions, "spill");
+  return out;
+}
+
+StreamingJob streaming_job(const StreamingConfig& config, const StoredScene& scene,
+                           const Camera& camera, std::uint64_t spill_bytes) {
+  FrameJob job;
+  job.view = make_view<float>(camera);
+  job.frame_format = config.framebuffer;
+  job.layout = scene.image.layout;
+  job.layout.regions.add("spill", spill_bytes);
+  job.frame_buffer =
+      job.layout.regions.add("frame_buffer", std::uint64_t{pixel_bytes(config.framebuffer)} *
+                                                 camera.width * camera.height);
+  return streaming_job(config, job);
+}
+
+void publish_left_out(const StreamingConfig& config, const StoredScene& scene, DataSheet& sheet) {
+  const SecondHalfFormat& format = scene.image.layout.second_half;
+  SecondHalfFormat full{format.encoding, kMaxDegree, {}};
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    full.entries[id] = format.quantised() ? scene.storage.vq.entries(static_cast<Codebook>(id)) : 0;
+  }
+  SecondHalfFormat of_degree = full;
+  of_degree.sh_degree = format.sh_degree;
+  if (format.sh_degree == 0) of_degree.entries[static_cast<std::size_t>(Codebook::kSh)] = 0;
+  const std::string degree = fmt::format("the scene has SH degree {}", format.sh_degree);
+  if (format.sh_degree < kMaxDegree) {
+    sheet.left_out("sh_bands", degree.c_str(), scene.image.layout.gaussian_count(),
+                   fmt::format("{} B a second half", full.bytes() - of_degree.bytes()));
+  }
+  if (!format.quantised()) {
+    sheet.left_out("codebooks", "second halves are not quantised",
+                   config.sram.codebook_bytes > 0 ? 1 : 0,
+                   fmt::format("{} B of SRAM stay empty", config.sram.codebook_bytes));
+    return;
+  }
+  if (format.sh_degree < kMaxDegree) {
+    sheet.left_out("codebook_words", degree.c_str(), 1,
+                   fmt::format("{} B of DRAM, of the load and of SRAM",
+                               full.codebook_bytes() - of_degree.codebook_bytes()));
+  }
+  std::uint32_t fewer = 0;
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    fewer += of_degree.entries[id] - format.entries[id];
+  }
+  sheet.left_out("codebook_entries", "the scene has no more distinct values", fewer,
+                 fmt::format("{} B of DRAM, of the load and of SRAM, {} B a second half",
+                             of_degree.codebook_bytes() - format.codebook_bytes(),
+                             of_degree.bytes() - format.bytes()));
+  sheet.left_out("codebook_load", "an earlier frame left them in the buffer",
+                 config.codebook.preloaded ? 1 : 0,
+                 fmt::format("{} B of traffic", format.codebook_bytes()));
+}
+
+}  // namespace sgs

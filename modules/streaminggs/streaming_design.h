@@ -1,0 +1,28 @@
+// What the designs of both orders have in common.
+#pragma once
+
+#include "algorithm/scene/cameras.h"
+#include "algorithm/storage/stored_scene.h"
+#include "modules/auto_choice.h"
+#include "modules/streaminggs/streaming_config.h"
+#include "modules/streaminggs/streaming_job.h"
+#include "tlm/data_sheet.h"
+
+namespace sgs {
+
+// Costs that were left to the model, and codebooks that must fit their buffer, for a scene with
+// such second halves. Throws InputError.
+void adapt(StreamingConfig& config, const SecondHalfFormat& format,
+           std::vector<AutoChoice>& chosen);
+
+// A frame of the scene, with the regions `spill` and `frame_buffer` behind the scene's own.
+StreamingJob streaming_job(const StreamingConfig& config, const StoredScene& scene,
+                           const Camera& camera, std::uint64_t spill_bytes);
+
+// As above, of a job that has passed as a FrameJob: groups and spill region again.
+StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job);
+
+// What the format of second halves and an earlier frame's codebooks spared.
+void publish_left_out(const StreamingConfig& config, const StoredScene& scene, DataSheet& sheet);
+
+}  // namespace sgs

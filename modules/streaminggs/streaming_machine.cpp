@@ -1,0 +1,74 @@
+// Shared units of the two tops.
+#include "modules/streaminggs/streaming_machine.h"
+
+#include "modules/streaminggs/filter_cost.h"
+#include "modules/streaminggs/streaming_sram.h"
+
+namespace sgs {
+
+StreamingMachine::StreamingMachine(const sc_core::sc_module_name& name,
+                                   const StreamingConfig& config, const StreamingJob& job,
+                                   SramUses uses, const BuildOptions& options)
+    : Machine(name),
+      config_(config),
+      job_(job),
+      sram_uses_(std::move(uses)),
+      options_(options),
+      clock_(config.clock_mhz),
+      finished_groups_("finished_groups", clock_, job.groups.size(),
+                       config.rendering.feedback_latency_cycles),
+      hfus_(config.hfus) {
+  for (std::uint32_t h = 0; h < config.hfus; ++h) {
+    add_fifo(visits_, fmt::format("visits_to_hfu{}", h), kVisitFifoEntries, 1);
+  }
+}
+
+void StreamingMachine::make_units(Construction parts, Rejects rejects, Arrival arrival) {
+  for (std::uint32_t h = 0; h < config_.hfus; ++h) {
+    parts.push_back([this, h, rejects] {
+      hfus_[h] = std::make_unique<Hfu>(fmt::format("hfu{}", h).c_str(), config_.hfu,
+                                       config_.codebook, FineFilterPlace{h, rejects}, context());
+    });
+  }
+  parts.push_back([this, arrival] {
+    rendering_ = std::make_unique<RenderingUnit>("rendering", config_.rendering, arrival, context(),
+                                                 [this] { finish_frame(); });
+  });
+  if (job_.layout.second_half.quantised()) {
+    parts.push_back([this] {
+      codebooks_ = std::make_unique<CodebookBuffer>("codebooks", config_.codebook, context(),
+                                                    instant_end(), config_.hfus);
+    });
+  }
+  construct(std::move(parts), options_.construction_order);
+
+  rendering_->finish(finished_groups_);
+  for (std::uint32_t h = 0; h < config_.hfus; ++h) {
+    hfus_[h]->coarse.shares(*visits_[h]);
+    hfus_[h]->coarse.finished(finished_groups_);
+    hfus_[h]->fine.finished(finished_groups_);
+    if (codebooks_) hfus_[h]->fine.codebooks(*codebooks_);
+  }
+}
+
+void StreamingMachine::publish(DataSheet& sheet) {
+  publish_units(sheet);
+  sheet.unit(*this);
+  for (FifoChannel* queue : queues_) sheet.queue(*queue);
+  for (const SramUse& use : sram_uses_) sheet.sram(use);
+  if (codebooks_) {
+    for (const SramUse& use : codebook_sram_uses(job_.layout.second_half)) sheet.sram(use);
+  }
+  const SramConfig& sram = config_.sram;
+  sheet.sram_available("input", sram.input_bytes);
+  sheet.sram_available("codebook", sram.codebook_bytes);
+  sheet.sram_available("shared", sram.shared_bytes);
+  constexpr double kKiB = 1024;
+  sheet.part("sram", "sram_kib",
+             (static_cast<double>(sram.input_bytes) + static_cast<double>(sram.codebook_bytes) +
+              static_cast<double>(sram.shared_bytes)) /
+                 kKiB);
+  publish_filters(sheet, config_.hfu, job_.layout.sh_degree());
+}
+
+}  // namespace sgs

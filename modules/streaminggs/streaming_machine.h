@@ -1,0 +1,73 @@
+// What the machines of both orders have in common: filtering units, codebooks, rendering. The two
+// tops bind them in their own ways.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "modules/construction.h"
+#include "modules/machine.h"
+#include "modules/machine_design.h"
+#include "modules/streaminggs/finished_groups.h"
+#include "modules/streaminggs/hfu/codebook_buffer.h"
+#include "modules/streaminggs/hfu/hfu.h"
+#include "modules/streaminggs/rendering/rendering_unit.h"
+#include "modules/streaminggs/streaming_config.h"
+#include "modules/streaminggs/unit_context.h"
+
+namespace sgs {
+
+class StreamingMachine : public Machine {
+ public:
+  const ClockDomain& clock() const override { return clock_; }
+  void publish(DataSheet& sheet) override;
+
+ private:
+  const StreamingConfig config_;
+  const StreamingJob job_;
+  const SramUses sram_uses_;
+  const BuildOptions options_;
+  const ClockDomain clock_;
+  std::vector<FifoChannel*> queues_;  // between the units
+
+ protected:
+  template <class T>
+  using Fifos = std::vector<std::unique_ptr<TimedFifo<T>>>;
+
+  // uses: of the on-chip memory.
+  StreamingMachine(const sc_core::sc_module_name& name, const StreamingConfig& config,
+                   const StreamingJob& job, SramUses uses, const BuildOptions& options);
+
+  // A FIFO between two units.
+  template <class T>
+  void add_fifo(Fifos<T>& fifos, const std::string& name, std::uint32_t entries,
+                std::uint32_t latency_cycles) {
+    fifos.push_back(std::make_unique<TimedFifo<T>>(name.c_str(), clock_, entries, latency_cycles));
+    if (options_.stalls.probability > 0) fifos.back()->inject(options_.stalls);
+    queues_.push_back(fifos.back().get());
+  }
+
+  UnitContext context() const { return {clock_, job_, config_.memory_port}; }
+  const StreamingJob& job() const { return job_; }
+
+  // Makes the shared units and those of the order, in the order of construction that is asked for,
+  // and binds what is bound alike in both. rejects, arrival: how the order wants candidates without
+  // a splat reported, and splats spread over the FIFOs that rendering reads.
+  void make_units(Construction units_of_order, Rejects rejects, Arrival arrival);
+
+  // The units in the order of the pipeline.
+  virtual void publish_units(DataSheet& sheet) = 0;
+
+  FinishedGroups finished_groups_;
+  Fifos<VisitShare> visits_;                   // [HFU]
+  std::unique_ptr<CodebookBuffer> codebooks_;  // null where second halves are not quantised
+  std::vector<std::unique_ptr<Hfu>> hfus_;
+  std::unique_ptr<RenderingUnit> rendering_;
+};
+
+}  // namespace sgs

@@ -1,0 +1,17 @@
+// What every unit of a streaming machine is built with, beside its own parameters.
+#pragma once
+
+#include "modules/streaminggs/streaming_job.h"
+#include "tlm/clock_domain.h"
+#include "tlm/memory_port.h"
+
+namespace sgs {
+
+// Clock and job outlive the unit.
+struct UnitContext {
+  const ClockDomain& clock;
+  const StreamingJob& job;
+  MemoryPortConfig memory_port;
+};
+
+}  // namespace sgs

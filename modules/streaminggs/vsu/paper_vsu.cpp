@@ -1,0 +1,163 @@
+// The two threads of VSU.
+#include "modules/streaminggs/vsu/paper_vsu.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "algorithm/voxel/ray_sampling.h"
+#include "algorithm/voxel/ray_walk.h"
+#include "modules/streaminggs/work_rates.h"
+
+namespace sgs {
+namespace {
+
+// The voxel tree as a traversal sees it: nodes come out of the cache. Misses are waited for as they
+// happen, the cycles of the steps themselves pass at the end of each ray.
+class CachedTree {
+ public:
+  CachedTree(TableCache<VoxelNode>& cache, MemoryPort& port, Activity& activity)
+      : cache_(cache), port_(port), activity_(activity) {}
+
+  VoxelNode node(std::uint32_t index) { return cache_.get(index, port_, activity_); }
+
+ private:
+  TableCache<VoxelNode>& cache_;
+  MemoryPort& port_;
+  Activity& activity_;
+};
+
+}  // namespace
+
+PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
+                   const UnitContext& context)
+    : sc_module(name),
+      node_memory("node_memory", context.memory_port),
+      record_memory("record_memory", context.memory_port),
+      config_(config),
+      job_(context.job),
+      traverse_("traverse", context.clock),
+      emit_("emit", context.clock),
+      nodes_(config.node_cache_bytes, job_.layout.voxel_table().nodes),
+      records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
+      table_(static_cast<std::uint32_t>(job_.layout.voxel_table().voxels.count)),
+      ordered_("ordered", context.clock, config.groups_ahead) {
+  SC_THREAD(run_traverse);
+  SC_THREAD(run_emit);
+}
+
+void PaperVsu::run_traverse() {
+  for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
+    current_group_ = group;
+    auto ordered = std::make_shared<OrderedGroup>();
+    ordered->group = group;
+    ordered->voxels = order_group(job_.groups[group]).voxels;
+    if (ordered->voxels.empty()) ++counters_.groups_empty;
+    ordered_.push(std::move(ordered), traverse_);
+  }
+  traverse_.enter(ActivityState::kStarved);
+}
+
+GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
+  const VoxelTableLayout& voxels = job_.layout.voxel_table();
+  if (voxels.nodes.count == 0) return {};
+  CachedTree tree(nodes_, node_memory, traverse_);
+  const auto on_ray = [this](std::uint32_t steps, std::size_t edges) {
+    traverse_.work(std::max(cycles_for(steps, config_.steps_per_cycle),
+                            cycles_for(edges, config_.edges_per_cycle)));
+  };
+  GroupVisits visits;
+  if (config_.sample_step_voxels > 0) {
+    RaySampling sampling(voxels.frame, tree, static_cast<float>(config_.sample_step_voxels));
+    visits = group_visits(job_.view, pixels, sampling, table_, on_ray);
+  } else {
+    RayWalk walk(voxels.frame, tree);
+    visits = group_visits(job_.view, pixels, walk, table_, on_ray);
+  }
+  // Kahn's algorithm: one cycle for each voxel taken and each edge removed.
+  traverse_.work(table_.voxel_count() + table_.edge_count());
+  counters_.rays += visits.rays;
+  counters_.steps += visits.steps;
+  counters_.edges += visits.edges_offered;
+  counters_.table_bytes_max = std::max(counters_.table_bytes_max, visits.table_bytes);
+  if (visits.table_bytes > config_.table_bytes) {
+    SC_REPORT_ERROR("/sgs/vsu",
+                    fmt::format("the ordering table of the group at pixel ({}, {}) takes {} bytes; "
+                                "vsu.table_bytes is {}: raise it, or take larger voxels",
+                                pixels.x0, pixels.y0, visits.table_bytes, config_.table_bytes)
+                        .c_str());
+  }
+  return visits;
+}
+
+void PaperVsu::run_emit() {
+  for (std::size_t done = 0; done < job_.groups.size(); ++done) {
+    const std::shared_ptr<OrderedGroup> ordered = ordered_.pop(emit_);
+    for (const std::uint32_t voxel : ordered->voxels) {
+      if (finished->finished(ordered->group)) {
+        ++counters_.visits_saturated;
+        continue;
+      }
+      current_voxel_ = voxel;
+      hand_out(ordered->group, records_.get(voxel, record_memory, emit_));
+    }
+    mark_end(ordered->group);
+  }
+  emit_.enter(ActivityState::kStarved);
+}
+
+// Splits a visit into contiguous shares of even size, no smaller than min_share and whole bursts of
+// first halves; which HFU begins rotates, so that small visits spread.
+void PaperVsu::hand_out(std::uint32_t group, const VoxelRecord& voxel) {
+  const auto hfus = static_cast<std::uint32_t>(shares.size());
+  const std::uint32_t unit = std::max(2U, config_.min_share);
+  const std::uint32_t share =
+      static_cast<std::uint32_t>(cycles_for(cycles_for(voxel.count, hfus), unit)) * unit;
+  emit_.work(1);
+  for (std::uint32_t k = 0; k < hfus; ++k) {
+    const std::uint32_t begin = std::min(k * share, voxel.count);
+    const std::uint32_t end = std::min(begin + share, voxel.count);
+    in_turn(shares, k + next_visit_)
+        .push({group, next_visit_, voxel.first + begin, end - begin, Mark::kEndOfVisit}, emit_);
+  }
+  ++next_visit_;
+  ++counters_.visits;
+}
+
+void PaperVsu::mark_end(std::uint32_t group) {
+  emit_.work(1);
+  for (int k = 0; k < shares.size(); ++k) {
+    shares[k]->push({group, next_visit_, 0, 0, Mark::kEndOfGroup}, emit_);
+  }
+  ++next_visit_;
+}
+
+void PaperVsu::publish(DataSheet& sheet) {
+  sheet.unit(*this);
+  sheet.activity(traverse_, "vsu", "follows rays and orders the voxels of a group");
+  sheet.activity(emit_, "visits", "hands out ordered voxels as visits");
+  sheet.counter("rays", "rays", "followed", counters_.rays);
+  sheet.counter("steps", "steps", "of rays through the voxel tree", counters_.steps);
+  sheet.counter("edges", "edges", "offered to the ordering table", counters_.edges);
+  sheet.counter("visits", "voxels", "handed out, once for each group", counters_.visits);
+  sheet.counter("visits_saturated", "voxels", "left out: the group was finished",
+                counters_.visits_saturated);
+  sheet.counter("groups_empty", "groups", "with no voxel on any ray", counters_.groups_empty);
+  sheet.counter("ordering_table_bytes_max", "bytes", "ordering table of the worst group",
+                counters_.table_bytes_max);
+  sheet.counter("node_cache_misses", "nodes", "read from DRAM", nodes_.misses());
+  sheet.counter("record_cache_misses", "voxel records", "read from DRAM", records_.misses());
+  sheet.operations("vsu", "fp32_mac", static_cast<double>(counters_.steps) * kRayStepMacs);
+  sheet.part("vsu", "vsu", 1);
+  sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
+                 "no visit, no blending");
+  sheet.left_out("saturated_visits", "every pixel of the group was finished",
+                 counters_.visits_saturated, "their Gaussians are not streamed");
+  sheet.port(node_memory);
+  sheet.port(record_memory);
+  sheet.queue(ordered_);
+  sheet.signal("group", current_group_);
+  sheet.signal("voxel", current_voxel_);
+}
+
+}  // namespace sgs

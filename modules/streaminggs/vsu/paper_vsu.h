@@ -1,0 +1,69 @@
+// Voxel sorting unit (VSU), paper order: for each pixel group it follows the pixels' rays through
+// the voxel tree, orders the voxels that they meet, and hands each out as a visit to the HFUs.
+// Timing: steps / steps_per_cycle + edges / edges_per_cycle a ray, one cycle a voxel and edge to
+// order them, one cycle a visit; table misses wait for DRAM. Function:
+// algorithm/order/group_visits.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "algorithm/order/group_visits.h"
+#include "modules/streaminggs/finished_groups.h"
+#include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/unit_context.h"
+#include "modules/streaminggs/vsu/paper_vsu_config.h"
+#include "modules/streaminggs/vsu/table_cache.h"
+#include "tlm/data_sheet.h"
+#include "tlm/memory_access.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs {
+
+class PaperVsu : public sc_core::sc_module {
+ public:
+  FifoOuts<VisitShare> shares{"shares"};  // one a HFU
+  FinishedGroupsIn finished{"finished"};
+  MemoryPort node_memory;    // tree nodes, for the rays
+  MemoryPort record_memory;  // voxel records, for the visits
+
+  SC_HAS_PROCESS(PaperVsu);
+  PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
+           const UnitContext& context);
+
+  struct Counters {
+    std::uint64_t rays = 0, steps = 0, edges = 0;
+    std::uint64_t visits = 0;            // handed out
+    std::uint64_t visits_saturated = 0;  // left out: the group was finished
+    std::uint64_t groups_empty = 0;      // no voxel on any ray
+    std::uint64_t table_bytes_max = 0;   // ordering table of the worst group
+  };
+  const Counters& counters() const { return counters_; }
+  void publish(DataSheet& sheet);
+
+ private:
+  struct OrderedGroup {
+    std::uint32_t group = 0;
+    std::vector<std::uint32_t> voxels;
+  };
+  void run_traverse();  // thread: rays to ordered voxels, some groups ahead
+  void run_emit();      // thread: ordered voxels to visits
+  GroupVisits order_group(const PixelRect& pixels);
+  void hand_out(std::uint32_t group, const VoxelRecord& voxel);
+  void mark_end(std::uint32_t group);
+
+  const PaperVsuConfig config_;
+  const StreamingJob& job_;
+  Activity traverse_, emit_;
+  TableCache<VoxelNode> nodes_;
+  TableCache<VoxelRecord> records_;
+  OrderingTable table_;
+  TimedFifo<std::shared_ptr<OrderedGroup>> ordered_;
+  Counters counters_;
+  std::uint32_t next_visit_ = 0;
+  std::uint32_t current_group_ = 0, current_voxel_ = 0;  // for the waveform
+};
+
+}  // namespace sgs

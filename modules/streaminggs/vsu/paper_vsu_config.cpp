@@ -1,0 +1,18 @@
+// Keys of the voxel sorting unit, paper order.
+#include "modules/streaminggs/vsu/paper_vsu_config.h"
+
+namespace sgs {
+
+void visit(ConfigVisitor& v, PaperVsuConfig& c) {
+  v("steps_per_cycle", c.steps_per_cycle, in_range(1, 64), "tree nodes or cells a cycle");
+  v("edges_per_cycle", c.edges_per_cycle, in_range(1, 64), "insertions into the ordering table");
+  v("sample_step_voxels", c.sample_step_voxels, in_range(0, 10),
+    "distance of samples on a ray; 0: every cell is visited");
+  v("groups_ahead", c.groups_ahead, in_range(1, 64), "ordered groups waiting for the HFUs");
+  v("table_bytes", c.table_bytes, in_range(8, 1 << 30), "ordering table of one group");
+  v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");
+  v("record_cache_bytes", c.record_cache_bytes, in_range(64, 1 << 30), "cache of voxel records");
+  v("min_share", c.min_share, in_range(2, 1 << 20), "fewest Gaussians of a visit for one HFU");
+}
+
+}  // namespace sgs

@@ -1,0 +1,77 @@
+# What shortens the build and changes no result: precompiled headers, and less optimisation of code
+# that runs once. Included after all targets are made.
+
+# sgs_targets_below(OUT TYPES FOLDERS...): the targets made in FOLDERS and below whose type matches
+# the regular expression TYPES.
+function(sgs_targets_below out types)
+  set(folders ${ARGN})
+  set(found)
+  while(folders)
+    list(POP_FRONT folders folder)
+    get_property(below DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+    list(APPEND folders ${below})
+    get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+    foreach(target ${targets})
+      get_target_property(type ${target} TYPE)
+      if(type MATCHES "${types}")
+        list(APPEND found ${target})
+      endif()
+    endforeach()
+  endwhile()
+  set(${out} ${found} PARENT_SCOPE)
+endfunction()
+
+# sgs_precompile(NAME HEADERS... LIBS... FOLDERS...): everything in FOLDERS begins with HEADERS.
+# These are headers of libraries only, never our own, so that what a folder may not know stays
+# unknown to it.
+function(sgs_precompile name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBS;FOLDERS" ${ARGN})
+  set(empty ${CMAKE_BINARY_DIR}/${name}.cpp)
+  file(TOUCH ${empty})
+  add_library(${name} OBJECT EXCLUDE_FROM_ALL ${empty})
+  target_link_libraries(${name} PRIVATE sgs_options ${ARG_LIBS})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+  sgs_targets_below(targets "STATIC|OBJECT|EXECUTABLE" ${ARG_FOLDERS})
+  foreach(target ${targets})
+    target_precompile_headers(${target} REUSE_FROM ${name})
+  endforeach()
+endfunction()
+
+set(base_headers <algorithm> <array> <charconv> <cmath> <cstdint> <cstring> <filesystem> <fstream>
+  <functional> <limits> <map> <memory> <numeric> <optional> <random> <set> <string> <vector>
+  <fmt/format.h> <glm/common.hpp> <glm/geometric.hpp> <glm/mat3x3.hpp> <glm/matrix.hpp>
+  <glm/vec3.hpp> <tbb/blocked_range.h> <tbb/parallel_for.h>)
+set(systemc_headers <systemc> <tlm> <tlm_utils/multi_passthrough_target_socket.h>
+  <tlm_utils/passthrough_target_socket.h> <tlm_utils/peq_with_cb_and_phase.h>
+  <tlm_utils/simple_initiator_socket.h>)
+set(base_libs fmt::fmt glm::glm TBB::tbb)
+
+# ccache takes no object that begins with a precompiled header, and is worth more.
+if(NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
+  sgs_precompile(sgs_base_headers HEADERS ${base_headers} LIBS ${base_libs}
+    FOLDERS algorithm testbench/bench testbench/builtin)
+  if(SYSTEMC_FOUND)
+    sgs_precompile(sgs_systemc_headers HEADERS ${base_headers} ${systemc_headers}
+      LIBS ${base_libs} sgs_systemc
+      FOLDERS tlm modules/dram modules/streaminggs testbench/dram testbench/streaminggs testbench/units)
+  endif()
+  if(BUILD_TESTING)
+    sgs_precompile(sgs_test_headers HEADERS ${base_headers} <catch2/catch.hpp>
+      LIBS ${base_libs} Catch2::Catch2 FOLDERS tests)
+  endif()
+endif()
+
+# Commands and tests read arguments, write reports and compare: the work is done in the libraries.
+set(once)
+if(SYSTEMC_FOUND)
+  list(APPEND once testbench/dram testbench/streaminggs testbench/units)
+endif()
+if(BUILD_TESTING)
+  list(APPEND once tests)
+endif()
+sgs_targets_below(once_targets EXECUTABLE ${once})
+foreach(target ${once_targets} sgs_test_main sgs_config)
+  if(TARGET ${target})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+endforeach()

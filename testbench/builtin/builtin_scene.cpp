@@ -1,0 +1,61 @@
+// The spec of built-in scenes (builtin_scene.h): "builtin:NAME?n=COUNT".
+#include "testbench/builtin/builtin_scene.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <map>
+#include <string_view>
+
+#include "algorithm/input_error.h"
+#include "testbench/builtin/object_scene.h"
+#include "testbench/builtin/outdoor_scene.h"
+
+namespace sgs {
+namespace {
+
+constexpr std::string_view kPrefix = "builtin:";
+constexpr std::uint64_t kMaxCount = 20'000'000;
+
+struct Recipe {
+  std::uint64_t default_count;
+  BuiltinScene (*make)(std::uint64_t count);
+};
+
+const std::map<std::string, Recipe>& recipes() {
+  static const std::map<std::string, Recipe> kRecipes = {
+      {"object", {60'000, make_object_scene}}, {"outdoor", {200'000, make_outdoor_scene}}};
+  return kRecipes;
+}
+
+// The value of "n=COUNT".
+std::uint64_t count_of(const std::string& spec, const std::string& query) {
+  std::uint64_t count = 0;
+  const char* end = query.data() + query.size();
+  if (query.rfind("n=", 0) == 0) {
+    const auto [stop, error] = std::from_chars(query.data() + 2, end, count);
+    if (error == std::errc() && stop == end && count >= 1 && count <= kMaxCount) return count;
+  }
+  throw InputError(fmt::format("{}: got \"{}\" after the question mark, expected n=1 to n={}", spec,
+                               query, kMaxCount));
+}
+
+}  // namespace
+
+bool is_builtin_scene(const std::string& spec) { return spec.rfind(kPrefix, 0) == 0; }
+
+BuiltinScene make_builtin_scene(const std::string& spec) {
+  const std::string rest = is_builtin_scene(spec) ? spec.substr(kPrefix.size()) : "";
+  const std::size_t mark = rest.find('?');
+  const auto recipe = recipes().find(rest.substr(0, mark));
+  if (recipe == recipes().end()) {
+    std::string names;
+    for (const auto& [name, ignored] : recipes()) names += " builtin:" + name;
+    throw InputError(fmt::format("{}: no such built-in scene, expected one of{}", spec, names));
+  }
+  const Recipe& chosen = recipe->second;
+  return chosen.make(mark == std::string::npos ? chosen.default_count
+                                               : count_of(spec, rest.substr(mark + 1)));
+}
+
+}  // namespace sgs

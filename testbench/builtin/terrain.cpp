@@ -1,0 +1,126 @@
+// Heights and paint of terrain.h.
+#include "testbench/builtin/terrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "testbench/builtin/noise.h"
+#include "testbench/builtin/patch.h"
+#include "testbench/builtin/shapes.h"
+
+namespace sgs {
+namespace {
+
+constexpr double kGroundRadius = 900;
+// Cells of ground grow with the distance from here, close to the cameras.
+constexpr double kCentreX = 0, kCentreZ = -2, kDenseRadius = 3;
+
+glm::dvec3 ground_map(const glm::dvec2& uv) {
+  const double growth = std::log(1.0 + kGroundRadius / kDenseRadius);
+  const double radius = kDenseRadius * (std::exp(growth * (1.0 - uv.y)) - 1.0);
+  const double angle = 2.0 * M_PI * uv.x;
+  return ground_point(kCentreX + radius * std::cos(angle), kCentreZ + radius * std::sin(angle));
+}
+
+glm::dvec3 meadow_colour(const glm::dvec3& p) {
+  const double patches = fractal_noise({p.x * 0.12, 3.0, p.z * 0.12}, 3);
+  const double detail = fractal_noise({p.x * 2.3, 9.0, p.z * 2.3}, 3);
+  const glm::dvec3 lush(0.16, 0.34, 0.07), dry(0.42, 0.42, 0.14);
+  return glm::mix(lush, dry, smooth_step(0.35, 0.7, patches)) * (0.6 + 0.8 * detail);
+}
+
+Material ground_material(const SurfacePoint& point) {
+  const glm::dvec3& p = point.position;
+  const double height = -p.y, steep = 1.0 + point.normal.y;
+  const double rough = fractal_noise(p * 0.9, 4);
+  glm::dvec3 colour = meadow_colour(p);
+  const double forest = smooth_step(30, 90, std::hypot(p.x, p.z));
+  colour = glm::mix(colour, glm::dvec3(0.09, 0.20, 0.07) * (0.6 + 0.8 * rough), forest);
+  const double sand =
+      1.0 - smooth_step(0.55, 0.95, distance_from_path(p.x, p.z) + 0.5 * (rough - 0.5));
+  colour = glm::mix(colour, glm::dvec3(0.62, 0.50, 0.34) * (0.7 + 0.6 * rough), sand);
+  const double shore = std::hypot(p.x - kPondX, p.z - kPondZ) - kPondRadius;
+  const double mud = 1.0 - smooth_step(0.1, 0.6, shore + 0.4 * (rough - 0.5));
+  colour = glm::mix(colour, glm::dvec3(0.33, 0.27, 0.18) * (0.7 + 0.6 * rough), mud);
+  const glm::dvec3 rock = glm::dvec3(0.40, 0.37, 0.35) * (0.5 + rough);
+  colour = glm::mix(colour, rock, smooth_step(0.10, 0.26, steep + 0.2 * (rough - 0.5)));
+  const double snow =
+      smooth_step(62, 90, height + 50 * (rough - 0.5)) * (1.0 - smooth_step(0.3, 0.6, steep));
+  colour = glm::mix(colour, glm::dvec3(0.95, 0.96, 1.0), snow);
+
+  // Behind haze a surface is partly its own colour in the light and partly the air before it.
+  const glm::dvec3 air = hazed(glm::dvec3(0), p);
+  return {hazed(colour, p) - air, glm::dvec3(0.03), air};
+}
+
+// A blade of grass: a needle that leans, brighter towards the tip.
+Surfel grass_blade(const PartSample& sample, Random& random) {
+  const glm::dvec2 uv = even_point(sample.index);
+  Surfel surfel;
+  const double angle = 2.0 * M_PI * uv.x, radius = 18.0 * std::pow(uv.y, 0.8);
+  const double x = kCentreX + radius * std::cos(angle), z = kCentreZ + radius * std::sin(angle);
+  const double tall = random.uniform(0.05, 0.16);
+  const glm::dvec3 root = ground_point(x, z);
+  const bool bare = distance_from_path(x, z) < 0.8 || -root.y < kWaterHeight + 0.08;
+  const glm::dvec3 lean(random.uniform(-0.4, 0.4), -1.0, random.uniform(-0.4, 0.4));
+  const glm::dvec3 along = glm::normalize(lean);
+  const glm::dvec3 across = glm::normalize(glm::cross(along, random.direction()));
+  surfel.axes = glm::dmat3(along, across, glm::cross(along, across));
+  const double size = std::min(3.0, std::sqrt(30000.0 / static_cast<double>(sample.count)));
+  surfel.sigmas = glm::dvec3(0.5 * tall, 0.012 * size, 0.002) * (bare ? 0.3 : 1.0);
+  surfel.position = root + along * tall;
+  surfel.opacity = random.uniform(0.35, 0.98);
+  const bool flower = !bare && random.uniform() < 0.03 * thinning(sample, 30000);
+  const glm::dvec3 green = meadow_colour(root) * random.uniform(1.0, 1.7);
+  surfel.material.albedo = green;
+  if (bare) surfel.material.albedo = glm::dvec3(0.5, 0.42, 0.3) * random.uniform(0.6, 1.2);
+  if (flower) {
+    surfel.sigmas = glm::dvec3(0.03) * random.uniform(0.7, 1.2);
+    surfel.material.albedo =
+        random.uniform() < 0.5 ? glm::dvec3(0.95, 0.85, 0.2) : glm::dvec3(0.95, 0.93, 0.95);
+  }
+  surfel.material.reflectance = glm::dvec3(0.07);
+  return surfel;
+}
+
+}  // namespace
+
+double distance_from_path(double x, double z) {
+  if (z > 6.2) return std::hypot(x - (-4.0), z - 6.2);
+  return std::abs(x - (-4.0 + 0.012 * (6.2 - z) * (6.2 - z) + 0.9 * std::sin(0.45 * (6.2 - z)))) *
+         0.8;
+}
+
+double ground_height(double x, double z) {
+  const double radius = std::hypot(x, z);
+  const double far = smooth_step(14, 60, radius), farther = smooth_step(130, 480, radius);
+  const double bumps = 0.35 * (fractal_noise({x * 0.25, 0.0, z * 0.25}, 3) - 0.5);
+  double height = bumps;
+  if (far > 0) height += far * 9.0 * (fractal_noise({x * 0.028, 5.0, z * 0.028}, 3) - 0.42);
+  if (farther > 0) {
+    // Folded noise has sharp crests. No finer octaves than the far cells of ground can show.
+    const double fold = 1.0 - std::abs(2.0 * fractal_noise({x * 0.0045, 8.0, z * 0.0045}, 3) - 1.0);
+    height += farther * 190.0 * (fold * fold - 0.35);
+  }
+  // The basin of the pond.
+  const double shore = std::hypot(x - kPondX, z - kPondZ) / kPondRadius;
+  return height - 1.1 * (1.0 - smooth_step(0.55, 1.3, shore));
+}
+
+glm::dvec3 ground_point(double x, double z) { return at_height(x, ground_height(x, z), z); }
+
+glm::dvec3 hazed(const glm::dvec3& colour, const glm::dvec3& position) {
+  const glm::dvec3 haze(0.66, 0.75, 0.86);
+  const double clear = std::exp(-std::max(glm::length(position) - 20.0, 0.0) / 620.0);
+  return glm::mix(haze, colour, clear);
+}
+
+std::vector<ScenePart> terrain_parts(double share) {
+  PatchLook soil;
+  soil.edge_contrast = kNoEdges;
+  return {patch_part(0.65 * share, ground_map, ground_material, soil), {0.35 * share, grass_blade}};
+}
+
+}  // namespace sgs

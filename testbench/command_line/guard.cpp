@@ -1,0 +1,58 @@
+// Streams and catching of guard.h.
+#include "testbench/command_line/guard.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <new>
+
+#include "algorithm/input_error.h"
+
+namespace sgs {
+namespace {
+
+// A stream that the caller has closed must not become the number of the next file that is opened:
+// what is printed would land in that file. Writing to the stand-in is an error, as it should be.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) ::open("/dev/null", O_RDONLY);
+  }
+}
+
+void complain(const std::string& program, std::string_view message) {
+  std::fprintf(stderr, "%s: %s\n", program.c_str(), one_line(message).c_str());
+}
+
+int run_and_catch(const std::string& program, const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const InputError& error) {
+    complain(program, error.what());
+    return kBadInput;
+  } catch (const std::bad_alloc&) {
+    complain(program, "out of memory");
+  } catch (const std::exception& error) {
+    complain(program, error.what());
+  }
+  return kFailed;
+}
+
+}  // namespace
+
+int run_guarded(const std::string& program, const std::function<int()>& body) {
+  occupy_standard_streams();
+  const int status = run_and_catch(program, body);
+  std::cout.flush();
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  complain(program, fmt::format("standard output cannot be written{}",
+                                errno == 0 ? "" : fmt::format(" ({})", std::strerror(errno))));
+  return status == kDone ? kFailed : status;
+}
+
+}  // namespace sgs

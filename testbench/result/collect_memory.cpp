@@ -1,0 +1,68 @@
+// From DramStats to MemoryResult.
+#include "testbench/result/collect_memory.h"
+
+#include <algorithm>
+
+namespace sgs {
+namespace {
+
+RegionTraffic& entry(std::vector<RegionTraffic>& traffic, const std::string& region,
+                     const std::string& requester) {
+  for (RegionTraffic& t : traffic) {
+    if (t.region == region && t.requester == requester) return t;
+  }
+  traffic.push_back({region, requester, 0, 0});
+  return traffic.back();
+}
+
+}  // namespace
+
+MemoryResult collect_memory(DramController& memory, const Regions& regions,
+                            const std::vector<std::string>& requesters) {
+  constexpr double kPj = 1e-12;
+  const DramStats stats = memory.stats();
+  const DramChannelStats all = stats.all_channels();
+  const auto latency_ns = [&](double fraction) {
+    return static_cast<double>(stats.read_latency_cycles.percentile(fraction)) *
+           stats.clock_period_ns;
+  };
+  MemoryResult m;
+  m.bytes = stats.bytes();
+  m.bus_bytes = stats.bus_bytes();
+  for (const auto& row : stats.traffic.rows()) {
+    RegionTraffic& t = entry(m.traffic, regions[row.region].name, requesters[row.requester]);
+    (row.direction == Direction::kRead ? t.read_bytes : t.written_bytes) = row.count.bytes;
+  }
+  for (std::size_t id = 0; id < regions.size(); ++id) {
+    const std::string& name = regions[static_cast<RegionId>(id)].name;
+    m.bus_bytes_by_region.emplace_back(
+        name, (stats.bursts_by_region[id][0] + stats.bursts_by_region[id][1]) * stats.burst_bytes);
+    m.energy_by_region_j.emplace_back(name, stats.energy.by_region_pj[id] * kPj);
+  }
+  m.energy_by_region_j.emplace_back("standby_and_refresh", stats.energy.shared_pj * kPj);
+  for (const auto& [set, pj] : stats.energy_by_current_set_pj) {
+    m.energy_by_current_set_j.emplace_back(set, pj * kPj);
+  }
+  m.energy_j = stats.energy.total_pj() * kPj;
+  m.transactions = stats.traffic.total().transactions;
+  m.row_hits = all.rows.of(RowOutcome::kHit);
+  m.row_misses = all.rows.of(RowOutcome::kMiss);
+  m.row_conflicts = all.rows.of(RowOutcome::kConflict);
+  m.refreshes = all.refreshes();
+  m.bandwidth_gb_s = stats.bandwidth_gb_per_s();
+  m.busy_bandwidth_gb_s = stats.busy_bandwidth_gb_per_s();
+  m.peak_gb_s = stats.peak_gb_per_s;
+  m.read_latency_mean_ns = stats.read_latency_cycles.mean() * stats.clock_period_ns;
+  m.read_latency_p50_ns = latency_ns(0.5);
+  m.read_latency_p99_ns = latency_ns(0.99);
+  std::uint64_t busiest = 0;
+  for (const DramChannelStats& channel : stats.channels) {
+    busiest = std::max(busiest, channel.busy_cycles);
+  }
+  if (stats.elapsed_cycles > 0) {
+    m.bus_utilisation = static_cast<double>(busiest) / static_cast<double>(stats.elapsed_cycles);
+  }
+  return m;
+}
+
+}  // namespace sgs

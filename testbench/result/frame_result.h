@@ -1,0 +1,84 @@
+// What one simulated frame gives, as values: it outlives the simulation and crosses the boundary
+// between processes once. Reports are made from it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tlm/data_sheet.h"
+
+namespace sgs {
+
+struct ActivityResult {
+  std::string name, resource, meaning;
+  std::uint64_t busy_cycles = 0, starved_cycles = 0, blocked_cycles = 0;  // add up to the frame
+};
+
+struct CounterResult {
+  std::string name, unit, meaning;
+  std::uint64_t value = 0;
+};
+
+struct UnitResult {
+  std::string name;  // path below the machine
+  std::vector<ActivityResult> activities;
+  std::vector<CounterResult> counters;
+};
+
+// An amount of one kind (of work, of a part) that one component has.
+struct Amount {
+  std::string component, kind;
+  double count = 0;
+};
+
+struct LeftOut {
+  std::string what, why;
+  std::uint64_t count = 0;
+  std::string saves;
+};
+
+// What the data sheets of a machine say, in the order in which they are published.
+struct MachineResult {
+  std::vector<UnitResult> units;
+  std::vector<Amount> operations, parts;
+  std::vector<LeftOut> left_out;  // one entry a saving: counts of several units added up
+  SramUses sram_uses;
+  std::vector<std::pair<std::string, std::uint64_t>> sram_available;  // (memory, bytes)
+  std::vector<Datapath> datapaths;
+};
+
+// Bytes that one requester asked for in one region.
+struct RegionTraffic {
+  std::string region, requester;
+  std::uint64_t read_bytes = 0, written_bytes = 0;
+};
+
+struct MemoryResult {
+  std::uint64_t bytes = 0, bus_bytes = 0;  // asked for; moved, in whole bursts
+  std::vector<RegionTraffic> traffic;      // what is not 0
+  std::vector<std::pair<std::string, std::uint64_t>> bus_bytes_by_region;  // all regions
+  std::uint64_t transactions = 0;
+  std::uint64_t row_hits = 0, row_misses = 0, row_conflicts = 0, refreshes = 0;
+  double bandwidth_gb_s = 0, busy_bandwidth_gb_s = 0, peak_gb_s = 0;
+  double read_latency_mean_ns = 0, read_latency_p50_ns = 0, read_latency_p99_ns = 0;
+  double bus_utilisation = 0;  // of the busiest channel's data bus, 0 to 1
+  double energy_j = 0;
+  std::vector<std::pair<std::string, double>> energy_by_current_set_j, energy_by_region_j;
+};
+
+struct FrameResult {
+  std::uint64_t cycles = 0;
+  double clock_mhz = 0;
+  bool drained = false;  // FIFOs empty, nothing in flight
+  MachineResult machine;
+  MemoryResult memory;
+  std::vector<std::byte> frame;  // the frame buffer as read back from the memory
+  double wall_s = 0;             // elaboration, loading of the memory, simulation
+
+  double time_s() const { return static_cast<double>(cycles) / (clock_mhz * 1e6); }
+};
+
+}  // namespace sgs

@@ -1,0 +1,75 @@
+// Fields of the result, by cereal.
+#include "testbench/result/wire.h"
+
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/utility.hpp>
+#include <cereal/types/vector.hpp>
+#include <sstream>
+
+namespace sgs {
+
+template <class Archive>
+void serialize(Archive& a, ActivityResult& r) {
+  a(r.name, r.resource, r.meaning, r.busy_cycles, r.starved_cycles, r.blocked_cycles);
+}
+template <class Archive>
+void serialize(Archive& a, CounterResult& r) {
+  a(r.name, r.unit, r.meaning, r.value);
+}
+template <class Archive>
+void serialize(Archive& a, UnitResult& r) {
+  a(r.name, r.activities, r.counters);
+}
+template <class Archive>
+void serialize(Archive& a, Amount& r) {
+  a(r.component, r.kind, r.count);
+}
+template <class Archive>
+void serialize(Archive& a, LeftOut& r) {
+  a(r.what, r.why, r.count, r.saves);
+}
+template <class Archive>
+void serialize(Archive& a, SramUse& r) {
+  a(r.name, r.memory, r.bytes, r.arithmetic);
+}
+template <class Archive>
+void serialize(Archive& a, Datapath& r) {
+  a(r.name, r.counts, r.counted_macs, r.published_macs, r.used_macs, r.lanes);
+}
+template <class Archive>
+void serialize(Archive& a, MachineResult& r) {
+  a(r.units, r.operations, r.parts, r.left_out, r.sram_uses, r.sram_available, r.datapaths);
+}
+template <class Archive>
+void serialize(Archive& a, RegionTraffic& r) {
+  a(r.region, r.requester, r.read_bytes, r.written_bytes);
+}
+template <class Archive>
+void serialize(Archive& a, MemoryResult& r) {
+  a(r.bytes, r.bus_bytes, r.traffic, r.bus_bytes_by_region, r.transactions, r.row_hits,
+    r.row_misses, r.row_conflicts, r.refreshes, r.bandwidth_gb_s, r.busy_bandwidth_gb_s,
+    r.peak_gb_s, r.read_latency_mean_ns, r.read_latency_p50_ns, r.read_latency_p99_ns,
+    r.bus_utilisation, r.energy_j, r.energy_by_current_set_j, r.energy_by_region_j);
+}
+template <class Archive>
+void serialize(Archive& a, FrameResult& r) {
+  a(r.cycles, r.clock_mhz, r.drained, r.machine, r.memory, r.frame, r.wall_s);
+}
+
+std::string to_wire(const FrameResult& result) {
+  std::ostringstream out;
+  cereal::BinaryOutputArchive archive(out);
+  archive(result);
+  return out.str();
+}
+
+FrameResult from_wire(const std::string& bytes) {
+  std::istringstream in(bytes);
+  cereal::BinaryInputArchive archive(in);
+  FrameResult result;
+  archive(result);
+  return result;
+}
+
+}  // namespace sgs

@@ -1,0 +1,120 @@
+// streaminggs describe: the data sheets of a machine and the keys of its configuration, as tables
+// in Markdown. The documentation's tables are made by it.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "modules/config/strict_json.h"
+#include "testbench/builtin/open_scene.h"
+#include "testbench/command_line/config_source.h"
+#include "testbench/process/in_child.h"
+#include "testbench/result/collect.h"
+#include "testbench/result/wire.h"
+#include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/prepared_scene.h"
+#include "tlm/time_resolution.h"
+
+namespace sgs {
+namespace {
+
+// "hfu3.coarse" -> "hfuN.coarse": units that are there several times say the same of themselves.
+std::string numberless(std::string name) {
+  std::string out;
+  for (std::size_t at = 0; at < name.size(); ++at) {
+    if (std::isdigit(static_cast<unsigned char>(name[at])) == 0) {
+      out += name[at];
+    } else if (out.empty() || out.back() != 'N') {
+      out += 'N';
+    }
+  }
+  return out;
+}
+
+// Prints each row once.
+class Table {
+ public:
+  explicit Table(const char* head) {
+    const auto columns = std::count(head, head + std::char_traits<char>::length(head), '|') - 1;
+    fmt::print("\n{}\n|", head);
+    for (long c = 0; c < columns; ++c) fmt::print(" --- |");
+    fmt::print("\n");
+  }
+  void row(const std::string& text) {
+    if (printed_.insert(text).second) fmt::print("| {} |\n", text);
+  }
+
+ private:
+  std::set<std::string> printed_;
+};
+
+void print_sheets(const MachineResult& machine) {
+  Table activities("| unit | activity | resource | what it does |");
+  for (const UnitResult& unit : machine.units) {
+    for (const ActivityResult& a : unit.activities) {
+      activities.row(fmt::format("`{}` | `{}` | {} | {} ", numberless(unit.name), a.name,
+                                 a.resource, a.meaning));
+    }
+  }
+  Table counters("| unit | counter | unit of measure | meaning |");
+  for (const UnitResult& unit : machine.units) {
+    for (const CounterResult& c : unit.counters) {
+      counters.row(
+          fmt::format("`{}` | `{}` | {} | {} ", numberless(unit.name), c.name, c.unit, c.meaning));
+    }
+  }
+  Table parts("| component | part | how many |");
+  for (const Amount& part : machine.parts) {
+    parts.row(fmt::format("{} | {} | {:g} ", part.component, part.kind, part.count));
+  }
+  Table work("| component | work |");
+  for (const Amount& amount : machine.operations) {
+    work.row(fmt::format("{} | {} ", amount.component, amount.kind));
+  }
+  Table sram("| on-chip memory | use | bytes | arithmetic |");
+  for (const SramUse& use : machine.sram_uses) {
+    sram.row(fmt::format("{} | {} | {} | {} ", use.memory, use.name, use.bytes, use.arithmetic));
+  }
+}
+
+// Data sheets do not depend on the scene but for whether there is anything to decode.
+MachineResult sheets_of(RunConfig& config) {
+  Scene scene = open_scene("builtin:object?n=64");
+  const Camera camera = scene.cameras.front();
+  config.storage.vq.iterations = 1;
+  const PreparedScene prepared = prepare(std::move(scene), config, {camera});
+  const FrameJob job = config.design->job(prepared.stored, camera);
+  std::string bytes;
+  in_child(
+      "streaminggs",
+      [&] {
+        use_femtosecond_resolution();
+        FrameResult result;
+        result.machine = collect(*config.design->build("accelerator", job, {}));
+        return to_wire(result);
+      },
+      bytes);
+  return from_wire(bytes).machine;
+}
+
+}  // namespace
+
+SubCommand add_describe_command(CLI::App& app, const Kinds& kinds) {
+  auto arguments = std::make_shared<ConfigSource>();
+  arguments->config = kinds.front().name;
+  arguments->add_to(app);
+  return [arguments, &kinds] {
+    RunConfig config = read_run_config(arguments->document(), kinds);
+    resolve(config);
+    const std::unique_ptr<ConfigWriter> keys = make_listing_writer();
+    visit(static_cast<ConfigVisitor&>(*keys), config);
+    fmt::print("```\n{}```\n", keys->text());
+    print_sheets(sheets_of(config));
+    return 0;
+  };
+}
+
+}  // namespace sgs

@@ -1,0 +1,36 @@
+// The command line of streaminggs, for whatever machines there are.
+#include <CLI/CLI.hpp>
+#include <utility>
+#include <vector>
+
+#include "testbench/command_line/program.h"
+#include "testbench/command_line/while_doing.h"
+#include "testbench/streaminggs/commands.h"
+
+namespace sgs {
+
+int run_command_line(int argc, char* argv[], const Kinds& kinds) {
+  CLI::App app{"StreamingGS: a memory-centric 3D Gaussian Splatting accelerator in SystemC TLM-2.0",
+               "streaminggs"};
+  app.require_subcommand(1);
+  std::vector<std::pair<CLI::App*, SubCommand>> commands;
+  const auto add = [&](const char* name, const char* what,
+                       SubCommand (*make)(CLI::App&, const Kinds&)) {
+    CLI::App* command = app.add_subcommand(name, what);
+    commands.emplace_back(command, make(*command, kinds));
+  };
+  add("simulate", "send a scene through the accelerator", add_simulate_command);
+  add("pack", "write the memory image of a scene into a file", add_pack_command);
+  add("render", "write one golden image", add_render_command);
+  add("compare", "PSNR, SSIM and largest error of two images", add_compare_command);
+  add("info", "print what a scene holds", add_info_command);
+  add("describe", "print the data sheets and the configuration of a machine", add_describe_command);
+  return run_program(app, argc, argv, [&] {
+    for (const auto& [command, run] : commands) {
+      if (command->parsed()) return while_doing("running " + command->get_name(), run);
+    }
+    return kBadInput;
+  });
+}
+
+}  // namespace sgs

@@ -1,0 +1,45 @@
+// The three configurations of a run: the machine, how the scene is stored, the memory. One JSON
+// document holds them: `machine` names the kind, whose keys stand beside it; `storage`; `dram`.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algorithm/memory/storage_config.h"
+#include "algorithm/storage/image_file.h"
+#include "modules/config/strict_json.h"
+#include "modules/dram/dram_config.h"
+#include "modules/machine_design.h"
+
+namespace sgs {
+
+struct RunConfig {
+  const std::vector<MachineKind>* kinds = nullptr;
+  std::size_t kind = 0;  // number in `kinds`
+  std::unique_ptr<MachineDesign> design;
+  StorageConfig storage;
+  DramConfig dram;
+  std::vector<AutoChoice> chosen;  // what was left to the model
+
+  const char* machine() const { return (*kinds)[kind].name; }
+};
+
+void visit(ConfigVisitor& v, RunConfig& config);
+
+// The names of the kinds that read scenes stored in this order: "a or b".
+std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order);
+
+// As the document says; what is left to the model is not resolved yet. Throws InputError.
+RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds);
+
+// Makes it the resolved, valid configuration. Throws InputError.
+void resolve(RunConfig& config);
+
+// The same for a packed scene, which brings its storage: takes the place of what the configuration
+// says of it. path: what errors name. Throws InputError when the machine cannot read it.
+void resolve(RunConfig& config, const PackedScene& packed, const std::string& path);
+
+std::string to_json(RunConfig& config);
+
+}  // namespace sgs

@@ -1,0 +1,80 @@
+// Tables of numbers for people.
+#include "testbench/streaminggs/terminal.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace sgs {
+namespace {
+
+// 1234567 -> "1,234,567"
+std::string grouped(std::uint64_t value) {
+  std::string digits = std::to_string(value);
+  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
+  return digits;
+}
+
+// 0.1234 -> "12.3 %"
+std::string percent(double share) {
+  return std::isnan(share) ? "none" : fmt::format("{:.1f} %", 100 * share);
+}
+
+void print_order_loss(const OrderLoss& loss) {
+  fmt::print(
+      "  squared error: missed splats {}, misordered blends {}, encoding {}, pixel format {}\n",
+      percent(loss.missed.share), percent(loss.misordered.share), percent(loss.encoding.share),
+      percent(loss.pixel_format.share));
+}
+
+}  // namespace
+
+void print_table_head() {
+  fmt::print("{:>4} {:>8} {:>8} {:>7} {:>13} {:>7} {:>8} {:>6} {:>8} {:>7} {:>10} {:>5} {:>7}\n",
+             "view", "PSNR dB", "SSIM", "= model", "cycles", "fps", "DRAM MB", "x once", "mJ", "W",
+             "binding", "busy", "wall s");
+}
+
+void print_table_line(const ViewResult& v) {
+  fmt::print(
+      "{:>4} {:>8} {:>8.5f} {:>7} {:>13} {:>7} {:>8.2f} {:>6.2f} {:>8.3f} {:>7.3f} {:>10} "
+      "{:>4.0f}% "
+      "{:>7.2f}\n",
+      v.view, std::isinf(v.psnr_db) ? "equal" : fmt::format("{:.2f}", v.psnr_db), v.ssim,
+      v.equals_golden ? "yes" : "NO", grouped(v.run.cycles),
+      grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
+      static_cast<double>(v.run.memory.bytes) / 1e6, v.once_ratio(), v.energy_j.total * 1e3,
+      v.mean_power_w(), v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
+}
+
+void print_details(const ViewResult& v) {
+  fmt::print("\nview {}: {}\n", v.view, v.binding.explanation);
+  if (v.order_loss) print_order_loss(*v.order_loss);
+  fmt::print("  {:<14} {:>14} {:>14}\n", "DRAM region", "B asked for", "B on the bus");
+  for (const auto& [region, bus_bytes] : v.run.memory.bus_bytes_by_region) {
+    std::uint64_t asked = 0;
+    for (const RegionTraffic& t : v.run.memory.traffic) {
+      if (t.region == region) asked += t.read_bytes + t.written_bytes;
+    }
+    if (asked == 0 && bus_bytes == 0) continue;
+    fmt::print("  {:<14} {:>14} {:>14}\n", region, grouped(asked), grouped(bus_bytes));
+  }
+}
+
+void print_machine(const ViewResult& v, const std::vector<AutoChoice>& chosen,
+                   const std::string& technology) {
+  std::string parts;
+  for (const auto& [component, mm2] : v.area_mm2.by_component) {
+    parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", component, mm2);
+  }
+  fmt::print("\narea {:.2f} mm2 at {}: {}\n", v.area_mm2.total, technology, parts);
+  for (const Datapath& d : v.run.machine.datapaths) {
+    fmt::print("multiply-accumulates of a {} test: {} counted, {} published, {} charged\n", d.name,
+               d.counted_macs, d.published_macs, d.used_macs);
+  }
+  for (const AutoChoice& choice : chosen) {
+    fmt::print("chosen: {} {:g}: {}\n", choice.key, choice.value, choice.why);
+  }
+}
+
+}  // namespace sgs

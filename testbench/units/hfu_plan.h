@@ -1,0 +1,42 @@
+// What an HFU under test is given: shares of visits of a scene; and what must come of them.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "modules/streaminggs/hfu/codebook_config.h"
+#include "modules/streaminggs/hfu/hfu_config.h"
+#include "modules/streaminggs/messages.h"
+#include "testbench/units/random_scene.h"
+
+namespace sgs::tb {
+
+struct HfuPlan {
+  HfuConfig config;
+  CodebookConfig codebook;
+  TestScene scene;
+  std::vector<VisitShare> shares;
+  std::uint32_t sorting_units = 2;
+  std::uint32_t output_entries = 4096;
+  std::uint32_t feedback_cycles = 1;
+  int saturate_one_in = 0;  // 0: never; else how often a reader reports a group as finished
+  std::vector<std::uint64_t> finish_cycles;  // [group] when it is reported; empty: none is
+};
+
+// What must come of one share, slot by slot.
+struct ExpectedShare {
+  std::vector<bool> passes;          // coarse filter
+  std::vector<std::uint32_t> lines;  // of the codebook buffer, of each Gaussian's record
+  std::vector<Splat> splats;
+};
+
+// By the filters' functions, on what the bytes in memory decode to.
+ExpectedShare expect(const HfuPlan& plan, const VisitShare& share);
+
+HfuPlan plan_of(TestScene scene);
+
+// `visits` shares of random slots for each group, then the group's end.
+void add_shares(std::mt19937_64& random, HfuPlan& plan, std::size_t visits, std::uint32_t most);
+
+}  // namespace sgs::tb

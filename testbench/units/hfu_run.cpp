@@ -1,0 +1,209 @@
+// An HFU with everything around it, and the checks of what it did.
+#include "testbench/units/hfu_run.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
+
+#include "algorithm/memory/splat_record.h"
+#include "testbench/units/hfu_timing_model.h"
+#include "testbench/units/random_splats.h"
+
+namespace sgs::tb {
+namespace {
+
+// One share's splats as they came out: all of them, or of a finished group some, in order.
+void check_share(Checks& checks, const HfuPlan& plan, const VisitShare& share,
+                 const std::vector<Splat>& expected, const std::vector<Splat>& got, bool all) {
+  const SubtileRect group = subtiles_of(plan.scene.job.groups[share.group]);
+  const std::string where = fmt::format("visit {}", share.visit);
+  if (all) checks.equal(got.size(), expected.size(), where + ": splats");
+  auto next = expected.begin();
+  for (const Splat& splat : got) {
+    next =
+        std::find_if(next, expected.end(), [&](const Splat& s) { return s.index == splat.index; });
+    if (next == expected.end()) {
+      checks.that(false, fmt::format("{}: a splat of slot {} out of order", where, splat.index));
+      return;
+    }
+    const std::string differs = difference(splat, *next++, group);
+    checks.that(differs.empty(), fmt::format("{}, slot {}: {}", where, splat.index, differs));
+  }
+}
+
+// Those of Gaussians that the fine filter tests.
+std::vector<Splat> of_tested(const std::vector<Splat>& splats, const VisitShare& share,
+                             const std::vector<bool>& tested) {
+  std::vector<Splat> out;
+  std::copy_if(splats.begin(), splats.end(), std::back_inserter(out),
+               [&](const Splat& splat) { return tested[splat.index - share.first]; });
+  return out;
+}
+
+// Null where the scene has none. (Its loading is tb_codebook's.)
+std::unique_ptr<CodebookBuffer> full_codebooks(UnitBench& bench, const HfuPlan& plan) {
+  if (!plan.scene.job.layout.second_half.quantised()) return nullptr;
+  CodebookConfig config = plan.codebook;
+  config.preloaded = true;
+  auto codebooks = std::make_unique<CodebookBuffer>(
+      "codebooks", config, bench.context(plan.scene.job), bench.instant_end(), 1);
+  bench.add_unit(*codebooks);
+  return codebooks;
+}
+
+// Reports groups as finished, each in its cycle.
+void add_feedback(UnitBench& bench, const HfuPlan& plan, FinishedGroups& finished) {
+  bench.add_thread("feedback", [&](Activity&) {
+    std::multimap<std::uint64_t, std::uint32_t> groups;
+    for (std::uint32_t g = 0; g < plan.finish_cycles.size(); ++g) {
+      groups.emplace(plan.finish_cycles[g], g);
+    }
+    for (const auto& [cycle, group] : groups) {
+      bench.clock().wait_cycles(cycle - bench.clock().now_cycles());
+      finished.finish(group);
+    }
+  });
+}
+
+void check_counters(UnitBench& bench, const HfuPlan& plan, const HfuTimes& times, bool exact) {
+  Checks& checks = bench.checks();
+  const bool quantised = plan.scene.job.layout.second_half.quantised();
+  bench.check_operations("coarse", "fp32_mac",
+                         bench.counter("coarse_tests") * plan.config.cfu_macs);
+  bench.check_operations("fine", "fp32_mac", bench.counter("fine_tests") * plan.config.ffu_macs);
+  // First halves, second halves and splats each pass a buffer.
+  const std::uint64_t buffered = bench.bytes_read() + bench.counter("splats") * kSplatEntryBytes;
+  bench.check_operations("buffers", "sram_small_write_bit", 8 * buffered);
+  bench.check_operations("buffers", "sram_small_read_bit", 8 * buffered);
+  if (exact) {
+    bench.check_counter("first_halves", times.first_halves);
+    bench.check_counter("coarse_tests", times.coarse_tests);
+    bench.check_counter("coarse_passed", times.coarse_passed);
+    bench.check_counter("second_halves", times.second_halves);
+    bench.check_counter("fine_tests", times.fine_tests);
+    bench.check_counter("dropped_saturated", times.dropped);
+    checks.equal(bench.busy_cycles("coarse"), times.coarse_busy, "busy cycles, coarse");
+    checks.equal(bench.busy_cycles("fine"), times.fine_busy, "busy cycles, fine");
+    if (!quantised) return;
+    bench.check_counter("records_decoded", times.decoded);
+    bench.check_counter("lines_read", times.decode_busy);
+    bench.check_counter("bank_conflict_cycles", 0);  // of one reader
+    checks.equal(bench.busy_cycles("decode"), times.decode_busy, "busy cycles, decode");
+    return;
+  }
+  checks.that(!quantised || (bench.counter("records_decoded") <= bench.counter("second_halves") &&
+                             bench.counter("records_decoded") >= bench.counter("fine_tests")),
+              "records decoded");
+  checks.that(bench.counter("first_halves") <= times.first_halves &&
+                  bench.counter("second_halves") <= times.second_halves &&
+                  bench.counter("fine_tests") <= times.fine_tests,
+              "more work than there is");
+}
+
+}  // namespace
+
+std::unique_ptr<Hfu> bound_hfu(UnitBench& bench, const HfuPlan& plan, FinishedGroups& finished,
+                               TimedFifo<VisitShare>& shares, const Fifos<SplatToken>& splats,
+                               CodebookBuffer* codebooks) {
+  auto unit =
+      std::make_unique<Hfu>("hfu", plan.config, plan.codebook,
+                            FineFilterPlace{0, Rejects::kDropped}, bench.context(plan.scene.job));
+  auto& candidates = bench.add_fifo<FineCandidate>("candidates", plan.config.candidate_fifo_entries,
+                                                   plan.config.cfu_depth_cycles);
+  unit->coarse.shares(shares);
+  unit->coarse.survivors(candidates);
+  unit->coarse.finished(finished);
+  unit->fine.candidates(candidates);
+  for (TimedFifo<SplatToken>* fifo : splats) unit->fine.splats(*fifo);
+  unit->fine.finished(finished);
+  if (codebooks != nullptr) unit->fine.codebooks(*codebooks);
+  bench.add_unit(*unit);
+  return unit;
+}
+
+void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
+  UnitBench bench(test, bench_config);
+  Checks& checks = bench.checks();
+  bench.load(0, plan.scene.image.bytes);
+  FinishedGroups finished("finished", bench.clock(), plan.scene.job.groups.size(),
+                          plan.feedback_cycles);
+  const bool free_running = bench_config.still() && plan.saturate_one_in == 0;
+  auto& input = bench.add_fifo<VisitShare>(
+      "shares", free_running ? static_cast<std::uint32_t>(plan.shares.size() + 1) : 4, 1);
+  const auto outputs =
+      bench.add_fifos<SplatToken>("to_sorting", plan.sorting_units, plan.output_entries, 1);
+  const std::unique_ptr<CodebookBuffer> codebooks = full_codebooks(bench, plan);
+  const std::unique_ptr<Hfu> unit =
+      bound_hfu(bench, plan, finished, input, outputs, codebooks.get());
+
+  // What the HFU does when nobody tells it that a group is finished, or when that is known.
+  std::vector<ExpectedShare> expected;
+  std::vector<TimedShare> timed;
+  for (const VisitShare& share : plan.shares) {
+    expected.push_back(expect(plan, share));
+    timed.push_back({expected.back().passes, expected.back().lines});
+    if (free_running && !plan.finish_cycles.empty()) {
+      timed.back().finished_from = plan.finish_cycles[share.group] + plan.feedback_cycles;
+    }
+  }
+  std::optional<std::uint32_t> decode_latency;
+  if (codebooks) decode_latency = plan.codebook.latency_cycles;
+  const HfuTimes times = hfu_times(plan.config, timed, bench_config.latency_cycles, decode_latency);
+  std::uint64_t splats = 0;
+  for (std::size_t k = 0; k < plan.shares.size(); ++k) {
+    expected[k].splats = of_tested(expected[k].splats, plan.shares[k], times.tested[k]);
+    splats += expected[k].splats.size();
+  }
+
+  bench.add_thread("vsu", [&](Activity& activity) {
+    for (const VisitShare& share : plan.shares) input.push(share, activity);
+  });
+  add_feedback(bench, plan, finished);
+  for (std::uint32_t s = 0; s < plan.sorting_units; ++s) {
+    bench.add_thread(fmt::format("sorting{}", s), [&, s](Activity& activity) {
+      for (std::size_t k = 0; k < plan.shares.size(); ++k) {
+        const VisitShare& share = plan.shares[k];
+        if (share.visit % plan.sorting_units != s) continue;
+        std::vector<Splat> got;
+        SplatToken token = outputs[s]->pop(activity);
+        for (; token.mark == Mark::kNone; token = outputs[s]->pop(activity)) {
+          checks.equal(token.visit, share.visit, "visit of a splat");
+          checks.equal(token.group, share.group, "group of a splat");
+          got.push_back(token.splat);
+          if (plan.saturate_one_in > 0 &&
+              test.random() % static_cast<unsigned>(plan.saturate_one_in) == 0) {
+            finished.finish(share.group);
+          }
+        }
+        checks.that(
+            token.mark == share.mark && token.visit == share.visit && token.group == share.group,
+            fmt::format("visit {}: its end", share.visit));
+        check_share(checks, plan, share, expected[k].splats, got,
+                    free_running || !finished.finished(share.group));
+        if (free_running) {
+          // One cycle for the FIFO.
+          checks.equal(bench.clock().now_cycles(), times.shares_done[k] + 1,
+                       fmt::format("visit {}: cycle of its end", share.visit));
+        }
+      }
+    });
+  }
+  bench.run();
+
+  checks.equal(unit->coarse.counters().visits, plan.shares.size(), "shares");
+  checks.equal(unit->coarse.memory.bytes_read(), bench.counter("first_halves") * kFirstHalfBytes,
+               "bytes read of first halves");
+  checks.equal(unit->fine.memory.bytes_read(),
+               bench.counter("second_halves") * plan.scene.job.layout.second_half.bytes(),
+               "bytes read of second halves");
+  bool any_finished = false;
+  for (std::uint32_t g = 0; g < plan.scene.job.groups.size(); ++g) {
+    any_finished = any_finished || finished.finished(g);
+  }
+  const bool exact = free_running || !any_finished;
+  check_counters(bench, plan, times, exact);
+  if (exact) bench.check_counter("splats", splats);
+}
+
+}  // namespace sgs::tb

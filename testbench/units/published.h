@@ -1,0 +1,48 @@
+// What units say of themselves, for the checks at the end of a case.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tlm/data_sheet.h"
+
+namespace sgs::tb {
+
+class Published : public DataSheet {
+ public:
+  void activity(Activity& activity, const char* resource, const char*) override {
+    activities.push_back(&activity);
+    activity_of_[resource] = &activity;
+  }
+  void counter(const char* name, const char*, const char*, std::uint64_t value) override {
+    counters_[name] += value;
+  }
+  void operations(const char* component, const char* kind, double count) override {
+    operations_[std::string(component) + " " + kind] += count;
+  }
+  void queue(FifoChannel& queue) override { queues.push_back(&queue); }
+  void port(MemoryPort& port) override { ports.push_back(&port); }
+
+  std::vector<Activity*> activities;
+  std::vector<FifoChannel*> queues;
+  std::vector<MemoryPort*> ports;
+
+  // std::out_of_range when nobody publishes it. Counters and operations are added up over the
+  // units, as they were when they were published.
+  std::uint64_t busy_cycles(const std::string& resource) const {
+    return activity_of_.at(resource)->busy_cycles();
+  }
+  std::uint64_t counter(const std::string& name) const { return counters_.at(name); }
+  double operations(const std::string& component, const std::string& kind) const {
+    return operations_.at(component + " " + kind);
+  }
+
+ private:
+  std::map<std::string, const Activity*> activity_of_;  // [resource], which has only one here
+  std::map<std::string, std::uint64_t> counters_;
+  std::map<std::string, double> operations_;
+};
+
+}  // namespace sgs::tb

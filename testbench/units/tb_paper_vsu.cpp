@@ -1,0 +1,303 @@
+// Voxel sorting unit in paper order, alone: the voxel table in memory, visits out to several HFUs.
+// Checked against paper_visits on the grid itself; times against the rays' steps counted there.
+#include <algorithm>
+
+#include "algorithm/render/paper_renderer.h"
+#include "modules/streaminggs/vsu/paper_vsu.h"
+#include "testbench/units/case_runner.h"
+#include "testbench/units/job_memory.h"
+#include "testbench/units/random_scene.h"
+#include "testbench/units/reported_groups.h"
+#include "testbench/units/unit_bench.h"
+
+namespace sgs::tb {
+namespace {
+
+struct Plan {
+  PaperVsuConfig config;
+  TestScene scene;
+  std::uint32_t hfus = 4;
+  std::uint32_t fifo_entries = kVisitFifoEntries;
+  std::uint32_t feedback_cycles = 1;
+  int saturate_one_in = 0;       // 0: never; else how often a reader reports a group as finished
+  bool finished_before = false;  // all groups are reported before the first visit
+};
+
+Plan plan_of(TestScene scene) {
+  Plan plan;
+  plan.scene = std::move(scene);
+  plan.config.table_bytes = 1U << 20U;
+  return plan;
+}
+
+constexpr std::uint64_t kLineBytes = 64;  // of VSU's caches
+
+std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
+
+// The grid in memory, for the same traversal without any time.
+struct GridTable {
+  const VoxelGrid& grid;
+  VoxelNode node(std::uint32_t index) const { return grid.nodes[index]; }
+};
+
+struct Expected {
+  std::vector<GroupVisits> groups;
+  std::uint64_t traverse_cycles = 0;
+  std::uint64_t first_group_cycles = 0;
+  std::uint64_t visits = 0, empty = 0, rays = 0, steps = 0, edges = 0, table_bytes_max = 0;
+};
+
+Expected expect(const Plan& plan) {
+  Expected out;
+  const VoxelGrid& grid = plan.scene.grid;
+  OrderingTable table(grid.voxels.size());
+  for (const PixelRect& group : plan.scene.job.groups) {
+    const auto step = static_cast<float>(plan.config.sample_step_voxels);
+    const GroupVisits visits = paper_visits(plan.scene.job.view, group, grid, step, table);
+    if (!grid.nodes.empty()) {
+      const auto count = [&](std::uint32_t steps, std::size_t edges) {
+        out.traverse_cycles += std::max(ceil_div(steps, plan.config.steps_per_cycle),
+                                        ceil_div(edges, plan.config.edges_per_cycle));
+      };
+      const GridTable nodes{grid};
+      if (step > 0) {
+        RaySampling sampling(grid.frame, nodes, step);
+        group_visits(plan.scene.job.view, group, sampling, table, count);
+      } else {
+        RayWalk walk(grid.frame, nodes);
+        group_visits(plan.scene.job.view, group, walk, table, count);
+      }
+      out.traverse_cycles += table.voxel_count() + table.edge_count();
+    }
+    if (out.groups.empty()) out.first_group_cycles = out.traverse_cycles;
+    out.visits += visits.voxels.size();
+    out.empty += visits.voxels.empty() ? 1 : 0;
+    out.rays += visits.rays;
+    out.steps += visits.steps;
+    out.edges += visits.edges_offered;
+    out.table_bytes_max = std::max(out.table_bytes_max, visits.table_bytes);
+    out.groups.push_back(visits);
+  }
+  return out;
+}
+
+// All shares of one visit or of one end-of-group mark, put together.
+struct Received {
+  std::vector<VisitShare> shares;  // [HFU]
+  std::uint64_t cycle = 0;         // of the last
+};
+
+void check_visit(Checks& checks, const Plan& plan, std::uint32_t number, const Received& got,
+                 std::uint32_t group, std::uint32_t voxel) {
+  const VoxelRecord& record = plan.scene.grid.voxels[voxel];
+  std::uint32_t sum = 0, at = record.first;
+  for (std::uint32_t k = 0; k < plan.hfus; ++k) {
+    const VisitShare& share = got.shares[(k + number) % plan.hfus];
+    checks.equal(share.visit, number, "number of a visit");
+    checks.equal(share.group, group, fmt::format("visit {}: group", number));
+    checks.that(share.mark == Mark::kEndOfVisit, fmt::format("visit {}: mark", number));
+    if (share.count > 0) {
+      checks.equal(share.first, at, fmt::format("visit {}: begin of share {}", number, k));
+      const bool last = sum + share.count == record.count;
+      checks.that(last || share.count >= plan.config.min_share,
+                  fmt::format("visit {}: share {} of {} is too small", number, k, share.count));
+    }
+    at += share.count;
+    sum += share.count;
+  }
+  checks.equal(sum, record.count, fmt::format("visit {}: Gaussians of voxel {}", number, voxel));
+}
+
+// Every group's visits in the expected order (of a finished group, the first of them), then its
+// end.
+void check_stream(UnitBench& bench, const Plan& plan, const Expected& expected,
+                  const std::vector<Received>& received, const ReportedGroups& finished) {
+  Checks& checks = bench.checks();
+  std::uint32_t number = 0;
+  std::uint64_t left_out = 0;
+  for (std::uint32_t group = 0; group < expected.groups.size(); ++group) {
+    const std::vector<std::uint32_t>& voxels = expected.groups[group].voxels;
+    std::size_t visit = 0;
+    std::vector<std::uint64_t> cycles;
+    for (; number < received.size(); ++number, ++visit) {
+      const Received& got = received[number];
+      if (got.shares[0].mark == Mark::kEndOfGroup) break;
+      checks.that(visit < voxels.size(), fmt::format("group {}: too many visits", group));
+      if (visit < voxels.size()) check_visit(checks, plan, number, got, group, voxels[visit]);
+      cycles.push_back(got.cycle);
+    }
+    if (bench.without_stalls()) check_feedback(checks, finished, group, cycles, voxels.size());
+    if (!finished.finished(group)) {
+      checks.equal(visit, voxels.size(), fmt::format("group {}: visits", group));
+    }
+    left_out += voxels.size() - std::min(visit, voxels.size());
+    checks.that(number < received.size(), fmt::format("group {}: no end", group));
+    if (number == received.size()) return;
+    for (const VisitShare& end : received[number].shares) {
+      checks.that(end.mark == Mark::kEndOfGroup && end.group == group && end.visit == number &&
+                      end.count == 0,
+                  fmt::format("group {}: end", group));
+    }
+    ++number;
+  }
+  checks.equal(number, received.size(), "visits and ends");
+  bench.check_counter("visits_saturated", left_out);
+  checks.equal(bench.counter("visits") + left_out, expected.visits, "visits accounted for");
+}
+
+void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
+  const Expected expected = expect(plan);
+  UnitBench bench(test, bench_config);
+  Checks& checks = bench.checks();
+  bench.load(0, plan.scene.image.bytes);
+  ReportedGroups finished(bench.clock(), plan.scene.job.groups.size(), plan.feedback_cycles);
+  for (std::uint32_t g = 0; plan.finished_before && g < plan.scene.job.groups.size(); ++g) {
+    finished.finish(g);
+  }
+  const auto shares = bench.add_fifos<VisitShare>("to_hfu", plan.hfus, plan.fifo_entries, 1);
+  PaperVsu unit("vsu", plan.config, bench.context(plan.scene.job));
+  for (TimedFifo<VisitShare>* fifo : shares) unit.shares(*fifo);
+  unit.finished(finished.channel);
+  bench.add_unit(unit);
+
+  std::vector<Received> received;
+  std::uint64_t first_end_cycle = 0;
+  for (std::uint32_t h = 0; h < plan.hfus; ++h) {
+    bench.add_thread(fmt::format("hfu{}", h), [&, h](Activity& activity) {
+      std::size_t at = 0;
+      for (std::size_t ends = 0; ends < plan.scene.job.groups.size(); ++at) {
+        const VisitShare share = shares[h]->pop(activity);
+        if (at == received.size()) received.push_back({std::vector<VisitShare>(plan.hfus), 0});
+        received[at].shares[h] = share;
+        received[at].cycle = bench.clock().now_cycles();
+        if (share.mark == Mark::kEndOfGroup && ends++ == 0 && h == 0) {
+          first_end_cycle = bench.clock().now_cycles();
+        }
+        if (plan.saturate_one_in > 0 &&
+            test.random() % static_cast<unsigned>(plan.saturate_one_in) == 0) {
+          finished.finish(share.group);
+        }
+      }
+    });
+  }
+  bench.run();
+  check_stream(bench, plan, expected, received, finished);
+
+  const std::uint64_t visits = bench.counter("visits");
+  if (plan.finished_before) checks.equal(visits, 0U, "visits of finished groups");
+  bench.check_counter("rays", expected.rays);
+  bench.check_counter("steps", expected.steps);
+  bench.check_counter("edges", expected.edges);
+  constexpr std::uint64_t kMacsOfAStep = 6;
+  bench.check_operations("vsu", "fp32_mac", expected.steps * kMacsOfAStep);
+  bench.check_counter("groups_empty", expected.empty);
+  bench.check_counter("ordering_table_bytes_max", expected.table_bytes_max);
+  checks.equal(bench.busy_cycles("vsu"), expected.traverse_cycles, "busy cycles of the traversal");
+  checks.equal(bench.busy_cycles("visits"), visits + expected.groups.size(),
+               "busy cycles of handing out");
+  // A line a miss.
+  const std::uint64_t node_misses = unit.node_memory.transactions();
+  const std::uint64_t record_misses = unit.record_memory.transactions();
+  checks.equal(bench.counter("node_cache_misses"), node_misses, "misses of the tree's cache");
+  checks.equal(bench.counter("record_cache_misses"), record_misses, "misses of the voxels' cache");
+  checks.that(bench.bytes_read() <= kLineBytes * (node_misses + record_misses),
+              "bytes read: more than a line a miss");
+  // A cache that holds all of the tree fetches each of its lines once.
+  const std::uint64_t tree_bytes = plan.scene.grid.nodes.size() * sizeof(VoxelNode);
+  if (tree_bytes <= plan.config.node_cache_bytes) {
+    checks.that(node_misses <= ceil_div(tree_bytes, kLineBytes), "lines of the tree fetched again");
+  }
+  if (bench_config.still() && plan.scene.job.groups.size() == 1) {
+    // Steps, misses, one cycle to the other thread, a cycle and a record's miss a visit (waits for
+    // room aside), one cycle for the end, one for the FIFO.
+    checks.equal(first_end_cycle,
+                 expected.first_group_cycles + node_misses * bench_config.latency_cycles + 1 +
+                     visits + record_misses * bench_config.latency_cycles + 1 + 1,
+                 "end of the group at HFU 0");
+  }
+}
+
+BenchConfig still_bench(const Plan& plan) {
+  BenchConfig config;
+  config.memory_bytes = memory_bytes(plan.scene.job);
+  return config;
+}
+
+void directed(Case& test, const SceneShape& shape) {
+  const Plan plan = plan_of(random_scene(test.random, shape));
+  run_plan(test, still_bench(plan), plan);
+}
+
+void random_case(Case& test) {
+  std::mt19937_64& random = test.random;
+  Plan plan = plan_of(random_scene(random, random_shape(random)));
+  plan.hfus = 1 + static_cast<std::uint32_t>(random() % 6);
+  plan.fifo_entries = 1 + static_cast<std::uint32_t>(random() % 6);
+  plan.config.steps_per_cycle = 1 + static_cast<std::uint32_t>(random() % 5);
+  plan.config.edges_per_cycle = 1 + static_cast<std::uint32_t>(random() % 2);
+  plan.config.groups_ahead = 1 + static_cast<std::uint32_t>(random() % 3);
+  plan.config.node_cache_bytes = 256U << (random() % 5);
+  plan.config.record_cache_bytes = 256U << (random() % 3);
+  plan.config.min_share = 2 + static_cast<std::uint32_t>(random() % 40);
+  plan.config.sample_step_voxels = random() % 4 == 0 ? 0.5 : 0;
+  plan.saturate_one_in = random() % 3 == 0 ? 5 : 0;
+  plan.feedback_cycles = 1 + static_cast<std::uint32_t>(random() % 40);
+  run_plan(test, random_bench(random, memory_bytes(plan.scene.job)), plan);
+}
+
+}  // namespace
+}  // namespace sgs::tb
+
+int sc_main(int argc, char* argv[]) {
+  using namespace sgs;
+  using namespace sgs::tb;
+  CaseRunner runner("tb_paper_vsu",
+                    "Voxel sorting unit in paper order, against the order of each group's rays");
+  SceneShape shape;
+  runner.add_directed("several groups", [=](Case& test) { directed(test, shape); });
+  SceneShape empty = shape;
+  empty.gaussians = 0;
+  runner.add_directed("empty scene", [=](Case& test) { directed(test, empty); });
+  SceneShape one = shape;
+  one.gaussians = 1;
+  runner.add_directed("one Gaussian", [=](Case& test) { directed(test, one); });
+  SceneShape crowded = shape;
+  crowded.voxel_size = 100;
+  runner.add_directed("voxels that hold an eighth of all",
+                      [=](Case& test) { directed(test, crowded); });
+  SceneShape fine = shape;
+  fine.voxel_size = 0.001F;
+  runner.add_directed("a voxel for each Gaussian", [=](Case& test) { directed(test, fine); });
+  SceneShape pixel = shape;
+  pixel.width_px = pixel.height_px = 1;
+  runner.add_directed("1x1 frame", [=](Case& test) { directed(test, pixel); });
+  SceneShape whole = shape;
+  whole.group_px = 64;
+  runner.add_directed("group larger than the frame", [=](Case& test) { directed(test, whole); });
+  runner.add_directed("a group that is finished at once", [=](Case& test) {
+    Plan plan = plan_of(random_scene(test.random, whole));
+    plan.saturate_one_in = 1;
+    plan.fifo_entries = 1;
+    run_plan(test, still_bench(plan), plan);
+  });
+  runner.add_directed("groups finished before they begin", [=](Case& test) {
+    Plan plan = plan_of(random_scene(test.random, shape));
+    plan.finished_before = true;
+    run_plan(test, still_bench(plan), plan);
+  });
+  runner.add_directed("ordering table over its bytes", [=](Case& test) {
+    Plan plan = plan_of(random_scene(test.random, whole));
+    plan.config.table_bytes = 8;
+    // Recorded rather than thrown: an exception through a process's stack upsets AddressSanitizer.
+    static std::string refusal;
+    sc_core::sc_report_handler::set_handler(
+        [](const sc_core::sc_report& report, const sc_core::sc_actions&) {
+          refusal += report.get_msg();
+        });
+    run_plan(test, still_bench(plan), plan);
+    test.checks.that(refusal.find("vsu.table_bytes is 8") != std::string::npos,
+                     "no refusal, but: " + refusal);
+  });
+  runner.set_random(random_case);
+  return runner.run(argc, argv);
+}

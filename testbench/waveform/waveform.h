@@ -1,0 +1,35 @@
+// A waveform whose every byte is accounted for.
+#pragma once
+
+#include <systemc>
+#include <thread>
+
+#include "algorithm/output_file.h"
+
+namespace sgs {
+
+// SystemC's own file reports no error when the disk is full. Here it writes into a pipe, from which
+// a thread takes the bytes to `to`, which whoever made it commits. Time unit: 1 ps.
+class Waveform {
+ public:
+  // Throws std::runtime_error when the pipe cannot be made.
+  explicit Waveform(OutputFile& to);
+  ~Waveform();
+  Waveform(const Waveform&) = delete;
+  Waveform& operator=(const Waveform&) = delete;
+
+  // For sc_trace(), before the simulation begins.
+  sc_core::sc_trace_file* file() const { return file_; }
+
+  // Ends the waveform at this moment. Throws std::runtime_error when it could not be written whole.
+  void close();
+
+ private:
+  void end();
+
+  OutputFile& to_;
+  sc_core::sc_trace_file* file_ = nullptr;
+  std::thread copier_;
+};
+
+}  // namespace sgs

@@ -1,0 +1,226 @@
+// What lies where: regions apart from each other, the tables of each order, and the places that
+// scenes have always been stored at.
+#include "algorithm/memory/scene_layout.h"
+
+#include <catch2/catch.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algorithm/memory/frame_buffer.h"
+#include "algorithm/voxel/chunk_node.h"
+
+namespace sgs {
+namespace {
+
+using Encoding = SecondHalfEncoding;
+
+TEST_CASE("regions: one behind the other, on rows of 4 KiB, whatever is empty") {
+  Regions regions;
+  CHECK(regions.total_bytes() == 0);
+  CHECK(regions.next_base() == 0);
+  const std::vector<std::pair<std::uint64_t, std::uint64_t>> size_and_base = {
+      {0, 0}, {1, 0}, {0, 4096}, {4096, 4096}, {4097, 8192}, {8192, 16384}, {1ULL << 40, 24576}};
+  for (const auto& [bytes, base] : size_and_base) {
+    const RegionSpan span = regions.add("r" + std::to_string(regions.size()), bytes);
+    CHECK(span.region + 1U == regions.size());
+    CHECK(span.base == base);
+    CHECK(span.bytes == bytes);
+    CHECK(regions[span.region].base == base);
+    CHECK(regions[span.region].bytes == bytes);
+    CHECK(regions[span.region].name == "r" + std::to_string(span.region));
+    CHECK(regions.total_bytes() == base + bytes);
+  }
+  CHECK(regions.next_base() == 24576 + (1ULL << 40));
+}
+
+TEST_CASE("regions: names are told apart, and so are as many as a transaction can name") {
+  Regions regions;
+  regions.add("spill", 1);
+  CHECK_THROWS_AS(regions.add("spill", 1), std::invalid_argument);
+  while (regions.size() < 256) regions.add(std::to_string(regions.size()), 1);
+  CHECK_THROWS_AS(regions.add("one more", 1), std::length_error);
+  CHECK(regions.size() == 256);
+}
+
+TEST_CASE("regions: addresses are base plus record size times number, beyond 4 GiB too") {
+  const RegionSpan span{3, 12288, 1ULL << 40};
+  const RecordArray records = span.records(4096, 76, 4000000001);
+  CHECK(records.region == 3);
+  CHECK(records.address(0) == 16384);
+  CHECK(records.address(7) == 16384 + 7 * 76);
+  CHECK(records.address(4000000000U) == 16384 + std::uint64_t{4000000000U} * 76);
+  CHECK(records.end() == records.address(4000000000U) + 76);
+  CHECK(records.bytes() == 4000000001ULL * 76);
+  const RegionSpan part = span.part(4096, 512);
+  CHECK(part.region == 3);
+  CHECK(part.base == 16384);
+  CHECK(part.end() == 16384 + 512);
+}
+
+// DRAM timing follows from where things lie, so the places are held fast.
+struct Place {
+  const char* name;
+  std::uint64_t base, bytes;
+};
+struct Stored {
+  const char* what;
+  SceneLayout layout;
+  std::uint64_t spill_bytes, pixels;  // of a frame in rgb8
+  std::vector<Place> places;
+};
+
+TEST_CASE("scene layout: every region where it has always been") {
+  const SecondHalfFormat raw{Encoding::kRaw, 3, {}};
+  const SecondHalfFormat vq{Encoding::kVq, 3, {4096, 4096, 4096, 512}};
+  const VoxelFrame frame{2, {1, 2, 3}, 4};
+  const std::vector<Stored> all = {
+      {"chunks, raw",
+       lay_out_chunks(raw, 251234, 2305, 16123),
+       14123456,
+       640 * 360,
+       {{"first_halves", 0, 4019744},
+        {"second_halves", 4022272, 55271480},
+        {"codebooks", 59297792, 0},
+        {"chunk_table", 59297792, 295040},
+        {"indices", 59596800, 1004936},
+        {"spill", 60604416, 14123456},
+        {"frame_buffer", 74731520, 691200}}},
+      {"chunks, vq",
+       lay_out_chunks(vq, 251234, 2305, 16123),
+       14123456,
+       640 * 360,
+       {{"first_halves", 0, 4019744},
+        {"second_halves", 4022272, 4270978},
+        {"codebooks", 8294400, 256000},
+        {"chunk_table", 8552448, 295040},
+        {"indices", 8851456, 1004936},
+        {"spill", 9859072, 14123456},
+        {"frame_buffer", 23986176, 691200}}},
+      {"chunks, vq_packed, no SH",
+       lay_out_chunks({Encoding::kVqPacked, 0, {4096, 4000, 17, 0}}, 251234, 2305, 16123),
+       1,
+       640 * 360 + 1,
+       {{"first_halves", 0, 4019744},
+        {"second_halves", 4022272, 2009872},
+        {"codebooks", 6033408, 113356},
+        {"chunk_table", 6148096, 295040},
+        {"indices", 6447104, 1004936},
+        {"spill", 7454720, 1},
+        {"frame_buffer", 7458816, 691203}}},
+      {"chunks, half, whole rows",
+       lay_out_chunks({Encoding::kHalf, 1, {}}, 256, 32, 16),
+       0,
+       1024,
+       {{"first_halves", 0, 4096},
+        {"second_halves", 4096, 9728},
+        {"codebooks", 16384, 0},
+        {"chunk_table", 16384, 4096},
+        {"indices", 20480, 1024},
+        {"spill", 24576, 0},
+        {"frame_buffer", 24576, 3072}}},
+      {"voxels, vq",
+       lay_out_voxels(vq, 1763452, frame, 901, 30011),
+       1410240,
+       640 * 360,
+       {{"voxel_table", 0, 254504},
+        {"first_halves", 258048, 28215232},
+        {"second_halves", 28475392, 29978684},
+        {"codebooks", 58458112, 256000},
+        {"spill", 58716160, 1410240},
+        {"frame_buffer", 60129280, 691200}}},
+      {"voxels, raw",
+       lay_out_voxels({Encoding::kRaw, 2, {}}, 1763452, frame, 901, 30011),
+       1410240,
+       1280 * 720,
+       {{"voxel_table", 0, 254504},
+        {"first_halves", 258048, 28215232},
+        {"second_halves", 28475392, 239829472},
+        {"codebooks", 268308480, 0},
+        {"spill", 268308480, 1410240},
+        {"frame_buffer", 269721600, 2764800}}},
+      {"nothing, by voxels",
+       lay_out_voxels({}, 0, {}, 0, 0),
+       0,
+       100,
+       {{"voxel_table", 0, 0},
+        {"first_halves", 0, 0},
+        {"second_halves", 0, 0},
+        {"codebooks", 0, 0},
+        {"spill", 0, 0},
+        {"frame_buffer", 0, 300}}},
+      {"nothing, by chunks",
+       lay_out_chunks({}, 0, 0, 0),
+       0,
+       100,
+       {{"first_halves", 0, 0},
+        {"second_halves", 0, 0},
+        {"codebooks", 0, 0},
+        {"chunk_table", 0, 0},
+        {"indices", 0, 0},
+        {"spill", 0, 0},
+        {"frame_buffer", 0, 300}}}};
+  for (const Stored& stored : all) {
+    INFO(stored.what);
+    Regions regions = stored.layout.regions;
+    CHECK(stored.layout.stored_bytes == stored.places[regions.size()].base);
+    regions.add("spill", stored.spill_bytes);
+    regions.add_records("frame_buffer", pixel_bytes(FrameFormat::kRgb8), stored.pixels);
+    REQUIRE(regions.size() == stored.places.size());
+    for (std::size_t id = 0; id < regions.size(); ++id) {
+      const Region& region = regions[static_cast<RegionId>(id)];
+      INFO(region.name);
+      CHECK(region.name == stored.places[id].name);
+      CHECK(region.base == stored.places[id].base);
+      CHECK(region.bytes == stored.places[id].bytes);
+    }
+  }
+}
+
+// A table's records lie in its region, and carry its number.
+void check_in(const Regions& regions, const char* name, const RecordArray& records) {
+  INFO(name);
+  const Region& region = regions[records.region];
+  CHECK(region.name == name);
+  CHECK(records.base >= region.base);
+  CHECK(records.end() <= region.end());
+}
+
+TEST_CASE("scene layout: tables and records lie in the regions that they name") {
+  const SecondHalfFormat format{Encoding::kVqPacked, 1, {16, 8, 4, 2}};
+  const SceneLayout voxels = lay_out_voxels(format, 1000, {0.5F, {-1, 0, 7}, 3}, 5, 40);
+  CHECK(voxels.order() == StorageOrder::kVoxels);
+  CHECK(voxels.gaussian_count() == 1000);
+  CHECK(voxels.sh_degree() == 1);
+  const VoxelTableLayout& grid = voxels.voxel_table();
+  check_in(voxels.regions, "voxel_table", grid.nodes);
+  check_in(voxels.regions, "voxel_table", grid.voxels);
+  CHECK(grid.nodes.address(3) == 3 * sizeof(VoxelNode));
+  CHECK(grid.voxels.address(2) == 5 * 16 + 2 * 8);
+  CHECK(grid.frame.voxel_size == 0.5F);
+  CHECK_THROWS_AS(voxels.chunk_table(), std::bad_variant_access);
+
+  const SceneLayout chunks = lay_out_chunks(format, 1000, 9, 63);
+  CHECK(chunks.order() == StorageOrder::kChunks);
+  const ChunkTableLayout& tree = chunks.chunk_table();
+  check_in(chunks.regions, "chunk_table", tree.nodes);
+  check_in(chunks.regions, "indices", tree.indices);
+  CHECK(tree.nodes.record_bytes == sizeof(ChunkNode));
+  CHECK(tree.nodes.count == 9);
+  CHECK(tree.chunk_count == 63);
+  CHECK(tree.indices.count == 1000);
+  CHECK_THROWS_AS(chunks.voxel_table(), std::bad_variant_access);
+  for (const SceneLayout& layout : {voxels, chunks}) {
+    check_in(layout.regions, "first_halves", layout.first_halves);
+    check_in(layout.regions, "second_halves", layout.second_halves);
+    CHECK(layout.first_halves.record_bytes == kFirstHalfBytes);
+    CHECK(layout.second_halves.record_bytes == format.bytes());
+    CHECK(layout.regions[layout.codebooks.region].name == "codebooks");
+    CHECK(layout.codebooks.bytes == format.codebook_bytes());
+    CHECK(layout.stored_bytes == layout.regions.next_base());
+  }
+}
+
+}  // namespace
+}  // namespace sgs

@@ -1,0 +1,66 @@
+// Every byte of a scene where its layout says.
+#include "algorithm/storage/build_memory_image.h"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "algorithm/splat/activate.h"
+#include "testbench/builtin/open_scene.h"
+
+namespace sgs {
+namespace {
+
+ActivatedCloud object_2k() { return activate(open_scene("builtin:object?n=2000").cloud); }
+
+template <class Record>
+void check_table(const MemoryImage& image, const RecordArray& table,
+                 const std::vector<Record>& expected) {
+  REQUIRE(table.count == expected.size());
+  REQUIRE(table.record_bytes == sizeof(Record));
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    REQUIRE(std::memcmp(image.at(table.address(i)), &expected[i], sizeof(Record)) == 0);
+  }
+}
+
+void check_records(const MemoryImage& image, const ActivatedCloud& cloud,
+                   const std::vector<std::uint32_t>& storage_order) {
+  const SceneLayout& layout = image.layout;
+  REQUIRE(layout.gaussian_count() == storage_order.size());
+  REQUIRE(image.bytes.size() == layout.stored_bytes);
+  for (std::uint32_t slot = 0; slot < layout.gaussian_count(); ++slot) {
+    const std::uint32_t index = storage_order[slot];
+    const Gaussian<float>& g = cloud.gaussians[index];
+    const FirstHalf first = decode_first_half(image.at(layout.first_halves.address(slot)));
+    const DecodedGaussian back =
+        decode_raw_second_half(first, image.at(layout.second_halves.address(slot)), 3);
+    REQUIRE(std::memcmp(&back.gaussian, &g, sizeof g) == 0);
+    REQUIRE(std::memcmp(back.sh, cloud.sh(index), 16 * sizeof(glm::vec3)) == 0);
+  }
+}
+
+TEST_CASE("memory image: every record lies at its address, by voxels and by chunks") {
+  const ActivatedCloud cloud = object_2k();
+  const VoxelGrid grid = build_voxel_grid(cloud, 0.4F);
+  const MemoryImage by_voxels = build_memory_image(encode_raw(cloud), grid);
+  check_records(by_voxels, cloud, grid.storage_order);
+  check_table(by_voxels, by_voxels.layout.voxel_table().nodes, grid.nodes);
+  check_table(by_voxels, by_voxels.layout.voxel_table().voxels, grid.voxels);
+
+  const ChunkTree tree = build_chunk_tree(cloud, 16);
+  const MemoryImage by_chunks = build_memory_image(encode_raw(cloud), tree);
+  check_records(by_chunks, cloud, tree.storage_order);
+  check_table(by_chunks, by_chunks.layout.chunk_table().nodes, tree.nodes);
+  check_table(by_chunks, by_chunks.layout.chunk_table().indices, tree.storage_order);
+  CHECK(by_chunks.layout.chunk_table().chunk_count == tree.chunk_count);
+}
+
+TEST_CASE("memory image: an empty scene has no bytes") {
+  for (const MemoryImage& image : {build_memory_image(EncodedCloud{}, VoxelGrid{}),
+                                   build_memory_image(EncodedCloud{}, ChunkTree{})}) {
+    CHECK(image.bytes.empty());
+    CHECK(image.layout.gaussian_count() == 0);
+  }
+}
+
+}  // namespace
+}  // namespace sgs

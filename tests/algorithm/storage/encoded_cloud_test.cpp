@@ -1,0 +1,176 @@
+// Whole scenes in each encoding: what `decoded` holds is what the bytes decode to, to the bit.
+#include "algorithm/storage/encoded_cloud.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "algorithm/scene/gaussian_cloud.h"
+#include "algorithm/splat/activate.h"
+#include "algorithm/splat/make_splat.h"
+#include "algorithm/storage/build_memory_image.h"
+#include "tests/algorithm/render/test_clouds.h"
+
+namespace sgs {
+namespace {
+
+using Encoding = SecondHalfEncoding;
+
+ActivatedCloud cloud_of(unsigned seed, std::size_t count, int degree) {
+  return activate(test::random_cloud(seed, count, degree, {0, 0, 0}, 3, 0.01F, 1));
+}
+
+VqConfig small_config() {
+  VqConfig config;
+  config.scale_entries = config.rotation_entries = config.dc_entries = config.sh_entries = 32;
+  config.iterations = 3;
+  return config;
+}
+
+EncodedCloud encode(const ActivatedCloud& cloud, Encoding encoding) {
+  if (encoding == Encoding::kRaw) return encode_raw(cloud);
+  if (encoding == Encoding::kHalf) return encode_half(cloud);
+  const std::vector<float> weights(cloud.size(), 1.0F);
+  return encode_quantised(
+      cloud, quantise(cloud, weights, std::vector<float>(cloud.size(), 0.0F), small_config()),
+      encoding);
+}
+
+constexpr Encoding kAll[] = {Encoding::kRaw, Encoding::kHalf, Encoding::kVq, Encoding::kVqPacked};
+
+// Every record, as written, decodes to `decoded`; means and largest scales are the original's.
+void check_scene(const ActivatedCloud& cloud, Encoding encoding) {
+  INFO("encoding " << static_cast<int>(encoding) << ", " << cloud.size() << " Gaussians of degree "
+                   << cloud.sh_degree);
+  const EncodedCloud encoded = encode(cloud, encoding);
+  CHECK(encoded.format.encoding == encoding);
+  CHECK(encoded.format.sh_degree == cloud.sh_degree);
+  CHECK(encoded.codebooks.size() == encoded.format.codebook_bytes());
+  REQUIRE(encoded.decoded.size() == cloud.size());
+  const auto coeffs = static_cast<std::size_t>(sh_coeff_count(cloud.sh_degree));
+  REQUIRE(encoded.decoded.sh_coeffs.size() == cloud.size() * coeffs);
+  std::vector<std::byte> record(encoded.format.bytes() + 1, std::byte{0x5a});
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::byte first[kFirstHalfBytes], decoded_first[kFirstHalfBytes];
+    encode_first_half(cloud.gaussians[i], first);
+    encode_first_half(encoded.decoded.gaussians[i], decoded_first);
+    REQUIRE(std::memcmp(first, decoded_first, kFirstHalfBytes) == 0);
+    encoded.write_second_half(i, record.data());
+    REQUIRE(record.back() == std::byte{0x5a});
+    const DecodedGaussian back = decode_second_half(encoded.format, decode_first_half(first),
+                                                    record.data(), encoded.codebooks.data());
+    REQUIRE(std::memcmp(&back.gaussian, &encoded.decoded.gaussians[i], sizeof back.gaussian) == 0);
+    REQUIRE(std::memcmp(back.sh, encoded.decoded.sh(i), coeffs * sizeof(glm::vec3)) == 0);
+  }
+}
+
+TEST_CASE("encoded cloud: decoded is what the written bytes decode to") {
+  for (const Encoding encoding : kAll) {
+    for (int degree = 0; degree <= 3; ++degree) check_scene(cloud_of(1, 500, degree), encoding);
+  }
+}
+
+TEST_CASE("encoded cloud: nothing, one Gaussian, ten thousand equal ones") {
+  for (const Encoding encoding : kAll) {
+    check_scene(cloud_of(2, 0, 3), encoding);
+    check_scene(cloud_of(2, 1, 3), encoding);
+    ActivatedCloud equal = cloud_of(3, 10000, 2);
+    for (std::size_t i = 0; i < equal.size(); ++i) {
+      equal.gaussians[i] = equal.gaussians[0];
+      std::copy_n(equal.sh(0), 9, equal.sh_coeffs.begin() + static_cast<std::ptrdiff_t>(9 * i));
+    }
+    check_scene(equal, encoding);
+    const EncodedCloud encoded = encode(equal, encoding);
+    // One entry each: no index is stored, only the opacity.
+    if (encoded.format.quantised()) CHECK(encoded.format.bytes() == 1);
+  }
+}
+
+TEST_CASE("encoded cloud: extreme shapes, opacities and colours") {
+  ActivatedCloud cloud = cloud_of(4, 200, 3);
+  cloud.gaussians[0].scale = {0, 0, 0};
+  cloud.gaussians[1].scale = {1, 1e-10F, 1e-10F};
+  cloud.gaussians[2].scale = {1e-38F, 3e38F, 1};
+  cloud.gaussians[3].scale = {2, 2, 2};
+  cloud.gaussians[4].opacity = 0;
+  cloud.gaussians[5].opacity = 1;
+  cloud.gaussians[6].mean = {1e30F, -1e30F, 0};
+  for (std::size_t k = 0; k < 16; ++k) cloud.sh_coeffs[16 * 7 + k] = glm::vec3(1e30F);
+  for (const Encoding encoding : kAll) {
+    check_scene(cloud, encoding);
+    const EncodedCloud encoded = encode(cloud, encoding);
+    CHECK(encoded.decoded.gaussians[4].opacity == 0);
+    CHECK(encoded.decoded.gaussians[5].opacity == 1);
+    for (const Gaussian<float>& g : encoded.decoded.gaussians) {
+      for (int axis = 0; axis < 3; ++axis) CHECK(std::isfinite(g.scale[axis]));
+      for (const float component : g.quat) CHECK(std::isfinite(component));
+    }
+  }
+}
+
+TEST_CASE("encoded cloud: scales of infinity, which are never drawn, are not drawn decoded") {
+  ActivatedCloud cloud = cloud_of(5, 200, 1);
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const glm::vec3 scales[] = {{kInfinity, 1, 2}, {1, kInfinity, kInfinity}, {1, 0, kInfinity}};
+  for (std::size_t i = 0; i < 3; ++i) cloud.gaussians[i].scale = scales[i];
+  const View<float> view = make_view<float>(test::forward_camera(64, 64, 50));
+  for (const Encoding encoding : kAll) {
+    const EncodedCloud encoded = encode(cloud, encoding);
+    std::size_t drawn = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      Gaussian<float> g = encoded.decoded.gaussians[i];
+      g.mean = {0, 0, 5};
+      Splat splat{};
+      const bool visible = make_geometry(view, g, splat);
+      if (i < 3) CHECK_FALSE(visible);
+      drawn += visible ? 1 : 0;
+    }
+    CHECK(drawn > 150);
+  }
+}
+
+TEST_CASE("encoded cloud: raw gives back the scene, both quantised forms the same one") {
+  const ActivatedCloud cloud = cloud_of(6, 300, 3);
+  const EncodedCloud raw = encode(cloud, Encoding::kRaw);
+  CHECK(std::memcmp(raw.decoded.gaussians.data(), cloud.gaussians.data(),
+                    cloud.size() * sizeof(Gaussian<float>)) == 0);
+  CHECK(raw.records.empty());
+  for (const Encoding encoding : {Encoding::kHalf, Encoding::kVq, Encoding::kVqPacked}) {
+    const EncodedCloud encoded = encode(cloud, encoding);
+    CHECK(encoded.records.size() == cloud.size() * encoded.format.bytes());
+  }
+  const EncodedCloud words = encode(cloud, Encoding::kVq),
+                     bits = encode(cloud, Encoding::kVqPacked);
+  CHECK(words.codebooks == bits.codebooks);
+  CHECK(std::memcmp(words.decoded.gaussians.data(), bits.decoded.gaussians.data(),
+                    cloud.size() * sizeof(Gaussian<float>)) == 0);
+}
+
+TEST_CASE("encoded cloud: records and codebooks lie in the memory image where they should") {
+  for (const Encoding encoding : kAll) {
+    const EncodedCloud encoded = encode(cloud_of(7, 600, 2), encoding);
+    const ChunkTree tree = build_chunk_tree(encoded.decoded, 16);
+    const VoxelGrid grid = build_voxel_grid(encoded.decoded, 1);
+    for (const bool chunks : {true, false}) {
+      const MemoryImage image =
+          chunks ? build_memory_image(encoded, tree) : build_memory_image(encoded, grid);
+      const auto& order = chunks ? tree.storage_order : grid.storage_order;
+      const SceneLayout& layout = image.layout;
+      CHECK(layout.codebooks.bytes == encoded.format.codebook_bytes());
+      CHECK(std::equal(encoded.codebooks.begin(), encoded.codebooks.end(),
+                       image.at(layout.codebooks.base)));
+      CHECK(layout.second_halves.bytes() == order.size() * encoded.format.bytes());
+      std::vector<std::byte> record(encoded.format.bytes());
+      for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
+        encoded.write_second_half(order[slot], record.data());
+        REQUIRE(std::memcmp(image.at(layout.second_halves.address(slot)), record.data(),
+                            record.size()) == 0);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sgs

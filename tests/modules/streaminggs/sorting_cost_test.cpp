@@ -1,0 +1,101 @@
+// The cycles of the sorting network, against a network that is really there.
+#include "modules/streaminggs/sorting/sorting_cost.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+#include <vector>
+
+namespace sgs {
+namespace {
+
+// A 16-wide bitonic network that counts its compare-exchange stages.
+struct Network {
+  std::uint64_t stages = 0, compare_exchanges = 0;
+
+  void stage(std::vector<int>& x, std::size_t distance, std::size_t block) {
+    for (std::size_t i = 0; i < kNetworkWidth; ++i) {
+      const std::size_t other = i ^ distance;
+      if (other < i) continue;
+      ++compare_exchanges;
+      const bool ascending = (i & block) == 0;
+      if ((x[i] > x[other]) == ascending) std::swap(x[i], x[other]);
+    }
+    ++stages;
+  }
+  void sort(std::vector<int>& x) {
+    for (std::size_t block = 2; block <= kNetworkWidth; block *= 2) {
+      for (std::size_t distance = block / 2; distance > 0; distance /= 2) stage(x, distance, block);
+    }
+  }
+  // Two sorted halves.
+  void merge(std::vector<int>& x) {
+    std::reverse(x.begin() + kMergeWidth, x.end());
+    for (std::size_t distance = kMergeWidth; distance > 0; distance /= 2) {
+      stage(x, distance, 2 * kNetworkWidth);
+    }
+  }
+};
+
+TEST_CASE("sorting cost: a block of 16 takes ten stages of eight, a merge four") {
+  std::mt19937 random(1);
+  for (int repeat = 0; repeat < 100; ++repeat) {
+    std::vector<int> x(kNetworkWidth);
+    for (int& value : x) value = static_cast<int>(random() % 20);
+    std::vector<int> expected = x;
+    std::sort(expected.begin(), expected.end());
+    Network network;
+    network.sort(x);
+    CHECK(x == expected);
+    CHECK(network.stages == kSortStages);
+    CHECK(network.compare_exchanges == kSortStages * kMergeWidth);
+
+    std::sort(x.begin(), x.begin() + kMergeWidth);
+    for (int& value : x) value = static_cast<int>(random() % 20);
+    std::sort(x.begin(), x.begin() + kMergeWidth);
+    std::sort(x.begin() + kMergeWidth, x.end());
+    expected = x;
+    std::sort(expected.begin(), expected.end());
+    Network merger;
+    merger.merge(x);
+    CHECK(x == expected);
+    CHECK(merger.stages == kMergeStages);
+    CHECK(merger.compare_exchanges == kMergeStages * kMergeWidth);
+  }
+}
+
+TEST_CASE("sorting cost: by hand, with the defaults") {
+  const SortingNetworkConfig config;  // latency 4, a block a cycle, a merge every 2 cycles
+  const auto cycles = [&](std::uint64_t n) { return sort_cost(config, n).cycles; };
+  CHECK(cycles(0) == 0);
+  CHECK(cycles(1) == 0);
+  CHECK(cycles(2) == 4 + 1);
+  CHECK(cycles(16) == 4 + 1);
+  CHECK(cycles(17) == 4 + 2 + 3 * 2);  // two blocks, one level of three merges of eight
+  CHECK(cycles(32) == 4 + 2 + 4 * 2);
+  CHECK(cycles(33) == 4 + 3 + 2 * 5 * 2);  // three blocks, two levels
+  CHECK(cycles(64) == 4 + 4 + 2 * 8 * 2);
+  CHECK(sort_cost(config, 16).compare_exchanges == 80);
+  CHECK(sort_cost(config, 32).compare_exchanges == 2 * 80 + 4 * 32);
+}
+
+TEST_CASE("sorting cost: a trivial list costs only when nothing is skipped") {
+  SortingNetworkConfig config;
+  config.skip_trivial = false;
+  CHECK(sort_cost(config, 0).cycles == 0);
+  CHECK(sort_cost(config, 1).cycles == 5);
+  CHECK(sort_cost(config, 1).compare_exchanges == 80);
+}
+
+TEST_CASE("sorting cost: levels of a merge tree") {
+  CHECK(merge_levels(0) == 0);
+  CHECK(merge_levels(1) == 0);
+  CHECK(merge_levels(2) == 1);
+  CHECK(merge_levels(3) == 2);
+  CHECK(merge_levels(4) == 2);
+  CHECK(merge_levels(5) == 3);
+  CHECK(merge_levels(8) == 3);
+}
+
+}  // namespace
+}  // namespace sgs

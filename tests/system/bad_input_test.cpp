@@ -1,0 +1,264 @@
+// Bad input and bad places, as a shell hands them over: exit status, one line on stderr that begins
+// with the program's name, and nothing left that was not there before.
+#include <catch2/catch.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/system/shell.h"
+
+namespace sgs::test {
+namespace {
+
+std::size_t lines_without_notes(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);) {
+    count += line.find(": note: ") == std::string::npos ? 1 : 0;
+  }
+  return count;
+}
+
+std::set<std::string> files_in(const ScratchFolder& scratch) {
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch.path(""))) {
+    const bool regular = entry.is_regular_file() && !entry.is_symlink();
+    files.insert(entry.path().string() + (regular ? bytes_of(entry.path().string()) : ""));
+  }
+  return files;
+}
+
+struct Row {
+  std::string line;
+  int status;
+  std::vector<std::string> words;  // in what is said on stderr
+  std::string before = "";         // shell line that prepares
+};
+
+void check(const Row& row) {
+  INFO(row.line);
+  const ScratchFolder scratch;
+  if (!row.before.empty()) REQUIRE(shell(scratch, row.before).status == 0);
+  const auto before = files_in(scratch);
+  const ShellOutcome outcome = shell(scratch, row.line);
+  INFO(outcome.err.substr(0, 3000));
+  CHECK(outcome.status == row.status);
+  CHECK(lines_without_notes(outcome.err) == 1);
+  CHECK(outcome.err.size() < 7000);
+  const bool named =
+      outcome.err.rfind("streaminggs: ", 0) == 0 || outcome.err.rfind("tb_dram: ", 0) == 0;
+  CHECK(named);
+  for (const char c : outcome.err) CHECK((c == '\n' || static_cast<unsigned char>(c) >= ' '));
+  for (const std::string& word : row.words) {
+    INFO(word);
+    CHECK(outcome.err.find(word) != std::string::npos);
+  }
+  CHECK((files_in(scratch) == before));
+}
+
+TEST_CASE("bad input: what would never end is refused at once") {
+  for (const Row& row : std::vector<Row>{
+           {"$SG simulate $B --out o --config pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
+           {"$SG simulate $B --out o --config ./zeros", 2, {"zeros"}, "ln -s /dev/zero zeros"},
+           {"$SG simulate $B --out o --cameras pipe", 2, {"pipe"}, "mkfifo pipe"},
+           {"$SG info pipe.ply", 2, {"pipe.ply"}, "mkfifo pipe.ply"},
+           {"$SG info pipe.sgs", 2, {"pipe.sgs"}, "mkfifo pipe.sgs"},
+           {"$SG compare a.exr a.exr", 2, {"a.exr", "regular"}, "mkfifo a.exr"},
+           {"$SG compare a.png a.png", 2, {"a.png", "regular"}, "mkfifo a.png"},
+           {"$SG compare a.pfm a.pfm", 2, {"a.pfm", "regular"}, "mkfifo a.pfm"},
+           {"$TB --replay pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
+           {"$TB --replay .", 2, {"regular"}},
+           {"$TB --replay /dev/zero", 2, {"/dev/zero", "regular"}},
+           {"$TB --check pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
+           {"$TB --check .", 2, {"regular"}},
+           {"$TB --config pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
+           {"$TB --table --published pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
+           {"$TB --set dram.memspec=pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
+           {"$TB --transactions -1", 2, {"--transactions", "-1"}},
+           {"$TB --requests -1 --stream rnd", 2, {"--requests", "-1"}},
+           {"$TB --set dram.memspec=m.json",
+            2,
+            {"m.json: timing_cycles.refi: got 110", "104"},
+            "sed 's/\"refi\": 3120/\"refi\": 110/' " SGS_MEMSPEC " >m.json"}}) {
+    check(row);
+  }
+}
+
+TEST_CASE("bad input: depth") {
+  for (const char* path : {"--config d.json", "--cameras d.json"}) {
+    check({"$SG simulate $B --out o " + std::string(path),
+           2,
+           {"d.json", "64 deep"},
+           "head -c 80000 /dev/zero | tr '\\0' '[' >d.json"});
+  }
+  check({"$SG simulate $B --out o --config d.json",
+         2,
+         {"d.json", "64 deep"},
+         "for i in $(seq 17000); do printf '{\"a\":'; done >d.json"});
+  check({"$SG simulate $B --out o --set $(head -c 34000 /dev/zero | sed 's/\\x0\\x0/a./g')a=1",
+         2,
+         {"--set a.a.a", "more than 64"}});
+  check({"$SG simulate $B --out o --set hfus=$(head -c 80000 /dev/zero | tr '\\0' '[')",
+         2,
+         {"--set hfus=[[["}});
+  check({"$TB --set dram.memspec=d.json",
+         2,
+         {"d.json", "64 deep"},
+         "head -c 80000 /dev/zero | tr '\\0' '[' >d.json"});
+}
+
+TEST_CASE("bad input: numbers, keys and values that mean nothing") {
+  for (const Row& row : std::vector<Row>{
+           {"$TB --seed -1", 2, {"--seed", "'-1'", "9223372036854775807"}},
+           {"$TB --seed 100000000000000000000000", 2, {"--seed", "100000000000000000000000"}},
+           {"$TB --seed 0x5", 2, {"--seed", "0x5"}},
+           {"$SG render $B --out a.png --voxel-size nan", 2, {"--voxel-size", "nan"}},
+           {"$SG render $B --out a.png --voxel-size -1", 2, {"--voxel-size", "-1"}},
+           {"$SG render $B --out a.png --group 4.5", 2, {"--group", "4.5"}},
+           {"$SG render $B --out a.gif", 2, {"a.gif", ".exr, .pfm or .png"}},
+           {"$SG render $B --out a.png --view 0,2", 2, {"--view", "2 views"}},
+           {"$SG simulate $B --out o --view 0,0", 2, {"--view", "each once"}},
+           {"$SG simulate $B --out o --view 0,", 2, {"--view", "''"}},
+           {"$SG simulate $B --out o --view 0,9", 2, {"--view", "'9'"}},
+           {"$SG simulate $B --out o --config foo", 2, {"--config foo", "exact_vq", "paper"}},
+           {"$SG simulate $B --out o --set", 2, {"--set"}},
+           {"$SG simulate $B --out o --cameras c.json",
+            2,
+            {"c.json: key 'id' twice"},
+            "echo '[{\"id\": 1, \"id\": 2}]' >c.json"},
+           {"$SG simulate $B --out o --config ''", 2, {"--config", "got nothing"}},
+           {"$SG simulate $B --out o --cameras ''", 2, {"--cameras", "got nothing"}},
+           {"$TB --config ''", 2, {"--config", "got nothing"}},
+           {"$TB --vcd ''", 2, {"--vcd", "got nothing"}},
+           {"$TB --dram-trace ''", 2, {"--dram-trace", "got nothing"}},
+           {"$TB --replay ''", 2, {"--replay", "got nothing"}},
+           {"$TB --check ''", 2, {"--check", "got nothing"}},
+           {"$TB --replay r", 2, {"r: got no request"}, "echo '# nothing' >r"},
+           {"$TB --replay r",
+            2,
+            {"r: request 2: got 64 bytes from 2147483600, expected them below", "2147483648"},
+            "printf '0 R\\n2147483600 W 0 64\\n' >r"},
+           {"$TB --set channels=2", 2, {"--set channels=2", "dram.KEY=VALUE"}},
+           {"$TB --config c.json",
+            2,
+            {"c.json: channels: got it outside of dram"},
+            "echo '{\"channels\": 2}' >c.json"},
+           {"$TB --config c.json",
+            2,
+            {"c.json: dram.chanels: unknown key"},
+            "echo '{\"dram\": {\"chanels\": 2}}' >c.json"}}) {
+    check(row);
+  }
+}
+
+TEST_CASE("bad input: messages are short, clean and begin with the program") {
+  check({"$SG", 2, {"subcommand"}});
+  check({"$SG simulate", 2, {"SCENE"}});
+  check({"$SG simulate $B --no-such-option", 2, {"--no-such-option"}});
+  check({"$SG render $B --out a.png --ordering soon", 2, {"soon", "reference", "exact"}});
+  check({"$SG simulate $B --out o --set group_px=$(head -c 100000 /dev/zero | tr '\\0' x)",
+         2,
+         {"group_px: got \"xxx", "bytes left out", "an integer"}});
+  check(
+      {"$SG simulate $B --out o --config c.json",
+       2,
+       {"c.json: group_px: got \"xxx", "left out"},
+       "(printf '{\"group_px\": \"'; head -c 1000000 /dev/zero | tr '\\0' x; echo '\"}') >c.json"});
+  check({"$SG simulate $B --out o --config c.json",
+         2,
+         {"\\x1b[31m", "\\n"},
+         "printf '{\"\\\\u001b[31m\\\\nred\": 1}' >c.json"});
+  check({"$SG info \"$(printf 'a\\033[2J\\nb')\"", 2, {"a\\x1b[2J\\nb"}});
+}
+
+TEST_CASE("bad input: outputs have a place before the work begins") {
+  const std::string images =
+      "mkdir d; mkfifo p.exr p.png p.sgs p.vcd; ln -s /dev/null n.png; "
+      "touch file; echo old >a.png";
+  for (const char* name : {"d/.", "p.png", "p.exr", "n.png", "file/a.png", "file/a.exr",
+                           "/proc/a.exr", "/proc/a.png", "/proc/a.pfm"}) {
+    check({"$SG render 'builtin:object?n=2000000' --out " + std::string(name), 2, {name}, images});
+  }
+  for (const char* name : {"p.sgs", "file/a.sgs", "/proc/a.sgs"}) {
+    check({"$SG pack 'builtin:object?n=2000000' --out " + std::string(name), 2, {name}, images});
+  }
+  for (const char* option : {"--vcd", "--dram-trace"}) {
+    for (const char* name : {"d", "p.vcd", "n.png", "file/a", "/proc/a"}) {
+      check({"$TB --transactions 1000000 " + std::string(option) + " " + name, 2, {name}, images});
+    }
+  }
+}
+
+TEST_CASE("bad input: no output over an input, or over another output") {
+  const std::string scene =
+      "$SG pack $S --out s.sgs >/dev/null; ln -s s.sgs l.sgs; "
+      "ln s.sgs h.sgs; $TB --transactions 9 --dram-trace t >/dev/null; "
+      "echo '0 R' >r; ln -s r lr; cp " SGS_MEMSPEC
+      " m.json; "
+      "echo '{\"dram\": {}}' >c.json";
+  for (const char* line :
+       {"$SG pack l.sgs --out s.sgs", "$TB --replay r --dram-trace r",
+        "$TB --replay r --dram-trace lr", "$TB --replay lr --dram-trace ./r",
+        "$TB --config ./c.json --dram-trace c.json", "$TB --set dram.memspec=m.json --vcd m.json",
+        "$TB --vcd a --dram-trace ./a"}) {
+    check({line, 2, {}, scene});
+  }
+}
+
+TEST_CASE("bad input: a full disk leaves no file, and exit status 1") {
+  for (const Row& row : std::vector<Row>{
+           {"FULL $TB --transactions 200 --vcd a.vcd >/dev/null", 1, {"a.vcd"}, "echo old >a.vcd"},
+           {"FULL $TB --transactions 200 --dram-trace a", 1, {"a: cannot be written completely"}},
+           {"FULL $TB --stream rnd --requests 2000 --dram-trace a", 1, {"a: cannot be written"}},
+           {"FULL $SG render $S --size 320x180 --out a.exr", 1, {"a.exr: cannot be written"}},
+           {"FULL $SG render $S --size 320x180 --out a.pfm", 1, {"a.pfm: cannot be written"}},
+           {"FULL $SG render $S --size 640x360 --out x/y/a.png", 1, {"a.png: cannot be written"}},
+           {"FULL $SG pack $S --out a.sgs", 1, {"a.sgs: cannot be written"}}}) {
+    check(row);
+  }
+}
+
+TEST_CASE("bad input: standard output that is full or closed is an error") {
+  for (const char* line : {"$SG --help", "$SG --version", "$SG info $S", "$TB --print-config",
+                           "$TB --transactions 9", "$SG compare a.png a.png"}) {
+    check({std::string(line) + " >/dev/full",
+           1,
+           {"standard output cannot be written"},
+           "$SG render $B --out a.png"});
+    check({std::string(line) + " >&-",
+           1,
+           {"standard output cannot be written"},
+           "$SG render $B --out a.png"});
+  }
+  // What is opened next must not get the number of a closed stream.
+  const ScratchFolder scratch;
+  CHECK(shell(scratch,
+              "$SG render $B --out a.png >&- 2>&- <&-; $SG render $B --out b.png; "
+              "cmp a.png b.png")
+            .status == 0);
+}
+
+// AddressSanitizer reserves more than any limit leaves.
+#ifndef __SANITIZE_ADDRESS__
+TEST_CASE("bad input: out of memory is said in one line, and over what") {
+  const std::string limit = "ulimit -v 300000; ";
+  const std::string large = "'builtin:object?n=2000000'";
+  for (const std::string& line :
+       {"$SG info " + large, "$SG render " + large + " --out a.png",
+        "$SG pack " + large + " --out a.sgs", "$SG simulate " + large + " --out o"}) {
+    check({limit + line, 1, {"out of memory while reading builtin:object?n=2000000"}});
+  }
+  check({limit + "$SG info a.ply",
+         1,
+         {"out of memory while reading a.ply"},
+         "(printf 'ply\\nformat ascii 1.0\\nelement vertex 1\\n'; for p in x y z f_dc_0 f_dc_1 "
+         "f_dc_2 opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3; do echo property float "
+         "$p; done; echo end_header) >a.ply; truncate -s 1G a.ply"});
+  check(
+      {"ulimit -v 500000; $SG info " + large + " >/dev/null", 1, {"out of memory while running"}});
+}
+#endif
+
+}  // namespace
+}  // namespace sgs::test

@@ -1,0 +1,119 @@
+// The kernel runs the processes of one instant in the order in which they were made. Units are made
+// in several orders here: not a number of the report and not a command of the memory may change.
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/shared_inputs.h"
+#include "tests/system/report_values.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// Everything that a run says, but how long the host took and by what command.
+struct Said {
+  std::vector<Json> views;
+  std::string commands;  // of the memory
+};
+
+Said run_in_order(const Arguments& arguments, int order) {
+  const ScratchFolder scratch;
+  const Simulation simulation(joined(arguments, {"--construction-order", std::to_string(order),
+                                                 "--dram-trace", scratch.path("trace")}));
+  simulation.check();
+  Said said{simulation.views(), bytes_of(scratch.path("trace"))};
+  for (Json& view : said.views) {
+    view.erase("host");
+    view["provenance"].erase("command");
+  }
+  return said;
+}
+
+void check_orders(const Arguments& arguments) {
+  const Said first = run_in_order(arguments, 0);
+  CHECK(first.commands.size() > 1000);
+  for (int order = 1; order <= 4; ++order) {
+    INFO("order " << order);
+    const Said other = run_in_order(arguments, order);
+    CHECK(other.views == first.views);
+    CHECK(other.commands == first.commands);
+  }
+}
+
+Arguments settings(const std::vector<std::string>& keys) {
+  Arguments arguments;
+  for (const std::string& key : keys) arguments.insert(arguments.end(), {"--set", key});
+  return arguments;
+}
+
+const Arguments kStalls = {"--stalls", "0.2", "--seed", "3"};
+
+// What both machines are run with.
+std::vector<Arguments> variants() {
+  const Arguments quantised =
+      joined(settings({"storage.encoding=vq_packed", "storage.vq.iterations=2",
+                       "sram.codebook_bytes=256000"}),
+             {"--weigh-by", "0"});
+  const Arguments few_banks = joined(quantised, settings({"codebook.banks=2"}));
+  const Arguments narrow = settings({"memory_port.max_outstanding=1", "dram.channels=1"});
+  const Arguments hasty = settings({"rendering.feedback_latency_cycles=1", "hfu.cfu_depth_cycles=1",
+                                    "hfu.ffu_depth_cycles=1", "rendering.depth_cycles=1"});
+  return {{},
+          kStalls,
+          few_banks,
+          joined(few_banks, kStalls),
+          narrow,
+          joined(narrow, kStalls),
+          joined(hasty, settings({"clock_mhz=533.33"})),
+          settings({"hfus=3", "sorting_units=1", "dram.power_down_idle_cycles=10"})};
+}
+
+const Arguments kScene = {"--size", "97x61", "--set", "group_px=32"};
+
+// Saturated groups: what is dropped depends on when the news arrives.
+Arguments scene(const char* machine) {
+  return joined({"builtin:object?n=6000", "--config", machine}, kScene);
+}
+
+TEST_CASE("construction order: exact order") {
+  for (const Arguments& variant : variants()) {
+    INFO((variant.empty() ? "plain" : variant.back()));
+    check_orders(joined(scene("exact"), variant));
+  }
+}
+
+TEST_CASE("construction order: paper order") {
+  const Arguments raw = joined(scene("paper"), settings({"storage.encoding=raw"}));
+  for (const Arguments& variant : variants()) {
+    INFO((variant.empty() ? "plain" : variant.back()));
+    check_orders(joined(raw, variant));
+  }
+}
+
+TEST_CASE("construction order: FIFOs of one entry, and what does not fit goes to DRAM") {
+  const Arguments both = settings({"hfu.candidate_fifo_entries=1", "rendering.input_fifo_entries=1",
+                                   "hfu.second_half_slots=1", "hfu.input_slots=2"});
+  const Arguments exact =
+      settings({"merge.input_fifo_entries=1", "merge.output_fifo_entries=1", "merge.entries=32",
+                "merge.spill_block_entries=2", "vsu.queue_entries=9"});
+  const Arguments paper = settings(
+      {"sorting.input_fifo_entries=1", "sorting.buffer_entries=16", "storage.encoding=raw"});
+  for (const Arguments& stalls : {Arguments{}, kStalls}) {
+    INFO(stalls.size());
+    check_orders(joined(joined(joined(scene("exact"), both), exact), stalls));
+    check_orders(joined(joined(joined(scene("paper"), both), paper), stalls));
+  }
+}
+
+TEST_CASE("construction order: a real scene") {
+  const Arguments truck = {shared_scene("truck"), "--cameras", shared_path("cameras/truck.json"),
+                           "--size", "160x90"};
+  check_orders(joined(truck, kStalls));
+  check_orders(joined(truck, {"--config", "paper_no_vq", "--stalls", "0.2"}));
+}
+
+}  // namespace
+}  // namespace sgs::test

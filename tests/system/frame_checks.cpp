@@ -1,0 +1,212 @@
+// Accounts, bytes, flow and bounds of a view.
+#include "tests/system/frame_checks.h"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "tests/system/report_values.h"
+
+namespace sgs::test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::uint64_t count(const Json& value) { return value.get<std::uint64_t>(); }
+
+std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
+
+// 0 where the unit has no such counter.
+std::uint64_t of(const Json& unit, const char* name) {
+  return unit["counters"].value(name, std::uint64_t{0});
+}
+
+void check_accounts(const Json& view) {
+  std::size_t activities = 0;
+  for (const auto& [name, unit] : view["units"].items()) {
+    for (const auto& [activity, spent] : unit["activities"].items()) {
+      INFO(name << " " << activity);
+      ++activities;
+      CHECK(count(spent["busy_cycles"]) + count(spent["starved_cycles"]) +
+                count(spent["blocked_cycles"]) ==
+            frame_cycles(view));
+      CHECK(count(spent["busy_cycles"]) <= frame_cycles(view));
+      CHECK_FALSE(spent["resource"].get<std::string>().empty());
+    }
+  }
+  CHECK(activities > 0);
+}
+
+void check_memory(const Json& view) {
+  std::uint64_t sum = 0;
+  for (const Json& region : view["dram"]["bytes_by_region"]) {
+    for (const Json& requester : region) {
+      for (const Json& bytes : requester) sum += count(bytes);
+    }
+  }
+  CHECK(sum == count(view["dram"]["bytes"]));
+  std::uint64_t on_bus = 0;
+  for (const Json& bytes : view["dram"]["bus_bytes_by_region"]) on_bus += count(bytes);
+  CHECK(on_bus == count(view["dram"]["bus_bytes"]));
+  const double bytes_a_cycle =
+      view["dram"]["peak_gb_s"].get<double>() * 1e3 / view["config"]["clock_mhz"].get<double>();
+  CHECK(static_cast<double>(on_bus) <= bytes_a_cycle * static_cast<double>(frame_cycles(view) + 1));
+}
+
+bool quantised(const Json& view) {
+  const std::string encoding = view["config"]["storage"]["encoding"];
+  return encoding == "vq" || encoding == "vq_packed";
+}
+
+// Of one second half, from the configuration and the codebooks' entries.
+std::uint64_t second_half_bytes(const Json& view) {
+  const auto degree = view["scene"]["sh_degree"].get<std::uint64_t>();
+  const std::uint64_t raw = 4 * (7 + 3 * (degree + 1) * (degree + 1));
+  const std::string encoding = view["config"]["storage"]["encoding"];
+  if (encoding == "raw") return raw;
+  if (encoding == "half") return raw / 2;
+  std::uint64_t indices = 0, bits = 0;
+  for (const Json& codebook : view["scene"]["codebooks"]) {
+    indices += count(codebook["entries"]) > 1 ? 1 : 0;
+    for (std::uint64_t told_apart = 1; told_apart < count(codebook["entries"]); told_apart *= 2) {
+      ++bits;
+    }
+  }
+  if (encoding == "vq") return 4 * indices + 1;
+  std::uint64_t bytes = 1;
+  while (8 * bytes < 8 + bits) bytes *= 2;
+  return bytes;
+}
+
+// Codebooks come once, decoding is for what was fetched.
+void check_codebooks(const Json& view) {
+  std::uint64_t bytes = 0;
+  for (const Json& codebook : view["scene"]["codebooks"]) {
+    bytes += 4 * count(codebook["entries"]) * count(codebook["words"]);
+  }
+  const bool preloaded = view["config"]["codebook"]["preloaded"];
+  CHECK(region_bytes(view, "codebooks", "read") == (preloaded ? 0 : bytes));
+  CHECK(total(view, "bytes_loaded") == (preloaded ? 0 : bytes));
+  CHECK(count(view["sram"]["codebook_bytes"]) == bytes);
+  CHECK(bytes <= count(view["config"]["sram"]["codebook_bytes"]));
+  CHECK(view["units"].contains("codebooks") == quantised(view));
+  if (!quantised(view)) return;
+  CHECK(total(view, "records_decoded") <= total(view, "second_halves"));
+  CHECK(total(view, "records_decoded") >= total(view, "fine_tests"));
+  if (view["config"]["rendering"]["saturation_feedback"] == false) {
+    CHECK(total(view, "dropped_saturated") == 0);
+    CHECK(total(view, "records_decoded") == total(view, "second_halves"));
+  }
+  // An HFU reads a line a cycle; the rest of the time it decodes nothing.
+  CHECK(total_busy(view, "decode") ==
+        total(view, "lines_read") + total(view, "bank_conflict_cycles"));
+}
+
+// Bytes asked for against counters of the units that asked.
+void check_bytes(const Json& view) {
+  const std::uint64_t second_half = second_half_bytes(view);
+  CHECK(count(view["scene"]["second_half_bytes"]) == second_half);
+  CHECK(region_bytes(view, "first_halves", "read") == 16 * total(view, "first_halves"));
+  CHECK(region_bytes(view, "second_halves", "read") == second_half * total(view, "second_halves"));
+  for (const auto& [name, unit] : view["units"].items()) {
+    INFO(name);
+    CHECK(asked_bytes(view, "first_halves", name, "read") == 16 * of(unit, "first_halves"));
+    CHECK(asked_bytes(view, "second_halves", name, "read") ==
+          second_half * of(unit, "second_halves"));
+  }
+  if (view["config"]["machine"] == "paper") {
+    constexpr std::uint64_t kSplat = 48, kLine = 64;
+    CHECK(region_bytes(view, "spill", "write") == kSplat * total(view, "entries_spilled"));
+    if (total(view, "splats_saturated") == 0) {
+      CHECK(region_bytes(view, "spill", "read") == region_bytes(view, "spill", "write"));
+    }
+    CHECK(asked_bytes(view, "voxel_table", "vsu.node_memory", "read") <=
+          kLine * counter(view, "vsu", "node_cache_misses"));
+    CHECK(asked_bytes(view, "voxel_table", "vsu.record_memory", "read") <=
+          kLine * counter(view, "vsu", "record_cache_misses"));
+  } else {
+    constexpr std::uint64_t kKey = 28, kWalkEntry = 12;
+    CHECK(asked_bytes(view, "spill", "merge", "write") ==
+          kKey * counter(view, "merge", "keys_spilled"));
+    CHECK(asked_bytes(view, "spill", "vsu", "write") ==
+          kWalkEntry * counter(view, "vsu", "queue_entries_put_aside"));
+  }
+}
+
+// No unit does more than the frame has time for.
+void check_bounds(const Json& view) {
+  const Json& config = view["config"];
+  const std::uint64_t frame = frame_cycles(view);
+  const Json& hfu = config["hfu"];
+  const std::uint64_t coarse_interval = ceil_div(count(hfu["cfu_macs"]), count(hfu["cfu_lanes"]));
+  const std::uint64_t fine_interval = ceil_div(count(hfu["ffu_macs"]), count(hfu["ffu_lanes"]));
+  for (const Json& unit : view["units"]) {
+    CHECK(ceil_div(of(unit, "coarse_tests"), count(hfu["cfus"])) * coarse_interval <= frame);
+    CHECK(of(unit, "fine_tests") * fine_interval <= frame);
+    CHECK(ceil_div(of(unit, "subtile_blends"), count(config["rendering"]["clusters"])) <= frame);
+    if (of(unit, "steps") > 0) {
+      CHECK(of(unit, "steps") / count(config["vsu"]["steps_per_cycle"]) <= frame);
+    }
+  }
+}
+
+// What one unit hands on the next receives.
+void check_flow(const Json& view) {
+  const std::uint64_t blended = counter(view, "rendering", "splats");
+  const std::uint64_t late = counter(view, "rendering", "splats_saturated");
+  std::uint64_t fine_splats = 0, fine_dropped = 0, sorted = 0, sorting_dropped = 0;
+  for (const auto& [name, unit] : view["units"].items()) {
+    if (unit["counters"].contains("fine_tests")) {
+      fine_splats += of(unit, "splats");
+      fine_dropped += of(unit, "dropped_saturated");
+    }
+    if (name.rfind("sorting", 0) == 0) {
+      sorted += of(unit, "splats") + of(unit, "keys");
+      sorting_dropped += of(unit, "splats_saturated");
+    }
+  }
+  const std::uint64_t tested_or_dropped = total(view, "fine_tests") + fine_dropped;
+  if (view["config"]["machine"] == "paper") {
+    CHECK(total(view, "coarse_passed") == tested_or_dropped);
+    CHECK(fine_splats == sorted);
+    CHECK(blended + late <= sorted - sorting_dropped);
+    // A visit, or a group's end, takes a number of one sorting unit.
+    CHECK(total(view, "visits") ==
+          2 * counter(view, "vsu", "visits") + counter(view, "rendering", "groups"));
+  } else {
+    CHECK(total(view, "coarse_passed") == sorted);
+    CHECK(sorted == counter(view, "merge", "keys"));
+    CHECK(counter(view, "merge", "keys") ==
+          counter(view, "merge", "released") + counter(view, "merge", "dropped_saturated"));
+    CHECK(counter(view, "merge", "released") == tested_or_dropped);
+    CHECK(blended + late <= fine_splats);
+    CHECK(total(view, "visits") ==
+          2 * counter(view, "vsu", "visits") + counter(view, "rendering", "groups"));
+  }
+}
+
+}  // namespace
+
+void check_any_machine(const Json& view) {
+  INFO("view " << view["view"] << " of " << view["scene"]["name"]);
+  CHECK(view["schema_version"] == 2);
+  CHECK(view["image"]["equals_streaming_renderer"] == true);
+  CHECK(view["frame"]["drained"] == true);
+  check_accounts(view);
+  check_memory(view);
+}
+
+void check_streaming_machine(const Json& view) {
+  INFO("view " << view["view"] << " of " << view["scene"]["name"]);
+  if (view["config"]["machine"] == "exact") {
+    CHECK(view["image"]["decoded_psnr_db"].is_null());
+    if (view["config"]["storage"]["encoding"] == "raw")
+      CHECK(view["image"]["max_abs_error"] == 0.0);
+  }
+  check_any_machine(view);
+  check_bytes(view);
+  check_codebooks(view);
+  check_bounds(view);
+  check_flow(view);
+}
+
+}  // namespace sgs::test

@@ -1,0 +1,17 @@
+// What must hold of any report.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace sgs::test {
+
+// Of a view of any machine: the frame is the golden renderer's, nothing is left over, every
+// activity accounts for all cycles, bytes add up, and the bus moves no more than it can.
+void check_any_machine(const nlohmann::json& view);
+
+// Of a view of a streaming machine, all of that and: in exact order the frame is the reference
+// picture of what second halves decode to; bytes are visits times sizes; units hand on what they
+// take; and no unit does more than the frame has cycles for. The view's report holds its `config`.
+void check_streaming_machine(const nlohmann::json& view);
+
+}  // namespace sgs::test

@@ -1,0 +1,139 @@
+// builtin_scene.h: specs, determinism, and that the scenes hold what they promise.
+#include "testbench/builtin/builtin_scene.h"
+
+#include <tbb/global_control.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "algorithm/scene/describe.h"
+#include "tests/support/scratch_folder.h"
+
+using namespace sgs;
+using Catch::Matchers::Contains;
+
+namespace {
+
+template <typename T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+bool same_bits(const GaussianCloud& a, const GaussianCloud& b) {
+  return a.sh_degree == b.sh_degree && same_bits(a.means, b.means) &&
+         same_bits(a.log_scales, b.log_scales) && same_bits(a.quats, b.quats) &&
+         same_bits(a.opacity_logits, b.opacity_logits) && same_bits(a.sh_coeffs, b.sh_coeffs);
+}
+
+void check_usable(const BuiltinScene& scene, std::size_t count) {
+  const GaussianCloud& cloud = scene.cloud;
+  REQUIRE(cloud.size() == count);
+  REQUIRE(cloud.sh_degree == 3);
+  REQUIRE(cloud.sh_coeffs.size() == 16 * count);
+  std::size_t bad = 0;
+  const auto finite = [](const glm::vec3& v) { return std::isfinite(v.x + v.y + v.z); };
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& q = cloud.quats[i];
+    const float length2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    const bool good = finite(cloud.means[i]) && finite(cloud.log_scales[i]) &&
+                      std::isfinite(cloud.opacity_logits[i]) && length2 > 0.2f && length2 < 4.1f;
+    bad += good ? 0 : 1;
+  }
+  for (const glm::vec3& coeff : cloud.sh_coeffs) bad += finite(coeff) ? 0 : 1;
+  CHECK(bad == 0);
+  REQUIRE(scene.cameras.size() >= 4);
+  for (const Camera& camera : scene.cameras) {
+    CHECK(camera.width == 640);
+    CHECK(camera.height == 360);
+    CHECK(glm::determinant(camera.world_from_camera) == Approx(1.0));
+    // Level horizon: the x axis has no vertical part, and the y axis points down.
+    CHECK(camera.world_from_camera[0].y == Approx(0.0).margin(1e-12));
+    CHECK(camera.world_from_camera[1].y > 0.5);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("built-in scenes: any count from one on is usable") {
+  for (const char* name : {"object", "outdoor"}) {
+    for (const std::size_t count : {1u, 2u, 3u, 10u, 257u, 5000u}) {
+      CAPTURE(name, count);
+      const std::string spec = std::string("builtin:") + name + "?n=" + std::to_string(count);
+      check_usable(make_builtin_scene(spec), count);
+    }
+  }
+}
+
+TEST_CASE("built-in scenes: default counts") {
+  check_usable(make_builtin_scene("builtin:object"), 60'000);
+  check_usable(make_builtin_scene("builtin:outdoor"), 200'000);
+}
+
+TEST_CASE("built-in scenes: the same bits again, on one thread too") {
+  for (const char* spec : {"builtin:object?n=20000", "builtin:outdoor?n=20000"}) {
+    const BuiltinScene scene = make_builtin_scene(spec);
+    CHECK(same_bits(scene.cloud, make_builtin_scene(spec).cloud));
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    CHECK(same_bits(scene.cloud, make_builtin_scene(spec).cloud));
+  }
+}
+
+TEST_CASE("built-in scenes: the object fits a few units") {
+  const SceneSummary summary = summarise(make_builtin_scene("builtin:object").cloud);
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(summary.extent.min[axis] > -9.0f);
+    CHECK(summary.extent.max[axis] < 9.0f);
+  }
+  CHECK(summary.max_scale < 1.0);  // the walls of the room
+  CHECK(summary.median_scale < 0.05);
+}
+
+TEST_CASE("built-in scenes: the landscape has the extremes of a trained capture") {
+  const SceneSummary summary = summarise(make_builtin_scene("builtin:outdoor").cloud);
+  const float reach =
+      glm::length(glm::max(glm::abs(summary.extent.min), glm::abs(summary.extent.max)));
+  CHECK(reach > 15'000.0f);
+  CHECK(reach < 40'000.0f);
+  CHECK(summary.max_scale_ratio > 0.9e6);
+  CHECK(summary.max_scale_ratio < 1e7);
+  CHECK(summary.invisible_count > 500);
+  CHECK(summary.invisible_count < 10'000);
+  CHECK(summary.median_opacity > 0.6);
+}
+
+TEST_CASE("built-in scenes: colours depend on the view") {
+  for (const char* spec : {"builtin:object", "builtin:outdoor"}) {
+    const GaussianCloud cloud = make_builtin_scene(spec).cloud;
+    std::size_t shiny = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      double energy = 0;
+      for (int k = 1; k < 16; ++k)
+        energy += cloud.sh_coeffs[16 * i + k].y * cloud.sh_coeffs[16 * i + k].y;
+      shiny += energy > 0.003 ? 1 : 0;  // the residue everywhere is 0.0003
+    }
+    CHECK(shiny > cloud.size() / 4);
+    CHECK(shiny < cloud.size());
+  }
+}
+
+TEST_CASE("built-in scenes: what a spec may not say") {
+  CHECK(is_builtin_scene("builtin:object"));
+  CHECK(is_builtin_scene("builtin:nonsense"));
+  CHECK_FALSE(is_builtin_scene("object"));
+  CHECK_FALSE(is_builtin_scene("scene.ply"));
+  CHECK_FALSE(is_builtin_scene(""));
+  const auto refusal = [](const std::string& spec) {
+    return test::input_error_of([&] { make_builtin_scene(spec); });
+  };
+  for (const char* spec : {"builtin:teapot", "builtin:", "builtin:?n=5", "object", ""}) {
+    CHECK_THAT(refusal(spec), Contains("expected one of builtin:object builtin:outdoor"));
+  }
+  for (const char* query : {"", "n", "n=", "n=0", "n=-1", "n=20000001", "n=1e5", "n=5 ", "n=5&n=6",
+                            "m=5", "N=5", "n=99999999999999999999999"}) {
+    CHECK_THAT(refusal(std::string("builtin:object?") + query),
+               Contains("expected n=1 to n=20000000"));
+  }
+}

@@ -1,0 +1,40 @@
+// With refresh as dense as a memspec may ask for, requests still come through.
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "modules/config/strict_json.h"
+#include "modules/dram/memspec.h"
+#include "testbench/dram/stream_bench.h"
+#include "tests/support/scratch_folder.h"
+
+namespace sgs {
+namespace {
+
+using T = Memspec::Timing;
+
+TEST_CASE("refresh: a stream ends at the limits that check_memspec draws") {
+  struct Row {
+    RefreshMode refresh;
+    std::vector<std::pair<std::uint32_t T::*, std::uint32_t>> timing;
+  };
+  const test::ScratchFolder scratch;
+  for (const Row& row : std::vector<Row>{
+           {RefreshMode::kAllBank, {{&T::refi, 120}}},
+           {RefreshMode::kPerBank, {{&T::refi_bank, 49}}},
+           {RefreshMode::kPerBank, {{&T::rrd, 389}, {&T::faw, 389}}},
+           {RefreshMode::kPerBank, {{&T::faw, 1559}}},
+           {RefreshMode::kPerBank, {{&T::ras, 3048}, {&T::rc, 3048}, {&T::rcd, 3015}}}}) {
+    Memspec memspec = load_memspec("lpddr3_1600_4gb");
+    for (const auto& [key, cycles] : row.timing) memspec.timing_cycles.*key = cycles;
+    check_memspec(memspec, "row");
+    StreamBench bench;
+    bench.dram.memspec = scratch.write("memspec.json", config_to_json(memspec));
+    bench.dram.refresh = row.refresh;
+    bench.requests = 200;
+    CHECK(run_stream_in_child(bench).requests == 200);
+  }
+}
+
+}  // namespace
+}  // namespace sgs

@@ -1,0 +1,53 @@
+// What the toy machine needs, must give, and is built from.
+#include "tests/testbench/toy_machine/toy_design.h"
+
+#include <fmt/format.h>
+
+#include "algorithm/input_error.h"
+#include "tests/testbench/toy_machine/toy_machine.h"
+#include "tests/testbench/toy_machine/toy_picture.h"
+
+namespace sgs::toy {
+
+void ToyDesign::resolve(const StorageConfig&, std::vector<AutoChoice>& chosen) {
+  if (config_.fetch.block_gaussians % 2 != 0) {
+    throw InputError(fmt::format("fetch.block_gaussians: got {}, expected whole bursts of 32 B",
+                                 config_.fetch.block_gaussians));
+  }
+  chosen.push_back({"toy.blocks", static_cast<double>(config_.fetch.buffer_blocks),
+                    "as many as the configuration says"});
+}
+
+FrameJob ToyDesign::job(const StoredScene& scene, const Camera& camera) const {
+  FrameJob job;
+  job.view = make_view<float>(camera);
+  job.layout = scene.image.layout;
+  job.frame_format = config_.framebuffer;
+  job.frame_buffer =
+      job.layout.regions.add("frame_buffer", std::uint64_t{pixel_bytes(config_.framebuffer)} *
+                                                 camera.width * camera.height);
+  return job;
+}
+
+StreamingResult ToyDesign::golden(const StoredScene& scene, const FrameJob& job) const {
+  StreamingResult result;
+  result.frame.image = picture_of(scene.image.bytes, job, config_);
+  result.stats.groups = groups_of(job, config_).size();
+  for (std::uint32_t group = 0; group < result.stats.groups; ++group) {
+    result.stats.first_halves += block_of(group, job, config_).count;
+  }
+  return result;
+}
+
+void ToyDesign::publish_left_out(const StoredScene& scene, const StreamingStats&,
+                                 DataSheet& sheet) const {
+  sheet.left_out("second_halves", "a colour is made of centres",
+                 scene.image.layout.gaussian_count(), "everything but 16 B of each Gaussian");
+}
+
+std::unique_ptr<Machine> ToyDesign::build(const sc_core::sc_module_name& name, const FrameJob& job,
+                                          const BuildOptions& options) const {
+  return std::make_unique<ToyMachine>(name, config_, job, options);
+}
+
+}  // namespace sgs::toy

@@ -1,0 +1,38 @@
+// Wiring and data sheet of the toy machine.
+#include "tests/testbench/toy_machine/toy_machine.h"
+
+#include "modules/construction.h"
+
+namespace sgs::toy {
+
+ToyMachine::ToyMachine(const sc_core::sc_module_name& name, const ToyConfig& config,
+                       const FrameJob& job, const BuildOptions& options)
+    : Machine(name),
+      config_(config),
+      job_(job),
+      clock_(config.clock_mhz),
+      colours_("colours", clock_, config.queue_entries) {
+  if (options.stalls.probability > 0) colours_.inject(options.stalls);
+  construct({[this] { fetch_ = std::make_unique<FetchUnit>("fetch", config_, clock_, job_); },
+             [this] {
+               write_ = std::make_unique<WriteUnit>("write", config_, clock_, job_,
+                                                    [this] { finish_frame(); });
+             }},
+            options.construction_order);
+  fetch_->colours(colours_);
+  write_->colours(colours_);
+  connect_memory();
+}
+
+void ToyMachine::publish(DataSheet& sheet) {
+  fetch_->publish(sheet);
+  write_->publish(sheet);
+  sheet.unit(*this);
+  sheet.queue(colours_);
+  constexpr std::uint64_t kScratchBytes = 4096;
+  for (const SramUse& use : sram_uses(config_)) sheet.sram(use);
+  sheet.sram_available("scratch", kScratchBytes);
+  sheet.part("sram", "sram_kib", kScratchBytes / 1024.0);
+}
+
+}  // namespace sgs::toy

@@ -1,0 +1,174 @@
+// A third machine, brought by one line of a factory: what the command says of it comes from its
+// data sheets alone.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/scratch_folder.h"
+#include "tests/system/frame_checks.h"
+#include "tests/system/report_values.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using Catch::Matchers::Contains;
+using Json = nlohmann::json;
+
+Outcome run_toy(const Arguments& arguments) { return run_program(SGS_STREAMINGGS_TOY, arguments); }
+
+// A simulation of the toy machine with configuration, waveform and what it printed.
+class Toy {
+ public:
+  explicit Toy(const Arguments& options = {}) {
+    folder_.write("toy.json",
+                  R"({"machine": "toy", "group_px": 16, "fetch": {"buffer_blocks": 3}})");
+    printed = run_toy(joined(
+        {"simulate", "builtin:object?n=1000", "--size", "70x50", "--config",
+         folder_.path("toy.json"), "--out", folder_.path("out"), "--vcd", folder_.path("wave.vcd")},
+        options));
+    INFO(printed.out << printed.err);
+    REQUIRE(printed.status == 0);
+    view = views_of_report(folder_.path("out/report.json"))[0];
+  }
+  std::string file(const std::string& name) const { return bytes_of(folder_.path(name)); }
+
+  Outcome printed;
+  Json view;
+
+ private:
+  ScratchFolder folder_;
+};
+
+constexpr int kGroups = 5 * 4, kPixels = 70 * 50, kGaussians = kGroups * 8;
+
+TEST_CASE("toy machine: frame and counts") {
+  const Toy toy;
+  check_any_machine(toy.view);
+  CHECK(toy.view["config"]["machine"] == "toy");
+  CHECK(toy.view["config"]["fetch"]["buffer_blocks"] == 3);
+  CHECK(toy.view["config"]["fetch"]["block_gaussians"] == 8);
+  CHECK(toy.view["config"]["dram"]["channels"] == 4);
+  CHECK(toy.view["units"].size() == 2);
+  CHECK(counter(toy.view, "fetch", "gaussians") == kGaussians);
+  CHECK(counter(toy.view, "write", "pixels") == kPixels);
+  CHECK(cycles(toy.view, "fetch", "ask") == kGroups);
+  CHECK(cycles(toy.view, "fetch", "add") == kGaussians);
+  CHECK(cycles(toy.view, "write", "write") == 50 * (4 * 4 + 2));  // 16 and 6 px at 4 a cycle
+  CHECK(asked_bytes(toy.view, "first_halves", "fetch", "read") == 16 * kGaussians);
+  CHECK(asked_bytes(toy.view, "frame_buffer", "write", "write") == 3 * kPixels);
+  CHECK(toy.view["dram"]["bytes"] == 16 * kGaussians + 3 * kPixels);
+  CHECK(left_out(toy.view, "second_halves") == toy.view["scene"]["gaussians"]);
+  CHECK(toy.view["chosen"][0]["key"] == "toy.blocks");
+}
+
+TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data sheets") {
+  const Toy toy;
+  const Json& view = toy.view;
+  const double frame = static_cast<double>(frame_cycles(view));
+  CHECK(view["binding"]["unit"] == "writing");
+  CHECK(view["binding"]["utilisation"] ==
+        Approx(static_cast<double>(cycles(view, "write", "write")) / frame));
+
+  std::ifstream file(SGS_TECHNOLOGY);
+  const Json technology = Json::parse(file);
+  const auto pj = [&](const char* kind) {
+    return technology["operations"][kind]["pj"].get<double>() * 1e-12;
+  };
+  const auto mm2 = [&](const char* kind) { return technology["parts"][kind]["mm2"].get<double>(); };
+  const Json& energy = view["energy"];
+  CHECK(energy["adder_j"] == Approx(3 * kGaussians * pj("fp32_mac")));
+  CHECK(energy["scratch_j"] ==
+        Approx(8 * 16 * kGaussians * (pj("sram_small_read_bit") + pj("sram_small_write_bit"))));
+  CHECK(energy["writer_j"] == Approx(kPixels * pj("pixel_blend")));
+  const double leakage = 4 * technology["parts"]["sram_kib"]["leakage_mw"].get<double>() * 1e-3 *
+                         view["frame"]["time_s"].get<double>();
+  CHECK(energy["sram_leakage_j"] == Approx(leakage));
+  double sum = 0;
+  for (const char* part : {"adder_j", "scratch_j", "writer_j", "sram_leakage_j", "dram_j"}) {
+    CHECK(energy[part].get<double>() > 0);
+    sum += energy[part].get<double>();
+  }
+  CHECK(energy["total_j"] == Approx(sum));
+
+  const Json& area = view["area_mm2"];
+  CHECK(area["adder"] == Approx(3 * mm2("mac_lane")));
+  CHECK(area["writer"] == Approx(4 * mm2("pixel_lane")));
+  CHECK(area["sram"] == Approx(4 * mm2("sram_kib")));
+  CHECK(area["total"] == Approx(area["adder"].get<double>() + area["writer"].get<double>() +
+                                area["sram"].get<double>()));
+  CHECK(area.size() == 4);
+
+  CHECK(view["sram"]["scratch_bytes"] == 3 * 8 * 16);
+  CHECK(view["sram"]["scratch_available_bytes"] == 4096);
+  CHECK(view["sram"]["uses"][0]["arithmetic"] == "3 blocks x 8 Gaussians x 16 B");
+}
+
+TEST_CASE("toy machine: waveform and terminal") {
+  const Toy toy;
+  const std::string wave = toy.file("wave.vcd");
+  for (const char* scope :
+       {"accelerator", "fetch", "ask", "add", "write", "fetched", "colours", "memory"}) {
+    INFO(scope);
+    CHECK_THAT(wave, Contains("$scope module " + std::string(scope) + " $end"));
+  }
+  for (const char* signal : {"busy", "starved", "blocked", "fill", "bytes_outstanding", "group"}) {
+    INFO(signal);
+    CHECK_THAT(wave, Contains("  " + std::string(signal) + " "));
+  }
+  CHECK_THAT(toy.printed.out, Contains("writing"));       // binding
+  CHECK_THAT(toy.printed.out, Contains("first_halves"));  // bytes by region
+  CHECK_THAT(toy.printed.out, Contains("adder 0.02"));    // area
+  CHECK_THAT(toy.printed.out, Contains("toy.blocks 3"));  // chosen
+}
+
+TEST_CASE("toy machine: stalls and orders of construction change no pixel, orders no number") {
+  const Toy plain;
+  const Arguments stalls = {"--stalls", "0.3"};
+  const Toy stalled(stalls), other(joined(stalls, {"--construction-order", "1"}));
+  check_any_machine(stalled.view);
+  CHECK(stalled.file("out/view_0/frame.png") == plain.file("out/view_0/frame.png"));
+  CHECK(frame_cycles(stalled.view) > frame_cycles(plain.view));
+  for (const char* same : {"frame", "units", "dram", "energy", "binding"}) {
+    INFO(same);
+    CHECK(other.view[same] == stalled.view[same]);
+  }
+}
+
+TEST_CASE("toy machine: it stands beside the others") {
+  const ScratchFolder scratch;
+  // Its keys are its own.
+  const Arguments scene = {"simulate", "builtin:object?n=200", "--size", "20x20",
+                           "--out",    scratch.path("out")};
+  const Outcome unknown = run_toy(joined(scene, {"--set", "fetch.block_gaussians=4"}));
+  CHECK(unknown.status == 2);
+  CHECK_THAT(unknown.err, Contains("fetch: unknown key"));
+  const Outcome refused = run_toy(joined(scene, {"--config", scratch.write("odd.json", R"({
+      "machine": "toy", "fetch": {"block_gaussians": 5}})")}));
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.err, Contains("fetch.block_gaussians: got 5"));
+  // The other machines are there, and a command without it does not know it.
+  CHECK(run_toy(scene).status == 0);
+  const Outcome stranger = run_streaminggs(joined(scene, {"--set", "machine=toy"}));
+  CHECK(stranger.status == 2);
+  CHECK_THAT(stranger.err, Contains("machine"));
+}
+
+TEST_CASE("toy machine: its golden picture, and a scene packed for it") {
+  const ScratchFolder scratch;
+  const Arguments scene = {"builtin:object?n=1000", "--size", "70x50"};
+  REQUIRE(run_toy(joined(joined({"render"}, scene),
+                         {"--ordering", "toy", "--out", scratch.path("toy.png")}))
+              .status == 0);
+  REQUIRE(run_toy({"pack", "builtin:object?n=1000", "--out", scratch.path("toy.sgs"), "--config",
+                   scratch.write("toy.json", R"({"machine": "toy"})")})
+              .status == 0);
+  const Outcome info = run_toy({"info", scratch.path("toy.sgs")});
+  CHECK_THAT(info.out, Contains("for machine exact or toy"));
+  const Toy toy;
+  CHECK(toy.file("out/view_0/frame.png") == bytes_of(scratch.path("toy.png")));
+}
+
+}  // namespace
+}  // namespace sgs::test

@@ -1,0 +1,35 @@
+// Write unit of the toy machine: fills each group with its colour. Timing: pixels_per_cycle.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <systemc>
+
+#include "tests/testbench/toy_machine/fetch_unit.h"
+
+namespace sgs::toy {
+
+class WriteUnit : public sc_core::sc_module {
+ public:
+  FifoIn<GroupColour> colours{"colours"};
+  MemoryPort memory;
+
+  SC_HAS_PROCESS(WriteUnit);
+  // on_done() is called when the last pixel has been written.
+  WriteUnit(const sc_core::sc_module_name& name, const ToyConfig& config, const ClockDomain& clock,
+            const FrameJob& job, std::function<void()> on_done);
+
+  void publish(DataSheet& sheet);
+
+ private:
+  void run();  // thread
+  void fill(const PixelRect& group, const glm::vec3& colour);
+
+  const ToyConfig config_;
+  const FrameJob& job_;
+  std::function<void()> on_done_;
+  Activity write_;
+  std::uint64_t pixels_ = 0;
+};
+
+}  // namespace sgs::toy

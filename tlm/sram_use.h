@@ -1,0 +1,32 @@
+// On-chip memory as a configuration asks for it, with the arithmetic behind each use.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sgs {
+
+// One use of one of the on-chip memories.
+struct SramUse {
+  std::string name;
+  std::string memory;  // which one: "input", "codebook", "shared"
+  std::uint64_t bytes = 0;
+  std::string arithmetic;  // how the bytes come about: "4 HFUs x 8 slots x 256 B"
+};
+
+using SramUses = std::vector<SramUse>;
+
+using SramFactors = std::vector<std::pair<std::uint64_t, const char*>>;  // (value, what it counts)
+
+// The product of the factors.
+SramUse sram_use(const char* name, const char* memory, const SramFactors& factors);
+
+// Bytes of all uses of one memory.
+std::uint64_t sram_bytes(const SramUses& uses, const std::string& memory);
+
+// "a 12 (3 x 4 B) + b 8 (8 B)": the uses of one memory.
+std::string sram_sum(const SramUses& uses, const std::string& memory);
+
+}  // namespace sgs
