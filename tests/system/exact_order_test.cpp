@@ -177,9 +177,10 @@ TEST_CASE("exact frames: without ties and spills no index is read") {
   CHECK(region_bytes(view, "indices", "read") >= 4 * counter(view, "merge", "released"));
 }
 
-TEST_CASE("exact frames: 20,000 Gaussians at one point, the buffer holds 64 keys") {
+// Gaussians at one point, faint, of five sizes and several colours.
+GaussianCloud at_one_point(std::size_t count) {
   GaussianCloud cloud;
-  cloud.resize(20000, 0);
+  cloud.resize(count, 0);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     cloud.means[i] = {0.01F, 0.02F, 2};
     cloud.log_scales[i] = glm::vec3(-2 - static_cast<float>(i % 5));
@@ -187,13 +188,55 @@ TEST_CASE("exact frames: 20,000 Gaussians at one point, the buffer holds 64 keys
     cloud.opacity_logits[i] = -5;
     cloud.sh_coeffs[i] = glm::vec3(static_cast<float>(i % 7), static_cast<float>(i % 3), 1);
   }
+  return cloud;
+}
+
+Camera small_camera() {
   Camera camera;
   camera.width = 40;
   camera.height = 30;
   camera.focal_x = camera.focal_y = 50;
+  return camera;
+}
+
+// As many depths as Gaussians, in a cube: the chunks lie beside and behind each other.
+GaussianCloud at_many_depths(std::size_t count) {
+  GaussianCloud cloud = at_one_point(count);
+  const auto shuffled = [&](std::size_t i, std::size_t step) {
+    return 0.7F * static_cast<float>(i * step % count) / static_cast<float>(count);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    cloud.means[i] += glm::vec3(shuffled(i, 31) - 0.35F, shuffled(i, 617) - 0.35F,
+                                shuffled(i, 7919));
+  }
+  return cloud;
+}
+
+TEST_CASE("exact frames: what is spilled grows little faster than the keys") {
   const ScratchFolder scratch;
-  write_ply(scratch.path("scene.ply"), cloud);
-  write_cameras(scratch.path("cameras.json"), {camera});
+  write_cameras(scratch.path("cameras.json"), {small_camera()});
+  for (GaussianCloud (*make)(std::size_t) : {&at_one_point, &at_many_depths}) {
+    std::vector<double> writes_a_key;
+    for (const std::size_t keys : {2000U, 16000U}) {
+      write_ply(scratch.path("scene.ply"), make(keys));
+      const Simulation simulation({scratch.path("scene.ply"), "--cameras",
+                                   scratch.path("cameras.json"), "--set", "merge.entries=16",
+                                   "--set", "rendering.saturation_feedback=false"});
+      simulation.check();
+      writes_a_key.push_back(
+          static_cast<double>(counter(simulation.views()[0], "merge", "keys_spilled")) /
+          static_cast<double>(keys));
+    }
+    CHECK(writes_a_key[0] > 2);  // far more than fits: most are merged, and merged again
+    CHECK(writes_a_key[1] < 2.5 * writes_a_key[0]);
+    CHECK(writes_a_key[1] < 20);
+  }
+}
+
+TEST_CASE("exact frames: 20,000 Gaussians at one point, the buffer holds 64 keys") {
+  const ScratchFolder scratch;
+  write_ply(scratch.path("scene.ply"), at_one_point(20000));
+  write_cameras(scratch.path("cameras.json"), {small_camera()});
   const Arguments arguments = {scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"),
                                "--set", "merge.entries=64"};
   Simulation(arguments).check();
@@ -219,6 +262,28 @@ TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and say
   const Simulation enough(joined(arguments, {"--set", "merge.entries=5000"}));
   enough.check();  // the reference image
   CHECK(counter(enough.views()[0], "merge", "forced_early") == 0);
+}
+
+TEST_CASE("exact frames: blend_early without the coarse filter, whose keys are others") {
+  for (const char* entries : {"16", "64", "300"}) {
+    INFO(entries);
+    const Arguments arguments = {"builtin:outdoor?n=4000",
+                                 "--size",
+                                 "160x90",
+                                 "--set",
+                                 "group_px=64",
+                                 "--set",
+                                 "merge.on_overflow=blend_early",
+                                 "--set",
+                                 std::string("merge.entries=") + entries};
+    const Simulation with(arguments);
+    const Simulation without(joined(arguments, {"--set", "hfu.coarse_filter=false"}));
+    const Json &filtered = with.views()[0], &all = without.views()[0];
+    CHECK(all["image"]["equals_streaming_renderer"] == true);
+    CHECK(filtered["image"]["equals_streaming_renderer"] == true);
+    CHECK(counter(all, "merge", "forced_early") > counter(filtered, "merge", "forced_early"));
+    CHECK(without.frame(0) != with.frame(0));
+  }
 }
 
 TEST_CASE("exact frames: what the report holds") {

@@ -135,7 +135,7 @@ void MergeUnit::ask_for(PendingKey& key, std::uint32_t first_slot, std::uint32_t
 // Releases every key nearer than `nearest`.
 void MergeUnit::release_below(float nearest) {
   while (!finished->finished(group_)) {
-    const RunReader* run = nearest_run();
+    const RunReader* run = nearest_of(runs_);
     if (pending_.empty() && run == nullptr) return;
     float depth = std::numeric_limits<float>::infinity();
     if (run != nullptr) depth = run->front().candidate.depth;
@@ -154,7 +154,7 @@ void MergeUnit::release_depth(float depth) {
     pending_count_ -= static_cast<std::uint32_t>(here.size());
   }
   const auto run_at_depth = [&]() -> RunReader* {
-    RunReader* run = nearest_run();
+    RunReader* run = nearest_of(runs_);
     return run != nullptr && run->front().candidate.depth == depth ? run : nullptr;
   };
   if (here.size() > 1 || (!here.empty() && run_at_depth() != nullptr)) look_up(here);
@@ -166,8 +166,7 @@ void MergeUnit::release_depth(float depth) {
       emit(here[next++]);
     } else {
       emit(run->front());
-      run->pop();
-      drop_run_if_exhausted(*run);
+      take_front(*run, runs_);
     }
   }
 }
@@ -222,7 +221,7 @@ void MergeUnit::end_group(const FineCandidate& end) {
 // The farthest keys on chip become a sorted run in DRAM: an eighth of the buffer at first, since
 // the excess is mostly small, more when it turns out not to be.
 void MergeUnit::spill_farthest() {
-  if (runs_.size() == config_.spill_runs) merge_spilled_runs();
+  if (runs_.size() == config_.spill_runs) merge_shortest_runs();
   const std::uint32_t eighths = std::min(4U, 1 + spills_ / config_.spill_runs);
   const std::uint32_t wanted = std::max(1U, pending_count_ * eighths / 8);
   ++spills_;
@@ -234,46 +233,72 @@ void MergeUnit::spill_farthest() {
   }
   pending_count_ -= static_cast<std::uint32_t>(far.size());
   look_up(far);
+  if (!fits_spill_area(far.size())) merge_runs(runs_.end());
   const SpillPort to = spill_port();
   SpillWriter<KeyCodec> writer(to, spill_area_base() + spill_used_, KeyCodec{group_});
   for (const PendingKey& key : far) {
     merge_.work(1);
     writer.append(key);
   }
-  const SpillRun run = writer.finish();
-  spill_used_ += run.entries * kSpilledKeyBytes;
   ++counters_.runs_spilled;
+  keep_run(to, writer.finish());
+}
+
+// The shortest runs become one, up to the first that is more than twice as long as all before it
+// together. Lengths then grow from run to run by a factor, and a key moves once a step: n keys cost
+// about n log n, as long as there are not more steps than runs that can be open.
+void MergeUnit::merge_shortest_runs() {
+  runs_.sort([](const RunReader& a, const RunReader& b) { return a.left() < b.left(); });
+  constexpr int kFewest = 2;
+  auto end = runs_.begin();
+  std::uint64_t keys = 0;
+  for (int taken = 0; end != runs_.end() && (taken < kFewest || end->left() <= 2 * keys); ++taken) {
+    keys += end->left();
+    ++end;
+  }
+  merge_runs(fits_spill_area(keys) ? end : runs_.end());
+}
+
+// Runs before `end` become one: behind all others or, when there are no others, in the other half
+// of the spill area, which has room for all keys of a group.
+void MergeUnit::merge_runs(std::list<RunReader>::iterator end) {
+  if (end == runs_.end()) {
+    spill_area_ ^= 1U;
+    spill_used_ = 0;
+  }
+  std::list<RunReader> merging;
+  merging.splice(merging.begin(), runs_, runs_.begin(), end);
+  if (merging.empty()) return;
+  const SpillPort to = spill_port();
+  SpillWriter<KeyCodec> writer(to, spill_area_base() + spill_used_, KeyCodec{group_});
+  for (RunReader* run = nearest_of(merging); run != nullptr; run = nearest_of(merging)) {
+    merge_.work(1);
+    writer.append(run->front());
+    take_front(*run, merging);
+  }
+  keep_run(to, writer.finish());
+}
+
+// Written before it is read.
+void MergeUnit::keep_run(const SpillPort& to, const SpillRun& run) {
+  spill_used_ += run.entries * kSpilledKeyBytes;
   counters_.keys_spilled += run.entries;
-  await_all(memory, merge_);  // written before it is read
+  await_all(memory, merge_);
   runs_.emplace_back(to, run, KeyCodec{group_});
 }
 
-// All runs become one, in the other half of the spill area.
-void MergeUnit::merge_spilled_runs() {
-  spill_area_ ^= 1U;
-  const SpillPort to = spill_port();
-  SpillWriter<KeyCodec> writer(to, spill_area_base(), KeyCodec{group_});
-  for (RunReader* run = nearest_run(); run != nullptr; run = nearest_run()) {
-    merge_.work(1);
-    writer.append(run->front());
-    run->pop();
-    drop_run_if_exhausted(*run);
-  }
-  const SpillRun merged = writer.finish();
-  spill_used_ = merged.entries * kSpilledKeyBytes;
-  counters_.keys_spilled += merged.entries;
-  await_all(memory, merge_);
-  runs_.emplace_back(to, merged, KeyCodec{group_});
+bool MergeUnit::fits_spill_area(std::uint64_t keys) const {
+  return spill_used_ + keys * kSpilledKeyBytes <= spill_.bytes / 2;
 }
 
-void MergeUnit::drop_run_if_exhausted(RunReader& run) {
-  if (!run.exhausted()) return;
-  runs_.remove_if([&](const RunReader& r) { return &r == &run; });
+void MergeUnit::take_front(RunReader& run, std::list<RunReader>& from) {
+  run.pop();
+  if (run.exhausted()) from.remove_if([&](const RunReader& r) { return &r == &run; });
 }
 
-MergeUnit::RunReader* MergeUnit::nearest_run() {
+MergeUnit::RunReader* MergeUnit::nearest_of(std::list<RunReader>& runs) {
   RunReader* nearest = nullptr;
-  for (RunReader& run : runs_) {
+  for (RunReader& run : runs) {
     if (nearest == nullptr || final_order(run.front(), nearest->front())) nearest = &run;
   }
   return nearest;

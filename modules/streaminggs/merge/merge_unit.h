@@ -84,11 +84,14 @@ class MergeUnit : public sc_core::sc_module {
   void end_group(const FineCandidate& end);
   void look_up(std::vector<PendingKey>& keys);
   void spill_farthest();
-  void merge_spilled_runs();
-  RunReader* nearest_run();
+  void merge_shortest_runs();
+  void merge_runs(std::list<RunReader>::iterator end);
+  void keep_run(const SpillPort& to, const SpillRun& run);
+  bool fits_spill_area(std::uint64_t keys) const;
+  static RunReader* nearest_of(std::list<RunReader>& runs);
+  static void take_front(RunReader& run, std::list<RunReader>& from);
   std::uint64_t spill_area_base() const { return spill_.base + spill_area_ * (spill_.bytes / 2); }
   SpillPort spill_port() { return {memory, merge_, config_.spill_block_entries, spill_.region}; }
-  void drop_run_if_exhausted(RunReader& run);
   void drop_all();
 
   const MergeConfig config_;
