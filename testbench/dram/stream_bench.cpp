@@ -1,17 +1,16 @@
 // One stream of requests through the TLM socket of a memory, measured.
 #include "testbench/dram/stream_bench.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 
 #include "modules/dram/command_trace.h"
 #include "modules/dram/dram_controller.h"
 #include "testbench/dram/closed_loop_driver.h"
+#include "testbench/process/in_child.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs {
@@ -73,30 +72,15 @@ DramStats run_stream(const StreamBench& bench, double& wall_s) {
 }
 
 StreamResult run_stream_in_child(const StreamBench& bench) {
-  int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error("stream: no pipe");
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("stream: no child process");
-  if (child == 0) {
-    int status = 1;
-    try {
-      use_femtosecond_resolution();
-      double wall_s = 0;
-      const DramStats stats = run_stream(bench, wall_s);
-      const StreamResult result = result_of(stats, wall_s, bench.requests);
-      status = write(ends[1], &result, sizeof result) == sizeof result ? 0 : 1;
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "%s\n", error.what());
-    }
-    _exit(status);
-  }
-  close(ends[1]);
+  const std::string bytes = in_child([&] {
+    use_femtosecond_resolution();
+    double wall_s = 0;
+    const DramStats stats = run_stream(bench, wall_s);
+    const StreamResult result = result_of(stats, wall_s, bench.requests);
+    return std::string(reinterpret_cast<const char*>(&result), sizeof result);
+  });
   StreamResult result;
-  const bool complete = read(ends[0], &result, sizeof result) == sizeof result;
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (!complete || status != 0) throw std::runtime_error("stream: the child process failed");
+  std::memcpy(&result, bytes.data(), sizeof result);
   return result;
 }
 

@@ -7,19 +7,36 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #include <stdexcept>
+
+#include "algorithm/input_error.h"
 
 namespace sgs {
 namespace {
 
-void write_all(int descriptor, const void* from, std::size_t bytes) {
+enum class Answer : char { kResult, kFailure };
+
+int answer_to = -1;  // of a child: its end of the pipe
+
+bool write_all(const void* from, std::size_t bytes) {
   const char* at = static_cast<const char*>(from);
   while (bytes > 0) {
-    const ssize_t written = ::write(descriptor, at, bytes);
-    if (written <= 0) throw std::runtime_error("cannot hand the result to the parent process");
+    const ssize_t written = ::write(answer_to, at, bytes);
+    if (written <= 0) return false;
     at += written;
     bytes -= static_cast<std::size_t>(written);
   }
+  return true;
+}
+
+// Without destructors: those of a simulation that was cut short could not be trusted.
+[[noreturn]] void answer(Answer kind, const std::string& text) {
+  const std::uint64_t bytes = text.size();
+  const bool written = write_all(&kind, sizeof kind) && write_all(&bytes, sizeof bytes) &&
+                       write_all(text.data(), text.size());
+  std::fflush(nullptr);
+  ::_exit(written && kind == Answer::kResult ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 
 bool read_all(int descriptor, void* into, std::size_t bytes) {
@@ -33,27 +50,21 @@ bool read_all(int descriptor, void* into, std::size_t bytes) {
   return true;
 }
 
-// Without destructors: those of a simulation that was cut short could not be trusted.
-[[noreturn]] void child(const char* program, const std::function<std::string()>& work,
-                        int answer_to) {
-  int status = EXIT_SUCCESS;
+[[noreturn]] void child(const std::function<std::string()>& work) {
   try {
-    const std::string result = work();
-    const std::uint64_t bytes = result.size();
-    write_all(answer_to, &bytes, sizeof bytes);
-    write_all(answer_to, result.data(), result.size());
+    answer(Answer::kResult, work());
+  } catch (const std::bad_alloc&) {
+    fail_child("out of memory in the simulation");
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", program, error.what());
-    status = EXIT_FAILURE;
+    fail_child(error.what());
   }
-  std::fflush(nullptr);
-  ::_exit(status);
 }
 
 }  // namespace
 
-ChildEnd in_child(const char* program, const std::function<std::string()>& work,
-                  std::string& result) {
+void fail_child(const std::string& why) { answer(Answer::kFailure, one_line(why)); }
+
+std::string in_child(const std::function<std::string()>& work) {
   int ends[2];
   if (::pipe(ends) != 0) throw std::runtime_error("cannot make a pipe to a child process");
   std::fflush(nullptr);
@@ -61,20 +72,31 @@ ChildEnd in_child(const char* program, const std::function<std::string()>& work,
   if (process < 0) throw std::runtime_error("cannot start a child process");
   if (process == 0) {
     ::close(ends[0]);
-    child(program, work, ends[1]);
+    answer_to = ends[1];
+    child(work);
   }
   ::close(ends[1]);
+  Answer kind = Answer::kFailure;
   std::uint64_t bytes = 0;
-  result.clear();
-  if (read_all(ends[0], &bytes, sizeof bytes)) {
-    result.resize(bytes);
-    if (!read_all(ends[0], result.data(), bytes)) result.clear();
+  std::string text;
+  bool complete = read_all(ends[0], &kind, sizeof kind) && read_all(ends[0], &bytes, sizeof bytes);
+  if (complete) {
+    text.resize(bytes);
+    complete = read_all(ends[0], text.data(), bytes);
   }
   ::close(ends[0]);
   int status = 0;
   ::waitpid(process, &status, 0);
-  if (WIFSIGNALED(status)) return {-WTERMSIG(status)};
-  return {WEXITSTATUS(status)};
+  if (WIFSIGNALED(status)) {
+    throw std::runtime_error("the simulation was ended by signal " +
+                             std::to_string(WTERMSIG(status)));
+  }
+  if (!complete) {
+    throw std::runtime_error("the simulation ended with exit status " +
+                             std::to_string(WEXITSTATUS(status)));
+  }
+  if (kind == Answer::kFailure) throw std::runtime_error(text);
+  return text;
 }
 
 }  // namespace sgs

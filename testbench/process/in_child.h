@@ -6,16 +6,12 @@
 
 namespace sgs {
 
-// How a child ended: with an exit status, or by a signal, which is negative here.
-struct ChildEnd {
-  int status = 0;
-  bool by_signal() const { return status < 0; }
-};
+// Runs work() in a forked child and returns what it returns. Throws std::runtime_error when no
+// process can be had, and when the child failed: with what() of the std::exception it threw, with
+// what it gave to fail_child(), or with the signal or exit status that ended it, in one line.
+std::string in_child(const std::function<std::string()>& work);
 
-// Runs work() in a forked child and gives what it returns into `result`, which stays empty unless
-// the child came to its end. A child that throws std::exception prints `program: what()` and exits
-// with status 1. Throws std::runtime_error when no process can be had.
-ChildEnd in_child(const char* program, const std::function<std::string()>& work,
-                  std::string& result);
+// For a child that cannot throw where it stands: ends it at once, and in_child() throws `why`.
+[[noreturn]] void fail_child(const std::string& why);
 
 }  // namespace sgs

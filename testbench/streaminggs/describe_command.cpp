@@ -87,16 +87,12 @@ MachineResult sheets_of(RunConfig& config) {
   config.storage.vq.iterations = 1;
   const PreparedScene prepared = prepare(std::move(scene), config, {camera});
   const FrameJob job = config.design->job(prepared.stored, camera);
-  std::string bytes;
-  in_child(
-      "streaminggs",
-      [&] {
-        use_femtosecond_resolution();
-        FrameResult result;
-        result.machine = collect(*config.design->build("accelerator", job, {}));
-        return to_wire(result);
-      },
-      bytes);
+  const std::string bytes = in_child([&] {
+    use_femtosecond_resolution();
+    FrameResult result;
+    result.machine = collect(*config.design->build("accelerator", job, {}));
+    return to_wire(result);
+  });
   return from_wire(bytes).machine;
 }
 

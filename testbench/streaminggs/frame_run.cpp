@@ -1,10 +1,7 @@
 // Machine and memory put together, and time.
 #include "testbench/streaminggs/frame_run.h"
 
-#include <unistd.h>
-
 #include <chrono>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -38,9 +35,7 @@ void end_on_error(const sc_core::sc_report& report, const sc_core::sc_actions& a
     sc_core::sc_report_handler::default_handler(report, actions);
     return;
   }
-  std::fprintf(stderr, "streaminggs: %s: %s\n", report.get_msg_type(), report.get_msg());
-  std::fflush(nullptr);
-  ::_exit(1);
+  fail_child(std::string(report.get_msg_type()) + ": " + report.get_msg());
 }
 
 FrameResult simulate(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
@@ -91,17 +86,8 @@ FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const Me
   Outputs outputs;
   if (!options.vcd_path.empty()) outputs.vcd = &files.add(options.vcd_path);
   if (!options.dram_trace_path.empty()) outputs.dram_trace = &files.add(options.dram_trace_path);
-  std::string bytes;
-  const ChildEnd end = in_child(
-      "streaminggs",
-      [&] { return to_wire(simulate(design, job, image, dram, options.build, outputs)); }, bytes);
-  if (end.by_signal()) {
-    throw std::runtime_error("the simulation of the frame was ended by signal " +
-                             std::to_string(-end.status));
-  }
-  if (bytes.empty() || end.status != 0) {
-    throw std::runtime_error("the simulation of the frame failed");
-  }
+  const std::string bytes = in_child(
+      [&] { return to_wire(simulate(design, job, image, dram, options.build, outputs)); });
   files.commit();
   FrameResult result = from_wire(bytes);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

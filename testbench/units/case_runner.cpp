@@ -57,15 +57,12 @@ void CaseRunner::add_directed(const std::string& name, Body body) {
 }
 
 bool CaseRunner::run_one(const Named& named, std::uint64_t seed, OutputFile* vcd) {
-  std::string bytes;
-  const ChildEnd end = in_child(
-      program_.c_str(), [&] { return run_case(named.body, seed, named.name, vcd); }, bytes);
   Result result;
-  if (bytes.size() == sizeof result) {
+  try {
+    const std::string bytes = in_child([&] { return run_case(named.body, seed, named.name, vcd); });
     std::memcpy(&result, bytes.data(), sizeof result);
-  } else {
-    std::printf("  FAILED: the process ended with %s %d\n",
-                end.by_signal() ? "signal" : "exit status", std::abs(end.status));
+  } catch (const std::runtime_error& error) {
+    std::printf("  FAILED: %s\n", error.what());
     ++result.failed;
   }
   if (result.made == 0) {

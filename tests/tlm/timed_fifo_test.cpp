@@ -297,27 +297,23 @@ TEST_CASE("FIFO ports: what is left open, or bound twice, fails elaboration by i
   for (const Row& row : rows) {
     INFO(row.what);
     // SystemC elaborates once a process.
-    std::string message;
-    in_child(
-        "timed_fifo_test",
-        [&] {
-          const ClockDomain clock(1000);
-          sc_core::sc_vector<TimedFifo<int>> fifos("fifo");
-          fifos.init(
-              3, [&](const char* name, std::size_t) { return new TimedFifo<int>(name, clock, 1); });
-          Passer unit("unit");
-          Reader reader("reader");
-          try {
-            for (const int k : row.in) unit.in(fifos[static_cast<std::size_t>(k)]);
-            for (const int k : row.out) unit.out(fifos[static_cast<std::size_t>(k)]);
-            for (const int k : row.reader) reader.in(fifos[static_cast<std::size_t>(k)]);
-            sc_core::sc_start(sc_core::SC_ZERO_TIME);
-          } catch (const sc_core::sc_report& report) {
-            return std::string(report.what());
-          }
-          return std::string("elaborated");
-        },
-        message);
+    const std::string message = in_child([&] {
+      const ClockDomain clock(1000);
+      sc_core::sc_vector<TimedFifo<int>> fifos("fifo");
+      fifos.init(
+          3, [&](const char* name, std::size_t) { return new TimedFifo<int>(name, clock, 1); });
+      Passer unit("unit");
+      Reader reader("reader");
+      try {
+        for (const int k : row.in) unit.in(fifos[static_cast<std::size_t>(k)]);
+        for (const int k : row.out) unit.out(fifos[static_cast<std::size_t>(k)]);
+        for (const int k : row.reader) reader.in(fifos[static_cast<std::size_t>(k)]);
+        sc_core::sc_start(sc_core::SC_ZERO_TIME);
+      } catch (const sc_core::sc_report& report) {
+        return std::string(report.what());
+      }
+      return std::string("elaborated");
+    });
     if (row.message.empty()) CHECK(message == "elaborated");
     for (const char* part : row.message) CHECK_THAT(message, Catch::Contains(part));
   }
