@@ -9,6 +9,7 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/scene/gaussian_cloud.h"
+#include "algorithm/scene/gaussian_limits.h"
 #include "algorithm/storage/first_fault.h"
 
 namespace sgs {
@@ -69,19 +70,23 @@ Fault fault_of_indices(const SecondHalfFormat& format, const std::byte* record) 
   return {};
 }
 
+// NaN is not within.
+bool within(const glm::vec3& v, double magnitude) {
+  return std::abs(v.x) <= magnitude && std::abs(v.y) <= magnitude && std::abs(v.z) <= magnitude;
+}
+
 Fault fault_of_values(const FirstHalf& first, const DecodedGaussian& decoded, int sh_degree) {
+  constexpr double kRounding = 1 + 1e-5;  // of an exponential in float
   const Gaussian<float>& g = decoded.gaussian;
-  const auto finite = [](const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  if (!finite(g.mean)) {
-    return fmt::format("centre: got ({}, {}, {}), expected finite numbers", g.mean.x, g.mean.y,
-                       g.mean.z);
+  if (!within(g.mean, kMaxCoordinate)) {
+    return fmt::format("centre: got ({}, {}, {}), expected magnitudes of at most {}", g.mean.x,
+                       g.mean.y, g.mean.z, kMaxCoordinate);
   }
-  if (!finite(g.scale) || std::min({g.scale.x, g.scale.y, g.scale.z}) < 0 ||
+  if (!within(g.scale, kMaxScale * kRounding) ||
+      std::min({g.scale.x, g.scale.y, g.scale.z}) < 0 ||
       std::max({g.scale.x, g.scale.y, g.scale.z}) != first.scale_max) {
-    return fmt::format("scales: got ({}, {}, {}), expected finite ones of 0 to the largest, {}",
-                       g.scale.x, g.scale.y, g.scale.z, first.scale_max);
+    return fmt::format("scales: got ({}, {}, {}), expected 0 to the largest, {}, itself at most {}",
+                       g.scale.x, g.scale.y, g.scale.z, first.scale_max, kMaxScale);
   }
   if (!is_rotation(g.quat)) {
     return fmt::format("rotation: got ({}, {}, {}, {}), expected a quaternion of length 1",
@@ -91,9 +96,9 @@ Fault fault_of_values(const FirstHalf& first, const DecodedGaussian& decoded, in
     return fmt::format("opacity: got {}, expected 0 to 1", g.opacity);
   }
   for (int k = 0; k < sh_coeff_count(sh_degree); ++k) {
-    if (finite(decoded.sh[k])) continue;
-    return fmt::format("SH coefficient {}: got ({}, {}, {}), expected finite numbers", k,
-                       decoded.sh[k].x, decoded.sh[k].y, decoded.sh[k].z);
+    if (within(decoded.sh[k], kMaxCoefficient)) continue;
+    return fmt::format("SH coefficient {}: got ({}, {}, {}), expected magnitudes of at most {}", k,
+                       decoded.sh[k].x, decoded.sh[k].y, decoded.sh[k].z, kMaxCoefficient);
   }
   return {};
 }

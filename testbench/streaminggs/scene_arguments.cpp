@@ -67,7 +67,7 @@ void SceneArguments::add_scene_to(CLI::App& app) {
   app.add_option("SCENE", scene, "a .ply file, builtin:NAME?n=COUNT, or a file made by pack")
       ->required();
   app.add_flag("--drop-invalid", drop_invalid,
-               "leave out Gaussians with values that are not finite, and count them");
+               "leave out Gaussians with values that are not finite or too large to be drawn, and count them");
 }
 
 void SceneArguments::add_views_to(CLI::App& app) {

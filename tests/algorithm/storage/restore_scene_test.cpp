@@ -127,7 +127,13 @@ TEST_CASE("restore: records that nothing encodes are refused") {
   check_refused({
       {kRaw, kChunks, "slot 5: centre: got (nan", [&](P& p) { put(p, first(p), NAN); }},
       {kRaw, kVoxels, "slot 5: centre: got (inf", [&](P& p) { put(p, first(p), INFINITY); }},
+      {kRaw, kChunks, "centre: got (2e+18", [&](P& p) { put(p, first(p), 2e18F); }},
       {kRaw, kChunks, "scales", [&](P& p) { put(p, first(p) + 12, -1.0F); }},
+      {kRaw, kChunks, "itself at most 10000000",
+       [&](P& p) {
+         put(p, first(p) + 12, 2e7F);
+         put(p, half(p), 2e7F);
+       }},
       {kRaw, kChunks, "scales", [&](P& p) { put(p, first(p) + 12, INFINITY); }},
       {kRaw, kChunks, "scales", [&](P& p) { put(p, half(p), 1e30F); }},
       {kRaw, kChunks, "rotation", [&](P& p) { put(p, half(p) + 8, 2.0F); }},
@@ -135,6 +141,7 @@ TEST_CASE("restore: records that nothing encodes are refused") {
       {kRaw, kChunks, "opacity: got 1.5", [&](P& p) { put(p, half(p) + 24, 1.5F); }},
       {kRaw, kVoxels, "opacity: got nan", [&](P& p) { put(p, half(p) + 24, NAN); }},
       {kRaw, kVoxels, "SH coefficient 3", [&](P& p) { put(p, half(p) + 72, INFINITY); }},
+      {kRaw, kVoxels, "SH coefficient 3", [&](P& p) { put(p, half(p) + 72, -2e18F); }},
       {SecondHalfEncoding::kHalf, kVoxels, "rotation",
        [&](P& p) { put(p, half(p) + 4, std::uint64_t{0}); }},
       {SecondHalfEncoding::kHalf, kVoxels, "SH coefficient 0",
