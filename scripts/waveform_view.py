@@ -17,6 +17,8 @@ import re
 import sys
 from collections.abc import Iterator
 
+import tables
+
 # Names of what stands between a unit and the leaf: an activity, a FIFO or a memory port.
 OF_AN_ACTIVITY = {"busy", "starved", "blocked"}
 OF_A_CHANNEL = {"fill", "bytes_outstanding"}
@@ -128,7 +130,7 @@ def main() -> int:
             signals = signals_of(file)
         if not signals:
             raise ValueError(f"{arguments.vcd}: no signal found, expected a VCD file")
-        arguments.out.write_text(view_of(signals, last_time(arguments.vcd)))
+        tables.write_text(arguments.out, view_of(signals, last_time(arguments.vcd)))
     except (OSError, ValueError, UnicodeDecodeError) as error:
         print(f"waveform_view.py: {error}", file=sys.stderr)
         return 2

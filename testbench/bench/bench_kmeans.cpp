@@ -17,11 +17,12 @@
 #include "algorithm/input_error.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/vq/canonical_shape.h"
-#include "algorithm/vq/quantise.h"
 #include "algorithm/vq/kmeans.h"
 #include "algorithm/vq/nearest.h"
+#include "algorithm/vq/quantise.h"
 #include "testbench/bench/bench_scene.h"
 #include "testbench/bench/stopwatch.h"
+#include "testbench/command_line/guard.h"
 
 namespace {
 
@@ -110,12 +111,9 @@ bool bench_codebook(const std::string& scene, Codebook codebook, const Activated
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> specs(argv + 1, argv + argc);
-  if (specs.empty()) {
-    fmt::print(stderr, "usage: bench_kmeans SCENE...\n");
-    return 2;
-  }
-  try {
+  return run_guarded("bench_kmeans", [&] {
+    const std::vector<std::string> specs(argv + 1, argv + argc);
+    if (specs.empty()) throw InputError("got no scene, expected bench_kmeans SCENE...");
     fmt::print("k-means, {} threads, {} runs, times in ms\n",
                tbb::this_task_arena::max_concurrency(), kRuns);
     fmt::print("{:<10} {:<9} {:>4} {:>8} {:>8} {:>10} {:>11} {:>6} {:>9}\n", "scene", "codebook",
@@ -132,9 +130,6 @@ int main(int argc, char** argv) {
       }
     }
     fmt::print("both searches give the same bits: {}\n", agree ? "yes" : "NO");
-    return agree ? 0 : 1;
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
+    return agree ? kDone : kFailed;
+  });
 }

@@ -4,9 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,7 +17,9 @@
 #include "algorithm/input_error.h"
 #include "algorithm/output_file.h"
 #include "algorithm/output_plan.h"
+#include "algorithm/output_set.h"
 #include "testbench/command_line/config_source.h"
+#include "testbench/command_line/option_checks.h"
 #include "testbench/command_line/version.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/error_maps.h"
@@ -56,13 +61,24 @@ fs::path view_folder(const fs::path& out, int view) { return out / fmt::format("
 constexpr const char* kViewFiles[] = {"frame.exr", "frame.png", "reference.exr", "reference.png",
                                       "report.json"};
 
+// All files of a view at once: no picture stands beside the report of another run.
 void write_view(const fs::path& folder, const ViewResult& view, const Json& report) {
-  write_image((folder / "frame.exr").string(), view.frame);
-  write_image((folder / "frame.png").string(), view.frame);
-  write_image((folder / "reference.exr").string(), view.reference);
-  write_image((folder / "reference.png").string(), view.reference);
-  write_error_maps(folder, view);
-  write_text(folder / "report.json", text_of(report));
+  OutputSet files;
+  const auto add = [&](const std::string& file) -> OutputFile& {
+    return files.add((folder / file).string());
+  };
+  write_image(add("frame.exr"), view.frame);
+  write_image(add("frame.png"), view.frame);
+  write_image(add("reference.exr"), view.reference);
+  write_image(add("reference.png"), view.reference);
+  add("report.json").write(text_of(report));
+  std::set<std::string> old_maps(std::begin(kErrorMapFiles), std::end(kErrorMapFiles));
+  for (const ErrorMap& map : error_maps(view)) {
+    write_image(add(map.file), map.image);
+    old_maps.erase(map.file);
+  }
+  files.commit();
+  for (const std::string& map : old_maps) fs::remove(folder / map);
 }
 
 Json list_choices(const std::vector<AutoChoice>& chosen) {
@@ -96,9 +112,77 @@ void check_places(const Arguments& arguments, const RunConfig& config, const fs:
   plan.check();
 }
 
+// What a command knows before its first frame.
+struct Setting {
+  RunConfig config;
+  Technology technology;
+  PreparedScene scene;
+  Json resolved;  // the configuration
+  std::chrono::steady_clock::time_point began;
+};
+
+Json full_report(const Arguments& arguments, const Setting& setting, const ViewResult& view) {
+  Json report = view_report(view, setting.scene);
+  report["config"] = setting.resolved;
+  report["chosen"] = list_choices(setting.config.chosen);
+  report["host"]["wall_s"] = seconds_since(setting.began);
+  report["host"]["peak_rss_bytes"] = peak_rss_bytes();
+  report["provenance"] = {{"version", version()},
+                          {"commit", commit()},
+                          {"memory_image_fnv1a64", fmt::format("{:016x}", view.image_hash)},
+                          {"technology", setting.technology.name},
+                          {"seed", arguments.run.build.stalls.seed},
+                          {"command", arguments.command}};
+  return report;
+}
+
+// Simulates the views one after the other and writes their files and, at the end, those of all that
+// were finished. One that fails is named and does not keep the others from running; a single one
+// throws.
+int run_views(const Arguments& arguments, const Setting& setting, const fs::path& out,
+              const std::vector<std::pair<int, Camera>>& views) {
+  Json all;
+  all["schema_version"] = 2;
+  all["config"] = setting.resolved;
+  all["failed"] = Json::array();
+  std::vector<ViewResult> results;
+  bool equal = true;
+  print_table_head();
+  for (const auto& [number, camera] : views) {
+    try {
+      ViewResult view = simulate_view(setting.scene, number, camera, setting.config,
+                                      setting.technology, arguments.run);
+      Json report = full_report(arguments, setting, view);
+      write_view(view_folder(out, number), view, report);
+      fs::remove(out / "report.json");  // an earlier run's, whose views begin to go
+      print_table_line(view);
+      equal = equal && view.equals_golden;
+      all["views"].push_back(std::move(report));
+      results.push_back(std::move(view));
+    } catch (const std::exception& error) {
+      if (views.size() == 1) throw;
+      std::fflush(stdout);
+      fmt::print(stderr, "streaminggs: view {}: {}\n", number, error.what());
+      all["failed"].push_back({{"view", number}, {"why", error.what()}});
+    }
+    std::fflush(stdout);
+  }
+  if (results.empty()) throw std::runtime_error("no view could be finished");
+  write_text(out / "report.json", text_of(all));
+  for (const ViewResult& view : results) print_details(view);
+  print_machine(results.front(), setting.config.chosen, setting.technology.name);
+  for (const Json& view : all["failed"]) {
+    fmt::print("\nview {} failed: {}\n", view["view"].get<int>(), view["why"].get<std::string>());
+  }
+  if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
+  return equal && all["failed"].empty() ? 0 : 1;
+}
+
 int run(const Arguments& arguments, const Kinds& kinds) {
-  const auto began = std::chrono::steady_clock::now();
-  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  Setting setting;
+  setting.began = std::chrono::steady_clock::now();
+  RunConfig& config = setting.config;
+  config = read_run_config(arguments.config.document(), kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
   if (packed) {
     resolve(config, *packed, arguments.scene);
@@ -115,57 +199,25 @@ int run(const Arguments& arguments, const Kinds& kinds) {
     return 0;
   }
   const fs::path out = arguments.out.empty() ? arguments.default_out() : arguments.out;
-  const RunOptions& options = arguments.run;
-  const bool one_view_only = !options.vcd_path.empty() || !options.dram_trace_path.empty();
+  const bool one_view_only =
+      !arguments.run.vcd_path.empty() || !arguments.run.dram_trace_path.empty();
   if (one_view_only && arguments.view.find_first_not_of("0123456789") != std::string::npos) {
     throw InputError(
         "--vcd, --dram-trace: one file holds one view; expected --view with one number");
   }
-  const Technology technology = load_technology(arguments.technology);
+  setting.technology = load_technology(arguments.technology);
   Scene scene;
   if (!packed) scene = arguments.load();
   const auto views = arguments.cameras(scene.cameras);
   check_places(arguments, config, out, views);
-  PreparedScene prepared;
   if (packed) {
-    prepared = prepare(std::move(*packed), arguments.scene, config);
+    setting.scene = prepare(std::move(*packed), arguments.scene, config);
   } else {
     const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
-    prepared = prepare(std::move(scene), config, weighing);
+    setting.scene = prepare(std::move(scene), config, weighing);
   }
-
-  const Json resolved = Json::parse(to_json(config));
-  Json all;
-  all["schema_version"] = 2;
-  all["config"] = resolved;
-  std::vector<ViewResult> results;
-  bool equal = true;
-  print_table_head();
-  for (const auto& [number, camera] : views) {
-    results.push_back(simulate_view(prepared, number, camera, config, technology, options));
-    const ViewResult& view = results.back();
-    Json report = view_report(view, prepared);
-    report["config"] = resolved;
-    report["chosen"] = list_choices(config.chosen);
-    report["host"]["wall_s"] = seconds_since(began);
-    report["host"]["peak_rss_bytes"] = peak_rss_bytes();
-    report["provenance"] = {{"version", version()},
-                            {"commit", commit()},
-                            {"memory_image_fnv1a64", fmt::format("{:016x}", view.image_hash)},
-                            {"technology", technology.name},
-                            {"seed", options.build.stalls.seed},
-                            {"command", arguments.command}};
-    write_view(view_folder(out, number), view, report);
-    print_table_line(view);
-    std::fflush(stdout);
-    equal = equal && view.equals_golden;
-    all["views"].push_back(std::move(report));
-  }
-  write_text(out / "report.json", text_of(all));
-  for (const ViewResult& view : results) print_details(view);
-  print_machine(results.front(), config.chosen, technology.name);
-  if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
-  return equal ? 0 : 1;
+  setting.resolved = Json::parse(to_json(config));
+  return run_views(arguments, setting, out, views);
 }
 
 }  // namespace
@@ -178,19 +230,25 @@ SubCommand add_simulate_command(CLI::App& app, const Kinds& kinds) {
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(app);
   app.add_option("--out", arguments->out,
-                 "folder for pictures and reports; out/ and the scene's name if not given");
-  app.add_option("--vcd", arguments->run.vcd_path, "write a waveform");
+                 "folder for pictures and reports; out/ and the scene's name if not given")
+      ->check(not_empty());
+  app.add_option("--vcd", arguments->run.vcd_path, "write a waveform")->check(not_empty());
   app.add_option("--dram-trace", arguments->run.dram_trace_path,
-                 "write every DRAM command; tb_dram --check verifies it");
+                 "write every DRAM command; tb_dram --check verifies it")
+      ->check(not_empty());
   app.add_option("--technology", arguments->technology, "table of energy and area")
+      ->check(not_empty())
       ->capture_default_str();
   BuildOptions& build = arguments->run.build;
   app.add_option("--stalls", build.stalls.probability,
                  "probability of a random stall at each side of each FIFO, for tests")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--seed", build.stalls.seed, "of the random stalls")->capture_default_str();
+      ->check(real_number(0, 1));
+  app.add_option("--seed", build.stalls.seed, "of the random stalls")
+      ->check(whole_number(0, kMostSeed))
+      ->capture_default_str();
   app.add_option("--construction-order", build.construction_order,
-                 "seed that shuffles the order in which units are made; changes no number");
+                 "seed that shuffles the order in which units are made; changes no number")
+      ->check(whole_number(0, kMostSeed));
   app.add_flag("--print-config", arguments->print_config, "show the resolved configuration");
   return [arguments, &kinds] {
     arguments->command = command_line();

@@ -104,14 +104,16 @@ TEST_CASE("output file: a full disk is an error that leaves nothing") {
   }
   CHECK(test::bytes_of(scratch.path("a.txt")) == "old");
   CHECK(scratch.file_count() == 1);
-  OutputSet set;
   {
     const FullDisk disk(1000);
+    OutputSet set;
     set.add(scratch.path("a.txt")).write("small");
-    set.add(scratch.path("b.txt")).write(large);
+    set.add(scratch.path("folder/b.txt")).write("small");
+    set.add(scratch.path("folder/c.txt")).write(large);
     CHECK_THROWS_AS(set.commit(), std::runtime_error);
   }
   CHECK(test::bytes_of(scratch.path("a.txt")) == "old");
+  CHECK(scratch.file_count() == 1);
 }
 
 TEST_CASE("output file: a child process may write it, its end removes nothing") {

@@ -67,6 +67,10 @@ TEST_CASE("bad input: what would never end is refused at once") {
            {"$SG compare a.exr a.exr", 2, {"a.exr", "regular"}, "mkfifo a.exr"},
            {"$SG compare a.png a.png", 2, {"a.png", "regular"}, "mkfifo a.png"},
            {"$SG compare a.pfm a.pfm", 2, {"a.pfm", "regular"}, "mkfifo a.pfm"},
+           {"$SG compare a.pfm a.pfm",
+            2,
+            {"a.pfm: pixel (1, 0): got (nan, "},
+            "printf 'Pf\\n2 1\\n-1\\n\\0\\0\\0\\0\\0\\0\\300\\177' >a.pfm"},
            {"$TB --replay pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
            {"$TB --replay .", 2, {"regular"}},
            {"$TB --replay /dev/zero", 2, {"/dev/zero", "regular"}},
@@ -110,6 +114,12 @@ TEST_CASE("bad input: depth") {
 
 TEST_CASE("bad input: numbers, keys and values that mean nothing") {
   for (const Row& row : std::vector<Row>{
+           {"$SG simulate $B --out o --seed -1", 2, {"--seed", "'-1'"}},
+           {"$SG simulate $B --out o --seed 100000000000000000000000", 2, {"--seed"}},
+           {"$SG simulate $B --out o --stalls nan", 2, {"--stalls", "nan"}},
+           {"$SG simulate $B --out o --construction-order -1", 2, {"--construction-order"}},
+           {"$SG simulate $B --out ''", 2, {"--out", "got nothing"}},
+           {"$SG simulate $B --out o --vcd ''", 2, {"--vcd", "got nothing"}},
            {"$TB --seed -1", 2, {"--seed", "'-1'", "9223372036854775807"}},
            {"$TB --seed 100000000000000000000000", 2, {"--seed", "100000000000000000000000"}},
            {"$TB --seed 0x5", 2, {"--seed", "0x5"}},
@@ -183,11 +193,19 @@ TEST_CASE("bad input: outputs have a place before the work begins") {
   for (const char* name : {"p.sgs", "file/a.sgs", "/proc/a.sgs"}) {
     check({"$SG pack 'builtin:object?n=2000000' --out " + std::string(name), 2, {name}, images});
   }
-  for (const char* option : {"--vcd", "--dram-trace"}) {
+  for (const std::string option : {" --vcd ", " --dram-trace "}) {
     for (const char* name : {"d", "p.vcd", "n.png", "file/a", "/proc/a"}) {
-      check({"$TB --transactions 1000000 " + std::string(option) + " " + name, 2, {name}, images});
+      check({"$TB --transactions 1000000" + option + name, 2, {name}, images});
+      check({"$SG simulate $B --out o" + option + name, 2, {name}, images});
     }
   }
+  for (const char* name : {"file", "/proc/o", "p.png", "n.png"}) {
+    check({"$SG simulate $B --out " + std::string(name), 2, {name}, images});
+  }
+  check({"$SG simulate $B --out o",
+         2,
+         {"o/view_0/frame.exr", "a device or a pipe"},
+         "mkdir -p o/view_0; mkfifo o/view_0/frame.exr"});
 }
 
 TEST_CASE("bad input: no output over an input, or over another output") {
@@ -196,18 +214,28 @@ TEST_CASE("bad input: no output over an input, or over another output") {
       "ln s.sgs h.sgs; $TB --transactions 9 --dram-trace t >/dev/null; "
       "echo '0 R' >r; ln -s r lr; cp " SGS_MEMSPEC
       " m.json; "
-      "echo '{\"dram\": {}}' >c.json";
+      "echo '{\"dram\": {}}' >c.json; echo '[{\"id\": 0, \"img_name\": \"v\", \"width\": 32, "
+      "\"height\": 18, \"position\": [0, 0, -5], \"rotation\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "
+      "\"fx\": 30, \"fy\": 30}]' >cameras.json; ln -s cameras.json l.json";
   for (const char* line :
        {"$SG pack l.sgs --out s.sgs", "$TB --replay r --dram-trace r",
         "$TB --replay r --dram-trace lr", "$TB --replay lr --dram-trace ./r",
         "$TB --config ./c.json --dram-trace c.json", "$TB --set dram.memspec=m.json --vcd m.json",
-        "$TB --vcd a --dram-trace ./a"}) {
+        "$TB --vcd a --dram-trace ./a", "$SG simulate s.sgs --cameras l.json --vcd ./s.sgs",
+        "$SG simulate s.sgs --cameras l.json --dram-trace h.sgs",
+        "$SG simulate $S --cameras l.json --out o --vcd l.json",
+        "$SG simulate $B --config ./c.json --out o --dram-trace c.json",
+        "$SG simulate $B --set dram.memspec=m.json --out o --vcd m.json",
+        "$SG simulate $B --out o --vcd a --dram-trace a",
+        "$SG simulate $B --out o --vcd o/view_0/report.json"}) {
     check({line, 2, {}, scene});
   }
 }
 
 TEST_CASE("bad input: a full disk leaves no file, and exit status 1") {
   for (const Row& row : std::vector<Row>{
+           {"FULL $SG simulate $B --out o", 1, {"o/view_0/", "cannot be written"}},
+           {"FULL $SG simulate $B --out o", 1, {"o/view_0/"}, "$SG simulate $B --out o"},
            {"FULL $TB --transactions 200 --vcd a.vcd >/dev/null", 1, {"a.vcd"}, "echo old >a.vcd"},
            {"FULL $TB --transactions 200 --dram-trace a", 1, {"a: cannot be written completely"}},
            {"FULL $TB --stream rnd --requests 2000 --dram-trace a", 1, {"a: cannot be written"}},

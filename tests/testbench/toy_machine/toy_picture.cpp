@@ -11,10 +11,10 @@ namespace sgs::toy {
 std::vector<PixelRect> groups_of(const FrameJob& job, const ToyConfig& config) {
   const auto side = static_cast<int>(config.group_px);
   std::vector<PixelRect> groups;
-  for (int y = 0; y < job.view.height; y += side) {
-    for (int x = 0; x < job.view.width; x += side) {
-      groups.push_back(intersection(PixelRect{x, y, x + side, y + side},
-                                    PixelRect{0, 0, job.view.width, job.view.height}));
+  const PixelRect frame{0, 0, job.view.width, job.view.height};
+  for (int y = 0; y < frame.y1; y += side) {
+    for (int x = 0; x < frame.x1; x += side) {
+      groups.push_back(intersection(PixelRect{x, y, x + side, y + side}, frame));
     }
   }
   return groups;

@@ -1,0 +1,216 @@
+// Joules and savings of a report, counted a second time from its counters.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/ply_writer.h"
+#include "tests/system/report_values.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Prices {
+ public:
+  Prices() {
+    std::ifstream file(SGS_TECHNOLOGY);
+    table_ = Json::parse(file);
+  }
+  double of(const std::string& kind) const {
+    return table_["operations"][kind]["pj"].get<double>() * 1e-12;
+  }
+  // Of so many bytes written once and read once.
+  double in_and_out(const std::string& size, double bytes) const {
+    return 8 * bytes * (of("sram_" + size + "_write_bit") + of("sram_" + size + "_read_bit"));
+  }
+
+ private:
+  Json table_;
+};
+
+double sum_of(const Json& view, const char* name) { return static_cast<double>(total(view, name)); }
+
+void check_joules(const Json& view) {
+  const Prices prices;
+  const Json& config = view["config"];
+  const Json& hfu = config["hfu"];
+  std::map<std::string, double> expected;
+  expected["coarse"] =
+      sum_of(view, "coarse_tests") * hfu["cfu_macs"].get<double>() * prices.of("fp32_mac");
+  expected["fine"] =
+      sum_of(view, "fine_tests") * hfu["ffu_macs"].get<double>() * prices.of("fp32_mac");
+  expected["sorting"] = sum_of(view, "compare_exchanges") * prices.of("compare_exchange");
+  const double blended_pixels = 16 * sum_of(view, "subtile_blends");
+  expected["rendering"] = blended_pixels * prices.of("pixel_blend");
+  expected["pixel_state"] = prices.in_and_out("large", 16 * blended_pixels);
+  double splats = 0;  // of the fine filters
+  for (const auto& [name, unit] : view["units"].items()) {
+    if (name.find(".fine") != std::string::npos) {
+      splats += static_cast<double>(counter(view, name, "splats"));
+    }
+  }
+  expected["buffers"] =
+      prices.in_and_out("small", 16 * sum_of(view, "first_halves") +
+                                     view["scene"]["second_half_bytes"].get<double>() *
+                                         sum_of(view, "second_halves") +
+                                     48 * splats);
+  if (config["machine"] == "exact") {
+    expected["vsu"] =
+        80 * static_cast<double>(counter(view, "vsu", "tests")) * prices.of("fp32_mac");
+    const double levels = std::ceil(std::log2(config["merge"]["entries"].get<double>()));
+    expected["merge"] = prices.in_and_out(
+        "middle", 2 * levels * 28 * static_cast<double>(counter(view, "merge", "keys")));
+  } else {
+    expected["vsu"] =
+        6 * static_cast<double>(counter(view, "vsu", "steps")) * prices.of("fp32_mac");
+  }
+  if (view["units"].contains("codebooks")) {
+    expected["codebooks"] = 8 * prices.of("sram_large_read_bit") *
+                                config["codebook"]["line_bytes"].get<double>() *
+                                sum_of(view, "lines_read") +
+                            8 * prices.of("sram_large_write_bit") * sum_of(view, "bytes_loaded");
+  }
+  double sum =
+      view["energy"]["dram_j"].get<double>() + view["energy"]["sram_leakage_j"].get<double>();
+  for (const auto& [component, joules] : expected) {
+    INFO(component);
+    CHECK(joules > 0);
+    CHECK(view["energy"][component + "_j"].get<double>() == Approx(joules));
+    sum += joules;
+  }
+  CHECK(view["energy"]["total_j"].get<double>() == Approx(sum));
+  double by_region = 0;
+  for (const Json& joules : view["energy"]["dram_by_region_j"]) by_region += joules.get<double>();
+  CHECK(by_region == Approx(view["energy"]["dram_j"].get<double>()));
+  CHECK(view["energy"]["mean_power_w"].get<double>() ==
+        Approx(sum / view["frame"]["time_s"].get<double>()));
+}
+
+TEST_CASE("costs: joules are counters times prices") {
+  for (const char* machine : {"exact", "paper"}) {
+    for (const char* encoding : {"raw", "vq_packed"}) {
+      INFO(machine << " " << encoding);
+      const Simulation simulation({"builtin:object?n=3000", "--size", "96x54", "--config", machine,
+                                   "--set", std::string("storage.encoding=") + encoding, "--set",
+                                   "group_px=32", "--set", "sram.codebook_bytes=256000", "--set",
+                                   "storage.vq.iterations=2", "--weigh-by", "0"});
+      simulation.check();
+      check_joules(simulation.views()[0]);
+    }
+  }
+}
+
+// The busiest resource and the one after it, worked out again from the cycles.
+void check_binding(const Json& view) {
+  std::map<std::string, std::uint64_t> busiest;
+  for (const Json& unit : view["units"]) {
+    for (const Json& activity : unit["activities"]) {
+      std::uint64_t& busy = busiest[activity["resource"]];
+      busy = std::max(busy, activity["busy_cycles"].get<std::uint64_t>());
+    }
+  }
+  const auto frame = static_cast<double>(frame_cycles(view));
+  const Json& binding = view["binding"];
+  const double first = binding["utilisation"], next = binding["next_utilisation"];
+  CHECK(first >= next);
+  for (const char* which : {"unit", "next"}) {
+    const std::string name = binding[which];
+    if (name == "dram") continue;
+    CHECK(static_cast<double>(busiest.at(name)) / frame ==
+          Approx(std::string(which) == "unit" ? first : next));
+  }
+  for (const auto& [name, busy] : busiest) {
+    INFO(name);
+    const double share = static_cast<double>(busy) / frame;
+    if (name != binding["unit"]) CHECK(share <= Approx(next));
+  }
+}
+
+TEST_CASE("costs: the binding resource is the busiest") {
+  for (const char* machine : {"exact", "paper"}) {
+    for (const char* slow :
+         {"rendering.clusters=1", "hfu.ffu_lanes=1", "hfu.cfu_lanes=1", "dram.channels=1"}) {
+      INFO(machine << " " << slow);
+      const Simulation simulation({"builtin:object?n=2000", "--size", "96x54", "--config", machine,
+                                   "--set", "storage.encoding=raw", "--set", slow});
+      check_binding(simulation.views()[0]);
+      if (std::string(slow) == "hfu.ffu_lanes=1") {
+        CHECK(simulation.views()[0]["binding"]["unit"] == "fine");
+      }
+    }
+  }
+}
+
+// The left half of a frame of 4 x 4 groups behind many opaque layers, nothing in the right half.
+struct HalfEmpty {
+  HalfEmpty() {
+    GaussianCloud cloud;
+    for (int layer = 0; layer < 300; ++layer) {
+      for (const float y : {-1.5F, -0.5F, 0.5F, 1.5F}) {
+        cloud.means.emplace_back(-1.5F, y, 4 + 0.01F * static_cast<float>(layer));
+        cloud.log_scales.emplace_back(-0.7F);
+        cloud.quats.push_back({1, 0, 0, 0});
+        cloud.opacity_logits.push_back(6);
+        cloud.sh_coeffs.emplace_back(1, 0.5F, 0);
+      }
+    }
+    Camera camera;
+    camera.width = camera.height = 64;
+    camera.focal_x = camera.focal_y = 64;
+    write_ply(folder.path("scene.ply"), cloud);
+    write_cameras(folder.path("cameras.json"), {camera});
+  }
+  Arguments arguments(const char* machine, const char* feedback) const {
+    return {folder.path("scene.ply"),
+            "--cameras",
+            folder.path("cameras.json"),
+            "--config",
+            machine,
+            "--set",
+            "group_px=16",
+            "--set",
+            "storage.encoding=raw",
+            "--set",
+            std::string("rendering.saturation_feedback=") + feedback};
+  }
+  ScratchFolder folder;
+};
+
+TEST_CASE("costs: what was left out: empty groups are empty, saturated ones saturated") {
+  const HalfEmpty scene;
+  constexpr std::uint64_t kGroups = 16;
+  for (const char* machine : {"exact", "paper"}) {
+    INFO(machine);
+    const Simulation with(scene.arguments(machine, "true")),
+        without(scene.arguments(machine, "false"));
+    const Json &view = with.views()[0], &plain = without.views()[0];
+    const std::uint64_t empty = left_out(view, "empty_groups");
+    // Nothing reaches the rightmost column of groups; every one of the leftmost is drawn on.
+    CHECK(empty >= kGroups / 4);
+    CHECK(empty <= kGroups * 3 / 4);
+    CHECK(left_out(plain, "empty_groups") == empty);
+    const std::uint64_t finished = counter(view, "rendering", "groups_saturated");
+    CHECK(finished > 0);
+    CHECK(finished + empty <= kGroups);
+    for (const char* what : {"saturated_groups", "saturated_visits", "saturated_gaussians"}) {
+      CHECK(left_out(plain, what) == 0);  // nobody was told
+    }
+    CHECK(left_out(view, "saturated_gaussians") > 0);
+    CHECK(left_out(view, "saturated_gaussians") == total(view, "dropped_saturated"));
+    if (std::string(machine) == "exact") {
+      CHECK(left_out(view, "saturated_groups") > 0);
+      CHECK(left_out(view, "saturated_groups") <= finished);
+    } else {
+      CHECK(left_out(view, "saturated_visits") == counter(view, "vsu", "visits_saturated"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test

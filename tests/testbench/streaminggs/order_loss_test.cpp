@@ -1,0 +1,94 @@
+// order_loss.h with the designs of both orders: each loss is charged with what it costs.
+#include "testbench/streaminggs/order_loss.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "algorithm/render/reference_renderer.h"
+#include "modules/machines.h"
+#include "testbench/builtin/open_scene.h"
+#include "testbench/streaminggs/prepared_scene.h"
+
+namespace sgs {
+namespace {
+
+// A view of the built-in object up to the golden picture, which serves as the frame.
+struct GoldenView {
+  explicit GoldenView(const std::vector<std::string>& overrides) {
+    ConfigDocument document;
+    for (const std::string& assignment : overrides) document.add_override(assignment);
+    config = read_run_config(document, machine_kinds());
+    resolve(config);
+    Scene opened = open_scene("builtin:object?n=3000");
+    const std::vector<Camera> cameras = opened.cameras;
+    scene = prepare(std::move(opened), config, cameras);
+    job = config.design->job(scene.stored, scaled_to(cameras[0], 128, 72));
+    reference = render_reference(job.view, scene.given()).image;
+    decoded_reference = render_reference(job.view, scene.stored.decoded).image;
+    golden = config.design->golden(scene.stored, job);
+  }
+  OrderLoss loss() const {
+    return order_loss(*config.design, scene.stored, job, reference, decoded_reference, golden,
+                      golden.frame.image);
+  }
+
+  RunConfig config;
+  PreparedScene scene;
+  FrameJob job;
+  Image reference, decoded_reference;
+  StreamingResult golden;
+};
+
+double squares(const Image& a, const Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      sum += std::pow(static_cast<double>(std::clamp(a.pixels[i][c], 0.0F, 1.0F)) -
+                          std::clamp(b.pixels[i][c], 0.0F, 1.0F),
+                      2);
+    }
+  }
+  return sum;
+}
+
+TEST_CASE("order loss: paper order, parts add up to the whole") {
+  for (const char* encoding : {"storage.encoding=raw", "storage.encoding=half"}) {
+    const GoldenView view({"machine=paper", "group_px=32", "storage.voxel_size=0.4", encoding});
+    REQUIRE(view.golden.stats.missed > 0);
+    REQUIRE(view.golden.stats.misordered > 0);
+    const OrderLoss loss = view.loss();
+    CAPTURE(encoding);
+    CHECK(loss.encoding.share + loss.missed.share + loss.misordered.share == Approx(1));
+    CHECK(loss.pixel_format.share == 0);
+    CHECK((loss.encoding.alone > 0) == view.scene.stored.original.has_value());
+    const double whole = squares(view.reference, view.golden.frame.image);
+    CHECK(loss.missed.alone == Approx(squares(view.decoded_reference, loss.in_order) / whole));
+    CHECK(loss.misordered.alone == Approx(squares(loss.in_order, view.golden.frame.image) / whole));
+    CHECK(loss.missed.alone > 0.001);
+    CHECK(loss.misordered.alone > 0.001);
+  }
+}
+
+TEST_CASE("order loss: exact order that blends early misses nothing, all is misordering") {
+  const GoldenView view({"machine=exact", "merge.entries=16", "merge.on_overflow=blend_early"});
+  REQUIRE(view.golden.stats.missed == 0);
+  REQUIRE(view.golden.stats.misordered > 0);
+  const OrderLoss loss = view.loss();
+  CHECK(loss.in_order.pixels == view.decoded_reference.pixels);
+  CHECK(loss.missed.share == 0);
+  CHECK(loss.misordered.share == Approx(1));
+}
+
+TEST_CASE("order loss: a design that misses splats must say what they show") {
+  GoldenView view({"machine=exact"});
+  CHECK_FALSE(is_lossy(view.golden.stats));
+  view.golden.stats.missed = 1;
+  CHECK_THROWS_AS(view.loss(), std::logic_error);
+}
+
+}  // namespace
+}  // namespace sgs
