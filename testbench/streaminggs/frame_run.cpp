@@ -60,7 +60,6 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   }
   // Until nothing can happen any more: the frame ends when its last posted write is in the memory.
   sc_core::sc_start();
-  if (waveform) waveform->close();
   if (dram_trace) dram_trace->close();
   if (!machine->done()) {
     throw std::runtime_error("the simulation ran out of events before the frame was finished");
@@ -73,6 +72,11 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   result.memory = collect_memory(memory, job.layout.regions, machine->requesters());
   result.frame.resize(job.frame_buffer.bytes);
   memory.read_back(job.frame_buffer.base, result.frame.data(), result.frame.size());
+  if (waveform) {
+    // The kernel writes what changed in a moment when time goes on.
+    sc_core::sc_start(sc_core::sc_get_time_resolution());
+    waveform->close();
+  }
   return result;
 }
 

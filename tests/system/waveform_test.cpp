@@ -104,8 +104,18 @@ void check_waveform(const std::string& machine) {
       }
     }
   }
-  // Bytes were on their way, FIFOs filled, rows were hit.
   const std::string text = bytes_of(vcd);
+  // The last moment is there: bursts of the last write are counted in it.
+  std::uint64_t row_hits = 0;
+  for (const auto& [signal, code] : signals) {
+    if (signal.find(".row_hits[") == std::string::npos) continue;
+    const std::size_t at = text.rfind(" " + code + "\n");
+    REQUIRE(at != std::string::npos);
+    const std::size_t digits = text.rfind('\n', at) + 2;  // "b1011 code"
+    row_hits += std::stoull(text.substr(digits, at - digits), nullptr, 2);
+  }
+  CHECK(row_hits == run.views()[0]["dram"]["row_hits"]);
+  // Bytes were on their way, FIFOs filled, rows were hit.
   for (const char* name :
        {"accelerator.hfu0.coarse.memory.bytes_outstanding[63:0]",
         "accelerator.visits_to_hfu0.fill[31:0]", "dram.channel0.row_hits[63:0]"}) {
