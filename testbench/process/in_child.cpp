@@ -2,6 +2,7 @@
 #include "testbench/process/in_child.h"
 
 #include <sys/wait.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -50,6 +51,12 @@ bool read_all(int descriptor, void* into, std::size_t bytes) {
   return true;
 }
 
+// A child has only the thread that forked, and waits for ever for a lock that another one held.
+void end_worker_threads() {
+  tbb::task_scheduler_handle workers{tbb::attach{}};
+  tbb::finalize(workers, std::nothrow);
+}
+
 [[noreturn]] void child(const std::function<std::string()>& work) {
   try {
     answer(Answer::kResult, work());
@@ -68,6 +75,7 @@ std::string in_child(const std::function<std::string()>& work) {
   int ends[2];
   if (::pipe(ends) != 0) throw std::runtime_error("cannot make a pipe to a child process");
   std::fflush(nullptr);
+  end_worker_threads();
   const pid_t process = ::fork();
   if (process < 0) throw std::runtime_error("cannot start a child process");
   if (process == 0) {

@@ -1,0 +1,63 @@
+// in_child.h: what comes back, why a child failed, and that it is forked from one thread.
+#include "testbench/process/in_child.h"
+
+#include <tbb/parallel_for.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <iterator>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace sgs {
+namespace {
+
+using Catch::Matchers::Equals;
+
+TEST_CASE("in child: gives back what the work returns, whatever it is") {
+  for (const std::string& text :
+       {std::string(), std::string("a\0b", 3), std::string(3'000'000, 'x')}) {
+    CHECK((in_child([&] { return text; }) == text));
+  }
+}
+
+TEST_CASE("in child: why it failed, in one line") {
+  struct Case {
+    std::string (*work)();
+    const char* why;
+  };
+  for (const Case& c : std::vector<Case>{
+           {[]() -> std::string { throw std::runtime_error("no\nway"); }, "no\\nway"},
+           {[]() -> std::string { throw std::bad_alloc(); }, "out of memory in the simulation"},
+           {[]() -> std::string { fail_child("from within"); }, "from within"},
+           {[]() -> std::string { ::_exit(3); }, "the simulation ended with exit status 3"},
+           {[]() -> std::string { return std::raise(SIGKILL), ""; },
+            "the simulation was ended by signal 9"}}) {
+    CHECK_THROWS_WITH(in_child(c.work), Equals(c.why));
+  }
+}
+
+std::ptrdiff_t threads() {
+  using Tasks = std::filesystem::directory_iterator;
+  return std::distance(Tasks("/proc/self/task"), Tasks());
+}
+
+TEST_CASE("in child: no other thread stands at the fork") {
+  for (int round = 0; round < 5; ++round) {
+    tbb::parallel_for(0, 32,
+                      [](int) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+    const std::ptrdiff_t before = threads();
+    in_child([] { return std::string(); });
+    if (std::thread::hardware_concurrency() > 1) CHECK(before > 1);
+    CHECK(threads() == 1);
+  }
+}
+
+}  // namespace
+}  // namespace sgs
