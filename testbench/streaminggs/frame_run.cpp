@@ -12,6 +12,7 @@
 #include "modules/dram/command_trace.h"
 #include "modules/dram/dram_controller.h"
 #include "testbench/process/in_child.h"
+#include "testbench/process/sc_errors.h"
 #include "testbench/result/collect.h"
 #include "testbench/result/collect_memory.h"
 #include "testbench/result/waveform_sheet.h"
@@ -28,21 +29,11 @@ struct Outputs {
   OutputFile* dram_trace = nullptr;
 };
 
-// An error that a unit reports ends the child where it is: thrown through the stack of a SystemC
-// process it would upset AddressSanitizer, and there is nothing to unwind for.
-void end_on_error(const sc_core::sc_report& report, const sc_core::sc_actions& actions) {
-  if (report.get_severity() < sc_core::SC_ERROR) {
-    sc_core::sc_report_handler::default_handler(report, actions);
-    return;
-  }
-  fail_child(std::string(report.get_msg_type()) + ": " + report.get_msg());
-}
-
 FrameResult simulate(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
                      const DramConfig& dram, const BuildOptions& build, const Outputs& outputs) {
   use_femtosecond_resolution();
   sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
-  sc_core::sc_report_handler::set_handler(end_on_error);
+  fail_child_on_sc_error();
   DramController memory("dram", dram);
   memory.load(0, image.bytes.data(), image.bytes.size());
   const std::unique_ptr<Machine> machine = design.build("accelerator", job, build);

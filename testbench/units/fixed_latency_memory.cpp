@@ -77,7 +77,7 @@ void FixedLatencyMemory::answer(Access& access) {
 }
 
 unsigned int FixedLatencyMemory::transport_dbg(int, ::tlm::tlm_generic_payload& payload) {
-  if (!holds(payload)) return 0;
+  if (!holds(payload) || payload.get_data_length() == 0) return 0;
   std::byte* here = at(payload.get_address());
   if (payload.is_read()) {
     std::memcpy(payload.get_data_ptr(), here, payload.get_data_length());

@@ -8,6 +8,7 @@
 #include "modules/machines.h"
 #include "testbench/builtin/open_scene.h"
 #include "testbench/process/in_child.h"
+#include "testbench/process/sc_errors.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "tests/testbench/other_memory/blocking_memory.h"
 #include "tests/testbench/other_memory/prompt_memory.h"
@@ -110,6 +111,7 @@ TEST_CASE("other memory: an address beyond it ends the run by name") {
   const auto run = [&] {
     return in_child([&] {
       use_femtosecond_resolution();
+      fail_child_on_sc_error();
       const auto machine = frame.config.design->build("accelerator", frame.job, {});
       PromptMemory memory("memory", 64, sc_core::SC_ZERO_TIME);
       for (auto& socket : machine->memory) socket.bind(memory.socket);
