@@ -18,6 +18,7 @@
 #include "tlm/memory_port.h"
 #include "tlm/protocol_checker.h"
 #include "tlm/router.h"
+#include "tlm/run_simulation.h"
 
 namespace sgs {
 
@@ -154,7 +155,7 @@ bool run_self_check(const SelfCheck& check) {
     for (const auto& user : users) user->port.trace(waveform->file());
   }
 
-  sc_core::sc_start();
+  run_simulation();
   if (waveform) waveform->close();
   if (trace) trace->close();
   const DramStats stats = dram.stats();

@@ -11,6 +11,7 @@
 #include "modules/dram/dram_controller.h"
 #include "testbench/dram/closed_loop_driver.h"
 #include "testbench/process/in_child.h"
+#include "tlm/run_simulation.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs {
@@ -62,7 +63,7 @@ DramStats run_stream(const StreamBench& bench, double& wall_s) {
   ClosedLoopDriver driver("driver", config, next);
   driver.socket.bind(dram.socket);
   const auto start = std::chrono::steady_clock::now();
-  sc_core::sc_start();
+  run_simulation();
   wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (trace) trace->close();
   const DramStats stats = dram.stats();

@@ -18,6 +18,7 @@
 #include "testbench/result/waveform_sheet.h"
 #include "testbench/result/wire.h"
 #include "testbench/waveform/waveform.h"
+#include "tlm/run_simulation.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs {
@@ -50,7 +51,7 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
     memory.trace(waveform->file());
   }
   // Until nothing can happen any more: the frame ends when its last posted write is in the memory.
-  sc_core::sc_start();
+  run_simulation();
   if (dram_trace) dram_trace->close();
   if (!machine->done()) {
     throw std::runtime_error("the simulation ran out of events before the frame was finished");

@@ -7,6 +7,7 @@
 
 #include "testbench/result/waveform_sheet.h"
 #include "testbench/waveform/waveform.h"
+#include "tlm/run_simulation.h"
 
 namespace sgs::tb {
 
@@ -126,7 +127,7 @@ void UnitBench::simulate() {
     for (const auto& fifo : fifos_) fifo->trace(waveform->file());
     if (dram_) dram_->trace(waveform->file());
   }
-  sc_core::sc_start();
+  run_simulation();
   if (waveform) waveform->close();
 }
 

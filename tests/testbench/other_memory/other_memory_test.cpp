@@ -12,6 +12,7 @@
 #include "testbench/streaminggs/prepared_scene.h"
 #include "tests/testbench/other_memory/blocking_memory.h"
 #include "tests/testbench/other_memory/prompt_memory.h"
+#include "tlm/run_simulation.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs::test {
@@ -54,7 +55,7 @@ std::string run_on(const Frame& frame, Bind&& bind) {
     const auto memory = bind(*machine, frame.job.layout.regions.total_bytes());
     const std::vector<std::byte>& image = frame.prepared.stored.image.bytes;
     std::copy(image.begin(), image.end(), memory->bytes.data());
-    sc_core::sc_start();
+    run_simulation();
     if (!machine->done()) throw std::runtime_error("the frame was not finished");
     const std::byte* from = memory->bytes.data() + frame.job.frame_buffer.base;
     return Frame::text_of({from, from + frame.job.frame_buffer.bytes});
@@ -115,7 +116,7 @@ TEST_CASE("other memory: an address beyond it ends the run by name") {
       const auto machine = frame.config.design->build("accelerator", frame.job, {});
       PromptMemory memory("memory", 64, sc_core::SC_ZERO_TIME);
       for (auto& socket : machine->memory) socket.bind(memory.socket);
-      sc_core::sc_start();
+      run_simulation();
       return std::string("came to its end");
     });
   };
