@@ -48,12 +48,17 @@ set(base_libs fmt::fmt glm::glm TBB::tbb)
 
 # ccache takes no object that begins with a precompiled header, and is worth more.
 if(NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
+  set(base_folders algorithm testbench/bench testbench/builtin testbench/command_line)
+  if(SYSTEMC_FOUND)
+    list(APPEND base_folders modules/config)
+  endif()
   sgs_precompile(sgs_base_headers HEADERS ${base_headers} LIBS ${base_libs}
-    FOLDERS algorithm testbench/bench testbench/builtin)
+    FOLDERS ${base_folders})
   if(SYSTEMC_FOUND)
     sgs_precompile(sgs_systemc_headers HEADERS ${base_headers} ${systemc_headers}
       LIBS ${base_libs} sgs_systemc
-      FOLDERS tlm modules/dram modules/streaminggs testbench/dram testbench/streaminggs testbench/units)
+      FOLDERS tlm modules/dram modules/streaminggs testbench/cost testbench/dram testbench/result
+        testbench/streaminggs testbench/units testbench/waveform)
   endif()
   if(BUILD_TESTING)
     sgs_precompile(sgs_test_headers HEADERS ${base_headers} <catch2/catch.hpp>
@@ -64,14 +69,15 @@ endif()
 # Commands and tests read arguments, write reports and compare: the work is done in the libraries.
 set(once)
 if(SYSTEMC_FOUND)
-  list(APPEND once testbench/dram testbench/streaminggs testbench/units)
+  sgs_targets_below(once "STATIC|EXECUTABLE" modules/config testbench/command_line testbench/cost
+    testbench/result testbench/streaminggs)
+  sgs_targets_below(benches EXECUTABLE testbench/dram testbench/units)
+  list(APPEND once ${benches})
 endif()
 if(BUILD_TESTING)
-  list(APPEND once tests)
+  sgs_targets_below(tests EXECUTABLE tests)
+  list(APPEND once ${tests} sgs_test_main)
 endif()
-sgs_targets_below(once_targets EXECUTABLE ${once})
-foreach(target ${once_targets} sgs_test_main sgs_config)
-  if(TARGET ${target})
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  endif()
+foreach(target ${once})
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endforeach()

@@ -3,20 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "modules/config/join.h"
-#include "testbench/command_line/option_checks.h"
 #include "testbench/command_line/presets.h"
 
 namespace sgs {
 
-void ConfigSource::add_to(CLI::App& app) {
-  app.add_option("--config", config, fmt::format("JSON file or preset: {}", join(preset_names())))
-      ->check(not_empty())
-      ->capture_default_str();
-  app.add_option("--set", overrides, "key.path=value, over the configuration; may be repeated")
-      ->allow_extra_args(false);  // what follows the value is another argument
+void ConfigSource::add_to(CommandLine& line) {
+  line.file("--config", config,
+            fmt::format("JSON file or preset: {}", join(preset_names())).c_str());
+  line.texts("--set", overrides, "key.path=value, over the configuration; may be repeated");
 }
 
 std::string ConfigSource::path() const { return config.empty() ? "" : config_file(config); }

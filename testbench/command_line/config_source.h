@@ -5,10 +5,7 @@
 #include <vector>
 
 #include "modules/config/strict_json.h"
-
-namespace CLI {
-class App;
-}
+#include "testbench/command_line/command_line.h"
 
 namespace sgs {
 
@@ -16,7 +13,7 @@ struct ConfigSource {
   std::string config;  // a preset or a file; empty: defaults alone
   std::vector<std::string> overrides;
 
-  void add_to(CLI::App& app);
+  void add_to(CommandLine& line);
 
   // The file's name, empty without one. Throws InputError as config_file() does.
   std::string path() const;

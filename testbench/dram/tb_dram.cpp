@@ -1,7 +1,6 @@
 // tb_dram: the memory alone. Without a mode it checks itself; the modes measure, replay and check.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <systemc>
 
 #include "algorithm/input_error.h"
@@ -13,7 +12,6 @@
 #include "modules/dram/request_trace.h"
 #include "modules/dram/trace_checker.h"
 #include "testbench/command_line/config_source.h"
-#include "testbench/command_line/option_checks.h"
 #include "testbench/command_line/program.h"
 #include "testbench/dram/bench_table.h"
 #include "testbench/dram/self_check.h"
@@ -196,31 +194,26 @@ int run(const Arguments& a) {
 int sc_main(int argc, char* argv[]) {
   constexpr std::uint64_t kMost = 1'000'000'000'000;
   Arguments a;
-  CLI::App app{"The memory alone: self-check, benchmarks, replay, trace checking", "tb_dram"};
-  app.add_option("--seed", a.seed, "seed of the random check")->check(whole_number(0, kMostSeed));
-  app.add_option("--transactions", a.transactions, "of each random initiator of the check")
-      ->check(whole_number(1, kMost));
-  app.add_option("--vcd", a.vcd, "waveform of the check")->check(not_empty());
-  a.config.add_to(app);
-  app.add_flag("--print-config", a.print_config, "print the resolved configuration and stop");
-  app.add_option("--dram-trace", a.dram_trace, "write the DRAM commands to this file")
-      ->check(not_empty());
-  app.add_option("--check", a.check, "check a command trace against the device's constraints")
-      ->check(not_empty());
-  app.add_flag("--table", a.table, "benchmarks beside public simulators and closed forms");
-  app.add_flag("--curve", a.curve, "latency against throughput");
-  app.add_flag("--speed", a.speed, "requests per wall second");
-  app.add_option("--published", a.published, "data file of the published figures")
-      ->check(not_empty());
-  app.add_option("--stream", a.stream, "measure one stream")
-      ->check(CLI::IsMember({"seq", "rnd", "stride"}));
-  app.add_option("--replay", a.replay, "measure a request trace: ADDRESS R|W [NANOSECONDS [BYTES]]")
-      ->check(not_empty());
-  app.add_option("--requests", a.requests, "how many")->check(whole_number(1, kMost));
-  app.add_option("--window", a.window, "outstanding requests")->check(whole_number(1, 1 << 20));
-  app.add_option("--bytes", a.bytes, "of a request")->check(whole_number(1, 65536));
-  app.add_option("--stride", a.stride, "bytes, for --stream stride")
-      ->check(whole_number(1, std::uint64_t{1} << 40));
-  app.add_option("--write-percent", a.write_percent, "of a stream")->check(whole_number(0, 100));
-  return run_program(app, argc, argv, [&] { return run(a); });
+  CommandLine line("tb_dram",
+                   "The memory alone: self-check, benchmarks, replay, trace checking");
+  line.whole("--seed", a.seed, 0, kMostSeed, "seed of the random check");
+  line.whole("--transactions", a.transactions, 1, kMost,
+             "of each random initiator of the check");
+  line.file("--vcd", a.vcd, "waveform of the check");
+  a.config.add_to(line);
+  line.flag("--print-config", a.print_config, "print the resolved configuration and stop");
+  line.file("--dram-trace", a.dram_trace, "write the DRAM commands to this file");
+  line.file("--check", a.check, "check a command trace against the device's constraints");
+  line.flag("--table", a.table, "benchmarks beside public simulators and closed forms");
+  line.flag("--curve", a.curve, "latency against throughput");
+  line.flag("--speed", a.speed, "requests per wall second");
+  line.file("--published", a.published, "data file of the published figures");
+  line.one_of({"seq", "rnd", "stride"}, "--stream", a.stream, "measure one stream");
+  line.file("--replay", a.replay, "measure a request trace: ADDRESS R|W [NANOSECONDS [BYTES]]");
+  line.whole("--requests", a.requests, 1, kMost, "how many");
+  line.whole("--window", a.window, 1, 1 << 20, "outstanding requests");
+  line.whole("--bytes", a.bytes, 1, 65536, "of a request");
+  line.whole("--stride", a.stride, 1, std::uint64_t{1} << 40, "bytes, for --stream stride");
+  line.whole("--write-percent", a.write_percent, 0, 100, "of a stream");
+  return run_program(line, argc, argv, [&] { return run(a); });
 }

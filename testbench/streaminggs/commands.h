@@ -5,10 +5,7 @@
 #include <vector>
 
 #include "modules/machine_design.h"
-
-namespace CLI {
-class App;
-}
+#include "testbench/command_line/command_line.h"
 
 namespace sgs {
 
@@ -18,12 +15,12 @@ using SubCommand = std::function<int()>;
 // kinds: the machines that there are, which outlive the command.
 using Kinds = std::vector<MachineKind>;
 
-SubCommand add_render_command(CLI::App& app, const Kinds& kinds);
-SubCommand add_simulate_command(CLI::App& app, const Kinds& kinds);
-SubCommand add_compare_command(CLI::App& app, const Kinds& kinds);
-SubCommand add_pack_command(CLI::App& app, const Kinds& kinds);
-SubCommand add_info_command(CLI::App& app, const Kinds& kinds);
-SubCommand add_describe_command(CLI::App& app, const Kinds& kinds);
+SubCommand add_render_command(CommandLine& line, const Kinds& kinds);
+SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds);
+SubCommand add_compare_command(CommandLine& line, const Kinds& kinds);
+SubCommand add_pack_command(CommandLine& line, const Kinds& kinds);
+SubCommand add_info_command(CommandLine& line, const Kinds& kinds);
+SubCommand add_describe_command(CommandLine& line, const Kinds& kinds);
 
 // All of them: parses the arguments, runs the command, prints errors. Exit status: as above, 2 for
 // bad arguments or input.

@@ -1,7 +1,6 @@
 // streaminggs compare A B
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -30,15 +29,15 @@ Image read_finite(const std::string& path) {
 
 }  // namespace
 
-SubCommand add_compare_command(CLI::App& app, const Kinds&) {
+SubCommand add_compare_command(CommandLine& line, const Kinds&) {
   struct Arguments {
     std::string a, b;
     bool exact = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  app.add_option("A", arguments->a, "image: .exr, .pfm or .png")->required();
-  app.add_option("B", arguments->b, "image: .exr, .pfm or .png")->required();
-  app.add_flag("--exact", arguments->exact, "exit with status 1 when a pixel differs");
+  line.text("A", arguments->a, "image: .exr, .pfm or .png", Given::kAlways);
+  line.text("B", arguments->b, "image: .exr, .pfm or .png", Given::kAlways);
+  line.flag("--exact", arguments->exact, "exit with status 1 when a pixel differs");
   return [arguments] {
     const Image a = read_finite(arguments->a), b = read_finite(arguments->b);
     const double error = max_abs_error(a, b);

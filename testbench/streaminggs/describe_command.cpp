@@ -2,7 +2,6 @@
 // in Markdown. The documentation's tables are made by it.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -98,10 +97,10 @@ MachineResult sheets_of(RunConfig& config) {
 
 }  // namespace
 
-SubCommand add_describe_command(CLI::App& app, const Kinds& kinds) {
+SubCommand add_describe_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<ConfigSource>();
   arguments->config = kinds.front().name;
-  arguments->add_to(app);
+  arguments->add_to(line);
   return [arguments, &kinds] {
     RunConfig config = read_run_config(arguments->document(), kinds);
     resolve(config);

@@ -1,7 +1,6 @@
 // streaminggs info SCENE
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "algorithm/input_error.h"
@@ -37,9 +36,9 @@ void print_voxels(const ActivatedCloud& cloud) {
 
 }  // namespace
 
-SubCommand add_info_command(CLI::App& app, const Kinds& kinds) {
+SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<SceneArguments>();
-  arguments->add_scene_to(app);
+  arguments->add_scene_to(line);
   return [arguments, &kinds] {
     if (const auto packed = arguments->load_packed()) {
       fmt::print("{:<26}{}\n{:<26}{:08x} (CRC-32)\n", "memory image, version", kImageFileVersion,
@@ -50,22 +49,22 @@ SubCommand add_info_command(CLI::App& app, const Kinds& kinds) {
     }
     const Scene scene = arguments->load();
     const SceneSummary s = summarise(scene.cloud);
-    const auto line = [](const char* name, auto value, const char* unit) {
+    const auto print = [](const char* name, auto value, const char* unit) {
       fmt::print("{:<26}{} {}\n", name, value, unit);
     };
-    line("gaussians", s.count, "");
-    line("dropped invalid", scene.dropped_invalid, "Gaussians");
-    line("sh degree", s.sh_degree, "");
+    print("gaussians", s.count, "");
+    print("dropped invalid", scene.dropped_invalid, "Gaussians");
+    print("sh degree", s.sh_degree, "");
     print_extent("extent, all", s.extent);
     print_extent("extent, 0.1 .. 99.9 %", s.inner_extent);
-    line("never visible", s.invisible_count, "Gaussians (opacity < 1/255)");
-    line("median opacity", s.median_opacity, "");
-    line("median largest scale", s.median_scale, "world units");
-    line("largest scale", s.max_scale, "world units");
-    line("largest scale ratio", s.max_scale_ratio, "");
-    line("first halves", s.first_half_bytes, "B");
-    line("second halves, raw", s.second_half_bytes, "B");
-    line("cameras", scene.cameras.size(), "");
+    print("never visible", s.invisible_count, "Gaussians (opacity < 1/255)");
+    print("median opacity", s.median_opacity, "");
+    print("median largest scale", s.median_scale, "world units");
+    print("largest scale", s.max_scale, "world units");
+    print("largest scale ratio", s.max_scale_ratio, "");
+    print("first halves", s.first_half_bytes, "B");
+    print("second halves, raw", s.second_half_bytes, "B");
+    print("cameras", scene.cameras.size(), "");
     print_voxels(activate(scene.cloud));
     return 0;
   };

@@ -1,7 +1,6 @@
 // streaminggs pack SCENE --out FILE.sgs
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -14,7 +13,6 @@
 #include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/image_file.h"
 #include "testbench/command_line/config_source.h"
-#include "testbench/command_line/option_checks.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
 #include "testbench/streaminggs/prepared_scene.h"
@@ -66,16 +64,15 @@ int run(const Arguments& arguments, const Kinds& kinds) {
 
 }  // namespace
 
-SubCommand add_pack_command(CLI::App& app, const Kinds& kinds) {
+SubCommand add_pack_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<Arguments>();
-  arguments->add_scene_to(app);
-  app.add_option("--cameras", arguments->cameras_path,
-                 "cameras.json, for vector quantisation; built-in scenes bring their own")
-      ->check(not_empty());
-  arguments->add_weighing_to(app);
+  arguments->add_scene_to(line);
+  line.file("--cameras", arguments->cameras_path,
+            "cameras.json, for vector quantisation; built-in scenes bring their own");
+  arguments->add_weighing_to(line);
   arguments->config.config = kinds.front().name;
-  arguments->config.add_to(app);
-  app.add_option("--out", arguments->out, "file to write, .sgs")->required();
+  arguments->config.add_to(line);
+  line.text("--out", arguments->out, "file to write, .sgs", Given::kAlways);
   return [arguments, &kinds] { return run(*arguments, kinds); };
 }
 

@@ -1,7 +1,6 @@
 // streaminggs render SCENE --out FILE
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/restore_scene.h"
-#include "testbench/command_line/option_checks.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/scene_arguments.h"
@@ -70,19 +68,16 @@ void render_golden_picture(const Arguments& arguments, const Kinds& kinds) {
 
 }  // namespace
 
-SubCommand add_render_command(CLI::App& app, const Kinds& kinds) {
+SubCommand add_render_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<Arguments>();
-  arguments->add_scene_to(app);
-  arguments->add_views_to(app);
-  app.add_option("--out", arguments->out, "image: .exr, .pfm or .png")->required();
+  arguments->add_scene_to(line);
+  arguments->add_views_to(line);
+  line.text("--out", arguments->out, "image: .exr, .pfm or .png", Given::kAlways);
   std::vector<std::string> orderings = {arguments->ordering};
   for (const MachineKind& kind : kinds) orderings.emplace_back(kind.name);
-  app.add_option("--ordering", arguments->ordering,
-                 "the reference renderer, or the picture that a machine must give")
-      ->check(CLI::IsMember(orderings))
-      ->capture_default_str();
-  app.add_option("--set", arguments->overrides, "key.path=value of the machine's configuration")
-      ->allow_extra_args(false);
+  line.one_of(orderings, "--ordering", arguments->ordering,
+              "the reference renderer, or the picture that a machine must give");
+  line.texts("--set", arguments->overrides, "key.path=value of the machine's configuration");
   return [arguments, &kinds] {
     check_image_name(arguments->out);
     OutputPlan plan;

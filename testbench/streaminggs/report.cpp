@@ -175,7 +175,7 @@ Json left_out_section(const std::vector<LeftOut>& list) {
 Json view_report(const ViewResult& view, const PreparedScene& scene) {
   const FrameResult& run = view.run;
   Json report;
-  report["schema_version"] = 2;
+  report["schema_version"] = kReportVersion;
   report["scene"] = scene_of(scene);
   report["view"] = view.view;
   report["image"] = image_of(view);

@@ -7,6 +7,8 @@
 
 namespace sgs {
 
+constexpr int kReportVersion = 2;
+
 nlohmann::ordered_json view_report(const ViewResult& view, const PreparedScene& scene);
 
 }  // namespace sgs

@@ -1,5 +1,4 @@
 // The command line of streaminggs, for whatever machines there are.
-#include <CLI/CLI.hpp>
 #include <utility>
 #include <vector>
 
@@ -10,14 +9,14 @@
 namespace sgs {
 
 int run_command_line(int argc, char* argv[], const Kinds& kinds) {
-  CLI::App app{"StreamingGS: a memory-centric 3D Gaussian Splatting accelerator in SystemC TLM-2.0",
-               "streaminggs"};
-  app.require_subcommand(1);
-  std::vector<std::pair<CLI::App*, SubCommand>> commands;
+  CommandLine line("streaminggs",
+                   "StreamingGS: a memory-centric 3D Gaussian Splatting accelerator in SystemC "
+                   "TLM-2.0");
+  std::vector<std::pair<const CommandLine*, SubCommand>> commands;
   const auto add = [&](const char* name, const char* what,
-                       SubCommand (*make)(CLI::App&, const Kinds&)) {
-    CLI::App* command = app.add_subcommand(name, what);
-    commands.emplace_back(command, make(*command, kinds));
+                       SubCommand (*make)(CommandLine&, const Kinds&)) {
+    CommandLine& command = line.command(name, what);
+    commands.emplace_back(&command, make(command, kinds));
   };
   add("simulate", "send a scene through the accelerator", add_simulate_command);
   add("pack", "write the memory image of a scene into a file", add_pack_command);
@@ -25,9 +24,9 @@ int run_command_line(int argc, char* argv[], const Kinds& kinds) {
   add("compare", "PSNR, SSIM and largest error of two images", add_compare_command);
   add("info", "print what a scene holds", add_info_command);
   add("describe", "print the data sheets and the configuration of a machine", add_describe_command);
-  return run_program(app, argc, argv, [&] {
+  return run_program(line, argc, argv, [&] {
     for (const auto& [command, run] : commands) {
-      if (command->parsed()) return while_doing("running " + command->get_name(), run);
+      if (command->chosen()) return while_doing("running " + command->name(), run);
     }
     return kBadInput;
   });

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -14,7 +13,6 @@
 #include "algorithm/scene/cameras.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/builtin/open_scene.h"
-#include "testbench/command_line/option_checks.h"
 #include "testbench/command_line/while_doing.h"
 
 namespace sgs {
@@ -63,26 +61,24 @@ std::vector<int> chosen_numbers(const std::string& view, int count) {
 
 }  // namespace
 
-void SceneArguments::add_scene_to(CLI::App& app) {
-  app.add_option("SCENE", scene, "a .ply file, builtin:NAME?n=COUNT, or a file made by pack")
-      ->required();
-  app.add_flag("--drop-invalid", drop_invalid,
-               "leave out Gaussians with values that are not finite or too large to be drawn, and count them");
+void SceneArguments::add_scene_to(CommandLine& line) {
+  line.text("SCENE", scene, "a .ply file, builtin:NAME?n=COUNT, or a file made by pack",
+            Given::kAlways);
+  line.flag("--drop-invalid", drop_invalid,
+            "leave out Gaussians with values that are not finite or too large to be drawn, and count "
+            "them");
 }
 
-void SceneArguments::add_views_to(CLI::App& app) {
-  app.add_option("--cameras", cameras_path, "cameras.json; built-in scenes bring their own")
-      ->check(not_empty());
-  app.add_option("--view", view, "numbers of cameras, as in 0,2, or all")->capture_default_str();
-  app.add_option("--size", size, "WIDTHxHEIGHT in px; scales the intrinsics");
+void SceneArguments::add_views_to(CommandLine& line) {
+  line.file("--cameras", cameras_path, "cameras.json; built-in scenes bring their own");
+  line.text("--view", view, "numbers of cameras, as in 0,2, or all");
+  line.text("--size", size, "WIDTHxHEIGHT in px; scales the intrinsics");
 }
 
-void SceneArguments::add_weighing_to(CLI::App& app) {
-  app.add_option("--weigh-by", weigh_by,
-                 "numbers of the cameras that weigh the Gaussians for vector quantisation, as in "
-                 "0,2,3; all if not given")
-      ->delimiter(',')
-      ->allow_extra_args(false);  // what follows the numbers is another argument
+void SceneArguments::add_weighing_to(CommandLine& line) {
+  line.numbers("--weigh-by", weigh_by,
+               "numbers of the cameras that weigh the Gaussians for vector quantisation, as in "
+               "0,2,3; all if not given");
 }
 
 std::string SceneArguments::default_out() const {

@@ -9,10 +9,7 @@
 #include "algorithm/output_plan.h"
 #include "algorithm/scene/load_scene.h"
 #include "algorithm/storage/image_file.h"
-
-namespace CLI {
-class App;
-}
+#include "testbench/command_line/command_line.h"
 
 namespace sgs {
 
@@ -24,10 +21,10 @@ struct SceneArguments {
   std::vector<int> weigh_by;  // numbers of cameras; empty: all
   bool drop_invalid = false;
 
-  void add_scene_to(CLI::App& app);
-  void add_views_to(CLI::App& app);
+  void add_scene_to(CommandLine& line);
+  void add_views_to(CommandLine& line);
 
-  void add_weighing_to(CLI::App& app);
+  void add_weighing_to(CommandLine& line);
 
   // Where to write what the user gave no place for: out/ and the scene's name.
   std::string default_out() const;

@@ -1,12 +1,10 @@
 // streaminggs simulate SCENE --out DIR
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -19,12 +17,10 @@
 #include "algorithm/output_plan.h"
 #include "algorithm/output_set.h"
 #include "testbench/command_line/config_source.h"
-#include "testbench/command_line/option_checks.h"
-#include "testbench/command_line/version.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/error_maps.h"
 #include "testbench/streaminggs/provenance.h"
-#include "testbench/streaminggs/report.h"
+#include "testbench/streaminggs/run_report.h"
 #include "testbench/streaminggs/scene_arguments.h"
 #include "testbench/streaminggs/terminal.h"
 
@@ -32,7 +28,6 @@ namespace sgs {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct Arguments : SceneArguments {
   ConfigSource config;
@@ -42,15 +37,6 @@ struct Arguments : SceneArguments {
   bool print_config = false;
   std::string command;  // the whole command line
 };
-
-double seconds_since(std::chrono::steady_clock::time_point began) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-}
-
-// A scene's name may be any bytes.
-std::string text_of(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
 
 void write_text(const fs::path& path, const std::string& text) {
   write_whole_file(path.string(), text.data(), text.size());
@@ -62,7 +48,8 @@ constexpr const char* kViewFiles[] = {"frame.exr", "frame.png", "reference.exr",
                                       "report.json"};
 
 // All files of a view at once: no picture stands beside the report of another run.
-void write_view(const fs::path& folder, const ViewResult& view, const Json& report) {
+void write_view(const fs::path& folder, const ViewResult& view,
+                const std::string& report) {
   OutputSet files;
   const auto add = [&](const std::string& file) -> OutputFile& {
     return files.add((folder / file).string());
@@ -71,7 +58,7 @@ void write_view(const fs::path& folder, const ViewResult& view, const Json& repo
   write_image(add("frame.png"), view.frame);
   write_image(add("reference.exr"), view.reference);
   write_image(add("reference.png"), view.reference);
-  add("report.json").write(text_of(report));
+  add("report.json").write(report);
   std::set<std::string> old_maps(std::begin(kErrorMapFiles), std::end(kErrorMapFiles));
   for (const ErrorMap& map : error_maps(view)) {
     write_image(add(map.file), map.image);
@@ -79,14 +66,6 @@ void write_view(const fs::path& folder, const ViewResult& view, const Json& repo
   }
   files.commit();
   for (const std::string& map : old_maps) fs::remove(folder / map);
-}
-
-Json list_choices(const std::vector<AutoChoice>& chosen) {
-  Json list = Json::array();
-  for (const AutoChoice& choice : chosen) {
-    list.push_back({{"key", choice.key}, {"value", choice.value}, {"why", choice.why}});
-  }
-  return list;
 }
 
 // Refuses outputs that have no place, or would take that of an input, before the work begins.
@@ -117,34 +96,17 @@ struct Setting {
   RunConfig config;
   Technology technology;
   PreparedScene scene;
-  Json resolved;  // the configuration
   std::chrono::steady_clock::time_point began;
 };
-
-Json full_report(const Arguments& arguments, const Setting& setting, const ViewResult& view) {
-  Json report = view_report(view, setting.scene);
-  report["config"] = setting.resolved;
-  report["chosen"] = list_choices(setting.config.chosen);
-  report["host"]["wall_s"] = seconds_since(setting.began);
-  report["host"]["peak_rss_bytes"] = peak_rss_bytes();
-  report["provenance"] = {{"version", version()},
-                          {"commit", commit()},
-                          {"memory_image_fnv1a64", fmt::format("{:016x}", view.image_hash)},
-                          {"technology", setting.technology.name},
-                          {"seed", arguments.run.build.stalls.seed},
-                          {"command", arguments.command}};
-  return report;
-}
 
 // Simulates the views one after the other and writes their files and, at the end, those of all that
 // were finished. One that fails is named and does not keep the others from running; a single one
 // throws.
-int run_views(const Arguments& arguments, const Setting& setting, const fs::path& out,
+int run_views(const Arguments& arguments, Setting& setting, const fs::path& out,
               const std::vector<std::pair<int, Camera>>& views) {
-  Json all;
-  all["schema_version"] = 2;
-  all["config"] = setting.resolved;
-  all["failed"] = Json::array();
+  RunReport report(setting.config, {setting.technology.name, arguments.run.build.stalls.seed,
+                                    arguments.command, setting.began});
+  std::vector<std::pair<int, std::string>> failed;
   std::vector<ViewResult> results;
   bool equal = true;
   print_table_head();
@@ -152,30 +114,28 @@ int run_views(const Arguments& arguments, const Setting& setting, const fs::path
     try {
       ViewResult view = simulate_view(setting.scene, number, camera, setting.config,
                                       setting.technology, arguments.run);
-      Json report = full_report(arguments, setting, view);
-      write_view(view_folder(out, number), view, report);
+      const auto of_view = report.of_view(view, setting.scene);
+      write_view(view_folder(out, number), view, report_text(*of_view));
       fs::remove(out / "report.json");  // an earlier run's, whose views begin to go
       print_table_line(view);
       equal = equal && view.equals_golden;
-      all["views"].push_back(std::move(report));
+      report.add(*of_view);
       results.push_back(std::move(view));
     } catch (const std::exception& error) {
       if (views.size() == 1) throw;
       std::fflush(stdout);
       fmt::print(stderr, "streaminggs: view {}: {}\n", number, error.what());
-      all["failed"].push_back({{"view", number}, {"why", error.what()}});
+      failed.emplace_back(number, error.what());
     }
     std::fflush(stdout);
   }
   if (results.empty()) throw std::runtime_error("no view could be finished");
-  write_text(out / "report.json", text_of(all));
+  write_text(out / "report.json", report.text(failed));
   for (const ViewResult& view : results) print_details(view);
   print_machine(results.front(), setting.config.chosen, setting.technology.name);
-  for (const Json& view : all["failed"]) {
-    fmt::print("\nview {} failed: {}\n", view["view"].get<int>(), view["why"].get<std::string>());
-  }
+  for (const auto& [view, why] : failed) fmt::print("\nview {} failed: {}\n", view, why);
   if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
-  return equal && all["failed"].empty() ? 0 : 1;
+  return equal && failed.empty() ? 0 : 1;
 }
 
 int run(const Arguments& arguments, const Kinds& kinds) {
@@ -216,40 +176,31 @@ int run(const Arguments& arguments, const Kinds& kinds) {
     const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
     setting.scene = prepare(std::move(scene), config, weighing);
   }
-  setting.resolved = Json::parse(to_json(config));
   return run_views(arguments, setting, out, views);
 }
 
 }  // namespace
 
-SubCommand add_simulate_command(CLI::App& app, const Kinds& kinds) {
+SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<Arguments>();
-  arguments->add_scene_to(app);
-  arguments->add_views_to(app);
-  arguments->add_weighing_to(app);
+  arguments->add_scene_to(line);
+  arguments->add_views_to(line);
+  arguments->add_weighing_to(line);
   arguments->config.config = kinds.front().name;
-  arguments->config.add_to(app);
-  app.add_option("--out", arguments->out,
-                 "folder for pictures and reports; out/ and the scene's name if not given")
-      ->check(not_empty());
-  app.add_option("--vcd", arguments->run.vcd_path, "write a waveform")->check(not_empty());
-  app.add_option("--dram-trace", arguments->run.dram_trace_path,
-                 "write every DRAM command; tb_dram --check verifies it")
-      ->check(not_empty());
-  app.add_option("--technology", arguments->technology, "table of energy and area")
-      ->check(not_empty())
-      ->capture_default_str();
+  arguments->config.add_to(line);
+  line.file("--out", arguments->out,
+            "folder for pictures and reports; out/ and the scene's name if not given");
+  line.file("--vcd", arguments->run.vcd_path, "write a waveform");
+  line.file("--dram-trace", arguments->run.dram_trace_path,
+            "write every DRAM command; tb_dram --check verifies it");
+  line.file("--technology", arguments->technology, "table of energy and area");
   BuildOptions& build = arguments->run.build;
-  app.add_option("--stalls", build.stalls.probability,
-                 "probability of a random stall at each side of each FIFO, for tests")
-      ->check(real_number(0, 1));
-  app.add_option("--seed", build.stalls.seed, "of the random stalls")
-      ->check(whole_number(0, kMostSeed))
-      ->capture_default_str();
-  app.add_option("--construction-order", build.construction_order,
-                 "seed that shuffles the order in which units are made; changes no number")
-      ->check(whole_number(0, kMostSeed));
-  app.add_flag("--print-config", arguments->print_config, "show the resolved configuration");
+  line.real("--stalls", build.stalls.probability, 0, 1,
+            "probability of a random stall at each side of each FIFO, for tests");
+  line.whole("--seed", build.stalls.seed, 0, kMostSeed, "of the random stalls");
+  line.whole("--construction-order", build.construction_order, 0, kMostSeed,
+             "seed that shuffles the order in which units are made; changes no number");
+  line.flag("--print-config", arguments->print_config, "show the resolved configuration");
   return [arguments, &kinds] {
     arguments->command = command_line();
     return run(*arguments, kinds);

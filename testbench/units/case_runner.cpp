@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -11,7 +10,6 @@
 #include <systemc>
 
 #include "algorithm/input_error.h"
-#include "testbench/command_line/option_checks.h"
 #include "testbench/command_line/program.h"
 #include "testbench/process/in_child.h"
 #include "tlm/no_banner.h"
@@ -78,19 +76,14 @@ bool CaseRunner::run_one(const Named& named, std::uint64_t seed, OutputFile* vcd
 
 int CaseRunner::run(int argc, char* argv[]) {
   constexpr std::uint64_t kMost = 1'000'000'000;
-  CLI::App app{purpose_, program_};
+  CommandLine line(program_, purpose_);
   std::uint64_t seed = 1, count = 100;
   std::string only, vcd_path;
-  app.add_option("--seed", seed, "of the random cases")
-      ->capture_default_str()
-      ->check(whole_number(0, kMostSeed));
-  app.add_option("--cases", count, "random cases, after the directed ones")
-      ->capture_default_str()
-      ->check(whole_number(0, kMost));
-  app.add_option("--case", only, "run only the case of this name")->check(not_empty());
-  app.add_option("--vcd", vcd_path, "write the waveform of the first case that runs")
-      ->check(not_empty());
-  return run_program(app, argc, argv, [&] { return run_all(seed, count, only, vcd_path); });
+  line.whole("--seed", seed, 0, kMostSeed, "of the random cases");
+  line.whole("--cases", count, 0, kMost, "random cases, after the directed ones");
+  line.file("--case", only, "run only the case of this name");
+  line.file("--vcd", vcd_path, "write the waveform of the first case that runs");
+  return run_program(line, argc, argv, [&] { return run_all(seed, count, only, vcd_path); });
 }
 
 int CaseRunner::run_all(std::uint64_t seed, std::uint64_t count, const std::string& only,
