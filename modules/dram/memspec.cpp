@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "algorithm/data_files.h"
 #include "algorithm/input_error.h"
 #include "modules/config/join.h"
 #include "modules/config/strict_json.h"
@@ -89,14 +90,14 @@ void visit(ConfigVisitor& v, Memspec& m) {
 
 std::vector<std::string> shipped_memspecs() {
   std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator(SGS_MEMSPEC_DIR))
+  for (const auto& entry : fs::directory_iterator(data_file("memspecs")))
     if (entry.path().extension() == ".json") found.push_back(entry.path().stem().string());
   std::sort(found.begin(), found.end());
   return found;
 }
 
 Memspec load_memspec(const std::string& name_or_path) {
-  const std::string shipped = std::string(SGS_MEMSPEC_DIR) + "/" + name_or_path + ".json";
+  const std::string shipped = data_file("memspecs") + "/" + name_or_path + ".json";
   std::error_code missing;
   const std::string path = fs::exists(shipped, missing) ? shipped : name_or_path;
   if (!fs::exists(path, missing))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "algorithm/data_files.h"
 #include "algorithm/input_error.h"
 #include "modules/config/join.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path preset_folder() { return SGS_PRESET_DIR; }
+fs::path preset_folder() { return data_file("presets"); }
 
 }  // namespace
 

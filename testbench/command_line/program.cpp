@@ -6,13 +6,17 @@
 #include <stdexcept>
 #include <systemc>
 
+#include "algorithm/data_files.h"
+
 namespace sgs {
 
 int run_program(CommandLine& line, int argc, const char* const* argv,
                 const std::function<int()>& body) {
   return run_guarded(line.name(), [&] {
     try {
-      return line.parse(argc, argv) ? body() : kDone;
+      if (!line.parse(argc, argv)) return kDone;
+      require_data_files();
+      return body();
     } catch (const sc_core::sc_report& report) {
       throw std::runtime_error(fmt::format("{}: {}", report.get_msg_type(), report.get_msg()));
     }

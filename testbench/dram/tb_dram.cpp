@@ -3,6 +3,7 @@
 
 #include <systemc>
 
+#include "algorithm/data_files.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_plan.h"
 #include "algorithm/output_set.h"
@@ -32,7 +33,7 @@ struct Arguments {
   std::uint64_t stride = 4096;
   std::uint32_t write_percent = 0;
   std::string vcd, dram_trace, check, replay, stream;
-  std::string published = SGS_PUBLISHED_ROWS;
+  std::string published = data_file("published.json");
   ConfigSource config;
   bool table = false, curve = false, speed = false, print_config = false;
 };

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/data_files.h"
 #include "algorithm/image/image_io.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_file.h"
@@ -32,7 +33,7 @@ namespace fs = std::filesystem;
 struct Arguments : SceneArguments {
   ConfigSource config;
   std::string out;
-  std::string technology = SGS_TECHNOLOGY;
+  std::string technology = data_file("technology_32nm.json");
   RunOptions run;
   bool print_config = false;
   std::string command;  // the whole command line

@@ -1,0 +1,83 @@
+// An installed prefix stands on its own: moved away, its programs read its files and no others.
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "tests/system/shell.h"
+
+namespace sgs::test {
+namespace {
+
+// Of a shell line that may use $P, a prefix that was moved after it was installed.
+class Prefix {
+ public:
+  Prefix() {
+    const ShellOutcome made = run(SGS_CMAKE " --install '" SGS_BINARY_DIR
+                                            "' --prefix first >log && mv first moved");
+    INFO(made.out << made.err);
+    REQUIRE(made.status == 0);
+  }
+  ShellOutcome run(const std::string& line) const {
+    return shell(scratch_, "P=./moved; IN=$P/" SGS_BIN_FOLDER "; DATA=$P/" SGS_DATA_FOLDER "\n" + line);
+  }
+
+ private:
+  ScratchFolder scratch_;
+};
+
+void contains(const ShellOutcome& outcome, int status, const std::string& word) {
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.status == status);
+  CHECK((status == 0 ? outcome.out : outcome.err).find(word) != std::string::npos);
+}
+
+TEST_CASE("install: a moved prefix simulates with a preset and a memspec of its own") {
+  const Prefix prefix;
+  contains(prefix.run("$IN/streaminggs --version"), 0, "streaminggs 0.");
+  contains(prefix.run("$IN/streaminggs simulate --help"), 0, "exact_vq_packed");
+  contains(prefix.run("$IN/streaminggs simulate $B --config exact_half --set "
+                      "dram.memspec=lpddr4_3200_8gb --out o && ls o/view_0"),
+           0, "frame.png");
+  contains(prefix.run("grep memspec o/report.json"), 0, "lpddr4_3200_8gb");
+  contains(prefix.run("$IN/tb_dram --transactions 20"), 0, "PASS");
+}
+
+TEST_CASE("install: the prefix's files are the ones that are read") {
+  const Prefix prefix;
+  contains(prefix.run("echo '{\"machine\": \"paper\", \"group_px\": 16}' >$DATA/presets/mine.json && "
+                      "$IN/streaminggs simulate $B --config mine --print-config"),
+           0, "\"group_px\": 16");
+  contains(prefix.run("rm $DATA/presets/paper.json; $IN/streaminggs simulate $B --config paper"), 2,
+           "mine");
+  contains(prefix.run("echo '{' >$DATA/memspecs/lpddr3_1600_4gb.json; $IN/tb_dram"), 2,
+           "moved/" SGS_DATA_FOLDER "/memspecs/lpddr3_1600_4gb.json");
+  contains(prefix.run("echo '{' >$DATA/technology_32nm.json; $IN/streaminggs simulate $B --set "
+                      "dram.memspec=lpddr4_3200_8gb --out p"),
+           2, "moved/" SGS_DATA_FOLDER "/technology_32nm.json");
+  contains(prefix.run("echo '{' >$DATA/published.json; $IN/tb_dram --table --set "
+                      "dram.memspec=lpddr4_3200_8gb"),
+           2, "moved/" SGS_DATA_FOLDER "/published.json");
+}
+
+TEST_CASE("install: programs without their files say so") {
+  const Prefix prefix;
+  for (const char* line : {"$IN/streaminggs simulate $B --out o", "$IN/tb_dram"}) {
+    INFO(line);
+    const ShellOutcome outcome = prefix.run(std::string("rm -rf $DATA; ") + line);
+    contains(outcome, 2, "moved/" SGS_DATA_FOLDER ": not there, expected");
+    CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+  }
+}
+
+TEST_CASE("install: no program names the data of the source tree") {
+  const Prefix prefix;
+  for (const char* place : {"testbench/configs", "testbench/cost/technology", "modules/dram/memspecs",
+                            "testbench/dram/published"}) {
+    INFO(place);
+    contains(prefix.run(std::string("grep -c '" SGS_SOURCE_DIR "/") + place +
+                        "' $IN/streaminggs || [ $? = 1 ]"),
+             0, "0\n");
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test
