@@ -65,11 +65,13 @@ def runs_of(scene: Scene) -> list[Run]:
 
 
 def cell(traffic: Outcome, quality: Outcome) -> str:
-    """MB / M cycles / dB."""
+    """MB / M cycles / mJ / dB."""
     view = traffic.accepted()[0]
     megabytes, cycles = view["dram"]["bytes"] / 1e6, view["frame"]["cycles"] / 1e6
+    millijoules = view["energy"]["total_j"] * 1e3
     psnr = psnr_text(quality.accepted()[0])
-    return f"{megabytes:.1f} / {cycles:.2f} / {psnr if psnr == 'equal' else f'{float(psnr):.1f}'}"
+    decibels = psnr if psnr == "equal" else f"{float(psnr):.1f}"
+    return f"{megabytes:.1f} / {cycles:.2f} / {millijoules:.2f} / {decibels}"
 
 
 def make_table(arguments: argparse.Namespace) -> None:
