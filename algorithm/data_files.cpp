@@ -25,9 +25,10 @@ std::string data_file(const std::string& name) { return (data_folder() / name).s
 void require_data_files() {
   std::error_code missing;
   if (fs::is_directory(data_folder(), missing)) return;
-  throw InputError(fmt::format(
-      "{}: not there, expected the presets, memspecs and tables that are installed with the program",
-      data_folder().string()));
+  throw InputError(
+      fmt::format("{}: not there, expected the presets, memspecs and tables that are installed "
+                  "with the program",
+                  data_folder().string()));
 }
 
 }  // namespace sgs

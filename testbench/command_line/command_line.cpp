@@ -91,16 +91,12 @@ void CommandLine::one_of(const std::vector<std::string>& allowed, const char* na
 
 void CommandLine::whole(const char* name, std::uint64_t& value, std::uint64_t lo, std::uint64_t hi,
                         const char* what) {
-  app_->add(name, value, what)
-      ->check(in_interval(lo, hi, "a whole number"))
-      ->capture_default_str();
+  app_->add(name, value, what)->check(in_interval(lo, hi, "a whole number"))->capture_default_str();
 }
 
 void CommandLine::whole(const char* name, std::uint32_t& value, std::uint32_t lo, std::uint32_t hi,
                         const char* what) {
-  app_->add(name, value, what)
-      ->check(in_interval(lo, hi, "a whole number"))
-      ->capture_default_str();
+  app_->add(name, value, what)->check(in_interval(lo, hi, "a whole number"))->capture_default_str();
 }
 
 void CommandLine::real(const char* name, double& value, double lo, double hi, const char* what) {

@@ -195,11 +195,9 @@ int run(const Arguments& a) {
 int sc_main(int argc, char* argv[]) {
   constexpr std::uint64_t kMost = 1'000'000'000'000;
   Arguments a;
-  CommandLine line("tb_dram",
-                   "The memory alone: self-check, benchmarks, replay, trace checking");
+  CommandLine line("tb_dram", "The memory alone: self-check, benchmarks, replay, trace checking");
   line.whole("--seed", a.seed, 0, kMostSeed, "seed of the random check");
-  line.whole("--transactions", a.transactions, 1, kMost,
-             "of each random initiator of the check");
+  line.whole("--transactions", a.transactions, 1, kMost, "of each random initiator of the check");
   line.file("--vcd", a.vcd, "waveform of the check");
   a.config.add_to(line);
   line.flag("--print-config", a.print_config, "print the resolved configuration and stop");

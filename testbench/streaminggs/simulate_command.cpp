@@ -49,8 +49,7 @@ constexpr const char* kViewFiles[] = {"frame.exr", "frame.png", "reference.exr",
                                       "report.json"};
 
 // All files of a view at once: no picture stands beside the report of another run.
-void write_view(const fs::path& folder, const ViewResult& view,
-                const std::string& report) {
+void write_view(const fs::path& folder, const ViewResult& view, const std::string& report) {
   OutputSet files;
   const auto add = [&](const std::string& file) -> OutputFile& {
     return files.add((folder / file).string());
