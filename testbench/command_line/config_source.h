@@ -21,7 +21,16 @@ struct ConfigSource {
   // The file's name, empty without one. Throws InputError as config_file() does.
   std::string path() const;
 
-  // The file with the overrides. Throws InputError.
+  bool is_preset() const;
+  // path() of a preset, else empty.
+  std::string preset_path() const { return is_preset() ? path() : ""; }
+
+  // What it is called: the preset's name or the file's without folder and extension; empty without
+  // one.
+  std::string name() const;
+
+  // The file with the overrides. Throws InputError, also when a preset's machine is set to another
+  // that has a preset of its own.
   ConfigDocument document() const;
 };
 

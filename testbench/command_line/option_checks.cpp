@@ -25,7 +25,7 @@ CLI::Validator in_interval(Number lo, Number hi, const char* kind) {
         const bool good = read(text, value) && value >= lo && value <= hi;
         return good ? std::string() : fmt::format("got '{}', expected {}", text, allowed);
       },
-      fmt::format("{}..{}", lo, hi));
+      fmt::format("in [{}, {}]", lo, hi));
 }
 
 }  // namespace
