@@ -17,6 +17,7 @@
 #include "testbench/command_line/option_checks.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
+#include "testbench/streaminggs/numbers.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/scene_arguments.h"
 
@@ -58,8 +59,14 @@ int run(const Arguments& arguments, const Kinds& kinds) {
   write_image_file(arguments.out, facts, prepared.stored.storage, image);
   print_packed(facts, prepared.stored.storage, image.layout,
                readers_of(kinds, prepared.stored.storage.order));
+  if (image.layout.second_half.quantised()) {
+    fmt::print("{:<26}{}\n", "codebooks",
+               weighing.empty() ? std::string("not weighted: no cameras")
+                                : fmt::format("weighted by {} cameras", grouped(weighing.size())));
+  }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-  fmt::print("{:<26}{} B, {}\n", "file", std::filesystem::file_size(arguments.out), arguments.out);
+  fmt::print("{:<26}{} B, {}\n", "file", grouped(std::filesystem::file_size(arguments.out)),
+             arguments.out);
   fmt::print("{:<26}{:.1f} s\n", "packed in", took.count());
   return 0;
 }
@@ -68,7 +75,7 @@ int run(const Arguments& arguments, const Kinds& kinds) {
 
 SubCommand add_pack_command(CLI::App& app, const Kinds& kinds) {
   auto arguments = std::make_shared<Arguments>();
-  arguments->add_scene_to(app);
+  arguments->add_scene_to(app, kUnpackedSceneForms);
   app.add_option("--cameras", arguments->cameras_path,
                  "cameras.json, for vector quantisation; built-in scenes bring their own")
       ->check(not_empty());

@@ -63,11 +63,12 @@ std::vector<int> chosen_numbers(const std::string& view, int count) {
 
 }  // namespace
 
-void SceneArguments::add_scene_to(CLI::App& app) {
-  app.add_option("SCENE", scene, "a .ply file, builtin:NAME?n=COUNT, or a file made by pack")
-      ->required();
+void SceneArguments::add_scene_to(CLI::App& app, const char* forms) {
+  scene_forms = forms;
+  app.add_option("SCENE", scene, forms)->required();
   app.add_flag("--drop-invalid", drop_invalid,
-               "leave out Gaussians with values that are not finite or too large to be drawn, and count them");
+               "leave out Gaussians with values that are not finite or too large to be drawn, and "
+               "count them");
 }
 
 void SceneArguments::add_views_to(CLI::App& app) {
@@ -100,7 +101,17 @@ void SceneArguments::add_inputs_to(OutputPlan& plan) const {
 }
 
 Scene SceneArguments::load() const {
-  return while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
+  std::error_code unknown;
+  if (!is_builtin_scene(scene) && !std::filesystem::exists(scene, unknown)) {
+    throw InputError(fmt::format("{}: no such file, expected {}", scene, scene_forms));
+  }
+  Scene loaded = while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
+  if (loaded.dropped_invalid > 0 && loaded.cloud.size() == 0) {
+    throw InputError(
+        fmt::format("{}: --drop-invalid leaves none of {} Gaussians, expected one or more", scene,
+                    loaded.dropped_invalid));
+  }
+  return loaded;
 }
 
 std::optional<PackedScene> SceneArguments::load_packed() const {
@@ -114,8 +125,17 @@ std::optional<PackedScene> SceneArguments::load_packed() const {
   return while_doing("reading " + scene, [&] { return read_image_file(scene); });
 }
 
+std::vector<Camera> SceneArguments::all_cameras(const std::vector<Camera>& own) const {
+  if (cameras_path.empty()) return own;
+  std::vector<Camera> cameras = read_cameras(cameras_path);
+  if (cameras.empty()) {
+    throw InputError(fmt::format("{}: holds no cameras, expected one or more", cameras_path));
+  }
+  return cameras;
+}
+
 std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Camera>& own) const {
-  const std::vector<Camera> all = cameras_path.empty() ? own : read_cameras(cameras_path);
+  const std::vector<Camera> all = all_cameras(own);
   if (all.empty()) {
     throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
   }
@@ -137,7 +157,7 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Ca
 }
 
 std::vector<Camera> SceneArguments::weighing_cameras(const std::vector<Camera>& own) const {
-  const std::vector<Camera> all = cameras_path.empty() ? own : read_cameras(cameras_path);
+  const std::vector<Camera> all = all_cameras(own);
   if (weigh_by.empty()) return all;
   std::vector<Camera> chosen;
   for (const int number : weigh_by) {
