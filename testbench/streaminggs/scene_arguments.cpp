@@ -86,13 +86,13 @@ void SceneArguments::add_weighing_to(CLI::App& app) {
       ->allow_extra_args(false);  // what follows the numbers is another argument
 }
 
-std::string SceneArguments::default_out() const {
+std::string SceneArguments::default_out(const std::string& config_name) const {
   std::string name = std::filesystem::path(scene).stem().string();
   if (is_builtin_scene(scene)) {
     name = scene.substr(scene.find(':') + 1);
     name = name.substr(0, name.find('?'));
   }
-  return (std::filesystem::path("out") / name).string();
+  return (std::filesystem::path("out") / name / config_name).string();
 }
 
 void SceneArguments::add_inputs_to(OutputPlan& plan) const {

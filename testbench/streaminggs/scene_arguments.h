@@ -35,8 +35,8 @@ struct SceneArguments {
 
   void add_weighing_to(CLI::App& app);
 
-  // Where to write what the user gave no place for: out/ and the scene's name.
-  std::string default_out() const;
+  // Where to write what the user gave no place for: out/, the scene's name, the configuration's.
+  std::string default_out(const std::string& config_name) const;
   // No output may take the place of the scene or the cameras.
   void add_inputs_to(OutputPlan& plan) const;
 

@@ -25,6 +25,7 @@
 #include "testbench/streaminggs/error_maps.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/report.h"
+#include "testbench/streaminggs/result_folder.h"
 #include "testbench/streaminggs/scene_arguments.h"
 #include "testbench/streaminggs/terminal.h"
 
@@ -56,11 +57,6 @@ void write_text(const fs::path& path, const std::string& text) {
   write_whole_file(path.string(), text.data(), text.size());
 }
 
-fs::path view_folder(const fs::path& out, int view) { return out / fmt::format("view_{}", view); }
-
-constexpr const char* kViewFiles[] = {"frame.exr", "frame.png", "reference.exr", "reference.png",
-                                      "report.json"};
-
 // All files of a view at once: no picture stands beside the report of another run.
 void write_view(const fs::path& folder, const ViewResult& view, const Json& report) {
   OutputSet files;
@@ -90,7 +86,7 @@ Json list_choices(const std::vector<AutoChoice>& chosen) {
 }
 
 // Refuses outputs that have no place, or would take that of an input, before the work begins.
-void check_places(const Arguments& arguments, const RunConfig& config, const fs::path& out,
+void check_places(const Arguments& arguments, const RunConfig& config, const ResultFolder& out,
                   const std::vector<std::pair<int, Camera>>& views) {
   OutputPlan plan;
   arguments.add_inputs_to(plan);
@@ -100,15 +96,16 @@ void check_places(const Arguments& arguments, const RunConfig& config, const fs:
   for (const std::string& file : {arguments.run.vcd_path, arguments.run.dram_trace_path}) {
     if (!file.empty()) plan.add_output(file);
   }
-  plan.add_output((out / "report.json").string());
+  plan.add_output(out.report().string());
+  std::set<fs::path> files;
   for (const auto& [number, camera] : views) {
-    for (const char* file : kViewFiles) {
-      plan.add_output((view_folder(out, number) / file).string());
-    }
-    for (const char* file : kErrorMapFiles) {
-      plan.add_output((view_folder(out, number) / file).string());
-    }
+    const std::vector<fs::path> of_view = ResultFolder::files_of(out.view(number));
+    files.insert(of_view.begin(), of_view.end());
   }
+  // Those of an earlier run will be removed.
+  const std::vector<fs::path> earlier = out.present();
+  files.insert(earlier.begin(), earlier.end());
+  for (const fs::path& file : files) plan.add_output(file.string());
   plan.check();
 }
 
@@ -137,9 +134,9 @@ Json full_report(const Arguments& arguments, const Setting& setting, const ViewR
 }
 
 // Simulates the views one after the other and writes their files and, at the end, those of all that
-// were finished. One that fails is named and does not keep the others from running; a single one
-// throws.
-int run_views(const Arguments& arguments, const Setting& setting, const fs::path& out,
+// were finished. The first one's take the place of an earlier run's. One that fails is named and
+// does not keep the others from running; a single one throws.
+int run_views(const Arguments& arguments, const Setting& setting, const ResultFolder& out,
               const std::vector<std::pair<int, Camera>>& views) {
   Json all;
   all["schema_version"] = 2;
@@ -153,8 +150,8 @@ int run_views(const Arguments& arguments, const Setting& setting, const fs::path
       ViewResult view = simulate_view(setting.scene, number, camera, setting.config,
                                       setting.technology, arguments.run);
       Json report = full_report(arguments, setting, view);
-      write_view(view_folder(out, number), view, report);
-      fs::remove(out / "report.json");  // an earlier run's, whose views begin to go
+      write_view(out.view(number), view, report);
+      if (results.empty()) out.keep_only(number);
       print_table_line(view);
       equal = equal && view.equals_golden;
       all["views"].push_back(std::move(report));
@@ -168,7 +165,7 @@ int run_views(const Arguments& arguments, const Setting& setting, const fs::path
     std::fflush(stdout);
   }
   if (results.empty()) throw std::runtime_error("no view could be finished");
-  write_text(out / "report.json", text_of(all));
+  write_text(out.report(), text_of(all));
   for (const ViewResult& view : results) print_details(view);
   print_machine(results.front(), setting.config.chosen, setting.technology.name);
   for (const Json& view : all["failed"]) {
@@ -198,7 +195,8 @@ int run(const Arguments& arguments, const Kinds& kinds) {
     fmt::print("{}\n", to_json(config));
     return 0;
   }
-  const fs::path out = arguments.out.empty() ? arguments.default_out() : arguments.out;
+  const ResultFolder out(arguments.out.empty() ? arguments.default_out(arguments.config.name())
+                                               : arguments.out);
   const bool one_view_only =
       !arguments.run.vcd_path.empty() || !arguments.run.dram_trace_path.empty();
   if (one_view_only && arguments.view.find_first_not_of("0123456789") != std::string::npos) {
@@ -230,7 +228,7 @@ SubCommand add_simulate_command(CLI::App& app, const Kinds& kinds) {
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(app);
   app.add_option("--out", arguments->out,
-                 "folder for pictures and reports; out/ and the scene's name if not given")
+                 "folder for pictures and reports; out/SCENE/CONFIG by their names if not given")
       ->check(not_empty());
   app.add_option("--vcd", arguments->run.vcd_path, "write a waveform")->check(not_empty());
   app.add_option("--dram-trace", arguments->run.dram_trace_path,
