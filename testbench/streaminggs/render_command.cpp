@@ -11,7 +11,7 @@
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/restore_scene.h"
-#include "testbench/command_line/option_checks.h"
+#include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/scene_arguments.h"
@@ -19,10 +19,12 @@
 namespace sgs {
 namespace {
 
+constexpr const char* kReference = "reference";
+
 struct Arguments : SceneArguments {
   std::string out;
-  std::string ordering = "reference";
-  std::vector<std::string> overrides;
+  std::string ordering = kReference;
+  ConfigSource config;
 
   Camera camera(const std::vector<Camera>& own) const {
     const auto views = cameras(own);
@@ -31,6 +33,16 @@ struct Arguments : SceneArguments {
         fmt::format("--view: '{}' names {} views, expected one for one image", view, views.size()));
   }
 };
+
+// Without --config the preset of the ordering's name, where there is one.
+ConfigSource completed(ConfigSource config, const std::string& ordering) {
+  if (!config.config.empty()) return config;
+  config.config = ordering;
+  if (config.is_preset()) return config;
+  config.config.clear();
+  config.overrides.insert(config.overrides.begin(), "machine=" + ordering);
+  return config;
+}
 
 void render_reference_picture(const Arguments& arguments) {
   Scene scene;
@@ -47,14 +59,17 @@ void render_reference_picture(const Arguments& arguments) {
 
 // The picture that a machine must give, and what its order loses.
 void render_golden_picture(const Arguments& arguments, const Kinds& kinds) {
-  ConfigDocument document;
-  document.add_override("machine=" + arguments.ordering);
-  for (const std::string& assignment : arguments.overrides) document.add_override(assignment);
-  RunConfig config = read_run_config(document, kinds);
+  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  if (config.machine() != arguments.ordering) {
+    throw InputError(
+        fmt::format("--ordering {}: the configuration is of machine {}, expected one "
+                    "of machine {}",
+                    arguments.ordering, config.machine(), arguments.ordering));
+  }
   Scene scene;
   PreparedScene prepared;
   if (auto packed = arguments.load_packed()) {
-    resolve(config, *packed, arguments.scene);
+    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
     prepared = prepare(std::move(*packed), arguments.scene, config);
   } else {
     resolve(config);
@@ -81,15 +96,24 @@ SubCommand add_render_command(CLI::App& app, const Kinds& kinds) {
                  "the reference renderer, or the picture that a machine must give")
       ->check(CLI::IsMember(orderings))
       ->capture_default_str();
-  app.add_option("--set", arguments->overrides, "key.path=value of the machine's configuration")
-      ->allow_extra_args(false);
+  arguments->config.add_to(app);
+  CLI::Option* config = app.get_option("--config");
+  config->description(config->get_description() + "; if not given, the one of the ordering's name");
   return [arguments, &kinds] {
+    const bool reference = arguments->ordering == kReference;
+    if (reference && !(arguments->config.config.empty() && arguments->config.overrides.empty())) {
+      throw InputError(
+          "--config, --set: the reference renderer has nothing to configure, expected "
+          "them with the --ordering of a machine");
+    }
+    if (!reference) arguments->config = completed(arguments->config, arguments->ordering);
     check_image_name(arguments->out);
     OutputPlan plan;
     arguments->add_inputs_to(plan);
+    plan.add_input(arguments->config.path());
     plan.add_output(arguments->out);
     plan.check();
-    if (arguments->ordering == "reference") {
+    if (reference) {
       render_reference_picture(*arguments);
     } else {
       render_golden_picture(*arguments, kinds);

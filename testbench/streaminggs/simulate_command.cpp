@@ -167,6 +167,7 @@ int run_views(const Arguments& arguments, const Setting& setting, const ResultFo
   if (results.empty()) throw std::runtime_error("no view could be finished");
   write_text(out.report(), text_of(all));
   for (const ViewResult& view : results) print_details(view);
+  print_scene(setting.scene, setting.config, arguments.drop_invalid);
   print_machine(results.front(), setting.config.chosen, setting.technology.name);
   for (const Json& view : all["failed"]) {
     fmt::print("\nview {} failed: {}\n", view["view"].get<int>(), view["why"].get<std::string>());
@@ -182,7 +183,7 @@ int run(const Arguments& arguments, const Kinds& kinds) {
   config = read_run_config(arguments.config.document(), kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
   if (packed) {
-    resolve(config, *packed, arguments.scene);
+    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
   } else {
     resolve(config);
   }
@@ -239,7 +240,7 @@ SubCommand add_simulate_command(CLI::App& app, const Kinds& kinds) {
       ->capture_default_str();
   BuildOptions& build = arguments->run.build;
   app.add_option("--stalls", build.stalls.probability,
-                 "probability of a random stall at each side of each FIFO, for tests")
+                 "probability, as 0.1, of a random stall at each side of each FIFO, for tests")
       ->check(real_number(0, 1));
   app.add_option("--seed", build.stalls.seed, "of the random stalls")
       ->check(whole_number(0, kMostSeed))
