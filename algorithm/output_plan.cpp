@@ -30,6 +30,15 @@ void OutputPlan::check() const {
                                    output, same->second));
     }
   }
+  for (const auto& [place, output] : places) {
+    for (fs::path folder = place.parent_path(); folder != folder.root_path();
+         folder = folder.parent_path()) {
+      const auto file = places.find(folder);
+      if (file == places.end()) continue;
+      throw InputError(fmt::format(
+          "{}: lies below {}, which is an output itself, expected a folder", output, file->second));
+    }
+  }
 }
 
 }  // namespace sgs

@@ -13,7 +13,8 @@ class OutputPlan {
   void add_output(const std::string& path) { outputs_.push_back(path); }
 
   // Throws InputError when an output cannot be made (as OutputFile does), when it is one of the
-  // inputs by whatever name or link, and when two outputs are the same file. Leaves nothing.
+  // inputs by whatever name or link, when two outputs are the same file, and when one is the folder
+  // of another. Leaves nothing.
   void check() const;
 
  private:

@@ -21,6 +21,12 @@ struct StoredScene {
   std::optional<ActivatedCloud> original;    // that was encoded; none where nothing was lost
   std::uint64_t gaussians = 0;               // in the scene, stored or not
 
+  // Whether `original`, or `decoded` in its stead, is what was stored. Not of a scene restored from
+  // a lossy encoding: what that cost cannot be told.
+  bool original_known() const {
+    return original.has_value() || storage.encoding == SecondHalfEncoding::kRaw;
+  }
+
   // Of a scene in this order; std::bad_variant_access in the other.
   const VoxelGrid& grid() const { return std::get<VoxelGrid>(table); }
   const ChunkTree& tree() const { return std::get<ChunkTree>(table); }

@@ -239,6 +239,27 @@ void ConfigDocument::add_override(const std::string& assignment) {
   content_->merge(content_->root, nested, "", origin);
 }
 
+std::string ConfigDocument::text_at(const std::string& key) const {
+  const auto found = content_->root.find(key);
+  return found != content_->root.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+std::vector<ConfigOrigin> ConfigDocument::origins_below(const std::string& section) const {
+  std::vector<ConfigOrigin> values;
+  const std::string prefix = section + ".";
+  const auto& origins = content_->origins;
+  for (auto at = origins.lower_bound(prefix);
+       at != origins.end() && at->first.compare(0, prefix.size(), prefix) == 0; ++at) {
+    std::string pointer = "/" + at->first;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    const Json::json_pointer place(pointer);
+    if (content_->root.contains(place) && !content_->root[place].is_object()) {
+      values.push_back({at->first, at->second});
+    }
+  }
+  return values;
+}
+
 std::unique_ptr<ConfigVisitor> ConfigDocument::make_reader() const {
   return std::make_unique<JsonReader>(content_->root, content_->origins);
 }

@@ -10,6 +10,12 @@
 
 namespace sgs {
 
+// Where a value of a document was said: what add_file() and the like call the origin.
+struct ConfigOrigin {
+  std::string path;  // of the key, from the document's root: "dram.channels"
+  std::string origin;
+};
+
 // A JSON object put together from files and overrides, later ones over earlier ones.
 class ConfigDocument {
  public:
@@ -25,6 +31,12 @@ class ConfigDocument {
 
   // Sets one value: "key.path=value", the value being JSON or, failing that, a plain string.
   void add_override(const std::string& assignment);
+
+  // The text at a key of the top level; empty where there is none.
+  std::string text_at(const std::string& key) const;
+
+  // The values (not objects) below `section`, by path.
+  std::vector<ConfigOrigin> origins_below(const std::string& section) const;
 
   // Fills `config` (whose present values are the defaults) by visit(v, config). Keys of the
   // document that visit() does not name are refused.

@@ -101,7 +101,7 @@ Memspec load_memspec(const std::string& name_or_path) {
   std::error_code missing;
   const std::string path = fs::exists(shipped, missing) ? shipped : name_or_path;
   if (!fs::exists(path, missing))
-    throw InputError(fmt::format("memspec: got '{}', expected a JSON file or one of {}",
+    throw InputError(fmt::format("dram.memspec: got '{}', expected a JSON file or one of {}",
                                  name_or_path, join(shipped_memspecs())));
   ConfigDocument document;
   document.add_file(path);

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 
 #include "algorithm/input_error.h"
+#include "modules/config/join.h"
 #include "testbench/command_line/version.h"
 
 namespace sgs {
@@ -30,7 +32,7 @@ CLI::Validator in_interval(Number lo, Number hi, const char* kind) {
         const bool good = read(text, value) && value >= lo && value <= hi;
         return good ? std::string() : fmt::format("got '{}', expected {}", text, allowed);
       },
-      fmt::format("{}..{}", lo, hi));
+      fmt::format("in [{}, {}]", lo, hi));
 }
 
 CLI::Validator not_empty() {
@@ -39,6 +41,19 @@ CLI::Validator not_empty() {
         return text.empty() ? std::string("got nothing, expected a name") : std::string();
       },
       "");
+}
+
+// CLI11 says of a wrong command that none was given, and of none not which there are.
+void check_command(const CLI::App& app, int argc, const char* const* argv) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const std::string word = argc > 1 ? argv[1] : "";
+  const bool option = !word.empty() && word.front() == '-';
+  if (names.empty() || option || std::find(names.begin(), names.end(), word) != names.end()) return;
+  throw InputError(fmt::format(
+      "{}, expected one of {}",
+      argc > 1 ? fmt::format("'{}': no such command", word) : std::string("got no command"),
+      join(names)));
 }
 
 }  // namespace
@@ -114,6 +129,7 @@ void CommandLine::numbers(const char* name, std::vector<int>& values, const char
 
 bool CommandLine::parse(int argc, const char* const* argv) {
   CLI::App& app = *app_->app;
+  check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for_help) {

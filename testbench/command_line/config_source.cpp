@@ -3,23 +3,40 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
+#include "algorithm/input_error.h"
 #include "modules/config/join.h"
 #include "testbench/command_line/presets.h"
 
 namespace sgs {
 
-void ConfigSource::add_to(CommandLine& line) {
+void ConfigSource::add_to(CommandLine& line, const std::string& otherwise) {
   line.file("--config", config,
-            fmt::format("JSON file or preset: {}", join(preset_names())).c_str());
+            fmt::format("JSON file or preset: {}{}", join(preset_names()), otherwise).c_str());
   line.texts("--set", overrides, "key.path=value, over the configuration; may be repeated");
 }
 
 std::string ConfigSource::path() const { return config.empty() ? "" : config_file(config); }
 
+bool ConfigSource::is_preset() const {
+  const std::vector<std::string> presets = preset_names();
+  return std::find(presets.begin(), presets.end(), config) != presets.end();
+}
+
+std::string ConfigSource::name() const { return std::filesystem::path(path()).stem().string(); }
+
 ConfigDocument ConfigSource::document() const {
   ConfigDocument document;
   if (!config.empty()) document.add_file(path());
+  const std::string machine = document.text_at("machine");
   for (const std::string& assignment : overrides) document.add_override(assignment);
+  const std::string other = document.text_at("machine");
+  if (is_preset() && other != machine && ConfigSource{other, {}}.is_preset()) {
+    throw InputError(fmt::format("--set machine={}: preset {} is of machine {}, take --config {}",
+                                 other, config, machine, other));
+  }
   return document;
 }
 

@@ -13,12 +13,22 @@ struct ConfigSource {
   std::string config;  // a preset or a file; empty: defaults alone
   std::vector<std::string> overrides;
 
-  void add_to(CommandLine& line);
+  // otherwise: what holds when --config is not given, as help says it.
+  void add_to(CommandLine& line, const std::string& otherwise = "");
 
   // The file's name, empty without one. Throws InputError as config_file() does.
   std::string path() const;
 
-  // The file with the overrides. Throws InputError.
+  bool is_preset() const;
+  // path() of a preset, else empty.
+  std::string preset_path() const { return is_preset() ? path() : ""; }
+
+  // What it is called: the preset's name or the file's without folder and extension; empty without
+  // one.
+  std::string name() const;
+
+  // The file with the overrides. Throws InputError, also when a preset's machine is set to another
+  // that has a preset of its own.
   ConfigDocument document() const;
 };
 

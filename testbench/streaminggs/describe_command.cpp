@@ -106,7 +106,7 @@ SubCommand add_describe_command(CommandLine& line, const Kinds& kinds) {
     resolve(config);
     const std::unique_ptr<ConfigWriter> keys = make_listing_writer();
     visit(static_cast<ConfigVisitor&>(*keys), config);
-    fmt::print("```\n{}```\n", keys->text());
+    fmt::print("{}", keys->text());
     print_sheets(sheets_of(config));
     return 0;
   };

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "testbench/streaminggs/numbers.h"
+
 namespace sgs {
 namespace {
 
@@ -18,17 +20,18 @@ void print_packed(const PackedFacts& facts, const StorageConfig& storage, const 
                   const std::string& readers) {
   const SecondHalfFormat& format = layout.second_half;
   line("scene", facts.name);
-  line("gaussians stored", fmt::format("{} of {}", layout.gaussian_count(), facts.gaussians));
-  line("dropped invalid", fmt::format("{} Gaussians", facts.dropped_invalid));
+  line("gaussians stored",
+       fmt::format("{} of {}", grouped(layout.gaussian_count()), grouped(facts.gaussians)));
+  line("dropped invalid", fmt::format("{} Gaussians", grouped(facts.dropped_invalid)));
   line("sh degree", std::to_string(format.sh_degree));
   if (storage.order == StorageOrder::kChunks) {
     line("storage order",
          fmt::format("by chunks, for machine {}: {} of at most {} Gaussians", readers,
-                     layout.chunk_table().chunk_count, storage.chunk_gaussians));
+                     grouped(layout.chunk_table().chunk_count), storage.chunk_gaussians));
   } else {
-    line("storage order",
-         fmt::format("by voxels, for machine {}: {} of {} world units", readers,
-                     layout.voxel_table().voxels.count, layout.voxel_table().frame.voxel_size));
+    line("storage order", fmt::format("by voxels, for machine {}: {} of {} world units", readers,
+                                      grouped(layout.voxel_table().voxels.count),
+                                      rounded(layout.voxel_table().frame.voxel_size)));
   }
   line("second halves",
        fmt::format("{}, {} B each", kEncodingNames[static_cast<std::size_t>(format.encoding)],
@@ -37,14 +40,14 @@ void print_packed(const PackedFacts& facts, const StorageConfig& storage, const 
     if (format.entries[id] == 0) continue;
     const auto codebook = static_cast<Codebook>(id);
     line(fmt::format("codebook {}", kCodebookNames[id]),
-         fmt::format("{} entries x {} words, {} B", format.entries[id],
+         fmt::format("{} entries x {} words, {} B", grouped(format.entries[id]),
                      codebook_words(codebook, format.sh_degree),
-                     format.entries[id] * format.entry_bytes(codebook)));
+                     grouped(format.entries[id] * format.entry_bytes(codebook))));
   }
   for (const Region& region : layout.regions) {
-    line("region " + region.name, fmt::format("{} B", region.bytes));
+    line("region " + region.name, fmt::format("{} B", grouped(region.bytes)));
   }
-  line("image", fmt::format("{} B", layout.stored_bytes));
+  line("image", fmt::format("{} B", grouped(layout.stored_bytes)));
 }
 
 }  // namespace sgs

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <string>
 
 #include "algorithm/input_error.h"
 #include "algorithm/scene/describe.h"
@@ -10,6 +11,7 @@
 #include "algorithm/voxel/voxel_grid.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
+#include "testbench/streaminggs/numbers.h"
 #include "testbench/streaminggs/run_config.h"
 #include "testbench/streaminggs/scene_arguments.h"
 
@@ -17,17 +19,17 @@ namespace sgs {
 namespace {
 
 void print_extent(const char* name, const Extent& extent) {
-  fmt::print("{:<26}{:.6g} {:.6g} {:.6g} .. {:.6g} {:.6g} {:.6g} (world units)\n", name,
+  fmt::print("{:<26}{:.4g} {:.4g} {:.4g} .. {:.4g} {:.4g} {:.4g} (world units)\n", name,
              extent.min.x, extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
 }
 
 void print_voxels(const ActivatedCloud& cloud) {
   const auto voxel_size = static_cast<float>(choose_voxel_size(cloud).value);
-  fmt::print("{:<26}{} world units\n", "voxel size", voxel_size);
+  fmt::print("{:<26}{} world units\n", "voxel size", rounded(voxel_size));
   try {
     const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
-    fmt::print("{:<26}{} \n{:<26}{} \n", "occupied voxels", grid.voxels.size(), "tree nodes",
-               grid.nodes.size());
+    fmt::print("{:<26}{}\n{:<26}{}\n", "occupied voxels", grouped(grid.voxels.size()), "tree nodes",
+               grouped(grid.nodes.size()));
   } catch (const InputError& error) {
     // Stored by chunks it can be drawn all the same.
     fmt::print("{:<26}none: {}\n", "occupied voxels", error.what());
@@ -49,22 +51,22 @@ SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
     }
     const Scene scene = arguments->load();
     const SceneSummary s = summarise(scene.cloud);
-    const auto print = [](const char* name, auto value, const char* unit) {
-      fmt::print("{:<26}{} {}\n", name, value, unit);
+    const auto print = [](const char* name, const std::string& value, const char* unit = "") {
+      fmt::print("{:<26}{}{}\n", name, value, unit);
     };
-    print("gaussians", s.count, "");
-    print("dropped invalid", scene.dropped_invalid, "Gaussians");
-    print("sh degree", s.sh_degree, "");
+    print("gaussians", grouped(s.count));
+    print("dropped invalid", grouped(scene.dropped_invalid), " Gaussians");
+    print("sh degree", std::to_string(s.sh_degree));
     print_extent("extent, all", s.extent);
     print_extent("extent, 0.1 .. 99.9 %", s.inner_extent);
-    print("never visible", s.invisible_count, "Gaussians (opacity < 1/255)");
-    print("median opacity", s.median_opacity, "");
-    print("median largest scale", s.median_scale, "world units");
-    print("largest scale", s.max_scale, "world units");
-    print("largest scale ratio", s.max_scale_ratio, "");
-    print("first halves", s.first_half_bytes, "B");
-    print("second halves, raw", s.second_half_bytes, "B");
-    print("cameras", scene.cameras.size(), "");
+    print("never visible", grouped(s.invisible_count), " Gaussians (opacity < 1/255)");
+    print("median opacity", rounded(s.median_opacity));
+    print("median largest scale", rounded(s.median_scale), " world units");
+    print("largest scale", rounded(s.max_scale), " world units");
+    print("largest scale ratio", rounded(s.max_scale_ratio));
+    print("first halves", grouped(s.first_half_bytes), " B");
+    print("second halves, raw", grouped(s.second_half_bytes), " B");
+    if (!scene.cameras.empty()) print("cameras", grouped(scene.cameras.size()));
     print_voxels(activate(scene.cloud));
     return 0;
   };

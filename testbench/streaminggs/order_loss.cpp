@@ -11,12 +11,15 @@ OrderLoss order_loss(const MachineDesign& design, const StoredScene& scene, cons
   OrderLoss loss;
   loss.in_order =
       golden.stats.missed > 0 ? design.golden_in_order(scene, job, golden) : decoded_reference;
-  const std::vector<ErrorPart> parts =
-      error_parts({&reference, &decoded_reference, &loss.in_order, &golden.frame.image, &frame});
-  loss.encoding = parts[0];
-  loss.missed = parts[1];
-  loss.misordered = parts[2];
-  loss.pixel_format = parts[3];
+  std::vector<const Image*> chain = {&decoded_reference, &loss.in_order, &golden.frame.image,
+                                     &frame};
+  if (scene.original_known()) chain.insert(chain.begin(), &reference);
+  const std::vector<ErrorPart> parts = error_parts(chain);
+  auto part = parts.begin();
+  if (scene.original_known()) loss.encoding = *part++;
+  loss.missed = *part++;
+  loss.misordered = *part++;
+  loss.pixel_format = *part;
   return loss;
 }
 

@@ -2,6 +2,8 @@
 // order.
 #pragma once
 
+#include <optional>
+
 #include "algorithm/image/error_parts.h"
 #include "algorithm/image/image.h"
 #include "algorithm/render/streaming_result.h"
@@ -14,13 +16,15 @@ namespace sgs {
 // reference picture of the scene as encoded), what is left is blended in the wrong order (the
 // golden picture instead of `in_order`), pixels are rounded.
 struct OrderLoss {
-  Image in_order;  // everything that the order streams, blended by depth
-  ErrorPart encoding, missed, misordered, pixel_format;
+  Image in_order;                     // everything that the order streams, blended by depth
+  std::optional<ErrorPart> encoding;  // none where the original is not known
+  ErrorPart missed, misordered, pixel_format;
 };
 
 inline bool is_lossy(const StreamingStats& stats) { return stats.missed + stats.misordered > 0; }
 
-// Of a lossy order. reference, decoded_reference: of the scene as given, and as encoded. golden: of
+// Of a lossy order. reference, decoded_reference: of the scene as given, and as encoded; where the
+// original is not known the error counts from the latter. golden: of
 // this job, and `frame` the same in the frame buffer's format.
 OrderLoss order_loss(const MachineDesign& design, const StoredScene& scene, const FrameJob& job,
                      const Image& reference, const Image& decoded_reference,

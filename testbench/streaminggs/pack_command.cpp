@@ -15,13 +15,14 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
+#include "testbench/streaminggs/numbers.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/scene_arguments.h"
 
 namespace sgs {
 namespace {
 
-struct Arguments : SceneArguments {
+struct PackArguments : SceneArguments {
   ConfigSource config;
   std::string out;
 };
@@ -33,7 +34,7 @@ void check_records(const MemoryImage& image, const std::string& scene) {
   decode_image(image, slots, scene);
 }
 
-int run(const Arguments& arguments, const Kinds& kinds) {
+int run(const PackArguments& arguments, const Kinds& kinds) {
   const auto began = std::chrono::steady_clock::now();
   if (!is_image_file(arguments.out)) {
     throw InputError(fmt::format("--out: {}, expected a name that ends in {}", arguments.out,
@@ -56,8 +57,14 @@ int run(const Arguments& arguments, const Kinds& kinds) {
   write_image_file(arguments.out, facts, prepared.stored.storage, image);
   print_packed(facts, prepared.stored.storage, image.layout,
                readers_of(kinds, prepared.stored.storage.order));
+  if (image.layout.second_half.quantised()) {
+    fmt::print("{:<26}{}\n", "codebooks",
+               weighing.empty() ? std::string("not weighted: no cameras")
+                                : fmt::format("weighted by {} cameras", grouped(weighing.size())));
+  }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
-  fmt::print("{:<26}{} B, {}\n", "file", std::filesystem::file_size(arguments.out), arguments.out);
+  fmt::print("{:<26}{} B, {}\n", "file", grouped(std::filesystem::file_size(arguments.out)),
+             arguments.out);
   fmt::print("{:<26}{:.1f} s\n", "packed in", took.count());
   return 0;
 }
@@ -65,8 +72,8 @@ int run(const Arguments& arguments, const Kinds& kinds) {
 }  // namespace
 
 SubCommand add_pack_command(CommandLine& line, const Kinds& kinds) {
-  auto arguments = std::make_shared<Arguments>();
-  arguments->add_scene_to(line);
+  auto arguments = std::make_shared<PackArguments>();
+  arguments->add_scene_to(line, kUnpackedSceneForms);
   line.file("--cameras", arguments->cameras_path,
             "cameras.json, for vector quantisation; built-in scenes bring their own");
   arguments->add_weighing_to(line);

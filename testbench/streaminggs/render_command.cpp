@@ -10,6 +10,7 @@
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/restore_scene.h"
+#include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/scene_arguments.h"
@@ -17,10 +18,12 @@
 namespace sgs {
 namespace {
 
-struct Arguments : SceneArguments {
+constexpr const char* kReference = "reference";
+
+struct RenderArguments : SceneArguments {
   std::string out;
-  std::string ordering = "reference";
-  std::vector<std::string> overrides;
+  std::string ordering = kReference;
+  ConfigSource config;
 
   Camera camera(const std::vector<Camera>& own) const {
     const auto views = cameras(own);
@@ -30,7 +33,17 @@ struct Arguments : SceneArguments {
   }
 };
 
-void render_reference_picture(const Arguments& arguments) {
+// Without --config the preset of the ordering's name, where there is one.
+ConfigSource completed(ConfigSource config, const std::string& ordering) {
+  if (!config.config.empty()) return config;
+  config.config = ordering;
+  if (config.is_preset()) return config;
+  config.config.clear();
+  config.overrides.insert(config.overrides.begin(), "machine=" + ordering);
+  return config;
+}
+
+void render_reference_picture(const RenderArguments& arguments) {
   Scene scene;
   ActivatedCloud cloud;
   if (auto packed = arguments.load_packed()) {
@@ -44,15 +57,18 @@ void render_reference_picture(const Arguments& arguments) {
 }
 
 // The picture that a machine must give, and what its order loses.
-void render_golden_picture(const Arguments& arguments, const Kinds& kinds) {
-  ConfigDocument document;
-  document.add_override("machine=" + arguments.ordering);
-  for (const std::string& assignment : arguments.overrides) document.add_override(assignment);
-  RunConfig config = read_run_config(document, kinds);
+void render_golden_picture(const RenderArguments& arguments, const Kinds& kinds) {
+  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  if (config.machine() != arguments.ordering) {
+    throw InputError(
+        fmt::format("--ordering {}: the configuration is of machine {}, expected one "
+                    "of machine {}",
+                    arguments.ordering, config.machine(), arguments.ordering));
+  }
   Scene scene;
   PreparedScene prepared;
   if (auto packed = arguments.load_packed()) {
-    resolve(config, *packed, arguments.scene);
+    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
     prepared = prepare(std::move(*packed), arguments.scene, config);
   } else {
     resolve(config);
@@ -69,7 +85,7 @@ void render_golden_picture(const Arguments& arguments, const Kinds& kinds) {
 }  // namespace
 
 SubCommand add_render_command(CommandLine& line, const Kinds& kinds) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RenderArguments>();
   arguments->add_scene_to(line);
   arguments->add_views_to(line);
   line.text("--out", arguments->out, "image: .exr, .pfm or .png", Given::kAlways);
@@ -77,14 +93,22 @@ SubCommand add_render_command(CommandLine& line, const Kinds& kinds) {
   for (const MachineKind& kind : kinds) orderings.emplace_back(kind.name);
   line.one_of(orderings, "--ordering", arguments->ordering,
               "the reference renderer, or the picture that a machine must give");
-  line.texts("--set", arguments->overrides, "key.path=value of the machine's configuration");
+  arguments->config.add_to(line, "; if not given, the one of the ordering's name");
   return [arguments, &kinds] {
+    const bool reference = arguments->ordering == kReference;
+    if (reference && !(arguments->config.config.empty() && arguments->config.overrides.empty())) {
+      throw InputError(
+          "--config, --set: the reference renderer has nothing to configure, expected "
+          "them with the --ordering of a machine");
+    }
+    if (!reference) arguments->config = completed(arguments->config, arguments->ordering);
     check_image_name(arguments->out);
     OutputPlan plan;
     arguments->add_inputs_to(plan);
+    plan.add_input(arguments->config.path());
     plan.add_output(arguments->out);
     plan.check();
-    if (arguments->ordering == "reference") {
+    if (reference) {
       render_reference_picture(*arguments);
     } else {
       render_golden_picture(*arguments, kinds);

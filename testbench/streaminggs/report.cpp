@@ -53,23 +53,29 @@ Json error_parts_of(const OrderLoss& loss) {
   const auto part = [](const ErrorPart& p) -> Json {
     return {{"share", finite(p.share)}, {"alone", finite(p.alone)}};
   };
-  return {{"encoding", part(loss.encoding)},
-          {"missed", part(loss.missed)},
-          {"misordered", part(loss.misordered)},
-          {"pixel_format", part(loss.pixel_format)}};
+  Json out;
+  if (loss.encoding) out["encoding"] = part(*loss.encoding);
+  out["missed"] = part(loss.missed);
+  out["misordered"] = part(loss.misordered);
+  out["pixel_format"] = part(loss.pixel_format);
+  return out;
 }
 
-Json image_of(const ViewResult& view) {
+Json image_of(const ViewResult& view, bool original_known) {
   const StreamingStats& s = view.golden.stats;
-  Json out = {{"psnr_db", finite(view.psnr_db)},
+  Json out = {{"reference", original_known ? "scene" : "decoded_scene"},
+              {"empty", s.contributing == 0},
+              {"psnr_db", finite(view.psnr_db)},
               {"ssim", view.ssim},
               {"max_abs_error", max_abs_error(view.frame, view.reference)},
-              {"decoded_psnr_db", finite(psnr_db(view.frame, view.decoded_reference))},
-              {"encoding_psnr_db", finite(psnr_db(view.decoded_reference, view.reference))},
-              {"equals_streaming_renderer", view.equals_golden},
-              {"missed", s.missed},
-              {"misordered", s.misordered},
-              {"blends", s.contributors}};
+              {"decoded_psnr_db", finite(psnr_db(view.frame, view.decoded_reference))}};
+  if (original_known) {
+    out["encoding_psnr_db"] = finite(psnr_db(view.decoded_reference, view.reference));
+  }
+  out["equals_streaming_renderer"] = view.equals_golden;
+  out["missed"] = s.missed;
+  out["misordered"] = s.misordered;
+  out["blends"] = s.contributors;
   if (view.order_loss) out["error_parts"] = error_parts_of(*view.order_loss);
   return out;
 }
@@ -178,7 +184,7 @@ Json view_report(const ViewResult& view, const PreparedScene& scene) {
   report["schema_version"] = kReportVersion;
   report["scene"] = scene_of(scene);
   report["view"] = view.view;
-  report["image"] = image_of(view);
+  report["image"] = image_of(view, scene.stored.original_known());
   report["frame"] = {{"cycles", run.cycles},
                      {"time_s", run.time_s()},
                      {"fps", 1 / run.time_s()},

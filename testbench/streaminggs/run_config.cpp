@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
 #include "algorithm/input_error.h"
 #include "algorithm/storage/storage_choices.h"
 #include "modules/dram/address_mapping.h"
@@ -19,6 +23,52 @@ std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order
   }
   return names;
 }
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// key: below `storage`. A size left open is whatever the file holds; voxels have that of a float.
+bool agree(const std::string& key, const Json& said, const Json& held) {
+  if ((key == "voxel_size" || key == "chunk_gaussians") && said == 0) return true;
+  return said.is_number_float() ? said.get<float>() == held.get<float>() : said == held;
+}
+
+// "vq, voxels of 0.4"
+std::string in_words(const StorageConfig& storage) {
+  const char* encoding = kEncodingNames[static_cast<std::size_t>(storage.encoding)];
+  return storage.order == StorageOrder::kVoxels
+             ? fmt::format("{}, voxels of {:.4g}", encoding, storage.voxel_size)
+             : fmt::format("{}, chunks of {}", encoding, storage.chunk_gaussians);
+}
+
+// The line of RunConfig::storage_source. Throws InputError when somebody but the preset disagrees.
+std::string compared(const RunConfig& config, const PackedScene& packed, const std::string& path,
+                     const std::string& preset) {
+  const Json said = {{"storage", Json::parse(config_to_json(config.storage))}};
+  const Json held = {{"storage", Json::parse(config_to_json(packed.storage))}};
+  std::string differs;
+  for (const ConfigOrigin& value : config.storage_origins) {
+    std::string pointer = "/" + value.path;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    const Json &a = said.at(Json::json_pointer(pointer)), &b = held.at(Json::json_pointer(pointer));
+    const std::string key = value.path.substr(value.path.find('.') + 1);
+    if (agree(key, a, b)) continue;
+    const std::string got = a.is_string() ? a.get<std::string>() : a.dump();
+    if (value.origin != preset) {
+      throw InputError(fmt::format("{}: {}: got {}, expected {}: {} is stored so", value.origin,
+                                   value.path, got, b.is_string() ? b.get<std::string>() : b.dump(),
+                                   path));
+    }
+    differs += (differs.empty() ? "" : ", ") + (key == "encoding" ? got : key + " " + got);
+  }
+  const std::string name = std::filesystem::path(preset).stem().string();
+  return fmt::format("storage from {}: {}{}", std::filesystem::path(path).filename().string(),
+                     in_words(packed.storage),
+                     differs.empty() ? "" : fmt::format(" (preset {}: {})", name, differs));
+}
+
+}  // namespace
 
 void visit(ConfigVisitor& v, RunConfig& c) {
   std::vector<const char*> names;
@@ -38,6 +88,7 @@ RunConfig read_run_config(const ConfigDocument& document, const std::vector<Mach
   RunConfig config;
   config.kinds = &kinds;
   document.read_into(config);
+  config.storage_origins = document.origins_below("storage");
   return config;
 }
 
@@ -53,7 +104,8 @@ void resolve(RunConfig& config) {
   config.design->resolve(config.storage, config.chosen);
 }
 
-void resolve(RunConfig& config, const PackedScene& packed, const std::string& path) {
+void resolve(RunConfig& config, const PackedScene& packed, const std::string& path,
+             const std::string& preset) {
   const StorageOrder order = packed.storage.order;
   if (order != config.design->storage_order()) {
     throw InputError(fmt::format(
@@ -63,6 +115,7 @@ void resolve(RunConfig& config, const PackedScene& packed, const std::string& pa
         kStorageOrderNames[static_cast<std::size_t>(config.design->storage_order())],
         readers_of(*config.kinds, order)));
   }
+  config.storage_source = compared(config, packed, path, preset);
   config.storage = packed.storage;
   resolve(config);
 }

@@ -20,7 +20,9 @@ struct RunConfig {
   std::unique_ptr<MachineDesign> design;
   StorageConfig storage;
   DramConfig dram;
-  std::vector<AutoChoice> chosen;  // what was left to the model
+  std::vector<AutoChoice> chosen;             // what was left to the model
+  std::vector<ConfigOrigin> storage_origins;  // where the document says something of storage
+  std::string storage_source;  // of a packed scene, a line: the file, what it holds, who differs
 
   const char* machine() const { return (*kinds)[kind].name; }
 };
@@ -36,9 +38,12 @@ RunConfig read_run_config(const ConfigDocument& document, const std::vector<Mach
 // Makes it the resolved, valid configuration. Throws InputError.
 void resolve(RunConfig& config);
 
-// The same for a packed scene, which brings its storage: takes the place of what the configuration
-// says of it. path: what errors name. Throws InputError when the machine cannot read it.
-void resolve(RunConfig& config, const PackedScene& packed, const std::string& path);
+// The same for a packed scene, which brings its storage. path: what errors name. preset: the file
+// of a shipped configuration, whose storage gives way; empty for none. Throws InputError when the
+// machine cannot read the scene, and when whatever else was said of storage is not as the file has
+// it.
+void resolve(RunConfig& config, const PackedScene& packed, const std::string& path,
+             const std::string& preset);
 
 std::string to_json(RunConfig& config);
 

@@ -61,9 +61,9 @@ std::vector<int> chosen_numbers(const std::string& view, int count) {
 
 }  // namespace
 
-void SceneArguments::add_scene_to(CommandLine& line) {
-  line.text("SCENE", scene, "a .ply file, builtin:NAME?n=COUNT, or a file made by pack",
-            Given::kAlways);
+void SceneArguments::add_scene_to(CommandLine& line, const char* forms) {
+  scene_forms = forms;
+  line.text("SCENE", scene, forms, Given::kAlways);
   line.flag("--drop-invalid", drop_invalid,
             "leave out Gaussians with values that are not finite or too large to be drawn, and count "
             "them");
@@ -81,13 +81,13 @@ void SceneArguments::add_weighing_to(CommandLine& line) {
                "0,2,3; all if not given");
 }
 
-std::string SceneArguments::default_out() const {
+std::string SceneArguments::default_out(const std::string& config_name) const {
   std::string name = std::filesystem::path(scene).stem().string();
   if (is_builtin_scene(scene)) {
     name = scene.substr(scene.find(':') + 1);
     name = name.substr(0, name.find('?'));
   }
-  return (std::filesystem::path("out") / name).string();
+  return (std::filesystem::path("out") / name / config_name).string();
 }
 
 void SceneArguments::add_inputs_to(OutputPlan& plan) const {
@@ -96,7 +96,17 @@ void SceneArguments::add_inputs_to(OutputPlan& plan) const {
 }
 
 Scene SceneArguments::load() const {
-  return while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
+  std::error_code unknown;
+  if (!is_builtin_scene(scene) && !std::filesystem::exists(scene, unknown)) {
+    throw InputError(fmt::format("{}: no such file, expected {}", scene, scene_forms));
+  }
+  Scene loaded = while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
+  if (loaded.dropped_invalid > 0 && loaded.cloud.size() == 0) {
+    throw InputError(
+        fmt::format("{}: --drop-invalid leaves none of {} Gaussians, expected one or more", scene,
+                    loaded.dropped_invalid));
+  }
+  return loaded;
 }
 
 std::optional<PackedScene> SceneArguments::load_packed() const {
@@ -110,8 +120,17 @@ std::optional<PackedScene> SceneArguments::load_packed() const {
   return while_doing("reading " + scene, [&] { return read_image_file(scene); });
 }
 
+std::vector<Camera> SceneArguments::all_cameras(const std::vector<Camera>& own) const {
+  if (cameras_path.empty()) return own;
+  std::vector<Camera> cameras = read_cameras(cameras_path);
+  if (cameras.empty()) {
+    throw InputError(fmt::format("{}: holds no cameras, expected one or more", cameras_path));
+  }
+  return cameras;
+}
+
 std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Camera>& own) const {
-  const std::vector<Camera> all = cameras_path.empty() ? own : read_cameras(cameras_path);
+  const std::vector<Camera> all = all_cameras(own);
   if (all.empty()) {
     throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
   }
@@ -133,7 +152,7 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Ca
 }
 
 std::vector<Camera> SceneArguments::weighing_cameras(const std::vector<Camera>& own) const {
-  const std::vector<Camera> all = cameras_path.empty() ? own : read_cameras(cameras_path);
+  const std::vector<Camera> all = all_cameras(own);
   if (weigh_by.empty()) return all;
   std::vector<Camera> chosen;
   for (const int number : weigh_by) {

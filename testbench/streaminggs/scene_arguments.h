@@ -13,24 +13,31 @@
 
 namespace sgs {
 
+constexpr const char* kSceneForms =
+    "a .ply file, builtin:NAME?n=COUNT, or a .sgs file made by pack";
+constexpr const char* kUnpackedSceneForms = "a .ply file or builtin:NAME?n=COUNT";
+
 struct SceneArguments {
   std::string scene;
+  const char* scene_forms = kSceneForms;
   std::string cameras_path;   // empty: the cameras of a built-in scene
   std::string view = "0";     // numbers, separated by commas, or "all"
   std::string size;           // "WxH" or empty
   std::vector<int> weigh_by;  // numbers of cameras; empty: all
   bool drop_invalid = false;
 
-  void add_scene_to(CommandLine& line);
+  // forms: what SCENE may be.
+  void add_scene_to(CommandLine& line, const char* forms = kSceneForms);
   void add_views_to(CommandLine& line);
 
   void add_weighing_to(CommandLine& line);
 
-  // Where to write what the user gave no place for: out/ and the scene's name.
-  std::string default_out() const;
+  // Where to write what the user gave no place for: out/, the scene's name, the configuration's.
+  std::string default_out(const std::string& config_name) const;
   // No output may take the place of the scene or the cameras.
   void add_inputs_to(OutputPlan& plan) const;
 
+  // Throws InputError, also when there is no such file, or when --drop-invalid leaves nothing.
   Scene load() const;
   // The scene where it is a file made by pack, else nothing. Throws InputError, also for arguments
   // that only a scene that is not packed yet can take.
@@ -41,6 +48,10 @@ struct SceneArguments {
   // Those that weigh the Gaussians of a scene for vector quantisation, in their own size; none
   // where there are none. Throws InputError.
   std::vector<Camera> weighing_cameras(const std::vector<Camera>& own) const;
+
+ private:
+  // Those of the file, where one is given: InputError when it holds none.
+  std::vector<Camera> all_cameras(const std::vector<Camera>& own) const;
 };
 
 }  // namespace sgs

@@ -21,6 +21,7 @@
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/error_maps.h"
 #include "testbench/streaminggs/provenance.h"
+#include "testbench/streaminggs/result_folder.h"
 #include "testbench/streaminggs/run_report.h"
 #include "testbench/streaminggs/scene_arguments.h"
 #include "testbench/streaminggs/terminal.h"
@@ -30,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments : SceneArguments {
+struct SimulateArguments : SceneArguments {
   ConfigSource config;
   std::string out;
   std::string technology = data_file("technology_32nm.json");
@@ -42,11 +43,6 @@ struct Arguments : SceneArguments {
 void write_text(const fs::path& path, const std::string& text) {
   write_whole_file(path.string(), text.data(), text.size());
 }
-
-fs::path view_folder(const fs::path& out, int view) { return out / fmt::format("view_{}", view); }
-
-constexpr const char* kViewFiles[] = {"frame.exr", "frame.png", "reference.exr", "reference.png",
-                                      "report.json"};
 
 // All files of a view at once: no picture stands beside the report of another run.
 void write_view(const fs::path& folder, const ViewResult& view, const std::string& report) {
@@ -69,7 +65,7 @@ void write_view(const fs::path& folder, const ViewResult& view, const std::strin
 }
 
 // Refuses outputs that have no place, or would take that of an input, before the work begins.
-void check_places(const Arguments& arguments, const RunConfig& config, const fs::path& out,
+void check_places(const SimulateArguments& arguments, const RunConfig& config, const ResultFolder& out,
                   const std::vector<std::pair<int, Camera>>& views) {
   OutputPlan plan;
   arguments.add_inputs_to(plan);
@@ -79,15 +75,16 @@ void check_places(const Arguments& arguments, const RunConfig& config, const fs:
   for (const std::string& file : {arguments.run.vcd_path, arguments.run.dram_trace_path}) {
     if (!file.empty()) plan.add_output(file);
   }
-  plan.add_output((out / "report.json").string());
+  plan.add_output(out.report().string());
+  std::set<fs::path> files;
   for (const auto& [number, camera] : views) {
-    for (const char* file : kViewFiles) {
-      plan.add_output((view_folder(out, number) / file).string());
-    }
-    for (const char* file : kErrorMapFiles) {
-      plan.add_output((view_folder(out, number) / file).string());
-    }
+    const std::vector<fs::path> of_view = ResultFolder::files_of(out.view(number));
+    files.insert(of_view.begin(), of_view.end());
   }
+  // Those of an earlier run will be removed.
+  const std::vector<fs::path> earlier = out.present();
+  files.insert(earlier.begin(), earlier.end());
+  for (const fs::path& file : files) plan.add_output(file.string());
   plan.check();
 }
 
@@ -100,9 +97,9 @@ struct Setting {
 };
 
 // Simulates the views one after the other and writes their files and, at the end, those of all that
-// were finished. One that fails is named and does not keep the others from running; a single one
-// throws.
-int run_views(const Arguments& arguments, Setting& setting, const fs::path& out,
+// were finished. The first one's take the place of an earlier run's. One that fails is named and
+// does not keep the others from running; a single one throws.
+int run_views(const SimulateArguments& arguments, Setting& setting, const ResultFolder& out,
               const std::vector<std::pair<int, Camera>>& views) {
   RunReport report(setting.config, {setting.technology.name, arguments.run.build.stalls.seed,
                                     arguments.command, setting.began});
@@ -115,8 +112,8 @@ int run_views(const Arguments& arguments, Setting& setting, const fs::path& out,
       ViewResult view = simulate_view(setting.scene, number, camera, setting.config,
                                       setting.technology, arguments.run);
       const auto of_view = report.of_view(view, setting.scene);
-      write_view(view_folder(out, number), view, report_text(*of_view));
-      fs::remove(out / "report.json");  // an earlier run's, whose views begin to go
+      write_view(out.view(number), view, report_text(*of_view));
+      if (results.empty()) out.keep_only(number);
       print_table_line(view);
       equal = equal && view.equals_golden;
       report.add(*of_view);
@@ -130,22 +127,23 @@ int run_views(const Arguments& arguments, Setting& setting, const fs::path& out,
     std::fflush(stdout);
   }
   if (results.empty()) throw std::runtime_error("no view could be finished");
-  write_text(out / "report.json", report.text(failed));
+  write_text(out.report(), report.text(failed));
   for (const ViewResult& view : results) print_details(view);
+  print_scene(setting.scene, setting.config, arguments.drop_invalid);
   print_machine(results.front(), setting.config.chosen, setting.technology.name);
   for (const auto& [view, why] : failed) fmt::print("\nview {} failed: {}\n", view, why);
   if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
   return equal && failed.empty() ? 0 : 1;
 }
 
-int run(const Arguments& arguments, const Kinds& kinds) {
+int run(const SimulateArguments& arguments, const Kinds& kinds) {
   Setting setting;
   setting.began = std::chrono::steady_clock::now();
   RunConfig& config = setting.config;
   config = read_run_config(arguments.config.document(), kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
   if (packed) {
-    resolve(config, *packed, arguments.scene);
+    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
   } else {
     resolve(config);
   }
@@ -158,7 +156,8 @@ int run(const Arguments& arguments, const Kinds& kinds) {
     fmt::print("{}\n", to_json(config));
     return 0;
   }
-  const fs::path out = arguments.out.empty() ? arguments.default_out() : arguments.out;
+  const ResultFolder out(arguments.out.empty() ? arguments.default_out(arguments.config.name())
+                                               : arguments.out);
   const bool one_view_only =
       !arguments.run.vcd_path.empty() || !arguments.run.dram_trace_path.empty();
   if (one_view_only && arguments.view.find_first_not_of("0123456789") != std::string::npos) {
@@ -182,21 +181,21 @@ int run(const Arguments& arguments, const Kinds& kinds) {
 }  // namespace
 
 SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SimulateArguments>();
   arguments->add_scene_to(line);
   arguments->add_views_to(line);
   arguments->add_weighing_to(line);
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(line);
   line.file("--out", arguments->out,
-            "folder for pictures and reports; out/ and the scene's name if not given");
+            "folder for pictures and reports; out/SCENE/CONFIG by their names if not given");
   line.file("--vcd", arguments->run.vcd_path, "write a waveform");
   line.file("--dram-trace", arguments->run.dram_trace_path,
             "write every DRAM command; tb_dram --check verifies it");
   line.file("--technology", arguments->technology, "table of energy and area");
   BuildOptions& build = arguments->run.build;
   line.real("--stalls", build.stalls.probability, 0, 1,
-            "probability of a random stall at each side of each FIFO, for tests");
+            "probability, as 0.1, of a random stall at each side of each FIFO, for tests");
   line.whole("--seed", build.stalls.seed, 0, kMostSeed, "of the random stalls");
   line.whole("--construction-order", build.construction_order, 0, kMostSeed,
              "seed that shuffles the order in which units are made; changes no number");

@@ -5,15 +5,10 @@
 
 #include <cmath>
 
+#include "testbench/streaminggs/numbers.h"
+
 namespace sgs {
 namespace {
-
-// 1234567 -> "1,234,567"
-std::string grouped(std::uint64_t value) {
-  std::string digits = std::to_string(value);
-  for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, ",");
-  return digits;
-}
 
 // 0.1234 -> "12.3 %"
 std::string percent(double share) {
@@ -23,7 +18,8 @@ std::string percent(double share) {
 void print_order_loss(const OrderLoss& loss) {
   fmt::print(
       "  squared error: missed splats {}, misordered blends {}, encoding {}, pixel format {}\n",
-      percent(loss.missed.share), percent(loss.misordered.share), percent(loss.encoding.share),
+      percent(loss.missed.share), percent(loss.misordered.share),
+      loss.encoding ? percent(loss.encoding->share) : "not known: packed",
       percent(loss.pixel_format.share));
 }
 
@@ -49,6 +45,9 @@ void print_table_line(const ViewResult& v) {
 
 void print_details(const ViewResult& v) {
   fmt::print("\nview {}: {}\n", v.view, v.binding.explanation);
+  if (v.golden.stats.contributing == 0) {
+    fmt::print("view {}: no Gaussian contributes to the picture\n", v.view);
+  }
   if (v.order_loss) print_order_loss(*v.order_loss);
   fmt::print("  {:<14} {:>14} {:>14}\n", "DRAM region", "B asked for", "B on the bus");
   for (const auto& [region, bus_bytes] : v.run.memory.bus_bytes_by_region) {
@@ -58,6 +57,18 @@ void print_details(const ViewResult& v) {
     }
     if (asked == 0 && bus_bytes == 0) continue;
     fmt::print("  {:<14} {:>14} {:>14}\n", region, grouped(asked), grouped(bus_bytes));
+  }
+}
+
+void print_scene(const PreparedScene& scene, const RunConfig& config, bool dropping) {
+  if (dropping || scene.dropped_invalid > 0) {
+    fmt::print("\ndropped invalid: {} Gaussians, {} are left\n", grouped(scene.dropped_invalid),
+               grouped(scene.stored.gaussians));
+  }
+  if (!config.storage_source.empty()) fmt::print("\n{}\n", config.storage_source);
+  if (!scene.stored.original_known()) {
+    fmt::print(
+        "PSNR and SSIM are against the decoded scene: what its encoding costs is not known\n");
   }
 }
 

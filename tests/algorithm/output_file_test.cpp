@@ -215,12 +215,20 @@ TEST_CASE("output plan: an output is no input and no other output, whatever it i
                }),
                Contains("is the same file as the output " + scratch.path("a")));
   }
+  for (const auto& [first, second] :
+       {std::pair("a", "a/b"), {"a/b/c", "a"}, {"./a", "new/../a/b"}}) {
+    INFO(first << " " << second);
+    CHECK_THAT(test::input_error_of([&] {
+                 plan_of({first, second}).check();
+               }),
+               Contains("lies below " + scratch.path("")) && Contains("expected a folder"));
+  }
   test::input_error_of([&] { plan_of({"a", "."}).check(); });
   OutputPlan relative;
   relative.add_output("none_of_this_name");
   relative.add_output("./none_of_this_name");
   test::input_error_of([&] { relative.check(); });
-  plan_of({"a", "b", "other", "new/a", "missing"}).check();
+  plan_of({"a", "ab/c", "b", "other", "new/a", "missing"}).check();
   CHECK(scratch.file_count() == 4);
 }
 

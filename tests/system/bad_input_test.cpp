@@ -126,6 +126,18 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
            {"$SG render $B --out a.png --voxel-size nan", 2, {"--voxel-size", "nan"}},
            {"$SG render $B --out a.png --voxel-size -1", 2, {"--voxel-size", "-1"}},
            {"$SG render $B --out a.png --group 4.5", 2, {"--group", "4.5"}},
+           {"$SG render $B --out a.png --set nosuch=1", 2, {"--set", "reference", "--ordering"}},
+           {"$SG render $B --out a.png --config exact", 2, {"--config", "--ordering"}},
+           {"$SG render $B --out a.png --ordering exact --set nosuch=1", 2, {"nosuch: unknown"}},
+           {"$SG render $B --out a.png --ordering paper --config exact_half",
+            2,
+            {"--ordering paper", "of machine exact", "expected one of machine paper"}},
+           {"$SG info nofile.ply", 2, {"nofile.ply: no such file", ".ply", ".sgs"}},
+           {"$SG pack nofile.ply --out a.sgs", 2, {"a .ply file or builtin:NAME?n=COUNT\n"}},
+           {"$SG simulate a.ply --drop-invalid --cameras c --out o",
+            2,
+            {"a.ply: --drop-invalid leaves none of 2 Gaussians"},
+            ply_of({"nan 0 0", "0 inf 0"})},
            {"$SG render $B --out a.gif", 2, {"a.gif", ".exr, .pfm or .png"}},
            {"$SG render $B --out a.png --view 0,2", 2, {"--view", "2 views"}},
            {"$SG simulate $B --out o --view 0,0", 2, {"--view", "each once"}},
@@ -137,6 +149,14 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
             2,
             {"c.json: key 'id' twice"},
             "echo '[{\"id\": 1, \"id\": 2}]' >c.json"},
+           {"$SG simulate $B --out o --cameras c.json",
+            2,
+            {"c.json: holds no cameras"},
+            "echo '[]' >c.json"},
+           {"$SG pack $S --out a.sgs --cameras c.json",
+            2,
+            {"c.json: holds no cameras"},
+            "echo '[]' >c.json"},
            {"$SG simulate $B --out o --config ''", 2, {"--config", "got nothing"}},
            {"$SG simulate $B --out o --cameras ''", 2, {"--cameras", "got nothing"}},
            {"$TB --config ''", 2, {"--config", "got nothing"}},
@@ -163,7 +183,9 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
 }
 
 TEST_CASE("bad input: messages are short, clean and begin with the program") {
-  check({"$SG", 2, {"subcommand"}});
+  check({"$SG", 2, {"got no command", "simulate, pack, render, compare, info, describe"}});
+  check({"$SG simulat $S", 2, {"'simulat': no such command", "simulate, pack, render"}});
+  check({"$SG '' --help", 2, {"'': no such command"}});
   check({"$SG simulate", 2, {"SCENE"}});
   check({"$SG simulate $B --no-such-option", 2, {"--no-such-option"}});
   check({"$SG render $B --out a.png --ordering soon", 2, {"soon", "reference", "exact"}});
@@ -227,7 +249,8 @@ TEST_CASE("bad input: no output over an input, or over another output") {
         "$SG simulate $B --config ./c.json --out o --dram-trace c.json",
         "$SG simulate $B --set dram.memspec=m.json --out o --vcd m.json",
         "$SG simulate $B --out o --vcd a --dram-trace a",
-        "$SG simulate $B --out o --vcd o/view_0/report.json"}) {
+        "$SG simulate $B --out o --vcd o/view_0/report.json", "$SG simulate $B --vcd y --out y",
+        "$SG simulate $B --out o --dram-trace o/view_0"}) {
     check({line, 2, {}, scene});
   }
 }

@@ -41,6 +41,21 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $B --view 2,0 --out o && ls o", {"view_0\nview_2\n"}},
            {"$SG simulate $B --view all --out o && ls o", {"view_0", "view_4"}},
            {"$SG render $B --out new/folder/a.png && ls new/folder", {"a.png"}},
+           {"$SG render --help", {"if not given, the one of the ordering's name"}},
+           {"$SG simulate --help", {"--stalls FLOAT:in [0, 1]", "probability, as 0.1,"}},
+           {"$SG pack --help | grep SCENE", {"builtin:NAME?n=COUNT"}},
+           {"$SG pack --help > t && ! grep -q 'made by pack' t", {}},
+           {"$SG info --help", {".sgs file made by pack"}},
+           {"$SG info a.ply > t && ! grep cameras t && cat t",
+            {"gaussians                 1,200\n", "median opacity            0.7311\n"},
+            ply_of(std::vector<std::string>(1200, "0 0 0"))},
+           {"$SG info 'builtin:object?n=1200'", {"cameras                   5\n"}},
+           {"$SG pack a.ply --config paper --out a.sgs",
+            {"codebooks                 not weighted: no cameras\n", "file                      "},
+            ply_of({"0 0 0"})},
+           {"$SG pack a.ply --out a.sgs > t && ! grep weighted t", {}, ply_of({"0 0 0"})},
+           {"$SG describe > t && ! grep -q '```' t && cat t",
+            {"group_px = 128", "\n| unit | activity | resource | what it does |\n"}},
            {"$TB --config exact --print-config", {"\"dram\": {", "\"channels\": 4"}},
            {"$TB --config c.json --set dram.ranks=2 --print-config",
             {"\"channels\": 2", "\"ranks\": 2"},
@@ -53,15 +68,75 @@ TEST_CASE("command line: options and their values") {
 }
 
 TEST_CASE("command line: a scene that voxels cannot hold is described all the same") {
-  // One Gaussian lies 3e6 world units away.
-  const std::string line =
-      "{ printf 'ply\\nformat ascii 1.0\\nelement vertex 200\\n'; for p in x y z f_dc_0 f_dc_1 "
-      "f_dc_2 opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3; do echo property float $p; "
-      "done; echo end_header; for i in $(seq 199); do echo $i 0 $i 0 0 0 1 -5 -5 -5 1 0 0 0; done; "
-      "echo 3000000 0 0 0 0 0 1 -5 -5 -5 1 0 0 0; } >a.ply";
+  std::vector<std::string> positions;
+  for (int i = 1; i < 200; ++i) positions.push_back(std::to_string(i) + " 0 " + std::to_string(i));
+  positions.emplace_back("3000000 0 0");
   check({"$SG info a.ply",
          {"gaussians                 200", "occupied voxels           none: "},
-         line});
+         ply_of(positions)});
+}
+
+const std::string kCameras =
+    "; echo '[{\"id\": 0, \"img_name\": \"v\", \"width\": 32, \"height\": 18, \"position\": "
+    "[0, 0, -5], \"rotation\": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], \"fx\": 30, \"fy\": 30}]' >c";
+
+TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, are said") {
+  const std::string simulate = "$SG simulate a.ply --cameras c --out o ";
+  const std::string empty = "view 0: no Gaussian contributes to the picture\n";
+  const std::string in_report = "&& grep '\"empty\"' o/view_0/report.json";
+  for (const Row& row :
+       std::vector<Row>{{simulate + in_report, {empty, "\"empty\": true"}, ply_of({})},
+                        {simulate + "--config paper", {empty}, ply_of({})},
+                        {simulate, {empty}, ply_of({"0 0 0"}, -9)},
+                        {simulate + "--config paper", {empty}, ply_of({"0 0 -9"})},
+                        {simulate + in_report, {"\"empty\": false"}, ply_of({"0 0 0"})},
+                        {simulate + "> t && ! grep contributes t", {}, ply_of({"0 0 0"})},
+                        {simulate + "--drop-invalid",
+                         {"dropped invalid: 2 Gaussians, 1 are left\n"},
+                         ply_of({"nan 0 0", "0 0 0", "0 inf 0"})},
+                        {simulate + "--drop-invalid",
+                         {"dropped invalid: 0 Gaussians, 1 are left\n"},
+                         ply_of({"0 0 0"})}}) {
+    check({row.line, row.words, row.before + kCameras});
+  }
+}
+
+TEST_CASE("command line: a folder of results holds those of one run, and what is not ours") {
+  const std::string all = "$SG simulate $B --view all --out o >/dev/null";
+  for (const Row& row : std::vector<Row>{
+           {"$SG simulate $B --view 3 --out o >/dev/null && find o | sort | tr '\\n' ' '; echo end",
+            {"o o/report.json o/view_3 o/view_3/error.png o/view_3/frame.exr o/view_3/frame.png "
+             "o/view_3/reference.exr o/view_3/reference.png o/view_3/report.json end\n"},
+            all},
+           {"$SG simulate $B --view 3 --out o >/dev/null && ls -d o/* | tr '\\n' ' ' && ls "
+            "o/view_1 "
+            "o/view_02",
+            {"o/report.json o/view_02 o/view_1 o/view_3 o/view_4 ", "o/view_02:\nframe.png\n",
+             "o/view_1:\nnotes\n"},
+            all + "; touch o/view_1/notes; mkdir o/view_02; touch o/view_02/frame.png; mkdir real; "
+                  "mv o/view_4/* real; rmdir o/view_4; ln -s ../real o/view_4"},
+           {"FULL $SG simulate $B --view 3 --out o; [ $? = 1 ] && ls o", {"view_4\n"}, all},
+           {"$SG simulate $B >/dev/null && $SG simulate $B --config paper_no_vq >/dev/null && "
+            "$SG simulate $B --config ./my.json >/dev/null && ls -d out/*/*",
+            {"out/object/exact\nout/object/my\nout/object/paper_no_vq\n"},
+            "echo '{}' >my.json"}}) {
+    check(row);
+  }
+}
+
+TEST_CASE("command line: a rendered order is the picture that the preset of its name gives") {
+  struct Pair {
+    std::string simulate, render;
+  };
+  for (const Pair& pair : {Pair{"exact", "exact"}, Pair{"paper", "paper"},
+                           Pair{"exact_half", "exact --config exact_half"},
+                           Pair{"paper_no_vq --set storage.voxel_size=1",
+                                "paper --config paper_no_vq --set storage.voxel_size=1"}}) {
+    check({"$SG simulate $B --set framebuffer=rgb32f --out o --config " + pair.simulate +
+               " && $SG render $B --out a.exr --ordering " + pair.render +
+               " && $SG compare --exact o/view_0/frame.exr a.exr",
+           {"psnr_db inf"}});
+  }
 }
 
 TEST_CASE("command line: a DRAM trace holds what was simulated, however often and however idle") {

@@ -61,6 +61,17 @@ struct Case {
   Arguments options;  // of the accelerator: for pack and for simulate
 };
 
+// Of a packed scene the original is at hand where nothing was lost.
+void check_encoding_known(const Json& image, bool known) {
+  CHECK(image["reference"] == (known ? "scene" : "decoded_scene"));
+  CHECK(image.contains("encoding_psnr_db") == known);
+  if (!image.contains("error_parts")) return;
+  CHECK(image["error_parts"].contains("encoding") == known);
+  double sum = 0;
+  for (const Json& part : image["error_parts"]) sum += part["share"].get<double>();
+  CHECK(sum == Approx(1));
+}
+
 TEST_CASE("pack: the file gives the very run that the scene gives") {
   const PackedScenes scenes;
   const Arguments memory = {"--set", "sram.codebook_bytes=65536"};
@@ -96,9 +107,9 @@ TEST_CASE("pack: the file gives the very run that the scene gives") {
       expected["storage"].erase("voxel_size");
     }
     CHECK(shown == expected);
-    // The original is not at hand.
-    CHECK(a["image"]["encoding_psnr_db"].is_null());
     CHECK(a["image"]["psnr_db"] == a["image"]["decoded_psnr_db"]);
+    check_encoding_known(b["image"], true);
+    check_encoding_known(a["image"], encoding == "storage.encoding=raw");
     if (std::string(c.order) == "exact") {
       CHECK(a["image"]["decoded_psnr_db"] == b["image"]["decoded_psnr_db"]);
     }
@@ -107,10 +118,11 @@ TEST_CASE("pack: the file gives the very run that the scene gives") {
 
 TEST_CASE("pack: render draws the decoded scene in every order") {
   const PackedScenes scenes;
-  const auto render = [&](const std::string& scene, const char* ordering, const char* out) {
+  const auto render = [&](const std::string& scene, const char* ordering, const char* out,
+                          const Arguments& more = {}) {
     const Arguments options = {"--ordering", ordering, "--out", scenes.path(out)};
     const Outcome outcome =
-        run_streaminggs(joined(joined({"render"}, scenes.view(scene)), options));
+        run_streaminggs(joined(joined(joined({"render"}, scenes.view(scene)), options), more));
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     return bytes_of(scenes.path(out));
@@ -120,11 +132,18 @@ TEST_CASE("pack: render draws the decoded scene in every order") {
   CHECK(render(scenes.packed(), "reference", "a.pfm") == reference);
   CHECK(render(scenes.packed(), "exact", "b.pfm") == reference);
 
-  const std::string paper = render(scenes.ply(), "paper", "ply_paper.pfm");
+  const std::string paper =
+      render(scenes.ply(), "paper", "ply_paper.pfm", {"--config", "paper_no_vq"});
   CHECK(paper != reference);
   REQUIRE(scenes.pack({"--config", "paper", "--set", "storage.encoding=raw"}).status == 0);
   CHECK(render(scenes.packed(), "paper", "c.pfm") == paper);
   CHECK(render(scenes.packed(), "reference", "d.pfm") == reference);
+}
+
+// Of 1,000 to 999,999.
+std::string with_comma(std::size_t number) {
+  const std::string digits = std::to_string(number);
+  return digits.substr(0, digits.size() - 3) + "," + digits.substr(digits.size() - 3);
 }
 
 TEST_CASE("pack: info says what the file holds, as pack did") {
@@ -138,19 +157,19 @@ TEST_CASE("pack: info says what the file holds, as pack did") {
   REQUIRE(stored < 4000);
   for (const std::string& line :
        {std::string("scene                     outdoor\n"),
-        "gaussians stored          " + std::to_string(stored) + " of 4000\n",
+        "gaussians stored          " + with_comma(stored) + " of 4,000\n",
         std::string("second halves             vq_packed, 4 B each\n"),
-        std::string("codebook rotation         70 entries x 4 words, 1120 B\n"),
-        std::string("codebook sh               30 entries x 45 words, 5400 B\n"),
-        "region first_halves       " + std::to_string(16 * stored) + " B\n",
-        "region indices            " + std::to_string(4 * stored) + " B\n",
+        std::string("codebook rotation         70 entries x 4 words, 1,120 B\n"),
+        std::string("codebook sh               30 entries x 45 words, 5,400 B\n"),
+        "region first_halves       " + with_comma(16 * stored) + " B\n",
+        "region indices            " + with_comma(4 * stored) + " B\n",
         std::string("storage order             by chunks, for machine exact: ")}) {
     INFO(line << "\n" << packed.out << info.out);
     CHECK(packed.out.find(line) != std::string::npos);
     CHECK(info.out.find(line) != std::string::npos);
   }
   CHECK_THAT(info.out, Contains("version     2\n") && Contains("checksum"));
-  CHECK_THAT(packed.out, Contains("packed in"));
+  CHECK_THAT(packed.out, Contains("packed in") && Contains("weighted by 5 cameras"));
   const Outcome of_scene = run_streaminggs({"info", scenes.ply()});
   CHECK(of_scene.status == 0);
   CHECK_THAT(of_scene.out, Contains("median opacity"));
@@ -188,6 +207,41 @@ TEST_CASE("pack: what a packed scene cannot be used for is refused") {
   CHECK_FALSE(std::filesystem::exists(scenes.path("out")));
 }
 
+TEST_CASE("pack: what is said of storage is as the file has it, or a preset's") {
+  const PackedScenes scenes;
+  REQUIRE(scenes.pack({"--config", "paper_no_vq", "--set", "storage.encoding=half"}).status == 0);
+  const std::string& file = scenes.packed();
+  const ScratchFolder configs;
+  const Arguments simulate =
+      joined(joined({"simulate"}, scenes.view(file)), {"--out", scenes.path("out"), "--config"});
+  const auto with = [&](const char* set) { return Arguments{"paper_no_vq", "--set", set}; };
+  for (const auto& [more, words] : std::vector<std::pair<Arguments, std::vector<std::string>>>{
+           {with("storage.encoding=raw"),
+            {"--set storage.encoding=raw: storage.encoding: got raw, expected half: " + file}},
+           {with("storage.voxel_size=0.4"), {"storage.voxel_size: got 0.4, expected 2.0"}},
+           {with("storage.vq.iterations=0"), {"storage.vq.iterations: got 0, expected "}},
+           {with("storage.store_invisible=true"), {"got true, expected false"}},
+           {{configs.write("c.json", R"({"machine": "paper", "storage": {"encoding": "vq"}})")},
+            {"c.json: storage.encoding: got vq, expected half"}}}) {
+    check_refused(joined(simulate, more), words);
+    CHECK_FALSE(std::filesystem::exists(scenes.path("out")));
+  }
+  for (const auto& [more, word] : std::vector<std::pair<Arguments, std::string>>{
+           {with("hfus=2"), "storage from scene.sgs: half, voxels of 2 (preset paper_no_vq: raw)"},
+           {{"paper"}, "storage from scene.sgs: half, voxels of 2 (preset paper: vq)"},
+           {with("storage.encoding=half"), "storage from scene.sgs: half, voxels of 2\n"},
+           {{"paper", "--set", "storage.encoding=half", "--set", "storage.voxel_size=0"},
+            "storage from scene.sgs: half, voxels of 2\n"},
+           {{"paper"}, "encoding not known: packed"},
+           {{"paper"}, "are against the decoded scene"}}) {
+    INFO(word);
+    const Outcome outcome = run_streaminggs(joined(simulate, more));
+    INFO(outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Contains(word));
+  }
+}
+
 TEST_CASE("pack: a damaged file is refused by every command") {
   const PackedScenes scenes;
   REQUIRE(scenes.pack({}).status == 0);
@@ -219,8 +273,8 @@ TEST_CASE("pack: --print-config shows what the image decides") {
                             "storage.chunk_gaussians=24"},
                            kQuantised))
               .status == 0);
-  const Arguments print = {"simulate", scenes.packed(),    "--set",         "storage.encoding=raw",
-                           "--set",    "hfu.cost=counted", "--print-config"};
+  const Arguments print = {"simulate", scenes.packed(), "--set", "hfu.cost=counted",
+                           "--print-config"};
   check_refused(print, {"sram.codebook_bytes: 0 bytes are there"});
   const Outcome shown = run_streaminggs(joined(print, {"--set", "sram.codebook_bytes=65536"}));
   INFO(shown.err);

@@ -7,6 +7,17 @@
 
 namespace sgs::test {
 
+std::string ply_of(const std::vector<std::string>& positions, double opacity) {
+  std::string line = "{ printf 'ply\\nformat ascii 1.0\\nelement vertex " +
+                     std::to_string(positions.size()) +
+                     "\\n'; for p in x y z f_dc_0 f_dc_1 f_dc_2 opacity scale_0 scale_1 scale_2 "
+                     "rot_0 rot_1 rot_2 rot_3; do echo property float $p; done; echo end_header; ";
+  for (const std::string& at : positions) {
+    line += "echo " + at + " 0 0 0 " + std::to_string(opacity) + " -5 -5 -5 1 0 0 0; ";
+  }
+  return line + "} >a.ply";
+}
+
 ShellOutcome shell(const ScratchFolder& scratch, const std::string& line) {
   ScratchFolder outside;
   const std::string script =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tests/support/scratch_folder.h"
 
@@ -11,6 +12,9 @@ struct ShellOutcome {
   int status = 0;
   std::string out, err;
 };
+
+// Shell line that writes a.ply: Gaussians at these positions ("x y z"), of this opacity's logit.
+std::string ply_of(const std::vector<std::string>& positions, double opacity = 1);
 
 // Runs `line` in `scratch`: $SG and $TB are the programs, $S a small scene, $B a small job on it;
 // FULL before a command lets no file grow beyond 4 KiB. Longer than 60 s counts as never (124).

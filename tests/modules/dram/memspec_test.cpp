@@ -144,7 +144,7 @@ TEST_CASE("memspecs: negative and fractional cycles are refused by the reader") 
   }
   CHECK(refusal([] {
           load_memspec("ddr9");
-        }).find("memspec: got 'ddr9', expected a JSON file or one of lpddr3_1600_4gb") == 0);
+        }).find("dram.memspec: got 'ddr9', expected a JSON file or one of lpddr3_1600_4gb") == 0);
 }
 
 TEST_CASE("dram config: combinations that cannot be are refused with the key's name") {

@@ -62,15 +62,29 @@ TEST_CASE("order loss: paper order, parts add up to the whole") {
     REQUIRE(view.golden.stats.misordered > 0);
     const OrderLoss loss = view.loss();
     CAPTURE(encoding);
-    CHECK(loss.encoding.share + loss.missed.share + loss.misordered.share == Approx(1));
+    REQUIRE(loss.encoding);
+    CHECK(loss.encoding->share + loss.missed.share + loss.misordered.share == Approx(1));
     CHECK(loss.pixel_format.share == 0);
-    CHECK((loss.encoding.alone > 0) == view.scene.stored.original.has_value());
+    CHECK((loss.encoding->alone > 0) == view.scene.stored.original.has_value());
     const double whole = squares(view.reference, view.golden.frame.image);
     CHECK(loss.missed.alone == Approx(squares(view.decoded_reference, loss.in_order) / whole));
     CHECK(loss.misordered.alone == Approx(squares(loss.in_order, view.golden.frame.image) / whole));
     CHECK(loss.missed.alone > 0.001);
     CHECK(loss.misordered.alone > 0.001);
   }
+}
+
+TEST_CASE(
+    "order loss: without the original there is no part of the encoding, and the rest is all") {
+  GoldenView view(
+      {"machine=paper", "group_px=32", "storage.voxel_size=0.4", "storage.encoding=half"});
+  view.scene.stored.original.reset();
+  view.reference = view.decoded_reference;
+  const OrderLoss loss = view.loss();
+  CHECK_FALSE(loss.encoding);
+  CHECK(loss.missed.share + loss.misordered.share == Approx(1));
+  const double whole = squares(view.decoded_reference, view.golden.frame.image);
+  CHECK(loss.missed.alone == Approx(squares(view.decoded_reference, loss.in_order) / whole));
 }
 
 TEST_CASE("order loss: exact order that blends early misses nothing, all is misordering") {

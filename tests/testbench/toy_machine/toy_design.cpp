@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "algorithm/input_error.h"
 #include "tests/testbench/toy_machine/toy_machine.h"
 #include "tests/testbench/toy_machine/toy_picture.h"
@@ -36,6 +38,8 @@ StreamingResult ToyDesign::golden(const StoredScene& scene, const FrameJob& job)
   for (std::uint32_t group = 0; group < result.stats.groups; ++group) {
     result.stats.first_halves += block_of(group, job, config_).count;
   }
+  const std::uint64_t stored = scene.image.layout.gaussian_count();
+  result.stats.contributing = std::min(result.stats.first_halves, stored);
   return result;
 }
 

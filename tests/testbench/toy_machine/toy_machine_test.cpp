@@ -53,6 +53,8 @@ TEST_CASE("toy machine: frame and counts") {
   CHECK(toy.view["units"].size() == 2);
   CHECK(counter(toy.view, "fetch", "gaussians") == kGaussians);
   CHECK(counter(toy.view, "write", "pixels") == kPixels);
+  CHECK(toy.view["limit"]["contributing_gaussians"] == kGaussians);
+  CHECK(toy.view["image"]["empty"] == false);
   CHECK(cycles(toy.view, "fetch", "ask") == kGroups);
   CHECK(cycles(toy.view, "fetch", "add") == kGaussians);
   CHECK(cycles(toy.view, "write", "write") == 50 * (4 * 4 + 2));  // 16 and 6 px at 4 a cycle
