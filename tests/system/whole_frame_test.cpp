@@ -131,8 +131,8 @@ TEST_CASE("whole frame: the golden image of `render` is the frame of `simulate`"
     const std::string frame = simulated.folder() + "/out/view_0/frame.exr";
     const Arguments render = {"render", "builtin:object?n=3000", "--size",    "100x60",
                               "--out",  scratch.path("g.exr"),   "--ordering"};
-    const Arguments as_simulated = {order, "--set", "group_px=64", "--set",
-                                    "sram.shared_bytes=1073741824"};
+    const Arguments as_simulated = {
+        order, "--config", preset, "--set", "group_px=64", "--set", "sram.shared_bytes=1073741824"};
     REQUIRE(run_streaminggs(joined(render, as_simulated)).status == 0);
     CHECK(run_streaminggs({"compare", "--exact", frame, scratch.path("g.exr")}).status == 0);
     // Exact order is the reference's, to the bit.
