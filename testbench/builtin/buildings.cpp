@@ -16,7 +16,6 @@
 namespace sgs {
 namespace {
 
-const glm::dvec3 kUp = glm::dvec3(0.0, -1.0, 0.0);
 const glm::dvec3 kHouse = at_height(-6.0, 0.0, 9.0), kTower = at_height(9.0, 0.0, 16.0);
 constexpr double kHouseTurn = 0.30;  // radians about the vertical
 constexpr double kHalfLength = 3.1, kHalfDepth = 2.2, kWallHeight = 2.6, kGable = 1.9;

@@ -14,8 +14,6 @@
 namespace sgs {
 namespace {
 
-const glm::dvec3 kUp = glm::dvec3(0.0, -1.0, 0.0);
-
 bool is_free(double x, double z) {
   const bool in_pond = std::hypot(x - kPondX, z - kPondZ) < kPondRadius + 1.6;
   const bool at_house = std::hypot(x + 6.0, z - 9.0) < 6.5,

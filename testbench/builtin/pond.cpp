@@ -13,8 +13,6 @@
 namespace sgs {
 namespace {
 
-const glm::dvec3 kUp = glm::dvec3(0.0, -1.0, 0.0);
-
 Material water_material(const SurfacePoint& point) {
   const glm::dvec3& p = point.position;
   const double ripple = fractal_noise({p.x * 1.1, 0.0, p.z * 4.5}, 3);

@@ -9,6 +9,8 @@
 
 namespace sgs {
 
+const glm::dvec3 kUp = glm::dvec3(0.0, -1.0, 0.0);
+
 // Where the pond lies (x, z), its radius and the height of the water.
 constexpr double kPondX = 6.5, kPondZ = 2.5, kPondRadius = 3.6, kWaterHeight = -0.42;
 

@@ -8,13 +8,10 @@
 #include "algorithm/render/group_state.h"
 #include "algorithm/storage/build_memory_image.h"
 #include "testbench/units/job_memory.h"
+#include "testbench/units/uniform.h"
 
 namespace sgs::tb {
 namespace {
-
-float uniform(std::mt19937_64& random, float low, float high) {
-  return std::uniform_real_distribution<float>(low, high)(random);
-}
 
 glm::vec3 in_cube(std::mt19937_64& random, float half_side) {
   glm::vec3 out;

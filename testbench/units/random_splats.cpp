@@ -7,25 +7,18 @@
 
 #include "algorithm/render/group_state.h"
 #include "testbench/units/job_memory.h"
+#include "testbench/units/uniform.h"
 
 namespace sgs::tb {
 namespace {
-
-float uniform(std::mt19937_64& random, float low, float high) {
-  return std::uniform_real_distribution<float>(low, high)(random);
-}
-
-int uniform(std::mt19937_64& random, int low, int high) {
-  return std::uniform_int_distribution<int>(low, high)(random);
-}
 
 // Some range [low, high) of sub-tiles that overlaps [first, end), within [0, limit).
 void overlapping(std::mt19937_64& random, int first, int end, int limit, std::uint16_t& low,
                  std::uint16_t& high) {
   constexpr int kBeyond = 3;
-  const int inside = uniform(random, first, end - 1);
-  low = static_cast<std::uint16_t>(std::max(0, uniform(random, first - kBeyond, inside)));
-  high = static_cast<std::uint16_t>(std::min(limit, uniform(random, inside + 1, end + kBeyond)));
+  const int inside = whole(random, first, end - 1);
+  low = static_cast<std::uint16_t>(std::max(0, whole(random, first - kBeyond, inside)));
+  high = static_cast<std::uint16_t>(std::min(limit, whole(random, inside + 1, end + kBeyond)));
 }
 
 }  // namespace
@@ -57,7 +50,7 @@ Splat random_splat(std::mt19937_64& random, const PixelRect& group, const FrameJ
   splat.conic_c = uniform(random, 0.001F, 0.5F);
   splat.conic_b = uniform(random, -0.9F, 0.9F) * std::sqrt(splat.conic_a * splat.conic_c);
   splat.opacity = uniform(random, 0.0F, opacity);
-  splat.depth = static_cast<float>(uniform(random, 1, 20)) * 0.37F;
+  splat.depth = static_cast<float>(whole(random, 1, 20)) * 0.37F;
   splat.index = index;
   splat.rgb = {uniform(random, 0.0F, 1.0F), uniform(random, 0.0F, 1.0F),
                uniform(random, 0.0F, 2.0F)};
