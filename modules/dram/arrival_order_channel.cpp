@@ -13,7 +13,7 @@ constexpr std::size_t kCommandBusSlots = 8192;
 ArrivalOrderChannel::ArrivalOrderChannel(const DramConfig& config, const Memspec& memspec,
                                          std::uint8_t channel, CommandSink& sink)
     : channel_(channel),
-      pipeline_(config.pipeline_cycles),
+      path_(config, memspec),
       sink_(sink),
       device_(memspec, DerivedTiming(memspec, config.write_latency_set, config.read_strobe),
               config.ranks),
@@ -24,7 +24,7 @@ ArrivalOrderChannel::ArrivalOrderChannel(const DramConfig& config, const Memspec
 }
 
 std::uint64_t ArrivalOrderChannel::serve(const ChannelRequest& request, std::uint64_t arrival) {
-  const std::uint64_t cycle = arrival + pipeline_;
+  const std::uint64_t cycle = arrival + path_.front_end;
   maintain(cycle);
   wake(request.rank, cycle);
   open(request, cycle);
@@ -41,7 +41,8 @@ std::uint64_t ArrivalOrderChannel::serve(const ChannelRequest& request, std::uin
   }
   last_column_ = std::max(last_column_, at);
   hand_out_before(arrival);
-  return at + (reads ? device_.derived().read_data_end : device_.derived().write_data_end);
+  return at + (reads ? device_.derived().read_data_end : device_.derived().write_data_end) +
+         path_.back_end(request.direction);
 }
 
 void ArrivalOrderChannel::finish(std::uint64_t cycle) {

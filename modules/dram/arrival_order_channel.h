@@ -14,6 +14,7 @@
 #include "modules/dram/channel_request.h"
 #include "modules/dram/device_timing.h"
 #include "modules/dram/dram_config.h"
+#include "modules/dram/path_latency.h"
 #include "modules/dram/rank_maintenance.h"
 #include "modules/dram/row_counts.h"
 
@@ -25,7 +26,7 @@ class ArrivalOrderChannel {
                       CommandSink& sink);
 
   // Serves a request that arrives at `cycle`, not before the last one's. Returns the cycle at which
-  // its last datum has been transferred.
+  // it is answered: its last datum has been transferred, and has come back.
   std::uint64_t serve(const ChannelRequest& request, std::uint64_t cycle);
 
   // Lets idle time pass up to `cycle` and hands out the commands before it.
@@ -50,7 +51,7 @@ class ArrivalOrderChannel {
   };
 
   const std::uint8_t channel_;
-  const std::uint32_t pipeline_;
+  const PathLatency path_;
   CommandSink& sink_;
   DeviceTiming device_;
   std::vector<RankMaintenance> maintenance_;

@@ -39,8 +39,10 @@ void visit(ConfigVisitor& v, DramConfig& c) {
   v("write_low_watermark", c.write_low_watermark, in_range(0, 1023),
     "queued writes at which reading resumes");
   v("posted_writes", c.posted_writes, "answer a write when it is queued, not when it is written");
-  v("pipeline_cycles", c.pipeline_cycles, in_range(0, 1000),
-    "from a request's arrival to its first command");
+  v("front_end_ns", c.front_end_ns, in_range(0.0, 1000.0),
+    "from a request's arrival to its first command, at least");
+  v("back_end_ns", c.back_end_ns, in_range(0.0, 1000.0),
+    "from the last datum on the bus to the answer");
   v("refresh", c.refresh,
     names<RefreshMode>({{"off", RefreshMode::kOff},
                         {"all_bank", RefreshMode::kAllBank},

@@ -36,7 +36,11 @@ struct DramConfig {
   std::uint32_t write_high_watermark = 24;  // entries: writing begins
   std::uint32_t write_low_watermark = 8;    // entries: reading resumes
   bool posted_writes = true;                // a write is answered when it is queued
-  std::uint32_t pipeline_cycles = 0;        // from a request's arrival to its first command
+  // The way through the controller and the PHY: of a request to its first command, and of a datum
+  // (or of the answer to a write that is not posted) back. gem5's defaults are 10 and 10
+  // (src/mem/MemCtrl.py: static_frontend_latency, static_backend_latency).
+  double front_end_ns = 0;
+  double back_end_ns = 0;
 
   RefreshMode refresh = RefreshMode::kAllBank;
   std::uint32_t refresh_postpone_max = 0;      // refresh commands that may be owed

@@ -12,7 +12,7 @@ constexpr std::uint64_t kNoChoice = ~std::uint64_t{0};
 QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, std::uint8_t channel,
                              CommandSink& sink)
     : channel_(channel),
-      pipeline_(config.pipeline_cycles),
+      path_(config, memspec),
       high_watermark_(config.write_high_watermark),
       low_watermark_(config.write_low_watermark),
       age_cap_(config.age_cap_cycles),
@@ -34,10 +34,10 @@ QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, s
 
 void QueuedChannel::push(const ChannelRequest& request, std::uint64_t cycle) {
   const std::uint32_t bank = request.rank * device_.banks() + request.bank;
-  const std::uint64_t ready = cycle + pipeline_;
+  const std::uint64_t ready = cycle + path_.front_end;
   if (request.direction == Direction::kRead && writes_.covers(request, bank)) {
     ++forwarded_reads_;
-    forwarded_.push({ready + 1, request.owner});
+    forwarded_.push({ready + 1 + path_.back_end_read, request.owner});
     return;
   }
   RequestQueue::Entry entry;
@@ -272,7 +272,7 @@ void QueuedChannel::send(const Candidate& c, Command command, const ChannelReque
 
 void QueuedChannel::complete(const ChannelRequest& request, std::uint64_t cycle) {
   (request.direction == Direction::kRead ? read_completions_ : write_completions_)
-      .push({cycle, request.owner});
+      .push({cycle + path_.back_end(request.direction), request.owner});
 }
 
 void QueuedChannel::tell_queues(std::uint32_t bank, std::uint32_t open_row) {

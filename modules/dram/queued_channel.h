@@ -16,6 +16,7 @@
 #include "modules/dram/device_timing.h"
 #include "modules/dram/dram_config.h"
 #include "modules/dram/page_policy.h"
+#include "modules/dram/path_latency.h"
 #include "modules/dram/rank_maintenance.h"
 #include "modules/dram/request_queue.h"
 #include "modules/dram/ring_queue.h"
@@ -44,7 +45,8 @@ class QueuedChannel {
   // No queue entry becomes free before this cycle.
   std::uint64_t next_decision();
 
-  // Requests whose last datum has been transferred by `cycle`; earliest first. Null: no more.
+  // Requests that are answered by `cycle`: their last datum has been transferred, and has come back.
+  // Earliest first. Null: no more.
   struct Completion {
     std::uint64_t cycle;
     void* owner;
@@ -96,7 +98,7 @@ class QueuedChannel {
   void tell_queues(std::uint32_t bank, std::uint32_t open_row);
 
   const std::uint8_t channel_;
-  const std::uint32_t pipeline_;
+  const PathLatency path_;
   const std::uint32_t high_watermark_;
   const std::uint32_t low_watermark_;
   const std::uint64_t age_cap_;

@@ -58,21 +58,22 @@ struct Bench {
 constexpr std::uint64_t kData = 12 + 5 + 4;  // RL + tDQSCKmax + BL/2
 
 TEST_CASE("queued channel: unloaded latencies are the sums of their terms") {
-  for (const std::uint32_t pipeline : {0u, 7u}) {
+  for (const std::uint32_t latency : {0u, 7u}) {
     DramConfig config = quiet_config();
-    config.pipeline_cycles = pipeline;
+    config.front_end_ns = 1.25 * latency;
+    config.back_end_ns = 1.25 * 2 * latency;
     Bench b(config);
     b.read(1000, 2, 5);
-    CHECK(b.completion() == 1000 + pipeline + 15 + kData);  // closed: tRCD
+    CHECK(b.completion() == 1000 + 3 * latency + 15 + kData);  // closed: tRCD
     b.read(1000000, 2, 5);
     b.channel.advance(1100000);
     QueuedChannel::Completion c{};
     REQUIRE(b.channel.take_completion(kNever, c));
-    CHECK(c.cycle == 1000000 + pipeline + kData);  // hit
+    CHECK(c.cycle == 1000000 + 3 * latency + kData);  // hit
     b.read(1200000, 2, 6);
     b.channel.advance(1300000);
     REQUIRE(b.channel.take_completion(kNever, c));
-    CHECK(c.cycle == 1200000 + pipeline + 15 + 15 + kData);  // conflict: tRPpb + tRCD
+    CHECK(c.cycle == 1200000 + 3 * latency + 15 + 15 + kData);  // conflict: tRPpb + tRCD
     CHECK(b.channel.rows().of(RowOutcome::kMiss) == 1);
     CHECK(b.channel.rows().of(RowOutcome::kHit) == 1);
     CHECK(b.channel.rows().of(RowOutcome::kConflict) == 1);

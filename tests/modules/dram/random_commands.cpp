@@ -122,7 +122,8 @@ DramConfig random_config(std::uint32_t index) {
   c.write_queue_entries = 2 + below(40);
   c.write_high_watermark = 1 + below(c.write_queue_entries);
   c.write_low_watermark = below(c.write_high_watermark);
-  c.pipeline_cycles = below(2) * 5;
+  c.front_end_ns = below(2) * 5;
+  c.back_end_ns = below(3) * 10;
   c.refresh = below(8) == 0 ? RefreshMode::kOff
                             : (below(2) ? RefreshMode::kAllBank : RefreshMode::kPerBank);
   c.refresh_postpone_max = below(9);
