@@ -15,6 +15,7 @@ struct FrameJob {
   SceneLayout
       layout;  // its regions: the scene's, and behind them those that the machine works with
   FrameFormat frame_format = FrameFormat::kRgb8;
+  RegionSpan spill;         // what the machine puts aside during the frame; may be empty
   RegionSpan frame_buffer;  // rows from the top, pixels without padding
 
   std::uint64_t pixel_address(int x, int y) const {

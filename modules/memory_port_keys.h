@@ -10,6 +10,8 @@ inline void visit(ConfigVisitor& v, MemoryPortConfig& c) {
   v("max_transaction_bytes", c.max_transaction_bytes, in_range(32, 4096),
     "a port's longest request");
   v("max_outstanding", c.max_outstanding, in_range(1, 4096), "requests of a port in flight");
+  v("max_writes", c.max_writes, in_range(1, 4096),
+    "writes of these; the port keeps their bytes until they are answered");
 }
 
 }  // namespace sgs

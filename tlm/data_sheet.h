@@ -7,6 +7,7 @@
 //     sheet.counter("keys", "keys", "sorted", counters_.keys);
 //     sheet.operations("sorting", "compare_exchange", counters_.compare_exchanges);
 //     sheet.part("sorting", "sorting_unit", 1);
+//     sheet.sram(sram_uses(built_for_));
 //   }
 #pragma once
 
@@ -57,14 +58,18 @@ class DataSheet {
     (void)kind;
     (void)count;
   }
-  // What stands there, for area and leakage. component: whose square millimetres; kind: as above.
+  // What stands there beside SRAM, for area and leakage. component: whose square millimetres; kind: as above.
   virtual void part(const char* component, const char* kind, double count) {
     (void)component;
     (void)kind;
     (void)count;
   }
+  // On-chip memory that the unit takes, whatever the scene and the frame.
   virtual void sram(const SramUse&) {}
-  // Bytes of an on-chip memory that stand there, used or not.
+  void sram(const SramUses& uses) {
+    for (const SramUse& use : uses) sram(use);
+  }
+  // Bytes of an on-chip memory that stand there, used or not. Its area and leakage follow from it.
   virtual void sram_available(const char* memory, std::uint64_t bytes) {
     (void)memory;
     (void)bytes;
@@ -78,7 +83,8 @@ class DataSheet {
     (void)count;
     (void)saves;
   }
-  virtual void queue(FifoChannel&) {}
+  // use: the name of the unit's SramUse that holds its entries.
+  virtual void queue(FifoChannel&, const char* use) { (void)use; }
   virtual void port(MemoryPort&) {}
   // A value for the waveform, under the unit's name.
   virtual void signal(const char* name, const std::uint32_t& value) {

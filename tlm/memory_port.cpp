@@ -13,16 +13,23 @@ namespace {
 constexpr std::size_t kFirstSlots = 64;
 }  // namespace
 
+SramUse unanswered_writes(const char* name, const char* memory, const MemoryPortConfig& config,
+                          std::uint32_t longest_bytes) {
+  return sram_use(name, memory,
+                  {{std::min(config.max_writes, config.max_outstanding), "unanswered"},
+                   {std::min(config.max_transaction_bytes, longest_bytes), "B"}});
+}
+
 MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config)
     : sc_module(name),
       socket("socket"),
       config_(config),
       delayed_(this, &MemoryPort::on_phase),
       slots_(kFirstSlots) {
-  if (config.max_transaction_bytes == 0 || config.max_outstanding == 0)
-    throw std::invalid_argument(
-        fmt::format("{}: max_transaction_bytes {} and max_outstanding {} must be at least 1",
-                    this->name(), config.max_transaction_bytes, config.max_outstanding));
+  if (config.max_transaction_bytes == 0 || config.max_outstanding == 0 || config.max_writes == 0)
+    throw std::invalid_argument(fmt::format(
+        "{}: max_transaction_bytes {}, max_outstanding {} and max_writes {} must be at least 1",
+        this->name(), config.max_transaction_bytes, config.max_outstanding, config.max_writes));
   socket.register_nb_transport_bw(this, &MemoryPort::nb_transport_bw);
 }
 
@@ -99,12 +106,13 @@ MemoryPort::Ticket MemoryPort::new_ticket(std::uint32_t transactions) {
 }
 
 void MemoryPort::send(PooledPayload& payload) {
-  while (request_ != nullptr || outstanding_ == config_.max_outstanding) {
+  while (!has_room(payload.is_write())) {
     ++waiting_for_room_;
     sc_core::wait(room_);
     --waiting_for_room_;
   }
   ++outstanding_;
+  writes_outstanding_ += payload.is_write() ? 1 : 0;
   ++transactions_;
   bytes_outstanding_ += payload.get_data_length();
   request_ = &payload;
@@ -134,6 +142,7 @@ void MemoryPort::finish(tlm::tlm_generic_payload& payload) {
   check_response(payload);
   request_taken(payload);  // an answer implies END_REQ
   --outstanding_;
+  writes_outstanding_ -= payload.is_write() ? 1 : 0;
   bytes_outstanding_ -= payload.get_data_length();
   Slot& s = slot(static_cast<PooledPayload&>(payload).memory().tag);
   --s.remaining;

@@ -12,13 +12,21 @@
 #include <vector>
 
 #include "tlm/payload_pool.h"
+#include "tlm/sram_use.h"
 
 namespace sgs {
 
 struct MemoryPortConfig {
   std::uint32_t max_transaction_bytes = 256;
   std::uint32_t max_outstanding = 16;  // transactions
+  // Writes among them. The port keeps the bytes of a write until it is answered, which memories
+  // with posted writes do when they have taken it: one is answered, one is on its way.
+  std::uint32_t max_writes = 2;
 };
+
+// What a port keeps of writes that are at most so long.
+SramUse unanswered_writes(const char* name, const char* memory, const MemoryPortConfig& config,
+                          std::uint32_t longest_bytes);
 
 // One thread asks; any thread of its unit may wait for what was asked for. (Two that asked at the
 // same time would be served in the order in which the kernel runs them.)
@@ -26,7 +34,7 @@ class MemoryPort : public sc_core::sc_module {
  public:
   tlm_utils::simple_initiator_socket<MemoryPort> socket;
 
-  // std::invalid_argument when max_transaction_bytes or max_outstanding is 0.
+  // std::invalid_argument when a number of the configuration is 0.
   MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config);
 
   using Ticket = std::uint64_t;
@@ -36,7 +44,8 @@ class MemoryPort : public sc_core::sc_module {
   // max_outstanding transactions are in flight or the target holds back END_REQ.
   Ticket read(std::uint64_t address, void* into, std::uint32_t bytes, std::uint8_t region);
 
-  // Starts writing; the bytes are copied before it returns. Blocks as read() does.
+  // Starts writing; the bytes are copied before it returns. Blocks as read() does, and while
+  // max_writes are unanswered.
   Ticket write(std::uint64_t address, const void* from, std::uint32_t bytes, std::uint8_t region);
 
   bool done(Ticket ticket) const;
@@ -87,7 +96,12 @@ class MemoryPort : public sc_core::sc_module {
   Ticket oldest_ = 0;        // all before it are done
   Ticket next_ = 0;
 
-  std::uint32_t outstanding_ = 0;
+  bool has_room(bool for_write) const {
+    return request_ == nullptr && outstanding_ < config_.max_outstanding &&
+           (!for_write || writes_outstanding_ < config_.max_writes);
+  }
+
+  std::uint32_t outstanding_ = 0, writes_outstanding_ = 0;
   std::uint64_t bytes_outstanding_ = 0;
   const tlm::tlm_generic_payload* request_ = nullptr;  // BEGIN_REQ sent, END_REQ not seen
   std::uint32_t waiting_for_room_ = 0;

@@ -3,10 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace sgs {
 
+std::string SramUse::product() const {
+  return count == 1 ? arithmetic : fmt::format("{} x {}", count, arithmetic);
+}
+
 SramUse sram_use(const char* name, const char* memory, const SramFactors& factors) {
-  SramUse use{name, memory, 1, ""};
+  SramUse use{name, memory, 1, "", 1};
   for (const auto& [value, what] : factors) {
     use.bytes *= value;
     use.arithmetic += fmt::format("{}{} {}", use.arithmetic.empty() ? "" : " x ", value, what);
@@ -14,9 +20,26 @@ SramUse sram_use(const char* name, const char* memory, const SramFactors& factor
   return use;
 }
 
+void add(SramUses& to, const SramUse& use, std::uint64_t count) {
+  const auto same = std::find_if(to.begin(), to.end(), [&](const SramUse& u) {
+    return u.name == use.name && u.memory == use.memory && u.bytes == use.bytes &&
+           u.arithmetic == use.arithmetic;
+  });
+  if (same != to.end()) {
+    same->count += count * use.count;
+  } else {
+    to.push_back(use);
+    to.back().count *= count;
+  }
+}
+
+void add(SramUses& to, const SramUses& uses, std::uint64_t count) {
+  for (const SramUse& use : uses) add(to, use, count);
+}
+
 std::uint64_t sram_bytes(const SramUses& uses, const std::string& memory) {
   std::uint64_t sum = 0;
-  for (const SramUse& use : uses) sum += use.memory == memory ? use.bytes : 0;
+  for (const SramUse& use : uses) sum += use.memory == memory ? use.total_bytes() : 0;
   return sum;
 }
 
@@ -24,8 +47,8 @@ std::string sram_sum(const SramUses& uses, const std::string& memory) {
   std::string sum;
   for (const SramUse& use : uses) {
     if (use.memory != memory) continue;
-    sum +=
-        fmt::format("{}{} {} ({})", sum.empty() ? "" : " + ", use.name, use.bytes, use.arithmetic);
+    sum += fmt::format("{}{} {} ({})", sum.empty() ? "" : " + ", use.name, use.total_bytes(),
+                       use.product());
   }
   return sum;
 }

@@ -6,19 +6,38 @@
 #include <optional>
 #include <string>
 #include <systemc>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "tlm/fifo_if.h"
+#include "tlm/sram_use.h"
 #include "tlm/stall_injector.h"
 
 namespace sgs {
+
+// SRAM that one entry takes: what hardware keeps of a T, which T says (T::kSramBytes). 0 where it
+// says nothing: its bytes lie elsewhere, and the entry stands for them.
+template <class T, class = void>
+struct EntryBytes : std::integral_constant<std::uint32_t, 0> {};
+template <class T>
+struct EntryBytes<T, std::void_t<decltype(T::kSramBytes)>>
+    : std::integral_constant<std::uint32_t, T::kSramBytes> {};
+
+// What a FIFO of so many entries takes.
+template <class T>
+SramUse fifo_use(const char* name, const char* memory, std::uint32_t entries,
+                 const char* what_they_are) {
+  static_assert(EntryBytes<T>::value > 0, "T::kSramBytes says what hardware keeps of an entry");
+  return sram_use(name, memory, {{entries, what_they_are}, {EntryBytes<T>::value, "B"}});
+}
 
 // What can be said of a FIFO whatever it holds.
 class FifoChannel : public sc_core::sc_prim_channel {
  public:
   std::uint32_t fill() const { return fill_; }
   virtual std::uint32_t capacity() const = 0;
+  virtual std::uint32_t entry_bytes() const = 0;  // as EntryBytes
 
   // Random stalls on both sides from now on. Each side draws from a sequence of its own, so that
   // they do not depend on which of two sides the kernel runs first.
@@ -95,6 +114,7 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
   const sc_core::sc_time& ready_at() const override { return entries_[head_].ready; }
   void announce_to(sc_core::sc_event& event) override { listener_ = &event; }
   std::uint32_t capacity() const override { return static_cast<std::uint32_t>(entries_.size()); }
+  std::uint32_t entry_bytes() const override { return EntryBytes<T>::value; }
 
  private:
   struct Entry {

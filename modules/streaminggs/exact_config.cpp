@@ -1,8 +1,10 @@
 // Keys and on-chip memory of the machine of exact order.
 #include "modules/streaminggs/exact_config.h"
 
-#include "algorithm/memory/splat_record.h"
+#include "modules/streaminggs/merge/merge_unit.h"
+#include "modules/streaminggs/sorting/exact_sorter.h"
 #include "modules/streaminggs/streaming_sram.h"
+#include "modules/streaminggs/vsu/exact_vsu.h"
 
 namespace sgs {
 
@@ -14,31 +16,26 @@ void visit(ConfigVisitor& v, ExactConfig& c) {
   visit_tail(v, c);
 }
 
+ExactFifos::ExactFifos(const ExactConfig& c)
+    : keys{"keys to sorting", "keys", c.hfus * c.sorting_units, c.hfu.candidate_fifo_entries,
+           c.hfu.cfu_depth_cycles},
+      sorted_keys{"keys to merge", "keys", c.sorting_units, c.merge.input_fifo_entries,
+                  c.merge.latency_cycles},
+      released{"keys to HFUs", "keys", c.hfus, c.merge.output_fifo_entries, 1},
+      splats{"splats to rendering", "splats", c.hfus, c.rendering.input_fifo_entries,
+             c.hfu.ffu_depth_cycles} {}
+
 SramUses sram_uses(const ExactConfig& c, const StorageConfig& storage) {
-  const std::uint32_t runs = c.merge.on_overflow == OnOverflow::kSpill ? c.merge.spill_runs : 0;
-  SramUses uses = streaming_sram_uses(c, widest_format(storage));
-  const auto add = [&](const char* name, const SramFactors& factors) {
-    uses.push_back(sram_use(name, "shared", factors));
-  };
-  add("node cache", {{c.vsu.node_cache_bytes, "B"}});
-  add("walk queue", {{c.vsu.queue_entries, "entries"}, {kWalkEntryBytes, "B"}});
-  add("keys to sorting", {{c.hfus, "HFUs"},
-                          {c.sorting_units, "units"},
-                          {c.hfu.candidate_fifo_entries, "keys"},
-                          {kMergeKeyBytes, "B"}});
-  add("key sorters",
-      {{c.sorting_units, "units"}, {storage.chunk_gaussians, "keys"}, {kMergeKeyBytes, "B"}});
-  add("keys to merge",
-      {{c.sorting_units, "units"}, {c.merge.input_fifo_entries, "keys"}, {kMergeKeyBytes, "B"}});
-  add("waiting keys", {{c.merge.entries, "keys"}, {kWaitingKeyBytes, "B"}});
-  add("spilled runs", {{runs, "runs"},
-                       {2, "blocks"},
-                       {c.merge.spill_block_entries, "keys"},
-                       {kSpilledKeyBytes, "B"}});
-  add("keys to HFUs",
-      {{c.hfus, "HFUs"}, {c.merge.output_fifo_entries, "keys"}, {kMergeKeyBytes, "B"}});
-  add("splats to rendering",
-      {{c.hfus, "HFUs"}, {c.rendering.input_fifo_entries, "splats"}, {kSplatEntryBytes, "B"}});
+  const BuiltFor made = built_for(c, storage);
+  SramUses uses = streaming_sram_uses(c, made);
+  add(uses, ExactVsu::sram_uses(c.vsu, made));
+  add(uses, ExactSorter::sram_uses(made), c.sorting_units);
+  add(uses, MergeUnit::sram_uses(c.merge, made));
+  const ExactFifos fifos(c);
+  for (const SramUse& use :
+       {fifos.keys.all(), fifos.sorted_keys.all(), fifos.released.all(), fifos.splats.all()}) {
+    add(uses, use);
+  }
   return uses;
 }
 

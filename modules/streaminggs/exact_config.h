@@ -2,7 +2,9 @@
 #pragma once
 
 #include "algorithm/memory/storage_config.h"
+#include "modules/streaminggs/fifo_kind.h"
 #include "modules/streaminggs/merge/merge_config.h"
+#include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/sorting/sorting_config.h"
 #include "modules/streaminggs/streaming_config.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
@@ -28,7 +30,14 @@ struct ExactConfig : StreamingConfig {
 
 void visit(ConfigVisitor& v, ExactConfig& config);
 
-// On-chip memory for any scene that is stored so.
+// FIFOs between its units, beside those of visits.
+struct ExactFifos {
+  FifoKind<FineCandidate> keys, sorted_keys, released;
+  FifoKind<SplatToken> splats;
+  explicit ExactFifos(const ExactConfig& config);
+};
+
+// What its units and the FIFOs between them say that they take, for any scene that is stored so.
 SramUses sram_uses(const ExactConfig& config, const StorageConfig& storage);
 
 }  // namespace sgs

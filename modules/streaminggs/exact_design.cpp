@@ -45,7 +45,7 @@ std::unique_ptr<Machine> ExactDesign::build(const sc_core::sc_module_name& name,
                                             const FrameJob& job,
                                             const BuildOptions& options) const {
   return std::make_unique<ExactMachine>(name, config_, streaming_job(config_, job),
-                                        sram_uses(config_, storage_), options);
+                                        built_for(config_, storage_), options);
 }
 
 }  // namespace sgs

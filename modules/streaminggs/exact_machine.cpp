@@ -16,8 +16,9 @@ std::uint64_t exact_spill_bytes(const SceneLayout& layout) {
 }
 
 ExactMachine::ExactMachine(const sc_core::sc_module_name& name, const ExactConfig& config,
-                           const StreamingJob& job, SramUses uses, const BuildOptions& options)
-    : StreamingMachine(name, config, job, std::move(uses), options),
+                           const StreamingJob& job, const BuiltFor& built_for,
+                           const BuildOptions& options)
+    : StreamingMachine(name, config, job, built_for, options),
       config_(config),
       sorters_(config.sorting_units) {
   add_fifos();
@@ -45,18 +46,16 @@ ExactMachine::ExactMachine(const sc_core::sc_module_name& name, const ExactConfi
 }
 
 void ExactMachine::add_fifos() {
+  const ExactFifos kinds(config_);
   for (std::uint32_t h = 0; h < config_.hfus; ++h) {
     for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
-      add_fifo(keys_, fmt::format("keys_hfu{}_to_sorting{}", h, s),
-               config_.hfu.candidate_fifo_entries, config_.hfu.cfu_depth_cycles);
+      add_fifo(keys_, fmt::format("keys_hfu{}_to_sorting{}", h, s), kinds.keys);
     }
-    add_fifo(released_, fmt::format("released_to_hfu{}", h), config_.merge.output_fifo_entries, 1);
-    add_fifo(splats_, fmt::format("splats_of_hfu{}", h), config_.rendering.input_fifo_entries,
-             config_.hfu.ffu_depth_cycles);
+    add_fifo(released_, fmt::format("released_to_hfu{}", h), kinds.released);
+    add_fifo(splats_, fmt::format("splats_of_hfu{}", h), kinds.splats);
   }
   for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
-    add_fifo(sorted_keys_, fmt::format("keys_sorted_by_sorting{}", s),
-             config_.merge.input_fifo_entries, config_.merge.latency_cycles);
+    add_fifo(sorted_keys_, fmt::format("keys_sorted_by_sorting{}", s), kinds.sorted_keys);
   }
 }
 

@@ -13,7 +13,7 @@ namespace sgs {
 class ExactMachine : public StreamingMachine {
  public:
   ExactMachine(const sc_core::sc_module_name& name, const ExactConfig& config,
-               const StreamingJob& job, SramUses uses, const BuildOptions& options);
+               const StreamingJob& job, const BuiltFor& built_for, const BuildOptions& options);
 
  private:
   void add_fifos();

@@ -1,8 +1,10 @@
-// What travels between the units, one bounded FIFO each arrow of the pipeline.
+// What travels between the units, one bounded FIFO each arrow of the pipeline. kSramBytes: what
+// hardware keeps of one that waits.
 #pragma once
 
 #include <cstdint>
 
+#include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/splat.h"
 
 namespace sgs {
@@ -14,6 +16,7 @@ enum class Mark : std::uint8_t { kNone, kEndOfVisit, kEndOfGroup, kRejected };
 
 // VSU -> HFU: this HFU's share of a visit (which may be empty), or the end of a group.
 struct VisitShare {
+  static constexpr std::uint32_t kSramBytes = 16;
   std::uint32_t group = 0;
   std::uint32_t visit = 0;
   std::uint32_t first = 0, count = 0;  // storage slots
@@ -23,6 +26,7 @@ struct VisitShare {
 
 // Coarse filter -> (sorting -> merge, in exact order) -> second-half fetch -> fine filter.
 struct FineCandidate {
+  static constexpr std::uint32_t kSramBytes = 24;  // depth, slot, centre and largest scale
   std::uint32_t group = 0;
   std::uint32_t visit = 0;
   std::uint32_t slot = 0;
@@ -36,15 +40,12 @@ struct FineCandidate {
 
 // HFU -> sorting -> rendering.
 struct SplatToken {
+  static constexpr std::uint32_t kSramBytes = kSplatEntryBytes;
   Splat splat{};
   std::uint32_t group = 0;
   std::uint32_t visit = 0;
   Mark mark = Mark::kNone;  // with a mark there is no splat
 };
-
-// SRAM bytes of one entry in the FIFOs above.
-constexpr std::uint32_t kVisitShareBytes = 16;
-constexpr std::uint32_t kCandidateBytes = 24;
 
 constexpr std::uint32_t kVisitFifoEntries = 4;  // visits waiting for each HFU
 

@@ -1,9 +1,9 @@
 // Keys and on-chip memory of the machine of paper order.
 #include "modules/streaminggs/paper_config.h"
 
-#include "algorithm/memory/splat_record.h"
-#include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/sorting/paper_sorter.h"
 #include "modules/streaminggs/streaming_sram.h"
+#include "modules/streaminggs/vsu/paper_vsu.h"
 
 namespace sgs {
 
@@ -14,27 +14,23 @@ void visit(ConfigVisitor& v, PaperConfig& c) {
   visit_tail(v, c);
 }
 
+PaperFifos::PaperFifos(const PaperConfig& c)
+    : candidates{"candidates", "candidates", c.hfus, c.hfu.candidate_fifo_entries,
+                 c.hfu.cfu_depth_cycles},
+      splats{"splats to sorting", "splats", c.hfus * c.sorting_units, c.sorting.input_fifo_entries,
+             c.hfu.ffu_depth_cycles},
+      sorted{"splats to rendering", "splats", c.sorting_units, c.rendering.input_fifo_entries, 1} {
+}
+
 SramUses sram_uses(const PaperConfig& c, const StorageConfig& storage) {
-  SramUses uses = streaming_sram_uses(c, widest_format(storage));
-  const auto add = [&](const char* name, const SramFactors& factors) {
-    uses.push_back(sram_use(name, "shared", factors));
-  };
-  add("node cache", {{c.vsu.node_cache_bytes, "B"}});
-  add("record cache", {{c.vsu.record_cache_bytes, "B"}});
-  add("ordering table", {{c.vsu.table_bytes, "B"}});
-  // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
-  add("ordered voxels", {{c.vsu.groups_ahead, "groups"}, {c.vsu.table_bytes / 2, "B"}});
-  add("candidates",
-      {{c.hfus, "HFUs"}, {c.hfu.candidate_fifo_entries, "candidates"}, {kCandidateBytes, "B"}});
-  add("splats to sorting", {{c.hfus, "HFUs"},
-                            {c.sorting_units, "units"},
-                            {c.sorting.input_fifo_entries, "splats"},
-                            {kSplatEntryBytes, "B"}});
-  add("sort buffers",
-      {{c.sorting_units, "units"}, {c.sorting.buffer_entries, "splats"}, {kSplatEntryBytes, "B"}});
-  add("splats to rendering", {{c.sorting_units, "units"},
-                              {c.rendering.input_fifo_entries, "splats"},
-                              {kSplatEntryBytes, "B"}});
+  const BuiltFor made = built_for(c, storage);
+  SramUses uses = streaming_sram_uses(c, made);
+  add(uses, PaperVsu::sram_uses(c.vsu));
+  add(uses, PaperSorter::sram_uses(c.sorting, made), c.sorting_units);
+  const PaperFifos fifos(c);
+  for (const SramUse& use : {fifos.candidates.all(), fifos.splats.all(), fifos.sorted.all()}) {
+    add(uses, use);
+  }
   return uses;
 }
 

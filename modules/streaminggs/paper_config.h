@@ -2,6 +2,8 @@
 #pragma once
 
 #include "algorithm/memory/storage_config.h"
+#include "modules/streaminggs/fifo_kind.h"
+#include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/sorting/sorting_config.h"
 #include "modules/streaminggs/streaming_config.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
@@ -18,7 +20,14 @@ struct PaperConfig : StreamingConfig {
 
 void visit(ConfigVisitor& v, PaperConfig& config);
 
-// On-chip memory for any scene that is stored so.
+// FIFOs between its units, beside those of visits.
+struct PaperFifos {
+  FifoKind<FineCandidate> candidates;
+  FifoKind<SplatToken> splats, sorted;
+  explicit PaperFifos(const PaperConfig& config);
+};
+
+// What its units and the FIFOs between them say that they take, for any scene that is stored so.
 SramUses sram_uses(const PaperConfig& config, const StorageConfig& storage);
 
 }  // namespace sgs

@@ -4,8 +4,9 @@
 namespace sgs {
 
 PaperMachine::PaperMachine(const sc_core::sc_module_name& name, const PaperConfig& config,
-                           const StreamingJob& job, SramUses uses, const BuildOptions& options)
-    : StreamingMachine(name, config, job, std::move(uses), options),
+                           const StreamingJob& job, const BuiltFor& built_for,
+                           const BuildOptions& options)
+    : StreamingMachine(name, config, job, built_for, options),
       config_(config),
       sorters_(config.sorting_units) {
   add_fifos();
@@ -26,17 +27,15 @@ PaperMachine::PaperMachine(const sc_core::sc_module_name& name, const PaperConfi
 }
 
 void PaperMachine::add_fifos() {
+  const PaperFifos kinds(config_);
   for (std::uint32_t h = 0; h < config_.hfus; ++h) {
-    add_fifo(candidates_, fmt::format("candidates_of_hfu{}", h), config_.hfu.candidate_fifo_entries,
-             config_.hfu.cfu_depth_cycles);
+    add_fifo(candidates_, fmt::format("candidates_of_hfu{}", h), kinds.candidates);
   }
   for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
     for (std::uint32_t h = 0; h < config_.hfus; ++h) {
-      add_fifo(splats_, fmt::format("splats_hfu{}_to_sorting{}", h, s),
-               config_.sorting.input_fifo_entries, config_.hfu.ffu_depth_cycles);
+      add_fifo(splats_, fmt::format("splats_hfu{}_to_sorting{}", h, s), kinds.splats);
     }
-    add_fifo(sorted_, fmt::format("sorted_by_sorting{}", s), config_.rendering.input_fifo_entries,
-             1);
+    add_fifo(sorted_, fmt::format("sorted_by_sorting{}", s), kinds.sorted);
   }
 }
 

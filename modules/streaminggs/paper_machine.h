@@ -12,7 +12,7 @@ namespace sgs {
 class PaperMachine : public StreamingMachine {
  public:
   PaperMachine(const sc_core::sc_module_name& name, const PaperConfig& config,
-               const StreamingJob& job, SramUses uses, const BuildOptions& options);
+               const StreamingJob& job, const BuiltFor& built_for, const BuildOptions& options);
 
  private:
   void add_fifos();

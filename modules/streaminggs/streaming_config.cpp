@@ -38,6 +38,12 @@ void visit_tail(ConfigVisitor& v, StreamingConfig& c) {
   v.section("memory_port", c.memory_port, "how units talk to memory");
 }
 
+BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) {
+  constexpr int kMostDegree = 3;
+  return {config.group_px, config.framebuffer, storage.widest_format(kMostDegree),
+          storage.chunk_gaussians, config.memory_port};
+}
+
 void check(const StreamingConfig& c) {
   if (c.group_px == 0 || c.group_px % kSubtilePx != 0) {
     throw InputError(

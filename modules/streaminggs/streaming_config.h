@@ -5,7 +5,9 @@
 #include <cstdint>
 
 #include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/storage_config.h"
 #include "modules/config/config_visitor.h"
+#include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/hfu/codebook_config.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
 #include "modules/streaminggs/rendering/rendering_config.h"
@@ -36,6 +38,10 @@ void visit(ConfigVisitor& v, SramConfig& config);
 // The keys that stand before and behind those of the order's own units.
 void visit_head(ConfigVisitor& v, StreamingConfig& config);
 void visit_tail(ConfigVisitor& v, StreamingConfig& config);
+
+// What buffers are made for that hold any scene that is stored so: second halves of degree 3, with
+// full codebooks.
+BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage);
 
 // Throws InputError for what neither order can build.
 void check(const StreamingConfig& config);

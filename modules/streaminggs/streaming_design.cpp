@@ -5,20 +5,13 @@
 
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/filter_cost.h"
+#include "modules/streaminggs/hfu/codebook_buffer.h"
 #include "modules/streaminggs/streaming_sram.h"
 
 namespace sgs {
 namespace {
 
 constexpr int kMaxDegree = 3;
-
-RegionSpan span_of(const Regions& regions, const std::string& name) {
-  for (std::size_t id = 0; id < regions.size(); ++id) {
-    const Region& region = regions[static_cast<RegionId>(id)];
-    if (region.name == name) return {static_cast<RegionId>(id), region.base, region.bytes};
-  }
-  throw std::logic_error(fmt::format("no region {}", name));
-}
 
 }  // namespace
 
@@ -27,15 +20,14 @@ void adapt(StreamingConfig& config, const SecondHalfFormat& format,
   for (AutoChoice& cost : resolve_filter_cost(config.hfu, format.sh_degree)) {
     chosen.push_back(std::move(cost));
   }
-  check_sram("sram.codebook_bytes", config.sram.codebook_bytes, codebook_sram_uses(format),
-             "codebook");
+  check_sram("sram.codebook_bytes", config.sram.codebook_bytes, CodebookBuffer::sram_uses(format),
+             kCodebookSram);
 }
 
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {
   StreamingJob out;
   static_cast<FrameJob&>(out) = job;
   out.groups = pixel_groups(job.view.width, job.view.height, static_cast<int>(config.group_px));
-  out.spill = span_of(job.layout.regions, "spill");
   return out;
 }
 
@@ -45,7 +37,7 @@ StreamingJob streaming_job(const StreamingConfig& config, const StoredScene& sce
   job.view = make_view<float>(camera);
   job.frame_format = config.framebuffer;
   job.layout = scene.image.layout;
-  job.layout.regions.add("spill", spill_bytes);
+  job.spill = job.layout.regions.add("spill", spill_bytes);
   job.frame_buffer =
       job.layout.regions.add("frame_buffer", std::uint64_t{pixel_bytes(config.framebuffer)} *
                                                  camera.width * camera.height);

@@ -10,7 +10,6 @@ namespace sgs {
 
 struct StreamingJob : FrameJob {
   std::vector<PixelRect> groups;  // in the order in which they are rendered
-  RegionSpan spill;               // sorted runs that did not fit on chip
 };
 
 }  // namespace sgs

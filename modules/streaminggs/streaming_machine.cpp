@@ -8,18 +8,18 @@ namespace sgs {
 
 StreamingMachine::StreamingMachine(const sc_core::sc_module_name& name,
                                    const StreamingConfig& config, const StreamingJob& job,
-                                   SramUses uses, const BuildOptions& options)
+                                   const BuiltFor& built_for, const BuildOptions& options)
     : Machine(name),
       config_(config),
       job_(job),
-      sram_uses_(std::move(uses)),
+      built_for_(built_for),
       options_(options),
       clock_(config.clock_mhz),
       finished_groups_("finished_groups", clock_, job.groups.size(),
                        config.rendering.feedback_latency_cycles),
       hfus_(config.hfus) {
   for (std::uint32_t h = 0; h < config.hfus; ++h) {
-    add_fifo(visits_, fmt::format("visits_to_hfu{}", h), kVisitFifoEntries, 1);
+    add_fifo(visits_, fmt::format("visits_to_hfu{}", h), visit_fifos(config));
   }
 }
 
@@ -54,20 +54,13 @@ void StreamingMachine::make_units(Construction parts, Rejects rejects, Arrival a
 void StreamingMachine::publish(DataSheet& sheet) {
   publish_units(sheet);
   sheet.unit(*this);
-  for (FifoChannel* queue : queues_) sheet.queue(*queue);
-  for (const SramUse& use : sram_uses_) sheet.sram(use);
-  if (codebooks_) {
-    for (const SramUse& use : codebook_sram_uses(job_.layout.second_half)) sheet.sram(use);
+  for (const Queue& queue : queues_) {
+    sheet.sram(queue.use);
+    sheet.queue(*queue.fifo, queue.use.name.c_str());
   }
-  const SramConfig& sram = config_.sram;
-  sheet.sram_available("input", sram.input_bytes);
-  sheet.sram_available("codebook", sram.codebook_bytes);
-  sheet.sram_available("shared", sram.shared_bytes);
-  constexpr double kKiB = 1024;
-  sheet.part("sram", "sram_kib",
-             (static_cast<double>(sram.input_bytes) + static_cast<double>(sram.codebook_bytes) +
-              static_cast<double>(sram.shared_bytes)) /
-                 kKiB);
+  sheet.sram_available(kInputSram, config_.sram.input_bytes);
+  sheet.sram_available(kCodebookSram, config_.sram.codebook_bytes);
+  sheet.sram_available(kSharedSram, config_.sram.shared_bytes);
   publish_filters(sheet, config_.hfu, job_.layout.sh_degree());
 }
 

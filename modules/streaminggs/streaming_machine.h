@@ -13,6 +13,7 @@
 #include "modules/construction.h"
 #include "modules/machine.h"
 #include "modules/machine_design.h"
+#include "modules/streaminggs/fifo_kind.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/codebook_buffer.h"
 #include "modules/streaminggs/hfu/hfu.h"
@@ -30,29 +31,32 @@ class StreamingMachine : public Machine {
  private:
   const StreamingConfig config_;
   const StreamingJob job_;
-  const SramUses sram_uses_;
+  const BuiltFor built_for_;
   const BuildOptions options_;
   const ClockDomain clock_;
-  std::vector<FifoChannel*> queues_;  // between the units
+  struct Queue {
+    FifoChannel* fifo;
+    SramUse use;
+  };
+  std::vector<Queue> queues_;  // between the units
 
  protected:
   template <class T>
   using Fifos = std::vector<std::unique_ptr<TimedFifo<T>>>;
 
-  // uses: of the on-chip memory.
   StreamingMachine(const sc_core::sc_module_name& name, const StreamingConfig& config,
-                   const StreamingJob& job, SramUses uses, const BuildOptions& options);
+                   const StreamingJob& job, const BuiltFor& built_for, const BuildOptions& options);
 
-  // A FIFO between two units.
+  // A FIFO between two units, one of its kind.
   template <class T>
-  void add_fifo(Fifos<T>& fifos, const std::string& name, std::uint32_t entries,
-                std::uint32_t latency_cycles) {
-    fifos.push_back(std::make_unique<TimedFifo<T>>(name.c_str(), clock_, entries, latency_cycles));
+  void add_fifo(Fifos<T>& fifos, const std::string& name, const FifoKind<T>& kind) {
+    fifos.push_back(std::make_unique<TimedFifo<T>>(name.c_str(), clock_, kind.entries,
+                                                   kind.latency_cycles));
     if (options_.stalls.probability > 0) fifos.back()->inject(options_.stalls);
-    queues_.push_back(fifos.back().get());
+    queues_.push_back({fifos.back().get(), kind.each()});
   }
 
-  UnitContext context() const { return {clock_, job_, config_.memory_port}; }
+  UnitContext context() const { return {clock_, job_, built_for_}; }
   const StreamingJob& job() const { return job_; }
 
   // Makes the shared units and those of the order, in the order of construction that is asked for,

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "algorithm/input_error.h"
-#include "algorithm/memory/records.h"
-#include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/hfu/hfu.h"
+#include "modules/streaminggs/rendering/rendering_unit.h"
 
 namespace sgs {
 
@@ -18,7 +18,7 @@ AutoChoice choose_group(StreamingConfig& config, const std::function<SramUses()>
   std::uint32_t largest = 0;
   std::uint64_t bytes = 0;
   for (config.group_px = kStepPx; config.group_px <= kMostPx; config.group_px += kStepPx) {
-    const std::uint64_t needed = sram_bytes(uses(), "shared");
+    const std::uint64_t needed = sram_bytes(uses(), kSharedSram);
     if (needed > config.sram.shared_bytes) break;
     largest = config.group_px;
     bytes = needed;
@@ -45,42 +45,14 @@ void size(const char* key, std::uint32_t& bytes, const SramUses& uses, const std
 
 }  // namespace
 
-SecondHalfFormat widest_format(const StorageConfig& storage) {
-  constexpr int kMostDegree = 3;
-  return storage.widest_format(kMostDegree);
+FifoKind<VisitShare> visit_fifos(const StreamingConfig& c) {
+  return {"visits", "visits", c.hfus, kVisitFifoEntries, 1};
 }
 
-SramUses streaming_sram_uses(const StreamingConfig& c, const SecondHalfFormat& widest) {
-  SramUses uses = {
-      sram_use("input", "input",
-               {{c.hfus, "HFUs"},
-                {c.hfu.input_slots, "slots"},
-                {c.hfu.slice_gaussians, "Gaussians"},
-                {kFirstHalfBytes, "B"}}),
-      sram_use("pixel state", "shared",
-               {{c.rendering.pixel_buffers, "groups"},
-                {c.group_px, "px"},
-                {c.group_px, "px"},
-                {kPixelStateBytes, "B"}}),
-      sram_use("second halves", "shared",
-               {{c.hfus, "HFUs"}, {c.hfu.second_half_slots, "slots"}, {widest.bytes(), "B"}}),
-      sram_use("visits", "shared",
-               {{c.hfus, "HFUs"}, {kVisitFifoEntries, "visits"}, {kVisitShareBytes, "B"}})};
-  if (widest.quantised()) {
-    uses.push_back(
-        sram_use("decoded Gaussians", "shared",
-                 {{c.hfus, "HFUs"}, {kDecodedEntries, "entries"}, {kDecodedBytes, "B"}}));
-  }
-  return uses;
-}
-
-SramUses codebook_sram_uses(const SecondHalfFormat& format) {
-  SramUses uses;
-  for (std::size_t id = 0; format.quantised() && id < kCodebookCount; ++id) {
-    uses.push_back(sram_use(
-        kCodebookNames[id], "codebook",
-        {{format.entries[id], "entries"}, {format.entry_bytes(static_cast<Codebook>(id)), "B"}}));
-  }
+SramUses streaming_sram_uses(const StreamingConfig& c, const BuiltFor& built_for) {
+  SramUses uses = RenderingUnit::sram_uses(c.rendering, built_for);
+  add(uses, Hfu::sram_uses(c.hfu, built_for), c.hfus);
+  add(uses, visit_fifos(c).all());
   return uses;
 }
 
@@ -102,8 +74,8 @@ void resolve_sram(StreamingConfig& config, const std::function<SramUses()>& uses
   if (config.group_px == 0) chosen.push_back(choose_group(config, uses));
   check(config);
   const SramUses all = uses();
-  size("sram.input_bytes", config.sram.input_bytes, all, "input", chosen);
-  size("sram.shared_bytes", config.sram.shared_bytes, all, "shared", chosen);
+  size("sram.input_bytes", config.sram.input_bytes, all, kInputSram, chosen);
+  size("sram.shared_bytes", config.sram.shared_bytes, all, kSharedSram, chosen);
 }
 
 }  // namespace sgs

@@ -5,22 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/memory/second_half.h"
-#include "algorithm/memory/storage_config.h"
 #include "modules/auto_choice.h"
+#include "modules/streaminggs/fifo_kind.h"
+#include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/streaming_config.h"
 #include "tlm/sram_use.h"
 
 namespace sgs {
 
-// Second halves that the buffers are built for: of degree 3, with full codebooks.
-SecondHalfFormat widest_format(const StorageConfig& storage);
+// FIFOs between VSU and the HFUs.
+FifoKind<VisitShare> visit_fifos(const StreamingConfig& config);
 
-// Input buffer, pixel state, second halves, visits, and decoded Gaussians where they are quantised.
-SramUses streaming_sram_uses(const StreamingConfig& config, const SecondHalfFormat& widest);
-
-// Codebooks of one scene in their buffer.
-SramUses codebook_sram_uses(const SecondHalfFormat& format);
+// Of the units that both orders have, and the FIFOs between VSU and the HFUs.
+SramUses streaming_sram_uses(const StreamingConfig& config, const BuiltFor& built_for);
 
 // Sizes and checks that depend on each other: a group left to the model takes what the SRAM leaves,
 // SRAM left to the model (0 bytes) is what is used. uses(): of `config` as it is then. Adds to

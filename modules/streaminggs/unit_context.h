@@ -1,9 +1,9 @@
 // What every unit of a streaming machine is built with, beside its own parameters.
 #pragma once
 
+#include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/streaming_job.h"
 #include "tlm/clock_domain.h"
-#include "tlm/memory_port.h"
 
 namespace sgs {
 
@@ -11,7 +11,7 @@ namespace sgs {
 struct UnitContext {
   const ClockDomain& clock;
   const StreamingJob& job;
-  MemoryPortConfig memory_port;
+  BuiltFor built_for;
 };
 
 }  // namespace sgs

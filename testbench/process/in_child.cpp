@@ -16,7 +16,7 @@
 namespace sgs {
 namespace {
 
-enum class Answer : char { kResult, kFailure };
+enum class Answer : char { kResult, kFailure, kRefusal };
 
 int answer_to = -1;  // of a child: its end of the pipe
 
@@ -62,6 +62,8 @@ void end_worker_threads() {
     answer(Answer::kResult, work());
   } catch (const std::bad_alloc&) {
     fail_child("out of memory in the simulation");
+  } catch (const InputError& error) {
+    answer(Answer::kRefusal, one_line(error.what()));
   } catch (const std::exception& error) {
     fail_child(error.what());
   }
@@ -103,6 +105,7 @@ std::string in_child(const std::function<std::string()>& work) {
     throw std::runtime_error("the simulation ended with exit status " +
                              std::to_string(WEXITSTATUS(status)));
   }
+  if (kind == Answer::kRefusal) throw InputError(text);
   if (kind == Answer::kFailure) throw std::runtime_error(text);
   return text;
 }

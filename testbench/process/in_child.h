@@ -6,7 +6,8 @@
 
 namespace sgs {
 
-// Runs work() in a forked child and returns what it returns. Throws std::runtime_error when no
+// Runs work() in a forked child and returns what it returns. Throws the InputError that the child
+// threw, in one line, and std::runtime_error when no
 // process can be had, and when the child failed: with what() of the std::exception it threw, with
 // what it gave to fail_child(), or with the signal or exit status that ended it, in one line.
 std::string in_child(const std::function<std::string()>& work);

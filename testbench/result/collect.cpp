@@ -31,9 +31,11 @@ class Collector : public LeftOutCollector {
   void part(const char* component, const char* kind, double count) override {
     add(into_.parts, component, kind, count);
   }
-  void sram(const SramUse& use) override { into_.sram_uses.push_back(use); }
+  void sram(const SramUse& use) override { sgs::add(into_.sram_uses, use); }
   void sram_available(const char* memory, std::uint64_t bytes) override {
+    constexpr double kKiB = 1024;
     into_.sram_available.emplace_back(memory, bytes);
+    add(into_.parts, "sram", "sram_kib", static_cast<double>(bytes) / kKiB);
   }
   void datapath(const Datapath& datapath) override { into_.datapaths.push_back(datapath); }
 
@@ -56,7 +58,7 @@ class Collector : public LeftOutCollector {
 
 class Drained : public DataSheet {
  public:
-  void queue(FifoChannel& queue) override { all = all && queue.fill() == 0; }
+  void queue(FifoChannel& queue, const char*) override { all = all && queue.fill() == 0; }
   void port(MemoryPort& port) override { all = all && port.idle(); }
   bool all = true;
 };

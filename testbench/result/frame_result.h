@@ -45,7 +45,7 @@ struct MachineResult {
   std::vector<UnitResult> units;
   std::vector<Amount> operations, parts;
   std::vector<LeftOut> left_out;  // one entry a saving: counts of several units added up
-  SramUses sram_uses;
+  SramUses sram_uses;             // the same use of several units added up
   std::vector<std::pair<std::string, std::uint64_t>> sram_available;  // (memory, bytes)
   std::vector<Datapath> datapaths;
 };

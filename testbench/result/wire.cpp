@@ -31,7 +31,7 @@ void serialize(Archive& a, LeftOut& r) {
 }
 template <class Archive>
 void serialize(Archive& a, SramUse& r) {
-  a(r.name, r.memory, r.bytes, r.arithmetic);
+  a(r.name, r.memory, r.bytes, r.arithmetic, r.count);
 }
 template <class Archive>
 void serialize(Archive& a, Datapath& r) {

@@ -12,6 +12,7 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/process/in_child.h"
 #include "testbench/result/collect.h"
+#include "testbench/result/sram_budget.h"
 #include "testbench/result/wire.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/prepared_scene.h"
@@ -75,7 +76,8 @@ void print_sheets(const MachineResult& machine) {
   }
   Table sram("| on-chip memory | use | bytes | arithmetic |");
   for (const SramUse& use : machine.sram_uses) {
-    sram.row(fmt::format("{} | {} | {} | {} ", use.memory, use.name, use.bytes, use.arithmetic));
+    sram.row(fmt::format("{} | {} | {} | {} ", use.memory, use.name, use.total_bytes(),
+                         use.product()));
   }
 }
 
@@ -89,7 +91,9 @@ MachineResult sheets_of(RunConfig& config) {
   const std::string bytes = in_child([&] {
     use_femtosecond_resolution();
     FrameResult result;
-    result.machine = collect(*config.design->build("accelerator", job, {}));
+    const std::unique_ptr<Machine> machine = config.design->build("accelerator", job, {});
+    check_sram_budget(*machine);
+    result.machine = collect(*machine);
     return to_wire(result);
   });
   return from_wire(bytes).machine;

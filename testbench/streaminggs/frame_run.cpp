@@ -15,6 +15,7 @@
 #include "testbench/process/sc_errors.h"
 #include "testbench/result/collect.h"
 #include "testbench/result/collect_memory.h"
+#include "testbench/result/sram_budget.h"
 #include "testbench/result/waveform_sheet.h"
 #include "testbench/result/wire.h"
 #include "testbench/waveform/waveform.h"
@@ -38,6 +39,7 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   DramController memory("dram", dram);
   memory.load(0, image.bytes.data(), image.bytes.size());
   const std::unique_ptr<Machine> machine = design.build("accelerator", job, build);
+  check_sram_budget(*machine);
   for (auto& socket : machine->memory) socket.bind(memory.socket);
   std::optional<CommandTraceWriter> dram_trace;
   if (outputs.dram_trace != nullptr) {

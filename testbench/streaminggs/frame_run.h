@@ -17,7 +17,8 @@ struct RunOptions {
   BuildOptions build;
 };
 
-// Throws std::runtime_error when the simulation fails; the reason has gone to stderr.
+// Throws InputError when the machine takes more on-chip memory than it has, before its time begins;
+// std::runtime_error, with the reason, when the simulation fails.
 FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
                       const DramConfig& dram, const RunOptions& options);
 

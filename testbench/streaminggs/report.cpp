@@ -147,8 +147,8 @@ Json sram_of(const MachineResult& machine) {
   for (const SramUse& use : machine.sram_uses) {
     out["uses"].push_back({{"name", use.name},
                            {"memory", use.memory},
-                           {"bytes", use.bytes},
-                           {"arithmetic", use.arithmetic}});
+                           {"bytes", use.total_bytes()},
+                           {"arithmetic", use.product()}});
   }
   return out;
 }

@@ -22,7 +22,7 @@ class Published : public DataSheet {
   void operations(const char* component, const char* kind, double count) override {
     operations_[std::string(component) + " " + kind] += count;
   }
-  void queue(FifoChannel& queue) override { queues.push_back(&queue); }
+  void queue(FifoChannel& queue, const char*) override { queues.push_back(&queue); }
   void port(MemoryPort& port) override { ports.push_back(&port); }
 
   std::vector<Activity*> activities;

@@ -54,8 +54,10 @@ UnitBench::~UnitBench() = default;
 UnitContext UnitBench::context(const StreamingJob& job) const {
   constexpr std::uint32_t kUnlimited = 4096;
   MemoryPortConfig port;
-  if (config_.memory == Memory::kFixedLatency) port.max_outstanding = kUnlimited;
-  return {clock_, job, port};
+  if (config_.memory == Memory::kFixedLatency) port.max_outstanding = port.max_writes = kUnlimited;
+  BuiltFor built_for;
+  built_for.memory_port = port;
+  return {clock_, job, built_for};
 }
 
 void UnitBench::load(std::uint64_t address, const std::vector<std::byte>& bytes) {

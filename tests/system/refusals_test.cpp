@@ -39,7 +39,7 @@ TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
                     {"sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
                      "128 px x 128 px x 16 B"});
   check_set_refused("paper", {"hfu.slice_gaussians=256"},
-                    {"sram.input_bytes: 16384 bytes are there", "4 HFUs"});
+                    {"sram.input_bytes: 16384 bytes are there", "4 x 2 slots x 256 Gaussians"});
   check_set_refused("exact", {"group_px=128", "sram.shared_bytes=10000"},
                     {"sram.shared_bytes: 10000", "pixel state"});
 }

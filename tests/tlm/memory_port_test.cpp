@@ -165,6 +165,36 @@ TEST_CASE("memory port: no more than max_outstanding transactions are in flight"
   CHECK(unit.port.payloads().made() <= 4);
 }
 
+TEST_CASE("memory port: of the bytes of writes it keeps those of max_writes") {
+  use_femtosecond_resolution();
+  DramConfig slow;
+  slow.posted_writes = false;  // answered when they are written
+  System system(1, slow);
+  MemoryPortConfig config;
+  config.max_writes = 2;
+  config.max_transaction_bytes = 64;
+  std::uint64_t most = 0, most_reading = 0;
+  Unit unit("unit", config, {[&](MemoryPort& port) {
+              static std::uint8_t bytes[20][64];
+              for (std::uint32_t i = 0; i < 20; ++i) {
+                port.write(i * 64, bytes[i], 64, 0);
+                most = std::max(most, port.bytes_outstanding());
+              }
+              // Reads need not wait for them.
+              for (std::uint32_t i = 0; i < 10; ++i) {
+                port.read(i * 64, bytes[i], 64, 0);
+                most_reading = std::max(most_reading, port.bytes_outstanding());
+              }
+              port.wait_all();
+            }});
+  system.connect(0, unit.port);
+  sc_core::sc_start();
+  CHECK(most == 2 * 64);
+  CHECK(most == unanswered_writes("writes", "shared", config, 100).bytes);
+  CHECK(unanswered_writes("writes", "shared", config, 48).bytes == 2 * 48);
+  CHECK(most_reading > 4 * 64);
+}
+
 TEST_CASE("memory port: a finished ticket costs no waiting, an old one stays done") {
   use_femtosecond_resolution();
   System system(1);

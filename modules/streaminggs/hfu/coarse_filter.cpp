@@ -11,7 +11,7 @@ namespace sgs {
 CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
                            const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.memory_port),
+      memory("memory", context.built_for.memory_port),
       config_(config),
       job_(context.job),
       load_("load", context.clock),
@@ -114,6 +114,14 @@ void CoarseFilter::filter_slice(const Slice& slice) {
   filter_.work(pending_cycles);
 }
 
+SramUses CoarseFilter::sram_uses(const HfuConfig& config) {
+  return {sram_use("input", kInputSram,
+                   {{config.input_slots, "slots"},
+                    {config.slice_gaussians, "Gaussians"},
+                    {kFirstHalfBytes, "B"}}),
+          fifo_use<Slice>("slices", kSharedSram, config.input_slots, "slices")};
+}
+
 void CoarseFilter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(load_, "load", "fetches first halves into the input buffer");
@@ -131,7 +139,8 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.port(memory);
-  sheet.queue(slices_);
+  sheet.sram(sram_uses(config_));
+  sheet.queue(slices_, "slices");
   sheet.signal("group", current_group_);
   sheet.signal("visit", current_visit_);
 }

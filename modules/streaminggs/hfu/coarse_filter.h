@@ -38,11 +38,13 @@ class CoarseFilter : public sc_core::sc_module {
     std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
   };
   const Counters& counters() const { return counters_; }
+  static SramUses sram_uses(const HfuConfig& config);
   void publish(DataSheet& sheet);
 
  private:
   // One part of the input buffer, full of a visit's first halves.
   struct Slice {
+    static constexpr std::uint32_t kSramBytes = VisitShare::kSramBytes;  // slots are used in turn
     VisitShare share;  // mark: only with the last slice of a share
     std::uint64_t ticket = 0;
     std::uint32_t slot = 0;  // of the input buffer

@@ -7,7 +7,7 @@ CodebookBuffer::CodebookBuffer(const sc_core::sc_module_name& name, const Codebo
                                const UnitContext& context, InstantEnd& instant_end,
                                std::uint32_t readers)
     : sc_module(name),
-      memory("memory", context.memory_port),
+      memory("memory", context.built_for.memory_port),
       config_(config),
       job_(context.job),
       instant_end_(instant_end),
@@ -94,6 +94,16 @@ std::uint64_t CodebookBuffer::take_lines(const EntryRange& entry, std::uint64_t 
   return cycle;
 }
 
+SramUses CodebookBuffer::sram_uses(const SecondHalfFormat& format) {
+  SramUses uses;
+  for (std::size_t id = 0; format.quantised() && id < kCodebookCount; ++id) {
+    uses.push_back(sram_use(
+        kCodebookNames[id], kCodebookSram,
+        {{format.entries[id], "entries"}, {format.entry_bytes(static_cast<Codebook>(id)), "B"}}));
+  }
+  return uses;
+}
+
 void CodebookBuffer::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(load_, "codebook_load", "fills the buffer");
@@ -108,6 +118,7 @@ void CodebookBuffer::publish(DataSheet& sheet) {
                    8.0 * static_cast<double>(counters_.lines) * config_.line_bytes);
   sheet.operations("codebooks", "sram_large_write_bit",
                    8.0 * static_cast<double>(counters_.bytes_loaded));
+  sheet.sram(sram_uses(job_.layout.second_half));
   sheet.port(memory);
   sheet.signal("full", full_);
 }

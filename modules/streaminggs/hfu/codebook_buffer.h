@@ -39,6 +39,8 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
     std::uint64_t conflict_cycles = 0;  // a line waited because its bank was being read
   };
   const Counters& counters() const { return counters_; }
+  // Codebooks of one scene.
+  static SramUses sram_uses(const SecondHalfFormat& format);
   void publish(DataSheet& sheet);
 
  private:

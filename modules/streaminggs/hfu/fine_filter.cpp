@@ -6,20 +6,27 @@
 #include "algorithm/splat/make_splat.h"
 
 namespace sgs {
+namespace {
+
+// Of those whose second halves are on their way or waiting, and a mark.
+std::uint32_t fetched_entries(const HfuConfig& config) { return config.second_half_slots + 1; }
+
+}  // namespace
 
 FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
                        const CodebookConfig& codebook, const FineFilterPlace& place,
                        const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.memory_port),
+      memory("memory", context.built_for.memory_port),
       config_(config),
+      built_for_(context.built_for),
       place_(place),
       job_(context.job),
       fetch_("fetch", context.clock),
       filter_("filter", context.clock),
       record_bytes_(job_.layout.second_halves.record_bytes),
       second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
-      fetched_("fetched", context.clock, config.second_half_slots + 1),
+      fetched_("fetched", context.clock, fetched_entries(config)),
       free_slots_("free_slots", context.clock, config.second_half_slots, 0) {
   SC_THREAD(run_fetch);
   SC_THREAD(run_filter);
@@ -131,6 +138,19 @@ void FineFilter::reject(const FineCandidate& candidate) {
   in_turn(splats, candidate.visit).push(token, filter_);
 }
 
+SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
+  SramUses uses = {
+      sram_use("second halves", kSharedSram,
+               {{config.second_half_slots, "slots"}, {built_for.second_half.bytes(), "B"}}),
+      fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
+                              "candidates")};
+  if (built_for.second_half.quantised()) {
+    uses.push_back(
+        fifo_use<Decoded>("decoded Gaussians", kSharedSram, kDecodedEntries, "entries"));
+  }
+  return uses;
+}
+
 void FineFilter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(fetch_, "fetch", "asks for second halves");
@@ -150,8 +170,9 @@ void FineFilter::publish(DataSheet& sheet) {
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.port(memory);
-  sheet.queue(fetched_);
-  if (stage_) sheet.queue(stage_->decoded);
+  sheet.sram(sram_uses(config_, built_for_));
+  sheet.queue(fetched_, "fetched candidates");
+  if (stage_) sheet.queue(stage_->decoded, "decoded Gaussians");
 }
 
 }  // namespace sgs

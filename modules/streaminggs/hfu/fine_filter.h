@@ -53,11 +53,13 @@ class FineFilter : public sc_core::sc_module {
     std::uint64_t dropped_saturated = 0;  // candidates: the group was finished
   };
   const Counters& counters() const { return counters_; }
+  static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
   // A candidate whose second half has been read; with a mark there is none.
   struct Decoded {
+    static constexpr std::uint32_t kSramBytes = kDecodedBytes;
     FineCandidate candidate;
     DecodedGaussian second;
   };
@@ -79,6 +81,7 @@ class FineFilter : public sc_core::sc_module {
   void drop_saturated(const FineCandidate& candidate);
 
   const HfuConfig config_;
+  const BuiltFor built_for_;
   const FineFilterPlace place_;
   const StreamingJob& job_;
   Activity fetch_, filter_;

@@ -20,6 +20,11 @@ class Hfu : public sc_core::sc_module {
         coarse("coarse", config, context),
         fine("fine", config, codebook, place, context) {}
 
+  static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
+    SramUses uses = CoarseFilter::sram_uses(config);
+    add(uses, FineFilter::sram_uses(config, built_for));
+    return uses;
+  }
   void publish(DataSheet& sheet) {
     coarse.publish(sheet);
     fine.publish(sheet);

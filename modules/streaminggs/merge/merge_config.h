@@ -9,7 +9,7 @@
 namespace sgs {
 
 struct MergeConfig {
-  std::uint32_t entries = 2048;  // keys that wait on chip
+  std::uint32_t entries = 1952;  // keys that wait on chip
   OnOverflow on_overflow = OnOverflow::kSpill;
   std::uint32_t spill_runs = 8;           // runs in DRAM that are read back side by side
   std::uint32_t spill_block_entries = 8;  // keys read and written at once: 224 B
@@ -20,9 +20,6 @@ struct MergeConfig {
 
 void visit(ConfigVisitor& v, MergeConfig& config);
 
-// Depth, slot, centre and largest scale: what sorting needs, and the fine filter beside the second
-// half.
-constexpr std::uint32_t kMergeKeyBytes = 24;
 // While it waits, and in DRAM, a key has room for the Gaussian's index in the file.
 constexpr std::uint32_t kWaitingKeyBytes = 28;
 constexpr std::uint32_t kSpilledKeyBytes = 28;

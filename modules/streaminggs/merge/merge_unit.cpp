@@ -49,8 +49,9 @@ PendingKey MergeUnit::KeyCodec::decode(const std::byte* bytes) const {
 MergeUnit::MergeUnit(const sc_core::sc_module_name& name, const MergeConfig& config,
                      const RegionSpan& spill, const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.memory_port),
+      memory("memory", context.built_for.memory_port),
       config_(config),
+      built_for_(context.built_for),
       job_(context.job),
       spill_(spill),
       merge_("merge", context.clock) {
@@ -316,6 +317,23 @@ void MergeUnit::drop_all() {
   spills_ = 0;
 }
 
+SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
+  SramUses uses = {
+      sram_use("waiting keys", kSharedSram, {{config.entries, "keys"}, {kWaitingKeyBytes, "B"}})};
+  if (config.on_overflow != OnOverflow::kSpill) return uses;
+  const SramUse block = sram_use("spill blocks", kSharedSram,
+                                 {{config.spill_block_entries, "keys"}, {kSpilledKeyBytes, "B"}});
+  const auto bytes = static_cast<std::uint32_t>(block.bytes);
+  uses.push_back(sram_use("spilled runs", kSharedSram,
+                          {{config.spill_runs, "runs"},
+                           {2, "blocks"},
+                           {config.spill_block_entries, "keys"},
+                           {kSpilledKeyBytes, "B"}}));
+  uses.push_back(block);
+  uses.push_back(unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes));
+  return uses;
+}
+
 void MergeUnit::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(merge_, "merge", "takes keys, releases them in final order");
@@ -340,6 +358,7 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.left_out("index_lookups", "no other key has the same depth",
                  counters_.keys - std::min(counters_.keys, counters_.ties),
                  "4 B of DRAM traffic each");
+  sheet.sram(sram_uses(config_, built_for_));
   sheet.port(memory);
   sheet.signal("group", group_);
   sheet.signal("pending", pending_count_);

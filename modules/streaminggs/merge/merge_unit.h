@@ -61,6 +61,7 @@ class MergeUnit : public sc_core::sc_module {
     std::uint64_t keys_spilled = 0;  // written to DRAM, over all passes
   };
   const Counters& counters() const { return counters_; }
+  static SramUses sram_uses(const MergeConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
@@ -95,6 +96,7 @@ class MergeUnit : public sc_core::sc_module {
   void drop_all();
 
   const MergeConfig config_;
+  const BuiltFor built_for_;
   const StreamingJob& job_;
   const RegionSpan spill_;
   Activity merge_;

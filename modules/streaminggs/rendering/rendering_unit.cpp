@@ -11,8 +11,9 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
                              Arrival arrival, const UnitContext& context,
                              std::function<void()> on_done)
     : sc_module(name),
-      memory("memory", context.memory_port),
+      memory("memory", context.built_for.memory_port),
       config_(config),
+      built_for_(context.built_for),
       job_(context.job),
       arrival_(arrival),
       on_done_(std::move(on_done)),
@@ -94,6 +95,18 @@ void RenderingUnit::write_group(const GroupState& state) {
   }
 }
 
+// A row is converted as it leaves: until a write of it is made its pixels are in their buffer.
+SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor& built_for) {
+  const std::uint32_t px = built_for.group_px;
+  return {sram_use("pixel state", kSharedSram,
+                   {{config.pixel_buffers, "groups"},
+                    {px, "px"},
+                    {px, "px"},
+                    {kPixelStateBytes, "B"}}),
+          unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
+                            px * pixel_bytes(built_for.frame_format))};
+}
+
 void RenderingUnit::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(blend_, "rendering", "blends sorted splats into the pixels of a group");
@@ -114,7 +127,8 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.operations("pixel_state", "sram_large_read_bit", 8.0 * pixels * kPixelStateBytes);
   sheet.part("rendering", "pixel_lane", config_.clusters * kSubtilePixels);
   sheet.port(memory);
-  sheet.queue(finished_);
+  sheet.sram(sram_uses(config_, built_for_));
+  sheet.queue(finished_, "pixel state");
   sheet.signal("group", current_group_);
 }
 

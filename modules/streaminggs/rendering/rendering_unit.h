@@ -45,6 +45,7 @@ class RenderingUnit : public sc_core::sc_module {
     std::uint64_t groups_saturated = 0;
   };
   const Counters& counters() const { return counters_; }
+  static SramUses sram_uses(const RenderingConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
@@ -54,6 +55,7 @@ class RenderingUnit : public sc_core::sc_module {
   void write_group(const GroupState& state);
 
   const RenderingConfig config_;
+  const BuiltFor built_for_;
   const StreamingJob& job_;
   const Arrival arrival_;
   std::function<void()> on_done_;

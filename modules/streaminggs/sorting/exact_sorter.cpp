@@ -13,6 +13,7 @@ ExactSorter::ExactSorter(const sc_core::sc_module_name& name, const SortingNetwo
                          const UnitContext& context)
     : sc_module(name),
       config_(config),
+      built_for_(context.built_for),
       visit_step_(visit_step),
       sort_("sort", context.clock),
       visit_(first_visit) {
@@ -47,6 +48,11 @@ void ExactSorter::run() {
   }
 }
 
+SramUses ExactSorter::sram_uses(const BuiltFor& built_for) {
+  return {sram_use("key sorters", kSharedSram,
+                   {{built_for.chunk_gaussians, "keys"}, {FineCandidate::kSramBytes, "B"}})};
+}
+
 void ExactSorter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(sort_, "sorting", "takes, sorts and hands on the keys of one chunk");
@@ -59,6 +65,7 @@ void ExactSorter::publish(DataSheet& sheet) {
   sheet.operations("sorting", "compare_exchange", static_cast<double>(counters_.compare_exchanges));
   sheet.part("sorting", "sorting_unit", 1);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
+  sheet.sram(sram_uses(built_for_));
   sheet.signal("visit", visit_);
 }
 

@@ -30,12 +30,14 @@ class ExactSorter : public sc_core::sc_module {
     std::uint64_t compare_exchanges = 0;
   };
   const Counters& counters() const { return counters_; }
+  static SramUses sram_uses(const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
   void run();  // thread
 
   const SortingNetworkConfig config_;
+  const BuiltFor built_for_;
   const std::uint32_t visit_step_;
   Activity sort_;
   Counters counters_;

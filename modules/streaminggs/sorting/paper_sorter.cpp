@@ -27,8 +27,9 @@ struct SplatCodec {
 PaperSorter::PaperSorter(const sc_core::sc_module_name& name, const PaperSorterConfig& config,
                          const PaperSorterPlace& place, const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.memory_port),
+      memory("memory", context.built_for.memory_port),
       config_(config),
+      built_for_(context.built_for),
       place_(place),
       job_(context.job),
       sort_("sort", context.clock) {
@@ -196,6 +197,17 @@ SubtileRect PaperSorter::group_subtiles() const {
           subtile(pixels.y1 + kSubtilePx - 1)};
 }
 
+// Runs that are read back lie in the sort buffer, which is empty then.
+SramUses PaperSorter::sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for) {
+  const SramUse block = sram_use(
+      "spill blocks", kSharedSram, {{config.spill_block_entries, "splats"}, {kSplatEntryBytes, "B"}});
+  const auto bytes = static_cast<std::uint32_t>(block.bytes);
+  return {sram_use("sort buffers", kSharedSram,
+                   {{config.buffer_entries, "splats"}, {kSplatEntryBytes, "B"}}),
+          block,
+          unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes)};
+}
+
 void PaperSorter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(sort_, "sorting", "takes, sorts and hands on the splats of one visit");
@@ -214,6 +226,7 @@ void PaperSorter::publish(DataSheet& sheet) {
   sheet.operations("sorting", "compare_exchange", static_cast<double>(counters_.compare_exchanges));
   sheet.part("sorting", "sorting_unit", 1);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
+  sheet.sram(sram_uses(config_, built_for_));
   sheet.port(memory);
   sheet.signal("group", group_);
   sheet.signal("visit", visit_);

@@ -47,6 +47,7 @@ class PaperSorter : public sc_core::sc_module {
     std::uint64_t list_max = 0;         // longest list of one visit
   };
   const Counters& counters() const { return counters_; }
+  static SramUses sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
@@ -65,6 +66,7 @@ class PaperSorter : public sc_core::sc_module {
   }
 
   const PaperSorterConfig config_;
+  const BuiltFor built_for_;
   const PaperSorterPlace place_;
   const StreamingJob& job_;
   Activity sort_;

@@ -10,8 +10,9 @@ namespace sgs {
 ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& config,
                    const UnitContext& context, const RegionSpan& aside)
     : sc_module(name),
-      memory("memory", context.memory_port),
+      memory("memory", context.built_for.memory_port),
       config_(config),
+      built_for_(context.built_for),
       job_(context.job),
       walk_("walk", context.clock),
       nodes_(config.node_cache_bytes, job_.layout.chunk_table().nodes),
@@ -63,6 +64,14 @@ void ExactVsu::mark_end(std::uint32_t group) {
   ++next_visit_;
 }
 
+SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built_for) {
+  return {sram_use("node cache", kSharedSram, {{config.node_cache_bytes, "B"}}),
+          sram_use("walk queue", kSharedSram,
+                   {{config.queue_entries, "entries"}, {kWalkEntryBytes, "B"}}),
+          unanswered_writes("entries put aside", kSharedSram, built_for.memory_port,
+                            kWalkEntryBytes)};
+}
+
 void ExactVsu::publish(DataSheet& sheet) {
   const WalkCounters& walk = chunk_walk_.counters();
   sheet.unit(*this);
@@ -83,6 +92,7 @@ void ExactVsu::publish(DataSheet& sheet) {
                  counters_.groups_saturated, "the rest of the tree is not walked");
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
                  "no visit, no blending");
+  sheet.sram(sram_uses(config_, built_for_));
   sheet.port(memory);
   sheet.signal("group", current_group_);
   sheet.signal("chunk", current_chunk_);

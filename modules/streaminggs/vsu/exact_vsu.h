@@ -38,6 +38,7 @@ class ExactVsu : public sc_core::sc_module {
   const Counters& counters() const { return counters_; }
   const WalkCounters& walk_counters() const { return chunk_walk_.counters(); }
   std::uint64_t node_misses() const { return nodes_.misses(); }
+  static SramUses sram_uses(const ExactVsuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
@@ -62,6 +63,7 @@ class ExactVsu : public sc_core::sc_module {
   void mark_end(std::uint32_t group);
 
   const ExactVsuConfig config_;
+  const BuiltFor built_for_;
   const StreamingJob& job_;
   Activity walk_;
   TableCache<ChunkNode> nodes_;

@@ -32,8 +32,8 @@ class CachedTree {
 PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
                    const UnitContext& context)
     : sc_module(name),
-      node_memory("node_memory", context.memory_port),
-      record_memory("record_memory", context.memory_port),
+      node_memory("node_memory", context.built_for.memory_port),
+      record_memory("record_memory", context.built_for.memory_port),
       config_(config),
       job_(context.job),
       traverse_("traverse", context.clock),
@@ -132,6 +132,15 @@ void PaperVsu::mark_end(std::uint32_t group) {
   ++next_visit_;
 }
 
+SramUses PaperVsu::sram_uses(const PaperVsuConfig& config) {
+  // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
+  return {sram_use("node cache", kSharedSram, {{config.node_cache_bytes, "B"}}),
+          sram_use("record cache", kSharedSram, {{config.record_cache_bytes, "B"}}),
+          sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}}),
+          sram_use("ordered voxels", kSharedSram,
+                   {{config.groups_ahead, "groups"}, {config.table_bytes / 2, "B"}})};
+}
+
 void PaperVsu::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(traverse_, "vsu", "follows rays and orders the voxels of a group");
@@ -155,7 +164,8 @@ void PaperVsu::publish(DataSheet& sheet) {
                  counters_.visits_saturated, "their Gaussians are not streamed");
   sheet.port(node_memory);
   sheet.port(record_memory);
-  sheet.queue(ordered_);
+  sheet.sram(sram_uses(config_));
+  sheet.queue(ordered_, "ordered voxels");
   sheet.signal("group", current_group_);
   sheet.signal("voxel", current_voxel_);
 }

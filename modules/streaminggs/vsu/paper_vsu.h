@@ -41,6 +41,7 @@ class PaperVsu : public sc_core::sc_module {
     std::uint64_t table_bytes_max = 0;   // ordering table of the worst group
   };
   const Counters& counters() const { return counters_; }
+  static SramUses sram_uses(const PaperVsuConfig& config);
   void publish(DataSheet& sheet);
 
  private:

@@ -15,6 +15,8 @@
 #include <thread>
 #include <vector>
 
+#include "algorithm/input_error.h"
+
 namespace sgs {
 namespace {
 
@@ -41,6 +43,12 @@ TEST_CASE("in child: why it failed, in one line") {
             "the simulation was ended by signal 9"}}) {
     CHECK_THROWS_WITH(in_child(c.work), Equals(c.why));
   }
+}
+
+TEST_CASE("in child: bad input stays bad input") {
+  const auto refuse = []() -> std::string { throw InputError("none of\nthat"); };
+  CHECK_THROWS_AS(in_child(refuse), InputError);
+  CHECK_THROWS_WITH(in_child(refuse), Equals("none of\\nthat"));
 }
 
 std::ptrdiff_t threads() {

@@ -55,6 +55,14 @@ void FetchUnit::run_add() {
   }
 }
 
+SramUses FetchUnit::sram_uses(const ToyConfig& config) {
+  return {sram_use("blocks", kScratch,
+                   {{config.fetch.buffer_blocks, "blocks"},
+                    {config.fetch.block_gaussians, "Gaussians"},
+                    {kFirstHalfBytes, "B"}}),
+          fifo_use<Fetched>("fetched", kScratch, config.fetch.buffer_blocks, "blocks")};
+}
+
 void FetchUnit::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(ask_, "fetching", "asks for blocks of first halves");
@@ -66,7 +74,8 @@ void FetchUnit::publish(DataSheet& sheet) {
   sheet.operations("scratch", "sram_small_read_bit", buffered);
   sheet.part("adder", "mac_lane", 3);
   sheet.port(memory);
-  sheet.queue(fetched_);
+  sheet.sram(sram_uses(config_));
+  sheet.queue(fetched_, "fetched");
   sheet.signal("group", current_group_);
 }
 

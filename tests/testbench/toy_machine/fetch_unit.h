@@ -17,6 +17,7 @@
 namespace sgs::toy {
 
 struct GroupColour {
+  static constexpr std::uint32_t kSramBytes = 16;
   std::uint32_t group = 0;
   glm::vec3 colour{0};
 };
@@ -30,10 +31,12 @@ class FetchUnit : public sc_core::sc_module {
   FetchUnit(const sc_core::sc_module_name& name, const ToyConfig& config, const ClockDomain& clock,
             const FrameJob& job);
 
+  static SramUses sram_uses(const ToyConfig& config);
   void publish(DataSheet& sheet);
 
  private:
   struct Fetched {
+    static constexpr std::uint32_t kSramBytes = 12;  // group, first, count: slots are used in turn
     std::uint32_t group = 0;
     Block block;
     std::uint64_t ticket = 0;

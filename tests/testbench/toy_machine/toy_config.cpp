@@ -1,7 +1,6 @@
-// Keys and on-chip memory of the toy machine.
+// Keys of the toy machine.
 #include "tests/testbench/toy_machine/toy_config.h"
 
-#include "algorithm/memory/records.h"
 #include "modules/memory_port_keys.h"
 
 namespace sgs::toy {
@@ -25,13 +24,6 @@ void visit(ConfigVisitor& v, ToyConfig& c) {
   v.section("fetch", c.fetch, "reads Gaussians");
   v.section("write", c.write, "writes pixels");
   v.section("memory_port", c.memory_port, "how units talk to memory");
-}
-
-SramUses sram_uses(const ToyConfig& c) {
-  return {sram_use("blocks", "scratch",
-                   {{c.fetch.buffer_blocks, "blocks"},
-                    {c.fetch.block_gaussians, "Gaussians"},
-                    {kFirstHalfBytes, "B"}})};
 }
 
 }  // namespace sgs::toy

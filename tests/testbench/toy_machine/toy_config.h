@@ -6,7 +6,6 @@
 #include "algorithm/memory/frame_buffer.h"
 #include "modules/config/config_visitor.h"
 #include "tlm/memory_port.h"
-#include "tlm/sram_use.h"
 
 namespace sgs::toy {
 
@@ -33,6 +32,8 @@ void visit(ConfigVisitor& v, FetchConfig& config);
 void visit(ConfigVisitor& v, WriteConfig& config);
 void visit(ConfigVisitor& v, ToyConfig& config);
 
-SramUses sram_uses(const ToyConfig& config);
+// The one on-chip memory.
+constexpr const char* kScratch = "scratch";
+constexpr std::uint64_t kScratchBytes = 4096;
 
 }  // namespace sgs::toy

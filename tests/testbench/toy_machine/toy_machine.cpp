@@ -28,11 +28,9 @@ void ToyMachine::publish(DataSheet& sheet) {
   fetch_->publish(sheet);
   write_->publish(sheet);
   sheet.unit(*this);
-  sheet.queue(colours_);
-  constexpr std::uint64_t kScratchBytes = 4096;
-  for (const SramUse& use : sram_uses(config_)) sheet.sram(use);
-  sheet.sram_available("scratch", kScratchBytes);
-  sheet.part("sram", "sram_kib", kScratchBytes / 1024.0);
+  sheet.sram(fifo_use<GroupColour>("colours", kScratch, config_.queue_entries, "colours"));
+  sheet.queue(colours_, "colours");
+  sheet.sram_available(kScratch, kScratchBytes);
 }
 
 }  // namespace sgs::toy

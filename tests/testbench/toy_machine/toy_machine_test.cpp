@@ -1,5 +1,6 @@
 // A third machine, brought by one line of a factory: what the command says of it comes from its
 // data sheets alone.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -102,7 +103,8 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
                                 area["sram"].get<double>()));
   CHECK(area.size() == 4);
 
-  CHECK(view["sram"]["scratch_bytes"] == 3 * 8 * 16);
+  // Blocks, what is said of them in the queue, writes of 16 px that are unanswered, and colours.
+  CHECK(view["sram"]["scratch_bytes"] == 3 * 8 * 16 + 3 * 12 + 2 * 16 * 3 + 2 * 16);
   CHECK(view["sram"]["scratch_available_bytes"] == 4096);
   CHECK(view["sram"]["uses"][0]["arithmetic"] == "3 blocks x 8 Gaussians x 16 B");
 }
@@ -136,6 +138,19 @@ TEST_CASE("toy machine: stalls and orders of construction change no pixel, order
     INFO(same);
     CHECK(other.view[same] == stalled.view[same]);
   }
+}
+
+TEST_CASE("toy machine: more SRAM than it has is refused before time begins") {
+  const ScratchFolder scratch;
+  const Outcome refused = run_toy({"simulate", "builtin:object?n=200", "--size", "20x20", "--out",
+                                   scratch.path("out"), "--vcd", scratch.path("wave.vcd"),
+                                   "--config", scratch.write("large.json", R"({"machine": "toy",
+      "fetch": {"buffer_blocks": 64, "block_gaussians": 1024}})")});
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.err, Contains("on-chip memory scratch: 4096 bytes are there, 1049472 are "
+                                   "needed: blocks 1048576 (64 blocks x 1024 Gaussians x 16 B)"));
+  CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+  CHECK(scratch.file_count() == 1);  // its configuration
 }
 
 TEST_CASE("toy machine: it stands beside the others") {

@@ -43,12 +43,18 @@ void WriteUnit::fill(const PixelRect& group, const glm::vec3& colour) {
   }
 }
 
+SramUses WriteUnit::sram_uses(const ToyConfig& config) {
+  return {unanswered_writes("pixels", kScratch, config.memory_port,
+                            config.group_px * pixel_bytes(config.framebuffer))};
+}
+
 void WriteUnit::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(write_, "writing", "fills groups with their colour");
   sheet.counter("pixels", "pixels", "written", pixels_);
   sheet.operations("writer", "pixel_blend", static_cast<double>(pixels_));
   sheet.part("writer", "pixel_lane", config_.write.pixels_per_cycle);
+  sheet.sram(sram_uses(config_));
   sheet.port(memory);
 }
 

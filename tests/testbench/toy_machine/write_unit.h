@@ -19,6 +19,7 @@ class WriteUnit : public sc_core::sc_module {
   WriteUnit(const sc_core::sc_module_name& name, const ToyConfig& config, const ClockDomain& clock,
             const FrameJob& job, std::function<void()> on_done);
 
+  static SramUses sram_uses(const ToyConfig& config);
   void publish(DataSheet& sheet);
 
  private:

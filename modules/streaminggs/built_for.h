@@ -1,0 +1,25 @@
+// What the buffers of a streaming machine are made for, whatever the scene and the frame.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/second_half.h"
+#include "tlm/memory_port.h"
+
+namespace sgs {
+
+struct BuiltFor {
+  std::uint32_t group_px = 0;
+  FrameFormat frame_format = FrameFormat::kRgb8;
+  SecondHalfFormat second_half;       // the widest
+  std::uint32_t chunk_gaussians = 0;  // exact order: most in one chunk
+  MemoryPortConfig memory_port;       // of each unit's port
+};
+
+// The on-chip memories.
+constexpr const char* kInputSram = "input";
+constexpr const char* kCodebookSram = "codebook";
+constexpr const char* kSharedSram = "shared";
+
+}  // namespace sgs

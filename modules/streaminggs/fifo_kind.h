@@ -1,0 +1,26 @@
+// The FIFOs of one arrow of the pipeline, before they are made: what the budget adds up and the
+// top makes.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/streaminggs/built_for.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs {
+
+template <class T>
+struct FifoKind {
+  const char* name;  // of the SRAM use
+  const char* what;  // the entries are
+  std::uint32_t count, entries, latency_cycles;
+
+  SramUse each() const { return fifo_use<T>(name, kSharedSram, entries, what); }
+  SramUse all() const {
+    SramUse use = each();
+    use.count = count;
+    return use;
+  }
+};
+
+}  // namespace sgs

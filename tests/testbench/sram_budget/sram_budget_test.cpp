@@ -1,0 +1,178 @@
+// On-chip memory: what the units publish is what the configuration was checked with, every queue
+// lies in it, and no machine takes more than stands there.
+#include "testbench/result/sram_budget.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "algorithm/input_error.h"
+#include "modules/machines.h"
+#include "testbench/builtin/open_scene.h"
+#include "testbench/process/in_child.h"
+#include "testbench/result/collect.h"
+#include "testbench/result/wire.h"
+#include "testbench/streaminggs/prepared_scene.h"
+#include "tlm/time_resolution.h"
+
+namespace sgs::test {
+namespace {
+
+using Catch::Matchers::Contains;
+using Settings = std::vector<std::string>;
+
+// The data sheets of a machine, as it is built for a scene; budget checked.
+MachineResult sheets_of(const std::string& preset, const Settings& settings) {
+  ConfigDocument document;
+  document.add_file(std::string(SGS_SOURCE_DIR) + "/testbench/configs/" + preset + ".json");
+  for (const std::string& setting : settings) document.add_override(setting);
+  RunConfig config = read_run_config(document, machine_kinds());
+  config.storage.vq.iterations = 1;
+  resolve(config);
+  Scene scene = open_scene("builtin:object?n=64");
+  const Camera camera = scaled_to(scene.cameras.front(), 40, 24);
+  const PreparedScene prepared = prepare(std::move(scene), config, {camera});
+  const FrameJob job = config.design->job(prepared.stored, camera);
+  return from_wire(in_child([&] {
+           use_femtosecond_resolution();
+           const auto machine = config.design->build("accelerator", job, {});
+           check_sram_budget(*machine);
+           FrameResult result;
+           result.machine = collect(*machine);
+           return to_wire(result);
+         }))
+      .machine;
+}
+
+std::uint64_t available(const MachineResult& machine, const std::string& memory) {
+  for (const auto& [name, bytes] : machine.sram_available) {
+    if (name == memory) return bytes;
+  }
+  return 0;
+}
+
+// A memory that is left open becomes as large as the check of the configuration says that it must
+// be, before anything is built: so large is what the units then publish.
+void check_sums(const std::string& preset, Settings settings) {
+  settings.insert(settings.end(), {"sram.shared_bytes=0", "sram.input_bytes=0"});
+  INFO(preset << " " << settings.front());
+  const MachineResult machine = sheets_of(preset, settings);
+  for (const char* memory : {"input", "shared"}) {
+    INFO(memory << ": " << sram_sum(machine.sram_uses, memory));
+    CHECK(available(machine, memory) > 0);
+    CHECK(sram_bytes(machine.sram_uses, memory) == available(machine, memory));
+  }
+}
+
+TEST_CASE("sram budget: units publish what the configuration was checked with, queues included") {
+  for (const char* preset : {"exact", "exact_half", "exact_vq", "exact_vq_packed", "paper",
+                             "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"}) {
+    check_sums(preset, {});
+  }
+}
+
+TEST_CASE("sram budget: the same for machines that are no preset") {
+  for (const char* preset : {"exact", "exact_vq", "paper", "paper_no_vq"}) {
+    check_sums(preset, {"hfus=3", "sorting_units=3", "group_px=60"});
+    check_sums(preset, {"hfu.second_half_slots=5", "hfu.input_slots=3", "framebuffer=rgb32f",
+                        "rendering.pixel_buffers=1"});
+    check_sums(preset, {"memory_port.max_writes=7", "memory_port.max_transaction_bytes=64"});
+  }
+  check_sums("exact", {"merge.on_overflow=blend_early", "storage.chunk_gaussians=0"});
+  check_sums("paper", {"vsu.groups_ahead=3", "sorting.spill_block_entries=2"});
+}
+
+TEST_CASE("sram budget: shipped machines fit, of one total") {
+  for (const char* preset : {"exact", "exact_half", "exact_vq", "exact_vq_packed", "paper",
+                             "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"}) {
+    for (const char* pixels : {"framebuffer=rgb8", "framebuffer=rgb32f"}) {
+      INFO(preset << " " << pixels);
+      const MachineResult machine = sheets_of(preset, {pixels});
+      std::uint64_t total = 0;
+      for (const auto& [memory, bytes] : machine.sram_available) total += bytes;
+      CHECK(total == 355 * 1024);
+    }
+  }
+}
+
+struct Message {
+  static constexpr std::uint32_t kSramBytes = 20;
+};
+
+// A machine of one queue, whose data sheet is the test's. (A process has room for one.)
+class Publisher : public Machine {
+ public:
+  explicit Publisher(const char* name) : Machine(name), fifo_("fifo", clock_, 5) {}
+  const ClockDomain& clock() const override { return clock_; }
+  void publish(DataSheet& sheet) override {
+    sheet.unit(*this);
+    says(sheet, fifo_);
+  }
+  std::function<void(DataSheet&, FifoChannel&)> says;
+
+ private:
+  const ClockDomain clock_{1000};
+  TimedFifo<Message> fifo_;
+};
+
+TEST_CASE("sram budget: more than there is, and a queue in no use, are refused by name") {
+  const SramUse fits = fifo_use<Message>("messages", "scratch", 5, "messages");
+  CHECK(fits.total_bytes() == 100);
+  Publisher machine("machine");
+  machine.says = [&](DataSheet& sheet, FifoChannel& fifo) {
+    sheet.sram(fits);
+    sheet.queue(fifo, "messages");
+    sheet.sram_available("scratch", 60);
+    sheet.sram_available("scratch", 40);
+  };
+  CHECK_NOTHROW(check_sram_budget(machine));
+
+  machine.says = [&](DataSheet& sheet, FifoChannel& fifo) {
+    sheet.sram(fits);
+    sheet.sram(fits);
+    sheet.sram(sram_use("blocks", "scratch", {{3, "blocks"}, {7, "B"}}));
+    sheet.queue(fifo, "messages");
+    sheet.sram_available("scratch", 220);
+  };
+  CHECK_THROWS_AS(check_sram_budget(machine), InputError);
+  CHECK_THROWS_WITH(check_sram_budget(machine),
+                    "on-chip memory scratch: 220 bytes are there, 221 are needed: messages 200 (2 x "
+                    "5 messages x 20 B) + blocks 21 (3 blocks x 7 B)");
+
+  machine.says = [&](DataSheet& sheet, FifoChannel&) { sheet.sram(fits); };
+  CHECK_THROWS_WITH(check_sram_budget(machine), Contains("0 bytes are there, 100 are needed"));
+
+  machine.says = [&](DataSheet& sheet, FifoChannel& fifo) {
+    sheet.sram(fits);
+    sheet.queue(fifo, "others");
+    sheet.sram_available("scratch", 1000);
+  };
+  CHECK_THROWS_AS(check_sram_budget(machine), std::logic_error);
+  CHECK_THROWS_WITH(check_sram_budget(machine), Contains("machine") && Contains("\"others\""));
+
+  machine.says = [&](DataSheet& sheet, FifoChannel& fifo) {
+    sheet.sram(fits);
+    sheet.queue(fifo, "messages");
+    sheet.queue(fifo, "messages");
+    sheet.sram_available("scratch", 1000);
+  };
+  CHECK_THROWS_WITH(check_sram_budget(machine), Contains("hold 200 B") && Contains("uses 100"));
+}
+
+TEST_CASE("sram budget: what stands there is a part, whoever takes it") {
+  Publisher machine("machine");
+  machine.says = [](DataSheet& sheet, FifoChannel&) {
+    sheet.sram_available("scratch", 3072);
+    sheet.sram_available("other", 512);
+  };
+  const MachineResult result = collect(machine);
+  REQUIRE(result.parts.size() == 1);
+  CHECK(result.parts[0].component == "sram");
+  CHECK(result.parts[0].kind == "sram_kib");
+  CHECK(result.parts[0].count == 3.5);
+}
+
+}  // namespace
+}  // namespace sgs::test
