@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "algorithm/image/quality.h"
+#include "algorithm/storage/storage_scheme.h"
 
 namespace sgs {
 namespace {
@@ -37,11 +38,10 @@ Json scene_of(const PreparedScene& scene) {
               {"gaussians", scene.stored.gaussians},
               {"sh_degree", layout.sh_degree()},
               {"dropped_invalid", scene.dropped_invalid}};
-  if (layout.order() == StorageOrder::kVoxels) {
-    out["voxel_size"] = layout.voxel_table().frame.voxel_size;
-    out["voxels"] = layout.voxel_table().voxels.count;
-  } else {
-    out["chunks"] = layout.chunk_table().chunk_count;
+  const StorageScheme& scheme = scheme_of(layout.order());
+  out["stored_by"] = scheme.name();
+  for (const auto& [name, value] : scheme.facts(layout.table)) {
+    std::visit([&, key = name](auto number) { out[key] = number; }, value);
   }
   out["second_half_bytes"] = layout.second_halves.record_bytes;
   out["codebooks"] = codebooks;

@@ -9,7 +9,7 @@ namespace sgs::toy {
 class ToyDesign : public MachineDesign {
  public:
   void visit(ConfigVisitor& v) override { toy::visit(v, config_); }
-  StorageOrder storage_order() const override { return StorageOrder::kChunks; }
+  StorageOrder storage_order() const override { return StorageOrder::kFile; }
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
   void adapt(const SecondHalfFormat&, std::vector<AutoChoice>&) override {}
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
