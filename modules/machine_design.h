@@ -4,18 +4,18 @@
 
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <systemc>
 #include <vector>
 
-#include "algorithm/render/streaming_result.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/storage/stored_scene.h"
 #include "modules/auto_choice.h"
 #include "modules/config/config_visitor.h"
 #include "modules/frame_job.h"
+#include "modules/golden_frame.h"
 #include "modules/machine.h"
+#include "tlm/data_sheet.h"
 #include "tlm/stall_injector.h"
 
 namespace sgs {
@@ -47,21 +47,10 @@ class MachineDesign {
   // The registers of a frame; regions that the frame writes stand behind the scene's.
   virtual FrameJob job(const StoredScene& scene, const Camera& camera) const = 0;
 
-  // What the machine must render, to the bit, and the work that the golden renderer counted.
-  virtual StreamingResult golden(const StoredScene& scene, const FrameJob& job) const = 0;
-
-  // The picture that golden's work would give in right order: each pixel blends all that was
-  // streamed for it by depth, so that only missed splats keep it from the reference picture of the
-  // decoded scene. Asked for only where golden.stats.missed is not 0: orders that miss nothing need
-  // not have it.
-  virtual Image golden_in_order(const StoredScene&, const FrameJob&,
-                                const StreamingResult& /*golden*/) const {
-    throw std::logic_error("machine design: splats were missed, and no picture tells which");
-  }
-
-  // What a frame of this scene did not need, as far as the golden renderer tells.
-  virtual void publish_left_out(const StoredScene& scene, const StreamingStats& stats,
-                                DataSheet& sheet) const = 0;
+  // What the machine must render of this job. What else its golden renderer knows belongs to this
+  // machine alone: published in `sheet`, by name, as the work that the frame left out.
+  virtual GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
+                             DataSheet& sheet) const = 0;
 
   virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                          const BuildOptions& options) const = 0;

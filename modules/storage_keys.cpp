@@ -1,6 +1,8 @@
 // Keys of storage.
 #include "modules/storage_keys.h"
 
+#include "algorithm/storage/storage_scheme.h"
+
 namespace sgs {
 
 void visit(ConfigVisitor& v, VqConfig& c) {
@@ -14,12 +16,9 @@ void visit(ConfigVisitor& v, VqConfig& c) {
 }
 
 void visit(ConfigVisitor& v, StorageConfig& c) {
-  if (c.order == StorageOrder::kVoxels) {
-    v("voxel_size", c.voxel_size, in_range(0, 1e9),
-      "world units; 0: 0.4 for a scene below 10 units across, else 2");
-  } else {
-    v("chunk_gaussians", c.chunk_gaussians, in_range(0, 65535),
-      "most Gaussians in a chunk; 0: as many as lie together in a DRAM row");
+  for (const StorageSize& size : scheme_of(c.order).sizes()) {
+    std::visit([&](auto value) { v(size.key, c.*value, in_range(0, size.most), size.meaning); },
+               size.value);
   }
   v("encoding", c.encoding,
     names<SecondHalfEncoding>({{"raw", SecondHalfEncoding::kRaw},

@@ -7,7 +7,7 @@
 namespace sgs {
 
 void visit(ConfigVisitor& v, VqConfig& config);
-// The keys of the configuration's own storage order; those of the other are unknown.
+// The keys of the configuration's own storage order; those of others are unknown.
 void visit(ConfigVisitor& v, StorageConfig& config);
 
 }  // namespace sgs

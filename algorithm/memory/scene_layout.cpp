@@ -44,4 +44,12 @@ SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussia
   return layout;
 }
 
+SceneLayout lay_out_file(const SecondHalfFormat& format, std::uint32_t gaussians) {
+  SceneLayout layout;
+  place_records(format, gaussians, layout);
+  layout.table = NoTableLayout{};
+  layout.stored_bytes = layout.regions.next_base();
+  return layout;
+}
+
 }  // namespace sgs

@@ -1,7 +1,6 @@
 // What lies where of a stored scene: what every storage order has, and the tables of one of them.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <variant>
 
@@ -11,10 +10,9 @@
 
 namespace sgs {
 
-// What the records are sorted by, and which table finds them.
-enum class StorageOrder : std::uint8_t { kVoxels, kChunks };
-
-constexpr std::array<const char*, 2> kStorageOrderNames = {"voxels", "chunks"};
+// What the records are sorted by, and which table finds them. What an order says of itself beside
+// its layout: ../storage/storage_scheme.h.
+enum class StorageOrder : std::uint8_t { kVoxels, kChunks, kFile };
 
 struct VoxelTableLayout {
   VoxelFrame frame;
@@ -27,21 +25,28 @@ struct ChunkTableLayout {
   std::uint32_t chunk_count = 0;
 };
 
+// In the order of the scene's file: nothing to find records with.
+struct NoTableLayout {};
+
+// [StorageOrder]
+using TableLayout = std::variant<VoxelTableLayout, ChunkTableLayout, NoTableLayout>;
+
+inline StorageOrder order_of(const TableLayout& table) {
+  return static_cast<StorageOrder>(table.index());
+}
+
 struct SceneLayout {
   Regions regions;  // the scene's; machines add what they work with behind them
   SecondHalfFormat second_half;
   RecordArray first_halves, second_halves;  // [slots]
   RegionSpan codebooks;
-  std::variant<VoxelTableLayout, ChunkTableLayout> table;
+  TableLayout table;
   std::uint64_t stored_bytes = 0;  // of the scene's image, from address 0 on
 
   std::uint32_t gaussian_count() const { return static_cast<std::uint32_t>(first_halves.count); }
   int sh_degree() const { return second_half.sh_degree; }
-  StorageOrder order() const {
-    return std::holds_alternative<ChunkTableLayout>(table) ? StorageOrder::kChunks
-                                                           : StorageOrder::kVoxels;
-  }
-  // Of a scene in this order; std::bad_variant_access in the other.
+  StorageOrder order() const { return order_of(table); }
+  // For who reads scenes of this order alone; std::bad_variant_access in the others.
   const VoxelTableLayout& voxel_table() const { return std::get<VoxelTableLayout>(table); }
   const ChunkTableLayout& chunk_table() const { return std::get<ChunkTableLayout>(table); }
 };
@@ -53,5 +58,8 @@ SceneLayout lay_out_voxels(const SecondHalfFormat& format, std::uint32_t gaussia
 // By chunks: first_halves, second_halves, codebooks, chunk_table, indices.
 SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussians,
                            std::uint32_t nodes, std::uint32_t chunks);
+
+// By file: first_halves, second_halves, codebooks.
+SceneLayout lay_out_file(const SecondHalfFormat& format, std::uint32_t gaussians);
 
 }  // namespace sgs

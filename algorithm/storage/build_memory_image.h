@@ -1,15 +1,36 @@
-// The bytes of an encoded scene in one of the storage orders.
+// The bytes of an encoded scene in its storage order.
 #pragma once
+
+#include <cstring>
+#include <vector>
 
 #include "algorithm/memory/memory_image.h"
 #include "algorithm/storage/encoded_cloud.h"
+#include "algorithm/storage/file_order.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 
-// The grid or tree is of scene.decoded.
+// The table is of scene.decoded.
 MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid);
 MemoryImage build_memory_image(const EncodedCloud& scene, const ChunkTree& tree);
+MemoryImage build_memory_image(const EncodedCloud& scene, const FileOrder& order);
+
+// What they are made of: records and codebooks, Gaussian storage_order[slot] in each slot; and, one
+// by one, the order's own records.
+MemoryImage store_gaussians(const EncodedCloud& scene, SceneLayout layout,
+                            const std::vector<std::uint32_t>& storage_order);
+
+template <class Record>
+void store_table(const std::vector<Record>& records, std::uint64_t address, MemoryImage& image) {
+  if (records.empty()) return;
+  std::memcpy(image.bytes.data() + address, records.data(), records.size() * sizeof(Record));
+}
+
+template <class Record>
+std::uint32_t count_of(const std::vector<Record>& records) {
+  return static_cast<std::uint32_t>(records.size());
+}
 
 }  // namespace sgs

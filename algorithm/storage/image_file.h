@@ -33,7 +33,7 @@ struct PackedFacts {
 
 struct PackedScene {
   PackedFacts facts;
-  StorageConfig storage;  // nothing left to be chosen; the size of the other order is not kept
+  StorageConfig storage;  // nothing left to be chosen; the sizes of other orders are not kept
   MemoryImage image;
   std::uint32_t checksum = 0;
 };

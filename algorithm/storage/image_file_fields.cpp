@@ -21,6 +21,7 @@ struct FieldCounter {
 ImageFileHeader empty_header(StorageOrder order) {
   ImageFileHeader header;
   header.storage.order = order;
+  header.table = scheme_of(order).empty_table();
   const Regions regions = layout_of(header).regions;
   header.regions.assign(regions.begin(), regions.end());
   return header;
@@ -28,16 +29,8 @@ ImageFileHeader empty_header(StorageOrder order) {
 
 ImageFileHeader header_of(const PackedFacts& facts, const StorageConfig& storage,
                           const SceneLayout& layout) {
-  ImageFileHeader header{facts, storage, layout.second_half, layout.gaussian_count(), 0, 0, {}, {}};
-  if (storage.order == StorageOrder::kVoxels) {
-    const VoxelTableLayout& table = layout.voxel_table();
-    header.frame = table.frame;
-    header.nodes = static_cast<std::uint32_t>(table.nodes.count);
-    header.leaves = static_cast<std::uint32_t>(table.voxels.count);
-  } else {
-    header.nodes = static_cast<std::uint32_t>(layout.chunk_table().nodes.count);
-    header.leaves = layout.chunk_table().chunk_count;
-  }
+  ImageFileHeader header{facts,        storage, layout.second_half, layout.gaussian_count(),
+                         layout.table, {}};
   header.regions.assign(layout.regions.begin(), layout.regions.end());
   return header;
 }
@@ -45,17 +38,13 @@ ImageFileHeader header_of(const PackedFacts& facts, const StorageConfig& storage
 SceneLayout layout_of(const ImageFileHeader& header) {
   SecondHalfFormat format = header.format;
   format.encoding = header.storage.encoding;
-  if (header.storage.order == StorageOrder::kChunks) {
-    return lay_out_chunks(format, header.stored, header.nodes, header.leaves);
-  }
-  VoxelFrame frame = header.frame;
-  frame.voxel_size = static_cast<float>(header.storage.voxel_size);
-  return lay_out_voxels(format, header.stored, frame, header.nodes, header.leaves);
+  return scheme_of(header.storage.order)
+      .lay_out(format, header.stored, header.storage, header.table);
 }
 
 std::size_t least_header_bytes(StorageOrder order) {
   FieldCounter counter{kFieldsAt};
-  const ImageFileHeader header = empty_header(order);
+  ImageFileHeader header = empty_header(order);
   visit_fields(counter, header);
   return counter.bytes;
 }

@@ -1,6 +1,7 @@
-// What writer and reader of memory image files share: where the header's fields lie, and one list
-// of them for each storage order. Eight bytes for std::uint64_t and double, four for everything
-// else (floating point as its bits, signed numbers as two's complement).
+// What writer and reader of memory image files share: where the header's fields lie, and their
+// list; the numbers that one storage order alone has come from its scheme. Eight bytes for
+// std::uint64_t and double, four for everything else (floating point as its bits, signed numbers as
+// two's complement).
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "algorithm/storage/image_file.h"
+#include "algorithm/storage/storage_scheme.h"
 
 namespace sgs {
 
@@ -25,10 +27,9 @@ constexpr std::size_t field_bytes() {
 struct ImageFileHeader {
   PackedFacts facts;
   StorageConfig storage;
-  SecondHalfFormat format;              // of storage.encoding
-  std::uint32_t stored = 0;             // Gaussians
-  std::uint32_t nodes = 0, leaves = 0;  // of the table; leaves: voxels or chunks
-  VoxelFrame frame;                     // by voxels, of storage.voxel_size
+  SecondHalfFormat format;   // of storage.encoding
+  std::uint32_t stored = 0;  // Gaussians
+  TableLayout table;         // what its layout follows from, as the order's scheme says
   std::vector<Region> regions;
 };
 
@@ -41,20 +42,37 @@ ImageFileHeader header_of(const PackedFacts& facts, const StorageConfig& storage
 // What follows from all but the regions.
 SceneLayout layout_of(const ImageFileHeader& header);
 
+constexpr double kMostStorageOrder = std::variant_size_v<TableLayout> - 1;  // voxels, chunks, file
+
+// Those of the storage order among the others.
+template <class Fields>
+class TableFieldsOf : public TableFields {
+ public:
+  explicit TableFieldsOf(Fields& fields) : fields_(fields) {}
+  void operator()(const char* name, double& value, double lowest, double highest) override {
+    fields_(name, value, lowest, highest);
+  }
+  void operator()(const char* name, int& value, double lowest, double highest) override {
+    fields_(name, value, lowest, highest);
+  }
+  void operator()(const char* name, std::uint32_t& value, double lowest, double highest) override {
+    fields_(name, value, lowest, highest);
+  }
+
+ private:
+  Fields& fields_;
+};
+
 // Calls fields(name, value, lowest, highest) for each field in the order of the file. The first is
-// the storage order, which decides what follows: a reader begins with empty_header(). Header may be
-// const.
-template <class Fields, class Header>
-void visit_fields(Fields& fields, Header& header) {
+// the storage order, which decides what follows: a reader begins with empty_header().
+template <class Fields>
+void visit_fields(Fields& fields, ImageFileHeader& header) {
   constexpr double kWord = std::numeric_limits<std::uint32_t>::max();
   constexpr double kAny = static_cast<double>(std::numeric_limits<std::uint64_t>::max());
-  constexpr double kLeastSize = std::numeric_limits<float>::denorm_min();
-  constexpr double kMostSize = std::numeric_limits<float>::max();
-  constexpr double kMostCells = 1 << 30;
-  constexpr double kMostDegree = 3, kMostLevels = 10, kMostChunk = 65535, kMostIterations = 1000;
-  auto& storage = header.storage;
-  fields("storage order", storage.order, 0, 1);  // voxels, chunks
-  fields("encoding", storage.encoding, 0, 3);    // as SecondHalfEncoding
+  constexpr double kMostDegree = 3, kMostIterations = 1000;
+  StorageConfig& storage = header.storage;
+  fields("storage order", storage.order, 0, kMostStorageOrder);
+  fields("encoding", storage.encoding, 0, 3);  // as SecondHalfEncoding
   fields("store_invisible", storage.store_invisible, 0, 1);
   fields("vq.scale_entries", storage.vq.scale_entries, 1, kMaxCodebookEntries);
   fields("vq.rotation_entries", storage.vq.rotation_entries, 1, kMaxCodebookEntries);
@@ -69,19 +87,8 @@ void visit_fields(Fields& fields, Header& header) {
   for (auto& entries : header.format.entries) {
     fields("codebook entries", entries, 0, kMaxCodebookEntries);
   }
-  if (storage.order == StorageOrder::kVoxels) {
-    fields("voxel_size", storage.voxel_size, kLeastSize, kMostSize);
-    fields("voxel levels", header.frame.levels, 1, kMostLevels);
-    fields("first cell, x", header.frame.origin_cell.x, -kMostCells, kMostCells);
-    fields("first cell, y", header.frame.origin_cell.y, -kMostCells, kMostCells);
-    fields("first cell, z", header.frame.origin_cell.z, -kMostCells, kMostCells);
-    fields("voxel nodes", header.nodes, 0, kWord);
-    fields("voxels", header.leaves, 0, kWord);
-  } else {
-    fields("chunk_gaussians", storage.chunk_gaussians, 1, kMostChunk);
-    fields("chunk nodes", header.nodes, 0, kWord);
-    fields("chunks", header.leaves, 0, kWord);
-  }
+  TableFieldsOf<Fields> of_table(fields);
+  scheme_of(storage.order).visit(of_table, storage, header.table);
   for (auto& region : header.regions) {
     fields(region.name.c_str(), region.base, 0, kAny);
     fields(region.name.c_str(), region.bytes, 0, kAny);

@@ -133,7 +133,7 @@ ImageFileHeader read_header(const InputFile& file, std::size_t& end) {
   std::vector<std::uint8_t> bytes(kFirstFieldEnd);
   file.read_at(0, bytes.data(), bytes.size());
   StorageOrder order{};
-  FieldReader(file.path(), bytes)("storage order", order, 0, 1);
+  FieldReader(file.path(), bytes)("storage order", order, 0, kMostStorageOrder);
 
   end = number_at(bytes.data() + kHeaderBytesAt, 4);
   const std::size_t least = least_header_bytes(order);

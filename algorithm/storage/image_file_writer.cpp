@@ -50,7 +50,8 @@ void write_image_file(const std::string& path, const ImageFileHeader& header,
   put(start, header_bytes, 4);
   put(start, header_bytes + bytes.size() + kChecksumBytes, 8);
   FieldWriter writer{start};
-  visit_fields(writer, header);
+  ImageFileHeader fields = header;  // visiting may write
+  visit_fields(writer, fields);
   start.insert(start.end(), name.begin(), name.end());
   std::vector<std::uint8_t> end;
   put(end, checksum_of(checksum_of(0, start.data(), start.size()), bytes.data(), bytes.size()),

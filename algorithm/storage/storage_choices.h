@@ -14,6 +14,13 @@ struct Choice {
   std::string why;  // a sentence with the numbers
 };
 
+// The same of a key below `storage`.
+struct StorageChoice {
+  const char* key;
+  double value;
+  std::string why;
+};
+
 // World units, by the inner extent of the scene (voxel_grid.h).
 Choice<double> choose_voxel_size(const ActivatedCloud& cloud);
 

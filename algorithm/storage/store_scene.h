@@ -10,8 +10,8 @@
 namespace sgs {
 
 // weighing: cameras that weigh the Gaussians where codebooks are made; progress: of that. Throws
-// InputError where the size of voxels or chunks is still to be chosen (storage_choices.h), or
-// voxels are too small for the scene.
+// InputError where a size is still to be chosen (storage_scheme.h), or voxels are too small for the
+// scene.
 StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
                         const std::vector<Camera>& weighing, const VqProgress& progress = {});
 

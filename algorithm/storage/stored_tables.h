@@ -11,12 +11,17 @@
 
 namespace sgs {
 
-// source: what errors name. Both throw InputError for a table that no builder could have made.
+// source: what errors name. All throw InputError for a table that no builder could have made.
 
 // decoded: the Gaussians in the order of their slots. Every node and voxel is reached once, and
 // every Gaussian lies in the cell of its voxel.
 VoxelGrid read_voxel_table(const MemoryImage& image, const ActivatedCloud& decoded,
                            const std::string& source);
+
+// By chunks: of each slot its place among the stored Gaussians in the order of the scene's file,
+// which had so many Gaussians.
+std::vector<std::uint32_t> read_file_ranks(const MemoryImage& image, std::uint64_t gaussians,
+                                           const std::string& source);
 
 // storage_order: index in `decoded` of each slot. Every node and slot is reached once, and every
 // child's bound holds the Gaussians below it, so that exact order misses none.

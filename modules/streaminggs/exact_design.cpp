@@ -22,7 +22,8 @@ FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const 
   return streaming_job(config_, scene, camera, exact_spill_bytes(scene.image.layout));
 }
 
-StreamingResult ExactDesign::golden(const StoredScene& scene, const FrameJob& job) const {
+GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
+                                DataSheet& sheet) const {
   ExactOrderConfig order;
   order.group_px = static_cast<int>(config_.group_px);
   order.coarse_filter = config_.hfu.coarse_filter;
@@ -30,15 +31,12 @@ StreamingResult ExactDesign::golden(const StoredScene& scene, const FrameJob& jo
   order.on_overflow = config_.merge.on_overflow;
   order.walk_queue_entries = config_.vsu.queue_entries;
   order.background = job.background;
-  return render_exact_order(job.view, scene.decoded, scene.tree(), order);
-}
-
-void ExactDesign::publish_left_out(const StoredScene& scene, const StreamingStats& stats,
-                                   DataSheet& sheet) const {
-  sgs::publish_left_out(config_, scene, sheet);
+  StreamingResult result = render_exact_order(job.view, scene.decoded, scene.tree(), order);
+  publish_left_out(config_, scene, sheet);
   sheet.left_out("chunks_not_needed", "they cannot touch any group",
-                 scene.image.layout.chunk_table().chunk_count - stats.blocks_visited,
+                 scene.image.layout.chunk_table().chunk_count - result.stats.blocks_visited,
                  "their Gaussians are never fetched");
+  return golden_frame(std::move(result.frame.image), result.stats);
 }
 
 std::unique_ptr<Machine> ExactDesign::build(const sc_core::sc_module_name& name,

@@ -48,28 +48,29 @@ FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const 
   return streaming_job(config_, scene, camera, spill_bytes(config_, scene.grid()));
 }
 
-StreamingResult PaperDesign::golden(const StoredScene& scene, const FrameJob& job) const {
+GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
+                                DataSheet& sheet) const {
   PaperOrderConfig order;
   order.group_px = static_cast<int>(config_.group_px);
   order.coarse_filter = config_.hfu.coarse_filter;
   order.sample_step_voxels = static_cast<float>(config_.vsu.sample_step_voxels);
   order.background = job.background;
-  return render_paper_order(job.view, scene.decoded, scene.grid(), order);
+  StreamingResult result = render_paper_order(job.view, scene.decoded, scene.grid(), order);
+  publish_left_out(scene, result.stats.blocks_visited, sheet);
+  GoldenFrame golden = golden_frame(std::move(result.frame.image), result.stats);
+  golden.in_order = [&scene, view = job.view, background = job.background,
+                     group_px = order.group_px, voxels = std::move(result.group_voxels)] {
+    return render_visited_in_order(view, scene.decoded, scene.grid(), group_px, voxels, background);
+  };
+  return golden;
 }
 
-Image PaperDesign::golden_in_order(const StoredScene& scene, const FrameJob& job,
-                                   const StreamingResult& golden) const {
-  return render_visited_in_order(job.view, scene.decoded, scene.grid(),
-                                 static_cast<int>(config_.group_px), golden.group_voxels,
-                                 job.background);
-}
-
-void PaperDesign::publish_left_out(const StoredScene& scene, const StreamingStats& stats,
+void PaperDesign::publish_left_out(const StoredScene& scene, std::uint64_t voxels_visited,
                                    DataSheet& sheet) const {
   sgs::publish_left_out(config_, scene, sheet);
   const VoxelTableLayout& table = scene.image.layout.voxel_table();
   sheet.left_out("voxels_not_needed", "no ray of any group crosses them",
-                 table.voxels.count - stats.blocks_visited, "their Gaussians are never fetched");
+                 table.voxels.count - voxels_visited, "their Gaussians are never fetched");
   const double side = table.frame.side_cells();
   const double cells = side * side * side;
   sheet.left_out("empty_cells", "only occupied cells exist in the voxel tree",

@@ -13,15 +13,15 @@ class PaperDesign : public MachineDesign {
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
   void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) override;
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
-  StreamingResult golden(const StoredScene& scene, const FrameJob& job) const override;
-  Image golden_in_order(const StoredScene& scene, const FrameJob& job,
-                        const StreamingResult& golden) const override;
-  void publish_left_out(const StoredScene& scene, const StreamingStats& stats,
-                        DataSheet& sheet) const override;
+  GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
+                     DataSheet& sheet) const override;
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                  const BuildOptions& options) const override;
 
  private:
+  void publish_left_out(const StoredScene& scene, std::uint64_t voxels_visited,
+                        DataSheet& sheet) const;
+
   PaperConfig config_;
   StorageConfig storage_;  // of the scenes that it is built for
 };

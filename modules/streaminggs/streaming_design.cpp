@@ -44,6 +44,16 @@ StreamingJob streaming_job(const StreamingConfig& config, const StoredScene& sce
   return streaming_job(config, job);
 }
 
+GoldenFrame golden_frame(Image picture, const StreamingStats& stats) {
+  GoldenFrame golden;
+  golden.image = std::move(picture);
+  golden.blends = stats.contributors;
+  golden.contributing = stats.contributing;
+  golden.misordered = stats.misordered;
+  golden.missed = stats.missed;
+  return golden;
+}
+
 void publish_left_out(const StreamingConfig& config, const StoredScene& scene, DataSheet& sheet) {
   const SecondHalfFormat& format = scene.image.layout.second_half;
   SecondHalfFormat full{format.encoding, kMaxDegree, {}};

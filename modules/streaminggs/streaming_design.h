@@ -1,9 +1,11 @@
 // What the designs of both orders have in common.
 #pragma once
 
+#include "algorithm/render/streaming_result.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/storage/stored_scene.h"
 #include "modules/auto_choice.h"
+#include "modules/golden_frame.h"
 #include "modules/streaminggs/streaming_config.h"
 #include "modules/streaminggs/streaming_job.h"
 #include "tlm/data_sheet.h"
@@ -21,6 +23,9 @@ StreamingJob streaming_job(const StreamingConfig& config, const StoredScene& sce
 
 // As above, of a job that has passed as a FrameJob: groups and spill region again.
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job);
+
+// What any machine tells of its golden picture, and nothing of streaming.
+GoldenFrame golden_frame(Image picture, const StreamingStats& stats);
 
 // What the format of second halves and an earlier frame's codebooks spared.
 void publish_left_out(const StreamingConfig& config, const StoredScene& scene, DataSheet& sheet);

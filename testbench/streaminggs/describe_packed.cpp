@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "algorithm/storage/storage_scheme.h"
 #include "testbench/streaminggs/numbers.h"
 
 namespace sgs {
@@ -12,6 +13,18 @@ namespace {
 
 void line(const std::string& name, const std::string& value) {
   fmt::print("{:<26}{}\n", name, value);
+}
+
+// "by chunks, for machine exact: 375 of at most 16 Gaussians"
+std::string order_line(const StorageConfig& storage, const SceneLayout& layout,
+                       const std::string& readers) {
+  const StorageScheme& scheme = scheme_of(storage.order);
+  const auto blocks = scheme.blocks(layout.table);
+  return fmt::format("by {}, for {}: {}", scheme.name(),
+                     readers.empty() ? "no machine of this program" : "machine " + readers,
+                     blocks
+                         ? fmt::format("{} of {}", grouped(*blocks), scheme.size_in_words(storage))
+                         : "no table");
 }
 
 }  // namespace
@@ -24,15 +37,7 @@ void print_packed(const PackedFacts& facts, const StorageConfig& storage, const 
        fmt::format("{} of {}", grouped(layout.gaussian_count()), grouped(facts.gaussians)));
   line("dropped invalid", fmt::format("{} Gaussians", grouped(facts.dropped_invalid)));
   line("sh degree", std::to_string(format.sh_degree));
-  if (storage.order == StorageOrder::kChunks) {
-    line("storage order",
-         fmt::format("by chunks, for machine {}: {} of at most {} Gaussians", readers,
-                     grouped(layout.chunk_table().chunk_count), storage.chunk_gaussians));
-  } else {
-    line("storage order", fmt::format("by voxels, for machine {}: {} of {} world units", readers,
-                                      grouped(layout.voxel_table().voxels.count),
-                                      rounded(layout.voxel_table().frame.voxel_size)));
-  }
+  line("storage order", order_line(storage, layout, readers));
   line("second halves",
        fmt::format("{}, {} B each", kEncodingNames[static_cast<std::size_t>(format.encoding)],
                    format.bytes()));

@@ -8,7 +8,7 @@
 namespace sgs {
 
 // Prints a line each: scene, storage order and the machines that read it, encoding, codebooks,
-// regions with their bytes.
+// regions with their bytes. readers: those machines; empty for none.
 void print_packed(const PackedFacts& facts, const StorageConfig& storage, const SceneLayout& layout,
                   const std::string& readers);
 

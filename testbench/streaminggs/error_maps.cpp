@@ -18,14 +18,13 @@ Image loss_map(const Image& with, const Image& without, const std::string& title
 std::vector<ErrorMap> error_maps(const ViewResult& view) {
   std::vector<ErrorMap> maps;
   maps.push_back({"error.png", error_map(view.frame, view.reference, {"ERROR"})});
-  const StreamingStats& stats = view.golden.stats;
   const OrderLoss loss = view.order_loss.value_or(OrderLoss{});
-  if (stats.missed > 0) {
+  if (view.golden.missed > 0) {
     maps.push_back({"missed.png", loss_map(loss.in_order, view.decoded_reference, "MISSED SPLATS",
                                            loss.missed.share)});
   }
-  if (stats.misordered > 0) {
-    maps.push_back({"misordered.png", loss_map(view.golden.frame.image, loss.in_order, "MISORDERED",
+  if (view.golden.misordered > 0) {
+    maps.push_back({"misordered.png", loss_map(view.golden.image, loss.in_order, "MISORDERED",
                                                loss.misordered.share)});
   }
   return maps;

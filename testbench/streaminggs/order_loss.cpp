@@ -1,22 +1,23 @@
 // The chain of pictures from the reference to the frame.
 #include "testbench/streaminggs/order_loss.h"
 
+#include <stdexcept>
 #include <vector>
 
 namespace sgs {
 
-OrderLoss order_loss(const MachineDesign& design, const StoredScene& scene, const FrameJob& job,
-                     const Image& reference, const Image& decoded_reference,
-                     const StreamingResult& golden, const Image& frame) {
+OrderLoss order_loss(const Image* reference, const Image& decoded_reference,
+                     const GoldenFrame& golden, const Image& frame) {
+  if (golden.missed > 0 && !golden.in_order) {
+    throw std::logic_error("golden frame: splats were missed, and no picture tells which");
+  }
   OrderLoss loss;
-  loss.in_order =
-      golden.stats.missed > 0 ? design.golden_in_order(scene, job, golden) : decoded_reference;
-  std::vector<const Image*> chain = {&decoded_reference, &loss.in_order, &golden.frame.image,
-                                     &frame};
-  if (scene.original_known()) chain.insert(chain.begin(), &reference);
+  loss.in_order = golden.missed > 0 ? golden.in_order() : decoded_reference;
+  std::vector<const Image*> chain = {&decoded_reference, &loss.in_order, &golden.image, &frame};
+  if (reference != nullptr) chain.insert(chain.begin(), reference);
   const std::vector<ErrorPart> parts = error_parts(chain);
   auto part = parts.begin();
-  if (scene.original_known()) loss.encoding = *part++;
+  if (reference != nullptr) loss.encoding = *part++;
   loss.missed = *part++;
   loss.misordered = *part++;
   loss.pixel_format = *part;

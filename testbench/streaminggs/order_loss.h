@@ -6,8 +6,7 @@
 
 #include "algorithm/image/error_parts.h"
 #include "algorithm/image/image.h"
-#include "algorithm/render/streaming_result.h"
-#include "modules/machine_design.h"
+#include "modules/golden_frame.h"
 
 namespace sgs {
 
@@ -21,13 +20,12 @@ struct OrderLoss {
   ErrorPart missed, misordered, pixel_format;
 };
 
-inline bool is_lossy(const StreamingStats& stats) { return stats.missed + stats.misordered > 0; }
+inline bool is_lossy(const GoldenFrame& golden) { return golden.missed + golden.misordered > 0; }
 
-// Of a lossy order. reference, decoded_reference: of the scene as given, and as encoded; where the
-// original is not known the error counts from the latter. golden: of
-// this job, and `frame` the same in the frame buffer's format.
-OrderLoss order_loss(const MachineDesign& design, const StoredScene& scene, const FrameJob& job,
-                     const Image& reference, const Image& decoded_reference,
-                     const StreamingResult& golden, const Image& frame);
+// Of a lossy order. reference, decoded_reference: of the scene as given, null where it is not known
+// (then the error counts from the latter), and as encoded. frame: `golden` in the frame buffer's
+// format.
+OrderLoss order_loss(const Image* reference, const Image& decoded_reference,
+                     const GoldenFrame& golden, const Image& frame);
 
 }  // namespace sgs

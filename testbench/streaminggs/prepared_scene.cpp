@@ -3,7 +3,7 @@
 
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/restore_scene.h"
-#include "algorithm/storage/storage_choices.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/store_scene.h"
 #include "testbench/streaminggs/progress.h"
 
@@ -11,11 +11,7 @@ namespace sgs {
 namespace {
 
 void choose_storage(const ActivatedCloud& cloud, RunConfig& config) {
-  if (config.storage.order == StorageOrder::kVoxels && config.storage.voxel_size == 0) {
-    const Choice<double> size = choose_voxel_size(cloud);
-    config.storage.voxel_size = size.value;
-    config.chosen.push_back({"storage.voxel_size", size.value, size.why});
-  }
+  config.add_choices(scheme_of(config.storage.order).choose(config.storage, cloud));
 }
 
 }  // namespace

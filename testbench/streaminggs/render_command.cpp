@@ -76,10 +76,11 @@ void render_golden_picture(const RenderArguments& arguments, const Kinds& kinds)
     prepared = prepare(scene, config, arguments.weighing_cameras(scene.cameras));
   }
   const FrameJob job = config.design->job(prepared.stored, arguments.camera(scene.cameras));
-  const StreamingResult result = config.design->golden(prepared.stored, job);
-  write_image(arguments.out, result.frame.image);
-  fmt::print("missed {} (group, splat) pairs\nmisordered {} of {} blends\n", result.stats.missed,
-             result.stats.misordered, result.stats.contributors);
+  DataSheet unread;
+  const GoldenFrame golden = config.design->golden(prepared.stored, job, unread);
+  write_image(arguments.out, golden.image);
+  fmt::print("missed {} (group, splat) pairs\nmisordered {} of {} blends\n", golden.missed,
+             golden.misordered, golden.blends);
 }
 
 }  // namespace

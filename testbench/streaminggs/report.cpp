@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "algorithm/image/quality.h"
+#include "algorithm/storage/storage_scheme.h"
 
 namespace sgs {
 namespace {
@@ -37,11 +38,10 @@ Json scene_of(const PreparedScene& scene) {
               {"gaussians", scene.stored.gaussians},
               {"sh_degree", layout.sh_degree()},
               {"dropped_invalid", scene.dropped_invalid}};
-  if (layout.order() == StorageOrder::kVoxels) {
-    out["voxel_size"] = layout.voxel_table().frame.voxel_size;
-    out["voxels"] = layout.voxel_table().voxels.count;
-  } else {
-    out["chunks"] = layout.chunk_table().chunk_count;
+  const StorageScheme& scheme = scheme_of(layout.order());
+  out["stored_by"] = scheme.name();
+  for (const auto& [name, value] : scheme.facts(layout.table)) {
+    std::visit([&, key = name](auto number) { out[key] = number; }, value);
   }
   out["second_half_bytes"] = layout.second_halves.record_bytes;
   out["codebooks"] = codebooks;
@@ -62,9 +62,9 @@ Json error_parts_of(const OrderLoss& loss) {
 }
 
 Json image_of(const ViewResult& view, bool original_known) {
-  const StreamingStats& s = view.golden.stats;
+  const GoldenFrame& golden = view.golden;
   Json out = {{"reference", original_known ? "scene" : "decoded_scene"},
-              {"empty", s.contributing == 0},
+              {"empty", golden.contributing == 0},
               {"psnr_db", finite(view.psnr_db)},
               {"ssim", view.ssim},
               {"max_abs_error", max_abs_error(view.frame, view.reference)},
@@ -73,9 +73,9 @@ Json image_of(const ViewResult& view, bool original_known) {
     out["encoding_psnr_db"] = finite(psnr_db(view.decoded_reference, view.reference));
   }
   out["equals_streaming_renderer"] = view.equals_golden;
-  out["missed"] = s.missed;
-  out["misordered"] = s.misordered;
-  out["blends"] = s.contributors;
+  out["missed"] = golden.missed;
+  out["misordered"] = golden.misordered;
+  out["blends"] = golden.blends;
   if (view.order_loss) out["error_parts"] = error_parts_of(*view.order_loss);
   return out;
 }
@@ -200,7 +200,7 @@ Json view_report(const ViewResult& view, const PreparedScene& scene) {
   report["area_mm2"] = area_section(view.area_mm2);
   report["sram"] = sram_of(run.machine);
   report["datapath"] = datapaths_of(run.machine.datapaths);
-  report["limit"] = {{"contributing_gaussians", view.golden.stats.contributing},
+  report["limit"] = {{"contributing_gaussians", view.golden.contributing},
                      {"bytes_read_once", view.once_bytes},
                      {"ratio", view.once_ratio()}};
   report["left_out"] = left_out_section(view.left_out);

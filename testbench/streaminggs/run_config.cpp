@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "algorithm/input_error.h"
-#include "algorithm/storage/storage_choices.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
 #include "modules/storage_keys.h"
@@ -28,18 +28,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// key: below `storage`. A size left open is whatever the file holds; voxels have that of a float.
-bool agree(const std::string& key, const Json& said, const Json& held) {
-  if ((key == "voxel_size" || key == "chunk_gaussians") && said == 0) return true;
+// key: below `storage`. A size left open is whatever the file holds; real ones have that of a
+// float.
+bool agree(const StorageScheme& scheme, const std::string& key, const Json& said,
+           const Json& held) {
+  for (const StorageSize& size : scheme.sizes()) {
+    if (key == size.key && said == 0) return true;
+  }
   return said.is_number_float() ? said.get<float>() == held.get<float>() : said == held;
 }
 
 // "vq, voxels of 0.4"
 std::string in_words(const StorageConfig& storage) {
-  const char* encoding = kEncodingNames[static_cast<std::size_t>(storage.encoding)];
-  return storage.order == StorageOrder::kVoxels
-             ? fmt::format("{}, voxels of {:.4g}", encoding, storage.voxel_size)
-             : fmt::format("{}, chunks of {}", encoding, storage.chunk_gaussians);
+  return fmt::format("{}, {}", kEncodingNames[static_cast<std::size_t>(storage.encoding)],
+                     scheme_of(storage.order).in_words(storage));
 }
 
 // The line of RunConfig::storage_source. Throws InputError when somebody but the preset disagrees.
@@ -53,7 +55,7 @@ std::string compared(const RunConfig& config, const PackedScene& packed, const s
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     const Json &a = said.at(Json::json_pointer(pointer)), &b = held.at(Json::json_pointer(pointer));
     const std::string key = value.path.substr(value.path.find('.') + 1);
-    if (agree(key, a, b)) continue;
+    if (agree(scheme_of(packed.storage.order), key, a, b)) continue;
     const std::string got = a.is_string() ? a.get<std::string>() : a.dump();
     if (value.origin != preset) {
       throw InputError(fmt::format("{}: {}: got {}, expected {}: {} is stored so", value.origin,
@@ -69,6 +71,12 @@ std::string compared(const RunConfig& config, const PackedScene& packed, const s
 }
 
 }  // namespace
+
+void RunConfig::add_choices(const std::vector<StorageChoice>& choices) {
+  for (const StorageChoice& choice : choices) {
+    chosen.push_back({fmt::format("storage.{}", choice.key), choice.value, choice.why});
+  }
+}
 
 void visit(ConfigVisitor& v, RunConfig& c) {
   std::vector<const char*> names;
@@ -94,13 +102,8 @@ RunConfig read_run_config(const ConfigDocument& document, const std::vector<Mach
 
 void resolve(RunConfig& config) {
   config.dram.validate();
-  if (config.storage.order == StorageOrder::kChunks && config.storage.chunk_gaussians == 0) {
-    const AddressMapping mapping(config.dram, load_memspec(config.dram.memspec));
-    const Choice<std::uint32_t> chunk = choose_chunk_gaussians(mapping.run_bytes());
-    config.storage.chunk_gaussians = chunk.value;
-    config.chosen.push_back(
-        {"storage.chunk_gaussians", static_cast<double>(chunk.value), chunk.why});
-  }
+  const AddressMapping mapping(config.dram, load_memspec(config.dram.memspec));
+  config.add_choices(scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
   config.design->resolve(config.storage, config.chosen);
 }
 
@@ -108,12 +111,13 @@ void resolve(RunConfig& config, const PackedScene& packed, const std::string& pa
              const std::string& preset) {
   const StorageOrder order = packed.storage.order;
   if (order != config.design->storage_order()) {
+    const std::string readers = readers_of(*config.kinds, order);
     throw InputError(fmt::format(
-        "{}: stored by {}; machine {} reads scenes stored by {}: take --config {}, or pack the "
-        "scene again with this configuration",
-        path, kStorageOrderNames[static_cast<std::size_t>(order)], config.machine(),
-        kStorageOrderNames[static_cast<std::size_t>(config.design->storage_order())],
-        readers_of(*config.kinds, order)));
+        "{}: stored by {}; machine {} reads scenes stored by {}: {}pack the scene again with this "
+        "configuration",
+        path, scheme_of(order).name(), config.machine(),
+        scheme_of(config.design->storage_order()).name(),
+        readers.empty() ? "" : fmt::format("take --config {}, or ", readers)));
   }
   config.storage_source = compared(config, packed, path, preset);
   config.storage = packed.storage;

@@ -8,6 +8,7 @@
 
 #include "algorithm/memory/storage_config.h"
 #include "algorithm/storage/image_file.h"
+#include "algorithm/storage/storage_choices.h"
 #include "modules/config/strict_json.h"
 #include "modules/dram/dram_config.h"
 #include "modules/machine_design.h"
@@ -25,11 +26,12 @@ struct RunConfig {
   std::string storage_source;  // of a packed scene, a line: the file, what it holds, who differs
 
   const char* machine() const { return (*kinds)[kind].name; }
+  void add_choices(const std::vector<StorageChoice>& choices);
 };
 
 void visit(ConfigVisitor& v, RunConfig& config);
 
-// The names of the kinds that read scenes stored in this order: "a or b".
+// The kinds that read scenes stored in this order: "a or b"; empty where there is none.
 std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order);
 
 // As the document says; what is left to the model is not resolved yet. Throws InputError.

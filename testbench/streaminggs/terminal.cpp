@@ -45,7 +45,7 @@ void print_table_line(const ViewResult& v) {
 
 void print_details(const ViewResult& v) {
   fmt::print("\nview {}: {}\n", v.view, v.binding.explanation);
-  if (v.golden.stats.contributing == 0) {
+  if (v.golden.contributing == 0) {
     fmt::print("view {}: no Gaussian contributes to the picture\n", v.view);
   }
   if (v.order_loss) print_order_loss(*v.order_loss);

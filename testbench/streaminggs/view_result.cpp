@@ -25,20 +25,16 @@ void check_capacity(const FrameJob& job, const DramConfig& dram) {
                   needed, dram.channels, dram.ranks, capacity));
 }
 
-std::vector<LeftOut> left_out_of(const PreparedScene& scene, const MachineDesign& design,
-                                 const StreamingStats& stats, const MachineResult& machine) {
-  std::vector<LeftOut> list;
-  LeftOutCollector sheet(list);
-  design.publish_left_out(scene.stored, stats, sheet);
-  const SceneLayout& layout = scene.stored.image.layout;
-  const std::uint64_t invisible = scene.stored.gaussians - layout.gaussian_count();
+// What the storage left out, and the machine.
+void list_left_out(const StoredScene& scene, const MachineResult& machine, DataSheet& sheet) {
+  const SceneLayout& layout = scene.image.layout;
+  const std::uint64_t invisible = scene.gaussians - layout.gaussian_count();
   sheet.left_out("invisible_gaussians", "opacity below 1/255: no view can show them", invisible,
                  fmt::format("{} B of DRAM",
                              invisible * (kFirstHalfBytes + layout.second_halves.record_bytes)));
   for (const LeftOut& entry : machine.left_out) {
     sheet.left_out(entry.what.c_str(), entry.why.c_str(), entry.count, entry.saves);
   }
-  return list;
 }
 
 }  // namespace
@@ -56,25 +52,26 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   view.decoded_reference = reference_of(scene.stored.decoded);
   view.reference =
       scene.stored.original ? reference_of(*scene.stored.original) : view.decoded_reference;
-  view.golden = config.design->golden(scene.stored, job);
+  LeftOutCollector left_out(view.left_out);
+  view.golden = config.design->golden(scene.stored, job, left_out);
 
   view.image_hash = fnv1a64(scene.stored.image.bytes);
   view.run = run_frame(*config.design, job, scene.stored.image, config.dram, options);
-  view.equals_golden = view.run.frame == encode_frame(job.frame_format, view.golden.frame.image);
+  view.equals_golden = view.run.frame == encode_frame(job.frame_format, view.golden.image);
   view.frame = decode_frame(job.frame_format, camera.width, camera.height, view.run.frame);
   view.psnr_db = psnr_db(view.frame, view.reference);
   view.ssim = ssim(view.frame, view.reference);
-  if (is_lossy(view.golden.stats)) {
-    view.order_loss = order_loss(*config.design, scene.stored, job, view.reference,
+  if (is_lossy(view.golden)) {
+    view.order_loss = order_loss(scene.stored.original_known() ? &view.reference : nullptr,
                                  view.decoded_reference, view.golden, view.frame);
   }
-  view.left_out = left_out_of(scene, *config.design, view.golden.stats, view.run.machine);
+  list_left_out(scene.stored, view.run.machine, left_out);
   view.binding = find_binding(view.run);
   view.energy_j = energy_of(view.run, technology);
   view.area_mm2 = area_of(view.run.machine, technology);
   const SceneLayout& layout = scene.stored.image.layout;
   view.once_bytes =
-      view.golden.stats.contributing * (kFirstHalfBytes + layout.second_halves.record_bytes) +
+      view.golden.contributing * (kFirstHalfBytes + layout.second_halves.record_bytes) +
       job.frame_buffer.bytes;
   return view;
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "algorithm/image/image.h"
-#include "algorithm/render/streaming_result.h"
 #include "modules/auto_choice.h"
+#include "modules/golden_frame.h"
 #include "testbench/cost/cost.h"
 #include "testbench/result/frame_result.h"
 #include "testbench/streaminggs/binding.h"
@@ -23,7 +23,7 @@ struct ViewResult {
   Image frame;              // as read back from the modelled DRAM
   Image reference;          // of the scene as given
   Image decoded_reference;  // of the scene as encoded
-  StreamingResult golden;
+  GoldenFrame golden;
   bool equals_golden = false;    // bytes of the frame buffer against the golden renderer's
   double psnr_db = 0, ssim = 0;  // of the frame against `reference`; infinite where they are equal
   std::optional<OrderLoss> order_loss;  // where splats were missed or blended out of order

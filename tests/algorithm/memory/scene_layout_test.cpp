@@ -160,7 +160,16 @@ TEST_CASE("scene layout: every region where it has always been") {
         {"chunk_table", 0, 0},
         {"indices", 0, 0},
         {"spill", 0, 0},
-        {"frame_buffer", 0, 300}}}};
+        {"frame_buffer", 0, 300}}},
+      {"a thousand, by file, vq_packed",
+       lay_out_file({Encoding::kVqPacked, 1, {16, 8, 4, 2}}, 1000),
+       0,
+       100,
+       {{"first_halves", 0, 16000},
+        {"second_halves", 16384, 4000},
+        {"codebooks", 20480, 440},
+        {"spill", 24576, 0},
+        {"frame_buffer", 24576, 300}}}};
   for (const Stored& stored : all) {
     INFO(stored.what);
     Regions regions = stored.layout.regions;
@@ -211,7 +220,13 @@ TEST_CASE("scene layout: tables and records lie in the regions that they name") 
   CHECK(tree.chunk_count == 63);
   CHECK(tree.indices.count == 1000);
   CHECK_THROWS_AS(chunks.voxel_table(), std::bad_variant_access);
-  for (const SceneLayout& layout : {voxels, chunks}) {
+
+  const SceneLayout file = lay_out_file(format, 1000);
+  CHECK(file.order() == StorageOrder::kFile);
+  CHECK(file.regions.size() == 3);
+  CHECK_THROWS_AS(file.voxel_table(), std::bad_variant_access);
+  CHECK_THROWS_AS(file.chunk_table(), std::bad_variant_access);
+  for (const SceneLayout& layout : {voxels, chunks, file}) {
     check_in(layout.regions, "first_halves", layout.first_halves);
     check_in(layout.regions, "second_halves", layout.second_halves);
     CHECK(layout.first_halves.record_bytes == kFirstHalfBytes);

@@ -38,7 +38,7 @@ void check_records(const MemoryImage& image, const ActivatedCloud& cloud,
   }
 }
 
-TEST_CASE("memory image: every record lies at its address, by voxels and by chunks") {
+TEST_CASE("memory image: every record lies at its address, by voxels, chunks and file") {
   const ActivatedCloud cloud = object_2k();
   const VoxelGrid grid = build_voxel_grid(cloud, 0.4F);
   const MemoryImage by_voxels = build_memory_image(encode_raw(cloud), grid);
@@ -52,11 +52,15 @@ TEST_CASE("memory image: every record lies at its address, by voxels and by chun
   check_table(by_chunks, by_chunks.layout.chunk_table().nodes, tree.nodes);
   check_table(by_chunks, by_chunks.layout.chunk_table().indices, tree.storage_order);
   CHECK(by_chunks.layout.chunk_table().chunk_count == tree.chunk_count);
+
+  const FileOrder order{stored_gaussians(cloud, Stored::kVisible)};
+  check_records(build_memory_image(encode_raw(cloud), order), cloud, order.storage_order);
 }
 
 TEST_CASE("memory image: an empty scene has no bytes") {
   for (const MemoryImage& image : {build_memory_image(EncodedCloud{}, VoxelGrid{}),
-                                   build_memory_image(EncodedCloud{}, ChunkTree{})}) {
+                                   build_memory_image(EncodedCloud{}, ChunkTree{}),
+                                   build_memory_image(EncodedCloud{}, FileOrder{})}) {
     CHECK(image.bytes.empty());
     CHECK(image.layout.gaussian_count() == 0);
   }

@@ -30,6 +30,7 @@ Packing make_packing(const ActivatedCloud& cloud, SecondHalfEncoding encoding, S
 constexpr SecondHalfEncoding kEncodings[] = {SecondHalfEncoding::kRaw, SecondHalfEncoding::kHalf,
                                              SecondHalfEncoding::kVq,
                                              SecondHalfEncoding::kVqPacked};
-constexpr StorageOrder kStorageOrders[] = {StorageOrder::kVoxels, StorageOrder::kChunks};
+constexpr StorageOrder kStorageOrders[] = {StorageOrder::kVoxels, StorageOrder::kChunks,
+                                           StorageOrder::kFile};
 
 }  // namespace sgs::test

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "algorithm/input_error.h"
-#include "algorithm/storage/storage_choices.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/storage/packed_scenes.h"
 #include "tests/support/scratch_folder.h"
@@ -20,7 +20,7 @@ bool same_gaussians(const ActivatedCloud& a, const ActivatedCloud& b) {
          std::memcmp(a.gaussians.data(), b.gaussians.data(), a.size() * sizeof a.gaussians[0]) == 0;
 }
 
-TEST_CASE("store: every encoding in both orders, with and without what nobody can see") {
+TEST_CASE("store: every encoding in every order, with and without what nobody can see") {
   const ActivatedCloud cloud = cut_object(300, 2);
   const std::size_t visible = stored_gaussians(cloud, Stored::kVisible).size();
   REQUIRE(visible < 300);
@@ -48,9 +48,12 @@ TEST_CASE("store: every encoding in both orders, with and without what nobody ca
         if (order == StorageOrder::kChunks) {
           CHECK(layout.chunk_table().chunk_count == scene.tree().chunk_count);
           CHECK(scene.tree().chunk_count >= layout.gaussian_count() / 5);
-        } else {
+        } else if (order == StorageOrder::kVoxels) {
           CHECK(layout.voxel_table().frame.voxel_size == 0.4F);
           CHECK(scene.grid().storage_order.size() == layout.gaussian_count());
+        } else {
+          CHECK(std::get<FileOrder>(scene.table).storage_order ==
+                stored_gaussians(scene.decoded, stored_of(config)));
         }
         // The original is kept where it is not what the units decode.
         const bool lossy = encoding != SecondHalfEncoding::kRaw;
@@ -90,6 +93,65 @@ TEST_CASE("store: sizes that are still to be chosen are refused") {
   CHECK_THAT(refusal(StorageOrder::kVoxels, 1e-60, 16), Contains("voxel_size: got 1e-60"));
   CHECK_THAT(refusal(StorageOrder::kVoxels, 1e-7, 16), Contains("at least"));
   CHECK_THAT(refusal(StorageOrder::kChunks, 1, 0), Contains("chunk_gaussians: got 0"));
+}
+
+// What each order says of itself of a stored scene.
+TEST_CASE("storage schemes: names, sizes, choices and facts of each order") {
+  const ActivatedCloud cloud = cut_object(300, 0);
+  struct Case {
+    StorageOrder order;
+    const char *name, *in_words, *size;
+    std::vector<std::string> keys, by_memory, by_scene, facts;
+  };
+  for (const Case& c : std::vector<Case>{
+           {StorageOrder::kVoxels,
+            "voxels",
+            "voxels of 0.4",
+            "0.4 world units",
+            {"voxel_size"},
+            {},
+            {"voxel_size"},
+            {"voxel_size", "voxels"}},
+           {StorageOrder::kChunks,
+            "chunks",
+            "chunks of 16",
+            "at most 16 Gaussians",
+            {"chunk_gaussians"},
+            {"chunk_gaussians"},
+            {},
+            {"chunks"}},
+           {StorageOrder::kFile, "file", "in the file's order", "", {}, {}, {}, {}}}) {
+    INFO(c.name);
+    const StorageScheme& scheme = scheme_of(c.order);
+    CHECK(scheme.name() == std::string(c.name));
+    StorageConfig config = small_storage(SecondHalfEncoding::kRaw, c.order);
+    CHECK(scheme.in_words(config) == c.in_words);
+    CHECK(scheme.size_in_words(config) == c.size);
+    const StoredScene scene = store_scene(cloud, config, {});
+    CHECK(scene.image.layout.order() == c.order);
+    CHECK(order_of(scheme.empty_table()) == c.order);
+    CHECK(scheme.blocks(scene.image.layout.table).has_value() == !c.keys.empty());
+
+    const auto names = [](const auto& list, auto&& name) {
+      std::vector<std::string> out;
+      for (const auto& entry : list) out.emplace_back(name(entry));
+      return out;
+    };
+    const auto key = [](const auto& entry) { return entry.key; };
+    CHECK(names(scheme.sizes(), key) == c.keys);
+    CHECK(names(scheme.facts(scene.image.layout.table),
+                [](const StorageFact& f) { return f.first; }) == c.facts);
+    CHECK(scheme.choose(config, 256).empty());
+    CHECK(scheme.choose(config, cloud).empty());
+    // Left open, a size is chosen once and then is none that a scene cannot be stored by.
+    for (const StorageSize& size : scheme.sizes()) {
+      std::visit([&](auto member) { config.*member = 0; }, size.value);
+      CHECK_THROWS_AS(scheme.check(config), InputError);
+    }
+    CHECK(names(scheme.choose(config, 256), key) == c.by_memory);
+    CHECK(names(scheme.choose(config, cloud), key) == c.by_scene);
+    CHECK_NOTHROW(scheme.check(config));
+  }
 }
 
 TEST_CASE("storage choices: voxels by the scene's extent, chunks by a row of memory") {

@@ -32,8 +32,9 @@ struct Frame {
   }
 
   std::string picture() const {
-    const StreamingResult golden = config.design->golden(prepared.stored, job);
-    return text_of(encode_frame(job.frame_format, golden.frame.image));
+    DataSheet unread;
+    const GoldenFrame golden = config.design->golden(prepared.stored, job, unread);
+    return text_of(encode_frame(job.frame_format, golden.image));
   }
 
   static std::string text_of(const std::vector<std::byte>& bytes) {

@@ -24,11 +24,11 @@ ViewResult view_that_lost(std::uint64_t missed, std::uint64_t misordered) {
   ViewResult view;
   view.reference = grey(0);
   view.decoded_reference = grey(0.125F);
-  view.golden.frame.image = grey(0.875F);
+  view.golden.image = grey(0.875F);
   view.frame = grey(0.9375F);
-  view.golden.stats.missed = missed;
-  view.golden.stats.misordered = misordered;
-  if (is_lossy(view.golden.stats)) {
+  view.golden.missed = missed;
+  view.golden.misordered = misordered;
+  if (is_lossy(view.golden)) {
     view.order_loss.emplace();
     view.order_loss->in_order = grey(0.375F);
     view.order_loss->missed.share = 0.25;

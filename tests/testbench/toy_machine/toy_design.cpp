@@ -31,22 +31,19 @@ FrameJob ToyDesign::job(const StoredScene& scene, const Camera& camera) const {
   return job;
 }
 
-StreamingResult ToyDesign::golden(const StoredScene& scene, const FrameJob& job) const {
-  StreamingResult result;
-  result.frame.image = picture_of(scene.image.bytes, job, config_);
-  result.stats.groups = groups_of(job, config_).size();
-  for (std::uint32_t group = 0; group < result.stats.groups; ++group) {
-    result.stats.first_halves += block_of(group, job, config_).count;
-  }
+GoldenFrame ToyDesign::golden(const StoredScene& scene, const FrameJob& job,
+                              DataSheet& sheet) const {
   const std::uint64_t stored = scene.image.layout.gaussian_count();
-  result.stats.contributing = std::min(result.stats.first_halves, stored);
-  return result;
-}
-
-void ToyDesign::publish_left_out(const StoredScene& scene, const StreamingStats&,
-                                 DataSheet& sheet) const {
-  sheet.left_out("second_halves", "a colour is made of centres",
-                 scene.image.layout.gaussian_count(), "everything but 16 B of each Gaussian");
+  sheet.left_out("second_halves", "a colour is made of centres", stored,
+                 "everything but 16 B of each Gaussian");
+  GoldenFrame golden;
+  golden.image = picture_of(scene.image.bytes, job, config_);
+  const auto groups = static_cast<std::uint32_t>(groups_of(job, config_).size());
+  for (std::uint32_t group = 0; group < groups; ++group) {
+    golden.contributing += block_of(group, job, config_).count;
+  }
+  golden.contributing = std::min(golden.contributing, stored);
+  return golden;
 }
 
 std::unique_ptr<Machine> ToyDesign::build(const sc_core::sc_module_name& name, const FrameJob& job,

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "algorithm/scene/cameras.h"
+#include "testbench/builtin/builtin_scene.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/system/frame_checks.h"
 #include "tests/system/report_values.h"
@@ -63,7 +65,9 @@ TEST_CASE("toy machine: frame and counts") {
   CHECK(asked_bytes(toy.view, "frame_buffer", "write", "write") == 3 * kPixels);
   CHECK(toy.view["dram"]["bytes"] == 16 * kGaussians + 3 * kPixels);
   CHECK(left_out(toy.view, "second_halves") == toy.view["scene"]["gaussians"]);
+  CHECK(toy.view["chosen"].size() == 1);
   CHECK(toy.view["chosen"][0]["key"] == "toy.blocks");
+  CHECK(toy.view["scene"]["stored_by"] == "file");
 }
 
 TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data sheets") {
@@ -178,13 +182,42 @@ TEST_CASE("toy machine: its golden picture, and a scene packed for it") {
   REQUIRE(run_toy(joined(joined({"render"}, scene),
                          {"--ordering", "toy", "--out", scratch.path("toy.png")}))
               .status == 0);
-  REQUIRE(run_toy({"pack", "builtin:object?n=1000", "--out", scratch.path("toy.sgs"), "--config",
-                   scratch.write("toy.json", R"({"machine": "toy"})")})
-              .status == 0);
-  const Outcome info = run_toy({"info", scratch.path("toy.sgs")});
-  CHECK_THAT(info.out, Contains("for machine exact or toy"));
   const Toy toy;
   CHECK(toy.file("out/view_0/frame.png") == bytes_of(scratch.path("toy.png")));
+
+  // A storage order that no machine of the project reads, packed and read again.
+  const std::string file = scratch.path("toy.sgs"), cameras = scratch.path("cameras.json");
+  const std::string config = scratch.write("toy.json", R"({"machine": "toy"})");
+  write_cameras(cameras, make_builtin_scene("builtin:object?n=1000").cameras);
+  REQUIRE(run_toy({"pack", "builtin:object?n=1000", "--out", file, "--config", config}).status ==
+          0);
+  CHECK_THAT(run_toy({"info", file}).out, Contains("by file, for machine toy: no table"));
+  CHECK_THAT(run_streaminggs({"info", file}).out,
+             Contains("by file, for no machine of this program: no table"));
+  const Arguments view = {file,    "--cameras",        cameras, "--size", "70x50",
+                          "--out", scratch.path("out")};
+  const Outcome again = run_toy(joined(joined({"simulate"}, view), {"--config", config}));
+  INFO(again.out << again.err);
+  REQUIRE(again.status == 0);
+  CHECK_THAT(again.out, Contains("storage from toy.sgs: raw, in the file's order"));
+  const Json packed = views_of_report(scratch.path("out/report.json"))[0];
+  CHECK(packed["scene"]["stored_by"] == "file");
+  CHECK(packed["scene"] == toy.view["scene"]);
+  CHECK(packed["provenance"]["memory_image_fnv1a64"] ==
+        toy.view["provenance"]["memory_image_fnv1a64"]);
+  CHECK(bytes_of(scratch.path("out/view_0/frame.png")) == bytes_of(scratch.path("toy.png")));
+  const Outcome stranger = run_streaminggs(joined({"simulate"}, view));
+  CHECK(stranger.status == 2);
+  CHECK_THAT(stranger.err, Contains("stored by file; machine exact reads scenes stored by chunks: "
+                                    "pack the scene again"));
+  // An order without sizes has no keys for them.
+  for (const char* key : {"storage.voxel_size=1", "storage.chunk_gaussians=8"}) {
+    const Outcome unknown =
+        run_toy(joined(joined({"simulate"}, scene),
+                       {"--config", config, "--set", key, "--out", scratch.path("no")}));
+    CHECK(unknown.status == 2);
+    CHECK_THAT(unknown.err, Contains("unknown key"));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,81 @@
+// Everything that a storage order says of itself: its keys and the choices they leave, how its
+// table is made from a scene, stored, packed and believed again, and what reports and people are
+// told. Another order is another scheme in a file of its own, a line in storage_scheme.cpp, and its
+// record in ../memory/scene_layout.h; whoever stores, packs or reports asks the scheme.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "algorithm/storage/encoded_cloud.h"
+#include "algorithm/storage/image_file.h"
+#include "algorithm/storage/storage_choices.h"
+#include "algorithm/storage/stored_scene.h"
+#include "algorithm/storage/table_fields.h"
+
+namespace sgs {
+
+// A size among a configuration's storage keys that this order alone has; 0 leaves it open.
+struct StorageSize {
+  const char* key;
+  std::variant<double StorageConfig::*, std::uint32_t StorageConfig::*> value;
+  double most;
+  const char* meaning;
+};
+
+// What a report says of a stored scene's table.
+using StorageFact = std::pair<const char*, std::variant<std::uint64_t, double>>;
+
+class StorageScheme {
+ public:
+  virtual ~StorageScheme() = default;
+
+  // "chunks": what a scene is stored by.
+  virtual const char* name() const = 0;
+
+  // Configuration.
+  virtual std::vector<StorageSize> sizes() const { return {}; }
+  // Fill in the sizes that are open and follow from the memory (run_bytes: what lies together in
+  // one row of one channel), or from the scene; return what they chose.
+  virtual std::vector<StorageChoice> choose(StorageConfig&, std::uint32_t /*run_bytes*/) const {
+    return {};
+  }
+  virtual std::vector<StorageChoice> choose(StorageConfig&, const ActivatedCloud&) const {
+    return {};
+  }
+  // Throws InputError where a size is still open, or cannot be.
+  virtual void check(const StorageConfig&) const {}
+
+  // Making and restoring. Both fill in `out.table`; store() of encoded.decoded, by out.storage, and
+  // `out.image`; restore() `out.decoded` of packed.image, with nothing in it believed (source: what
+  // errors name). Both throw InputError.
+  virtual void store(const EncodedCloud& encoded, StoredScene& out) const = 0;
+  virtual void restore(const PackedScene& packed, const std::string& source,
+                       StoredScene& out) const = 0;
+
+  // Files. The numbers that a packed scene's header has of this order, in the order of the file;
+  // `table` is of this order, and only what its layout follows from need be right in it.
+  virtual TableLayout empty_table() const = 0;
+  virtual void visit(TableFields& fields, StorageConfig& storage, TableLayout& table) const = 0;
+  virtual SceneLayout lay_out(const SecondHalfFormat& format, std::uint32_t gaussians,
+                              const StorageConfig& storage, const TableLayout& table) const = 0;
+
+  // People and reports.
+  virtual std::string in_words(const StorageConfig&) const = 0;  // "chunks of 16"
+  // How many blocks the table divides the scene into, and each one's size; none without a table.
+  virtual std::optional<std::uint64_t> blocks(const TableLayout&) const { return {}; }
+  virtual std::string size_in_words(const StorageConfig&) const { return {}; }  // "at most 16 ..."
+  virtual std::vector<StorageFact> facts(const TableLayout&) const { return {}; }
+};
+
+const StorageScheme& scheme_of(StorageOrder order);
+
+inline Stored stored_of(const StorageConfig& config) {
+  return config.store_invisible ? Stored::kAll : Stored::kVisible;
+}
+
+}  // namespace sgs

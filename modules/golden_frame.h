@@ -1,0 +1,25 @@
+// The picture that a machine must give, and what any machine's golden renderer can tell of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "algorithm/image/image.h"
+
+namespace sgs {
+
+struct GoldenFrame {
+  Image image;                     // to the bit, before its pixel format
+  std::uint64_t blends = 0;        // (splat, pixel) pairs
+  std::uint64_t contributing = 0;  // Gaussians blended into at least one pixel
+  std::uint64_t misordered = 0;    // blends behind a splat that is farther, at the same pixel
+  std::uint64_t missed = 0;        // (group, splat) pairs that touch and were not looked at
+
+  // The picture that the same work would give in right order: each pixel blends all that was looked
+  // at for it by depth, so that only missed splats keep it from the reference picture of the
+  // decoded scene. Wanted only where `missed` is not 0; empty where an order misses nothing. May
+  // read the scene that the frame is of.
+  std::function<Image()> in_order;
+};
+
+}  // namespace sgs
