@@ -433,7 +433,7 @@ class WithTheCommand(InFolder):
             (explore, ("--config", "paper", "--axis", "hfus=2"), {"| 2 | 32 |": 1}),
             (timing, ("--repeats", "1", "--configs", "exact", "paper"), {"| truck | 64 |": 2}),
             (tuned_orders, (), {"| truck |": 1}),
-            (work_precision, (), {"| truck | 0 |": 19, "| 4,096 |": 2}),
+            (work_precision, (), {"| truck | 0 |": 20, "| 4,096 |": 2}),
         ):
             with self.subTest(script.__name__, arguments=arguments):
                 made = self.made(script, *arguments)

@@ -61,7 +61,9 @@ class NonBlocking : public sc_core::sc_module, public Run {
  public:
   SC_HAS_PROCESS(NonBlocking);
   NonBlocking(const sc_core::sc_module_name& name, const DramConfig& config, Stream stream)
-      : sc_module(name), Run(config, stream), port_("port", MemoryPortConfig{256, kWindow}) {
+      : sc_module(name),
+        Run(config, stream),
+        port_("port", MemoryPortConfig{256, kWindow, kWindow}) {
     port_.socket.bind(memory.socket);
     SC_THREAD(run);
   }
