@@ -58,7 +58,8 @@ class DataSheet {
     (void)kind;
     (void)count;
   }
-  // What stands there beside SRAM, for area and leakage. component: whose square millimetres; kind: as above.
+  // What stands there beside SRAM, for area and leakage. component: whose square millimetres; kind:
+  // as above.
   virtual void part(const char* component, const char* kind, double count) {
     (void)component;
     (void)kind;

@@ -11,7 +11,7 @@ namespace sgs {
 // One use of one of the on-chip memories, as often as it is there.
 struct SramUse {
   std::string name;
-  std::string memory;  // which one: "input", "codebook", "shared"
+  std::string memory;       // which one: "input", "codebook", "shared"
   std::uint64_t bytes = 0;  // of one
   std::string arithmetic;   // how they come about: "8 slots x 256 B"
   std::uint64_t count = 1;

@@ -19,8 +19,7 @@ PaperFifos::PaperFifos(const PaperConfig& c)
                  c.hfu.cfu_depth_cycles},
       splats{"splats to sorting", "splats", c.hfus * c.sorting_units, c.sorting.input_fifo_entries,
              c.hfu.ffu_depth_cycles},
-      sorted{"splats to rendering", "splats", c.sorting_units, c.rendering.input_fifo_entries, 1} {
-}
+      sorted{"splats to rendering", "splats", c.sorting_units, c.rendering.input_fifo_entries, 1} {}
 
 SramUses sram_uses(const PaperConfig& c, const StorageConfig& storage) {
   const BuiltFor made = built_for(c, storage);

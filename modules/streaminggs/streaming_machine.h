@@ -50,8 +50,8 @@ class StreamingMachine : public Machine {
   // A FIFO between two units, one of its kind.
   template <class T>
   void add_fifo(Fifos<T>& fifos, const std::string& name, const FifoKind<T>& kind) {
-    fifos.push_back(std::make_unique<TimedFifo<T>>(name.c_str(), clock_, kind.entries,
-                                                   kind.latency_cycles));
+    fifos.push_back(
+        std::make_unique<TimedFifo<T>>(name.c_str(), clock_, kind.entries, kind.latency_cycles));
     if (options_.stalls.probability > 0) fifos.back()->inject(options_.stalls);
     queues_.push_back({fifos.back().get(), kind.each()});
   }

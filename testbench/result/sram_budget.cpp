@@ -51,13 +51,12 @@ class Budget : public DataSheet {
       const auto at = in_uses_.find(use);
       if (at != in_uses_.end() && at->second >= bytes) continue;
       throw std::logic_error(fmt::format("{}: its queues hold {} B of \"{}\", its SRAM uses {}",
-                                         unit_, bytes, use,
-                                         at == in_uses_.end() ? 0 : at->second));
+                                         unit_, bytes, use, at == in_uses_.end() ? 0 : at->second));
     }
   }
 
   SramUses uses_;
-  std::map<std::string, std::uint64_t> available_;           // [memory]
+  std::map<std::string, std::uint64_t> available_;            // [memory]
   std::map<std::string, std::uint64_t> in_uses_, in_queues_;  // bytes of this unit, [use]
   std::string unit_;
 };

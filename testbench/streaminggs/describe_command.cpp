@@ -76,8 +76,8 @@ void print_sheets(const MachineResult& machine) {
   }
   Table sram("| on-chip memory | use | bytes | arithmetic |");
   for (const SramUse& use : machine.sram_uses) {
-    sram.row(fmt::format("{} | {} | {} | {} ", use.memory, use.name, use.total_bytes(),
-                         use.product()));
+    sram.row(
+        fmt::format("{} | {} | {} | {} ", use.memory, use.name, use.total_bytes(), use.product()));
   }
 }
 

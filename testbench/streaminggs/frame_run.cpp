@@ -84,8 +84,8 @@ FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const Me
   Outputs outputs;
   if (!options.vcd_path.empty()) outputs.vcd = &files.add(options.vcd_path);
   if (!options.dram_trace_path.empty()) outputs.dram_trace = &files.add(options.dram_trace_path);
-  const std::string bytes = in_child(
-      [&] { return to_wire(simulate(design, job, image, dram, options.build, outputs)); });
+  const std::string bytes =
+      in_child([&] { return to_wire(simulate(design, job, image, dram, options.build, outputs)); });
   files.commit();
   FrameResult result = from_wire(bytes);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

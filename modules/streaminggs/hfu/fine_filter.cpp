@@ -145,8 +145,7 @@ SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_fo
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
                               "candidates")};
   if (built_for.second_half.quantised()) {
-    uses.push_back(
-        fifo_use<Decoded>("decoded Gaussians", kSharedSram, kDecodedEntries, "entries"));
+    uses.push_back(fifo_use<Decoded>("decoded Gaussians", kSharedSram, kDecodedEntries, "entries"));
   }
   return uses;
 }

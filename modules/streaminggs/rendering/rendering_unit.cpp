@@ -98,13 +98,11 @@ void RenderingUnit::write_group(const GroupState& state) {
 // A row is converted as it leaves: until a write of it is made its pixels are in their buffer.
 SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor& built_for) {
   const std::uint32_t px = built_for.group_px;
-  return {sram_use("pixel state", kSharedSram,
-                   {{config.pixel_buffers, "groups"},
-                    {px, "px"},
-                    {px, "px"},
-                    {kPixelStateBytes, "B"}}),
-          unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
-                            px * pixel_bytes(built_for.frame_format))};
+  return {
+      sram_use("pixel state", kSharedSram,
+               {{config.pixel_buffers, "groups"}, {px, "px"}, {px, "px"}, {kPixelStateBytes, "B"}}),
+      unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
+                        px * pixel_bytes(built_for.frame_format))};
 }
 
 void RenderingUnit::publish(DataSheet& sheet) {

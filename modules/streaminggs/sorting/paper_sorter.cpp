@@ -199,13 +199,12 @@ SubtileRect PaperSorter::group_subtiles() const {
 
 // Runs that are read back lie in the sort buffer, which is empty then.
 SramUses PaperSorter::sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for) {
-  const SramUse block = sram_use(
-      "spill blocks", kSharedSram, {{config.spill_block_entries, "splats"}, {kSplatEntryBytes, "B"}});
+  const SramUse block = sram_use("spill blocks", kSharedSram,
+                                 {{config.spill_block_entries, "splats"}, {kSplatEntryBytes, "B"}});
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
   return {sram_use("sort buffers", kSharedSram,
                    {{config.buffer_entries, "splats"}, {kSplatEntryBytes, "B"}}),
-          block,
-          unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes)};
+          block, unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes)};
 }
 
 void PaperSorter::publish(DataSheet& sheet) {

@@ -65,11 +65,11 @@ void ExactVsu::mark_end(std::uint32_t group) {
 }
 
 SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built_for) {
-  return {sram_use("node cache", kSharedSram, {{config.node_cache_bytes, "B"}}),
-          sram_use("walk queue", kSharedSram,
-                   {{config.queue_entries, "entries"}, {kWalkEntryBytes, "B"}}),
-          unanswered_writes("entries put aside", kSharedSram, built_for.memory_port,
-                            kWalkEntryBytes)};
+  return {
+      sram_use("node cache", kSharedSram, {{config.node_cache_bytes, "B"}}),
+      sram_use("walk queue", kSharedSram,
+               {{config.queue_entries, "entries"}, {kWalkEntryBytes, "B"}}),
+      unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes)};
 }
 
 void ExactVsu::publish(DataSheet& sheet) {

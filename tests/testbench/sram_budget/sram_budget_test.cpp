@@ -137,9 +137,10 @@ TEST_CASE("sram budget: more than there is, and a queue in no use, are refused b
     sheet.sram_available("scratch", 220);
   };
   CHECK_THROWS_AS(check_sram_budget(machine), InputError);
-  CHECK_THROWS_WITH(check_sram_budget(machine),
-                    "on-chip memory scratch: 220 bytes are there, 221 are needed: messages 200 (2 x "
-                    "5 messages x 20 B) + blocks 21 (3 blocks x 7 B)");
+  CHECK_THROWS_WITH(
+      check_sram_budget(machine),
+      "on-chip memory scratch: 220 bytes are there, 221 are needed: messages 200 (2 x "
+      "5 messages x 20 B) + blocks 21 (3 blocks x 7 B)");
 
   machine.says = [&](DataSheet& sheet, FifoChannel&) { sheet.sram(fits); };
   CHECK_THROWS_WITH(check_sram_budget(machine), Contains("0 bytes are there, 100 are needed"));
