@@ -49,8 +49,7 @@ constexpr const char* kViewFiles[] = {"frame.exr", "frame.png", "reference.exr",
                                       "report.json"};
 
 // All files of a view at once: no picture stands beside the report of another run.
-void write_view(const fs::path& folder, const ViewResult& view,
-                const std::string& report) {
+void write_view(const fs::path& folder, const ViewResult& view, const std::string& report) {
   OutputSet files;
   const auto add = [&](const std::string& file) -> OutputFile& {
     return files.add((folder / file).string());
@@ -199,8 +198,9 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.real("--stalls", build.stalls.probability, 0, 1,
             "probability of a random stall at each side of each FIFO, for tests");
   line.whole("--seed", build.stalls.seed, 0, kMostSeed, "of the random stalls");
-  line.whole("--construction-order", build.construction_order, 0, kMostSeed,
-             "seed that shuffles the order in which units are made; changes no number");
+  line.whole(
+      "--process-order", build.process_order, 0, kMostSeed,
+      "seed that shuffles in which order the processes of an instant act; changes no number");
   line.flag("--print-config", arguments->print_config, "show the resolved configuration");
   return [arguments, &kinds] {
     arguments->command = command_line();
