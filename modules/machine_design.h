@@ -20,10 +20,13 @@
 
 namespace sgs {
 
-// How a machine is put together; no number of a report may depend on the order.
+// How a machine is put together, for tests.
 struct BuildOptions {
-  StallConfig stalls;                    // random waits at both sides of every FIFO, for tests
-  std::uint64_t construction_order = 0;  // units in order; else shuffled with this seed, for tests
+  StallConfig stalls;  // random waits at both sides of every FIFO
+  // A seed of the order in which the processes of an instant act: units are made in another order,
+  // and who has waited may go on some delta cycles late. 0: as the kernel has it. No number of a
+  // report may depend on it.
+  std::uint64_t process_order = 0;
 };
 
 class MachineDesign {

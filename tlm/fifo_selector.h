@@ -42,6 +42,7 @@ class FifoSelector {
       } else {
         sc_core::wait(arrival_);
       }
+      reader.clock().jitter();
       reader.enter(ActivityState::kBusy);
     }
   }

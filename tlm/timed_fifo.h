@@ -72,12 +72,14 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
         entries_(capacity) {}
 
   void push(T value, Activity& writer) override {
+    clock_.jitter();
     stall(writer_stalls_, writer, ActivityState::kBlocked);
     if (fill_ == entries_.size()) {
       writer.enter(ActivityState::kBlocked);
       writer_waits_ = true;
       while (fill_ == entries_.size()) sc_core::wait(room_);
       writer_waits_ = false;
+      clock_.jitter();
       writer.enter(ActivityState::kBusy);
     }
     Entry& entry = entries_[wrapped(head_ + fill_)];
@@ -90,6 +92,7 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
 
   using FifoReadIf<T>::pop;
   T pop(Activity& reader, ActivityState waiting) override {
+    clock_.jitter();
     stall(reader_stalls_, reader, waiting);
     if (!can_pop()) {
       reader.enter(waiting);
@@ -98,6 +101,7 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
       reader_waits_ = false;
       const sc_core::sc_time& ready = entries_[head_].ready;
       if (ready > sc_core::sc_time_stamp()) sc_core::wait(ready - sc_core::sc_time_stamp());
+      clock_.jitter();
       reader.enter(ActivityState::kBusy);
     }
     T value = std::move(entries_[head_].value);

@@ -14,7 +14,7 @@ StreamingMachine::StreamingMachine(const sc_core::sc_module_name& name,
       job_(job),
       built_for_(built_for),
       options_(options),
-      clock_(config.clock_mhz),
+      clock_(config.clock_mhz, options.process_order),
       finished_groups_("finished_groups", clock_, job.groups.size(),
                        config.rendering.feedback_latency_cycles),
       hfus_(config.hfus) {
@@ -40,7 +40,7 @@ void StreamingMachine::make_units(Construction parts, Rejects rejects, Arrival a
                                                     instant_end(), config_.hfus);
     });
   }
-  construct(std::move(parts), options_.construction_order);
+  construct(std::move(parts), options_.process_order);
 
   rendering_->finish(finished_groups_);
   for (std::uint32_t h = 0; h < config_.hfus; ++h) {

@@ -197,8 +197,9 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.real("--stalls", build.stalls.probability, 0, 1,
             "probability, as 0.1, of a random stall at each side of each FIFO, for tests");
   line.whole("--seed", build.stalls.seed, 0, kMostSeed, "of the random stalls");
-  line.whole("--construction-order", build.construction_order, 0, kMostSeed,
-             "seed that shuffles the order in which units are made; changes no number");
+  line.whole(
+      "--process-order", build.process_order, 0, kMostSeed,
+      "seed that shuffles in which order the processes of an instant act; changes no number");
   line.flag("--print-config", arguments->print_config, "show the resolved configuration");
   return [arguments, &kinds] {
     arguments->command = command_line();

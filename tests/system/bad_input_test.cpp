@@ -117,7 +117,7 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
            {"$SG simulate $B --out o --seed -1", 2, {"--seed", "'-1'"}},
            {"$SG simulate $B --out o --seed 100000000000000000000000", 2, {"--seed"}},
            {"$SG simulate $B --out o --stalls nan", 2, {"--stalls", "nan"}},
-           {"$SG simulate $B --out o --construction-order -1", 2, {"--construction-order"}},
+           {"$SG simulate $B --out o --process-order -1", 2, {"--process-order"}},
            {"$SG simulate $B --out ''", 2, {"--out", "got nothing"}},
            {"$SG simulate $B --out o --vcd ''", 2, {"--vcd", "got nothing"}},
            {"$TB --seed -1", 2, {"--seed", "'-1'", "9223372036854775807"}},

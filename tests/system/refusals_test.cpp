@@ -101,7 +101,7 @@ TEST_CASE("refusals: bad arguments exit with 2 and say which") {
         {"fly"},
         {"simulate"},
         {"simulate", "builtin:object", "--no-such-option"},
-        {"simulate", "builtin:object", "--construction-order", "x", "--out", "/tmp/never"},
+        {"simulate", "builtin:object", "--process-order", "x", "--out", "/tmp/never"},
         {"simulate", "builtin:object", "--stalls", "2", "--out", "/tmp/never"},
         {"compare", "one.png"},
         {"render", "builtin:object"}}) {

@@ -55,6 +55,12 @@ std::uint64_t region_bytes(const Json& view, const std::string& region,
   return sum;
 }
 
+nlohmann::json without_host(nlohmann::json view) {
+  view.erase("host");
+  view["provenance"].erase("command");
+  return view;
+}
+
 std::uint64_t left_out(const Json& view, const std::string& what) {
   for (const Json& entry : view["left_out"]) {
     if (entry["what"] == what) return entry["count"];

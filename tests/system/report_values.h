@@ -30,6 +30,9 @@ std::uint64_t asked_bytes(const nlohmann::json& view, const std::string& region,
 std::uint64_t region_bytes(const nlohmann::json& view, const std::string& region,
                            const std::string& direction);
 
+// What a view says of the model: all but how long the host took, and by what command.
+nlohmann::json without_host(nlohmann::json view);
+
 // The count of one entry of `left_out`; 0 where it is not listed.
 std::uint64_t left_out(const nlohmann::json& view, const std::string& what);
 

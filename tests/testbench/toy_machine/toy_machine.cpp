@@ -10,7 +10,7 @@ ToyMachine::ToyMachine(const sc_core::sc_module_name& name, const ToyConfig& con
     : Machine(name),
       config_(config),
       job_(job),
-      clock_(config.clock_mhz),
+      clock_(config.clock_mhz, options.process_order),
       colours_("colours", clock_, config.queue_entries) {
   if (options.stalls.probability > 0) colours_.inject(options.stalls);
   construct({[this] { fetch_ = std::make_unique<FetchUnit>("fetch", config_, clock_, job_); },
@@ -18,7 +18,7 @@ ToyMachine::ToyMachine(const sc_core::sc_module_name& name, const ToyConfig& con
                write_ = std::make_unique<WriteUnit>("write", config_, clock_, job_,
                                                     [this] { finish_frame(); });
              }},
-            options.construction_order);
+            options.process_order);
   fetch_->colours(colours_);
   write_->colours(colours_);
   connect_memory();

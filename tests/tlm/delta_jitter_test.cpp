@@ -1,0 +1,104 @@
+// Jitter lets processes of one instant overtake each other, and no time pass: without it, tests of
+// what their order must not change could not fail.
+#include "tlm/delta_jitter.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/tlm/threads.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs {
+namespace {
+
+using test::Threads;
+
+// Who came when, first come first served: an arbiter as it must not be.
+struct Arrivals {
+  std::string order;
+  std::vector<std::uint64_t> cycles;
+  void come(char who, const ClockDomain& clock) {
+    order += who;
+    cycles.push_back(clock.now_cycles());
+  }
+  bool both_orders() const {
+    bool ab = false, ba = false;
+    for (std::size_t i = 0; i + 1 < order.size(); i += 2) {
+      ab = ab || order.substr(i, 2) == "ab";
+      ba = ba || order.substr(i, 2) == "ba";
+    }
+    return ab && ba;
+  }
+};
+
+// Two that come in the same cycles, by each way of waiting.
+struct Pair {
+  explicit Pair(const std::string& name, std::uint64_t jitter_seed)
+      : clock(800, jitter_seed),
+        a((name + "_a").c_str(), clock),
+        b((name + "_b").c_str(), clock),
+        writer((name + "_writer").c_str(), clock),
+        to_a((name + "_to_a").c_str(), clock, 1, 0),
+        to_b((name + "_to_b").c_str(), clock, 1, 0) {}
+
+  static constexpr int kTimes = 50;
+
+  std::vector<std::function<void()>> bodies() {
+    return {[this] { come_from('a'); }, [this] { come_from('b'); },
+            [this] {
+              for (int i = 0; i < kTimes; ++i) {
+                clock.wait_cycles(5);
+                for (TimedFifo<int>* fifo : {&to_a, &to_b}) fifo->push(i, writer);
+              }
+            },
+            [this] { read(to_a, a, 'a'); }, [this] { read(to_b, b, 'b'); }};
+  }
+
+  ClockDomain clock;
+  Arrivals waited, aligned, from_fifo;
+
+ private:
+  void come_from(char who) {
+    for (int i = 0; i < kTimes; ++i) {
+      clock.wait_cycles(3);
+      waited.come(who, clock);
+      sc_core::wait(300, sc_core::SC_PS);
+      clock.align();
+      aligned.come(who, clock);
+    }
+  }
+
+  void read(TimedFifo<int>& fifo, Activity& reader, char who) {
+    for (int i = 0; i < kTimes; ++i) {
+      CHECK(fifo.pop(reader) == i);
+      from_fifo.come(who, clock);
+    }
+  }
+
+  Activity a, b, writer;
+  TimedFifo<int> to_a, to_b;
+};
+
+TEST_CASE("delta jitter: processes of one instant overtake each other, and no time passes") {
+  Pair plain("plain", 0), one("one", 1), two("two", 2);
+  std::vector<std::function<void()>> bodies;
+  for (Pair* pair : {&plain, &one, &two}) {
+    for (auto& body : pair->bodies()) bodies.push_back(std::move(body));
+  }
+  Threads threads(std::move(bodies));
+  REQUIRE(threads.run_all());
+  using Which = Arrivals Pair::*;
+  for (const Which which : {&Pair::waited, &Pair::aligned, &Pair::from_fifo}) {
+    REQUIRE((plain.*which).order.size() == 2 * Pair::kTimes);
+    CHECK((one.*which).order != (plain.*which).order);
+    CHECK((one.*which).both_orders());
+    CHECK((one.*which).order != (two.*which).order);
+    CHECK((one.*which).cycles == (plain.*which).cycles);
+    CHECK((two.*which).cycles == (plain.*which).cycles);
+  }
+}
+
+}  // namespace
+}  // namespace sgs
