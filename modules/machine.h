@@ -15,6 +15,7 @@
 
 namespace sgs {
 
+// One in a simulation: its InstantEnd must be the only one.
 class Machine : public sc_core::sc_module {
  public:
   // One path to the memory for each requester: sockets of their own, so that nobody waits behind

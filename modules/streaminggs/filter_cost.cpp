@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "algorithm/splat/filter_work.h"
-#include "modules/streaminggs/hfu/lane_macs.h"
+#include "algorithm/splat/lane_macs.h"
 
 namespace sgs {
 namespace {

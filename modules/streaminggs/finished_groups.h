@@ -1,5 +1,5 @@
 // Rendering's feedback: "this group is finished, nothing can change it any more". It travels: who
-// asks sees it `latency` cycles after it was said, and drops what is left of the group.
+// asks sees it `latency` cycles after it was known, and drops what is left of the group.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,8 @@ class FinishedGroupsIf : public virtual sc_core::sc_interface {
 
 class FinishGroupIf : public virtual sc_core::sc_interface {
  public:
-  virtual void finish(std::uint32_t group) = 0;
+  // known_in_cycles: from now on, until the speaker's own pipeline has the news.
+  virtual void finish(std::uint32_t group, std::uint32_t known_in_cycles) = 0;
 };
 
 class FinishedGroups : public sc_core::sc_prim_channel,
@@ -30,12 +31,15 @@ class FinishedGroups : public sc_core::sc_prim_channel,
   FinishedGroups(const char* name, const ClockDomain& clock, std::size_t groups,
                  std::uint32_t latency_cycles)
       : sc_prim_channel(name),
-        latency_(static_cast<double>(latency_cycles) * clock.period()),
+        period_(clock.period()),
+        latency_cycles_(latency_cycles),
         seen_from_(groups, sc_core::sc_max_time()) {}
 
-  void finish(std::uint32_t group) override {
+  void finish(std::uint32_t group, std::uint32_t known_in_cycles) override {
     sc_core::sc_time& from = seen_from_[group];
-    if (from == sc_core::sc_max_time()) from = sc_core::sc_time_stamp() + latency_;
+    if (from != sc_core::sc_max_time()) return;
+    const double cycles = static_cast<double>(known_in_cycles) + latency_cycles_;
+    from = sc_core::sc_time_stamp() + cycles * period_;
   }
   bool finished(std::uint32_t group) const override {
     return seen_from_[group] <= sc_core::sc_time_stamp();
@@ -44,7 +48,8 @@ class FinishedGroups : public sc_core::sc_prim_channel,
   const char* kind() const override { return "sgs::FinishedGroups"; }
 
  private:
-  const sc_core::sc_time latency_;
+  const sc_core::sc_time period_;
+  const std::uint32_t latency_cycles_;
   std::vector<sc_core::sc_time> seen_from_;  // [group]
 };
 

@@ -61,7 +61,7 @@ void add_feedback(UnitBench& bench, const HfuPlan& plan, FinishedGroups& finishe
     }
     for (const auto& [cycle, group] : groups) {
       bench.clock().wait_cycles(cycle - bench.clock().now_cycles());
-      finished.finish(group);
+      finished.finish(group, 0);
     }
   });
 }
@@ -173,7 +173,7 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
           got.push_back(token.splat);
           if (plan.saturate_one_in > 0 &&
               test.random() % static_cast<unsigned>(plan.saturate_one_in) == 0) {
-            finished.finish(share.group);
+            finished.finish(share.group, 0);
           }
         }
         checks.that(
@@ -191,7 +191,7 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
   }
   bench.run();
 
-  checks.equal(unit->coarse.counters().visits, plan.shares.size(), "shares");
+  bench.check_counter("shares", plan.shares.size());
   checks.equal(unit->coarse.memory.bytes_read(), bench.counter("first_halves") * kFirstHalfBytes,
                "bytes read of first halves");
   checks.equal(unit->fine.memory.bytes_read(),

@@ -23,7 +23,7 @@ class ReportedGroups {
   FinishedGroups channel;
 
   void finish(std::uint32_t group) {
-    channel.finish(group);
+    channel.finish(group, 0);
     seen_from_[group] = std::min(seen_from_[group], clock_.now_cycles() + latency_cycles_);
   }
   // As units see it now.

@@ -2,6 +2,7 @@
 // Checked against std::sort by (depth, index in the file); cycles, bytes and conservation.
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "modules/streaminggs/merge/merge_unit.h"
 #include "testbench/units/case_runner.h"
@@ -106,6 +107,17 @@ void add_reader(Run& run, const MergePlan& plan) {
   });
 }
 
+// Keys of depths that another key of the group has.
+std::uint64_t tied_keys(const MergeGroup& group) {
+  std::map<float, std::uint64_t> keys;
+  for (const MergeVisit& visit : group.visits) {
+    for (const MergeKey& key : visit.keys) ++keys[key.depth];
+  }
+  std::uint64_t tied = 0;
+  for (const auto& [depth, count] : keys) tied += count > 1 ? count : 0;
+  return tied;
+}
+
 void check_counters(Run& run, const MergePlan& plan) {
   Checks& checks = run.bench.checks();
   const MergeUnit::Counters& c = run.unit.counters();
@@ -116,7 +128,15 @@ void check_counters(Run& run, const MergePlan& plan) {
     for (const MergeVisit& visit : plan.groups[g].visits) keys += visit.keys.size();
   }
   run.bench.check_counter("keys", keys);
-  run.bench.check_counter("ties_looked_up", c.ties);
+  std::uint64_t tied = 0;
+  for (const MergeGroup& group : plan.groups) tied += tied_keys(group);
+  const bool in_order = plan.config.on_overflow == OnOverflow::kSpill;
+  if (in_order && !saturating) {
+    run.bench.check_counter("ties_looked_up", tied);
+    if (c.runs_spilled == 0) run.bench.check_counter("index_lookups", tied);
+  }
+  checks.that(c.ties <= tied, "more ties than keys of one depth");
+  checks.that(c.looked_up <= keys, "a key was looked up twice");
   checks.equal(c.released + c.dropped_saturated, keys, "keys accounted for");
   if (!saturating) run.bench.check_counter("released", keys);
   // A cycle in, a cycle out, a cycle a mark, a cycle each time into DRAM.

@@ -141,7 +141,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
           break;
         }
         got.push_back(token.splat);
-        if (visit.finishes_group) finished.finish(visit.group);
+        if (visit.finishes_group) finished.finish(visit.group, 0);
       }
       outcome.handed_on += got.size();
       check_visit(bench.checks(), plan, number_of(k), visit, got, finished.finished(visit.group));
@@ -156,7 +156,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     std::uint64_t n = 0;
     for (const auto& part : visit.from_hfu) n += part.size();
     outcome.received += n;
-    trivial += n < 2 ? 1 : 0;
+    trivial += n == 1 ? 1 : 0;
     longest = std::max(longest, n);
     any_saturated = any_saturated || finished.finished(visit.group);
     const Work of_visit = expected_work(plan.config, n);

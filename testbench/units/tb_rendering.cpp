@@ -100,12 +100,14 @@ Times expected_times(const Plan& plan, const Expected& expected,
   return times;
 }
 
-// Notes when groups are said to be finished.
+// Notes when it is known that groups are finished.
 class Feedback : public sc_core::sc_module, public FinishGroupIf {
  public:
   Feedback(const sc_core::sc_module_name& name, const ClockDomain& clock, std::size_t groups)
       : sc_module(name), cycles(groups), clock_(clock) {}
-  void finish(std::uint32_t group) override { cycles[group].push_back(clock_.now_cycles()); }
+  void finish(std::uint32_t group, std::uint32_t known_in_cycles) override {
+    cycles[group].push_back(clock_.now_cycles() + known_in_cycles);
+  }
   std::vector<std::vector<std::uint64_t>> cycles;  // [group]
 
  private:
@@ -189,7 +191,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     checks.equal(feedback.cycles[g].size(), told ? 1U : 0U,
                  fmt::format("how often group {} was said to be finished", g));
     if (bench_config.still() && told && !feedback.cycles[g].empty()) {
-      checks.equal(feedback.cycles[g][0], times.blend_begins[g] + *saturated_after,
+      checks.equal(feedback.cycles[g][0],
+                   times.blend_begins[g] + *saturated_after + plan.config.depth_cycles,
                    fmt::format("cycle in which group {} was finished", g));
     }
     blend += expected.blend_cycles[g];

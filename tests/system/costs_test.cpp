@@ -198,11 +198,17 @@ TEST_CASE("costs: what was left out: empty groups are empty, saturated ones satu
     const std::uint64_t finished = counter(view, "rendering", "groups_saturated");
     CHECK(finished > 0);
     CHECK(finished + empty <= kGroups);
-    for (const char* what : {"saturated_groups", "saturated_visits", "saturated_gaussians"}) {
+    for (const char* what :
+         {"saturated_groups", "saturated_visits", "saturated_gaussians", "saturated_tests"}) {
       CHECK(left_out(plain, what) == 0);  // nobody was told
     }
     CHECK(left_out(view, "saturated_gaussians") > 0);
-    CHECK(left_out(view, "saturated_gaussians") == total(view, "dropped_saturated"));
+    // Some were dropped with their second half, which was not spared.
+    CHECK(left_out(view, "saturated_tests") > 0);
+    CHECK(left_out(view, "saturated_tests") ==
+          total(view, "second_halves") - total(view, "fine_tests"));
+    CHECK(left_out(view, "saturated_gaussians") + left_out(view, "saturated_tests") ==
+          total(view, "dropped_saturated"));
     if (std::string(machine) == "exact") {
       CHECK(left_out(view, "saturated_groups") > 0);
       CHECK(left_out(view, "saturated_groups") <= finished);

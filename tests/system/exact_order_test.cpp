@@ -206,8 +206,8 @@ GaussianCloud at_many_depths(std::size_t count) {
     return 0.7F * static_cast<float>(i * step % count) / static_cast<float>(count);
   };
   for (std::size_t i = 0; i < count; ++i) {
-    cloud.means[i] += glm::vec3(shuffled(i, 31) - 0.35F, shuffled(i, 617) - 0.35F,
-                                shuffled(i, 7919));
+    cloud.means[i] +=
+        glm::vec3(shuffled(i, 31) - 0.35F, shuffled(i, 617) - 0.35F, shuffled(i, 7919));
   }
   return cloud;
 }
@@ -298,8 +298,9 @@ TEST_CASE("exact frames: what the report holds") {
   CHECK(view["image"]["psnr_db"].is_null());  // equal pictures
   CHECK(view["image"]["missed"] == 0);
   CHECK(view["image"]["misordered"] == 0);
-  for (const char* name : {"keys", "released", "forced_early", "dropped_saturated",
-                           "pending_keys_max", "ties_looked_up", "runs_spilled", "keys_spilled"}) {
+  for (const char* name :
+       {"keys", "released", "forced_early", "dropped_saturated", "pending_keys_max",
+        "ties_looked_up", "index_lookups", "runs_spilled", "keys_spilled"}) {
     INFO(name);
     CHECK(view["units"]["merge"]["counters"].contains(name));
   }

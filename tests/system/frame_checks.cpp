@@ -164,8 +164,12 @@ void check_flow(const Json& view) {
       sorting_dropped += of(unit, "splats_saturated");
     }
   }
+  // A visit, or a group's end: of one HFU in exact order, of all in paper order.
+  const std::uint64_t visits =
+      counter(view, "vsu", "visits") + counter(view, "rendering", "groups");
   const std::uint64_t tested_or_dropped = total(view, "fine_tests") + fine_dropped;
   if (view["config"]["machine"] == "paper") {
+    CHECK(total(view, "shares") == count(view["config"]["hfus"]) * visits);
     CHECK(total(view, "coarse_passed") == tested_or_dropped);
     CHECK(fine_splats == sorted);
     CHECK(blended + late <= sorted - sorting_dropped);
@@ -173,6 +177,7 @@ void check_flow(const Json& view) {
     CHECK(total(view, "visits") ==
           2 * counter(view, "vsu", "visits") + counter(view, "rendering", "groups"));
   } else {
+    CHECK(total(view, "shares") == visits);
     CHECK(total(view, "coarse_passed") == sorted);
     CHECK(sorted == counter(view, "merge", "keys"));
     CHECK(counter(view, "merge", "keys") ==

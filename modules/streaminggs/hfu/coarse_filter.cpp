@@ -65,7 +65,7 @@ void CoarseFilter::run_filter() {
     }
     free_slots_.push(slice.slot, filter_);
     if (slice.share.mark != Mark::kNone) {
-      ++counters_.visits;
+      ++counters_.shares;
       FineCandidate end;
       end.group = slice.share.group;
       end.visit = slice.share.visit;
@@ -126,6 +126,8 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(load_, "load", "fetches first halves into the input buffer");
   sheet.activity(filter_, "coarse", "puts them through the CFUs");
+  sheet.counter("shares", "shares", "of visits, empty ones and ends of groups included",
+                counters_.shares);
   sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
   sheet.counter("coarse_tests", "Gaussians", "tested", counters_.tests);
   sheet.counter("coarse_passed", "Gaussians", "that may touch their group", counters_.passed);

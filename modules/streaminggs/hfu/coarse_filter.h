@@ -31,7 +31,7 @@ class CoarseFilter : public sc_core::sc_module {
                const UnitContext& context);
 
   struct Counters {
-    std::uint64_t visits = 0;        // shares of visits, empty ones included
+    std::uint64_t shares = 0;        // of visits, empty ones and ends of groups included
     std::uint64_t first_halves = 0;  // fetched
     std::uint64_t tests = 0;
     std::uint64_t passed = 0;

@@ -109,6 +109,7 @@ void FineFilter::test(const Decoded& decoded) {
   const FineCandidate& candidate = decoded.candidate;
   if (finished->finished(candidate.group)) {
     ++counters_.dropped_saturated;
+    ++counters_.dropped_fetched;
     reject(candidate);
     return;
   }
@@ -160,6 +161,8 @@ void FineFilter::publish(DataSheet& sheet) {
   sheet.counter("splats", "splats", "that touch their group, passed on", counters_.splats);
   sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
                 counters_.dropped_saturated);
+  sheet.counter("dropped_fetched", "Gaussians", "of these with their second half already fetched",
+                counters_.dropped_fetched);
   sheet.operations("fine", "fp32_mac", static_cast<double>(counters_.tests) * config_.ffu_macs);
   const double buffered = 8.0 * (static_cast<double>(counters_.second_halves) * record_bytes_ +
                                  static_cast<double>(counters_.splats) * kSplatEntryBytes);
@@ -167,7 +170,10 @@ void FineFilter::publish(DataSheet& sheet) {
   sheet.operations("buffers", "sram_small_read_bit", buffered);
   sheet.part("hfus", "mac_lane", config_.ffu_lanes);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
-                 counters_.dropped_saturated, "filtering and second halves");
+                 counters_.dropped_saturated - counters_.dropped_fetched,
+                 "filtering and second halves");
+  sheet.left_out("saturated_tests", "the group finished while second halves were under way",
+                 counters_.dropped_fetched, "the fine test: second halves were fetched");
   sheet.port(memory);
   sheet.sram(sram_uses(config_, built_for_));
   sheet.queue(fetched_, "fetched candidates");

@@ -51,6 +51,7 @@ class FineFilter : public sc_core::sc_module {
     std::uint64_t tests = 0;
     std::uint64_t splats = 0;             // passed on
     std::uint64_t dropped_saturated = 0;  // candidates: the group was finished
+    std::uint64_t dropped_fetched = 0;    // of these, with their second half
   };
   const Counters& counters() const { return counters_; }
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for);

@@ -107,6 +107,7 @@ void MergeUnit::ask_for_ties() {
     if (here == pending_.end() || here->second.size() < 2) continue;
     for (PendingKey& key : here->second) {
       if (key.block) continue;
+      ++counters_.looked_up;
       if (key.candidate.slot < low || key.candidate.slot > high) {
         ask_for(key, key.candidate.slot, 1);
         continue;
@@ -159,10 +160,12 @@ void MergeUnit::release_depth(float depth) {
     return run != nullptr && run->front().candidate.depth == depth ? run : nullptr;
   };
   if (here.size() > 1 || (!here.empty() && run_at_depth() != nullptr)) look_up(here);
-  std::size_t next = 0;
-  while (true) {
+  const bool tied_before = !here.empty() && here.front().tied;
+  const std::uint64_t released_before = counters_.released;
+  std::size_t next = 0, at_depth = 0;
+  for (;; ++at_depth) {
     RunReader* run = run_at_depth();
-    if (next == here.size() && run == nullptr) return;
+    if (next == here.size() && run == nullptr) break;
     if (run == nullptr || (next < here.size() && here[next].index < run->front().index)) {
       emit(here[next++]);
     } else {
@@ -170,6 +173,7 @@ void MergeUnit::release_depth(float depth) {
       take_front(*run, runs_);
     }
   }
+  if (at_depth > 1 || tied_before) counters_.ties += counters_.released - released_before;
 }
 
 // blend_early: the nearest keys go before they are final, until the buffer holds no more than it is
@@ -177,8 +181,13 @@ void MergeUnit::release_depth(float depth) {
 void MergeUnit::force_out() {
   while (pending_count_ > config_.entries && !finished->finished(group_)) {
     std::vector<PendingKey>& here = pending_.begin()->second;
-    if (here.size() > 1) look_up(here);
+    if (here.size() > 1) {
+      look_up(here);
+      for (PendingKey& key : here) key.tied = true;
+    }
+    const std::uint64_t released_before = counters_.released;
     emit(here.front());
+    if (here.front().tied) counters_.ties += counters_.released - released_before;
     here.erase(here.begin());
     if (here.empty()) pending_.erase(pending_.begin());
     --pending_count_;
@@ -189,13 +198,14 @@ void MergeUnit::force_out() {
 // Gives keys their file indices, waiting for those that are not there yet, and sorts them.
 void MergeUnit::look_up(std::vector<PendingKey>& keys) {
   for (PendingKey& key : keys) {
-    if (!key.block) ask_for(key, key.candidate.slot, 1);
+    if (key.block) continue;
+    ++counters_.looked_up;
+    ask_for(key, key.candidate.slot, 1);
   }
   for (PendingKey& key : keys) {
     await(memory, merge_, key.block->ticket);
     key.index = key.block->indices[key.candidate.slot - key.block->first_slot];
   }
-  counters_.ties += keys.size();
   std::sort(keys.begin(), keys.end(), final_order);
   while (!in_flight_.empty() && memory.done(in_flight_.front()->ticket)) in_flight_.pop_front();
 }
@@ -345,6 +355,8 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.counter("pending_keys_max", "keys", "most that waited on chip", counters_.pending_max);
   sheet.counter("ties_looked_up", "keys", "released beside others of the same depth",
                 counters_.ties);
+  sheet.counter("index_lookups", "keys", "whose place in the file was asked for: tied, or spilled",
+                counters_.looked_up);
   sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
   sheet.counter("keys_spilled", "keys", "written to DRAM, over all passes", counters_.keys_spilled);
   // A key climbs or sinks through the levels of the heap, once in and once out.
@@ -355,9 +367,8 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.part("merge", "sorting_unit", 1);  // not published: taken as one more sorting unit
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
-  sheet.left_out("index_lookups", "no other key has the same depth",
-                 counters_.keys - std::min(counters_.keys, counters_.ties),
-                 "4 B of DRAM traffic each");
+  sheet.left_out("index_lookups", "no other waiting key had its depth, and it was not spilled",
+                 counters_.keys - counters_.looked_up, "4 B of DRAM traffic each");
   sheet.sram(sram_uses(config_, built_for_));
   sheet.port(memory);
   sheet.signal("group", group_);

@@ -36,6 +36,7 @@ struct PendingKey {
   FineCandidate candidate;
   std::uint32_t index = 0;            // valid once taken from the block, or read back from a run
   std::shared_ptr<IndexBlock> block;  // null: not asked for
+  bool tied = false;                  // another of its depth was released early
 };
 
 class MergeUnit : public sc_core::sc_module {
@@ -57,6 +58,7 @@ class MergeUnit : public sc_core::sc_module {
     std::uint64_t dropped_saturated = 0;
     std::uint64_t pending_max = 0;  // keys on chip
     std::uint64_t ties = 0;         // keys released beside others of the same depth
+    std::uint64_t looked_up = 0;    // keys whose index was asked for, each once
     std::uint64_t runs_spilled = 0;
     std::uint64_t keys_spilled = 0;  // written to DRAM, over all passes
   };

@@ -5,7 +5,8 @@ namespace sgs {
 
 void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("clusters", c.clusters, in_range(1, 256), "4x4 sub-tiles blended a cycle");
-  v("depth_cycles", c.depth_cycles, in_range(1, 1000), "latency of a blend");
+  v("depth_cycles", c.depth_cycles, in_range(1, 1000),
+    "latency of a blend: drain and news of a finished group come so much later");
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "groups whose pixels are on chip");
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");

@@ -62,7 +62,10 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
   counters_.subtile_tests += work.tested;
   counters_.subtile_blends += work.blended;
   counters_.splats += work.blended > 0 ? 1 : 0;
-  if (state.saturated() && config_.saturation_feedback) finish->finish(group);
+  // The last transmittance is known when the blend has left the pipeline.
+  if (state.saturated() && config_.saturation_feedback) {
+    finish->finish(group, config_.depth_cycles);
+  }
 }
 
 void RenderingUnit::run_drain() {

@@ -37,7 +37,7 @@ void ExactSorter::run() {
     const SortingCost cost = sort_cost(config_, list.size());
     sort_.work(cost.cycles);
     ++counters_.visits;
-    counters_.visits_trivial += list.size() < 2 ? 1 : 0;
+    counters_.visits_trivial += list.size() == 1 ? 1 : 0;
     counters_.keys += list.size();
     counters_.compare_exchanges += cost.compare_exchanges;
     for (const FineCandidate& next : list) {
@@ -57,7 +57,7 @@ void ExactSorter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(sort_, "sorting", "takes, sorts and hands on the keys of one chunk");
   sheet.counter("visits", "chunks", "sorted, once for each group", counters_.visits);
-  sheet.counter("visits_trivial", "chunks", "of these with one key or none",
+  sheet.counter("visits_trivial", "chunks", "of these with one key: in order already",
                 counters_.visits_trivial);
   sheet.counter("keys", "keys", "received", counters_.keys);
   sheet.counter("compare_exchanges", "operations", "of the sorting network",

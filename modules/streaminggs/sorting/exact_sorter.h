@@ -25,7 +25,7 @@ class ExactSorter : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t visits = 0;
-    std::uint64_t visits_trivial = 0;  // 0 or 1 keys: nothing to sort
+    std::uint64_t visits_trivial = 0;  // 1 key: nothing to sort
     std::uint64_t keys = 0;
     std::uint64_t compare_exchanges = 0;
   };

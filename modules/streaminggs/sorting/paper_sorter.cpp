@@ -85,7 +85,7 @@ SplatToken PaperSorter::collect(FifoSelector<SplatToken>& inputs) {
     }
   }
   ++counters_.visits;
-  counters_.visits_trivial += received_ < 2 ? 1 : 0;
+  counters_.visits_trivial += received_ == 1 ? 1 : 0;
   counters_.splats += received_;
   counters_.list_max = std::max(counters_.list_max, received_);
   return end;
@@ -211,7 +211,7 @@ void PaperSorter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(sort_, "sorting", "takes, sorts and hands on the splats of one visit");
   sheet.counter("visits", "voxels", "sorted, once for each group", counters_.visits);
-  sheet.counter("visits_trivial", "voxels", "of these with one splat or none",
+  sheet.counter("visits_trivial", "voxels", "of these with one splat: in order already",
                 counters_.visits_trivial);
   sheet.counter("splats", "splats", "received", counters_.splats);
   sheet.counter("splats_saturated", "splats", "dropped: their group was finished",

@@ -38,7 +38,7 @@ class PaperSorter : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t visits = 0;
-    std::uint64_t visits_trivial = 0;    // 0 or 1 splats: nothing to sort
+    std::uint64_t visits_trivial = 0;    // 1 splat: nothing to sort
     std::uint64_t splats = 0;            // received
     std::uint64_t splats_saturated = 0;  // dropped: the group was finished
     std::uint64_t compare_exchanges = 0;

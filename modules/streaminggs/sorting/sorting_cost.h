@@ -26,7 +26,7 @@ struct SortingCost {
   std::uint64_t compare_exchanges = 0;
 };
 
-// Sorting n entries on chip. A list of 0 or 1 is in order already: nothing need be done.
+// Sorting n entries on chip. A list of 1 is in order already and need not pass; of 0 there is none.
 constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_t n) {
   if (n == 0 || (n == 1 && config.skip_trivial)) return {};
   const std::uint64_t blocks = (n + kNetworkWidth - 1) / kNetworkWidth;
@@ -36,11 +36,11 @@ constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_
           (blocks * kSortStages + merges * kMergeStages) * kMergeWidth};
 }
 
-// What lists of one entry or none spare, for the data sheet.
+// What lists of one entry spare, for the data sheet.
 inline void publish_trivial_sorts(DataSheet& sheet, const SortingNetworkConfig& config,
                                   std::uint64_t lists) {
   sheet.left_out(
-      "trivial_sorts", "a visit with one splat or none", lists,
+      "trivial_sorts", "a visit with one splat", lists,
       config.skip_trivial ? "a pass of the sorting network each" : "nothing: switched off");
 }
 

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "algorithm/splat/blend.h"
+#include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/spherical_harmonics.h"
-#include "modules/streaminggs/hfu/lane_macs.h"
 
 namespace sgs {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
+#include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/make_splat.h"
-#include "modules/streaminggs/hfu/lane_macs.h"
 #include "tests/algorithm/splat/random_gaussian.h"
 
 namespace sgs::test {

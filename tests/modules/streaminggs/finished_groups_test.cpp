@@ -16,8 +16,9 @@ TEST_CASE("finished groups: seen at the latency, not a cycle sooner, each group 
   struct Row {
     std::uint32_t latency_cycles;
     std::uint64_t finished_in_cycle;
+    std::uint32_t known_in_cycles;
   };
-  const std::vector<Row> rows = {{1, 0}, {1, 7}, {2, 7}, {5, 0}, {40, 13}};
+  const std::vector<Row> rows = {{1, 0, 0}, {1, 7, 0}, {2, 7, 3}, {5, 0, 1}, {40, 13, 4}};
   sc_core::sc_vector<FinishedGroups> channels("finished");
   channels.init(rows.size(), [&](const char* name, std::size_t k) {
     return new FinishedGroups(name, clock, 3, rows[k].latency_cycles);
@@ -28,18 +29,19 @@ TEST_CASE("finished groups: seen at the latency, not a cycle sooner, each group 
     const Row& row = rows[k];
     bodies.emplace_back([&] {
       clock.wait_cycles(row.finished_in_cycle);
-      groups.finish(1);
+      groups.finish(1, row.known_in_cycles);
       CHECK_FALSE(groups.finished(1));
       // Said again, it stays as early as it was.
       clock.wait_cycles(1);
-      groups.finish(1);
+      groups.finish(1, row.known_in_cycles);
     });
     bodies.emplace_back([&] {
       for (std::uint64_t cycle = 0; cycle < 60; ++cycle) {
         // However many times the kernel comes round in this instant.
         for (int delta = 0; delta < 3; ++delta) {
           INFO("latency " << row.latency_cycles << ", cycle " << cycle);
-          const std::uint64_t seen_from = row.finished_in_cycle + row.latency_cycles;
+          const std::uint64_t seen_from =
+              row.finished_in_cycle + row.known_in_cycles + row.latency_cycles;
           CHECK(groups.finished(1) == (cycle >= seen_from));
           CHECK_FALSE(groups.finished(0));
           CHECK_FALSE(groups.finished(2));
@@ -67,8 +69,8 @@ TEST_CASE("finished groups: both ends are ports, and a group said twice in a cyc
   unit.finished(groups);
   unit.finish(groups);
   Threads threads({[&] {
-    unit.finish->finish(0);
-    unit.finish->finish(0);
+    unit.finish->finish(0, 0);
+    unit.finish->finish(0, 0);
     clock.wait_cycles(1);
     CHECK_FALSE(unit.finished->finished(0));
     clock.wait_cycles(1);
