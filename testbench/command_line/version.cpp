@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "commit.h"  // made by the build
+
 namespace sgs {
 
 std::string version() { return SGS_VERSION; }
