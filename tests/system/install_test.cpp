@@ -72,8 +72,8 @@ TEST_CASE("install: programs without their files say so") {
 
 TEST_CASE("install: no program names the data of the source tree") {
   const Prefix prefix;
-  for (const char* place : {"testbench/configs", "testbench/cost/technology",
-                            "modules/dram/memspecs", "testbench/dram/published"}) {
+  for (const char* place : {"testbench/configs", "testbench/cost/technology_32nm",
+                            "modules/dram/memspecs", "testbench/dram/published.json"}) {
     for (const char* program : {"$IN/streaminggs", "$IN/tb_dram"}) {
       INFO(place << " in " << program);
       const std::string line = std::string("grep -c '" SGS_SOURCE_DIR "/") + place + "' " + program;
