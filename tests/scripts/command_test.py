@@ -1,0 +1,85 @@
+"""Every script makes its tables with the command; skipped where $STREAMINGGS does not name it."""
+
+import pathlib
+import unittest
+
+from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
+import compare_orders
+import compare_variants
+import explore
+import simulations
+import timing
+import tuned_orders
+import work_precision
+from scenes import find_scene
+
+
+@unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
+class WithTheCommand(InFolder):
+    def made(self, script, *arguments: str) -> str:
+        """The tables of a script, after it has ended well."""
+        status, line, tables_of_it = self.ended(
+            script, str(self.scene), "--streaminggs", COMMAND, "--out", str(self.folder), *arguments
+        )
+        self.assertEqual(status, 0, line)
+        return tables_of_it
+
+    def test_every_script_makes_its_tables(self):
+        for script, arguments, lines in (
+            (compare_orders, ("--sizes", "64x36"), {"| truck | 0 |": 2, "| 0 | exact |": 1}),
+            (compare_variants, ("--size", "64x36"), {"| truck |": 8 + 1 + 2, "| StreamingGS |": 2}),
+            (
+                explore,
+                ("--axis", "hfus=2,4", "--axis", "group_px=16,32"),
+                {"of 4 configurations": 1, "Refused": 0},
+            ),
+            (explore, ("--config", "paper", "--axis", "hfus=2"), {"| 2 | 32 |": 1}),
+            (timing, ("--repeats", "1", "--configs", "exact", "paper"), {"| truck | 64 |": 2}),
+            (tuned_orders, (), {"| truck |": 1}),
+            (work_precision, (), {"| truck | 0 |": 20, "| 4,096 |": 2}),
+        ):
+            with self.subTest(script.__name__, arguments=arguments):
+                made = self.made(script, *arguments)
+                self.assertRegex(made, f"Made by `scripts/{script.__name__}.py ")
+                for text, count in lines.items():
+                    self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+
+    def test_memory_is_as_large_as_needed(self):
+        scene = find_scene(str(self.scene))
+        for config in ("exact", "paper_no_vq"):
+            with self.subTest(config):
+                overrides = (*simulations.SRAM_AS_NEEDED, "hfus=2", "group_px=48")
+                run = simulations.Run(scene, config=config, overrides=overrides)
+                (view,) = simulations.simulate(pathlib.Path(COMMAND), run).accepted()
+                for memory in ("input", "shared"):
+                    needed = view["sram"][f"{memory}_bytes"]
+                    self.assertGreater(needed, 0)
+                    self.assertEqual(needed, view["sram"][f"{memory}_available_bytes"])
+                    self.assertEqual(needed, view["config"]["sram"][f"{memory}_bytes"])
+
+    def test_what_the_command_refuses(self):
+        for script, arguments, line in (
+            (explore, ("--axis", "hfus=2", "--config", "nope"), "streaminggs: .*nope"),
+            (explore, ("--axis", "hfus=2", "--view", "99"), "--view: '99'"),
+            (explore, ("--axis", "group_px=0"), "group_px: got 0 with sram.shared_bytes 0"),
+            (explore, ("--axis", "hfu=2"), "--set hfu=2: "),
+            (compare_orders, ("--sizes", "3"), "--size: '3'"),
+            (compare_variants, ("--view", "x"), "--view: 'x'"),
+            (timing, ("--view", "7"), "--view: '7'"),
+            (timing, ("--configs", "nope"), "streaminggs: .*nope"),
+            (work_precision, ("--view", "7"), "--view: '7'"),
+            (work_precision, ("--set", "nope=1"), "streaminggs: .*nope"),
+        ):
+            with self.subTest(script.__name__, arguments=arguments):
+                status, said, made = self.ended(
+                    script,
+                    str(self.scene),
+                    *("--streaminggs", COMMAND, "--out", str(self.folder)),
+                    *arguments,
+                )
+                self.assertRegex(said, line)
+                self.assertEqual((status, made), (2, ""))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,163 @@
+"""What the scripts compute themselves."""
+
+import pathlib
+import tempfile
+import unittest
+from unittest import mock
+
+import in_folder  # noqa: F401, isort: skip (finds the scripts)
+import compare_orders
+import compare_variants
+import explore
+import fill_readme
+import objectives
+import run_arguments
+import simulations
+import tables
+import work_precision
+from scenes import find_scene
+
+
+class Pareto(unittest.TestCase):
+    def test_what_another_beats_everywhere_is_not_on_the_front(self):
+        points = [(1, 9), (5, 5), (9, 1), (6, 6), (5, 6)]
+        self.assertEqual(objectives.pareto_front(points), [True, True, True, False, False])
+
+    def test_equal_points_stay_together(self):
+        self.assertEqual(objectives.pareto_front([(2, 2), (2, 2), (3, 2)]), [True, True, False])
+
+    def test_counts_add_up_over_views_costs_do_not(self):
+        hfu = {"cfus": 4, "cfu_lanes": 4, "ffu_lanes": 16}
+        view = {
+            "frame": {"cycles": 10},
+            "dram": {"bytes": 70},
+            "config": {"hfus": 2, "hfu": hfu},
+            "sram": {
+                "input_bytes": 1,
+                "input_available_bytes": 5,
+                "shared_available_bytes": 6,
+                "uses": [],
+            },
+            "area_mm2": {"total": 1.5},
+        }
+        for name, of_two_views in (
+            ("cycles", 20),
+            ("dram_bytes", 140),
+            ("mac_lanes", 2 * (4 * 4 + 16)),
+            ("sram_bytes", 11),
+            ("frame.cycles", 20),
+            ("area_mm2.total", 1.5),
+            ("config.hfus", 2),
+            ("sram.input_bytes", 1),
+        ):
+            with self.subTest(name):
+                self.assertEqual(objectives.objective(name, [view, view]), of_two_views)
+        with self.assertRaisesRegex(ValueError, "no number at 'frame.joules'"):
+            objectives.objective("frame.joules", [view])
+
+
+class Configurations(unittest.TestCase):
+    def test_axis(self):
+        self.assertEqual(explore.parse_axis("hfus=2,4"), ["hfus=2", "hfus=4"])
+        for bad in ("hfus", "=2", "hfus=", "hfus=2,"):
+            with self.assertRaises(ValueError):
+                explore.parse_axis(bad)
+
+    def test_points_of_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "points"
+            path.write_text("hfus=2 group_px=64 # small\n\n# none\nhfus=4\n")
+            self.assertEqual(explore.read_points(path), [("hfus=2", "group_px=64"), ("hfus=4",)])
+            path.write_text("hfus=2\nhfus 4\n")
+            with self.assertRaisesRegex(ValueError, ":2: 'hfus'"):
+                explore.read_points(path)
+            path.write_text("# none\n")
+            with self.assertRaisesRegex(ValueError, "points: no configurations"):
+                explore.read_points(path)
+
+    def test_one_axis_at_a_time_around_the_preset(self):
+        merge = {"entries": 2048, "on_overflow": "spill"}
+        preset = {"group_px": 128, "storage": {"chunk_gaussians": 16}, "merge": merge}
+        points = work_precision.combinations(preset, cross=False)
+        # 6 sizes x 2 policies, and 3 groups and 4 chunks that are not the preset's.
+        self.assertEqual(len(points), 12 + 3 + 4)
+        self.assertEqual(len(set(points)), len(points))
+        self.assertEqual(len(work_precision.combinations(preset, cross=True)), 4 * 5 * 6 * 2)
+
+    def test_unknown_scene_is_refused_with_what_there_is(self):
+        with self.assertRaisesRegex(ValueError, "nowhere: no scene; expected .*builtin:object"):
+            find_scene("nowhere")
+
+
+class Tables(unittest.TestCase):
+    def test_markdown(self):
+        table = tables.markdown(("name", "n"), [("a|b", 12345), ("c", 6)])
+        self.assertEqual(table, "| name | n |\n| --- | ---: |\n| a\\|b | 12,345 |\n| c | 6 |\n")
+
+    def test_fractions_stand_at_the_right_too(self):
+        table = tables.markdown(("J",), [(0.000123456789,), (1.5e-9,)])
+        self.assertEqual(table, "| J |\n| ---: |\n| 0.000123457 |\n| 1.5e-09 |\n")
+
+    def test_csv(self):
+        self.assertEqual(tables.csv_text(("a", "b"), [(1, "x, y")]), 'a,b\n1,"x, y"\n')
+
+    def test_places_in_the_readme(self):
+        readme = "A\n<!-- table: one -->\nold\n<!-- end -->\nB\n<!-- table: two -->\n<!-- end -->\n"
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "one.md").write_text("new\n")
+            filled = fill_readme.filled(readme, pathlib.Path(folder))
+        self.assertEqual(filled, readme.replace("old", "new"))
+
+    def test_readmes_of_sources_only(self):
+        with tempfile.TemporaryDirectory() as folder:
+            top = pathlib.Path(folder)
+            for name in ("", "modules/dram", "build/release", "out/x", ".git"):
+                (top / name).mkdir(parents=True, exist_ok=True)
+                (top / name / "README.md").write_text("text\n")
+            found = [str(path.relative_to(top)) for path in fill_readme.readmes(top)]
+        self.assertEqual(found, ["README.md", "modules/dram/README.md"])
+
+
+class Reports(unittest.TestCase):
+    VIEW = {
+        "dram": {"bytes_by_region": {"spill": {"merge": {"read": 5, "write": 7}}, "empty": {}}},
+        "units": {
+            "merge": {"activities": {"merge": {"busy_cycles": 9}}, "counters": {"keys": 3}},
+            "hfu0.coarse": {"activities": {}, "counters": {"keys": 4}},
+            "vsu": {"activities": {}, "counters": {}},
+        },
+        "image": {"psnr_db": None},
+    }
+
+    def test_sums(self):
+        self.assertEqual(simulations.region_bytes(self.VIEW, "spill"), 12)
+        self.assertEqual(simulations.region_bytes(self.VIEW, "indices"), 0)
+        self.assertEqual(simulations.work(self.VIEW, "keys"), 7)
+        self.assertEqual(simulations.psnr_text(self.VIEW), "equal")
+
+    def test_value_at_path(self):
+        self.assertEqual(compare_orders.value_at({"a": {"b": 3}}, ("a", "b")), 3)
+
+
+    def test_what_the_filters_remove(self):
+        def unit(**counters):
+            return {"activities": {}, "counters": counters}
+
+        units = {
+            "hfu0.coarse": unit(coarse_tests=100, coarse_passed=50),
+            "hfu0.fine": unit(fine_tests=50, splats=20),
+            "rendering": unit(splats=7),
+        }
+        self.assertEqual(compare_variants.removed([{"units": units}]), "50% / 60% / 80.0%")
+
+    def test_where_a_table_comes_from(self):
+        words = ["explore.py", "truck", "--out", "x", "--side-by-side=1", "--streaminggs", "y"]
+        words.append("--cross")
+        views = [{"provenance": {"commit": "abc"}}, {"provenance": {}}]
+        with mock.patch("sys.argv", words):
+            made = run_arguments.how_made(views)
+        self.assertEqual(made, "Made by `scripts/explore.py truck --cross`; commit abc.\n\n")
+
+
+if __name__ == "__main__":
+    unittest.main()

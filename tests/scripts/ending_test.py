@@ -1,0 +1,118 @@
+"""How the scripts end, whatever a simulation does: a program stands in for the command."""
+
+import unittest
+
+from in_folder import InFolder  # isort: skip (finds the scripts)
+import compare_orders
+import compare_variants
+import explore
+import fill_readme
+import simulations
+import timing
+import tuned_orders
+import work_precision
+from scenes import Scene
+
+SCENE = Scene("toy", "builtin:object")
+
+
+class Simulator(InFolder):
+    def test_outcomes(self):
+        for what, body, expected in (
+            ("views", "finish()", ([8], "")),
+            (
+                "a refusal",
+                "print('group_px: 6 is\\nodd', file=sys.stderr); sys.exit(2)",
+                ([], "group_px: 6 is odd"),
+            ),
+        ):
+            with self.subTest(what):
+                outcome = simulations.simulate(self.stand_in(body), simulations.Run(SCENE))
+                cycles = [view["frame"]["cycles"] for view in outcome.views]
+                self.assertEqual((cycles, outcome.refused), expected)
+
+    def test_failures(self):
+        for what, body, expected in (
+            (
+                "frame that differs",
+                "print('a table'); print('the frame differs'); sys.exit(1)",
+                "^toy exact hfus=2: the frame differs$",
+            ),
+            ("crash", "os.kill(os.getpid(), signal.SIGKILL)", "^toy exact hfus=2: exit status -9$"),
+        ):
+            run = simulations.Run(SCENE, overrides=("hfus=2",))
+            with self.subTest(what), self.assertRaisesRegex(simulations.Failure, expected):
+                simulations.simulate(self.stand_in(body), run)
+
+
+# Script, and the arguments besides a scene that it cannot do without.
+SCRIPTS = (
+    (compare_orders, ()),
+    (compare_variants, ()),
+    (explore, ("--axis", "hfus=2,4")),
+    (timing, ()),
+    (tuned_orders, ()),
+    (work_precision, ()),
+)
+
+
+class Ends(InFolder):
+    """Bad input: one line that says what is wrong, and exit status 2."""
+
+    def check(self, script, arguments, expected_status, expected_line):
+        status, line, _ = self.ended(script, str(self.scene), *arguments)
+        self.assertRegex(line, f"^{script.__name__}.py: {expected_line}")
+        self.assertEqual(status, expected_status)
+        self.assertEqual(list(self.folder.glob("*/*.md")), [])
+
+    def test_of_every_script(self):
+        file = self.folder / "file"
+        file.write_text("not a program\n")
+        refusing = "print('streaminggs: --view: 99, expected 0', file=sys.stderr); sys.exit(2)"
+        differing = "print('the frame differs'); sys.exit(1)"
+        cases = (
+            ("--out is a file", "finish()", ("--out", str(file)), 2, "--out: .*expected a folder"),
+            ("--out below a file", "finish()", ("--out", f"{file}/x"), 2, "--out: .* a folder"),
+            ("no program", "", ("--streaminggs", "no"), 2, "no: not there; scripts/setup.sh"),
+            ("not a program", "", ("--streaminggs", str(file)), 2, ".*file: cannot be run: Perm"),
+            ("all refused", refusing, (), 2, "(truck .*: )?streaminggs: --view: 99, expected 0$"),
+            ("differs", differing, (), 1, "truck .*: the frame differs$"),
+        )
+        for what, body, more, status, line in cases:
+            program = ("--streaminggs", str(self.stand_in(body)), "--out", str(self.folder / "out"))
+            for script, needed in SCRIPTS:
+                # It asks for the resolved configuration first, and takes no answer but a good one.
+                if what == "differs" and script is work_precision:
+                    status = 2
+                    line = "the frame differs$"
+                with self.subTest(what, script=script.__name__):
+                    self.check(script, (*needed, *program, *more), status, line)
+
+    def test_of_one_script(self):
+        good = self.stand_in("finish()")
+        for script, arguments, line in (
+            (explore, ("--points", "nowhere"), "nowhere: No such file or directory$"),
+            (explore, ("--points", str(self.folder)), ".*: Is a directory$"),
+            (explore, ("--axis", "hfus"), "--axis: 'hfus', expected KEY=VALUE"),
+            (
+                explore,
+                ("--axis", "hfus=2", "--objectives", "joules"),
+                "--objectives: report.json has no number at 'joules'$",
+            ),
+            (timing, ("--repeats", "0"), "--repeats: 0, expected at least 1$"),
+        ):
+            with self.subTest(script.__name__, arguments=arguments):
+                program = ("--streaminggs", str(good), "--out", str(self.folder / "out"))
+                self.check(script, (*program, *arguments), 2, line)
+
+    def test_unknown_scene_and_readme(self):
+        for script in (explore, fill_readme):
+            with self.subTest(script.__name__):
+                needed = ("--axis", "hfus=2") if script is explore else ()
+                status, line, _ = self.ended(script, "nowhere", *needed)
+                self.assertRegex(line, "nowhere: (no scene|No such file)")
+                self.assertEqual(status, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

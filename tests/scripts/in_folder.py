@@ -1,0 +1,77 @@
+"""What tests of scripts share: the scripts themselves, a small scene, and a program that answers as
+the command does. $STREAMINGGS names the command; it is empty where there is none."""
+
+import contextlib
+import io
+import os
+import pathlib
+import stat
+import struct
+import sys
+import tempfile
+import textwrap
+import unittest
+from unittest import mock
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(REPOSITORY / "scripts"))
+
+COMMAND = os.environ.get("STREAMINGGS", "")
+
+
+class InFolder(unittest.TestCase):
+    """A folder of its own with a small trained scene, truck.ply, and its camera."""
+
+    GAUSSIANS = 64
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.scene = self.folder / "truck.ply"
+        self.write_scene()
+
+    def write_scene(self):
+        names = ["x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity"]
+        names += [f"scale_{axis}" for axis in range(3)] + [f"rot_{part}" for part in range(4)]
+        head = ["ply", "format binary_little_endian 1.0", f"element vertex {self.GAUSSIANS}"]
+        head += [*(f"property float {name}" for name in names), "end_header", ""]
+        size, turn = (-3, -3, -3), (1, 0, 0, 0)
+        body = b"".join(
+            struct.pack("<14f", i % 8 / 8, i // 8 / 8, i % 5 / 5, i % 3, 0, 1, 2, *size, *turn)
+            for i in range(self.GAUSSIANS)
+        )
+        self.scene.write_bytes("\n".join(head).encode() + body)
+        self.scene.with_suffix(".json").write_text(
+            """[{"id": 0, "img_name": "0", "width": 64, "height": 36, "fx": 60, "fy": 60,
+                 "position": [0.5, 0.5, -2], "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}]"""
+        )
+
+    def stand_in(self, body: str) -> pathlib.Path:
+        """A program in the command's place. It has SET, the values of --set, and `finish()`, which
+        writes the report of a view that took 8 cycles over the number of HFUs."""
+        program = self.folder / "streaminggs"
+        prelude = f"""\
+            #!{sys.executable}
+            import json, os, pathlib, signal, sys, time
+            HERE = pathlib.Path(__file__).parent
+            SET = dict(word.split("=") for word in sys.argv if "=" in word)
+            def finish():
+                hfus = int(SET.get("hfus", 1))
+                view = {{"frame": {{"cycles": 8 // hfus}}, "binding": {{"unit": "dram"}},
+                        "config": {{"hfus": hfus, "group_px": 112}}, "provenance": {{}}}}
+                out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
+                (out / "report.json").write_text(json.dumps({{"views": [view]}}))
+            """
+        program.write_text(textwrap.dedent(prelude) + textwrap.dedent(body))
+        program.chmod(program.stat().st_mode | stat.S_IXUSR)
+        return program
+
+    def ended(self, script, *arguments: str) -> tuple[int, str, str]:
+        """Exit status, last line of stderr and stdout of a script that gets these arguments."""
+        out, said = io.StringIO(), io.StringIO()
+        words = [f"{script.__name__}.py", *arguments]
+        with mock.patch("sys.argv", words), contextlib.redirect_stdout(out):
+            with contextlib.redirect_stderr(said):
+                status = script.main()
+        return status, said.getvalue().rstrip().rpartition("\n")[2], out.getvalue()
