@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <limits>
 #include <queue>
-#include <utility>
 #include <vector>
 
 #include "algorithm/order/chunk_walk.h"
+#include "algorithm/order/tree_in_memory.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/coarse_bound.h"
@@ -17,15 +17,6 @@
 
 namespace sgs {
 namespace {
-
-struct TreeInMemory {
-  const ChunkTree& tree;
-  std::vector<WalkEntry> aside;
-  const ChunkNode& node(std::uint32_t index) const { return tree.nodes[index]; }
-  void put_aside(const WalkEntry& entry) { aside.push_back(entry); }
-  std::vector<WalkEntry> take_back() { return std::exchange(aside, {}); }
-  void forget_aside() { aside.clear(); }
-};
 
 struct Key {
   float depth;

@@ -2,8 +2,8 @@
 // Checked against the same walk over the tree itself; cycles and bytes against that walk's counts.
 #include <algorithm>
 #include <limits>
-#include <utility>
 
+#include "algorithm/order/tree_in_memory.h"
 #include "algorithm/storage/build_memory_image.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "modules/streaminggs/vsu/exact_vsu.h"
@@ -41,16 +41,6 @@ Plan plan_of(const TestScene& scene, std::uint32_t chunk) {
   return plan;
 }
 
-// The tree as it was built, for the same walk without any time.
-struct TreeSource {
-  const ChunkTree& tree;
-  std::vector<WalkEntry> aside;
-  const ChunkNode& node(std::uint32_t index) const { return tree.nodes[index]; }
-  void put_aside(const WalkEntry& entry) { aside.push_back(entry); }
-  std::vector<WalkEntry> take_back() { return std::exchange(aside, {}); }
-  void forget_aside() { aside.clear(); }
-};
-
 struct Expected {
   std::vector<std::vector<WalkEntry>> groups;  // chunks in order
   WalkCounters walk;
@@ -59,8 +49,8 @@ struct Expected {
 
 Expected expect(const Plan& plan) {
   Expected out;
-  TreeSource source{plan.tree, {}};
-  ChunkWalk<TreeSource> walk(plan.job.view, source, plan.config.queue_entries);
+  TreeInMemory source{plan.tree, {}};
+  ChunkWalk<TreeInMemory> walk(plan.job.view, source, plan.config.queue_entries);
   for (const PixelRect& group : plan.job.groups) {
     out.groups.emplace_back();
     walk.start(group, plan.tree.nodes.empty());

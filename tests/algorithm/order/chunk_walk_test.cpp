@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <tuple>
-#include <utility>
 
+#include "algorithm/order/tree_in_memory.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/voxel/chunk_tree.h"
@@ -16,18 +16,14 @@ using namespace sgs;
 
 namespace {
 
-struct TreeSource {
-  const ChunkTree& tree;
-  std::vector<WalkEntry> aside;
+struct TreeSource : TreeInMemory {
+  explicit TreeSource(const ChunkTree& tree) : TreeInMemory{tree, {}} {}
   std::uint64_t nodes_read = 0;
 
   const ChunkNode& node(std::uint32_t index) {
     ++nodes_read;
-    return tree.nodes[index];
+    return TreeInMemory::node(index);
   }
-  void put_aside(const WalkEntry& entry) { aside.push_back(entry); }
-  std::vector<WalkEntry> take_back() { return std::exchange(aside, {}); }
-  void forget_aside() { aside.clear(); }
 };
 
 using Chunk = std::tuple<float, std::uint32_t, std::uint32_t>;  // nearest, slot, count
@@ -92,7 +88,7 @@ TEST_CASE("walk visits every touching chunk once, front to back, whatever the qu
   for (unsigned seed = 0; seed < 150; ++seed) {
     const Scene scene = make_scene(seed, 1 + seed * 41 % 900, 1 + seed % 8);
     for (const std::size_t capacity : {9U, 10U, 17U, 64U, 100000U}) {
-      TreeSource source{scene.tree, {}};
+      TreeSource source(scene.tree);
       ChunkWalk<TreeSource> walk(scene.view, source, capacity);
       for (const PixelRect& group : scene.groups) {
         CAPTURE(seed, capacity, group.x0, group.y0);
@@ -118,7 +114,7 @@ TEST_CASE("walk of a group that ends early leaves nothing to the next group") {
   for (unsigned seed = 0; seed < 100; ++seed) {
     const Scene scene = make_scene(seed, 300, 1);
     if (scene.tree.nodes.empty()) continue;
-    TreeSource source{scene.tree, {}};
+    TreeSource source(scene.tree);
     ChunkWalk<TreeSource> walk(scene.view, source, kChunkNodeWidth + 1);
     for (const PixelRect& group : scene.groups) {
       walked(walk, group, false, seed % 7);
@@ -137,7 +133,7 @@ TEST_CASE("walk of an empty tree ends at once") {
   const ChunkTree tree;
   test::HardScenes hard(1);
   const View<float> view = make_view<float>(hard.next(0, 100).camera);
-  TreeSource source{tree, {}};
+  TreeSource source(tree);
   ChunkWalk<TreeSource> walk(view, source, 9);
   CHECK(walked(walk, {0, 0, 4, 4}, true, kAll).empty());
   CHECK(walk.counters().nodes == 0);
@@ -155,7 +151,7 @@ TEST_CASE("walk opens no node farther than the chunk that was asked for") {
   camera.width = camera.height = 4;
   camera.focal_x = camera.focal_y = 4;
   const View<float> view = make_view<float>(camera);
-  TreeSource source{tree, {}};
+  TreeSource source(tree);
   ChunkWalk<TreeSource> walk(view, source, 512);
   const std::vector<Chunk> first = walked(walk, {0, 0, 4, 4}, false, 1);
   REQUIRE(first.size() == 1);
