@@ -26,7 +26,8 @@ struct VisitShare {
 
 // Coarse filter -> (sorting -> merge, in exact order) -> second-half fetch -> fine filter.
 struct FineCandidate {
-  static constexpr std::uint32_t kSramBytes = 24;  // depth, slot, centre and largest scale
+  // Slot, centre, largest scale, and depth or parts: paper order sorts later.
+  static constexpr std::uint32_t kSramBytes = 24;
   std::uint32_t group = 0;
   std::uint32_t visit = 0;
   std::uint32_t slot = 0;
@@ -35,6 +36,7 @@ struct FineCandidate {
   float mean_x = 0, mean_y = 0, mean_z = 0, scale_max = 0;
   std::uint64_t ticket = 0;  // of the second half's read
   std::uint32_t buffer = 0;  // where it lands
+  std::uint32_t parts = 1;   // of the group that it may touch, a bit each
   Mark mark = Mark::kNone;   // with a mark there is no Gaussian
 };
 

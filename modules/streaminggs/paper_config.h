@@ -1,6 +1,8 @@
 // What can be chosen about the machine of paper order.
 #pragma once
 
+#include <algorithm>
+
 #include "algorithm/memory/storage_config.h"
 #include "modules/streaminggs/fifo_kind.h"
 #include "modules/streaminggs/messages.h"
@@ -15,10 +17,25 @@ struct PaperConfig : StreamingConfig {
   PaperVsuConfig vsu;
   PaperSorterConfig sorting;
 
-  PaperConfig() { sram = {16 * 1024, 250 * 1024, 89 * 1024}; }
+  PaperConfig() {
+    sram = {16 * 1024, 250 * 1024, 89 * 1024};
+    fetch = Fetch::kShared;
+    hfu.slice_gaussians = 512;  // 8 KB, twice
+    group_px = 48;
+    rendering.pixel_buffers = 1;
+  }
+
+  // Lists that are sorted side by side: those of one part of the groups, and of all. A network
+  // serves several lists in turn where there are more lists than networks.
+  std::uint32_t lists_of_part() const { return std::max(1U, sorting_units / parts()); }
+  std::uint32_t lists() const { return parts() * lists_of_part(); }
+  std::uint32_t lists_of_network() const { return lists() / sorting_units; }
 };
 
 void visit(ConfigVisitor& v, PaperConfig& config);
+
+// Throws InputError for what cannot be built.
+void check(const PaperConfig& config);
 
 // FIFOs between its units, beside those of visits.
 struct PaperFifos {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "algorithm/input_error.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/visited_in_order.h"
@@ -16,28 +15,22 @@
 namespace sgs {
 namespace {
 
-// For each sorting unit two copies of the largest voxel's splats.
+// For each list that is being sorted two copies of the largest voxel's splats.
 std::uint64_t spill_bytes(const PaperConfig& config, const VoxelGrid& grid) {
   std::uint64_t longest = 0;
   for (const VoxelRecord& voxel : grid.voxels) {
     longest = std::max<std::uint64_t>(longest, voxel.count);
   }
-  return config.sorting_units * 2 * longest * kSplatEntryBytes;
+  return config.lists() * 2 * longest * kSplatEntryBytes;
 }
 
 }  // namespace
 
 void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   storage_ = storage;
+  check(config_);
   resolve_sram(
       config_, [&] { return sram_uses(config_, storage_); }, chosen);
-  const PaperSorterConfig& sorting = config_.sorting;
-  if (sorting.buffer_entries < 4 * sorting.spill_block_entries) {
-    throw InputError(fmt::format(
-        "sorting.buffer_entries: got {} splats, expected at least {}: two runs are merged with two "
-        "blocks of {} each",
-        sorting.buffer_entries, 4 * sorting.spill_block_entries, sorting.spill_block_entries));
-  }
 }
 
 void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {

@@ -85,6 +85,7 @@ TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   StreamingJob& job = scene.job;
   job.view = make_view<float>(camera);
   job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
+  job.parts = {job.groups};
   scene.image = build_memory_image(encoded, scene.grid);
   scene.cloud = std::move(encoded.decoded);
   place(scene.image.layout, 0, job);

@@ -57,9 +57,10 @@ void check_joules(const Json& view) {
   }
   expected["buffers"] =
       prices.in_and_out("small", 16 * sum_of(view, "first_halves") +
-                                     view["scene"]["second_half_bytes"].get<double>() *
-                                         sum_of(view, "second_halves") +
-                                     48 * splats);
+                                     48 * splats) +
+      8 * view["scene"]["second_half_bytes"].get<double>() *
+          (sum_of(view, "second_halves") * prices.of("sram_small_write_bit") +
+           sum_of(view, "second_halves_taken") * prices.of("sram_small_read_bit"));
   if (config["machine"] == "exact") {
     expected["vsu"] =
         80 * static_cast<double>(counter(view, "vsu", "tests")) * prices.of("fp32_mac");
@@ -138,7 +139,11 @@ TEST_CASE("costs: the binding resource is the busiest") {
          {"rendering.clusters=1", "hfu.ffu_lanes=1", "hfu.cfu_lanes=1", "dram.channels=1"}) {
       INFO(machine << " " << slow);
       const Simulation simulation({"builtin:object?n=2000", "--size", "96x54", "--config", machine,
-                                   "--set", "storage.encoding=raw", "--set", slow});
+                                   "--set", "storage.encoding=raw", "--set", slow,
+                                   // HFUs that share a fetch have a cluster each
+                                   "--set",
+                                   std::string(slow) == "rendering.clusters=1" ? "hfus=1"
+                                                                               : "hfus=4"});
       check_binding(simulation.views()[0]);
       if (std::string(slow) == "hfu.ffu_lanes=1") {
         CHECK(simulation.views()[0]["binding"]["unit"] == "fine");
@@ -195,9 +200,11 @@ TEST_CASE("costs: what was left out: empty groups are empty, saturated ones satu
     CHECK(empty >= kGroups / 4);
     CHECK(empty <= kGroups * 3 / 4);
     CHECK(left_out(plain, "empty_groups") == empty);
-    const std::uint64_t finished = counter(view, "rendering", "groups_saturated");
+    const std::uint64_t finished = counter_of_all(view, "rendering", "groups_saturated");
     CHECK(finished > 0);
-    CHECK(finished + empty <= kGroups);
+    // In paper order each HFU has its part of every group.
+    const std::uint64_t parts = std::string(machine) == "paper" ? 4 : 1;
+    CHECK(finished + parts * empty <= parts * kGroups);
     for (const char* what :
          {"saturated_groups", "saturated_visits", "saturated_gaussians", "saturated_tests"}) {
       CHECK(left_out(plain, what) == 0);  // nobody was told
@@ -205,8 +212,9 @@ TEST_CASE("costs: what was left out: empty groups are empty, saturated ones satu
     CHECK(left_out(view, "saturated_gaussians") > 0);
     // Some were dropped with their second half, which was not spared.
     CHECK(left_out(view, "saturated_tests") > 0);
-    CHECK(left_out(view, "saturated_tests") ==
-          total(view, "second_halves") - total(view, "fine_tests"));
+    const std::uint64_t untested = total(view, "second_halves_taken") - total(view, "fine_tests");
+    CHECK(left_out(view, "saturated_tests") >= untested);
+    if (parts == 1) CHECK(left_out(view, "saturated_tests") == untested);
     CHECK(left_out(view, "saturated_gaussians") + left_out(view, "saturated_tests") ==
           total(view, "dropped_saturated"));
     if (std::string(machine) == "exact") {

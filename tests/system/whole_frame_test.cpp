@@ -90,7 +90,9 @@ TEST_CASE("whole frame: other numbers of units, ports and memory channels") {
   for (const char* order : {"paper", "exact"}) {
     for (const Arguments& variant :
          {Arguments{"--set", "hfus=1", "--set", "sorting_units=1"},
-          Arguments{"--set", "hfus=3", "--set", "sorting_units=5"},
+          order == std::string("paper")
+              ? Arguments{"--set", "hfus=3", "--set", "fetch=split", "--set", "sorting_units=5"}
+              : Arguments{"--set", "hfus=3", "--set", "sorting_units=5"},
           Arguments{"--set", "memory_port.max_outstanding=1", "--set", "dram.channels=1"},
           Arguments{"--set", "clock_mhz=733"},
           Arguments{"--set", "hfu.cfus=1", "--set", "hfu.second_half_slots=1", "--set",

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "algorithm/memory/records.h"
-#include "algorithm/splat/coarse_bound.h"
 
 namespace sgs {
 
@@ -29,7 +28,7 @@ void CoarseFilter::run_load() {
   }
   while (true) {
     VisitShare share = shares->pop(load_);
-    if (share.count > 0 && finished->finished(share.group)) {
+    if (share.count > 0 && all_finished(finished, share.group)) {
       counters_.dropped_saturated += share.count;
       share.count = 0;
     }
@@ -79,13 +78,14 @@ void CoarseFilter::run_filter() {
 // The CFUs take `cfus` Gaussians at a time. Simulated time is only let pass where somebody could
 // see it: before a candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
-  const PixelRect& pixels = job_.groups[slice.share.group];
   const std::byte* records =
       input_.data() + std::size_t{slice.slot} * config_.slice_gaussians * kFirstHalfBytes;
   std::uint64_t pending_cycles = 0;
+  std::uint32_t open = 0;  // parts
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
     if (i % config_.cfus == 0) {
-      if (finished->finished(slice.share.group)) {
+      open = unfinished_parts(finished, slice.share.group);
+      if (open == 0) {
         counters_.dropped_saturated += slice.share.count - i;
         break;
       }
@@ -93,17 +93,17 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     }
     const FirstHalf first = decode_first_half(records + std::size_t{i} * kFirstHalfBytes);
     const CoarseBound bound = coarse_bound(job_.view, first.mean, first.scale_max);
-    if (config_.coarse_filter) {
-      ++counters_.tests;
-      if (!bound.in_front || !touches(bound, pixels)) continue;
-    }
-    ++counters_.passed;
+    const std::uint32_t parts = test(bound, slice.share.group, open);
+    if (parts == 0) continue;
+    counters_.passed += count_parts(parts);
+    ++counters_.candidates;
     filter_.work(pending_cycles);
     pending_cycles = 0;
     FineCandidate candidate;
     candidate.group = slice.share.group;
     candidate.visit = slice.share.visit;
     candidate.slot = slice.share.first + i;
+    candidate.parts = parts;
     candidate.depth = bound.depth;
     candidate.mean_x = first.mean.x;
     candidate.mean_y = first.mean.y;
@@ -112,6 +112,22 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     in_turn(survivors, candidate.visit).push(candidate, filter_);
   }
   filter_.work(pending_cycles);
+}
+
+// The parts that the Gaussian may touch, of those that are open. A part without pixels is finished
+// as soon as the news of it has arrived; until then nothing touches it.
+std::uint32_t CoarseFilter::test(const CoarseBound& bound, std::uint32_t group,
+                                 std::uint32_t open) {
+  if (!config_.coarse_filter) return open;
+  counters_.tests += count_parts(open);
+  if (!bound.in_front) return 0;
+  std::uint32_t parts = 0;
+  for (std::uint32_t p = 0; p < part_count(); ++p) {
+    const bool tested = (open >> p & 1U) != 0;
+    const PixelRect& pixels = job_.parts[p][group];
+    if (tested && !pixels.empty() && touches(bound, pixels)) parts |= 1U << p;
+  }
+  return parts;
 }
 
 SramUses CoarseFilter::sram_uses(const HfuConfig& config) {
@@ -129,15 +145,19 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.counter("shares", "shares", "of visits, empty ones and ends of groups included",
                 counters_.shares);
   sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
-  sheet.counter("coarse_tests", "Gaussians", "tested", counters_.tests);
-  sheet.counter("coarse_passed", "Gaussians", "that may touch their group", counters_.passed);
+  sheet.counter("coarse_tests", "Gaussians", "tested, once for each part of the group",
+                counters_.tests);
+  sheet.counter("coarse_passed", "Gaussians", "of these, that may touch their part",
+                counters_.passed);
+  sheet.counter("coarse_candidates", "Gaussians", "that may touch a part of the group",
+                counters_.candidates);
   sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
                 counters_.dropped_saturated);
   sheet.operations("coarse", "fp32_mac", static_cast<double>(counters_.tests) * config_.cfu_macs);
   const double buffered = 8.0 * static_cast<double>(counters_.first_halves) * kFirstHalfBytes;
   sheet.operations("buffers", "sram_small_write_bit", buffered);
   sheet.operations("buffers", "sram_small_read_bit", buffered);
-  sheet.part("hfus", "mac_lane", config_.cfus * config_.cfu_lanes);
+  sheet.part("hfus", "mac_lane", part_count() * config_.cfus * config_.cfu_lanes);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.port(memory);

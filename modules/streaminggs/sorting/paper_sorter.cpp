@@ -104,7 +104,7 @@ void PaperSorter::accept(const SplatToken& token) {
 void PaperSorter::sort_buffer() {
   std::sort(buffer_.begin(), buffer_.end(), in_front);
   const SortingCost cost = sort_cost(config_, buffer_.size());
-  sort_.work(cost.cycles);
+  sort_.work(place_.lists_of_network * cost.cycles);
   counters_.compare_exchanges += cost.compare_exchanges;
 }
 
@@ -169,7 +169,7 @@ void PaperSorter::merge(const SpillRun* runs, std::size_t count, Sink&& sink) {
   while (!heads.empty() && !finished->finished(group_)) {
     const std::size_t nearest = heads.top();
     heads.pop();
-    owed += std::uint64_t{levels} * config_.merge_interval_cycles;
+    owed += std::uint64_t{levels} * config_.merge_interval_cycles * place_.lists_of_network;
     sort_.work(owed / kMergeWidth);
     owed %= kMergeWidth;
     counters_.compare_exchanges += std::uint64_t{levels} * kMergeStages;
@@ -223,7 +223,7 @@ void PaperSorter::publish(DataSheet& sheet) {
                 counters_.entries_spilled);
   sheet.counter("list_max", "splats", "longest list of one visit", counters_.list_max);
   sheet.operations("sorting", "compare_exchange", static_cast<double>(counters_.compare_exchanges));
-  sheet.part("sorting", "sorting_unit", 1);
+  sheet.part("sorting", "sorting_unit", 1.0 / place_.lists_of_network);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(config_, built_for_));
   sheet.port(memory);

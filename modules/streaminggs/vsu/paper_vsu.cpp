@@ -94,7 +94,7 @@ void PaperVsu::run_emit() {
   for (std::size_t done = 0; done < job_.groups.size(); ++done) {
     const std::shared_ptr<OrderedGroup> ordered = ordered_.pop(emit_);
     for (const std::uint32_t voxel : ordered->voxels) {
-      if (finished->finished(ordered->group)) {
+      if (all_finished(finished, ordered->group)) {
         ++counters_.visits_saturated;
         continue;
       }
@@ -106,15 +106,15 @@ void PaperVsu::run_emit() {
   emit_.enter(ActivityState::kStarved);
 }
 
-// Splits a visit into contiguous shares of even size, no smaller than min_share and whole bursts of
-// first halves; which HFU begins rotates, so that small visits spread.
+// Splits a visit into contiguous shares of even size, one for each fetch, no smaller than min_share
+// and whole bursts of first halves; which begins rotates, so that small visits spread.
 void PaperVsu::hand_out(std::uint32_t group, const VoxelRecord& voxel) {
-  const auto hfus = static_cast<std::uint32_t>(shares.size());
+  const auto fetches = static_cast<std::uint32_t>(shares.size());
   const std::uint32_t unit = std::max(2U, config_.min_share);
   const std::uint32_t share =
-      static_cast<std::uint32_t>(cycles_for(cycles_for(voxel.count, hfus), unit)) * unit;
+      static_cast<std::uint32_t>(cycles_for(cycles_for(voxel.count, fetches), unit)) * unit;
   emit_.work(1);
-  for (std::uint32_t k = 0; k < hfus; ++k) {
+  for (std::uint32_t k = 0; k < fetches; ++k) {
     const std::uint32_t begin = std::min(k * share, voxel.count);
     const std::uint32_t end = std::min(begin + share, voxel.count);
     in_turn(shares, k + next_visit_)

@@ -24,8 +24,8 @@ namespace sgs {
 
 class PaperVsu : public sc_core::sc_module {
  public:
-  FifoOuts<VisitShare> shares{"shares"};  // one a HFU
-  FinishedGroupsIn finished{"finished"};
+  FifoOuts<VisitShare> shares{"shares"};  // one a fetch
+  FinishedGroupsIns finished{"finished"};  // one for each part of the groups
   MemoryPort node_memory;    // tree nodes, for the rays
   MemoryPort record_memory;  // voxel records, for the visits
 
