@@ -16,7 +16,7 @@ enum class StorageOrder : std::uint8_t { kVoxels, kChunks, kFile };
 
 struct VoxelTableLayout {
   VoxelFrame frame;
-  RecordArray nodes, voxels;  // VoxelNode, VoxelRecord
+  RecordArray nodes, voxels, cuts;  // VoxelNode, VoxelRecord, float (voxel_cuts.h)
 };
 
 struct ChunkTableLayout {

@@ -13,6 +13,7 @@
 #include "algorithm/render/missed_splats.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
 namespace {
@@ -96,16 +97,21 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
         ++s.visits_saturated;
         continue;
       }
-      ++s.visits;
       visited.set(voxel);
-      filter_and_sort(view, cloud, grid, grid.voxels[voxel], group, config.coarse_filter, run, s);
-      for (const Splat& splat : run) {
-        if (state.saturated()) break;
-        const auto observe = [&](const SubtileBlend& blend) {
-          if (watch.see(blend, splat.depth)) contributing.set(splat.index);
-        };
-        s.subtile_blends += state.blend(splat, observe).blended;
-      }
+      const auto plane = [&](std::uint32_t index) { return grid.cuts[index]; };
+      const auto visit = [&](const VoxelRecord& piece) {
+        ++s.visits;
+        filter_and_sort(view, cloud, grid, piece, group, config.coarse_filter, run, s);
+        for (const Splat& splat : run) {
+          if (state.saturated()) break;
+          const auto observe = [&](const SubtileBlend& blend) {
+            if (watch.see(blend, splat.depth)) contributing.set(splat.index);
+          };
+          s.subtile_blends += state.blend(splat, observe).blended;
+        }
+        return !state.saturated();
+      };
+      visit_pieces(grid.voxels[voxel], view.position, config.visit_gaussians, plane, visit);
     }
     s.misordered = watch.misordered();
     s.contributors = state.contributors();

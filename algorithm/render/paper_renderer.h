@@ -15,6 +15,8 @@ struct PaperOrderConfig {
   int group_px = 64;             // side of a pixel group, a multiple of 4
   bool coarse_filter = true;     // off: every Gaussian of a voxel goes to the fine filter
   float sample_step_voxels = 0;  // 0: exact traversal of every cell; else the distance of samples
+  // Voxels with more Gaussians are cut (voxel_cuts.h), each piece a visit of its own; 0: never.
+  std::uint32_t visit_gaussians = 0;
   glm::vec3 background{0.0F};
 };
 

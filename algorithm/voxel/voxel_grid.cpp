@@ -12,6 +12,7 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/splat/footprint.h"
+#include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
 namespace {
@@ -135,6 +136,8 @@ VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size, Stored
     ++grid.voxels.back().count;
     grid.storage_order.push_back(index);
   }
+
+  grid.cuts = cut_voxels(cloud, grid.voxels, grid.storage_order);
 
   // Levels bottom up, stored top down: the base of each level is known once all are counted.
   std::vector<std::vector<VoxelNode>> levels;

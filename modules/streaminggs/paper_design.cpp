@@ -8,6 +8,7 @@
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/visited_in_order.h"
+#include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/paper_machine.h"
 #include "modules/streaminggs/streaming_design.h"
 #include "modules/streaminggs/streaming_sram.h"
@@ -15,8 +16,10 @@
 namespace sgs {
 namespace {
 
-// For each list that is being sorted two copies of the largest voxel's splats.
+// For each list that is being sorted two copies of the longest; none where every list fits.
 std::uint64_t spill_bytes(const PaperConfig& config, const VoxelGrid& grid) {
+  const std::uint32_t most = config.vsu.visit_gaussians;
+  if (most > 0 && std::max(most, kLeastCut) <= config.sorting.buffer_entries) return 0;
   std::uint64_t longest = 0;
   for (const VoxelRecord& voxel : grid.voxels) {
     longest = std::max<std::uint64_t>(longest, voxel.count);
@@ -47,6 +50,7 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.group_px = static_cast<int>(config_.group_px);
   order.coarse_filter = config_.hfu.coarse_filter;
   order.sample_step_voxels = static_cast<float>(config_.vsu.sample_step_voxels);
+  order.visit_gaussians = config_.vsu.visit_gaussians;
   order.background = job.background;
   StreamingResult result = render_paper_order(job.view, scene.decoded, scene.grid(), order);
   publish_left_out(scene, result.stats.blocks_visited, sheet);

@@ -128,7 +128,8 @@ void check_bytes(const Json& view) {
     CHECK(asked_bytes(view, "voxel_table", "vsu.node_memory", "read") <=
           kLine * counter(view, "vsu", "node_cache_misses"));
     CHECK(asked_bytes(view, "voxel_table", "vsu.record_memory", "read") <=
-          kLine * counter(view, "vsu", "record_cache_misses"));
+          kLine * (counter(view, "vsu", "record_cache_misses") +
+                   counter(view, "vsu", "cut_cache_misses")));
   } else {
     constexpr std::uint64_t kKey = 28, kWalkEntry = 12;
     CHECK(asked_bytes(view, "spill", "merge", "write") ==

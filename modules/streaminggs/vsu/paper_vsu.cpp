@@ -7,10 +7,14 @@
 
 #include "algorithm/voxel/ray_sampling.h"
 #include "algorithm/voxel/ray_walk.h"
+#include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
 namespace {
+
+// Of a voxel that is being cut: one for each halving of its count; first slot and count.
+constexpr std::uint32_t kOpenPieces = 32, kPieceBytes = 8;
 
 // The voxel tree as a traversal sees it: nodes come out of the cache. Misses are waited for as they
 // happen, the cycles of the steps themselves pass at the end of each ray.
@@ -40,6 +44,7 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       emit_("emit", context.clock),
       nodes_(config.node_cache_bytes, job_.layout.voxel_table().nodes),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
+      cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
       table_(static_cast<std::uint32_t>(job_.layout.voxel_table().voxels.count)),
       ordered_("ordered", context.clock, config.groups_ahead) {
   SC_THREAD(run_traverse);
@@ -98,27 +103,41 @@ void PaperVsu::run_emit() {
         ++counters_.visits_saturated;
         continue;
       }
-      current_voxel_ = voxel;
-      hand_out(ordered->group, records_.get(voxel, record_memory, emit_));
+      visit_voxel(ordered->group, voxel);
     }
     mark_end(ordered->group);
   }
   emit_.enter(ActivityState::kStarved);
 }
 
+void PaperVsu::visit_voxel(std::uint32_t group, std::uint32_t voxel) {
+  current_voxel_ = voxel;
+  const auto plane = [&](std::uint32_t index) {
+    emit_.work(1);
+    ++counters_.cuts;
+    return cuts_.get(index, record_memory, emit_);
+  };
+  const auto visit = [&](const VoxelRecord& piece) {
+    hand_out(group, piece);
+    return !all_finished(finished, group);
+  };
+  visit_pieces(records_.get(voxel, record_memory, emit_), job_.view.position,
+               config_.visit_gaussians, plane, visit);
+}
+
 // Splits a visit into contiguous shares of even size, one for each fetch, no smaller than min_share
 // and whole bursts of first halves; which begins rotates, so that small visits spread.
-void PaperVsu::hand_out(std::uint32_t group, const VoxelRecord& voxel) {
+void PaperVsu::hand_out(std::uint32_t group, const VoxelRecord& piece) {
   const auto fetches = static_cast<std::uint32_t>(shares.size());
   const std::uint32_t unit = std::max(2U, config_.min_share);
   const std::uint32_t share =
-      static_cast<std::uint32_t>(cycles_for(cycles_for(voxel.count, fetches), unit)) * unit;
+      static_cast<std::uint32_t>(cycles_for(cycles_for(piece.count, fetches), unit)) * unit;
   emit_.work(1);
   for (std::uint32_t k = 0; k < fetches; ++k) {
-    const std::uint32_t begin = std::min(k * share, voxel.count);
-    const std::uint32_t end = std::min(begin + share, voxel.count);
+    const std::uint32_t begin = std::min(k * share, piece.count);
+    const std::uint32_t end = std::min(begin + share, piece.count);
     in_turn(shares, k + next_visit_)
-        .push({group, next_visit_, voxel.first + begin, end - begin, Mark::kEndOfVisit}, emit_);
+        .push({group, next_visit_, piece.first + begin, end - begin, Mark::kEndOfVisit}, emit_);
   }
   ++next_visit_;
   ++counters_.visits;
@@ -136,6 +155,8 @@ SramUses PaperVsu::sram_uses(const PaperVsuConfig& config) {
   // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
   return {sram_use("node cache", kSharedSram, {{config.node_cache_bytes, "B"}}),
           sram_use("record cache", kSharedSram, {{config.record_cache_bytes, "B"}}),
+          sram_use("cut cache", kSharedSram, {{config.cut_cache_bytes, "B"}}),
+          sram_use("open pieces", kSharedSram, {{kOpenPieces, "pieces"}, {kPieceBytes, "B"}}),
           sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}}),
           sram_use("ordered voxels", kSharedSram,
                    {{config.groups_ahead, "groups"}, {config.table_bytes / 2, "B"}})};
@@ -148,13 +169,16 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.counter("rays", "rays", "followed", counters_.rays);
   sheet.counter("steps", "steps", "of rays through the voxel tree", counters_.steps);
   sheet.counter("edges", "edges", "offered to the ordering table", counters_.edges);
-  sheet.counter("visits", "voxels", "handed out, once for each group", counters_.visits);
+  sheet.counter("visits", "voxels", "or pieces of them handed out, once for each group",
+                counters_.visits);
+  sheet.counter("cuts", "cuts", "of voxels into pieces", counters_.cuts);
   sheet.counter("visits_saturated", "voxels", "left out: the group was finished",
                 counters_.visits_saturated);
   sheet.counter("groups_empty", "groups", "with no voxel on any ray", counters_.groups_empty);
   sheet.counter("ordering_table_bytes_max", "bytes", "ordering table of the worst group",
                 counters_.table_bytes_max);
   sheet.counter("node_cache_misses", "nodes", "read from DRAM", nodes_.misses());
+  sheet.counter("cut_cache_misses", "planes", "of cut voxels read from DRAM", cuts_.misses());
   sheet.counter("record_cache_misses", "voxel records", "read from DRAM", records_.misses());
   sheet.operations("vsu", "fp32_mac", static_cast<double>(counters_.steps) * kRayStepMacs);
   sheet.part("vsu", "vsu", 1);

@@ -1,8 +1,9 @@
 // Voxel sorting unit (VSU), paper order: for each pixel group it follows the pixels' rays through
-// the voxel tree, orders the voxels that they meet, and hands each out as a visit to the HFUs.
+// the voxel tree, orders the voxels that they meet, and hands each out as a visit to the HFUs; one
+// with more Gaussians than a list holds in pieces, the nearest first.
 // Timing: steps / steps_per_cycle + edges / edges_per_cycle a ray, one cycle a voxel and edge to
-// order them, one cycle a visit; table misses wait for DRAM. Function:
-// algorithm/order/group_visits.h.
+// order them, one cycle a visit and a cut; table misses wait for DRAM. Function:
+// algorithm/order/group_visits.h, algorithm/voxel/voxel_cuts.h.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,8 @@ class PaperVsu : public sc_core::sc_module {
   struct Counters {
     std::uint64_t rays = 0, steps = 0, edges = 0;
     std::uint64_t visits = 0;            // handed out
-    std::uint64_t visits_saturated = 0;  // left out: the group was finished
+    std::uint64_t cuts = 0;              // of voxels into pieces
+    std::uint64_t visits_saturated = 0;  // voxels left out: the group was finished
     std::uint64_t groups_empty = 0;      // no voxel on any ray
     std::uint64_t table_bytes_max = 0;   // ordering table of the worst group
   };
@@ -52,7 +54,8 @@ class PaperVsu : public sc_core::sc_module {
   void run_traverse();  // thread: rays to ordered voxels, some groups ahead
   void run_emit();      // thread: ordered voxels to visits
   GroupVisits order_group(const PixelRect& pixels);
-  void hand_out(std::uint32_t group, const VoxelRecord& voxel);
+  void visit_voxel(std::uint32_t group, std::uint32_t voxel);
+  void hand_out(std::uint32_t group, const VoxelRecord& piece);
   void mark_end(std::uint32_t group);
 
   const PaperVsuConfig config_;
@@ -60,6 +63,7 @@ class PaperVsu : public sc_core::sc_module {
   Activity traverse_, emit_;
   TableCache<VoxelNode> nodes_;
   TableCache<VoxelRecord> records_;
+  TableCache<float> cuts_;
   OrderingTable table_;
   TimedFifo<std::shared_ptr<OrderedGroup>> ordered_;
   Counters counters_;

@@ -15,6 +15,8 @@ struct PaperVsuConfig {
   std::uint32_t table_bytes = 5632;         // ordering table of one group
   std::uint32_t node_cache_bytes = 8192;    // in front of the tree in DRAM
   std::uint32_t record_cache_bytes = 1024;  // in front of the voxel records
+  std::uint32_t cut_cache_bytes = 256;      // in front of the planes of cut voxels
+  std::uint32_t visit_gaussians = 128;      // voxels with more are cut; 0: never
   std::uint32_t min_share = 16;             // fewest Gaussians of a visit that one HFU is given
 };
 
