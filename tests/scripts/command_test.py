@@ -36,7 +36,7 @@ class WithTheCommand(InFolder):
             ),
             (explore, ("--config", "paper", "--axis", "hfus=1"), {"| 1 | 48 |": 1}),
             (timing, ("--repeats", "1", "--configs", "exact", "paper"), {"| truck | 64 |": 2}),
-            (paper_claims, (), {"| area, mm2 | 5.37 |": 1}),
+            (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1}),
             (tuned_orders, (), {"| truck |": 1}),
             (work_precision, (), {"| truck | 0 |": 20, "| 4,096 |": 2}),
         ):
