@@ -85,9 +85,10 @@ std::optional<std::string> fault_of_cuts(const VoxelGrid& grid, const ActivatedC
   for (std::uint32_t slot = piece.first; slot < end; ++slot) {
     const float at = decoded.gaussians[slot].mean[axis];
     if (slot < cut ? at <= plane : at >= plane) continue;
-    return fmt::format("{}: Gaussian in slot {}: got {} along axis {}, expected {} {}: its voxel "
-                       "is cut there at slot {}",
-                       source, slot, at, axis, slot < cut ? "at most" : "at least", plane, cut);
+    return fmt::format(
+        "{}: Gaussian in slot {}: got {} along axis {}, expected {} {}: its voxel "
+        "is cut there at slot {}",
+        source, slot, at, axis, slot < cut ? "at most" : "at least", plane, cut);
   }
   const int next = (axis + 1) % 3;
   auto fault = fault_of_cuts(grid, decoded, {piece.first, cut - piece.first}, next, source);

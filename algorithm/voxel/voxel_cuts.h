@@ -3,8 +3,8 @@
 // each other, so that from anywhere they can be visited front to back, exactly.
 //
 // Where a piece is cut follows from its count alone, along which axis from how often it was cut:
-// only the planes are stored, a float for every kCutSpacing slots. How small the pieces get is up to
-// who reads them.
+// only the planes are stored, a float for every kCutSpacing slots. How small the pieces get is up
+// to who reads them.
 #pragma once
 
 #include <cstdint>

@@ -40,8 +40,8 @@ struct VoxelGrid {
   std::vector<VoxelNode> nodes;     // breadth first, root at 0; empty for an empty cloud
   std::vector<VoxelRecord> voxels;  // Morton order
   std::vector<std::uint32_t>
-      storage_order;         // [N] file index of each storage slot: by voxel, piece, then index
-  std::vector<float> cuts;   // of voxels into pieces: voxel_cuts.h
+      storage_order;        // [N] file index of each storage slot: by voxel, piece, then index
+  std::vector<float> cuts;  // of voxels into pieces: voxel_cuts.h
 };
 
 // Place of local cell (x, y, z), each 0 to 3, among the 64 children.

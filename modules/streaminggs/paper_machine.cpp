@@ -19,9 +19,8 @@ PaperMachine::PaperMachine(const sc_core::sc_module_name& name, const PaperConfi
       const std::uint32_t of_part = config_.lists_of_part();
       const PaperSorterPlace place{s % of_part, of_part, spill.part(s * share, share),
                                    config_.lists_of_network()};
-      sorters_[s] =
-          std::make_unique<PaperSorter>(fmt::format("sorting{}", s).c_str(), config_.sorting, place,
-                                        part_context(s / of_part));
+      sorters_[s] = std::make_unique<PaperSorter>(
+          fmt::format("sorting{}", s).c_str(), config_.sorting, place, part_context(s / of_part));
     });
   }
   make_units(std::move(units), Rejects::kDropped, Arrival::kByVisit);

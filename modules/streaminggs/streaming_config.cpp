@@ -7,8 +7,8 @@
 #include "algorithm/memory/records.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/constants.h"
-#include "modules/streaminggs/group_parts.h"
 #include "modules/memory_port_keys.h"
+#include "modules/streaminggs/group_parts.h"
 
 namespace sgs {
 

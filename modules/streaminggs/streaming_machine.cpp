@@ -33,9 +33,9 @@ std::string StreamingMachine::name_of_part(const char* what, std::uint32_t part)
 void StreamingMachine::make_finished_groups() {
   for (std::uint32_t p = 0; p < config_.parts(); ++p) {
     const std::vector<PixelRect>& groups = part_jobs_[p].groups;
-    finished_groups_.push_back(std::make_unique<FinishedGroups>(
-        name_of_part("finished_groups", p).c_str(), clock_, groups.size(),
-        config_.rendering.feedback_latency_cycles));
+    finished_groups_.push_back(
+        std::make_unique<FinishedGroups>(name_of_part("finished_groups", p).c_str(), clock_,
+                                         groups.size(), config_.rendering.feedback_latency_cycles));
     for (std::uint32_t g = 0; g < groups.size(); ++g) {
       if (groups[g].empty()) finished_groups_[p]->finish(g, 0);
     }
@@ -45,18 +45,19 @@ void StreamingMachine::make_finished_groups() {
 void StreamingMachine::make_units(Construction parts, Rejects rejects, Arrival arrival) {
   for (std::uint32_t h = 0; h < config_.fetches(); ++h) {
     parts.push_back([this, h, rejects] {
-      hfus_[h] = std::make_unique<Hfu>(fmt::format("hfu{}", h).c_str(), config_.hfu,
-                                       config_.codebook,
-                                       FineFilterPlace{h * config_.parts(), rejects}, context());
+      hfus_[h] =
+          std::make_unique<Hfu>(fmt::format("hfu{}", h).c_str(), config_.hfu, config_.codebook,
+                                FineFilterPlace{h * config_.parts(), rejects}, context());
     });
   }
   for (std::uint32_t p = 0; p < config_.parts(); ++p) {
     parts.push_back([this, p, arrival] {
-      rendering_[p] = std::make_unique<RenderingUnit>(
-          name_of_part("rendering", p).c_str(), rendering_of_part(config_), arrival,
-          part_context(p), [this] {
-            if (++parts_done_ == config_.parts()) finish_frame();
-          });
+      rendering_[p] = std::make_unique<RenderingUnit>(name_of_part("rendering", p).c_str(),
+                                                      rendering_of_part(config_), arrival,
+                                                      part_context(p), [this] {
+                                                        if (++parts_done_ == config_.parts())
+                                                          finish_frame();
+                                                      });
     });
   }
   if (job_.layout.second_half.quantised()) {

@@ -76,7 +76,7 @@ class StreamingMachine : public Machine {
   std::vector<std::unique_ptr<FinishedGroups>> finished_groups_;  // [part]
   Fifos<VisitShare> visits_;                                      // [fetch]
   std::unique_ptr<CodebookBuffer> codebooks_;  // null where second halves are not quantised
-  std::vector<std::unique_ptr<Hfu>> hfus_;                 // [fetch]
+  std::vector<std::unique_ptr<Hfu>> hfus_;     // [fetch]
   std::vector<std::unique_ptr<RenderingUnit>> rendering_;  // [part]
 
  private:

@@ -210,8 +210,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("groups_empty", expected.empty);
   bench.check_counter("ordering_table_bytes_max", expected.table_bytes_max);
   checks.equal(bench.busy_cycles("vsu"), expected.traverse_cycles, "busy cycles of the traversal");
-  checks.equal(bench.busy_cycles("visits"),
-               visits + bench.counter("cuts") + expected.groups.size(),
+  checks.equal(bench.busy_cycles("visits"), visits + bench.counter("cuts") + expected.groups.size(),
                "busy cycles of handing out");
   // A line a miss.
   const std::uint64_t node_misses = unit.node_memory.transactions();
@@ -259,7 +258,8 @@ void random_case(Case& test) {
   plan.config.record_cache_bytes = 256U << (random() % 3);
   plan.config.min_share = 2 + static_cast<std::uint32_t>(random() % 40);
   plan.config.sample_step_voxels = random() % 4 == 0 ? 0.5 : 0;
-  plan.config.visit_gaussians = random() % 2 == 0 ? 0 : 1 + static_cast<std::uint32_t>(random() % 300);
+  plan.config.visit_gaussians =
+      random() % 2 == 0 ? 0 : 1 + static_cast<std::uint32_t>(random() % 300);
   plan.saturate_one_in = random() % 3 == 0 ? 5 : 0;
   plan.feedback_cycles = 1 + static_cast<std::uint32_t>(random() % 40);
   run_plan(test, random_bench(random, memory_bytes(plan.scene.job)), plan);

@@ -56,8 +56,7 @@ void check_joules(const Json& view) {
     }
   }
   expected["buffers"] =
-      prices.in_and_out("small", 16 * sum_of(view, "first_halves") +
-                                     48 * splats) +
+      prices.in_and_out("small", 16 * sum_of(view, "first_halves") + 48 * splats) +
       8 * view["scene"]["second_half_bytes"].get<double>() *
           (sum_of(view, "second_halves") * prices.of("sram_small_write_bit") +
            sum_of(view, "second_halves_taken") * prices.of("sram_small_read_bit"));
@@ -138,12 +137,11 @@ TEST_CASE("costs: the binding resource is the busiest") {
     for (const char* slow :
          {"rendering.clusters=1", "hfu.ffu_lanes=1", "hfu.cfu_lanes=1", "dram.channels=1"}) {
       INFO(machine << " " << slow);
-      const Simulation simulation({"builtin:object?n=2000", "--size", "96x54", "--config", machine,
-                                   "--set", "storage.encoding=raw", "--set", slow,
-                                   // HFUs that share a fetch have a cluster each
-                                   "--set",
-                                   std::string(slow) == "rendering.clusters=1" ? "hfus=1"
-                                                                               : "hfus=4"});
+      const Simulation simulation(
+          {"builtin:object?n=2000", "--size", "96x54", "--config", machine, "--set",
+           "storage.encoding=raw", "--set", slow,
+           // HFUs that share a fetch have a cluster each
+           "--set", std::string(slow) == "rendering.clusters=1" ? "hfus=1" : "hfus=4"});
       check_binding(simulation.views()[0]);
       if (std::string(slow) == "hfu.ffu_lanes=1") {
         CHECK(simulation.views()[0]["binding"]["unit"] == "fine");

@@ -195,8 +195,7 @@ void check_flow(const Json& view) {
           counter(view, "merge", "released") + counter(view, "merge", "dropped_saturated"));
     CHECK(counter(view, "merge", "released") == tested_or_dropped);
     CHECK(blended + late <= fine_splats);
-    CHECK(total(view, "visits") ==
-          2 * counter(view, "vsu", "visits") + groups);
+    CHECK(total(view, "visits") == 2 * counter(view, "vsu", "visits") + groups);
   }
 }
 

@@ -59,9 +59,9 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
   check_set_refused("paper", {"group_px=30"}, {"group_px: got 30, expected a multiple of 4"});
   check_set_refused("paper", {"clock_mhz=0"}, {"clock_mhz"});
   check_set_refused("paper", {"machine=random"}, {"machine", "random", "paper"});
-  check_set_refused("exact_half", {"hfus=2", "machine=paper"},
-                    {"--set machine=paper: preset exact_half is of machine exact",
-                     "take --config paper"});
+  check_set_refused(
+      "exact_half", {"hfus=2", "machine=paper"},
+      {"--set machine=paper: preset exact_half is of machine exact", "take --config paper"});
   check_set_refused("paper", {"machine=exact"}, {"preset paper is of machine paper"});
   check_set_refused("paper", {"sorting.buffer_entries=16", "sorting.spill_block_entries=8"},
                     {"sorting.buffer_entries: got 16", "at least 32"});
@@ -70,7 +70,8 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
                     {"rendering.clusters: got 2", "multiple of hfus 4"});
   check_set_refused("paper", {"sorting_units=3"},
                     {"sorting_units: got 3", "divisor or a multiple of hfus 4"});
-  check_set_refused("paper", {"dram.memspec=ddr9"}, {"dram.memspec: got 'ddr9'", "lpddr3_1600_4gb"});
+  check_set_refused("paper", {"dram.memspec=ddr9"},
+                    {"dram.memspec: got 'ddr9'", "lpddr3_1600_4gb"});
   check_set_refused("no_such_preset", {}, {"no_such_preset"});
 }
 

@@ -14,8 +14,7 @@ std::uint64_t counter(const Json& view, const std::string& unit, const std::stri
   return view["units"][unit]["counters"][name];
 }
 
-std::uint64_t counter_of_all(const Json& view, const std::string& prefix,
-                             const std::string& name) {
+std::uint64_t counter_of_all(const Json& view, const std::string& prefix, const std::string& name) {
   std::uint64_t sum = 0;
   bool any = false;
   for (const auto& [unit, of_unit] : view["units"].items()) {

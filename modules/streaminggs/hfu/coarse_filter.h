@@ -1,8 +1,8 @@
-// The coarse half of an HFU, or of all HFUs that share a fetch: streams shares of visits through the
-// CFUs, which know only centre and largest scale. With a shared fetch each first half is read once
-// and broadcast; the CFUs of every HFU test it against their own part of the group, in lock step.
-// Timing: `cfus` Gaussians every cfu_interval_cycles; the next slices are fetched while this one is
-// filtered. Function: algorithm/splat/coarse_bound.h.
+// The coarse half of an HFU, or of all HFUs that share a fetch: streams shares of visits through
+// the CFUs, which know only centre and largest scale. With a shared fetch each first half is read
+// once and broadcast; the CFUs of every HFU test it against their own part of the group, in lock
+// step. Timing: `cfus` Gaussians every cfu_interval_cycles; the next slices are fetched while this
+// one is filtered. Function: algorithm/splat/coarse_bound.h.
 #pragma once
 
 #include <cstddef>
@@ -25,19 +25,19 @@ class CoarseFilter : public sc_core::sc_module {
  public:
   FifoIn<VisitShare> shares{"shares"};
   FifoOuts<FineCandidate> survivors{"survivors"};  // visit v goes to v modulo their number
-  FinishedGroupsIns finished{"finished"};  // one a part
-  MemoryPort memory;  // first halves
+  FinishedGroupsIns finished{"finished"};          // one a part
+  MemoryPort memory;                               // first halves
 
   SC_HAS_PROCESS(CoarseFilter);
   CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
                const UnitContext& context);
 
   struct Counters {
-    std::uint64_t shares = 0;        // of visits, empty ones and ends of groups included
-    std::uint64_t first_halves = 0;  // fetched
-    std::uint64_t tests = 0;       // of a Gaussian against a part
-    std::uint64_t passed = 0;      // of these
-    std::uint64_t candidates = 0;  // Gaussians that passed for one part or more
+    std::uint64_t shares = 0;             // of visits, empty ones and ends of groups included
+    std::uint64_t first_halves = 0;       // fetched
+    std::uint64_t tests = 0;              // of a Gaussian against a part
+    std::uint64_t passed = 0;             // of these
+    std::uint64_t candidates = 0;         // Gaussians that passed for one part or more
     std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
   };
   const Counters& counters() const { return counters_; }

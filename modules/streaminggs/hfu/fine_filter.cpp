@@ -183,8 +183,8 @@ SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_fo
                               "candidates"),
       parts);
   if (built_for.second_half.quantised()) {
-    add(uses,
-        fifo_use<Decoded>("decoded Gaussians", kSharedSram, kDecodedEntries, "entries"), parts);
+    add(uses, fifo_use<Decoded>("decoded Gaussians", kSharedSram, kDecodedEntries, "entries"),
+        parts);
   }
   return uses;
 }
@@ -209,9 +209,8 @@ void FineFilter::publish(DataSheet& sheet) {
   sheet.operations("fine", "fp32_mac", static_cast<double>(counters_.tests) * config_.ffu_macs);
   const double splats_bits = 8.0 * static_cast<double>(counters_.splats) * kSplatEntryBytes;
   const double record_bits = 8.0 * record_bytes_;
-  sheet.operations(
-      "buffers", "sram_small_write_bit",
-      static_cast<double>(counters_.second_halves) * record_bits + splats_bits);
+  sheet.operations("buffers", "sram_small_write_bit",
+                   static_cast<double>(counters_.second_halves) * record_bits + splats_bits);
   sheet.operations("buffers", "sram_small_read_bit",
                    static_cast<double>(counters_.taken) * record_bits + splats_bits);
   sheet.part("hfus", "mac_lane", static_cast<double>(parts_.size()) * config_.ffu_lanes);

@@ -44,7 +44,7 @@ class FineFilter : public sc_core::sc_module {
   FifoOuts<SplatToken> splats{"splats"};
   CodebookIn codebooks{"codebooks"};       // open where second halves are not quantised
   FinishedGroupsIns finished{"finished"};  // one a part
-  MemoryPort memory;  // second halves
+  MemoryPort memory;                       // second halves
 
   SC_HAS_PROCESS(FineFilter);
   FineFilter(const sc_core::sc_module_name& name, const HfuConfig& config,

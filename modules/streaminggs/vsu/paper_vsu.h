@@ -25,10 +25,10 @@ namespace sgs {
 
 class PaperVsu : public sc_core::sc_module {
  public:
-  FifoOuts<VisitShare> shares{"shares"};  // one a fetch
+  FifoOuts<VisitShare> shares{"shares"};   // one a fetch
   FinishedGroupsIns finished{"finished"};  // one for each part of the groups
-  MemoryPort node_memory;    // tree nodes, for the rays
-  MemoryPort record_memory;  // voxel records, for the visits
+  MemoryPort node_memory;                  // tree nodes, for the rays
+  MemoryPort record_memory;                // voxel records, for the visits
 
   SC_HAS_PROCESS(PaperVsu);
   PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,

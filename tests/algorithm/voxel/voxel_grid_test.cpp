@@ -139,10 +139,10 @@ void check_pieces(const ActivatedCloud& cloud, const VoxelGrid& grid, const glm:
       for (std::size_t b = a + 1; b < boxes.size(); ++b) {
         bool right = false;
         for (int axis = 0; axis < 3; ++axis) {
-          right = right || (boxes[a].high[axis] <= boxes[b].low[axis] &&
-                            eye[axis] <= boxes[b].low[axis]);
-          right = right || (boxes[b].high[axis] <= boxes[a].low[axis] &&
-                            eye[axis] >= boxes[b].high[axis]);
+          right = right ||
+                  (boxes[a].high[axis] <= boxes[b].low[axis] && eye[axis] <= boxes[b].low[axis]);
+          right = right ||
+                  (boxes[b].high[axis] <= boxes[a].low[axis] && eye[axis] >= boxes[b].high[axis]);
         }
         CHECK(right);
       }
