@@ -50,7 +50,7 @@ class WithTheCommand(InFolder):
         scene = find_scene(str(self.scene))
         for config in ("exact", "paper_no_vq"):
             with self.subTest(config):
-                overrides = (*simulations.SRAM_AS_NEEDED, "hfus=2", "group_px=48")
+                overrides = (*simulations.SRAM_AS_NEEDED, "hfus=1", "group_px=48")
                 run = simulations.Run(scene, config=config, overrides=overrides)
                 (view,) = simulations.simulate(pathlib.Path(COMMAND), run).accepted()
                 for memory in ("input", "shared"):
