@@ -38,7 +38,7 @@ class GroupStream {
         config_(config),
         contributing_(contributing),
         stats_(stats),
-        state_(pixels, view.width, view.height),
+        state_(pixels, view.width, view.height, config.precision),
         watch_(state_.subtile_count()) {}
 
   void visit(const ChunkTree& tree, const WalkEntry& chunk) {

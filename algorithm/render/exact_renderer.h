@@ -8,6 +8,7 @@
 
 #include "algorithm/order/on_overflow.h"
 #include "algorithm/render/streaming_result.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/chunk_tree.h"
@@ -20,6 +21,7 @@ struct ExactOrderConfig {
   std::uint32_t merge_entries = 4096;  // keys that wait at most, between two visits
   OnOverflow on_overflow = OnOverflow::kSpill;
   std::uint32_t walk_queue_entries = 512;  // of the front-to-back walk
+  BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
   glm::vec3 background{0.0F};
 };
 

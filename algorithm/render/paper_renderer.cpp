@@ -88,7 +88,7 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
     s.table_bytes_max = visits.table_bytes;
     s.missed = missed.count(index, visits.voxels);
 
-    GroupState state(group, view.width, view.height);
+    GroupState state(group, view.width, view.height, config.precision);
     BlendWatch watch(state.subtile_count());
     std::vector<Splat> run;
     for (const std::uint32_t voxel : visits.voxels) {

@@ -5,6 +5,7 @@
 
 #include "algorithm/order/group_visits.h"
 #include "algorithm/render/streaming_result.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/voxel_grid.h"
@@ -15,6 +16,7 @@ struct PaperOrderConfig {
   int group_px = 64;             // side of a pixel group, a multiple of 4
   bool coarse_filter = true;     // off: every Gaussian of a voxel goes to the fine filter
   float sample_step_voxels = 0;  // 0: exact traversal of every cell; else the distance of samples
+  BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
   glm::vec3 background{0.0F};
 };
 

@@ -1,4 +1,5 @@
-// What one test of the coarse and of the fine filter executes, counted by running it.
+// What one test of the coarse and of the fine filter executes, and what rendering does for a splat,
+// counted by running it.
 // Values of the camera and of the group are constants: what depends on them alone is computed once
 // a frame or a group and kept. The decoding of a second half is not included.
 #pragma once
@@ -34,5 +35,12 @@ struct FineWork {
   OperationCounts total() const;
 };
 FineWork fine_work(const FilterCase& tested, int sh_degree);
+
+// Of rendering: a splat's spans are begun once; each row of sub-tiles adds one; each sub-tile is
+// blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once.
+struct RenderingWork {
+  OperationCounts spans_begin, span, subtile_blend;
+};
+RenderingWork rendering_work();
 
 }  // namespace sgs

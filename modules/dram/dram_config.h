@@ -39,8 +39,8 @@ struct DramConfig {
   // The way through the controller and the PHY: of a request to its first command, and of a datum
   // (or of the answer to a write that is not posted) back. gem5's defaults are 10 and 10
   // (src/mem/MemCtrl.py: static_frontend_latency, static_backend_latency).
-  double front_end_ns = 0;
-  double back_end_ns = 0;
+  double front_end_ns = 10;
+  double back_end_ns = 10;
 
   RefreshMode refresh = RefreshMode::kAllBank;
   std::uint32_t refresh_postpone_max = 0;      // refresh commands that may be owed

@@ -54,6 +54,7 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.group_px = static_cast<int>(config_.group_px);
   order.coarse_filter = config_.hfu.coarse_filter;
   order.sample_step_voxels = static_cast<float>(config_.vsu.sample_step_voxels);
+  order.precision = config_.rendering.precision;
   order.background = job.background;
   StreamingResult result = render_paper_order(job.view, scene.decoded, scene.grid(), order);
   publish_left_out(scene, result.stats.blocks_visited, sheet);

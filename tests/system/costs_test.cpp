@@ -8,6 +8,8 @@
 
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_writer.h"
+#include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/lane_macs.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
@@ -47,7 +49,12 @@ void check_joules(const Json& view) {
       sum_of(view, "fine_tests") * hfu["ffu_macs"].get<double>() * prices.of("fp32_mac");
   expected["sorting"] = sum_of(view, "compare_exchanges") * prices.of("compare_exchange");
   const double blended_pixels = 16 * sum_of(view, "subtile_blends");
-  expected["rendering"] = blended_pixels * prices.of("pixel_blend");
+  const RenderingWork work = rendering_work();
+  expected["rendering"] =
+      (sum_of(view, "splats_spanned") * folded_macs(work.spans_begin) +
+       sum_of(view, "spans") * folded_macs(work.span) +
+       sum_of(view, "subtile_blends") * folded_macs(work.subtile_blend)) *
+      prices.of("fp32_mac");
   expected["pixel_state"] = prices.in_and_out("large", 16 * blended_pixels);
   double splats = 0;  // of the fine filters
   for (const auto& [name, unit] : view["units"].items()) {

@@ -6,6 +6,7 @@
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/row_span.h"
 #include "tests/algorithm/splat/random_gaussian.h"
 
 using namespace sgs;
@@ -40,8 +41,28 @@ struct Counts {
   long visible_px = 0;   // pixels with alpha > 0
   long kept = 0;         // 4x4 blocks of the footprint that `reaches` keeps
   long hit = 0;          // of those, with a visible pixel
+  long spanned = 0;      // of the footprint's, in the spans of their rows
   long coarse_kept = 0;  // Gaussians that the coarse bound keeps in the frame
 };
+
+// Bounds of each row of sub-tiles of a footprint.
+std::vector<RowBounds<float>> rows_of(const Projected<float>& p, float opacity,
+                                      const SubtileRect& footprint) {
+  Splat splat{};
+  splat.x = p.x;
+  splat.y = p.y;
+  splat.conic_a = p.conic_a;
+  splat.conic_b = p.conic_b;
+  splat.conic_c = p.conic_c;
+  splat.opacity = opacity;
+  RowSpans<float> spans(splat);
+  spans.start(footprint.y0 * kSubtilePx);
+  std::vector<RowBounds<float>> rows;
+  for (int y = footprint.y0; y < footprint.y1; ++y) {
+    rows.push_back(spans.next((y + 1) * kSubtilePx));
+  }
+  return rows;
+}
 
 void fail(const char* bound, const Projected<float>& p, float opacity, int x, int y) {
   CAPTURE(x, y, p.x, p.y, p.cov_a, p.cov_b, p.cov_c, p.determinant, p.radius, opacity);
@@ -62,6 +83,7 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
   const PixelRect pixels = intersection(
       PixelRect{tiles.x0 * kTilePx, tiles.y0 * kTilePx, tiles.x1 * kTilePx, tiles.y1 * kTilePx},
       frame_of(view));
+  const std::vector<RowBounds<float>> rows = rows_of(p, g.opacity, cut);
   bool drawn = false;
   const auto columns = static_cast<std::size_t>(view.width / kSubtilePx + 1);
   const auto subtile = [&](int x, int y) { return static_cast<std::size_t>(y) * columns + x; };
@@ -73,6 +95,9 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
       ++counts.visible_px;
       hit[subtile(x / kSubtilePx, y / kSubtilePx)] = 1;
       if (!holds(cut, x, y)) fail("the footprint", p, g.opacity, x, y);
+      const auto row = rows[static_cast<std::size_t>(y / kSubtilePx - cut.y0)];
+      const auto column = static_cast<float>(x);
+      if (!(column >= row.low && column <= row.high)) fail("its row's span", p, g.opacity, x, y);
       for (const int side : {1, 4, 16, 64}) {
         const PixelRect block = block_of(view, x, y, side);
         if (!reaches(p.x, p.y, p.conic_a, p.conic_b, p.conic_c, cutoff, block)) {
@@ -89,7 +114,10 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
   counts.ill += ill;
   if (ill) return;
   for (int y = cut.y0; y < cut.y1; ++y) {
+    const auto row = rows[static_cast<std::size_t>(y - cut.y0)];
     for (int x = cut.x0; x < cut.x1; ++x) {
+      const auto first = static_cast<float>(x * kSubtilePx);
+      counts.spanned += first + kSubtilePx - 1 >= row.low && first <= row.high ? 1 : 0;
       if (!reaches(p.x, p.y, p.conic_a, p.conic_b, p.conic_c, cutoff,
                    block_of(view, x * kSubtilePx, y * kSubtilePx, kSubtilePx))) {
         continue;
@@ -110,11 +138,13 @@ void run(unsigned seed, double skew) {
     const auto view = make_view<float>(camera);
     for (int i = 0; i < 1000; ++i) check_gaussian(view, random.gaussian(camera), counts);
   }
-  CAPTURE(counts.drawn, counts.ill, counts.visible_px, counts.kept, counts.hit, counts.coarse_kept);
+  CAPTURE(counts.drawn, counts.ill, counts.visible_px, counts.kept, counts.hit, counts.spanned,
+          counts.coarse_kept);
   // The test has seen what it is for, and the bounds are of use: most of what they keep is visible.
   CHECK(counts.drawn > 10000);
   CHECK(counts.ill > 300);
   CHECK(static_cast<double>(counts.hit) > 0.8 * static_cast<double>(counts.kept));
+  CHECK(static_cast<double>(counts.hit) > 0.8 * static_cast<double>(counts.spanned));
   CHECK(counts.drawn > counts.coarse_kept / 2);
 }
 

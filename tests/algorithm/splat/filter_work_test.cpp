@@ -131,4 +131,17 @@ TEST_CASE("filter work: a test that fails early has executed less") {
   CHECK(folded_macs(fine_work(behind, 3).total()) == 16);
 }
 
+TEST_CASE("work of rendering a splat, counted") {
+  const RenderingWork work = rendering_work();
+  // By hand, a sub-tile: its corner from the centre, 4 columns of dx, A dx^2 (2) and B dx, 4 rows of dy and C dy^2 (2); 16
+  // pixels of a sum, -1/2 of it, a product and a difference, exp, opacity, the cap and two
+  // selections, weight, 1 - alpha, T behind, its end, and three products and sums of colour.
+  CHECK(work.subtile_blend.multiplies == 4 * 3 + 4 * 2 + 16 * (2 + 1 + 2 + 3));
+  CHECK(work.subtile_blend.exponentials == 16);
+  CHECK(work.subtile_blend.comparisons == 16 * 4);
+  CHECK(work.span.square_roots == 1);
+  CHECK(work.spans_begin.square_roots == 2);
+  CHECK(work.subtile_blend.adds == 2 + 4 + 4 + 16 * (1 + 1 + 1 + 3));
+}
+
 }  // namespace sgs::test
