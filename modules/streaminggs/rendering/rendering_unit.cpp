@@ -28,7 +28,7 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
 void RenderingUnit::run_blend() {
   std::size_t turn = 0;
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
-    free_buffers_.pop(blend_, ActivityState::kBlocked);
+    free_buffers_.pop(blend_, WaitFor::kRoom);
     current_group_ = group;
     auto state = std::make_shared<GroupState>(
         job_.groups[group], job_.view.width, job_.view.height,
@@ -48,7 +48,7 @@ void RenderingUnit::run_blend() {
     counters_.contributors += state->contributors();
     finished_.push(std::move(state), blend_);
   }
-  blend_.enter(ActivityState::kStarved);
+  blend_.idles();
 }
 
 void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupState& state) {
@@ -78,7 +78,7 @@ void RenderingUnit::run_drain() {
     free_buffers_.push(0, drain_);
   }
   await_all(memory, drain_);
-  drain_.enter(ActivityState::kStarved);
+  drain_.idles();
   on_done_();
 }
 
@@ -128,8 +128,13 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.operations("pixel_state", "sram_large_read_bit", 8.0 * pixels * kPixelStateBytes);
   sheet.part("rendering", "pixel_lane", config_.clusters * kSubtilePixels);
   sheet.port(memory);
+  sheet.remedy(blend_, "rendering.clusters");
+  sheet.remedy(drain_, "rendering.drain_pixels_per_cycle");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.sram(sram_uses(config_, built_for_));
   sheet.queue(finished_, "pixel state");
+  sheet.remedy(finished_, WaitFor::kRoom, "rendering.pixel_buffers");
+  sheet.remedy(free_buffers_, WaitFor::kRoom, "rendering.pixel_buffers");
   sheet.signal("group", current_group_);
 }
 
