@@ -44,6 +44,14 @@ class DataSheet {
     (void)resource;
     (void)meaning;
   }
+  // What to change in the configuration, key: of which more lets the activity work for fewer
+  // cycles; or wait for fewer, for something at a FIFO, a port or a unit.
+  virtual void remedy(const Activity&, const char* key) { (void)key; }
+  virtual void remedy(const sc_core::sc_object& at, WaitFor what, const char* key) {
+    (void)at;
+    (void)what;
+    (void)key;
+  }
   // unit: of the value ("cycles", "bytes", "keys").
   virtual void counter(const char* name, const char* unit, const char* meaning,
                        std::uint64_t value) {

@@ -56,6 +56,7 @@ class MemoryPort : public sc_core::sc_module {
   void wait_all();
 
   bool idle() const { return outstanding_ == 0; }
+  bool writing() const { return writes_outstanding_ > 0; }
   std::uint64_t bytes_outstanding() const { return bytes_outstanding_; }
 
   std::uint64_t transactions() const { return transactions_; }

@@ -57,6 +57,7 @@ void StreamingMachine::publish(DataSheet& sheet) {
   for (const Queue& queue : queues_) {
     sheet.sram(queue.use);
     sheet.queue(*queue.fifo, queue.use.name.c_str());
+    if (queue.key != nullptr) sheet.remedy(*queue.fifo, WaitFor::kRoom, queue.key);
   }
   sheet.sram_available(kInputSram, config_.sram.input_bytes);
   sheet.sram_available(kCodebookSram, config_.sram.codebook_bytes);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <utility>
 
 namespace sgs {
 namespace {
@@ -17,9 +19,17 @@ class Collector : public LeftOutCollector {
   }
   void activity(Activity& activity, const char* resource, const char* meaning) override {
     activity.close();
-    into_.units.back().activities.push_back({activity.basename(), resource, meaning,
-                                             activity.busy_cycles(), activity.starved_cycles(),
-                                             activity.blocked_cycles()});
+    ActivityResult result{activity.basename(), resource, meaning, activity.busy_cycles(), {}, ""};
+    for (const Activity::Wait& wait : activity.waits()) {
+      if (wait.cycles > 0) result.waits.push_back(wait_of(wait, activity));
+    }
+    into_.units.back().activities.push_back(std::move(result));
+  }
+  void remedy(const Activity& activity, const char* key) override {
+    for_work_[path_below(activity, machine_)] = key;
+  }
+  void remedy(const sc_core::sc_object& at, WaitFor what, const char* key) override {
+    for_waits_[{path_below(at, machine_), what}] = key;
   }
   void counter(const char* name, const char* unit, const char* meaning,
                std::uint64_t value) override {
@@ -39,7 +49,36 @@ class Collector : public LeftOutCollector {
   }
   void datapath(const Datapath& datapath) override { into_.datapaths.push_back(datapath); }
 
+  // To be called when all units have published: a FIFO's remedy comes from who made it, not from
+  // who waits at it.
+  void apply_remedies() {
+    const auto in = [](const auto& remedies, const auto& at) {
+      const auto found = remedies.find(at);
+      return found == remedies.end() ? std::string() : found->second;
+    };
+    for (UnitResult& unit : into_.units) {
+      for (ActivityResult& activity : unit.activities) {
+        activity.key = in(for_work_, unit.name + "." + activity.name);
+        for (WaitResult& wait : activity.waits) {
+          // More entries are what helps both ends of a FIFO.
+          const bool at_fifo = wait.what == WaitFor::kInput;
+          wait.key = in(for_waits_, std::pair(wait.at, at_fifo ? WaitFor::kRoom : wait.what));
+        }
+      }
+    }
+  }
+
  private:
+  WaitResult wait_of(const Activity::Wait& wait, const Activity& waiting) const {
+    WaitResult result{wait.what, "", "", "", wait.cycles};
+    if (wait.at != nullptr) result.at = path_below(*wait.at, machine_);
+    if (const auto* fifo = dynamic_cast<const FifoChannel*>(wait.at)) {
+      const Activity* other = fifo->writer() == &waiting ? fifo->reader() : fifo->writer();
+      if (other != nullptr) result.other = path_below(*other, machine_);
+    }
+    return result;
+  }
+
   static void add(std::vector<Amount>& amounts, const char* component, const char* kind,
                   double count) {
     const auto same = std::find_if(amounts.begin(), amounts.end(), [&](const Amount& a) {
@@ -54,6 +93,8 @@ class Collector : public LeftOutCollector {
 
   const Machine& machine_;
   MachineResult& into_;
+  std::map<std::string, std::string> for_work_;
+  std::map<std::pair<std::string, WaitFor>, std::string> for_waits_;
 };
 
 class Drained : public DataSheet {
@@ -64,6 +105,18 @@ class Drained : public DataSheet {
 };
 
 }  // namespace
+
+std::uint64_t ActivityResult::waited_for(WaitFor what) const {
+  std::uint64_t sum = 0;
+  for (const WaitResult& wait : waits) sum += wait.what == what ? wait.cycles : 0;
+  return sum;
+}
+
+std::uint64_t ActivityResult::waited() const {
+  std::uint64_t sum = 0;
+  for (const WaitResult& wait : waits) sum += wait.cycles;
+  return sum;
+}
 
 void LeftOutCollector::left_out(const char* what, const char* why, std::uint64_t count,
                                 const std::string& saves) {
@@ -81,6 +134,7 @@ MachineResult collect(Machine& machine) {
   MachineResult result;
   Collector collector(machine, result);
   machine.publish(collector);
+  collector.apply_remedies();
   std::uint64_t idle = 0;
   for (const UnitResult& unit : result.units) {
     for (const ActivityResult& activity : unit.activities) idle += activity.busy_cycles == 0;

@@ -80,16 +80,31 @@ Json image_of(const ViewResult& view, bool original_known) {
   return out;
 }
 
+Json activity_of(const ActivityResult& activity) {
+  Json waited = Json::object();
+  for (std::size_t k = 0; k < kWaitForCount; ++k) {
+    const auto what = static_cast<WaitFor>(k);
+    waited[name_of(what)] = activity.waited_for(what);
+  }
+  Json waits = Json::array();
+  for (const WaitResult& wait : activity.waits) {
+    Json& out = waits.emplace_back(Json{{"for", name_of(wait.what)}, {"cycles", wait.cycles}});
+    if (!wait.at.empty()) out["on"] = wait.at;
+    if (!wait.other.empty()) out["other_end"] = wait.other;
+  }
+  return {{"resource", activity.resource},
+          {"busy_cycles", activity.busy_cycles},
+          {"waited_cycles", waited},
+          {"waits", waits}};
+}
+
 Json units_of(const MachineResult& machine) {
   Json units = Json::object();
   for (const UnitResult& unit : machine.units) {
     Json& out = units[unit.name];
     out["activities"] = Json::object();
     for (const ActivityResult& a : unit.activities) {
-      out["activities"][a.name] = {{"resource", a.resource},
-                                   {"busy_cycles", a.busy_cycles},
-                                   {"starved_cycles", a.starved_cycles},
-                                   {"blocked_cycles", a.blocked_cycles}};
+      out["activities"][a.name] = activity_of(a);
     }
     out["counters"] = Json::object();
     for (const CounterResult& c : unit.counters) out["counters"][c.name] = c.value;
@@ -194,6 +209,8 @@ Json view_report(const ViewResult& view, const PreparedScene& scene) {
                        {"utilisation", view.binding.utilisation},
                        {"next", view.binding.next},
                        {"next_utilisation", view.binding.next_utilisation},
+                       {"holds", view.binding.holds},
+                       {"key", view.binding.key},
                        {"explanation", view.binding.explanation}};
   report["dram"] = dram_of(run.memory);
   report["energy"] = energy_section(view);

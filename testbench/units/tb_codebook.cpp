@@ -171,7 +171,8 @@ void load(Case& test, const SecondHalfFormat& format, const BenchConfig& memory)
     checks.equal(bench.clock().now_cycles(), full + lines_of(plan, first).size(),
                  "cycle in which the first record is read");
     activity.close();
-    checks.equal(activity.starved_cycles(), full, "cycles that the reader waited for codebooks");
+    checks.equal(activity.waited_for(WaitFor::kLoading), full,
+                 "cycles that the reader waited for codebooks");
     checks.that(std::memcmp(buffer.bytes(), plan.codebooks.data(), plan.codebooks.size()) == 0,
                 "the buffer holds other bytes than the memory");
   });

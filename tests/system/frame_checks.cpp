@@ -26,9 +26,14 @@ void check_accounts(const Json& view) {
     for (const auto& [activity, spent] : unit["activities"].items()) {
       INFO(name << " " << activity);
       ++activities;
-      CHECK(count(spent["busy_cycles"]) + count(spent["starved_cycles"]) +
-                count(spent["blocked_cycles"]) ==
-            frame_cycles(view));
+      std::uint64_t waited = 0, by_place = 0;
+      for (const Json& cycles : spent["waited_cycles"]) waited += count(cycles);
+      for (const Json& wait : spent["waits"]) {
+        by_place += count(wait["cycles"]);
+        CHECK(wait.contains("on") == (wait["for"] != "idle"));
+      }
+      CHECK(count(spent["busy_cycles"]) + waited == frame_cycles(view));
+      CHECK(by_place == waited);
       CHECK(count(spent["busy_cycles"]) <= frame_cycles(view));
       CHECK_FALSE(spent["resource"].get<std::string>().empty());
     }

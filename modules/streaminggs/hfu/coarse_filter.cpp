@@ -38,7 +38,7 @@ void CoarseFilter::run_load() {
       Slice slice;
       slice.share = share;
       slice.share.count = std::min(end - share.first, config_.slice_gaussians);
-      slice.slot = free_slots_.pop(load_, ActivityState::kBlocked);
+      slice.slot = free_slots_.pop(load_, WaitFor::kRoom);
       if (slice.share.count > 0) {
         load_.work(1);
         slice.ticket = start_read(
@@ -143,6 +143,11 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.port(memory);
   sheet.sram(sram_uses(config_));
   sheet.queue(slices_, "slices");
+  sheet.remedy(filter_, "hfu.cfu_lanes");
+  sheet.remedy(memory, WaitFor::kReads, "hfu.input_slots");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
+  sheet.remedy(slices_, WaitFor::kRoom, "hfu.input_slots");
+  sheet.remedy(free_slots_, WaitFor::kRoom, "hfu.input_slots");
   sheet.signal("group", current_group_);
   sheet.signal("visit", current_visit_);
 }

@@ -38,7 +38,7 @@ void CodebookBuffer::run_load() {
   start_read(memory, load_, base, bytes_.data(), static_cast<std::uint32_t>(bytes_.size()),
              job_.layout.codebooks.region);
   await_all(memory, load_);
-  load_.enter(ActivityState::kStarved);
+  load_.idles();
   counters_.bytes_loaded = bytes_.size();
   counters_.loaded_at_cycle = load_.clock().now_cycles();
   full_ = true;
@@ -48,10 +48,10 @@ void CodebookBuffer::run_load() {
 void CodebookBuffer::read_entries(std::uint32_t reader, const CodebookIndices& indices,
                                   Activity& activity) {
   if (!full_) {
-    activity.enter(ActivityState::kStarved);
+    activity.waits_for(WaitFor::kLoading, *this);
     while (!full_) sc_core::wait(filled_);
     activity.clock().align();
-    activity.enter(ActivityState::kBusy);
+    activity.works();
   }
   Request& request = requests_[reader];
   request.indices = &indices;
@@ -120,6 +120,7 @@ void CodebookBuffer::publish(DataSheet& sheet) {
                    8.0 * static_cast<double>(counters_.bytes_loaded));
   sheet.sram(sram_uses(job_.layout.second_half));
   sheet.port(memory);
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("full", full_);
 }
 

@@ -46,7 +46,7 @@ void FineFilter::run_fetch() {
         drop_saturated(candidate);
         continue;
       }
-      candidate.buffer = free_slots_.pop(fetch_, ActivityState::kBlocked);
+      candidate.buffer = free_slots_.pop(fetch_, WaitFor::kRoom);
       fetch_.work(1);
       candidate.ticket =
           start_read(memory, fetch_, job_.layout.second_halves.address(candidate.slot),
@@ -178,6 +178,12 @@ void FineFilter::publish(DataSheet& sheet) {
   sheet.sram(sram_uses(config_, built_for_));
   sheet.queue(fetched_, "fetched candidates");
   if (stage_) sheet.queue(stage_->decoded, "decoded Gaussians");
+  sheet.remedy(filter_, "hfu.ffu_lanes");
+  if (stage_) sheet.remedy(stage_->decode, "codebook.line_bytes");
+  sheet.remedy(memory, WaitFor::kReads, "hfu.second_half_slots");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
+  sheet.remedy(fetched_, WaitFor::kRoom, "hfu.second_half_slots");
+  sheet.remedy(free_slots_, WaitFor::kRoom, "hfu.second_half_slots");
 }
 
 }  // namespace sgs

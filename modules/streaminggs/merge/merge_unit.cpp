@@ -371,6 +371,8 @@ void MergeUnit::publish(DataSheet& sheet) {
                  counters_.keys - counters_.looked_up, "4 B of DRAM traffic each");
   sheet.sram(sram_uses(config_, built_for_));
   sheet.port(memory);
+  sheet.remedy(memory, WaitFor::kReads, "merge.entries");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);
   sheet.signal("pending", pending_count_);
 }

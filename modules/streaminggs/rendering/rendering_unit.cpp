@@ -30,7 +30,7 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
 void RenderingUnit::run_blend() {
   std::size_t turn = 0;
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
-    free_buffers_.pop(blend_, ActivityState::kBlocked);
+    free_buffers_.pop(blend_, WaitFor::kRoom);
     current_group_ = group;
     auto state = std::make_shared<GroupState>(
         job_.groups[group], job_.view.width, job_.view.height, config_.precision,
@@ -52,7 +52,7 @@ void RenderingUnit::run_blend() {
     work_until(schedule_.all_done());
     finished_.push(std::move(state), blend_);
   }
-  blend_.enter(ActivityState::kStarved);
+  blend_.idles();
 }
 
 void RenderingUnit::work_until(std::uint64_t cycle) {
@@ -91,7 +91,7 @@ void RenderingUnit::run_drain() {
     free_buffers_.push(0, drain_);
   }
   await_all(memory, drain_);
-  drain_.enter(ActivityState::kStarved);
+  drain_.idles();
   on_done_();
 }
 
@@ -163,8 +163,13 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.operations("pixel_state", "sram_large_read_bit", state_bits);
   sheet.part("rendering", "mac_lane", config_.clusters * config_.cluster_lanes + config_.span_lanes);
   sheet.port(memory);
+  sheet.remedy(blend_, "rendering.clusters");
+  sheet.remedy(drain_, "rendering.drain_pixels_per_cycle");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.sram(sram_uses(config_, built_for_));
   sheet.queue(finished_, "pixel state");
+  sheet.remedy(finished_, WaitFor::kRoom, "rendering.pixel_buffers");
+  sheet.remedy(free_buffers_, WaitFor::kRoom, "rendering.pixel_buffers");
   sheet.signal("group", current_group_);
 }
 

@@ -66,6 +66,7 @@ void ExactSorter::publish(DataSheet& sheet) {
   sheet.part("sorting", "sorting_unit", 1);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(built_for_));
+  sheet.remedy(sort_, "sorting_units");
   sheet.signal("visit", visit_);
 }
 

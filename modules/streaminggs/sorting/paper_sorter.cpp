@@ -227,6 +227,9 @@ void PaperSorter::publish(DataSheet& sheet) {
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(config_, built_for_));
   sheet.port(memory);
+  sheet.remedy(sort_, "sorting_units");
+  sheet.remedy(memory, WaitFor::kReads, "sorting.buffer_entries");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);
   sheet.signal("visit", visit_);
 }

@@ -37,7 +37,7 @@ void ExactVsu::run_walk() {
     counters_.groups_saturated += chunk ? 1 : 0;
     mark_end(group);
   }
-  walk_.enter(ActivityState::kStarved);
+  walk_.idles();
 }
 
 std::optional<WalkEntry> ExactVsu::next() {
@@ -94,6 +94,9 @@ void ExactVsu::publish(DataSheet& sheet) {
                  "no visit, no blending");
   sheet.sram(sram_uses(config_, built_for_));
   sheet.port(memory);
+  sheet.remedy(walk_, "vsu.tests_per_cycle");
+  sheet.remedy(memory, WaitFor::kReads, "vsu.node_cache_bytes");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", current_group_);
   sheet.signal("chunk", current_chunk_);
 }

@@ -55,7 +55,7 @@ void PaperVsu::run_traverse() {
     if (ordered->voxels.empty()) ++counters_.groups_empty;
     ordered_.push(std::move(ordered), traverse_);
   }
-  traverse_.enter(ActivityState::kStarved);
+  traverse_.idles();
 }
 
 GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
@@ -103,7 +103,7 @@ void PaperVsu::run_emit() {
     }
     mark_end(ordered->group);
   }
-  emit_.enter(ActivityState::kStarved);
+  emit_.idles();
 }
 
 // Splits a visit into contiguous shares of even size, no smaller than min_share and whole bursts of
@@ -164,8 +164,12 @@ void PaperVsu::publish(DataSheet& sheet) {
                  counters_.visits_saturated, "their Gaussians are not streamed");
   sheet.port(node_memory);
   sheet.port(record_memory);
+  sheet.remedy(traverse_, "vsu.steps_per_cycle");
+  sheet.remedy(node_memory, WaitFor::kReads, "vsu.node_cache_bytes");
+  sheet.remedy(record_memory, WaitFor::kReads, "vsu.record_cache_bytes");
   sheet.sram(sram_uses(config_));
   sheet.queue(ordered_, "ordered voxels");
+  sheet.remedy(ordered_, WaitFor::kRoom, "vsu.groups_ahead");
   sheet.signal("group", current_group_);
   sheet.signal("voxel", current_voxel_);
 }

@@ -32,7 +32,7 @@ void FetchUnit::run_ask() {
     Fetched next;
     next.group = group;
     next.block = block_of(group, job_, config_);
-    next.slot = free_slots_.pop(ask_, ActivityState::kBlocked);
+    next.slot = free_slots_.pop(ask_, WaitFor::kRoom);
     ask_.work(1);
     next.ticket = start_read(memory, ask_, job_.layout.first_halves.address(next.block.first),
                              slot(next.slot), next.block.count * kFirstHalfBytes,
@@ -40,7 +40,7 @@ void FetchUnit::run_ask() {
     gaussians_ += next.block.count;
     fetched_.push(next, ask_);
   }
-  ask_.enter(ActivityState::kStarved);
+  ask_.idles();
 }
 
 void FetchUnit::run_add() {

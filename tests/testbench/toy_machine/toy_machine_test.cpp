@@ -121,7 +121,7 @@ TEST_CASE("toy machine: waveform and terminal") {
     INFO(scope);
     CHECK_THAT(wave, Contains("$scope module " + std::string(scope) + " $end"));
   }
-  for (const char* signal : {"busy", "starved", "blocked", "fill", "bytes_outstanding", "group"}) {
+  for (const char* signal : {"busy", "waits_for", "fill", "bytes_outstanding", "group"}) {
     INFO(signal);
     CHECK_THAT(wave, Contains("  " + std::string(signal) + " "));
   }

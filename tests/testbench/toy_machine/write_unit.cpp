@@ -23,7 +23,7 @@ void WriteUnit::run() {
     fill(groups[next.group], next.colour);
   }
   await_all(memory, write_);
-  write_.enter(ActivityState::kStarved);
+  write_.idles();
   on_done_();
 }
 
