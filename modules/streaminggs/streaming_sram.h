@@ -26,6 +26,11 @@ SramUses streaming_sram_uses(const StreamingConfig& config, const BuiltFor& buil
 void resolve_sram(StreamingConfig& config, const std::function<SramUses()>& uses,
                   std::vector<AutoChoice>& chosen);
 
+// Leaves the memories that the other parameters fill to what they need; codebooks are of the scene.
+inline void fit_memories(StreamingConfig& config) {
+  config.sram.input_bytes = config.sram.shared_bytes = 0;
+}
+
 // Throws InputError, with the sum, when more is used of `memory` than there is; key: what says how
 // much there is.
 void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
