@@ -181,9 +181,14 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("subtile_blends", want.subtile_blends);
   bench.check_counter("contributors", want.contributors);
   const std::uint64_t pixels = 16 * want.subtile_blends;
-  bench.check_operations("rendering", "pixel_blend", pixels);
-  bench.check_operations("pixel_state", "sram_large_read_bit", 8 * pixels * kPixelStateBytes);
-  bench.check_operations("pixel_state", "sram_large_write_bit", 8 * pixels * kPixelStateBytes);
+  bench.check_operations("rendering", "pixel_lane", pixels);
+  // A sub-tile at once: blended, cleared before and drained behind.
+  std::uint64_t subtiles = want.subtile_blends;
+  for (const PixelRect& px : plan.job.groups) {
+    subtiles += static_cast<std::uint64_t>((px.width() + 3) / 4) *
+                static_cast<std::uint64_t>((px.height() + 3) / 4);
+  }
+  bench.check_accesses("pixel state", subtiles, subtiles);
   std::uint64_t blend = 0, drain = 0;
   for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
     const std::optional<std::uint64_t>& saturated_after = expected.saturated_after[g];

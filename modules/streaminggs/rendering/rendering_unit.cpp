@@ -103,7 +103,8 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
   const std::uint32_t px = built_for.group_px;
   return {
       sram_use("pixel state", kSharedSram,
-               {{config.pixel_buffers, "groups"}, {px, "px"}, {px, "px"}, {kPixelStateBytes, "B"}}),
+               {{config.pixel_buffers, "groups"}, {px, "px"}, {px, "px"}, {kPixelStateBytes, "B"}},
+               {8 * kSubtilePixels * kPixelStateBytes, SramPorts::kReadAndWrite, config.clusters}),
       unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
                         px * pixel_bytes(built_for.frame_format))};
 }
@@ -123,11 +124,17 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.counter("contributors", "pixels", "blended with an alpha above 1/255",
                 counters_.contributors);
   const double pixels = static_cast<double>(counters_.subtile_blends) * kSubtilePixels;
-  sheet.operations("rendering", "pixel_blend", pixels);
-  sheet.operations("pixel_state", "sram_large_write_bit", 8.0 * pixels * kPixelStateBytes);
-  sheet.operations("pixel_state", "sram_large_read_bit", 8.0 * pixels * kPixelStateBytes);
-  sheet.part("rendering", "pixel_lane", config_.clusters * kSubtilePixels);
-  sheet.port(memory);
+  sheet.part("rendering", "pixel_lane", config_.clusters * kSubtilePixels, 1);
+  sheet.operations("rendering", "pixel_lane", pixels);
+  // Each blend reads and writes a sub-tile; so do clearing and draining a group.
+  std::uint64_t subtiles = counters_.subtile_blends;
+  for (std::uint64_t group = 0; group < counters_.groups; ++group) {
+    const PixelRect& px = job_.groups[group];
+    subtiles += cycles_for(static_cast<std::uint64_t>(px.width()), kSubtilePx) *
+                cycles_for(static_cast<std::uint64_t>(px.height()), kSubtilePx);
+  }
+  sheet.accesses("pixel state", subtiles, subtiles);
+  sheet.port(memory, "pixel writes");
   sheet.sram(sram_uses(config_, built_for_));
   sheet.queue(finished_, "pixel state");
   sheet.signal("group", current_group_);
