@@ -29,13 +29,16 @@ template <class T>
 SramUse fifo_use(const char* name, const char* memory, std::uint32_t entries,
                  const char* what_they_are) {
   static_assert(EntryBytes<T>::value > 0, "T::kSramBytes says what hardware keeps of an entry");
-  return sram_use(name, memory, {{entries, what_they_are}, {EntryBytes<T>::value, "B"}});
+  return sram_use(name, memory, {{entries, what_they_are}, {EntryBytes<T>::value, "B"}},
+                  {8 * EntryBytes<T>::value});
 }
 
 // What can be said of a FIFO whatever it holds.
 class FifoChannel : public sc_core::sc_prim_channel {
  public:
   std::uint32_t fill() const { return fill_; }
+  std::uint64_t pushed() const { return pushed_; }  // entries so far
+  std::uint64_t popped() const { return pushed_ - fill_; }
   virtual std::uint32_t capacity() const = 0;
   virtual std::uint32_t entry_bytes() const = 0;  // as EntryBytes
 
@@ -60,6 +63,7 @@ class FifoChannel : public sc_core::sc_prim_channel {
 
   std::uint32_t fill_ = 0;
   const Activity *writer_ = nullptr, *reader_ = nullptr;
+  std::uint64_t pushed_ = 0;
   std::optional<StallInjector> writer_stalls_, reader_stalls_;
 };
 
@@ -92,6 +96,7 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
     entry.value = std::move(value);
     entry.ready = sc_core::sc_time_stamp() + latency_;
     ++fill_;
+    ++pushed_;
     if (reader_waits_) filled_.notify(sc_core::SC_ZERO_TIME);
     if (listener_ != nullptr) listener_->notify(sc_core::SC_ZERO_TIME);
   }

@@ -25,10 +25,11 @@ inline bool walks_before(const WalkEntry& a, const WalkEntry& b) {
 }
 
 struct WalkCounters {
-  std::uint64_t nodes = 0;       // read
-  std::uint64_t tests = 0;       // children tested
-  std::uint64_t queue_max = 0;   // entries
-  std::uint64_t overflowed = 0;  // entries put aside because the queue was full
+  std::uint64_t nodes = 0;             // read
+  std::uint64_t tests = 0;             // children tested
+  std::uint64_t queue_max = 0;         // entries
+  std::uint64_t queue_operations = 0;  // entries put in and taken out
+  std::uint64_t overflowed = 0;        // entries put aside because the queue was full
 };
 
 // Source: `ChunkNode node(std::uint32_t)`; `void put_aside(const WalkEntry&)` keeps what does not
@@ -59,6 +60,7 @@ class ChunkWalk {
       std::pop_heap(queue_.begin(), queue_.end(), behind);
       const WalkEntry entry = queue_.back();
       queue_.pop_back();
+      ++counters_.queue_operations;
       if (entry.count > 0) return entry;
       expand(entry);
     }
@@ -87,6 +89,7 @@ class ChunkWalk {
 
   void push(const WalkEntry& entry) {
     queue_.push_back(entry);
+    ++counters_.queue_operations;
     std::push_heap(queue_.begin(), queue_.end(), behind);
     if (queue_.size() > capacity_) put_aside_farthest();
     counters_.queue_max = std::max<std::uint64_t>(counters_.queue_max, queue_.size());

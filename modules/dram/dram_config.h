@@ -48,7 +48,7 @@ struct DramConfig {
   std::uint32_t self_refresh_idle_cycles = 0;  // of a rank, until self-refresh; 0: never
 
   std::string current_set;     // of the memspec; empty: its default
-  double io_pj_per_bit = 0.0;  // stated adder; no published set separates VDDQ
+  double io_pj_per_bit = 3.0;  // stated adder; no published set separates VDDQ
 
   // InputError naming the key, what it is and what is allowed. Loads the memspec.
   void validate() const;

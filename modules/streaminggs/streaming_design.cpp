@@ -20,8 +20,8 @@ void adapt(StreamingConfig& config, const SecondHalfFormat& format,
   for (AutoChoice& cost : resolve_filter_cost(config.hfu, format.sh_degree)) {
     chosen.push_back(std::move(cost));
   }
-  check_sram("sram.codebook_bytes", config.sram.codebook_bytes, CodebookBuffer::sram_uses(format),
-             kCodebookSram);
+  check_sram("sram.codebook_bytes", config.sram.codebook_bytes,
+             CodebookBuffer::sram_uses(config.codebook, format), kCodebookSram);
 }
 
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {

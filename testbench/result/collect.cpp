@@ -35,19 +35,49 @@ class Collector : public LeftOutCollector {
                std::uint64_t value) override {
     into_.units.back().counters.push_back({name, unit, meaning, value});
   }
-  void operations(const char* component, const char* kind, double count) override {
-    add(into_.operations, component, kind, count);
+  void datapath(const Datapath& path, std::uint64_t items) override {
+    part(path.component.c_str(), path.lane.c_str(), static_cast<double>(path.all_lanes()), 1);
+    operations(path.component.c_str(), path.lane.c_str(),
+               static_cast<double>(items) * path.used_macs);
+    const auto same =
+        std::find_if(into_.datapaths.begin(), into_.datapaths.end(),
+                     [&](const DatapathResult& d) { return d.datapath.name == path.name; });
+    if (same != into_.datapaths.end()) {
+      same->datapath.copies += path.copies;
+      same->items += items;
+    } else {
+      into_.datapaths.push_back({path, items});
+    }
   }
-  void part(const char* component, const char* kind, double count) override {
-    add(into_.parts, component, kind, count);
+  void part(const char* component, const char* kind, double count, double per_cycle) override {
+    Parts& parts = entry(into_.parts, component, kind);
+    parts.count += count;
+    parts.per_cycle += count * per_cycle;
+  }
+  void operations(const char* component, const char* kind, double count) override {
+    entry(into_.operations, component, kind).count += count;
+    if (count > 0) into_.units.back().charged = true;
   }
   void sram(const SramUse& use) override { sgs::add(into_.sram_uses, use); }
-  void sram_available(const char* memory, std::uint64_t bytes) override {
-    constexpr double kKiB = 1024;
-    into_.sram_available.emplace_back(memory, bytes);
-    add(into_.parts, "sram", "sram_kib", static_cast<double>(bytes) / kKiB);
+  void accesses(const char* use, std::uint64_t reads, std::uint64_t writes) override {
+    auto same = std::find_if(into_.sram_accesses.begin(), into_.sram_accesses.end(),
+                             [&](const SramAccesses& a) { return a.use == use; });
+    if (same == into_.sram_accesses.end()) {
+      same = into_.sram_accesses.insert(same, {use, 0, 0});
+    }
+    same->reads += reads;
+    same->writes += writes;
+    if (reads + writes > 0) into_.units.back().charged = true;
   }
-  void datapath(const Datapath& datapath) override { into_.datapaths.push_back(datapath); }
+  void queue(FifoChannel& queue, const char* use) override {
+    if (queue.entry_bytes() > 0) accesses(use, queue.popped(), queue.pushed());
+  }
+  void port(MemoryPort& port, const char* writes) override {
+    if (*writes != '\0') accesses(writes, port.words_written(), port.words_written());
+  }
+  void sram_available(const char* memory, std::uint64_t bytes) override {
+    into_.sram_available.emplace_back(memory, bytes);
+  }
 
   // To be called when all units have published: a FIFO's remedy comes from who made it, not from
   // who waits at it.
@@ -79,16 +109,17 @@ class Collector : public LeftOutCollector {
     return result;
   }
 
-  static void add(std::vector<Amount>& amounts, const char* component, const char* kind,
-                  double count) {
-    const auto same = std::find_if(amounts.begin(), amounts.end(), [&](const Amount& a) {
-      return a.component == component && a.kind == kind;
+  template <class Entry>
+  static Entry& entry(std::vector<Entry>& entries, const char* component, const char* kind) {
+    const auto same = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
+      return e.component == component && e.kind == kind;
     });
-    if (same != amounts.end()) {
-      same->count += count;
-    } else {
-      amounts.push_back({component, kind, count});
-    }
+    if (same != entries.end()) return *same;
+    Entry fresh;
+    fresh.component = component;
+    fresh.kind = kind;
+    entries.push_back(fresh);
+    return entries.back();
   }
 
   const Machine& machine_;
@@ -100,7 +131,7 @@ class Collector : public LeftOutCollector {
 class Drained : public DataSheet {
  public:
   void queue(FifoChannel& queue, const char*) override { all = all && queue.fill() == 0; }
-  void port(MemoryPort& port) override { all = all && port.idle(); }
+  void port(MemoryPort& port, const char*) override { all = all && port.idle(); }
   bool all = true;
 };
 
@@ -138,6 +169,12 @@ MachineResult collect(Machine& machine) {
   std::uint64_t idle = 0;
   for (const UnitResult& unit : result.units) {
     for (const ActivityResult& activity : unit.activities) idle += activity.busy_cycles == 0;
+  }
+  for (const auto& [memory, available] : result.sram_available) {
+    const std::uint64_t used = sram_bytes(result.sram_uses, memory);
+    if (used >= available) continue;
+    collector.left_out(("unused_sram_" + memory).c_str(), "configured, and taken by no unit",
+                       available - used, "bytes that are not built: no area, no leakage");
   }
   collector.left_out("idle_activities", "never fed in this frame", idle,
                      "their area, if every frame is like this one");

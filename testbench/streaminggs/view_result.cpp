@@ -68,7 +68,8 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   list_left_out(scene.stored, view.run.machine, left_out);
   view.binding = find_binding(view.run);
   view.energy_j = energy_of(view.run, technology);
-  view.area_mm2 = area_of(view.run.machine, technology);
+  view.area_mm2 = area_of(view.run, technology);
+  view.sram_model = technology.sram;
   const SceneLayout& layout = scene.stored.image.layout;
   view.once_bytes =
       view.golden.contributing * (kFirstHalfBytes + layout.second_halves.record_bytes) +

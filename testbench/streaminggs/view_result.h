@@ -31,12 +31,13 @@ struct ViewResult {
   std::vector<LeftOut> left_out;
   Binding binding;
   CostResult energy_j, area_mm2;
+  SramModel sram_model;          // that they were made with
   std::uint64_t image_hash = 0;  // of the bytes loaded into the memory
   std::uint64_t once_bytes = 0;  // each contributing Gaussian read once, each pixel written
   double once_ratio() const {
     return static_cast<double>(run.memory.bytes) / static_cast<double>(once_bytes);
   }
-  double mean_power_w() const { return run.cycles > 0 ? energy_j.total / run.time_s() : 0; }
+  double mean_power_w() const { return run.cycles > 0 ? energy_j.total.middle / run.time_s() : 0; }
 };
 
 // Simulates one view and judges it: golden picture, costs, binding unit. Throws InputError when

@@ -65,8 +65,8 @@ FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
 }
 
 Outcome outcome_of(const FrameResult& frame, const Technology& technology) {
-  return {frame.cycles, energy_of(frame, technology).total,
-          area_of(frame.machine, technology).total, find_binding(frame)};
+  return {frame.cycles, energy_of(frame, technology).total.middle,
+          area_of(frame, technology).total.middle, find_binding(frame)};
 }
 
 // The number at "key.path" of a document.

@@ -76,6 +76,8 @@ class GroupModel {
                                     [&](std::uint64_t from) { return from <= now_; });
       dropping_ = token.is_splat && over;
       times_.splats_dropped += dropping_ ? 1 : 0;
+      times_.spans += dropping_ ? 0 : token.spans;
+      times_.splats_spanned += !dropping_ && token.spans > 0 ? 1 : 0;
     }
     while (!dropping_ && job_ < token.reaches.size()) {
       const SubtileReach& subtile = token.reaches[job_];

@@ -23,6 +23,7 @@ struct RenderingTimes {
   std::uint64_t cycles = 0;  // from the first token until every cluster is free again
   std::optional<std::uint64_t> finished;  // every sub-tile is known to be finished from this cycle on
   std::uint64_t blends = 0, late_blends = 0, hazard_cycles = 0, queue_cycles = 0;
+  std::uint64_t spans = 0, splats_spanned = 0;
   std::uint64_t splats_dropped = 0;  // came when that was known
 };
 

@@ -4,8 +4,10 @@
 #include <limits>
 
 #include "algorithm/order/tree_in_memory.h"
+#include "algorithm/splat/lane_macs.h"
 #include "algorithm/storage/build_memory_image.h"
 #include "algorithm/voxel/chunk_tree.h"
+#include "algorithm/voxel/chunk_work.h"
 #include "modules/streaminggs/vsu/exact_vsu.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
@@ -47,6 +49,8 @@ struct Expected {
   std::uint64_t cycles = 0, empty = 0, visits = 0;
 };
 
+std::uint64_t macs_of_a_test() { return folded_macs(chunk_work(longest_chunk_case())); }
+
 Expected expect(const Plan& plan) {
   Expected out;
   TreeInMemory source{plan.tree, {}};
@@ -58,10 +62,10 @@ Expected expect(const Plan& plan) {
       const WalkCounters before = walk.counters();
       const std::optional<WalkEntry> chunk = walk.next();
       const std::uint64_t tests = walk.counters().tests - before.tests;
-      const std::uint64_t per_cycle = plan.config.tests_per_cycle;
+      const std::uint64_t lanes = plan.config.test_lanes;
       // A queue operation, one a node, and the tests.
-      out.cycles +=
-          1 + (walk.counters().nodes - before.nodes) + (tests + per_cycle - 1) / per_cycle;
+      out.cycles += 1 + (walk.counters().nodes - before.nodes) +
+                    (tests * macs_of_a_test() + lanes - 1) / lanes;
       if (!chunk) break;
       out.groups.back().push_back(*chunk);
     }
@@ -108,8 +112,11 @@ void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected
   const std::uint64_t table_bytes = misses * sizeof(ChunkNode);
   checks.that(bench.bytes_read() >= table_bytes, "bytes read of the tree");
   checks.that(bench.bytes_read() <= table_bytes + aside_bytes, "bytes read of what was put aside");
-  constexpr std::uint64_t kMacsOfATest = 80;
-  bench.check_operations("vsu", "fp32_mac", bench.counter("tests") * kMacsOfATest);
+  bench.check_operations("vsu", "fp32_lane", bench.counter("tests") * macs_of_a_test());
+  // Four accesses of 32 B a node, all tags of a set at once.
+  const std::uint64_t nodes = bench.counter("nodes");
+  bench.check_accesses("node cache", 4 * nodes, 4 * misses);
+  bench.check_accesses("node cache tags", nodes, nodes);
   if (any_finished) return;
   bench.check_counter("visits", expected.visits);
   bench.check_counter("nodes", expected.walk.nodes);
@@ -199,7 +206,7 @@ void random_case(Case& test) {
                       1 + static_cast<std::uint32_t>(random() % 20));
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.fifo_entries = 1 + static_cast<std::uint32_t>(random() % 6);
-  plan.config.tests_per_cycle = 1 + static_cast<std::uint32_t>(random() % 8);
+  plan.config.test_lanes = 1 + static_cast<std::uint32_t>(random() % 600);
   plan.config.queue_entries =
       kChunkNodeWidth + 1 + static_cast<std::uint32_t>(random() % (random() % 2 == 0 ? 10 : 500));
   plan.config.node_cache_bytes = 64U << (random() % 14);

@@ -158,9 +158,8 @@ void check_counters(Run& run, const MergePlan& plan) {
   // A key passes all levels of the heap on its way in and on its way out.
   std::uint64_t levels = 0;
   for (std::uint64_t held = plan.config.entries - 1; held > 0; held /= 2) ++levels;
-  const std::uint64_t moved_bytes = 2 * keys * levels * kWaitingKeyBytes;
-  run.bench.check_operations("merge", "sram_middle_read_bit", 8 * moved_bytes);
-  run.bench.check_operations("merge", "sram_middle_write_bit", 8 * moved_bytes);
+  run.bench.check_operations("merge", "comparator", 2 * keys * levels);
+  run.bench.check_accesses("waiting keys", 2 * keys * levels, 2 * keys * levels);
   // Nothing went past the spill area.
   const RegionSpan& spill = run.job.spill;
   const std::vector<std::byte> behind =

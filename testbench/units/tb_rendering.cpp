@@ -196,6 +196,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     blend += group.cycles;
     drain += expected.drain_cycles[g];
     sum.blends += group.blends;
+    sum.spans += group.spans;
+    sum.splats_spanned += group.splats_spanned;
     sum.late_blends += group.late_blends;
     sum.hazard_cycles += group.hazard_cycles;
     sum.queue_cycles += group.queue_cycles;
@@ -208,10 +210,20 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("subtile_blends_late", sum.late_blends);
   bench.check_counter("hazard_cycles", sum.hazard_cycles);
   bench.check_counter("queue_cycles", sum.queue_cycles);
-  const std::uint64_t pixels = 16 * sum.blends;
-  const std::uint64_t state_bits = 8 * pixels * plan.config.pixel_state_bytes();
-  bench.check_operations("pixel_state", "sram_large_read_bit", state_bits);
-  bench.check_operations("pixel_state", "sram_large_write_bit", state_bits);
+  const RenderingMacs& macs = rendering_macs();
+  const std::uint64_t blend_macs = sum.blends * macs.subtile_blend;
+  const std::uint64_t span_macs = sum.spans * macs.span + sum.splats_spanned * macs.spans_begin;
+  const bool in_half = plan.config.precision == BlendPrecision::kHalf;
+  bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
+  if (in_half) bench.check_operations("rendering", "fp16_lane", blend_macs);
+  // A sub-tile at once: blended, cleared before and drained behind.
+  std::uint64_t subtiles = sum.blends;
+  for (const PixelRect& px : plan.job.groups) {
+    subtiles += ceil_div(static_cast<std::uint64_t>(px.width()), 4) *
+                ceil_div(static_cast<std::uint64_t>(px.height()), 4);
+  }
+  bench.check_accesses("pixel state", subtiles, subtiles);
+  bench.check_accesses("cluster queues", sum.blends, sum.blends);
   checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");
 }
 

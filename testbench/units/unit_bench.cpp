@@ -185,6 +185,12 @@ void UnitBench::check_operations(const std::string& component, const std::string
                  component + ": " + kind);
 }
 
+void UnitBench::check_accesses(const std::string& use, std::uint64_t reads, std::uint64_t writes) {
+  const auto [read, written] = publish().accesses(use);
+  checks().equal(read, reads, use + ": reads");
+  checks().equal(written, writes, use + ": writes");
+}
+
 std::uint64_t UnitBench::bytes_read() const {
   std::uint64_t sum = 0;
   for (const MemoryPort* port : published_.ports) sum += port->bytes_read();

@@ -149,7 +149,9 @@ void check_bounds(const Json& view) {
     CHECK(of(unit, "fine_tests") * fine_interval <= frame);
     CHECK(ceil_div(of(unit, "subtile_blends"), count(config["rendering"]["clusters"])) <= frame);
     if (of(unit, "steps") > 0) {
-      CHECK(of(unit, "steps") / count(config["vsu"]["steps_per_cycle"]) <= frame);
+      CHECK(of(unit, "steps") * count(view["datapath"]["ray_step"]["used"]["macs"]) /
+                count(config["vsu"]["step_lanes"]) <=
+            frame);
     }
   }
 }
@@ -201,6 +203,8 @@ void check_any_machine(const Json& view) {
   CHECK(view["schema_version"] == 2);
   CHECK(view["image"]["equals_streaming_renderer"] == true);
   CHECK(view["frame"]["drained"] == true);
+  INFO(view["ledger"]["faults"].dump(2));
+  CHECK(view["ledger"]["faults"].empty());
   check_accounts(view);
   check_memory(view);
 }

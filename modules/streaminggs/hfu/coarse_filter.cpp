@@ -5,6 +5,7 @@
 
 #include "algorithm/memory/records.h"
 #include "algorithm/splat/coarse_bound.h"
+#include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
 
@@ -13,6 +14,7 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
     : sc_module(name),
       memory("memory", context.built_for.memory_port),
       config_(config),
+      tests_(coarse_datapath(config)),
       job_(context.job),
       load_("load", context.clock),
       filter_("filter", context.clock),
@@ -89,8 +91,9 @@ void CoarseFilter::filter_slice(const Slice& slice) {
         counters_.dropped_saturated += slice.share.count - i;
         break;
       }
-      if (config_.coarse_filter) pending_cycles += config_.cfu_interval_cycles();
+      if (config_.coarse_filter) pending_cycles += tests_.interval_cycles();
     }
+    ++counters_.read;
     const FirstHalf first = decode_first_half(records + std::size_t{i} * kFirstHalfBytes);
     const CoarseBound bound = coarse_bound(job_.view, first.mean, first.scale_max);
     if (config_.coarse_filter) {
@@ -118,7 +121,8 @@ SramUses CoarseFilter::sram_uses(const HfuConfig& config) {
   return {sram_use("input", kInputSram,
                    {{config.input_slots, "slots"},
                     {config.slice_gaussians, "Gaussians"},
-                    {kFirstHalfBytes, "B"}}),
+                    {kFirstHalfBytes, "B"}},
+                   {8 * kFirstHalfBytes}),
           fifo_use<Slice>("slices", kSharedSram, config.input_slots, "slices")};
 }
 
@@ -133,15 +137,12 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.counter("coarse_passed", "Gaussians", "that may touch their group", counters_.passed);
   sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
                 counters_.dropped_saturated);
-  sheet.operations("coarse", "fp32_mac", static_cast<double>(counters_.tests) * config_.cfu_macs);
-  const double buffered = 8.0 * static_cast<double>(counters_.first_halves) * kFirstHalfBytes;
-  sheet.operations("buffers", "sram_small_write_bit", buffered);
-  sheet.operations("buffers", "sram_small_read_bit", buffered);
-  sheet.part("hfus", "mac_lane", config_.cfus * config_.cfu_lanes);
+  sheet.datapath(tests_, counters_.tests);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.port(memory);
   sheet.sram(sram_uses(config_));
+  sheet.accesses("input", counters_.read, counters_.first_halves);
   sheet.queue(slices_, "slices");
   sheet.remedy(filter_, "hfu.cfu_lanes");
   sheet.remedy(memory, WaitFor::kReads, "hfu.input_slots");

@@ -33,6 +33,7 @@ class CoarseFilter : public sc_core::sc_module {
   struct Counters {
     std::uint64_t shares = 0;        // of visits, empty ones and ends of groups included
     std::uint64_t first_halves = 0;  // fetched
+    std::uint64_t read = 0;          // of these, from the input buffer
     std::uint64_t tests = 0;
     std::uint64_t passed = 0;
     std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
@@ -55,6 +56,7 @@ class CoarseFilter : public sc_core::sc_module {
   void filter_slice(const Slice& slice);
 
   const HfuConfig config_;
+  const Datapath tests_;
   const StreamingJob& job_;
   Activity load_, filter_;
   std::vector<std::byte> input_;  // [input_slots, slice_gaussians] first halves

@@ -4,6 +4,7 @@
 #include "algorithm/memory/second_half.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
+#include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
 namespace {
@@ -24,6 +25,7 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
       job_(context.job),
       fetch_("fetch", context.clock),
       filter_("filter", context.clock),
+      tests_(fine_datapath(config, context.job.layout.sh_degree())),
       record_bytes_(job_.layout.second_halves.record_bytes),
       second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
       fetched_("fetched", context.clock, fetched_entries(config)),
@@ -113,7 +115,7 @@ void FineFilter::test(const Decoded& decoded) {
     reject(candidate);
     return;
   }
-  filter_.work(config_.ffu_interval_cycles());
+  filter_.work(tests_.interval_cycles());
   ++counters_.tests;
   SplatToken token;
   if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||
@@ -142,7 +144,8 @@ void FineFilter::reject(const FineCandidate& candidate) {
 SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
   SramUses uses = {
       sram_use("second halves", kSharedSram,
-               {{config.second_half_slots, "slots"}, {built_for.second_half.bytes(), "B"}}),
+               {{config.second_half_slots, "slots"}, {built_for.second_half.bytes(), "B"}},
+               {8 * kPortBytes}),
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
                               "candidates")};
   if (built_for.second_half.quantised()) {
@@ -163,12 +166,9 @@ void FineFilter::publish(DataSheet& sheet) {
                 counters_.dropped_saturated);
   sheet.counter("dropped_fetched", "Gaussians", "of these with their second half already fetched",
                 counters_.dropped_fetched);
-  sheet.operations("fine", "fp32_mac", static_cast<double>(counters_.tests) * config_.ffu_macs);
-  const double buffered = 8.0 * (static_cast<double>(counters_.second_halves) * record_bytes_ +
-                                 static_cast<double>(counters_.splats) * kSplatEntryBytes);
-  sheet.operations("buffers", "sram_small_write_bit", buffered);
-  sheet.operations("buffers", "sram_small_read_bit", buffered);
-  sheet.part("hfus", "mac_lane", config_.ffu_lanes);
+  sheet.datapath(tests_, counters_.tests);
+  const std::uint64_t words = counters_.second_halves * sram_words(record_bytes_, {8 * kPortBytes});
+  sheet.accesses("second halves", words, words);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated - counters_.dropped_fetched,
                  "filtering and second halves");

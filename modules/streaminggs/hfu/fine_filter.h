@@ -86,6 +86,7 @@ class FineFilter : public sc_core::sc_module {
   const FineFilterPlace place_;
   const StreamingJob& job_;
   Activity fetch_, filter_;
+  const Datapath tests_;
   const std::uint32_t record_bytes_;
   std::vector<std::byte> second_halves_;  // [second_half_slots] records
   TimedFifo<FineCandidate> fetched_;

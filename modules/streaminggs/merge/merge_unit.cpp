@@ -329,16 +329,19 @@ void MergeUnit::drop_all() {
 
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
   SramUses uses = {
-      sram_use("waiting keys", kSharedSram, {{config.entries, "keys"}, {kWaitingKeyBytes, "B"}})};
+      sram_use("waiting keys", kSharedSram, {{config.entries, "keys"}, {kWaitingKeyBytes, "B"}},
+               {8 * kWaitingKeyBytes, SramPorts::kReadAndWrite, heap_levels(config.entries)})};
   if (config.on_overflow != OnOverflow::kSpill) return uses;
   const SramUse block = sram_use("spill blocks", kSharedSram,
-                                 {{config.spill_block_entries, "keys"}, {kSpilledKeyBytes, "B"}});
+                                 {{config.spill_block_entries, "keys"}, {kSpilledKeyBytes, "B"}},
+                                 {8 * kSpilledKeyBytes});
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
   uses.push_back(sram_use("spilled runs", kSharedSram,
                           {{config.spill_runs, "runs"},
                            {2, "blocks"},
                            {config.spill_block_entries, "keys"},
-                           {kSpilledKeyBytes, "B"}}));
+                           {kSpilledKeyBytes, "B"}},
+                          {8 * kSpilledKeyBytes}));
   uses.push_back(block);
   uses.push_back(unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes));
   return uses;
@@ -359,18 +362,25 @@ void MergeUnit::publish(DataSheet& sheet) {
                 counters_.looked_up);
   sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
   sheet.counter("keys_spilled", "keys", "written to DRAM, over all passes", counters_.keys_spilled);
-  // A key climbs or sinks through the levels of the heap, once in and once out.
-  const double moved_bits = 8.0 * static_cast<double>(counters_.keys) * 2 *
-                            heap_levels(config_.entries) * kWaitingKeyBytes;
-  sheet.operations("merge", "sram_middle_write_bit", moved_bits);
-  sheet.operations("merge", "sram_middle_read_bit", moved_bits);
-  sheet.part("merge", "sorting_unit", 1);  // not published: taken as one more sorting unit
+  // A key climbs or sinks through the levels of the heap, once in and once out; each level has its
+  // memory and its comparator.
+  const std::uint32_t levels = heap_levels(config_.entries);
+  const std::uint64_t moves = counters_.keys * 2 * levels;
+  sheet.part("merge", "comparator", levels, 1);
+  sheet.operations("merge", "comparator", static_cast<double>(moves));
+  sheet.accesses("waiting keys", moves, moves);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.left_out("index_lookups", "no other waiting key had its depth, and it was not spilled",
                  counters_.keys - counters_.looked_up, "4 B of DRAM traffic each");
   sheet.sram(sram_uses(config_, built_for_));
-  sheet.port(memory);
+  if (config_.on_overflow == OnOverflow::kSpill) {
+    sheet.accesses("spilled runs", counters_.keys_spilled, counters_.keys_spilled);
+    sheet.accesses("spill blocks", counters_.keys_spilled, counters_.keys_spilled);
+    sheet.port(memory, "spill writes");
+  } else {
+    sheet.port(memory);
+  }
   sheet.remedy(memory, WaitFor::kReads, "merge.entries");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);

@@ -77,9 +77,10 @@ class ClusterSchedule {
 
   // The cycle in which every cluster is free again.
   std::uint64_t all_done() const { return done_; }
-  // From which cycle on it is known that every sub-tile of the group is finished.
+  // From which cycle on it is known that every sub-tile of the group is finished; 0 for none.
   std::uint64_t group_finished_from() const {
-    return *std::max_element(finished_from_.begin(), finished_from_.end());
+    const auto last = std::max_element(finished_from_.begin(), finished_from_.end());
+    return last == finished_from_.end() ? 0 : *last;
   }
   const Counters& counters() const { return counters_; }
 

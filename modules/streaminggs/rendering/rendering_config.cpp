@@ -2,18 +2,38 @@
 #include "modules/streaminggs/rendering/rendering_config.h"
 
 #include "algorithm/splat/filter_work.h"
-#include "algorithm/splat/lane_macs.h"
+#include "modules/streaminggs/counted_datapath.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
 
+namespace {
+
+const RenderingWork& counted() {
+  static const RenderingWork work = rendering_work();
+  return work;
+}
+
+}  // namespace
+
 const RenderingMacs& rendering_macs() {
-  static const RenderingMacs macs = [] {
-    const RenderingWork work = rendering_work();
-    return RenderingMacs{folded_macs(work.spans_begin), folded_macs(work.span),
-                         folded_macs(work.subtile_blend)};
-  }();
+  static const RenderingMacs macs{folded_macs(counted().spans_begin), folded_macs(counted().span),
+                                  folded_macs(counted().subtile_blend)};
   return macs;
+}
+
+Datapath blend_datapath(const RenderingConfig& config) {
+  Datapath path = counted_datapath("subtile_blend", "rendering", counted().subtile_blend);
+  if (config.precision == BlendPrecision::kHalf) path.lane = "fp16_lane";
+  path.lanes = config.cluster_lanes;
+  path.copies = config.clusters;
+  return path;
+}
+
+Datapath span_datapath(const RenderingConfig& config) {
+  Datapath path = counted_datapath("row_span", "rendering", counted().span);
+  path.lanes = config.span_lanes;
+  return path;
 }
 
 std::uint32_t RenderingConfig::cluster_interval_cycles() const {

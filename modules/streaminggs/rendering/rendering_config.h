@@ -5,6 +5,7 @@
 
 #include "algorithm/splat/blend.h"
 #include "modules/config/config_visitor.h"
+#include "tlm/datapath.h"
 
 namespace sgs {
 
@@ -42,6 +43,10 @@ struct RenderingMacs {
   std::uint32_t spans_begin, span, subtile_blend;
 };
 const RenderingMacs& rendering_macs();
+
+// The lanes of all clusters, an item a sub-tile; those of the spans, an item a row.
+Datapath blend_datapath(const RenderingConfig& config);
+Datapath span_datapath(const RenderingConfig& config);
 
 void visit(ConfigVisitor& v, RenderingConfig& config);
 

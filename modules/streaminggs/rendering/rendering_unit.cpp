@@ -119,13 +119,35 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                {{config.pixel_buffers, "groups"},
                 {px, "px"},
                 {px, "px"},
-                {config.pixel_state_bytes(), "B"}}),
+                {config.pixel_state_bytes(), "B"}},
+               {8 * kSubtilePixels * config.pixel_state_bytes(), SramPorts::kReadAndWrite,
+                config.clusters}),
       sram_use("cluster queues", kSharedSram,
                {{config.clusters, "clusters"},
                 {config.cluster_queue_entries, "splats"},
-                {kSplatEntryBytes, "B"}}),
+                {kSplatEntryBytes, "B"}},
+               {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}),
       unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
                         px * pixel_bytes(built_for.frame_format))};
+}
+
+void RenderingUnit::publish_ledger(DataSheet& sheet) {
+  const ClusterSchedule::Counters& clusters = schedule_.counters();
+  sheet.datapath(blend_datapath(config_), clusters.blends);
+  const Datapath spans = span_datapath(config_);
+  sheet.datapath(spans, counters_.spans);
+  sheet.operations(spans.component.c_str(), spans.lane.c_str(),
+                   static_cast<double>(counters_.splats_spanned) * rendering_macs().spans_begin);
+  sheet.accesses("cluster queues", clusters.blends, clusters.blends);
+  // Each blend reads and writes a sub-tile; so do clearing and draining a group.
+  std::uint64_t subtiles = clusters.blends;
+  for (std::uint64_t group = 0; group < counters_.groups; ++group) {
+    const PixelRect& px = job_.groups[group];
+    subtiles += cycles_for(static_cast<std::uint64_t>(px.width()), kSubtilePx) *
+                cycles_for(static_cast<std::uint64_t>(px.height()), kSubtilePx);
+  }
+  sheet.accesses("pixel state", subtiles, subtiles);
+  sheet.port(memory, "pixel writes");
 }
 
 void RenderingUnit::publish(DataSheet& sheet) {
@@ -152,17 +174,7 @@ void RenderingUnit::publish(DataSheet& sheet) {
                 clusters.queue_cycles);
   sheet.counter("contributors", "pixels", "blended with an alpha above 1/255",
                 counters_.contributors);
-  const RenderingMacs& macs = rendering_macs();
-  const auto blends = static_cast<double>(clusters.blends);
-  sheet.operations("rendering", "fp32_mac",
-                   static_cast<double>(counters_.splats_spanned) * macs.spans_begin +
-                       static_cast<double>(counters_.spans) * macs.span +
-                       blends * macs.subtile_blend);
-  const double state_bits = 8.0 * blends * kSubtilePixels * config_.pixel_state_bytes();
-  sheet.operations("pixel_state", "sram_large_write_bit", state_bits);
-  sheet.operations("pixel_state", "sram_large_read_bit", state_bits);
-  sheet.part("rendering", "mac_lane", config_.clusters * config_.cluster_lanes + config_.span_lanes);
-  sheet.port(memory);
+  publish_ledger(sheet);
   sheet.remedy(blend_, "rendering.clusters");
   sheet.remedy(drain_, "rendering.drain_pixels_per_cycle");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");

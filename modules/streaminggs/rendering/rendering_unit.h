@@ -55,6 +55,7 @@ class RenderingUnit : public sc_core::sc_module {
   void run_drain();  // thread
   void blend_splat(const Splat& splat, std::uint32_t group, GroupState& state);
   void work_until(std::uint64_t cycle);
+  void publish_ledger(DataSheet& sheet);
   void write_group(const GroupState& state);
 
   const RenderingConfig config_;

@@ -3,9 +3,26 @@
 
 #include <limits>
 
-#include "modules/streaminggs/work_rates.h"
+#include "algorithm/voxel/chunk_work.h"
+#include "modules/streaminggs/counted_datapath.h"
 
 namespace sgs {
+namespace {
+
+Datapath chunk_test(const ExactVsuConfig& config) {
+  Datapath path = counted_datapath("chunk_test", "vsu", chunk_work(longest_chunk_case()));
+  path.lanes = config.test_lanes;
+  return path;
+}
+
+// Levels of the walk's queue, a heap; each has its memory and its comparator.
+std::uint32_t queue_levels(std::uint32_t entries) {
+  std::uint32_t levels = 0;
+  while ((std::uint64_t{1} << levels) < entries) ++levels;
+  return levels;
+}
+
+}  // namespace
 
 ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& config,
                    const UnitContext& context, const RegionSpan& aside)
@@ -15,6 +32,7 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
       built_for_(context.built_for),
       job_(context.job),
       walk_("walk", context.clock),
+      tests_(chunk_test(config)),
       nodes_(config.node_cache_bytes, job_.layout.chunk_table().nodes),
       source_(*this, aside),
       chunk_walk_(job_.view, source_, config.queue_entries) {
@@ -44,8 +62,7 @@ std::optional<WalkEntry> ExactVsu::next() {
   const WalkCounters before = chunk_walk_.counters();
   const std::optional<WalkEntry> chunk = chunk_walk_.next();
   const WalkCounters& after = chunk_walk_.counters();
-  walk_.work(1 + (after.nodes - before.nodes) +
-             cycles_for(after.tests - before.tests, config_.tests_per_cycle));
+  walk_.work(1 + (after.nodes - before.nodes) + tests_.cycles(after.tests - before.tests));
   return chunk;
 }
 
@@ -65,11 +82,14 @@ void ExactVsu::mark_end(std::uint32_t group) {
 }
 
 SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built_for) {
-  return {
-      sram_use("node cache", kSharedSram, {{config.node_cache_bytes, "B"}}),
-      sram_use("walk queue", kSharedSram,
-               {{config.queue_entries, "entries"}, {kWalkEntryBytes, "B"}}),
-      unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes)};
+  SramUses uses = TableCache<ChunkNode>::sram_uses("node cache", "node cache tags", kSharedSram,
+                                                   config.node_cache_bytes);
+  uses.push_back(sram_use(
+      "walk queue", kSharedSram, {{config.queue_entries, "entries"}, {kWalkEntryBytes, "B"}},
+      {8 * kWalkEntryBytes, SramPorts::kReadAndWrite, queue_levels(config.queue_entries)}));
+  uses.push_back(
+      unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes));
+  return uses;
 }
 
 void ExactVsu::publish(DataSheet& sheet) {
@@ -86,15 +106,20 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.counter("queue_entries_max", "entries", "most in the walk's queue", walk.queue_max);
   sheet.counter("queue_entries_put_aside", "entries", "that went to DRAM: the queue was full",
                 walk.overflowed);
-  sheet.operations("vsu", "fp32_mac", static_cast<double>(walk.tests) * kChunkTestMacs);
-  sheet.part("vsu", "vsu", 1);
+  sheet.datapath(tests_, walk.tests);
   sheet.left_out("saturated_groups", "every pixel was finished before the walk ended",
                  counters_.groups_saturated, "the rest of the tree is not walked");
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
                  "no visit, no blending");
   sheet.sram(sram_uses(config_, built_for_));
-  sheet.port(memory);
-  sheet.remedy(walk_, "vsu.tests_per_cycle");
+  nodes_.publish_accesses(sheet, "node cache", "node cache tags");
+  const std::uint32_t levels = queue_levels(config_.queue_entries);
+  const std::uint64_t moves = walk.queue_operations * levels;
+  sheet.part("vsu", "comparator", levels, 1);
+  sheet.operations("vsu", "comparator", static_cast<double>(moves));
+  sheet.accesses("walk queue", moves, moves);
+  sheet.port(memory, "entries put aside");
+  sheet.remedy(walk_, "vsu.test_lanes");
   sheet.remedy(memory, WaitFor::kReads, "vsu.node_cache_bytes");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", current_group_);

@@ -1,6 +1,6 @@
 // Voxel sorting unit (VSU), exact order: for each pixel group it walks the chunk tree front to back
 // and hands out the chunks that can touch the group, each with the depth below which nothing
-// follows. Timing: tests_per_cycle children a cycle, one cycle a queue operation; nodes that its
+// follows. Timing: chunk tests on test_lanes lanes, one cycle a queue operation; nodes that its
 // cache does not hold wait for DRAM. Function: algorithm/order/chunk_walk.h.
 #pragma once
 
@@ -66,6 +66,7 @@ class ExactVsu : public sc_core::sc_module {
   const BuiltFor built_for_;
   const StreamingJob& job_;
   Activity walk_;
+  const Datapath tests_;
   TableCache<ChunkNode> nodes_;
   Source source_;
   ChunkWalk<Source> chunk_walk_;

@@ -7,7 +7,7 @@ namespace sgs {
 
 void visit(ConfigVisitor& v, ExactVsuConfig& c) {
   v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");
-  v("tests_per_cycle", c.tests_per_cycle, in_range(1, 64), "chunk bounds a cycle");
+  v("test_lanes", c.test_lanes, in_range(1, 10000), "MAC lanes of the chunk test");
   v("queue_entries", c.queue_entries, in_range(kChunkNodeWidth + 1, 1 << 24),
     "queue of the front-to-back walk");
 }
