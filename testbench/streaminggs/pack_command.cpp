@@ -4,7 +4,6 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -29,9 +28,7 @@ struct PackArguments : SceneArguments {
 
 // Throws InputError for what a reader of the file would refuse: scales beyond float, for example.
 void check_records(const MemoryImage& image, const std::string& scene) {
-  std::vector<std::uint32_t> slots(image.layout.gaussian_count());
-  std::iota(slots.begin(), slots.end(), 0U);
-  decode_image(image, slots, scene);
+  decode_image(image, scene);
 }
 
 int run(const PackArguments& arguments, const Kinds& kinds) {

@@ -63,9 +63,14 @@ void check_joules(const Json& view) {
   if (config["machine"] == "exact") {
     expected["vsu"] =
         80 * static_cast<double>(counter(view, "vsu", "tests")) * prices.of("fp32_mac");
-    const double levels = std::ceil(std::log2(config["merge"]["entries"].get<double>()));
-    expected["merge"] = prices.in_and_out(
-        "middle", 2 * levels * 28 * static_cast<double>(counter(view, "merge", "keys")));
+    // Of its heap: words of two nodes, nodes of two keys of 24 B.
+    constexpr double kNodeBits = 8 * 2 * 24;
+    const auto of_merge = [&](const char* name) {
+      return static_cast<double>(counter(view, "merge", name));
+    };
+    expected["merge"] =
+        kNodeBits * (2 * prices.of("sram_middle_read_bit") * of_merge("heap_words_read") +
+                     prices.of("sram_middle_write_bit") * of_merge("heap_nodes_written"));
   } else {
     expected["vsu"] =
         6 * static_cast<double>(counter(view, "vsu", "steps")) * prices.of("fp32_mac");
