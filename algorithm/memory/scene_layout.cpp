@@ -37,7 +37,6 @@ SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussia
   place_records(format, gaussians, layout);
   ChunkTableLayout table;
   table.nodes = layout.regions.add_records("chunk_table", sizeof(ChunkNode), nodes);
-  table.indices = layout.regions.add_records("indices", sizeof(std::uint32_t), gaussians);
   table.chunk_count = chunks;
   layout.table = table;
   layout.stored_bytes = layout.regions.next_base();

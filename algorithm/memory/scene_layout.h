@@ -20,8 +20,7 @@ struct VoxelTableLayout {
 };
 
 struct ChunkTableLayout {
-  RecordArray nodes;    // ChunkNode
-  RecordArray indices;  // 32-bit file index of each slot
+  RecordArray nodes;  // ChunkNode
   std::uint32_t chunk_count = 0;
 };
 
@@ -55,7 +54,7 @@ struct SceneLayout {
 SceneLayout lay_out_voxels(const SecondHalfFormat& format, std::uint32_t gaussians,
                            const VoxelFrame& frame, std::uint32_t nodes, std::uint32_t voxels);
 
-// By chunks: first_halves, second_halves, codebooks, chunk_table, indices.
+// By chunks: first_halves, second_halves, codebooks, chunk_table.
 SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussians,
                            std::uint32_t nodes, std::uint32_t chunks);
 

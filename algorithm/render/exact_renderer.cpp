@@ -20,11 +20,11 @@ namespace {
 
 struct Key {
   float depth;
-  std::uint32_t index;  // in the file: breaks ties of depth
+  std::uint32_t slot;  // breaks ties of depth
 };
 struct Behind {
   bool operator()(const Key& a, const Key& b) const {
-    return a.depth > b.depth || (a.depth == b.depth && a.index > b.index);
+    return a.depth > b.depth || (a.depth == b.depth && a.slot > b.slot);
   }
 };
 
@@ -41,16 +41,15 @@ class GroupStream {
         state_(pixels, view.width, view.height, config.precision),
         watch_(state_.subtile_count()) {}
 
-  void visit(const ChunkTree& tree, const WalkEntry& chunk) {
+  void visit(const WalkEntry& chunk) {
     ++stats_.visits;
     stats_.first_halves += chunk.count;
     for (std::uint32_t slot = chunk.at; slot < chunk.at + chunk.count; ++slot) {
-      const std::uint32_t index = tree.storage_order[slot];
-      const Gaussian<float>& g = cloud_.gaussians[index];
+      const Gaussian<float>& g = cloud_.gaussians[slot];
       const CoarseBound bound =
           coarse_bound(view_, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
       if (config_.coarse_filter && (!bound.in_front || !touches(bound, state_.pixels()))) continue;
-      pending_.push({bound.depth, index});
+      pending_.push({bound.depth, slot});
       ++stats_.coarse_passed;
     }
   }
@@ -77,16 +76,16 @@ class GroupStream {
 
  private:
   void release() {
-    const std::uint32_t index = pending_.top().index;
+    const std::uint32_t slot = pending_.top().slot;
     pending_.pop();
     ++stats_.second_halves;
-    const Gaussian<float>& g = cloud_.gaussians[index];
+    const Gaussian<float>& g = cloud_.gaussians[slot];
     Splat splat;
     if (!make_geometry(view_, g, splat) || !reaches_group(splat, state_.pixels())) return;
-    add_colour(view_, cloud_.sh_degree, g.mean, cloud_.sh(index), splat);
+    add_colour(view_, cloud_.sh_degree, g.mean, cloud_.sh(slot), splat);
     ++stats_.splats;
     const auto observe = [&](const SubtileBlend& blend) {
-      if (watch_.see(blend, splat.depth)) contributing_.set(index);
+      if (watch_.see(blend, splat.depth)) contributing_.set(slot);
     };
     stats_.subtile_blends += state_.blend(splat, observe).blended;
   }
@@ -111,7 +110,7 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
   GroupStream stream(view, cloud, pixels, config, contributing, stats);
   std::optional<WalkEntry> chunk = walk.next();
   while (chunk && !stream.saturated()) {
-    stream.visit(tree, *chunk);
+    stream.visit(*chunk);
     visited.set(chunk->at);
     chunk = walk.next();
     stream.release_below(chunk ? chunk->nearest : std::numeric_limits<float>::infinity());
@@ -132,7 +131,7 @@ StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud
   out.frame.contributors.resize(pixels);
   const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group_px);
   std::vector<StreamingStats> stats(groups.size());
-  Flags contributing(cloud.size()), visited(tree.storage_order.size());
+  Flags contributing(cloud.size()), visited(cloud.size());
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
     render_group(view, cloud, tree, groups[g], config, contributing, visited, stats[g], out.frame);
   });

@@ -1,5 +1,5 @@
 // Streaming renderer in exact order: the reference image, chunk by chunk. For each pixel group the
-// chunks that can touch it are streamed by nearest depth; keys (depth, index) of what passes the
+// chunks that can touch it are streamed by nearest depth; keys (depth, slot) of what passes the
 // coarse filter wait until nothing nearer can come; only then is the rest of the Gaussian looked
 // at.
 #pragma once
@@ -25,8 +25,8 @@ struct ExactOrderConfig {
   glm::vec3 background{0.0F};
 };
 
-// tree: of this cloud. With kSpill the picture equals render_reference bit for bit. Deterministic
-// whatever the number of threads.
+// tree: of this cloud, which is in storage order. With kSpill the picture equals render_reference
+// bit for bit. Deterministic whatever the number of threads.
 StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud& cloud,
                                    const ChunkTree& tree, const ExactOrderConfig& config);
 

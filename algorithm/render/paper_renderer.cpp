@@ -22,14 +22,13 @@ struct GridTable {
   const VoxelNode& node(std::uint32_t index) const { return grid.nodes[index]; }
 };
 
-// Splats of one visit, front to back.
+// Splats of one visit, front to back, equal depths by slot.
 void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
                      const VoxelRecord& voxel, const PixelRect& pixels, bool coarse_filter,
                      std::vector<Splat>& run, StreamingStats& stats) {
   run.clear();
   for (std::uint32_t slot = voxel.first; slot < voxel.first + voxel.count; ++slot) {
-    const std::uint32_t index = grid.storage_order[slot];
-    const Gaussian<float>& g = cloud.gaussians[index];
+    const Gaussian<float>& g = cloud.gaussians[slot];
     if (coarse_filter) {
       const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
       const CoarseBound bound = coarse_bound(view, g.mean, scale_max);
@@ -39,7 +38,7 @@ void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const
     ++stats.second_halves;
     Splat splat;
     if (!make_geometry(view, g, splat) || !reaches_group(splat, pixels)) continue;
-    add_colour(view, cloud.sh_degree, g.mean, cloud.sh(index), splat);
+    add_colour(view, cloud.sh_degree, g.mean, cloud.sh(slot), splat);
     splat.index = slot;
     run.push_back(splat);
   }
@@ -76,7 +75,7 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
   const MissedSplats missed(view, cloud, grid, config.group_px);
   std::vector<StreamingStats> stats(groups.size());
   out.group_voxels.resize(groups.size());
-  Flags contributing(grid.storage_order.size()), visited(grid.voxels.size());
+  Flags contributing(cloud.size()), visited(grid.voxels.size());
   tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size());
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t index) {
     const PixelRect& group = groups[index];

@@ -20,7 +20,7 @@ struct PaperOrderConfig {
   glm::vec3 background{0.0F};
 };
 
-// grid: of this cloud. Deterministic whatever the number of threads.
+// grid: of this cloud, which is in storage order. Deterministic whatever the number of threads.
 StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud& cloud,
                                    const VoxelGrid& grid, const PaperOrderConfig& config);
 

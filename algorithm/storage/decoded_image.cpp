@@ -82,8 +82,7 @@ Fault fault_of_values(const FirstHalf& first, const DecodedGaussian& decoded, in
     return fmt::format("centre: got ({}, {}, {}), expected magnitudes of at most {}", g.mean.x,
                        g.mean.y, g.mean.z, kMaxCoordinate);
   }
-  if (!within(g.scale, kMaxScale * kRounding) ||
-      std::min({g.scale.x, g.scale.y, g.scale.z}) < 0 ||
+  if (!within(g.scale, kMaxScale * kRounding) || std::min({g.scale.x, g.scale.y, g.scale.z}) < 0 ||
       std::max({g.scale.x, g.scale.y, g.scale.z}) != first.scale_max) {
     return fmt::format("scales: got ({}, {}, {}), expected 0 to the largest, {}, itself at most {}",
                        g.scale.x, g.scale.y, g.scale.z, first.scale_max, kMaxScale);
@@ -105,8 +104,7 @@ Fault fault_of_values(const FirstHalf& first, const DecodedGaussian& decoded, in
 
 }  // namespace
 
-ActivatedCloud decode_image(const MemoryImage& image, const std::vector<std::uint32_t>& places,
-                            const std::string& source) {
+ActivatedCloud decode_image(const MemoryImage& image, const std::string& source) {
   check_codebooks(image, source);
   const SceneLayout& layout = image.layout;
   const SecondHalfFormat& format = layout.second_half;
@@ -125,8 +123,8 @@ ActivatedCloud decode_image(const MemoryImage& image, const std::vector<std::uin
     if (!fault) {
       const DecodedGaussian decoded = decode_second_half(format, first, record, codebooks);
       fault = fault_of_values(first, decoded, format.sh_degree);
-      cloud.gaussians[places[slot]] = decoded.gaussian;
-      std::copy_n(decoded.sh, stride, cloud.sh_coeffs.data() + places[slot] * stride);
+      cloud.gaussians[slot] = decoded.gaussian;
+      std::copy_n(decoded.sh, stride, cloud.sh_coeffs.data() + slot * stride);
     }
     if (fault) return fmt::format("{}: Gaussian in slot {}: {}", source, slot, *fault);
     return {};

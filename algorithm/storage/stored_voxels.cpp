@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <numeric>
 
 #include "algorithm/input_error.h"
 #include "algorithm/storage/first_fault.h"
@@ -91,8 +90,6 @@ VoxelGrid read_voxel_table(const MemoryImage& image, const ActivatedCloud& decod
     std::memcpy(grid.voxels.data(), image.at(layout.voxels.base),
                 grid.voxels.size() * sizeof(VoxelRecord));
   }
-  grid.storage_order.resize(gaussians);
-  std::iota(grid.storage_order.begin(), grid.storage_order.end(), 0U);
 
   check_records(grid, gaussians, source);
   const std::vector<glm::ivec3> cells = voxel_cells(grid, source);

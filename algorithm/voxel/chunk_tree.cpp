@@ -151,7 +151,8 @@ class Builder {
 // Turns the binary tree into wide nodes and gives chunks their storage slots.
 class Widener {
  public:
-  Widener(std::vector<Item>& items, ChunkTree& tree) : items_(items), tree_(tree) {}
+  Widener(std::vector<Item>& items, Arrangement<ChunkTree>& out)
+      : items_(items), tree_(out.table), storage_order_(out.storage_order) {}
 
   void run(const Binary& root) {
     tree_.nodes.emplace_back();
@@ -165,7 +166,7 @@ class Widener {
     std::vector<ChunkBound> bounds;
     ChunkNode node;
     node.children = static_cast<std::uint8_t>(children.size());
-    node.first_slot = static_cast<std::uint32_t>(tree_.storage_order.size());
+    node.first_slot = static_cast<std::uint32_t>(storage_order_.size());
     node.first_node = static_cast<std::uint32_t>(tree_.nodes.size());
     for (std::size_t c = 0; c < children.size(); ++c) {
       bounds.push_back(children[c]->bound);
@@ -206,16 +207,16 @@ class Widener {
 
   void store(const Binary& leaf) {
     ++tree_.chunk_count;
-    const auto first = tree_.storage_order.size();
+    const auto first = storage_order_.size();
     for (std::uint32_t i = leaf.begin; i < leaf.end; ++i) {
-      tree_.storage_order.push_back(items_[i].index);
+      storage_order_.push_back(items_[i].index);
     }
-    std::sort(tree_.storage_order.begin() + static_cast<std::ptrdiff_t>(first),
-              tree_.storage_order.end());
+    std::sort(storage_order_.begin() + static_cast<std::ptrdiff_t>(first), storage_order_.end());
   }
 
   std::vector<Item>& items_;
   ChunkTree& tree_;
+  std::vector<std::uint32_t>& storage_order_;
 };
 
 }  // namespace
@@ -241,11 +242,11 @@ ChunkBound gaussian_bound(const Gaussian<float>& g) {
   return bound;
 }
 
-ChunkTree build_chunk_tree(const ActivatedCloud& cloud, std::uint32_t chunk_gaussians,
-                           Stored stored) {
-  ChunkTree tree;
+Arrangement<ChunkTree> arrange_by_chunks(const ActivatedCloud& cloud, std::uint32_t chunk_gaussians,
+                                         Stored stored) {
+  Arrangement<ChunkTree> out;
   const std::vector<std::uint32_t> kept = stored_gaussians(cloud, stored);
-  if (kept.empty()) return tree;
+  if (kept.empty()) return out;
   std::vector<Item> items(kept.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, kept.size(), 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -257,11 +258,11 @@ ChunkTree build_chunk_tree(const ActivatedCloud& cloud, std::uint32_t chunk_gaus
       item.along[3] = std::log2(std::clamp(std::max({e.x, e.y, e.z}), 1e-30F, 1e30F));
     }
   });
-  tree.storage_order.reserve(items.size());
+  out.storage_order.reserve(items.size());
   const auto root =
       Builder(items, chunk_gaussians).build(0, static_cast<std::uint32_t>(items.size()));
-  Widener(items, tree).run(*root);
-  return tree;
+  Widener(items, out).run(*root);
+  return out;
 }
 
 }  // namespace sgs

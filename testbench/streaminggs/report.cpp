@@ -62,6 +62,13 @@ Json error_parts_of(const OrderLoss& loss) {
   return out;
 }
 
+Json file_order_of(const std::optional<FileOrderDifference>& difference) {
+  if (!difference) return nullptr;
+  return {{"psnr_db", finite(difference->psnr_db)},
+          {"max_abs_error", difference->max_abs_error},
+          {"pixels", difference->pixels}};
+}
+
 Json image_of(const ViewResult& view, bool original_known) {
   const GoldenFrame& golden = view.golden;
   Json out = {{"reference", original_known ? "scene" : "decoded_scene"},
@@ -73,6 +80,7 @@ Json image_of(const ViewResult& view, bool original_known) {
   if (original_known) {
     out["encoding_psnr_db"] = finite(psnr_db(view.decoded_reference, view.reference));
   }
+  out["file_order"] = file_order_of(view.file_order);
   out["equals_streaming_renderer"] = view.equals_golden;
   out["missed"] = golden.missed;
   out["misordered"] = golden.misordered;

@@ -51,6 +51,12 @@ void print_details(const ViewResult& v) {
   if (v.golden.contributing == 0) {
     fmt::print("view {}: no Gaussian contributes to the picture\n", v.view);
   }
+  if (v.file_order && v.file_order->pixels > 0) {
+    fmt::print(
+        "  ties of depth in the file's order: {} pixels of the reference picture differ, {:.2f} "
+        "dB, by at most {:.2g}\n",
+        grouped(v.file_order->pixels), v.file_order->psnr_db, v.file_order->max_abs_error);
+  }
   if (v.order_loss) print_order_loss(*v.order_loss);
   fmt::print("  {:<14} {:>14} {:>14}\n", "DRAM region", "B asked for", "B on the bus");
   for (const auto& [region, bus_bytes] : v.run.memory.bus_bytes_by_region) {

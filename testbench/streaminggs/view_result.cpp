@@ -52,6 +52,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   view.decoded_reference = reference_of(scene.stored.decoded);
   view.reference =
       scene.stored.original ? reference_of(*scene.stored.original) : view.decoded_reference;
+  view.file_order = file_order_difference(scene, job.view, job.background, view.reference);
   LeftOutCollector left_out(view.left_out);
   view.golden = config.design->golden(scene.stored, job, left_out);
 

@@ -12,6 +12,7 @@
 #include "testbench/cost/cost.h"
 #include "testbench/result/frame_result.h"
 #include "testbench/streaminggs/binding.h"
+#include "testbench/streaminggs/file_order.h"
 #include "testbench/streaminggs/frame_run.h"
 #include "testbench/streaminggs/order_loss.h"
 #include "testbench/streaminggs/prepared_scene.h"
@@ -21,11 +22,12 @@ namespace sgs {
 struct ViewResult {
   int view = 0;
   Image frame;              // as read back from the modelled DRAM
-  Image reference;          // of the scene as given
+  Image reference;          // of the scene as given, in storage order
   Image decoded_reference;  // of the scene as encoded
   GoldenFrame golden;
   bool equals_golden = false;    // bytes of the frame buffer against the golden renderer's
   double psnr_db = 0, ssim = 0;  // of the frame against `reference`; infinite where they are equal
+  std::optional<FileOrderDifference> file_order;  // of `reference`; none where it is not known
   std::optional<OrderLoss> order_loss;  // where splats were missed or blended out of order
   FrameResult run;
   std::vector<LeftOut> left_out;

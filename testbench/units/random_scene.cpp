@@ -80,7 +80,9 @@ EncodedCloud encode(ActivatedCloud cloud, SecondHalfEncoding encoding) {
 TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   TestScene scene;
   EncodedCloud encoded = encode(random_cloud(random, shape), shape.encoding);
-  scene.grid = build_voxel_grid(encoded.decoded, shape.voxel_size);
+  auto [grid, order] = arrange_by_voxels(encoded.decoded, shape.voxel_size);
+  encoded = reordered(std::move(encoded), order);
+  scene.grid = std::move(grid);
   const Camera camera = random_camera(random, shape);
   StreamingJob& job = scene.job;
   job.view = make_view<float>(camera);

@@ -22,7 +22,7 @@ struct SceneShape {
 };
 
 struct TestScene {
-  ActivatedCloud cloud;  // what the image's records decode to
+  ActivatedCloud cloud;  // what the image's records decode to, by slot
   VoxelGrid grid;
   MemoryImage image;
   StreamingJob job;

@@ -5,6 +5,7 @@
 
 #include "algorithm/order/tree_in_memory.h"
 #include "algorithm/splat/lane_macs.h"
+#include "algorithm/splat/reorder.h"
 #include "algorithm/storage/build_memory_image.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/chunk_work.h"
@@ -34,11 +35,12 @@ struct Plan {
 
 Plan plan_of(const TestScene& scene, std::uint32_t chunk) {
   Plan plan;
-  plan.tree = build_chunk_tree(scene.cloud, chunk);
+  auto [tree, order] = arrange_by_chunks(scene.cloud, chunk);
+  plan.tree = std::move(tree);
   const std::uint64_t aside_bytes =
       (plan.tree.chunk_count + plan.tree.nodes.size()) * kWalkEntryBytes;
   plan.job = scene.job;
-  plan.image = build_memory_image(encode_raw(scene.cloud), plan.tree);
+  plan.image = build_memory_image(encode_raw(reordered(scene.cloud, order)), plan.tree);
   place(plan.image.layout, aside_bytes, plan.job);
   return plan;
 }

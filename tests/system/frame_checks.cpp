@@ -129,7 +129,7 @@ void check_bytes(const Json& view) {
     CHECK(asked_bytes(view, "voxel_table", "vsu.record_memory", "read") <=
           kLine * counter(view, "vsu", "record_cache_misses"));
   } else {
-    constexpr std::uint64_t kKey = 28, kWalkEntry = 12;
+    constexpr std::uint64_t kKey = 24, kWalkEntry = 12;
     CHECK(asked_bytes(view, "spill", "merge", "write") ==
           kKey * counter(view, "merge", "keys_spilled"));
     CHECK(asked_bytes(view, "spill", "vsu", "write") ==
@@ -148,6 +148,11 @@ void check_bounds(const Json& view) {
     CHECK(ceil_div(of(unit, "coarse_tests"), count(hfu["cfus"])) * coarse_interval <= frame);
     CHECK(of(unit, "fine_tests") * fine_interval <= frame);
     CHECK(ceil_div(of(unit, "subtile_blends"), count(config["rendering"]["clusters"])) <= frame);
+    if (of(unit, "inserts") > 0) {
+      CHECK((of(unit, "inserts") + of(unit, "delete_mins") + of(unit, "delete_maxs")) *
+                count(config["merge"]["cycles_per_operation"]) <=
+            frame);
+    }
     if (of(unit, "steps") > 0) {
       CHECK(of(unit, "steps") * count(view["datapath"]["ray_step"]["used"]["macs"]) /
                 count(config["vsu"]["step_lanes"]) <=
@@ -190,6 +195,13 @@ void check_flow(const Json& view) {
     CHECK(counter(view, "merge", "keys") ==
           counter(view, "merge", "released") + counter(view, "merge", "dropped_saturated"));
     CHECK(counter(view, "merge", "released") == tested_or_dropped);
+    // What went into the heap came out at one end or the other, or was dropped with its group.
+    const std::uint64_t inserts = counter(view, "merge", "inserts"),
+                        deletes = counter(view, "merge", "delete_mins") +
+                                  counter(view, "merge", "delete_maxs");
+    CHECK(inserts <= counter(view, "merge", "keys"));
+    CHECK(deletes <= inserts);
+    if (counter(view, "merge", "dropped_saturated") == 0) CHECK(deletes == inserts);
     CHECK(blended + late <= fine_splats);
     CHECK(total(view, "visits") ==
           2 * counter(view, "vsu", "visits") + counter(view, "rendering", "groups"));

@@ -84,9 +84,8 @@ TEST_CASE("scene layout: every region where it has always been") {
         {"second_halves", 4022272, 55271480},
         {"codebooks", 59297792, 0},
         {"chunk_table", 59297792, 295040},
-        {"indices", 59596800, 1004936},
-        {"spill", 60604416, 14123456},
-        {"frame_buffer", 74731520, 691200}}},
+        {"spill", 59596800, 14123456},
+        {"frame_buffer", 73723904, 691200}}},
       {"chunks, vq",
        lay_out_chunks(vq, 251234, 2305, 16123),
        14123456,
@@ -95,9 +94,8 @@ TEST_CASE("scene layout: every region where it has always been") {
         {"second_halves", 4022272, 4270978},
         {"codebooks", 8294400, 256000},
         {"chunk_table", 8552448, 295040},
-        {"indices", 8851456, 1004936},
-        {"spill", 9859072, 14123456},
-        {"frame_buffer", 23986176, 691200}}},
+        {"spill", 8851456, 14123456},
+        {"frame_buffer", 22978560, 691200}}},
       {"chunks, vq_packed, no SH",
        lay_out_chunks({Encoding::kVqPacked, 0, {4096, 4000, 17, 0}}, 251234, 2305, 16123),
        1,
@@ -106,9 +104,8 @@ TEST_CASE("scene layout: every region where it has always been") {
         {"second_halves", 4022272, 2009872},
         {"codebooks", 6033408, 113356},
         {"chunk_table", 6148096, 295040},
-        {"indices", 6447104, 1004936},
-        {"spill", 7454720, 1},
-        {"frame_buffer", 7458816, 691203}}},
+        {"spill", 6447104, 1},
+        {"frame_buffer", 6451200, 691203}}},
       {"chunks, half, whole rows",
        lay_out_chunks({Encoding::kHalf, 1, {}}, 256, 32, 16),
        0,
@@ -117,9 +114,8 @@ TEST_CASE("scene layout: every region where it has always been") {
         {"second_halves", 4096, 9728},
         {"codebooks", 16384, 0},
         {"chunk_table", 16384, 4096},
-        {"indices", 20480, 1024},
-        {"spill", 24576, 0},
-        {"frame_buffer", 24576, 3072}}},
+        {"spill", 20480, 0},
+        {"frame_buffer", 20480, 3072}}},
       {"voxels, vq",
        lay_out_voxels(vq, 1763452, frame, 901, 30011),
        1410240,
@@ -158,7 +154,6 @@ TEST_CASE("scene layout: every region where it has always been") {
         {"second_halves", 0, 0},
         {"codebooks", 0, 0},
         {"chunk_table", 0, 0},
-        {"indices", 0, 0},
         {"spill", 0, 0},
         {"frame_buffer", 0, 300}}},
       {"a thousand, by file, vq_packed",
@@ -214,11 +209,9 @@ TEST_CASE("scene layout: tables and records lie in the regions that they name") 
   CHECK(chunks.order() == StorageOrder::kChunks);
   const ChunkTableLayout& tree = chunks.chunk_table();
   check_in(chunks.regions, "chunk_table", tree.nodes);
-  check_in(chunks.regions, "indices", tree.indices);
   CHECK(tree.nodes.record_bytes == sizeof(ChunkNode));
   CHECK(tree.nodes.count == 9);
   CHECK(tree.chunk_count == 63);
-  CHECK(tree.indices.count == 1000);
   CHECK_THROWS_AS(chunks.voxel_table(), std::bad_variant_access);
 
   const SceneLayout file = lay_out_file(format, 1000);

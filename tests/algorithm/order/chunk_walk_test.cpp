@@ -77,7 +77,7 @@ struct Scene {
 Scene make_scene(unsigned seed, std::size_t gaussians, std::uint32_t chunk) {
   test::HardScenes hard(seed);
   const test::HardScene scene = hard.next(gaussians, 100);
-  return {build_chunk_tree(activate(scene.cloud), chunk), make_view<float>(scene.camera),
+  return {arrange_by_chunks(activate(scene.cloud), chunk).table, make_view<float>(scene.camera),
           pixel_groups(scene.camera.width, scene.camera.height, 4 * (1 + hard.pick(16)))};
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("walk opens no node farther than the chunk that was asked for") {
     cloud.gaussians.push_back(
         {{0, 0, 1 + static_cast<float>(i)}, glm::vec3(1e-3F), {1, 0, 0, 0}, 0.5F});
   }
-  const ChunkTree tree = build_chunk_tree(cloud, 1);
+  const auto [tree, storage_order] = arrange_by_chunks(cloud, 1);
   Camera camera;
   camera.width = camera.height = 4;
   camera.focal_x = camera.focal_y = 4;
@@ -155,6 +155,6 @@ TEST_CASE("walk opens no node farther than the chunk that was asked for") {
   ChunkWalk<TreeSource> walk(view, source, 512);
   const std::vector<Chunk> first = walked(walk, {0, 0, 4, 4}, false, 1);
   REQUIRE(first.size() == 1);
-  CHECK(tree.storage_order[std::get<1>(first[0])] == 0);
+  CHECK(storage_order[std::get<1>(first[0])] == 0);
   CHECK(walk.counters().nodes <= tree.depth + 1);  // one more where quantised boxes overlap
 }

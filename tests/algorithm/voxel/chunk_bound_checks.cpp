@@ -12,6 +12,7 @@
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/voxel/chunk_test.h"
 #include "algorithm/voxel/chunk_tree.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 
 namespace sgs::test {
 namespace {
@@ -59,7 +60,7 @@ class Checker {
   }
 
   Found look_at(std::uint32_t slot, const PixelRect& group) {
-    const Gaussian<float>& g = cloud_.gaussians[tree_.storage_order[slot]];
+    const Gaussian<float>& g = cloud_.gaussians[slot];
     const CoarseBound coarse =
         coarse_bound(view_, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
     Found found;
@@ -94,8 +95,7 @@ class Checker {
 
 void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, int group_px,
                         BoundTally& tally) {
-  const ActivatedCloud cloud = activate(scene.cloud);
-  const ChunkTree tree = build_chunk_tree(cloud, chunk, Stored::kAll);
+  const auto [cloud, tree] = by_chunks(activate(scene.cloud), chunk, Stored::kAll);
   const View<float> view = make_view<float>(scene.camera);
   Checker checker(view, cloud, tree, tally);
   for (const PixelRect& group : pixel_groups(view.width, view.height, group_px)) {
