@@ -15,7 +15,11 @@ struct PaperConfig : StreamingConfig {
   PaperVsuConfig vsu;
   PaperSorterConfig sorting;
 
-  PaperConfig() { sram = {16 * 1024, 250 * 1024, 89 * 1024}; }
+  // The paper's memories, and the multiply-accumulates that it states.
+  PaperConfig() {
+    sram = {16 * 1024, 250 * 1024, 89 * 1024};
+    hfu.cost = FilterCost::kPaper;
+  }
 };
 
 void visit(ConfigVisitor& v, PaperConfig& config);

@@ -9,7 +9,7 @@ namespace sgs {
 
 struct ExactVsuConfig {
   std::uint32_t node_cache_bytes = 4096;  // in front of the chunk tree in DRAM
-  std::uint32_t test_lanes = 128;         // multiply-accumulates a cycle of the chunk test
+  std::uint32_t test_lanes = 64;          // multiply-accumulates a cycle of the chunk test
   std::uint32_t queue_entries = 512;      // of the front-to-back walk
 };
 
