@@ -19,9 +19,12 @@ MemoryImage store_gaussians(const EncodedCloud& scene, SceneLayout layout,
       tbb::blocked_range<std::size_t>(0, storage_order.size(), 4096), [&](const auto& range) {
         for (std::size_t slot = range.begin(); slot != range.end(); ++slot) {
           const std::uint32_t index = storage_order[slot];
-          encode_first_half(scene.decoded.gaussians[index],
-                            image.bytes.data() + first_halves.address(slot));
-          scene.write_second_half(index, image.bytes.data() + second_halves.address(slot));
+          std::byte encoded[kMaxSecondHalfBytes];
+          scene.write_second_half(index, encoded);
+          write_record(image.layout.split, image.layout.second_half,
+                       scene.decoded.gaussians[index], encoded,
+                       image.bytes.data() + first_halves.address(slot),
+                       image.bytes.data() + second_halves.address(slot));
         }
       });
   return image;

@@ -21,7 +21,7 @@
 namespace sgs {
 
 constexpr const char* kImageFileExtension = ".sgs";
-constexpr std::uint32_t kImageFileVersion = 2;
+constexpr std::uint32_t kImageFileVersion = 3;
 constexpr std::size_t kMostNameBytes = 255;
 
 // Of a scene, whichever way it is stored.

@@ -30,9 +30,10 @@ Datapath datapath(const char* name, const OperationCounts& c, std::uint32_t pape
 
 }  // namespace
 
-std::vector<AutoChoice> resolve_filter_cost(HfuConfig& hfu, int sh_degree) {
+std::vector<AutoChoice> resolve_filter_cost(HfuConfig& hfu, CoarseBoundBy bound_by,
+                                            int sh_degree) {
   if (hfu.cost == FilterCost::kPaper) return {};
-  hfu.cfu_macs = folded_macs(coarse_work(longest_case()));
+  hfu.cfu_macs = folded_macs(coarse_work(bound_by, longest_case()));
   hfu.ffu_macs = folded_macs(fine_work(longest_case(), sh_degree).total());
   return {{"hfu.cfu_macs", static_cast<double>(hfu.cfu_macs),
            fmt::format("counted on the coarse filter; the paper says {}", kPaperCfuMacs)},
@@ -41,8 +42,9 @@ std::vector<AutoChoice> resolve_filter_cost(HfuConfig& hfu, int sh_degree) {
                        kPaperFfuMacs)}};
 }
 
-void publish_filters(DataSheet& sheet, const HfuConfig& config, int sh_degree) {
-  sheet.datapath(datapath("coarse", coarse_work(longest_case()), kPaperCfuMacs, config.cfu_macs,
+void publish_filters(DataSheet& sheet, const HfuConfig& config, CoarseBoundBy bound_by,
+                     int sh_degree) {
+  sheet.datapath(datapath("coarse", coarse_work(bound_by, longest_case()), kPaperCfuMacs, config.cfu_macs,
                           config.cfu_lanes));
   sheet.datapath(datapath("fine", fine_work(longest_case(), sh_degree).total(), kPaperFfuMacs,
                           config.ffu_macs, config.ffu_lanes));

@@ -61,7 +61,7 @@ void StreamingMachine::publish(DataSheet& sheet) {
   sheet.sram_available(kInputSram, config_.sram.input_bytes);
   sheet.sram_available(kCodebookSram, config_.sram.codebook_bytes);
   sheet.sram_available(kSharedSram, config_.sram.shared_bytes);
-  publish_filters(sheet, config_.hfu, job_.layout.sh_degree());
+  publish_filters(sheet, config_.hfu, job_.layout.split.bound_by, job_.layout.sh_degree());
 }
 
 }  // namespace sgs

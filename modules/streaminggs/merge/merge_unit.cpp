@@ -25,14 +25,15 @@ bool final_order(const PendingKey& a, const PendingKey& b) {
 
 void MergeUnit::KeyCodec::encode(const PendingKey& key, std::byte* out) const {
   const FineCandidate& c = key.candidate;
-  const float words[5] = {c.depth, c.mean_x, c.mean_y, c.mean_z, c.scale_max};
+  const float words[4] = {c.depth, c.mean_x, c.mean_y, c.mean_z};
   std::memcpy(out, words, sizeof words);
-  std::memcpy(out + 20, &c.slot, 4);
-  std::memcpy(out + 24, &key.index, 4);
+  std::memcpy(out + 16, c.carried.data(), sizeof c.carried);
+  std::memcpy(out + 24, &c.slot, 4);
+  std::memcpy(out + 28, &key.index, 4);
 }
 
 PendingKey MergeUnit::KeyCodec::decode(const std::byte* bytes) const {
-  float words[5];
+  float words[4];
   std::memcpy(words, bytes, sizeof words);
   PendingKey key;
   key.candidate.group = group;
@@ -40,9 +41,9 @@ PendingKey MergeUnit::KeyCodec::decode(const std::byte* bytes) const {
   key.candidate.mean_x = words[1];
   key.candidate.mean_y = words[2];
   key.candidate.mean_z = words[3];
-  key.candidate.scale_max = words[4];
-  std::memcpy(&key.candidate.slot, bytes + 20, 4);
-  std::memcpy(&key.index, bytes + 24, 4);
+  std::memcpy(key.candidate.carried.data(), bytes + 16, sizeof key.candidate.carried);
+  std::memcpy(&key.candidate.slot, bytes + 24, 4);
+  std::memcpy(&key.index, bytes + 28, 4);
   return key;
 }
 
