@@ -1,15 +1,16 @@
 // The filters run with the counting scalar.
 #include "algorithm/splat/filter_work.h"
 
-#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/row_span.h"
+#include "algorithm/splat/visible_extents.h"
 
 namespace sgs {
 namespace {
@@ -47,14 +48,21 @@ FilterCase longest_case() {
   return out;
 }
 
-OperationCounts coarse_work(const FilterCase& tested) {
+OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested) {
   DataFlow flow;
   const auto view = make_view<Counting>(tested.camera);
-  const glm::vec3& scale = tested.gaussian.scale;
-  const auto bound = coarse_bound(view, input(flow, tested.gaussian.mean),
-                                  input(flow, std::max({scale.x, scale.y, scale.z})));
+  const auto mean = input(flow, tested.gaussian.mean);
+  const VisibleExtents known = visible_extents(tested.gaussian);
   // Counted whatever it says.
-  if (bound.in_front) static_cast<void>(touches(bound, tested.group));
+  const auto run = [&](const auto& bound) {
+    if (bound.in_front) static_cast<void>(touches(bound, tested.group));
+  };
+  if (bound_by == CoarseBoundBy::kLargestScale) {
+    run(coarse_bound(view, mean, input(flow, known.scale_max)));
+  } else {
+    const auto extent = input(flow, known.extent);
+    run(extent_bound(view, mean, extent, input(flow, known.scale_max)));
+  }
   return flow.counts(0, flow.size());
 }
 

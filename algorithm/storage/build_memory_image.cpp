@@ -17,9 +17,11 @@ MemoryImage store_gaussians(const EncodedCloud& scene, SceneLayout layout) {
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, scene.decoded.size(), 4096), [&](const auto& range) {
         for (std::size_t slot = range.begin(); slot != range.end(); ++slot) {
-          encode_first_half(scene.decoded.gaussians[slot],
-                            image.bytes.data() + first_halves.address(slot));
-          scene.write_second_half(slot, image.bytes.data() + second_halves.address(slot));
+          std::byte encoded[kMaxSecondHalfBytes];
+          scene.write_second_half(slot, encoded);
+          write_record(image.layout.split, image.layout.second_half, scene.decoded.gaussians[slot],
+                       encoded, image.bytes.data() + first_halves.address(slot),
+                       image.bytes.data() + second_halves.address(slot));
         }
       });
   return image;

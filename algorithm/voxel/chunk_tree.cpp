@@ -11,7 +11,7 @@
 #include <limits>
 #include <memory>
 
-#include "algorithm/splat/footprint.h"
+#include "algorithm/splat/visible_extents.h"
 
 namespace sgs {
 namespace {
@@ -222,24 +222,8 @@ class Widener {
 }  // namespace
 
 ChunkBound gaussian_bound(const Gaussian<float>& g) {
-  float rotation[3][3];
-  rotation_rows(g.quat, rotation);
-  const float k = std::sqrt(std::max(0.0F, visible_cutoff(g.opacity)));
-  constexpr float kRoundedUp = 1.00001F;
-  ChunkBound bound;
-  bound.low = bound.high = g.mean;
-  for (int a = 0; a < 3; ++a) {
-    float sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float m = rotation[a][axis] * g.scale[axis];
-      sum += m * m;
-    }
-    // Beyond float the square overflows where the length does not.
-    bound.extent[a] = std::isfinite(sum) ? k * std::sqrt(sum) * kRoundedUp
-                                         : std::numeric_limits<float>::infinity();
-    bound.scale_max = std::max(bound.scale_max, g.scale[a]);
-  }
-  return bound;
+  const VisibleExtents extents = visible_extents(g);
+  return {g.mean, g.mean, extents.extent, extents.scale_max};
 }
 
 Arrangement<ChunkTree> arrange_by_chunks(const ActivatedCloud& cloud, std::uint32_t chunk_gaussians,

@@ -26,8 +26,7 @@ struct ChunkTree {
 Arrangement<ChunkTree> arrange_by_chunks(const ActivatedCloud& cloud, std::uint32_t chunk_gaussians,
                                          Stored stored = Stored::kVisible);
 
-// Bound of one Gaussian: its centre, k sqrt(Sigma_aa) with k = sqrt(2 ln(255 opacity)), its largest
-// scale; rounded up.
+// Bound of one Gaussian: its centre and its visible extents.
 ChunkBound gaussian_bound(const Gaussian<float>& g);
 
 }  // namespace sgs

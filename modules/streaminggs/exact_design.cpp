@@ -11,11 +11,11 @@ namespace sgs {
 void ExactDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   storage_ = storage;
   resolve_sram(
-      config_, [&] { return sram_uses(config_, storage_); }, chosen);
+      config_, storage_, [&] { return sram_uses(config_, storage_); }, chosen);
 }
 
 void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
-  sgs::adapt(config_, format, chosen);
+  sgs::adapt(config_, storage_order(), format, chosen);
 }
 
 FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const {

@@ -30,7 +30,7 @@ std::uint64_t spill_bytes(const PaperConfig& config, const VoxelGrid& grid) {
 void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   storage_ = storage;
   resolve_sram(
-      config_, [&] { return sram_uses(config_, storage_); }, chosen);
+      config_, storage_, [&] { return sram_uses(config_, storage_); }, chosen);
   const PaperSorterConfig& sorting = config_.sorting;
   if (sorting.buffer_entries < 4 * sorting.spill_block_entries) {
     throw InputError(fmt::format(
@@ -41,7 +41,7 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
 }
 
 void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
-  sgs::adapt(config_, format, chosen);
+  sgs::adapt(config_, storage_order(), format, chosen);
 }
 
 FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const {

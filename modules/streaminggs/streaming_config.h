@@ -44,6 +44,6 @@ void visit_tail(ConfigVisitor& v, StreamingConfig& config);
 BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage);
 
 // Throws InputError for what neither order can build.
-void check(const StreamingConfig& config);
+void check(const StreamingConfig& config, const StorageConfig& storage);
 
 }  // namespace sgs

@@ -64,7 +64,8 @@ void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
                                sram_sum(uses, memory)));
 }
 
-void resolve_sram(StreamingConfig& config, const std::function<SramUses()>& uses,
+void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
+                  const std::function<SramUses()>& uses,
                   std::vector<AutoChoice>& chosen) {
   if (config.group_px == 0 && config.sram.shared_bytes == 0) {
     throw InputError(
@@ -72,7 +73,7 @@ void resolve_sram(StreamingConfig& config, const std::function<SramUses()>& uses
         "by the other");
   }
   if (config.group_px == 0) chosen.push_back(choose_group(config, uses));
-  check(config);
+  check(config, storage);
   const SramUses all = uses();
   size("sram.input_bytes", config.sram.input_bytes, all, kInputSram, chosen);
   size("sram.shared_bytes", config.sram.shared_bytes, all, kSharedSram, chosen);

@@ -6,7 +6,6 @@
 #include "algorithm/image/quality.h"
 #include "algorithm/input_error.h"
 #include "algorithm/memory/frame_buffer.h"
-#include "algorithm/memory/records.h"
 #include "algorithm/render/reference_renderer.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
@@ -31,7 +30,7 @@ void list_left_out(const StoredScene& scene, const MachineResult& machine, DataS
   const std::uint64_t invisible = scene.gaussians - layout.gaussian_count();
   sheet.left_out("invisible_gaussians", "opacity below 1/255: no view can show them", invisible,
                  fmt::format("{} B of DRAM",
-                             invisible * (kFirstHalfBytes + layout.second_halves.record_bytes)));
+                             invisible * layout.record_bytes()));
   for (const LeftOut& entry : machine.left_out) {
     sheet.left_out(entry.what.c_str(), entry.why.c_str(), entry.count, entry.saves);
   }
@@ -73,7 +72,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   view.sram_model = technology.sram;
   const SceneLayout& layout = scene.stored.image.layout;
   view.once_bytes =
-      view.golden.contributing * (kFirstHalfBytes + layout.second_halves.record_bytes) +
+      view.golden.contributing * layout.record_bytes() +
       job.frame_buffer.bytes;
   return view;
 }

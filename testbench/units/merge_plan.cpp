@@ -31,7 +31,7 @@ FineCandidate candidate(std::uint32_t group, std::uint32_t visit, const MergeKey
   c.mean_x = static_cast<float>(key.slot) + 0.25F;
   c.mean_y = -c.mean_x;
   c.mean_z = key.depth + 1;
-  c.scale_max = 0.5F + static_cast<float>(key.slot % 7);
+  c.carried = {key.slot * 2654435761U, ~key.slot};
   return c;
 }
 

@@ -76,6 +76,7 @@ void random_case(Case& test) {
   std::mt19937_64& random = test.random;
   SceneShape shape = random_shape(random);
   shape.encoding = static_cast<SecondHalfEncoding>(random() % 4);
+  shape.order = random() % 2 == 0 ? StorageOrder::kChunks : StorageOrder::kVoxels;
   HfuPlan plan = plan_of(random_scene(random, shape));
   HfuConfig& config = plan.config;
   plan.codebook.banks = 1 + static_cast<std::uint32_t>(random() % 16);
@@ -118,11 +119,15 @@ int sc_main(int argc, char* argv[]) {
     directed(test, large, {}, 2, 2000);
   });
   for (int degree = 0; degree <= 3; ++degree) {
-    runner.add_directed(fmt::format("SH degree {}", degree), [=](Case& test) {
-      SceneShape of_degree = shape;
-      of_degree.sh_degree = degree;
-      directed(test, of_degree, {}, 2, 100);
-    });
+    for (const auto& [name, order] : {std::pair{"voxels", StorageOrder::kVoxels},
+                                      {"chunks", StorageOrder::kChunks}}) {
+      runner.add_directed(fmt::format("by {}, SH degree {}", name, degree), [=](Case& test) {
+        SceneShape of_degree = shape;
+        of_degree.sh_degree = degree;
+        of_degree.order = order;
+        directed(test, of_degree, {}, 2, 100);
+      });
+    }
   }
   for (const auto& [name, encoding] : {std::pair{"half", SecondHalfEncoding::kHalf},
                                        {"vq", SecondHalfEncoding::kVq},

@@ -14,11 +14,11 @@ namespace sgs::tb {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::uint64_t kKeyBytes = 24;  // depth, slot, centre, largest scale
+constexpr std::uint64_t kKeyBytes = 28;  // depth, slot, centre, largest scale
 
 bool same_payload(const FineCandidate& a, const FineCandidate& b) {
   return a.slot == b.slot && a.depth == b.depth && a.mean_x == b.mean_x && a.mean_y == b.mean_y &&
-         a.mean_z == b.mean_z && a.scale_max == b.scale_max;
+         a.mean_z == b.mean_z && a.carried == b.carried;
 }
 
 // For visits as long as the plan's.
@@ -364,8 +364,8 @@ int sc_main(int argc, char* argv[]) {
     run.bench.run();
     // 64 wait: an eighth goes, 8 keys, and the other 6 fit.
     test.checks.equal(run.unit.counters().keys_spilled, std::uint64_t{8}, "keys spilled");
-    test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * 24}, "bytes written");
-    test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * 24}, "bytes read");
+    test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * kKeyBytes}, "bytes written");
+    test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kKeyBytes}, "bytes read");
   });
   for (const std::uint32_t n : {0U, 1U, 2U, 16U, 100U}) {
     for (const std::uint32_t cycles : {1U, 2U, 3U}) {

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "algorithm/memory/records.h"
-#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/memory/first_half_test.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
@@ -14,11 +13,13 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
     : sc_module(name),
       memory("memory", context.built_for.memory_port),
       config_(config),
-      tests_(coarse_datapath(config)),
+      built_for_(context.built_for),
+      tests_(coarse_datapath(config, context.job.layout.split.bound_by)),
       job_(context.job),
+      record_bytes_(job_.layout.first_halves.record_bytes),
       load_("load", context.clock),
       filter_("filter", context.clock),
-      input_(std::size_t{config.input_slots} * config.slice_gaussians * kFirstHalfBytes),
+      input_(std::size_t{config.input_slots} * config.slice_gaussians * record_bytes_),
       slices_("slices", context.clock, config.input_slots),
       free_slots_("free_slots", context.clock, config.input_slots, 0) {
   SC_THREAD(run_load);
@@ -45,8 +46,7 @@ void CoarseFilter::run_load() {
         load_.work(1);
         slice.ticket = start_read(
             memory, load_, job_.layout.first_halves.address(share.first),
-            input_.data() + std::size_t{slice.slot} * config_.slice_gaussians * kFirstHalfBytes,
-            slice.share.count * kFirstHalfBytes, job_.layout.first_halves.region);
+            first_half(slice.slot, 0), slice.share.count * record_bytes_, job_.layout.first_halves.region);
         counters_.first_halves += slice.share.count;
       }
       share.first += slice.share.count;
@@ -78,12 +78,16 @@ void CoarseFilter::run_filter() {
   }
 }
 
+std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
+  return input_.data() +
+         (std::size_t{slot} * config_.slice_gaussians + at) * std::size_t{record_bytes_};
+}
+
 // The CFUs take `cfus` Gaussians at a time. Simulated time is only let pass where somebody could
 // see it: before a candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
   const PixelRect& pixels = job_.groups[slice.share.group];
-  const std::byte* records =
-      input_.data() + std::size_t{slice.slot} * config_.slice_gaussians * kFirstHalfBytes;
+  const RecordSplit& split = job_.layout.split;
   std::uint64_t pending_cycles = 0;
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
     if (i % config_.cfus == 0) {
@@ -94,11 +98,11 @@ void CoarseFilter::filter_slice(const Slice& slice) {
       if (config_.coarse_filter) pending_cycles += tests_.interval_cycles();
     }
     ++counters_.read;
-    const FirstHalf first = decode_first_half(records + std::size_t{i} * kFirstHalfBytes);
-    const CoarseBound bound = coarse_bound(job_.view, first.mean, first.scale_max);
+    const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
+    const FirstHalfTest test = test_first_half(split, first, job_.view, pixels);
     if (config_.coarse_filter) {
       ++counters_.tests;
-      if (!bound.in_front || !touches(bound, pixels)) continue;
+      if (!test.touches) continue;
     }
     ++counters_.passed;
     filter_.work(pending_cycles);
@@ -107,22 +111,22 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     candidate.group = slice.share.group;
     candidate.visit = slice.share.visit;
     candidate.slot = slice.share.first + i;
-    candidate.depth = bound.depth;
+    candidate.depth = test.depth;
     candidate.mean_x = first.mean.x;
     candidate.mean_y = first.mean.y;
     candidate.mean_z = first.mean.z;
-    candidate.scale_max = first.scale_max;
+    candidate.carried = first.carried;
     in_turn(survivors, candidate.visit).push(candidate, filter_);
   }
   filter_.work(pending_cycles);
 }
 
-SramUses CoarseFilter::sram_uses(const HfuConfig& config) {
+SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
   return {sram_use("input", kInputSram,
                    {{config.input_slots, "slots"},
                     {config.slice_gaussians, "Gaussians"},
-                    {kFirstHalfBytes, "B"}},
-                   {8 * kFirstHalfBytes}),
+                    {built_for.first_half_bytes, "B"}},
+                   {8 * built_for.first_half_bytes}),
           fifo_use<Slice>("slices", kSharedSram, config.input_slots, "slices")};
 }
 
@@ -141,7 +145,7 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.port(memory);
-  sheet.sram(sram_uses(config_));
+  sheet.sram(sram_uses(config_, built_for_));
   sheet.accesses("input", counters_.read, counters_.first_halves);
   sheet.queue(slices_, "slices");
   sheet.remedy(filter_, "hfu.cfu_lanes");

@@ -1,7 +1,7 @@
-// The coarse half of an HFU: streams shares of visits through the CFUs, which know only centre and
-// largest scale.
+// The coarse half of an HFU: streams shares of visits through the CFUs, which know only what stands
+// in a first half.
 // Timing: `cfus` Gaussians every cfu_interval_cycles; the next slices are fetched while this one is
-// filtered. Function: algorithm/splat/coarse_bound.h.
+// filtered. Function: algorithm/memory/first_half_test.h.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ class CoarseFilter : public sc_core::sc_module {
     std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
   };
   const Counters& counters() const { return counters_; }
-  static SramUses sram_uses(const HfuConfig& config);
+  static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
@@ -55,9 +55,13 @@ class CoarseFilter : public sc_core::sc_module {
   void run_filter();  // thread: CFUs
   void filter_slice(const Slice& slice);
 
+  std::byte* first_half(std::uint32_t slot, std::uint32_t at);  // in the input buffer
+
   const HfuConfig config_;
+  const BuiltFor built_for_;
   const Datapath tests_;
   const StreamingJob& job_;
+  const std::uint32_t record_bytes_;
   Activity load_, filter_;
   std::vector<std::byte> input_;  // [input_slots, slice_gaussians] first halves
   TimedFifo<Slice> slices_;       // filled slots

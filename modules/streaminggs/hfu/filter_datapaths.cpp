@@ -6,9 +6,8 @@
 
 namespace sgs {
 
-Datapath coarse_datapath(const HfuConfig& config) {
-  static const OperationCounts work = coarse_work(longest_case());
-  Datapath path = counted_datapath("coarse", "coarse", work);
+Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by) {
+  Datapath path = counted_datapath("coarse", "coarse", coarse_work(bound_by, longest_case()));
   path.lanes = config.cfu_lanes;
   path.copies = config.cfus;
   path.used_macs = config.cfu_macs;

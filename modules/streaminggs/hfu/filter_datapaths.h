@@ -1,12 +1,13 @@
 // The lanes of the coarse and of the fine filter of one HFU, and what a test takes of them.
 #pragma once
 
+#include "algorithm/splat/coarse_bound_by.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
 #include "tlm/datapath.h"
 
 namespace sgs {
 
-Datapath coarse_datapath(const HfuConfig& config);
+Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by);
 Datapath fine_datapath(const HfuConfig& config, int sh_degree);
 
 }  // namespace sgs

@@ -1,7 +1,7 @@
 // The threads of the fine filter.
 #include "modules/streaminggs/hfu/fine_filter.h"
 
-#include "algorithm/memory/second_half.h"
+#include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
@@ -77,13 +77,14 @@ FineFilter::Decoded FineFilter::take_fetched(Activity& activity) {
   if (candidate.mark != Mark::kNone) return out;
   await(memory, activity, candidate.ticket);
   const SecondHalfFormat& format = job_.layout.second_half;
+  const RecordSplit& split = job_.layout.split;
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
   if (stage_ && !finished->finished(candidate.group)) {
-    codebooks->read_entries(place_.reader, decode_indices(format, record), activity);
+    codebooks->read_entries(place_.reader,
+                            read_indices(split, format, candidate.carried, record), activity);
   }
-  const FirstHalf first{{candidate.mean_x, candidate.mean_y, candidate.mean_z},
-                        candidate.scale_max};
-  out.second = decode_second_half(format, first, record, stage_ ? codebooks->bytes() : nullptr);
+  out.second = read_record(split, format, {candidate.mean_x, candidate.mean_y, candidate.mean_z},
+                           candidate.carried, record, stage_ ? codebooks->bytes() : nullptr);
   free_slots_.push(candidate.buffer, activity);
   return out;
 }
@@ -144,7 +145,7 @@ void FineFilter::reject(const FineCandidate& candidate) {
 SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
   SramUses uses = {
       sram_use("second halves", kSharedSram,
-               {{config.second_half_slots, "slots"}, {built_for.second_half.bytes(), "B"}},
+               {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
                {8 * kPortBytes}),
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
                               "candidates")};

@@ -10,7 +10,7 @@
 #include <systemc>
 #include <vector>
 
-#include "algorithm/memory/records.h"
+#include "algorithm/memory/record_split.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/codebook_config.h"
 #include "modules/streaminggs/hfu/codebook_if.h"

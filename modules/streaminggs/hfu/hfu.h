@@ -21,7 +21,7 @@ class Hfu : public sc_core::sc_module {
         fine("fine", config, codebook, place, context) {}
 
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
-    SramUses uses = CoarseFilter::sram_uses(config);
+    SramUses uses = CoarseFilter::sram_uses(config, built_for);
     add(uses, FineFilter::sram_uses(config, built_for));
     return uses;
   }

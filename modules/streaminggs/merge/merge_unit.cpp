@@ -18,13 +18,14 @@ std::uint32_t heap_entries(const MergeConfig& config, const BuiltFor& built_for)
 }  // namespace
 
 void MergeUnit::KeyCodec::encode(const FineCandidate& key, std::byte* out) const {
-  const float words[5] = {key.depth, key.mean_x, key.mean_y, key.mean_z, key.scale_max};
+  const float words[4] = {key.depth, key.mean_x, key.mean_y, key.mean_z};
   std::memcpy(out, words, sizeof words);
-  std::memcpy(out + sizeof words, &key.slot, sizeof key.slot);
+  std::memcpy(out + 16, key.carried.data(), sizeof key.carried);
+  std::memcpy(out + 24, &key.slot, sizeof key.slot);
 }
 
 FineCandidate MergeUnit::KeyCodec::decode(const std::byte* bytes) const {
-  float words[5];
+  float words[4];
   std::memcpy(words, bytes, sizeof words);
   FineCandidate key;
   key.group = group;
@@ -32,8 +33,8 @@ FineCandidate MergeUnit::KeyCodec::decode(const std::byte* bytes) const {
   key.mean_x = words[1];
   key.mean_y = words[2];
   key.mean_z = words[3];
-  key.scale_max = words[4];
-  std::memcpy(&key.slot, bytes + sizeof words, sizeof key.slot);
+  std::memcpy(key.carried.data(), bytes + 16, sizeof key.carried);
+  std::memcpy(&key.slot, bytes + 24, sizeof key.slot);
   return key;
 }
 

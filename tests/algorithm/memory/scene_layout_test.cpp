@@ -81,37 +81,37 @@ TEST_CASE("scene layout: every region where it has always been") {
        14123456,
        640 * 360,
        {{"first_halves", 0, 4019744},
-        {"second_halves", 4022272, 55271480},
-        {"codebooks", 59297792, 0},
-        {"chunk_table", 59297792, 295040},
-        {"spill", 59596800, 14123456},
-        {"frame_buffer", 73723904, 691200}}},
+         {"second_halves", 4022272, 56276416},
+         {"codebooks", 60301312, 0},
+         {"chunk_table", 60301312, 295040},
+         {"spill", 60600320, 14123456},
+         {"frame_buffer", 74727424, 691200}}},
       {"chunks, vq",
        lay_out_chunks(vq, 251234, 2305, 16123),
        14123456,
        640 * 360,
        {{"first_halves", 0, 4019744},
-        {"second_halves", 4022272, 4270978},
-        {"codebooks", 8294400, 256000},
-        {"chunk_table", 8552448, 295040},
-        {"spill", 8851456, 14123456},
-        {"frame_buffer", 22978560, 691200}}},
+         {"second_halves", 4022272, 8039488},
+         {"codebooks", 12062720, 256000},
+         {"chunk_table", 12320768, 295040},
+         {"spill", 12619776, 14123456},
+         {"frame_buffer", 26746880, 691200}}},
       {"chunks, vq_packed, no SH",
        lay_out_chunks({Encoding::kVqPacked, 0, {4096, 4000, 17, 0}}, 251234, 2305, 16123),
        1,
        640 * 360 + 1,
        {{"first_halves", 0, 4019744},
-        {"second_halves", 4022272, 2009872},
-        {"codebooks", 6033408, 113356},
-        {"chunk_table", 6148096, 295040},
-        {"spill", 6447104, 1},
-        {"frame_buffer", 6451200, 691203}}},
+         {"second_halves", 4022272, 4019744},
+         {"codebooks", 8044544, 113356},
+         {"chunk_table", 8159232, 295040},
+         {"spill", 8458240, 1},
+         {"frame_buffer", 8462336, 691203}}},
       {"chunks, half, whole rows",
        lay_out_chunks({Encoding::kHalf, 1, {}}, 256, 32, 16),
        0,
        1024,
        {{"first_halves", 0, 4096},
-        {"second_halves", 4096, 9728},
+        {"second_halves", 4096, 12288},
         {"codebooks", 16384, 0},
         {"chunk_table", 16384, 4096},
         {"spill", 20480, 0},
@@ -222,8 +222,11 @@ TEST_CASE("scene layout: tables and records lie in the regions that they name") 
   for (const SceneLayout& layout : {voxels, chunks, file}) {
     check_in(layout.regions, "first_halves", layout.first_halves);
     check_in(layout.regions, "second_halves", layout.second_halves);
-    CHECK(layout.first_halves.record_bytes == kFirstHalfBytes);
-    CHECK(layout.second_halves.record_bytes == format.bytes());
+    const RecordSplit split = split_of(layout.order(), format);
+    CHECK(layout.split.bound_by == split.bound_by);
+    CHECK(layout.first_halves.record_bytes == split.first_bytes());
+    CHECK(layout.second_halves.record_bytes == split.second_bytes);
+    CHECK(layout.record_bytes() == split.first_bytes() + split.second_bytes);
     CHECK(layout.regions[layout.codebooks.region].name == "codebooks");
     CHECK(layout.codebooks.bytes == format.codebook_bytes());
     CHECK(layout.stored_bytes == layout.regions.next_base());

@@ -1,12 +1,14 @@
-// The bounds of footprint.h and coarse_bound.h never remove a pixel whose computed alpha is
+// The bounds of footprint.h, coarse_bound.h and extent_bound.h never remove a pixel whose computed alpha is
 // visible: seeded random Gaussians, needles of ratio 10^10, giants and the near plane among them.
 #include <catch2/catch.hpp>
 #include <vector>
 
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/row_span.h"
+#include "algorithm/splat/visible_extents.h"
 #include "tests/algorithm/splat/random_gaussian.h"
 
 using namespace sgs;
@@ -43,6 +45,7 @@ struct Counts {
   long hit = 0;          // of those, with a visible pixel
   long spanned = 0;      // of the footprint's, in the spans of their rows
   long coarse_kept = 0;  // Gaussians that the coarse bound keeps in the frame
+  long extent_kept = 0;  // and the bound on extents
 };
 
 // Bounds of each row of sub-tiles of a footprint.
@@ -75,7 +78,13 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
   const auto v = to_camera(view, g.mean);
   REQUIRE(bound.in_front == (v.z > 0.2F));
   if (!bound.in_front) return;
+  // As it is stored.
+  const VisibleExtents known = decode_extents(encode_extents(visible_extents(g)));
+  const ExtentBound by_extents = extent_bound(view, g.mean, known.extent, known.scale_max);
+  REQUIRE(by_extents.in_front);
+  REQUIRE(by_extents.depth == bound.depth);
   counts.coarse_kept += touches(bound, frame_of(view));
+  counts.extent_kept += touches(by_extents, frame_of(view));
   const auto p = project(view, g, v);
   const PixelRect tiles = tile_rect(p.x, p.y, p.radius, view.width, view.height);
   const SubtileRect cut = footprint(p, g.opacity, view.width, view.height);
@@ -104,6 +113,7 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
           fail("reaches()", p, g.opacity, x, y);
         }
         if (!touches(bound, block)) fail("the coarse bound", p, g.opacity, x, y);
+        if (!touches(by_extents, block)) fail("the extents", p, g.opacity, x, y);
       }
     }
   }
@@ -139,13 +149,14 @@ void run(unsigned seed, double skew) {
     for (int i = 0; i < 1000; ++i) check_gaussian(view, random.gaussian(camera), counts);
   }
   CAPTURE(counts.drawn, counts.ill, counts.visible_px, counts.kept, counts.hit, counts.spanned,
-          counts.coarse_kept);
+          counts.coarse_kept, counts.extent_kept);
   // The test has seen what it is for, and the bounds are of use: most of what they keep is visible.
   CHECK(counts.drawn > 10000);
   CHECK(counts.ill > 300);
   CHECK(static_cast<double>(counts.hit) > 0.8 * static_cast<double>(counts.kept));
   CHECK(static_cast<double>(counts.hit) > 0.8 * static_cast<double>(counts.spanned));
   CHECK(counts.drawn > counts.coarse_kept / 2);
+  CHECK(counts.extent_kept < counts.coarse_kept);
 }
 
 }  // namespace

@@ -29,9 +29,11 @@ void check_records(const MemoryImage& image, const ActivatedCloud& cloud) {
   REQUIRE(image.bytes.size() == layout.stored_bytes);
   for (std::uint32_t slot = 0; slot < layout.gaussian_count(); ++slot) {
     const Gaussian<float>& g = cloud.gaussians[slot];
-    const FirstHalf first = decode_first_half(image.at(layout.first_halves.address(slot)));
+    const SplitFirstHalf first =
+        read_first_half(layout.split, image.at(layout.first_halves.address(slot)));
     const DecodedGaussian back =
-        decode_raw_second_half(first, image.at(layout.second_halves.address(slot)), 3);
+        read_record(layout.split, layout.second_half, first.mean, first.carried,
+                    image.at(layout.second_halves.address(slot)), nullptr);
     REQUIRE(std::memcmp(&back.gaussian, &g, sizeof g) == 0);
     REQUIRE(std::memcmp(back.sh, cloud.sh(slot), 16 * sizeof(glm::vec3)) == 0);
   }

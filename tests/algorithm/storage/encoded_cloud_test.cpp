@@ -162,12 +162,18 @@ TEST_CASE("encoded cloud: records and codebooks lie in the memory image where th
       CHECK(layout.codebooks.bytes == encoded.format.codebook_bytes());
       CHECK(std::equal(encoded.codebooks.begin(), encoded.codebooks.end(),
                        image.at(layout.codebooks.base)));
-      CHECK(layout.second_halves.bytes() == order.size() * encoded.format.bytes());
-      std::vector<std::byte> record(encoded.format.bytes());
+      CHECK(layout.split.second_bytes == split_of(layout.order(), encoded.format).second_bytes);
+      std::vector<std::byte> record(encoded.format.bytes()), first(layout.split.first_bytes()),
+          second(layout.split.second_bytes);
+      CHECK(layout.second_halves.bytes() == order.size() * second.size());
       for (std::uint32_t slot = 0; slot < order.size(); ++slot) {
         encoded.write_second_half(order[slot], record.data());
-        REQUIRE(std::memcmp(image.at(layout.second_halves.address(slot)), record.data(),
-                            record.size()) == 0);
+        write_record(layout.split, encoded.format, encoded.decoded.gaussians[order[slot]],
+                     record.data(), first.data(), second.data());
+        REQUIRE(std::memcmp(image.at(layout.first_halves.address(slot)), first.data(),
+                            first.size()) == 0);
+        REQUIRE(std::memcmp(image.at(layout.second_halves.address(slot)), second.data(),
+                            second.size()) == 0);
       }
     }
   }

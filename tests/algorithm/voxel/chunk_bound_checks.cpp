@@ -9,7 +9,9 @@
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/visible_extents.h"
 #include "algorithm/voxel/chunk_test.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "tests/algorithm/voxel/stored_clouds.h"
@@ -30,6 +32,12 @@ struct Found {
 bool could_blend(const View<float>& view, const Gaussian<float>& g, const PixelRect& group) {
   Splat splat{};
   return make_geometry(view, g, splat) && reaches_group(splat, group);
+}
+
+// The bound of an HFU that streams chunks.
+ExtentBound stored_bound(const View<float>& view, const Gaussian<float>& g) {
+  const VisibleExtents known = decode_extents(encode_extents(visible_extents(g)));
+  return extent_bound(view, g.mean, known.extent, known.scale_max);
 }
 
 class Checker {
@@ -69,6 +77,9 @@ class Checker {
     found.blended = could_blend(view_, g, group);
     tally_.splats += found.blended ? 1 : 0;
     if (found.blended && !touches(coarse, group)) tally_.failure = "coarse filter";
+    if (found.blended && !touches(stored_bound(view_, g), group)) {
+      tally_.failure = "coarse filter by extents";
+    }
     return found;
   }
 
@@ -159,6 +170,7 @@ int check_bounds_at_the_edge(unsigned seed, int gaussians) {
     g.mean[axis] = reached;
     ++edges;
     const ChunkTest test = GroupFrustum(view, group).test(gaussian_bound(g));
+    if (!touches(stored_bound(view, g), group)) FAIL("extents of Gaussian " << k);
     if (!test.touches) FAIL("Gaussian " << k << ", sigma " << sigma_px << " px");
   }
   return edges;
