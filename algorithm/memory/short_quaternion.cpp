@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kUnits = 16;  // a correction is -16 to 15
 
-std::int32_t bits_of(float value) { return __builtin_bit_cast(std::int32_t, value); }
+std::int32_t order_of_bits(float value) { return __builtin_bit_cast(std::int32_t, value); }
 
 // In this order of operations, each rounded to float.
 float computed(const std::array<float, 3>& others) {
@@ -32,8 +32,8 @@ ShortQuaternion shorten(const std::array<float, 4>& quat) {
   for (std::size_t k = 0, at = 0; k < 4; ++k) {
     if (k != largest) out.others[at++] = quat[k];
   }
-  const std::int64_t units = std::int64_t{bits_of(std::abs(quat[largest]))} -
-                             bits_of(computed(out.others));
+  const std::int64_t units = std::int64_t{order_of_bits(std::abs(quat[largest]))} -
+                             order_of_bits(computed(out.others));
   if (units < -kUnits || units >= kUnits) {
     throw std::invalid_argument(fmt::format("quaternion: got ({}, {}, {}, {}), expected length 1",
                                             quat[0], quat[1], quat[2], quat[3]));
@@ -45,7 +45,7 @@ ShortQuaternion shorten(const std::array<float, 4>& quat) {
 
 std::array<float, 4> lengthen(const ShortQuaternion& quat) {
   const std::size_t largest = quat.rest & 3U;
-  const std::int32_t bits = bits_of(computed(quat.others)) + (quat.rest >> 3) - kUnits;
+  const std::int32_t bits = order_of_bits(computed(quat.others)) + (quat.rest >> 3) - kUnits;
   const auto magnitude = __builtin_bit_cast(float, bits);
   std::array<float, 4> out{};
   for (std::size_t k = 0, at = 0; k < 4; ++k) {

@@ -87,10 +87,12 @@ TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   StreamingJob& job = scene.job;
   job.view = make_view<float>(camera);
   job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
+  // Records as the order has them, in the order of the grid; the tree's nodes are not read.
   constexpr std::uint32_t kChunkGaussians = 16;
-  scene.image = shape.order == StorageOrder::kChunks
-                    ? build_memory_image(encoded, build_chunk_tree(encoded.decoded, kChunkGaussians))
-                    : build_memory_image(encoded, scene.grid);
+  scene.image =
+      shape.order == StorageOrder::kChunks
+          ? build_memory_image(encoded, arrange_by_chunks(encoded.decoded, kChunkGaussians).table)
+          : build_memory_image(encoded, scene.grid);
   scene.cloud = std::move(encoded.decoded);
   place(scene.image.layout, 0, job);
   return scene;

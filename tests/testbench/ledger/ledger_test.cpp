@@ -18,7 +18,7 @@ MachineResult paid() {
   MachineResult machine;
   UnitResult unit;
   unit.name = "adder";
-  unit.activities = {{"add", "adding", "adds", 60, 40, 0}};
+  unit.activities = {{"add", "adding", "adds", 60, {{WaitFor::kInput, "fifo", "", "", 40}}, ""}};
   unit.charged = true;
   machine.units = {unit};
   machine.parts = {{"adder", "fp32_lane", 2, 2}, {"heap", "comparator", 3, 3}};
