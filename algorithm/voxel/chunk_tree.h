@@ -14,7 +14,7 @@
 namespace sgs {
 
 struct ChunkTree {
-  std::vector<ChunkNode> nodes;  // root at 0; empty for an empty cloud
+  std::vector<ChunkNode> nodes;  // breadth first: root at 0; empty for an empty cloud
   std::vector<std::uint32_t>
       storage_order;  // [stored] file index of each slot: by chunk, then index
   std::uint32_t chunk_count = 0;
