@@ -47,6 +47,8 @@ class Activity : public sc_core::sc_object {
   void works() { enter(kWorking); }
   void waits_for(WaitFor what, const sc_core::sc_object& at) { enter(place_of(what, &at)); }
   void idles() { enter(kIdling); }
+  // What it waits for now turns out to come from `at`.
+  void waits_at(const sc_core::sc_object& at) { now_ = place_of(waits_[now_].what, &at); }
 
   // Works for so many cycles; what it did before is taken up again.
   void work(std::uint64_t cycles) {

@@ -18,9 +18,11 @@ class FifoSelector {
 
   // Blocks until one of the FIFOs for which wanted(index) holds, at least one, has an entry that is
   // ready, and returns that FIFO's index. Round robin, from the one after the last. Waiting is
-  // charged to the FIFO that has an entry first, or where none has one to the next in turn.
+  // charged to the FIFO that is returned: which of several has its entry first may depend on the
+  // order of processes, which of them is taken does not.
   template <class Wanted>
   int select(Activity& reader, Wanted&& wanted) {
+    bool waiting = false;
     while (true) {
       int soonest = -1, next = -1;
       for (int k = 1; k <= fifos_.size(); ++k) {
@@ -29,12 +31,17 @@ class FifoSelector {
         if (next < 0) next = index;
         if (fifos_[index]->empty()) continue;
         if (fifos_[index]->can_pop()) {
+          if (waiting) {
+            reader.waits_at(fifos_[index]->place());
+            reader.works();
+          }
           last_ = index;
           return index;
         }
         if (soonest < 0 || fifos_[index]->ready_at() < fifos_[soonest]->ready_at()) soonest = index;
       }
-      reader.waits_for(WaitFor::kInput, fifos_[soonest >= 0 ? soonest : next]->place());
+      if (!waiting) reader.waits_for(WaitFor::kInput, fifos_[next]->place());
+      waiting = true;
       if (soonest >= 0) {
         // Whatever arrives meanwhile becomes ready later still, all latencies being equal.
         sc_core::wait(fifos_[soonest]->ready_at() - sc_core::sc_time_stamp());
@@ -42,7 +49,6 @@ class FifoSelector {
         sc_core::wait(arrival_);
       }
       reader.clock().jitter();
-      reader.works();
     }
   }
 

@@ -8,7 +8,6 @@
 #include <queue>
 #include <vector>
 
-#include "algorithm/order/chunk_walk.h"
 #include "algorithm/order/tree_in_memory.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/group_state.h"
@@ -120,8 +119,8 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
                   StreamingStats& stats, RenderResult& frame) {
   stats.groups = 1;
   TreeInMemory source{tree, {}};
-  ChunkWalk walk(view, source, config.walk_queue_entries);
-  walk.start(pixels, tree.nodes.empty());
+  ChunkWalk walk(view, source, config.walk_room);
+  walk.begin(pixels, tree.nodes.empty());
   GroupStream stream(view, cloud, known, pixels, config, contributing, stats);
   std::optional<WalkEntry> chunk = walk.next();
   while (chunk && !stream.saturated()) {
@@ -131,7 +130,6 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
     stream.release_below(chunk ? chunk->nearest : std::numeric_limits<float>::infinity());
   }
   stats.nodes_read = walk.counters().nodes;
-  stats.walk_queue_max = walk.counters().queue_max;
   stream.finish(frame);
 }
 

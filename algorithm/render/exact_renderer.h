@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "algorithm/order/chunk_walk.h"
 #include "algorithm/order/on_overflow.h"
 #include "algorithm/render/streaming_result.h"
 #include "algorithm/splat/blend.h"
@@ -20,7 +21,7 @@ struct ExactOrderConfig {
   bool coarse_filter = true;           // off: keys of whole chunks wait
   std::uint32_t merge_entries = 4096;  // keys that wait at most, between two visits
   OnOverflow on_overflow = OnOverflow::kSpill;
-  std::uint32_t walk_queue_entries = 512;  // of the front-to-back walk
+  WalkRoom walk_room{256, 384};                        // of the front-to-back walk
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
   glm::vec3 background{0.0F};
 };

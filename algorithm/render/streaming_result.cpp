@@ -18,7 +18,7 @@ StreamingStats& StreamingStats::operator+=(const StreamingStats& other) {
     this->*count += other.*count;
   }
   for (const Count largest : {&StreamingStats::table_bytes_max, &StreamingStats::visit_splats_max,
-                              &StreamingStats::walk_queue_max, &StreamingStats::pending_keys_max}) {
+                              &StreamingStats::pending_keys_max}) {
     this->*largest = std::max(this->*largest, other.*largest);
   }
   return *this;

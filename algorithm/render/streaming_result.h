@@ -30,7 +30,6 @@ struct StreamingStats {
   std::uint64_t visit_splats_max = 0;  // longest list that one visit sorts
   // Exact order.
   std::uint64_t nodes_read = 0;        // of the chunk tree
-  std::uint64_t walk_queue_max = 0;    // entries
   std::uint64_t pending_keys_max = 0;  // merged and not yet final, of the worst group
   std::uint64_t forced_early = 0;      // keys released before they were final (blend_early)
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "algorithm/splat/visible_extents.h"
 
@@ -157,6 +158,7 @@ class Widener {
   void run(const Binary& root) {
     tree_.nodes.emplace_back();
     fill(0, root, 1);
+    number_by_level();
   }
 
  private:
@@ -183,6 +185,22 @@ class Widener {
     for (const Binary* child : children) {
       if (!child->leaf()) fill(inner++, *child, level + 1);
     }
+  }
+
+  // Breadth first, so that the nodes that every group opens are the first; slots keep the order of
+  // the descent, in which neighbours are near.
+  void number_by_level() {
+    std::vector<ChunkNode> numbered;
+    numbered.reserve(tree_.nodes.size());
+    numbered.push_back(tree_.nodes[0]);
+    for (std::size_t at = 0; at < numbered.size(); ++at) {
+      const std::uint32_t first = numbered[at].first_node;
+      numbered[at].first_node = static_cast<std::uint32_t>(numbered.size());
+      std::uint32_t inner = 0;
+      for (int c = 0; c < numbered[at].children; ++c) inner += numbered[at].count[c] == 0 ? 1 : 0;
+      for (std::uint32_t k = 0; k < inner; ++k) numbered.push_back(tree_.nodes[first + k]);
+    }
+    tree_.nodes = std::move(numbered);
   }
 
   // Up to eight descendants that together hold all of `from`: the largest is opened first.

@@ -14,7 +14,7 @@
 namespace sgs {
 
 struct ChunkTree {
-  std::vector<ChunkNode> nodes;  // root at 0; empty for an empty cloud
+  std::vector<ChunkNode> nodes;  // breadth first: root at 0; empty for an empty cloud
   std::uint32_t chunk_count = 0;
   std::uint32_t depth = 0;  // levels of nodes
 };

@@ -29,7 +29,7 @@ GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.coarse_filter = config_.hfu.coarse_filter;
   order.merge_entries = config_.merge.entries;
   order.on_overflow = config_.merge.on_overflow;
-  order.walk_queue_entries = config_.vsu.queue_entries;
+  order.walk_room = config_.vsu.walk_room();
   order.precision = config_.rendering.precision;
   order.background = job.background;
   StreamingResult result = render_exact_order(job.view, scene.decoded, scene.tree(), order);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace sgs {
@@ -23,6 +24,10 @@ class Collector : public LeftOutCollector {
     for (const Activity::Wait& wait : activity.waits()) {
       if (wait.cycles > 0) result.waits.push_back(wait_of(wait, activity));
     }
+    // Which was waited for first may depend on the order of processes, if only for no time at all.
+    std::sort(result.waits.begin(), result.waits.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.what, a.at) < std::tie(b.what, b.at);
+    });
     into_.units.back().activities.push_back(std::move(result));
   }
   void remedy(const Activity& activity, const char* key) override {

@@ -100,11 +100,14 @@ Json activity_of(const ActivityResult& activity) {
     Json& out = waits.emplace_back(Json{{"for", name_of(wait.what)}, {"cycles", wait.cycles}});
     if (!wait.at.empty()) out["on"] = wait.at;
     if (!wait.other.empty()) out["other_end"] = wait.other;
+    if (!wait.key.empty()) out["key"] = wait.key;
   }
-  return {{"resource", activity.resource},
-          {"busy_cycles", activity.busy_cycles},
-          {"waited_cycles", waited},
-          {"waits", waits}};
+  Json out = {{"resource", activity.resource},
+              {"busy_cycles", activity.busy_cycles},
+              {"waited_cycles", waited},
+              {"waits", waits}};
+  if (!activity.key.empty()) out["key"] = activity.key;
+  return out;
 }
 
 Json units_of(const MachineResult& machine) {

@@ -31,7 +31,11 @@ std::vector<std::string> random_exact_options(std::mt19937_64& random) {
   set("merge.spill_runs", between(2, 8));
   set("merge.spill_block_entries", between(1, 16));
   set("vsu.queue_entries", between(9, random() % 2 == 0 ? 16 : 512));
-  set("vsu.node_cache_bytes", 64U << between(0, 8));
+  set("vsu.node_queue_entries", between(9, random() % 2 == 0 ? 16 : 128));
+  set("vsu.upper_nodes", between(0, 40));
+  set("vsu.nodes_in_flight", between(1, 16));
+  // A slow walk has visits left when a group finishes.
+  set("vsu.cycles_per_queue_operation", between(1, random() % 2 == 0 ? 4 : 64));
   set("hfus", between(1, 6));
   set("sorting_units", between(1, 4));
   set("hfu.second_half_slots", between(1, 16));

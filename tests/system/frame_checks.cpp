@@ -1,6 +1,7 @@
 // Accounts, bytes, flow and bounds of a view.
 #include "tests/system/frame_checks.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
 
@@ -20,6 +21,15 @@ std::uint64_t of(const Json& unit, const char* name) {
   return unit["counters"].value(name, std::uint64_t{0});
 }
 
+// Where a key is stated, the configuration has it.
+void check_key(const Json& view, const Json& stated) {
+  if (!stated.contains("key")) return;
+  std::string path = "/" + stated["key"].get<std::string>();
+  std::replace(path.begin(), path.end(), '.', '/');
+  INFO(path);
+  CHECK(view["config"].contains(Json::json_pointer(path)));
+}
+
 void check_accounts(const Json& view) {
   std::size_t activities = 0;
   for (const auto& [name, unit] : view["units"].items()) {
@@ -31,14 +41,19 @@ void check_accounts(const Json& view) {
       for (const Json& wait : spent["waits"]) {
         by_place += count(wait["cycles"]);
         CHECK(wait.contains("on") == (wait["for"] != "idle"));
+        check_key(view, wait);
       }
       CHECK(count(spent["busy_cycles"]) + waited == frame_cycles(view));
       CHECK(by_place == waited);
       CHECK(count(spent["busy_cycles"]) <= frame_cycles(view));
       CHECK_FALSE(spent["resource"].get<std::string>().empty());
+      check_key(view, spent);
     }
   }
   CHECK(activities > 0);
+  const Json& binding = view["binding"];
+  CHECK_FALSE(binding["holds"].get<std::string>().empty());
+  if (binding["key"] != "") check_key(view, binding);
 }
 
 void check_memory(const Json& view) {

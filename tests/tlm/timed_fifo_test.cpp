@@ -2,6 +2,7 @@
 #include "tlm/timed_fifo.h"
 
 #include <catch2/catch.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -301,6 +302,35 @@ TEST_CASE("FIFO selector: waits for the first that is wanted, and is charged for
   CHECK(reader.waited_for(WaitFor::kInput) == 13);
   REQUIRE(reader.waits().size() == 2);
   CHECK(reader.waits()[1].at == &b);
+}
+
+TEST_CASE("FIFO selector: waiting is charged to the FIFO whose entry ended it") {
+  const ClockDomain clock(1000);
+  Activity writer("writer", clock), reader("reader", clock);
+  TimedFifo<int> a("a", clock, 4, 2), b("b", clock, 4, 2), c("c", clock, 4, 2);
+  Reader inputs("inputs");
+  for (TimedFifo<int>* fifo : {&a, &b, &c}) inputs.in(*fifo);
+  Threads threads({[&] {
+                     clock.wait_cycles(10);
+                     c.push(2, writer);
+                     clock.wait_cycles(1);
+                     a.push(0, writer);
+                   },
+                   [&] {
+                     FifoSelector<int> selector(inputs.in);
+                     const auto any = [](int) { return true; };
+                     for (const int expected : {2, 0}) {
+                       CHECK(selector.select(reader, any) == expected);
+                       CHECK(inputs.in[expected]->pop(reader) == expected);
+                     }
+                     reader.close();
+                   }});
+  CHECK(threads.run_all());
+  std::map<const sc_core::sc_object*, std::uint64_t> waited;
+  for (const Activity::Wait& wait : reader.waits()) waited[wait.at] += wait.cycles;
+  CHECK(waited[&c] == 12);
+  CHECK(waited[&a] == 1);
+  CHECK(waited[&b] == 0);
 }
 
 // A unit between two FIFOs.

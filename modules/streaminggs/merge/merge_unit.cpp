@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "modules/streaminggs/heap_ledger.h"
+
 namespace sgs {
 namespace {
 
@@ -14,6 +16,10 @@ std::uint32_t heap_entries(const MergeConfig& config, const BuiltFor& built_for)
   const bool spills = config.on_overflow == OnOverflow::kSpill;
   return config.entries + (spills ? 0 : built_for.chunk_gaussians);
 }
+
+constexpr std::uint32_t kKeyWords = 2;  // that are compared: depth and slot
+constexpr HeapLedger kHeap{"waiting keys", "counts of the heap", "merge",
+                           FineCandidate::kSramBytes, kKeyWords};
 
 }  // namespace
 
@@ -231,13 +237,8 @@ void MergeUnit::drop_all() {
 }
 
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
-  constexpr std::uint32_t kKeyBytes = KeyCodec::kBytes, kNodeBits = 8 * 2 * kKeyBytes;
-  const std::uint32_t entries = heap_entries(config, built_for);
-  SramUses uses = {
-      sram_use("waiting keys", kSharedSram, {{entries, "keys"}, {kKeyBytes, "B"}},
-               {kNodeBits, SramPorts::kReadAndWrite, heap_levels(entries)}),
-      sram_use("counts of the heap", kSharedSram, {{(heap_count_bits(entries) + 7) / 8, "B"}},
-               {32, SramPorts::kReadAndWrite, heap_levels(entries)})};
+  constexpr std::uint32_t kKeyBytes = KeyCodec::kBytes;
+  SramUses uses = kHeap.sram_uses(heap_entries(config, built_for));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
   const SramUse block =
       sram_use("spill blocks", kSharedSram, {{config.spill_block_entries, "keys"}, {kKeyBytes, "B"}},
@@ -254,27 +255,20 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
   return uses;
 }
 
-// Level l is a memory of at most 2^l nodes; both children of a node are read at once. Two keys are
-// compared by depth and slot: two comparators of 32 bits, two comparisons a level.
 void MergeUnit::publish_ledger(DataSheet& sheet) {
-  const HeapWork& heap = heap_work();
-  sheet.accesses("waiting keys", 2 * heap.words_read, heap.nodes_written);
-  sheet.accesses("counts of the heap", heap.words_read, heap.nodes_written);
-  constexpr std::uint64_t kWide = 2, kOfLevel = 2;
-  std::uint64_t comparators = kWide * kOfLevel * heap_levels(heap_entries(config_, built_for_));
-  std::uint64_t comparisons = kWide * heap.comparisons;
-  if (config_.on_overflow == OnOverflow::kSpill) {
-    // The nearest of the runs' fronts, a tournament for each key that is read back.
-    comparators += kWide * (config_.spill_runs - 1);
-    comparisons += kWide * (config_.spill_runs - 1) * counters_.keys_spilled;
-    sheet.accesses("spilled runs", counters_.keys_spilled, counters_.keys_spilled);
-    sheet.accesses("spill blocks", counters_.keys_spilled, counters_.keys_spilled);
-    sheet.port(memory, "spill writes");
-  } else {
+  kHeap.publish(sheet, heap_entries(config_, built_for_), heap_work());
+  if (config_.on_overflow != OnOverflow::kSpill) {
     sheet.port(memory);
+    return;
   }
-  sheet.part("merge", "comparator", static_cast<double>(comparators), 1);
-  sheet.operations("merge", "comparator", static_cast<double>(comparisons));
+  // The nearest of the runs' fronts, a tournament for each key that is read back.
+  const double comparators = double{kKeyWords} * (config_.spill_runs - 1);
+  sheet.part("merge", "comparator", comparators, 1);
+  sheet.operations("merge", "comparator",
+                   comparators * static_cast<double>(counters_.keys_spilled));
+  sheet.accesses("spilled runs", counters_.keys_spilled, counters_.keys_spilled);
+  sheet.accesses("spill blocks", counters_.keys_spilled, counters_.keys_spilled);
+  sheet.port(memory, "spill writes");
 }
 
 void MergeUnit::publish(DataSheet& sheet) {

@@ -54,7 +54,7 @@ void fuzz_exact_order(unsigned first_seed, unsigned scenes) {
     ExactOrderConfig config;
     config.group_px = 4 * (1 + hard.pick(50));
     config.merge_entries = static_cast<std::uint32_t>(2 + hard.pick(100));
-    config.walk_queue_entries = static_cast<std::uint32_t>(9 + hard.pick(60));
+    config.walk_room = {9 + hard.pick(60), 9 + hard.pick(60)};
     config.background = {0.25F, 0.5F, 1};
     const View<float> view = make_view<float>(scene.camera);
     const StreamingResult exact = render_exact_order(view, cloud, tree, config);
@@ -78,7 +78,7 @@ void check_exact_on_shared(const std::string& name) {
   ExactOrderConfig small;
   small.group_px = 32;
   small.merge_entries = 64;
-  small.walk_queue_entries = 24;
+  small.walk_room = {24, 24};
   const auto of_16 = by_chunks(cloud, 16), of_100 = by_chunks(cloud, 100);
   for (const Camera& camera : cameras) {
     CAPTURE(name, camera.id);

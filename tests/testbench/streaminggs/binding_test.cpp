@@ -68,10 +68,10 @@ TEST_CASE("binding: a resource is as busy as its busiest activity") {
   CHECK(find_binding(frame_of(activities, 0)).unit == "filters");
 }
 
-TEST_CASE("binding: the waiting is followed from 80 % downwards") {
-  CHECK_THAT(find_binding(frame_of({activity("a", 790)}, 0)).explanation,
-             Contains("no resource is busy all the time"));
-  CHECK_THAT(find_binding(frame_of({activity("a", 810)}, 0)).explanation,
+TEST_CASE("binding: the waiting is followed from two thirds of the frame downwards") {
+  CHECK_THAT(find_binding(frame_of({activity("a", 660)}, 0)).explanation,
+             Contains("no resource is busy most of the time"));
+  CHECK_THAT(find_binding(frame_of({activity("a", 670)}, 0)).explanation,
              !Contains("no resource is busy"));
 }
 
@@ -136,16 +136,16 @@ TEST_CASE("binding: waiting leads to a unit, a memory or a FIFO") {
        "waits for room in its memory port 60 % of the frame"},
       {"one that waits less than half as long as the one it feeds",
        {100, {visits_room(900)}},
-       {780, {visits_in(90), idle(130)}},
-       {790, {splats_in(190), idle(20)}},
+       {650, {visits_in(90), idle(260)}},
+       {660, {splats_in(190), idle(150)}},
        {"blend.draw", "filter.test"},
        "filter.test",
        "filter.rate",
-       "works 78 % of the frame"},
+       "works 65 % of the frame"},
       {"and one that waits half as long",
        {300, {at_port(WaitFor::kReads, "in_flight", 700)}},
-       {700, {visits_in(100), idle(200)}},
-       {790, {splats_in(190), idle(20)}},
+       {500, {visits_in(100), idle(400)}},
+       {660, {splats_in(190), idle(150)}},
        {"blend.draw", "filter.test", "unit.walk"},
        "unit.memory",
        "in_flight",
