@@ -18,14 +18,17 @@ MachineResult paid() {
   MachineResult machine;
   UnitResult unit;
   unit.name = "adder";
-  unit.activities = {{"add", "adding", "adds", 60, 40, 0}};
+  ActivityResult add;
+  add.name = "add";
+  add.busy_cycles = 60;
+  unit.activities = {add};
   unit.charged = true;
   machine.units = {unit};
   machine.parts = {{"adder", "fp32_lane", 2, 2}, {"heap", "comparator", 3, 3}};
   machine.operations = {{"adder", "fp32_lane", 200}, {"heap", "comparator", 300}};
   const SramShape banks{32, SramPorts::kReadAndWrite, 2};
-  add(machine.sram_uses, sram_use("rows", "scratch", {{64, "B"}}, banks), 2);
-  add(machine.sram_uses, sram_use("table", "scratch", {{64, "B"}}, {32, SramPorts::kOne, 1}));
+  sgs::add(machine.sram_uses, sram_use("rows", "scratch", {{64, "B"}}, banks), 2);
+  sgs::add(machine.sram_uses, sram_use("table", "scratch", {{64, "B"}}, {32, SramPorts::kOne, 1}));
   machine.sram_accesses = {{"rows", 400, 400}, {"table", 60, 40}};
   return machine;
 }
