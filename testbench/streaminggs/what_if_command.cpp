@@ -16,6 +16,7 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/result/collect.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/frame_run.h"
 #include "testbench/streaminggs/prepared_scene.h"
 #include "testbench/streaminggs/scene_arguments.h"
 #include "testbench/streaminggs/what_if.h"
