@@ -15,7 +15,10 @@ struct PaperConfig : StreamingConfig {
   PaperVsuConfig vsu;
   PaperSorterConfig sorting;
 
-  PaperConfig() { sram = {16 * 1024, 250 * 1024, 89 * 1024}; }
+  PaperConfig() {
+    sram = {16 * 1024, 250 * 1024, 89 * 1024};
+    hfu.candidate_fifo_entries = 14;  // what fits the paper's 89 KB with pixels in float
+  }
 };
 
 void visit(ConfigVisitor& v, PaperConfig& config);

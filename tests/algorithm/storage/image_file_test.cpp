@@ -140,7 +140,7 @@ TEST_CASE("image file: the first bytes are as documented") {
   const ScratchFolder scratch;
   const std::string bytes = small_file(scratch);
   CHECK(bytes.substr(0, 8) == "\x89SGS\r\n\x1a\n");
-  CHECK(bytes.substr(8, 4) == std::string("\2\0\0\0", 4));
+  CHECK(bytes.substr(8, 4) == std::string("\3\0\0\0", 4));
   std::uint64_t length = 0;
   std::uint32_t header_bytes = 0;
   std::memcpy(&header_bytes, bytes.data() + 12, 4);
@@ -193,10 +193,10 @@ TEST_CASE("image file: foreign files, other versions, what is no file") {
   std::string bytes = small_file(scratch);
   bytes[8] = 3;
   CHECK_THAT(refusal_of(scratch.write("b.sgs", bytes)),
-             Contains("byte 8: version 3, expected 2: made by a newer program"));
+             Contains("byte 8: version 4, expected 3: made by a newer program"));
   bytes[8] = 1;
   CHECK_THAT(refusal_of(scratch.write("b.sgs", bytes)),
-             Contains("version 1, expected 2: pack the scene again"));
+             Contains("version 2, expected 3: pack the scene again"));
   refusal_of(scratch.path("not_there.sgs"));
   refusal_of(scratch.path(""));
 }
