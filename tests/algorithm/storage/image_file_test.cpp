@@ -191,10 +191,10 @@ TEST_CASE("image file: foreign files, other versions, what is no file") {
              Contains("byte 0: not the magic number"));
   CHECK_THAT(refusal_of(scratch.write("empty.sgs", "")), Contains("not the magic number"));
   std::string bytes = small_file(scratch);
-  bytes[8] = 3;
+  bytes[8] = 4;
   CHECK_THAT(refusal_of(scratch.write("b.sgs", bytes)),
              Contains("byte 8: version 4, expected 3: made by a newer program"));
-  bytes[8] = 1;
+  bytes[8] = 2;
   CHECK_THAT(refusal_of(scratch.write("b.sgs", bytes)),
              Contains("version 2, expected 3: pack the scene again"));
   refusal_of(scratch.path("not_there.sgs"));
