@@ -65,7 +65,7 @@ void check_joules(const Json& view) {
         80 * static_cast<double>(counter(view, "vsu", "tests")) * prices.of("fp32_mac");
     const double levels = std::ceil(std::log2(config["merge"]["entries"].get<double>()));
     expected["merge"] = prices.in_and_out(
-        "middle", 2 * levels * 28 * static_cast<double>(counter(view, "merge", "keys")));
+        "middle", 2 * levels * 32 * static_cast<double>(counter(view, "merge", "keys")));
   } else {
     expected["vsu"] =
         6 * static_cast<double>(counter(view, "vsu", "steps")) * prices.of("fp32_mac");
