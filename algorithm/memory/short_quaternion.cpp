@@ -32,8 +32,8 @@ ShortQuaternion shorten(const std::array<float, 4>& quat) {
   for (std::size_t k = 0, at = 0; k < 4; ++k) {
     if (k != largest) out.others[at++] = quat[k];
   }
-  const std::int64_t units = std::int64_t{bits_of(std::abs(quat[largest]))} -
-                             bits_of(computed(out.others));
+  const std::int64_t units =
+      std::int64_t{bits_of(std::abs(quat[largest]))} - bits_of(computed(out.others));
   if (units < -kUnits || units >= kUnits) {
     throw std::invalid_argument(fmt::format("quaternion: got ({}, {}, {}, {}), expected length 1",
                                             quat[0], quat[1], quat[2], quat[3]));

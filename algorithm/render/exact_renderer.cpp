@@ -150,7 +150,8 @@ StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud
   const std::vector<VisibleExtents> known = stored_extents(cloud, tree);
   Flags contributing(cloud.size()), visited(tree.storage_order.size());
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    render_group(view, cloud, tree, known, groups[g], config, contributing, visited, stats[g], out.frame);
+    render_group(view, cloud, tree, known, groups[g], config, contributing, visited, stats[g],
+                 out.frame);
   });
   for (const StreamingStats& s : stats) out.stats += s;
   out.stats.contributing = contributing.count();

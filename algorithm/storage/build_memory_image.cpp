@@ -21,9 +21,8 @@ MemoryImage store_gaussians(const EncodedCloud& scene, SceneLayout layout,
           const std::uint32_t index = storage_order[slot];
           std::byte encoded[kMaxSecondHalfBytes];
           scene.write_second_half(index, encoded);
-          write_record(image.layout.split, image.layout.second_half,
-                       scene.decoded.gaussians[index], encoded,
-                       image.bytes.data() + first_halves.address(slot),
+          write_record(image.layout.split, image.layout.second_half, scene.decoded.gaussians[index],
+                       encoded, image.bytes.data() + first_halves.address(slot),
                        image.bytes.data() + second_halves.address(slot));
         }
       });

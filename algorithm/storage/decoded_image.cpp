@@ -100,8 +100,7 @@ Fault fault_of_values(const DecodedGaussian& decoded, int sh_degree) {
     return fmt::format("centre: got ({}, {}, {}), expected magnitudes of at most {}", g.mean.x,
                        g.mean.y, g.mean.z, kMaxCoordinate);
   }
-  if (!within(g.scale, kMaxScale * kRounding) ||
-      std::min({g.scale.x, g.scale.y, g.scale.z}) < 0) {
+  if (!within(g.scale, kMaxScale * kRounding) || std::min({g.scale.x, g.scale.y, g.scale.z}) < 0) {
     return fmt::format("scales: got ({}, {}, {}), expected 0 to {}", g.scale.x, g.scale.y,
                        g.scale.z, kMaxScale);
   }

@@ -30,8 +30,7 @@ Datapath datapath(const char* name, const OperationCounts& c, std::uint32_t pape
 
 }  // namespace
 
-std::vector<AutoChoice> resolve_filter_cost(HfuConfig& hfu, CoarseBoundBy bound_by,
-                                            int sh_degree) {
+std::vector<AutoChoice> resolve_filter_cost(HfuConfig& hfu, CoarseBoundBy bound_by, int sh_degree) {
   if (hfu.cost == FilterCost::kPaper) return {};
   hfu.cfu_macs = folded_macs(coarse_work(bound_by, longest_case()));
   hfu.ffu_macs = folded_macs(fine_work(longest_case(), sh_degree).total());
@@ -44,8 +43,8 @@ std::vector<AutoChoice> resolve_filter_cost(HfuConfig& hfu, CoarseBoundBy bound_
 
 void publish_filters(DataSheet& sheet, const HfuConfig& config, CoarseBoundBy bound_by,
                      int sh_degree) {
-  sheet.datapath(datapath("coarse", coarse_work(bound_by, longest_case()), kPaperCfuMacs, config.cfu_macs,
-                          config.cfu_lanes));
+  sheet.datapath(datapath("coarse", coarse_work(bound_by, longest_case()), kPaperCfuMacs,
+                          config.cfu_macs, config.cfu_lanes));
   sheet.datapath(datapath("fine", fine_work(longest_case(), sh_degree).total(), kPaperFfuMacs,
                           config.ffu_macs, config.ffu_lanes));
 }

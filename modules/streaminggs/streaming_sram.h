@@ -24,8 +24,7 @@ SramUses streaming_sram_uses(const StreamingConfig& config, const BuiltFor& buil
 // `chosen`. Throws InputError when both are left open, and when more is used than there is; the
 // message shows the sum.
 void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
-                  const std::function<SramUses()>& uses,
-                  std::vector<AutoChoice>& chosen);
+                  const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen);
 
 // Throws InputError, with the sum, when more is used of `memory` than there is; key: what says how
 // much there is.

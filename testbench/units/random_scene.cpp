@@ -86,9 +86,10 @@ TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   job.view = make_view<float>(camera);
   job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
   constexpr std::uint32_t kChunkGaussians = 16;
-  scene.image = shape.order == StorageOrder::kChunks
-                    ? build_memory_image(encoded, build_chunk_tree(encoded.decoded, kChunkGaussians))
-                    : build_memory_image(encoded, scene.grid);
+  scene.image =
+      shape.order == StorageOrder::kChunks
+          ? build_memory_image(encoded, build_chunk_tree(encoded.decoded, kChunkGaussians))
+          : build_memory_image(encoded, scene.grid);
   scene.cloud = std::move(encoded.decoded);
   place(scene.image.layout, 0, job);
   return scene;

@@ -60,7 +60,9 @@ TEST_CASE("encodings: a record's bytes, and what each encoding costs in the pict
         words(encoded(order, "vq")), bits(encoded(order, "vq_packed"));
     // By voxels, and by chunks with the largest scale and in whole bursts or powers of two.
     const std::tuple<const Simulation*, int, int> bytes[] = {
-        {&raw, 220, 224}, {&half, 110, 128}, {&words, 17, 32},
+        {&raw, 220, 224},
+        {&half, 110, 128},
+        {&words, 17, 32},
         {&bits, 8, 16}};  // 8 + 6 + 7 + 8 + 5 bit: 34
     for (const auto& [simulation, voxels, chunks] : bytes) {
       const int expected = order == std::string("exact") ? chunks : voxels;
