@@ -145,8 +145,7 @@ void write_record(const RecordSplit& split, const SecondHalfFormat& format,
   }
   const std::size_t in_front = kWordBytes * split.carried_words;
   std::memcpy(first, payload.data(), in_front);
-  const std::size_t behind =
-      std::min<std::size_t>(split.second_bytes, payload.size() - in_front);
+  const std::size_t behind = std::min<std::size_t>(split.second_bytes, payload.size() - in_front);
   std::memcpy(second, payload.data() + in_front, behind);
   std::fill(second + behind, second + split.second_bytes, std::byte{0});
 }

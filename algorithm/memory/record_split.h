@@ -13,11 +13,11 @@
 //     raw 0             16 + 40 (64)  24 + 32    56 B with extents: one word of the quaternion is
 //                                                left out, two words go to the first half
 //     raw 1             16 + 76 (104) 16 + 80 (96)   96 = 16 + 80 with nothing left out; 28 + 64
-//                                                would save 32 for 12 B more in every first half and
-//                                                in every key that waits
+//                                                would save 32 for 12 B more in every first half
+//                                                and in every key that waits
 //     raw 2             16 + 136 (160) 24 + 128  as degree 0
 //     raw 3             16 + 220 (248) 16 + 224  seven bursts without any art
-//     half 0, 1, 2, 3   16 + 20 .. 110           32, 48, 72, 128: where padding to bursts saves some
+//     half 0, 1, 2, 3   16 + 20 .. 110           32, 48, 72, 128: padded where that saves bursts
 //     vq, vq_packed     16 + 17, 8               32, 16: the next power of two
 //
 // (in brackets: bytes on the bus, the mean over the places at which such a record may begin). Where
@@ -52,7 +52,7 @@ struct RecordSplit {
 RecordSplit published_split(const SecondHalfFormat& format);
 RecordSplit burst_split(const SecondHalfFormat& format);
 
-// Words of the payload that a first half holds, which wait with its key until the second half comes.
+// Words of the payload in a first half: they wait with its key until the second half comes.
 constexpr std::size_t kMostCarriedWords = 2;
 using CarriedWords = std::array<std::uint32_t, kMostCarriedWords>;
 

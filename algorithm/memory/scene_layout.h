@@ -39,7 +39,7 @@ inline StorageOrder order_of(const TableLayout& table) {
 }
 
 struct SceneLayout {
-  Regions regions;  // the scene's; machines add what they work with behind them
+  Regions regions;               // the scene's; machines add what they work with behind them
   SecondHalfFormat second_half;  // as encoded, before it is split
   RecordSplit split;             // what of it lies in which of these
   RecordArray first_halves, second_halves;  // [slots]

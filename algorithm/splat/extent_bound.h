@@ -53,9 +53,9 @@ ExtentBoundOf<T> extent_bound(const View<T>& view, const glm::vec<3, T>& mean,
   // lambda, rounded up, and what widens by it: what depends on the camera alone is one constant.
   const T steepest = T(max_of(view.focal_x, view.focal_y) * view.stretch);
   const T ratio = T(scale_max / v.z);
-  const T lambda = T(T(T(steepest * steepest) * T(1.00002F)) * T(ratio * ratio) *
-                         T(T(1.0F) + u * u + w * w) +
-                     constant<T>(1.00001 * kLowPass));
+  const T lambda =
+      T(T(T(steepest * steepest) * T(1.00002F)) * T(ratio * ratio) * T(T(1.0F) + u * u + w * w) +
+        constant<T>(1.00001 * kLowPass));
   constexpr double kWideningPerLambda = 64.0 * kRoundoff * 4 / kLowPass;
   if (!(lambda < constant<T>(0.9999 * kMaxWidening / kWideningPerLambda))) {
     constexpr double kRadiusExtra = 0.3163;  // sqrt(kMinDiscriminant), rounded up
@@ -70,9 +70,9 @@ ExtentBoundOf<T> extent_bound(const View<T>& view, const glm::vec<3, T>& mean,
   const auto reach_squared = [&](const glm::vec<3, T>& axis, T t, T limit, T focal_px) {
     const glm::vec<3, T>& z = view.cam_from_world[2];
     const T rounding = T(T(32 * kRoundoff) * T(T(1.0F) + limit));
-    const T along = T(T(abs(T(axis.x - t * z.x))) * extent.x +
-                      T(abs(T(axis.y - t * z.y))) * extent.y +
-                      T(abs(T(axis.z - t * z.z))) * extent.z + rounding * sum);
+    const T along =
+        T(T(abs(T(axis.x - t * z.x))) * extent.x + T(abs(T(axis.y - t * z.y))) * extent.y +
+          T(abs(T(axis.z - t * z.z))) * extent.z + rounding * sum);
     const T reach_px = T(focal_px * T(along / v.z));
     // 0.3 k_max^2, k_max^2 = 2 ln 255 + 1e-4 (visible_cutoff)
     const T low_pass = constant<T>(kLowPass * (kVisibleSigmas * kVisibleSigmas + 1e-4));

@@ -51,8 +51,7 @@ int code_at_least(double code) {
 
 std::uint8_t encode_scale(float scale_max) {
   if (!(scale_max > 0)) return 0;
-  int code =
-      code_at_least((levels_of(scale_max) - kSmallestScaleLevel) / kLevelsPerScaleCode - 1);
+  int code = code_at_least((levels_of(scale_max) - kSmallestScaleLevel) / kLevelsPerScaleCode - 1);
   while (code < kInfiniteScale && scale_value(code) < scale_max) ++code;
   return static_cast<std::uint8_t>(code);
 }

@@ -80,7 +80,8 @@ Fault fault_of_bound(const SplitFirstHalf& first, const Gaussian<float>& g, Coar
   const VisibleExtents& got = first.extents;
   if (by == CoarseBoundBy::kLargestScale) {
     if (got.scale_max == least.scale_max) return {};
-    return fmt::format("largest scale: got {}, expected {}", got.scale_max, least.scale_max);
+    return fmt::format("scales: the largest is {}, the first half says {}", least.scale_max,
+                       got.scale_max);
   }
   if (got.scale_max >= least.scale_max && got.extent.x >= least.extent.x &&
       got.extent.y >= least.extent.y && got.extent.z >= least.extent.z) {
@@ -99,8 +100,7 @@ Fault fault_of_values(const DecodedGaussian& decoded, int sh_degree) {
     return fmt::format("centre: got ({}, {}, {}), expected magnitudes of at most {}", g.mean.x,
                        g.mean.y, g.mean.z, kMaxCoordinate);
   }
-  if (!within(g.scale, kMaxScale * kRounding) ||
-      std::min({g.scale.x, g.scale.y, g.scale.z}) < 0) {
+  if (!within(g.scale, kMaxScale * kRounding) || std::min({g.scale.x, g.scale.y, g.scale.z}) < 0) {
     return fmt::format("scales: got ({}, {}, {}), expected 0 to {}", g.scale.x, g.scale.y,
                        g.scale.z, kMaxScale);
   }

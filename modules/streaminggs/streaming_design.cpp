@@ -17,8 +17,8 @@ constexpr int kMaxDegree = 3;
 
 void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& format,
            std::vector<AutoChoice>& chosen) {
-  for (AutoChoice& cost : resolve_filter_cost(config.hfu, split_of(order, format).bound_by,
-                                              format.sh_degree)) {
+  for (AutoChoice& cost :
+       resolve_filter_cost(config.hfu, split_of(order, format).bound_by, format.sh_degree)) {
     chosen.push_back(std::move(cost));
   }
   check_sram("sram.codebook_bytes", config.sram.codebook_bytes,

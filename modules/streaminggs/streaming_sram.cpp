@@ -65,8 +65,7 @@ void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
 }
 
 void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
-                  const std::function<SramUses()>& uses,
-                  std::vector<AutoChoice>& chosen) {
+                  const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen) {
   if (config.group_px == 0 && config.sram.shared_bytes == 0) {
     throw InputError(
         "group_px: got 0 with sram.shared_bytes 0, expected one of them: each is chosen "

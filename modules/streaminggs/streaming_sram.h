@@ -24,8 +24,7 @@ SramUses streaming_sram_uses(const StreamingConfig& config, const BuiltFor& buil
 // `chosen`. Throws InputError when both are left open, and when more is used than there is; the
 // message shows the sum.
 void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
-                  const std::function<SramUses()>& uses,
-                  std::vector<AutoChoice>& chosen);
+                  const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen);
 
 // Leaves the memories that the other parameters fill to what they need; codebooks are of the scene.
 inline void fit_memories(StreamingConfig& config) {

@@ -29,8 +29,7 @@ void list_left_out(const StoredScene& scene, const MachineResult& machine, DataS
   const SceneLayout& layout = scene.image.layout;
   const std::uint64_t invisible = scene.gaussians - layout.gaussian_count();
   sheet.left_out("invisible_gaussians", "opacity below 1/255: no view can show them", invisible,
-                 fmt::format("{} B of DRAM",
-                             invisible * layout.record_bytes()));
+                 fmt::format("{} B of DRAM", invisible * layout.record_bytes()));
   for (const LeftOut& entry : machine.left_out) {
     sheet.left_out(entry.what.c_str(), entry.why.c_str(), entry.count, entry.saves);
   }
@@ -71,9 +70,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   view.area_mm2 = area_of(view.run, technology);
   view.sram_model = technology.sram;
   const SceneLayout& layout = scene.stored.image.layout;
-  view.once_bytes =
-      view.golden.contributing * layout.record_bytes() +
-      job.frame_buffer.bytes;
+  view.once_bytes = view.golden.contributing * layout.record_bytes() + job.frame_buffer.bytes;
   return view;
 }
 

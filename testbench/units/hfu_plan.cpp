@@ -20,8 +20,7 @@ DecodedGaussian decode_slot(const TestScene& scene, std::uint32_t slot) {
   const MemoryImage& image = scene.image;
   const SplitFirstHalf first = first_half_of(scene, slot);
   return read_record(layout.split, layout.second_half, first.mean, first.carried,
-                     image.at(layout.second_halves.address(slot)),
-                     image.at(layout.codebooks.base));
+                     image.at(layout.second_halves.address(slot)), image.at(layout.codebooks.base));
 }
 
 // Lines that hold a byte of one of the record's entries, counted entry by entry.
@@ -52,9 +51,9 @@ ExpectedShare expect(const HfuPlan& plan, const VisitShare& share) {
   for (std::uint32_t slot = share.first; slot < share.first + share.count; ++slot) {
     const DecodedGaussian decoded = decode_slot(scene, slot);
     const Gaussian<float>& g = decoded.gaussian;
-    const bool near = test_first_half(scene.job.layout.split, first_half_of(scene, slot),
-                                      scene.job.view, pixels)
-                          .touches;
+    const bool near =
+        test_first_half(scene.job.layout.split, first_half_of(scene, slot), scene.job.view, pixels)
+            .touches;
     out.passes.push_back(near || !plan.config.coarse_filter);
     if (scene.job.layout.second_half.quantised()) out.lines.push_back(lines_of(plan, slot));
     Splat splat{};

@@ -197,10 +197,8 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
   bench.check_counter("shares", plan.shares.size());
   const RecordSplit& split = plan.scene.job.layout.split;
   checks.equal(unit->coarse.memory.bytes_read(),
-               bench.counter("first_halves") * split.first_bytes(),
-               "bytes read of first halves");
-  checks.equal(unit->fine.memory.bytes_read(),
-               bench.counter("second_halves") * split.second_bytes,
+               bench.counter("first_halves") * split.first_bytes(), "bytes read of first halves");
+  checks.equal(unit->fine.memory.bytes_read(), bench.counter("second_halves") * split.second_bytes,
                "bytes read of second halves");
   bool any_finished = false;
   for (std::uint32_t g = 0; g < plan.scene.job.groups.size(); ++g) {

@@ -119,8 +119,8 @@ int sc_main(int argc, char* argv[]) {
     directed(test, large, {}, 2, 2000);
   });
   for (int degree = 0; degree <= 3; ++degree) {
-    for (const auto& [name, order] : {std::pair{"voxels", StorageOrder::kVoxels},
-                                      {"chunks", StorageOrder::kChunks}}) {
+    for (const auto& [name, order] :
+         {std::pair{"voxels", StorageOrder::kVoxels}, {"chunks", StorageOrder::kChunks}}) {
       runner.add_directed(fmt::format("by {}, SH degree {}", name, degree), [=](Case& test) {
         SceneShape of_degree = shape;
         of_degree.sh_degree = degree;

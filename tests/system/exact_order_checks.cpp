@@ -39,7 +39,7 @@ std::vector<std::string> random_exact_options(std::mt19937_64& random) {
   set("hfus", between(1, 6));
   set("sorting_units", between(1, 4));
   set("hfu.second_half_slots", between(1, 16));
-  set("hfu.slice_gaussians", 2 * between(1, 64));
+  set("hfu.slice_gaussians", 4 * between(1, 32));  // of 16 or 24 B: whole bursts
   set("merge.output_fifo_entries", between(1, 4));
   set("rendering.pixel_buffers", between(1, 2));
   if (random() % 2 == 0) {

@@ -248,7 +248,7 @@ TEST_CASE("pack: info says what the file holds, as pack did") {
   for (const std::string& line :
        {std::string("scene                     outdoor\n"),
         "gaussians stored          " + with_comma(stored) + " of 4,000\n",
-        std::string("second halves             vq_packed, 4 B each\n"),
+        std::string("second halves             vq_packed, 8 B each\n"),  // 4 encoded, a scale
         std::string("codebook rotation         70 entries x 4 words, 1,120 B\n"),
         std::string("codebook sh               30 entries x 45 words, 5,400 B\n"),
         "region first_halves       " + with_comma(16 * stored) + " B\n",

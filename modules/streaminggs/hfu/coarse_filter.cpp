@@ -44,9 +44,9 @@ void CoarseFilter::run_load() {
       slice.slot = free_slots_.pop(load_, WaitFor::kRoom);
       if (slice.share.count > 0) {
         load_.work(1);
-        slice.ticket = start_read(
-            memory, load_, job_.layout.first_halves.address(share.first),
-            first_half(slice.slot, 0), slice.share.count * record_bytes_, job_.layout.first_halves.region);
+        slice.ticket = start_read(memory, load_, job_.layout.first_halves.address(share.first),
+                                  first_half(slice.slot, 0), slice.share.count * record_bytes_,
+                                  job_.layout.first_halves.region);
         counters_.first_halves += slice.share.count;
       }
       share.first += slice.share.count;

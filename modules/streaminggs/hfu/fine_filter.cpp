@@ -80,8 +80,8 @@ FineFilter::Decoded FineFilter::take_fetched(Activity& activity) {
   const RecordSplit& split = job_.layout.split;
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
   if (stage_ && !finished->finished(candidate.group)) {
-    codebooks->read_entries(place_.reader,
-                            read_indices(split, format, candidate.carried, record), activity);
+    codebooks->read_entries(place_.reader, read_indices(split, format, candidate.carried, record),
+                            activity);
   }
   out.second = read_record(split, format, {candidate.mean_x, candidate.mean_y, candidate.mean_z},
                            candidate.carried, record, stage_ ? codebooks->bytes() : nullptr);

@@ -146,9 +146,12 @@ TEST_CASE("short quaternion: what was normalised in double comes back to the bit
     REQUIRE(std::memcmp(&quat, &back, sizeof quat) == 0);
   }
   const float half = 0.5F, root = std::sqrt(0.5F);
-  for (const std::array<float, 4>& quat :
-       {std::array<float, 4>{1, 0, 0, 0}, {0, -1, 0, -0.0F}, {half, half, half, half},
-        {-half, half, -half, half}, {0, root, -root, 0}, {root, 0, 0, root}}) {
+  for (const std::array<float, 4>& quat : {std::array<float, 4>{1, 0, 0, 0},
+                                           {0, -1, 0, -0.0F},
+                                           {half, half, half, half},
+                                           {-half, half, -half, half},
+                                           {0, root, -root, 0},
+                                           {root, 0, 0, root}}) {
     const std::array<float, 4> back = lengthen(shorten(quat));
     CHECK(std::memcmp(&quat, &back, sizeof quat) == 0);
   }

@@ -1,5 +1,6 @@
-// The bounds of footprint.h, coarse_bound.h and extent_bound.h never remove a pixel whose computed alpha is
-// visible: seeded random Gaussians, needles of ratio 10^10, giants and the near plane among them.
+// The bounds of footprint.h, coarse_bound.h and extent_bound.h never remove a pixel whose computed
+// alpha is visible: seeded random Gaussians, needles of ratio 10^10, giants and the near plane
+// among them.
 #include <catch2/catch.hpp>
 #include <vector>
 

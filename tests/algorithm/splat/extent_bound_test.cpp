@@ -1,5 +1,5 @@
-// Tests of algorithm/splat/extent_bound.h: values by hand, and the two ways to cut. (That nothing is
-// lost: bounds_test.cpp, ../voxel/chunk_bound_checks.cpp.)
+// Tests of algorithm/splat/extent_bound.h: values by hand, and the two ways to cut. (That nothing
+// is lost: bounds_test.cpp, ../voxel/chunk_bound_checks.cpp.)
 #include "algorithm/splat/extent_bound.h"
 
 #include <catch2/catch.hpp>
@@ -30,8 +30,8 @@ TEST_CASE("extent bound by hand") {
   CHECK(bound.x == 74.5F);
   CHECK(bound.y == 34.5F);
   CHECK(bound.slack_px == 0.05F);
-  for (const auto& [found, reach] : {std::pair(bound.reach_squared_x, reach_x),
-                                     std::pair(bound.reach_squared_y, reach_y)}) {
+  for (const auto& [found, reach] :
+       {std::pair(bound.reach_squared_x, reach_x), std::pair(bound.reach_squared_y, reach_y)}) {
     const double least = (reach * reach + kLowPassReach) * widened;
     CHECK(found >= least);
     CHECK(found < least * 1.0006);

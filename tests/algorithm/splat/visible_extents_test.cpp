@@ -13,9 +13,7 @@ namespace {
 
 const double kStep = std::exp2(1 / 16.0);
 
-double largest(const Gaussian<float>& g) {
-  return std::max({g.scale.x, g.scale.y, g.scale.z});
-}
+double largest(const Gaussian<float>& g) { return std::max({g.scale.x, g.scale.y, g.scale.z}); }
 
 // sqrt(Sigma_aa), Sigma = sum over the axes of the ellipsoid of scale^2 r r^T, with r the axis that
 // the quaternion turns e_axis to.

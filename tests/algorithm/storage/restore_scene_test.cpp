@@ -147,17 +147,20 @@ TEST_CASE("restore: records that nothing encodes are refused") {
       {kRaw, kChunks, "slot 5: centre: got (nan", [&](P& p) { put(p, first(p), NAN); }},
       {kRaw, kVoxels, "slot 5: centre: got (inf", [&](P& p) { put(p, first(p), INFINITY); }},
       {kRaw, kChunks, "centre: got (2e+18", [&](P& p) { put(p, first(p), 2e18F); }},
-      {kRaw, kChunks, "scales", [&](P& p) { put(p, first(p) + 12, -1.0F); }},
-      {kRaw, kChunks, "itself at most 10000000",
-       [&](P& p) {
-         put(p, first(p) + 12, 2e7F);
-         put(p, half(p), 2e7F);
-       }},
-      {kRaw, kChunks, "scales", [&](P& p) { put(p, first(p) + 12, INFINITY); }},
-      {kRaw, kChunks, "scales", [&](P& p) { put(p, half(p), 1e30F); }},
-      {kRaw, kChunks, "rotation", [&](P& p) { put(p, half(p) + 8, 2.0F); }},
-      {kRaw, kChunks, "rotation", [&](P& p) { put(p, half(p) + 12, NAN); }},
-      {kRaw, kChunks, "opacity: got 1.5", [&](P& p) { put(p, half(p) + 24, 1.5F); }},
+      {kRaw, kVoxels, "scales", [&](P& p) { put(p, first(p) + 12, -1.0F); }},
+      {kRaw, kVoxels, "scales: the largest is 1", [&](P& p) { put(p, half(p), 1.0F); }},
+      // By chunks: the largest scale, two scales, quaternion, opacity.
+      {kRaw, kChunks, "scales", [&](P& p) { put(p, half(p), -1.0F); }},
+      {kRaw, kChunks, "expected 0 to 10000000", [&](P& p) { put(p, half(p), 2e7F); }},
+      {kRaw, kChunks, "scales", [&](P& p) { put(p, half(p), INFINITY); }},
+      {kRaw, kChunks, "scales", [&](P& p) { put(p, half(p) + 4, 1e30F); }},
+      {kRaw, kChunks, "rotation", [&](P& p) { put(p, half(p) + 12, 2.0F); }},
+      {kRaw, kChunks, "rotation", [&](P& p) { put(p, half(p) + 16, NAN); }},
+      {kRaw, kChunks, "opacity: got 1.5", [&](P& p) { put(p, half(p) + 28, 1.5F); }},
+      // The code of its extents: a scale of 2^-8, and the scale as it was with extents of nought.
+      {kRaw, kChunks, "visible extents: got", [&](P& p) { put(p, first(p) + 12, 0U); }},
+      {kRaw, kChunks, "visible extents: got",
+       [&](P& p) { put(p, first(p) + 12, get<std::uint32_t>(p, first(p) + 12) | 0xffffff00U); }},
       {kRaw, kFile, "slot 5: centre: got (nan", [&](P& p) { put(p, first(p), NAN); }},
       {kRaw, kVoxels, "opacity: got nan", [&](P& p) { put(p, half(p) + 24, NAN); }},
       {kRaw, kVoxels, "SH coefficient 3", [&](P& p) { put(p, half(p) + 72, INFINITY); }},
@@ -181,12 +184,12 @@ TEST_CASE("restore: indices beyond a codebook, and codebooks of what is none") {
   };
   check_refused({
       {kVq, kChunks, "slot 5: index into codebook scale: got 21, expected less than 21",
-       [&](P& p) { put(p, half(p), 21U); }},
+       [&](P& p) { put(p, half(p) + 4, 21U); }},
       {kVq, kVoxels, "codebook rotation: got 4294967295", [&](P& p) { put(p, half(p) + 4, ~0U); }},
       {kVq, kVoxels, "codebook sh: got 9", [&](P& p) { put(p, half(p) + 12, 9U); }},
       // 5 + 6 + 5 + 4 bits behind the opacity.
       {kVqPacked, kChunks, "codebook scale: got 31",
-       [&](P& p) { put(p, half(p) + 1, std::uint8_t{0x1f}); }},
+       [&](P& p) { put(p, half(p) + 5, std::uint8_t{0x1f}); }},
       {kVqPacked, kVoxels, "codebook", [&](P& p) { put(p, half(p), ~0U); }},
       {kVq, kChunks, "codebook scale: entry 2: word 0: got 1.25",
        [&](P& p) { put(p, entry(p, Codebook::kScale), 1.25F); }},
