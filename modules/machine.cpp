@@ -9,7 +9,7 @@ namespace {
 // The memory ports of all units, in the order of their data sheets.
 class Ports : public DataSheet {
  public:
-  void port(MemoryPort& port) override { found.push_back(&port); }
+  void port(MemoryPort& port, const char*) override { found.push_back(&port); }
   std::vector<MemoryPort*> found;
 };
 

@@ -44,6 +44,9 @@ class MachineDesign {
   // the arithmetic.
   virtual void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) = 0;
 
+  // Leaves the sizes of on-chip memories to what the other parameters need, for resolve() to fill in.
+  virtual void fit_memories() {}
+
   // The same once the scene is known. Throws InputError when the scene does not fit.
   virtual void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) = 0;
 

@@ -89,7 +89,7 @@ VARIANT_HEAD = (
     "encoding dB",
     "binds",
 )
-TABLE_REGIONS = ("voxel_table", "chunk_table", "indices")
+TABLE_REGIONS = ("voxel_table", "chunk_table")
 
 
 def variant_row(scene: str, variant: str, views: Views) -> tuple:

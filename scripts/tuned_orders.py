@@ -28,7 +28,7 @@ SAME_SRAM = ("sram.codebook_bytes=0", "sram.shared_bytes=347136", "rendering.pix
 SPLIT = ("fetch=split", "hfu.slice_gaussians=128", "vsu.visit_gaussians=0")
 WIDE = (*SAME_SRAM, *SPLIT, "vsu.table_bytes=16384", "group_px=128")
 # VSU four times as fast; the largest sort buffers that fit beside a group of so many px.
-FASTER_VSU = ("vsu.steps_per_cycle=16", "vsu.edges_per_cycle=4", "vsu.table_bytes=16384")
+FASTER_VSU = ("vsu.step_lanes=512", "vsu.edges_per_cycle=4", "vsu.table_bytes=16384")
 SORT_BUFFER = {64: 2400, 96: 1550, 128: 367}
 CHOSEN = {  # scene: world units of a voxel, px of a group
     "truck": (0.05, 96),

@@ -20,7 +20,7 @@ from collections.abc import Iterator
 import tables
 
 # Names of what stands between a unit and the leaf: an activity, a FIFO or a memory port.
-OF_AN_ACTIVITY = {"busy", "starved", "blocked"}
+OF_AN_ACTIVITY = {"busy", "waits_for"}
 OF_A_CHANNEL = {"fill", "bytes_outstanding"}
 
 # GTKWave's flags of a trace: how a value is shown, and groups that are open or folded.
@@ -90,7 +90,7 @@ def flag_of(path: str) -> str:
     leaf = path.rsplit(".", 1)[-1]
     if leaf in OF_A_CHANNEL:
         return ANALOG_STEPS
-    return BINARY if leaf in OF_AN_ACTIVITY else DECIMAL
+    return BINARY if leaf == "busy" else DECIMAL
 
 
 def view_of(signals: list[Signal], time: int) -> str:

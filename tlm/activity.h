@@ -1,38 +1,60 @@
-// Where the cycles of one hardware activity go: busy, starved (no input) or blocked (no room
-// downstream). The three add up to the time since the start.
+// Where the cycles of one hardware activity go: it works, or it waits, and then for what and at
+// which channel or port. All together they add up to the time since the start.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <systemc>
+#include <vector>
 
 #include "tlm/clock_domain.h"
 
 namespace sgs {
 
-enum class ActivityState : std::uint8_t { kBusy, kStarved, kBlocked };
+enum class WaitFor : std::uint8_t {
+  kIdle,     // nothing to do: before its first work, after its last
+  kInput,    // an entry of a FIFO that is empty, or whose oldest entry is still on its way
+  kReads,    // answers to reads of its own
+  kWrites,   // answers to writes of its own
+  kRoom,     // a free entry of a FIFO that is full, or of a buffer whose user gives entries back
+  kPort,     // a free transaction of its memory port, or the memory's taking of a request
+  kLoading,  // an on-chip memory that is being filled
+};
+constexpr std::size_t kWaitForCount = 7;
+constexpr std::array<const char*, kWaitForCount> kWaitForNames = {
+    "idle", "input", "reads", "writes", "room", "port", "loading"};
 
-// A child of the unit that it belongs to, made while that unit is constructed.
+inline const char* name_of(WaitFor what) { return kWaitForNames[static_cast<std::size_t>(what)]; }
+
+// A child of the unit that it belongs to, made while that unit is constructed. It is idle at first.
 class Activity : public sc_core::sc_object {
  public:
+  // Cycles of waiting for one thing at one place.
+  struct Wait {
+    WaitFor what = WaitFor::kIdle;
+    const sc_core::sc_object* at = nullptr;  // FIFO, port or unit; null with kIdle
+    std::uint64_t cycles = 0;
+  };
+
   Activity(const char* name, const ClockDomain& clock) : sc_object(name), clock_(clock) {}
 
   const ClockDomain& clock() const { return clock_; }
 
-  // From now on the activity is in `state`. Called at clock edges, from its own thread.
-  void enter(ActivityState state) {
-    close();
-    state_ = state;
-    busy_ = state == ActivityState::kBusy;
-    starved_ = state == ActivityState::kStarved;
-    blocked_ = state == ActivityState::kBlocked;
-  }
+  // From now on the activity works, waits, or has nothing to do. Called at clock edges, from its
+  // own thread.
+  void works() { enter(kWorking); }
+  void waits_for(WaitFor what, const sc_core::sc_object& at) { enter(place_of(what, &at)); }
+  void idles() { enter(kIdling); }
+  // What it waits for now turns out to come from `at`.
+  void waits_at(const sc_core::sc_object& at) { now_ = place_of(waits_[now_].what, &at); }
 
-  // Works for so many cycles; the state before is taken up again.
+  // Works for so many cycles; what it did before is taken up again.
   void work(std::uint64_t cycles) {
     if (cycles == 0) return;
-    const ActivityState before = state_;
-    enter(ActivityState::kBusy);
+    const std::size_t before = now_;
+    works();
     clock_.wait_cycles(cycles);
     enter(before);
   }
@@ -40,28 +62,59 @@ class Activity : public sc_core::sc_object {
   // Closes the open interval at the present time; the counters then cover [0, now).
   void close() {
     const std::uint64_t now = clock_.now_cycles();
-    cycles_[static_cast<int>(state_)] += now - since_;
+    (now_ == kWorking ? busy_cycles_ : waits_[now_].cycles) += now - since_;
     since_ = now;
   }
 
-  std::uint64_t busy_cycles() const { return cycles_[0]; }
-  std::uint64_t starved_cycles() const { return cycles_[1]; }
-  std::uint64_t blocked_cycles() const { return cycles_[2]; }
+  std::uint64_t busy_cycles() const { return busy_cycles_; }
+  // Each (what, at) that was ever waited for, in the order in which they first were.
+  const std::vector<Wait>& waits() const { return waits_; }
+  // Over all places.
+  std::uint64_t waited_for(WaitFor what) const {
+    std::uint64_t sum = 0;
+    for (const Wait& wait : waits_) sum += wait.what == what ? wait.cycles : 0;
+    return sum;
+  }
+  std::uint64_t waited() const {
+    std::uint64_t sum = 0;
+    for (const Wait& wait : waits_) sum += wait.cycles;
+    return sum;
+  }
 
+  // busy, and the WaitFor as a number, for which 0 also stands while it works.
   void trace(sc_core::sc_trace_file* file) const override {
+    constexpr int kWidth = 3;
     sc_core::sc_trace(file, busy_, std::string(name()) + ".busy");
-    sc_core::sc_trace(file, starved_, std::string(name()) + ".starved");
-    sc_core::sc_trace(file, blocked_, std::string(name()) + ".blocked");
+    sc_core::sc_trace(file, waiting_for_, std::string(name()) + ".waits_for", kWidth);
   }
 
   const char* kind() const override { return "sgs::Activity"; }
 
  private:
+  static constexpr std::size_t kWorking = ~std::size_t{0}, kIdling = 0;
+
+  void enter(std::size_t state) {
+    close();
+    now_ = state;
+    busy_ = state == kWorking;
+    waiting_for_ = busy_ ? 0 : static_cast<std::uint8_t>(waits_[state].what);
+  }
+
+  // Index in waits_: a handful, so that a search beats a table.
+  std::size_t place_of(WaitFor what, const sc_core::sc_object* at) {
+    for (std::size_t i = 0; i < waits_.size(); ++i) {
+      if (waits_[i].what == what && waits_[i].at == at) return i;
+    }
+    waits_.push_back({what, at, 0});
+    return waits_.size() - 1;
+  }
+
   const ClockDomain& clock_;
-  ActivityState state_ = ActivityState::kStarved;
-  bool busy_ = false, starved_ = true, blocked_ = false;
-  std::uint64_t since_ = 0;
-  std::uint64_t cycles_[3] = {0, 0, 0};
+  std::vector<Wait> waits_{Wait{}};
+  std::size_t now_ = kIdling;  // index in waits_, or kWorking
+  std::uint64_t since_ = 0, busy_cycles_ = 0;
+  bool busy_ = false;             // for the waveform
+  std::uint8_t waiting_for_ = 0;  // likewise
 };
 
 }  // namespace sgs

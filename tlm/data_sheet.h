@@ -5,31 +5,27 @@
 //     sheet.unit(*this);
 //     sheet.activity(sort_, "sorting", "takes, sorts and hands on the keys of one chunk");
 //     sheet.counter("keys", "keys", "sorted", counters_.keys);
+//     sheet.part("sorting", "compare_exchange", kNetworkComparators, 1);
 //     sheet.operations("sorting", "compare_exchange", counters_.compare_exchanges);
-//     sheet.part("sorting", "sorting_unit", 1);
 //     sheet.sram(sram_uses(built_for_));
+//     sheet.accesses("key sorters", counters_.keys, counters_.keys);
 //   }
+//
+// It is a ledger: what is done is done by something that stands there. Arithmetic by the lanes of a
+// datapath, other operations by parts of their kind, reads and writes by the memory of a use; so
+// area, energy and a bound on time follow from the same lines (testbench/result/ledger.h).
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <systemc>
-#include <utility>
-#include <vector>
 
+#include "tlm/datapath.h"
 #include "tlm/memory_port.h"
 #include "tlm/sram_use.h"
 #include "tlm/timed_fifo.h"
 
 namespace sgs {
-
-// What one operation of a datapath executes, counted by running it.
-struct Datapath {
-  std::string name;
-  std::vector<std::pair<std::string, std::uint64_t>> counts;  // by class of operation
-  // Multiply-accumulates: counted, published, charged; and how many are done a cycle.
-  std::uint32_t counted_macs = 0, published_macs = 0, used_macs = 0, lanes = 1;
-};
 
 // All that follows a unit() belongs to it. Nothing is kept by name and value alone that is needed
 // later: activities, queues, ports and signals are passed by reference and live with the unit.
@@ -44,6 +40,14 @@ class DataSheet {
     (void)resource;
     (void)meaning;
   }
+  // What to change in the configuration, key: of which more lets the activity work for fewer
+  // cycles; or wait for fewer, for something at a FIFO, a port or a unit.
+  virtual void remedy(const Activity&, const char* key) { (void)key; }
+  virtual void remedy(const sc_core::sc_object& at, WaitFor what, const char* key) {
+    (void)at;
+    (void)what;
+    (void)key;
+  }
   // unit: of the value ("cycles", "bytes", "keys").
   virtual void counter(const char* name, const char* unit, const char* meaning,
                        std::uint64_t value) {
@@ -52,30 +56,40 @@ class DataSheet {
     (void)meaning;
     (void)value;
   }
-  // Work done so far, for energy. component: whose joules; kind: a row of the technology table.
+  // Lanes that stand there, and how many items have passed them: area and leakage of the lanes,
+  // energy of the items, and items x macs / lanes as a bound on the cycles.
+  virtual void datapath(const Datapath&, std::uint64_t items) { (void)items; }
+  // What stands there beside lanes and SRAM. component: whose square millimetres; kind: a row of
+  // the technology table; per_cycle: operations that each can do a cycle.
+  virtual void part(const char* component, const char* kind, double count, double per_cycle) {
+    (void)component;
+    (void)kind;
+    (void)count;
+    (void)per_cycle;
+  }
+  // Work done so far by the parts of this component and kind.
   virtual void operations(const char* component, const char* kind, double count) {
     (void)component;
     (void)kind;
     (void)count;
   }
-  // What stands there beside SRAM, for area and leakage. component: whose square millimetres; kind:
-  // as above.
-  virtual void part(const char* component, const char* kind, double count) {
-    (void)component;
-    (void)kind;
-    (void)count;
-  }
-  // On-chip memory that the unit takes, whatever the scene and the frame.
+  // On-chip memory that the unit takes, whatever the scene and the frame: area and leakage.
   virtual void sram(const SramUse&) {}
   void sram(const SramUses& uses) {
     for (const SramUse& use : uses) sram(use);
   }
-  // Bytes of an on-chip memory that stand there, used or not. Its area and leakage follow from it.
+  // Reads and writes so far, each of the use's width, of one of the unit's uses. Queues and ports
+  // say theirs themselves. A use that nobody accesses has a line with zeros.
+  virtual void accesses(const char* use, std::uint64_t reads, std::uint64_t writes) {
+    (void)use;
+    (void)reads;
+    (void)writes;
+  }
+  // Bytes of an on-chip memory that may be used: what uses do not take of it is not built.
   virtual void sram_available(const char* memory, std::uint64_t bytes) {
     (void)memory;
     (void)bytes;
   }
-  virtual void datapath(const Datapath&) {}
   // Work that was not needed. what: key of the saving, the same for every unit that knows it.
   virtual void left_out(const char* what, const char* why, std::uint64_t count,
                         const std::string& saves) {
@@ -84,9 +98,14 @@ class DataSheet {
     (void)count;
     (void)saves;
   }
-  // use: the name of the unit's SramUse that holds its entries.
+  // use: the name of the unit's SramUse that holds its entries: its accesses are what the queue
+  // takes in and gives out. A queue whose entries take no bytes stands for them: the unit says the
+  // accesses.
   virtual void queue(FifoChannel&, const char* use) { (void)use; }
-  virtual void port(MemoryPort&) {}
+  // writes: the name of the unit's SramUse that keeps unanswered writes; none for a port that only
+  // reads.
+  virtual void port(MemoryPort&, const char* writes) { (void)writes; }
+  void port(MemoryPort& reads_only) { port(reads_only, ""); }
   // A value for the waveform, under the unit's name.
   virtual void signal(const char* name, const std::uint32_t& value) {
     (void)name;

@@ -11,7 +11,7 @@ template <class T>
 class FifoWriteIf : public virtual sc_core::sc_interface {
  public:
   // Puts an entry in; blocks the calling thread while the FIFO is full, which is charged to
-  // `writer` as blocked.
+  // `writer` as waiting for room.
   virtual void push(T value, Activity& writer) = 0;
 };
 
@@ -19,10 +19,10 @@ template <class T>
 class FifoReadIf : public virtual sc_core::sc_interface {
  public:
   // Takes the oldest entry; blocks the calling thread until there is one and it is ready, which is
-  // charged to `reader` as `waiting`: a reader that waits for a credit to come back, not for input,
-  // passes kBlocked.
-  virtual T pop(Activity& reader, ActivityState waiting) = 0;
-  T pop(Activity& reader) { return pop(reader, ActivityState::kStarved); }
+  // charged to `reader` as waiting for `what`: a reader that waits for a credit to come back, not
+  // for input, passes kRoom.
+  virtual T pop(Activity& reader, WaitFor what) = 0;
+  T pop(Activity& reader) { return pop(reader, WaitFor::kInput); }
 
   // Whether pop() would return at once.
   virtual bool can_pop() const = 0;
@@ -31,6 +31,8 @@ class FifoReadIf : public virtual sc_core::sc_interface {
   virtual const sc_core::sc_time& ready_at() const = 0;
   // Also notifies `event` of every entry put in: for a reader of several FIFOs.
   virtual void announce_to(sc_core::sc_event& event) = 0;
+  // The channel itself: the place at which its reader waits.
+  virtual const sc_core::sc_object& place() const = 0;
 };
 
 // Bound to exactly one FIFO; left open, elaboration fails.

@@ -1,5 +1,5 @@
-// Memory accesses as a hardware activity makes them: waiting for room in the port is charged as
-// blocked, waiting for data as starved, and the unit goes on at its own next clock edge.
+// Memory accesses as a hardware activity makes them: waiting is charged to it, for room in the port
+// or for answers, and the unit goes on at its own next clock edge.
 #pragma once
 
 #include <cstdint>
@@ -11,36 +11,38 @@ namespace sgs {
 
 inline MemoryPort::Ticket start_read(MemoryPort& port, Activity& activity, std::uint64_t address,
                                      void* into, std::uint32_t bytes, std::uint8_t region) {
-  activity.enter(ActivityState::kBlocked);
+  activity.waits_for(WaitFor::kPort, port);
   const MemoryPort::Ticket ticket = port.read(address, into, bytes, region);
   activity.clock().align();
-  activity.enter(ActivityState::kBusy);
+  activity.works();
   return ticket;
 }
 
 inline MemoryPort::Ticket start_write(MemoryPort& port, Activity& activity, std::uint64_t address,
                                       const void* from, std::uint32_t bytes, std::uint8_t region) {
-  activity.enter(ActivityState::kBlocked);
+  activity.waits_for(WaitFor::kPort, port);
   const MemoryPort::Ticket ticket = port.write(address, from, bytes, region);
   activity.clock().align();
-  activity.enter(ActivityState::kBusy);
+  activity.works();
   return ticket;
 }
 
+// Until what the ticket of a read asked for is there.
 inline void await(MemoryPort& port, Activity& activity, MemoryPort::Ticket ticket) {
   if (port.done(ticket)) return;
-  activity.enter(ActivityState::kStarved);
+  activity.waits_for(WaitFor::kReads, port);
   port.wait_for(ticket);
   activity.clock().align();
-  activity.enter(ActivityState::kBusy);
+  activity.works();
 }
 
-// Until everything that the port has in flight is answered.
+// Until everything that the port has in flight is answered. Writes are charged before reads: who
+// waits for all has reads besides only where they are no longer wanted.
 inline void await_all(MemoryPort& port, Activity& activity) {
-  activity.enter(ActivityState::kStarved);
+  activity.waits_for(port.writing() ? WaitFor::kWrites : WaitFor::kReads, port);
   port.wait_all();
   activity.clock().align();
-  activity.enter(ActivityState::kBusy);
+  activity.works();
 }
 
 }  // namespace sgs

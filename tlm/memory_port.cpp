@@ -17,7 +17,8 @@ SramUse unanswered_writes(const char* name, const char* memory, const MemoryPort
                           std::uint32_t longest_bytes) {
   return sram_use(name, memory,
                   {{std::min(config.max_writes, config.max_outstanding), "unanswered"},
-                   {std::min(config.max_transaction_bytes, longest_bytes), "B"}});
+                   {std::min(config.max_transaction_bytes, longest_bytes), "B"}},
+                  {8 * std::min({kPortBytes, config.max_transaction_bytes, longest_bytes})});
 }
 
 MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config)
@@ -42,6 +43,7 @@ MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint
 MemoryPort::Ticket MemoryPort::write(std::uint64_t address, const void* from, std::uint32_t bytes,
                                      std::uint8_t region) {
   bytes_written_ += bytes;
+  words_written_ += (bytes + kPortBytes - 1) / kPortBytes;
   // start() only reads through this pointer when the command is a write.
   auto* data = static_cast<std::uint8_t*>(const_cast<void*>(from));
   return start(tlm::TLM_WRITE_COMMAND, address, data, bytes, region);

@@ -24,6 +24,9 @@ struct MemoryPortConfig {
   std::uint32_t max_writes = 2;
 };
 
+// What a port's buffer of writes takes in or gives out at once: a burst.
+constexpr std::uint32_t kPortBytes = 32;
+
 // What a port keeps of writes that are at most so long.
 SramUse unanswered_writes(const char* name, const char* memory, const MemoryPortConfig& config,
                           std::uint32_t longest_bytes);
@@ -56,11 +59,14 @@ class MemoryPort : public sc_core::sc_module {
   void wait_all();
 
   bool idle() const { return outstanding_ == 0; }
+  bool writing() const { return writes_outstanding_ > 0; }
   std::uint64_t bytes_outstanding() const { return bytes_outstanding_; }
 
   std::uint64_t transactions() const { return transactions_; }
   std::uint64_t bytes_read() const { return bytes_read_; }
   std::uint64_t bytes_written() const { return bytes_written_; }
+  // Accesses of the buffer that keeps unanswered writes, kPortBytes each.
+  std::uint64_t words_written() const { return words_written_; }
 
   // Those of its transactions; when it is idle, none is in use.
   const PayloadPool& payloads() const { return pool_; }
@@ -113,6 +119,7 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t transactions_ = 0;
   std::uint64_t bytes_read_ = 0;
   std::uint64_t bytes_written_ = 0;
+  std::uint64_t words_written_ = 0;
 };
 
 }  // namespace sgs

@@ -11,8 +11,9 @@ std::string SramUse::product() const {
   return count == 1 ? arithmetic : fmt::format("{} x {}", count, arithmetic);
 }
 
-SramUse sram_use(const char* name, const char* memory, const SramFactors& factors) {
-  SramUse use{name, memory, 1, "", 1};
+SramUse sram_use(const char* name, const char* memory, const SramFactors& factors,
+                 const SramShape& shape) {
+  SramUse use{name, memory, 1, "", 1, shape};
   for (const auto& [value, what] : factors) {
     use.bytes *= value;
     use.arithmetic += fmt::format("{}{} {}", use.arithmetic.empty() ? "" : " x ", value, what);
@@ -23,7 +24,7 @@ SramUse sram_use(const char* name, const char* memory, const SramFactors& factor
 void add(SramUses& to, const SramUse& use, std::uint64_t count) {
   const auto same = std::find_if(to.begin(), to.end(), [&](const SramUse& u) {
     return u.name == use.name && u.memory == use.memory && u.bytes == use.bytes &&
-           u.arithmetic == use.arithmetic;
+           u.arithmetic == use.arithmetic && u.shape == use.shape;
   });
   if (same != to.end()) {
     same->count += count * use.count;

@@ -8,6 +8,21 @@
 
 namespace sgs {
 
+enum class SramPorts : std::uint8_t {
+  kOne,          // one access a cycle, read or write
+  kReadAndWrite  // a read and a write a cycle
+};
+
+// How one memory of a use is built; area, energy of an access and accesses a cycle follow from it.
+struct SramShape {
+  std::uint32_t width_bits;                    // of an access
+  SramPorts ports = SramPorts::kReadAndWrite;  // of each bank
+  std::uint32_t banks = 1;                     // the bytes are spread over them
+};
+constexpr bool operator==(const SramShape& a, const SramShape& b) {
+  return a.width_bits == b.width_bits && a.ports == b.ports && a.banks == b.banks;
+}
+
 // One use of one of the on-chip memories, as often as it is there.
 struct SramUse {
   std::string name;
@@ -15,6 +30,7 @@ struct SramUse {
   std::uint64_t bytes = 0;  // of one
   std::string arithmetic;   // how they come about: "8 slots x 256 B"
   std::uint64_t count = 1;
+  SramShape shape{32};
 
   std::uint64_t total_bytes() const { return count * bytes; }
   // "4 x 8 slots x 256 B": of all.
@@ -26,7 +42,13 @@ using SramUses = std::vector<SramUse>;
 using SramFactors = std::vector<std::pair<std::uint64_t, const char*>>;  // (value, what it counts)
 
 // The product of the factors.
-SramUse sram_use(const char* name, const char* memory, const SramFactors& factors);
+SramUse sram_use(const char* name, const char* memory, const SramFactors& factors,
+                 const SramShape& shape);
+
+// Accesses of `width_bits` that move so many bytes, the last one not full.
+constexpr std::uint64_t sram_words(std::uint64_t bytes, const SramShape& shape) {
+  return (8 * bytes + shape.width_bits - 1) / shape.width_bits;
+}
 
 // `count` more of a use. Uses that differ in nothing but their number become one.
 void add(SramUses& to, const SramUse& use, std::uint64_t count = 1);

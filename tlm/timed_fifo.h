@@ -29,13 +29,16 @@ template <class T>
 SramUse fifo_use(const char* name, const char* memory, std::uint32_t entries,
                  const char* what_they_are) {
   static_assert(EntryBytes<T>::value > 0, "T::kSramBytes says what hardware keeps of an entry");
-  return sram_use(name, memory, {{entries, what_they_are}, {EntryBytes<T>::value, "B"}});
+  return sram_use(name, memory, {{entries, what_they_are}, {EntryBytes<T>::value, "B"}},
+                  {8 * EntryBytes<T>::value});
 }
 
 // What can be said of a FIFO whatever it holds.
 class FifoChannel : public sc_core::sc_prim_channel {
  public:
   std::uint32_t fill() const { return fill_; }
+  std::uint64_t pushed() const { return pushed_; }  // entries so far
+  std::uint64_t popped() const { return pushed_ - fill_; }
   virtual std::uint32_t capacity() const = 0;
   virtual std::uint32_t entry_bytes() const = 0;  // as EntryBytes
 
@@ -46,6 +49,10 @@ class FifoChannel : public sc_core::sc_prim_channel {
     reader_stalls_.emplace(stalls, std::string(name()) + ".reader");
   }
 
+  // Who puts entries in and who takes them out; null before the first did.
+  const Activity* writer() const { return writer_; }
+  const Activity* reader() const { return reader_; }
+
   void trace(sc_core::sc_trace_file* file) const override {
     sc_core::sc_trace(file, fill_, std::string(name()) + ".fill");
   }
@@ -55,11 +62,13 @@ class FifoChannel : public sc_core::sc_prim_channel {
   explicit FifoChannel(const char* name) : sc_prim_channel(name) {}
 
   std::uint32_t fill_ = 0;
+  const Activity *writer_ = nullptr, *reader_ = nullptr;
+  std::uint64_t pushed_ = 0;
   std::optional<StallInjector> writer_stalls_, reader_stalls_;
 };
 
 // One writer thread, one reader thread. The waiting times are charged to the Activity that waits:
-// blocked for the writer, starved for the reader.
+// the writer for room, the reader for input.
 template <class T>
 class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T> {
  public:
@@ -73,36 +82,39 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
 
   void push(T value, Activity& writer) override {
     clock_.jitter();
-    stall(writer_stalls_, writer, ActivityState::kBlocked);
+    writer_ = &writer;
+    stall(writer_stalls_, writer, WaitFor::kRoom);
     if (fill_ == entries_.size()) {
-      writer.enter(ActivityState::kBlocked);
+      writer.waits_for(WaitFor::kRoom, *this);
       writer_waits_ = true;
       while (fill_ == entries_.size()) sc_core::wait(room_);
       writer_waits_ = false;
       clock_.jitter();
-      writer.enter(ActivityState::kBusy);
+      writer.works();
     }
     Entry& entry = entries_[wrapped(head_ + fill_)];
     entry.value = std::move(value);
     entry.ready = sc_core::sc_time_stamp() + latency_;
     ++fill_;
+    ++pushed_;
     if (reader_waits_) filled_.notify(sc_core::SC_ZERO_TIME);
     if (listener_ != nullptr) listener_->notify(sc_core::SC_ZERO_TIME);
   }
 
   using FifoReadIf<T>::pop;
-  T pop(Activity& reader, ActivityState waiting) override {
+  T pop(Activity& reader, WaitFor what) override {
     clock_.jitter();
-    stall(reader_stalls_, reader, waiting);
+    reader_ = &reader;
+    stall(reader_stalls_, reader, what);
     if (!can_pop()) {
-      reader.enter(waiting);
+      reader.waits_for(what, *this);
       reader_waits_ = true;
       while (fill_ == 0) sc_core::wait(filled_);
       reader_waits_ = false;
       const sc_core::sc_time& ready = entries_[head_].ready;
       if (ready > sc_core::sc_time_stamp()) sc_core::wait(ready - sc_core::sc_time_stamp());
       clock_.jitter();
-      reader.enter(ActivityState::kBusy);
+      reader.works();
     }
     T value = std::move(entries_[head_].value);
     head_ = wrapped(head_ + 1);
@@ -117,6 +129,7 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
   bool empty() const override { return fill_ == 0; }
   const sc_core::sc_time& ready_at() const override { return entries_[head_].ready; }
   void announce_to(sc_core::sc_event& event) override { listener_ = &event; }
+  const sc_core::sc_object& place() const override { return *this; }
   std::uint32_t capacity() const override { return static_cast<std::uint32_t>(entries_.size()); }
   std::uint32_t entry_bytes() const override { return EntryBytes<T>::value; }
 
@@ -130,12 +143,12 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
     return at < entries_.size() ? at : at - static_cast<std::uint32_t>(entries_.size());
   }
 
-  void stall(std::optional<StallInjector>& stalls, Activity& side, ActivityState state) {
+  void stall(std::optional<StallInjector>& stalls, Activity& side, WaitFor what) {
     if (!stalls) return;
     if (const std::uint32_t cycles = stalls->draw(); cycles > 0) {
-      side.enter(state);
+      side.waits_for(what, *this);
       clock_.wait_cycles(cycles);
-      side.enter(ActivityState::kBusy);
+      side.works();
     }
   }
 

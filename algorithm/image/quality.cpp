@@ -30,6 +30,15 @@ double max_abs_error(const Image& a, const Image& b) {
   return largest;
 }
 
+std::uint64_t differing_pixels(const Image& a, const Image& b) {
+  check_same_size(a, b);
+  std::uint64_t differing = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    if (pixel_error(a.pixels[i], b.pixels[i]) > 0) ++differing;
+  }
+  return differing;
+}
+
 double fraction_within(const Image& a, const Image& b, double tolerance) {
   check_same_size(a, b);
   std::size_t within = 0;

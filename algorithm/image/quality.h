@@ -1,6 +1,8 @@
 // How far two pictures are apart: PSNR, SSIM, largest error.
 #pragma once
 
+#include <cstdint>
+
 #include "algorithm/image/image.h"
 
 namespace sgs {
@@ -19,6 +21,9 @@ double ssim(const Image& a, const Image& b);
 
 // Largest |a - b| over pixels and channels, not clamped. A NaN on one side only counts as infinity.
 double max_abs_error(const Image& a, const Image& b);
+
+// Pixels of which a channel differs.
+std::uint64_t differing_pixels(const Image& a, const Image& b);
 
 // Share of the pixels, 0 to 1, whose three channels all differ by at most `tolerance`.
 double fraction_within(const Image& a, const Image& b, double tolerance);

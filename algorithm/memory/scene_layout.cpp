@@ -7,14 +7,20 @@
 namespace sgs {
 namespace {
 
-void place_records(const SecondHalfFormat& format, std::uint32_t gaussians, SceneLayout& layout) {
+void place_records(const SecondHalfFormat& format, const RecordSplit& split,
+                   std::uint32_t gaussians, SceneLayout& layout) {
   layout.second_half = format;
-  layout.first_halves = layout.regions.add_records("first_halves", kFirstHalfBytes, gaussians);
-  layout.second_halves = layout.regions.add_records("second_halves", format.bytes(), gaussians);
+  layout.split = split;
+  layout.first_halves = layout.regions.add_records("first_halves", split.first_bytes(), gaussians);
+  layout.second_halves = layout.regions.add_records("second_halves", split.second_bytes, gaussians);
   layout.codebooks = layout.regions.add("codebooks", format.codebook_bytes());
 }
 
 }  // namespace
+
+RecordSplit split_of(StorageOrder order, const SecondHalfFormat& format) {
+  return order == StorageOrder::kChunks ? burst_split(format) : published_split(format);
+}
 
 SceneLayout lay_out_voxels(const SecondHalfFormat& format, std::uint32_t gaussians,
                            const VoxelFrame& frame, std::uint32_t nodes, std::uint32_t voxels) {
@@ -30,7 +36,7 @@ SceneLayout lay_out_voxels(const SecondHalfFormat& format, std::uint32_t gaussia
   table.voxels = region.records(node_bytes, sizeof(VoxelRecord), voxels);
   table.cuts = region.records(node_bytes + voxel_bytes, sizeof(float), cuts);
   layout.table = table;
-  place_records(format, gaussians, layout);
+  place_records(format, split_of(StorageOrder::kVoxels, format), gaussians, layout);
   layout.stored_bytes = layout.regions.next_base();
   return layout;
 }
@@ -38,10 +44,9 @@ SceneLayout lay_out_voxels(const SecondHalfFormat& format, std::uint32_t gaussia
 SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussians,
                            std::uint32_t nodes, std::uint32_t chunks) {
   SceneLayout layout;
-  place_records(format, gaussians, layout);
+  place_records(format, split_of(StorageOrder::kChunks, format), gaussians, layout);
   ChunkTableLayout table;
   table.nodes = layout.regions.add_records("chunk_table", sizeof(ChunkNode), nodes);
-  table.indices = layout.regions.add_records("indices", sizeof(std::uint32_t), gaussians);
   table.chunk_count = chunks;
   layout.table = table;
   layout.stored_bytes = layout.regions.next_base();
@@ -50,7 +55,7 @@ SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussia
 
 SceneLayout lay_out_file(const SecondHalfFormat& format, std::uint32_t gaussians) {
   SceneLayout layout;
-  place_records(format, gaussians, layout);
+  place_records(format, split_of(StorageOrder::kFile, format), gaussians, layout);
   layout.table = NoTableLayout{};
   layout.stored_bytes = layout.regions.next_base();
   return layout;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <variant>
 
+#include "algorithm/memory/record_split.h"
 #include "algorithm/memory/regions.h"
 #include "algorithm/memory/second_half.h"
 #include "algorithm/voxel/voxel_grid.h"
@@ -14,14 +15,16 @@ namespace sgs {
 // its layout: ../storage/storage_scheme.h.
 enum class StorageOrder : std::uint8_t { kVoxels, kChunks, kFile };
 
+// By chunks whole bursts count; by voxels and by file the halves are the paper's.
+RecordSplit split_of(StorageOrder order, const SecondHalfFormat& format);
+
 struct VoxelTableLayout {
   VoxelFrame frame;
   RecordArray nodes, voxels, cuts;  // VoxelNode, VoxelRecord, float (voxel_cuts.h)
 };
 
 struct ChunkTableLayout {
-  RecordArray nodes;    // ChunkNode
-  RecordArray indices;  // 32-bit file index of each slot
+  RecordArray nodes;  // ChunkNode
   std::uint32_t chunk_count = 0;
 };
 
@@ -36,14 +39,18 @@ inline StorageOrder order_of(const TableLayout& table) {
 }
 
 struct SceneLayout {
-  Regions regions;  // the scene's; machines add what they work with behind them
-  SecondHalfFormat second_half;
+  Regions regions;               // the scene's; machines add what they work with behind them
+  SecondHalfFormat second_half;  // as encoded, before it is split
+  RecordSplit split;             // what of it lies in which of these
   RecordArray first_halves, second_halves;  // [slots]
   RegionSpan codebooks;
   TableLayout table;
   std::uint64_t stored_bytes = 0;  // of the scene's image, from address 0 on
 
   std::uint32_t gaussian_count() const { return static_cast<std::uint32_t>(first_halves.count); }
+  std::uint64_t record_bytes() const {  // of a Gaussian, both halves
+    return std::uint64_t{first_halves.record_bytes} + second_halves.record_bytes;
+  }
   int sh_degree() const { return second_half.sh_degree; }
   StorageOrder order() const { return order_of(table); }
   // For who reads scenes of this order alone; std::bad_variant_access in the others.
@@ -55,7 +62,7 @@ struct SceneLayout {
 SceneLayout lay_out_voxels(const SecondHalfFormat& format, std::uint32_t gaussians,
                            const VoxelFrame& frame, std::uint32_t nodes, std::uint32_t voxels);
 
-// By chunks: first_halves, second_halves, codebooks, chunk_table, indices.
+// By chunks: first_halves, second_halves, codebooks, chunk_table.
 SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussians,
                            std::uint32_t nodes, std::uint32_t chunks);
 

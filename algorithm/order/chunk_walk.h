@@ -1,116 +1,216 @@
 // Front-to-back walk over the chunk tree: the chunks that a pixel group may need, by nearest depth.
+// Nodes may be opened in any order and ahead of need; which chunks come out, and in which order,
+// does not depend on it. A second group's walk can begin before the first has ended.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "algorithm/order/walk_queue.h"
 #include "algorithm/voxel/chunk_test.h"
 
 namespace sgs {
 
-// An entry of the walk's queue.
-struct WalkEntry {
-  float nearest = 0;        // no Gaussian below is nearer than this
-  std::uint32_t at = 0;     // node, or first storage slot of a chunk
-  std::uint32_t count = 0;  // Gaussians of a chunk; 0: a node
+// Entries that fit the queues, each at least kChunkNodeWidth + 1.
+struct WalkRoom {
+  std::size_t nodes, chunks;
 };
-
-// Nodes before chunks of the same depth: a chunk is handed out only when nothing nearer can follow.
-inline bool walks_before(const WalkEntry& a, const WalkEntry& b) {
-  if (a.nearest != b.nearest) return a.nearest < b.nearest;
-  if ((a.count == 0) != (b.count == 0)) return a.count == 0;
-  return a.at < b.at;
-}
 
 struct WalkCounters {
-  std::uint64_t nodes = 0;       // read
-  std::uint64_t tests = 0;       // children tested
-  std::uint64_t queue_max = 0;   // entries
-  std::uint64_t overflowed = 0;  // entries put aside because the queue was full
+  std::uint64_t nodes = 0;      // opened
+  std::uint64_t tests = 0;      // children tested
+  std::uint64_t put_aside = 0;  // entries, because their queue was full
 };
 
-// Source: `ChunkNode node(std::uint32_t)`; `void put_aside(const WalkEntry&)` keeps what does not
-// fit the queue (in VSU: in DRAM) until `std::vector<WalkEntry> take_back()` or, where a group ends
-// early, `void forget_aside()`.
+// Source: `void put_aside(const WalkEntry&)` keeps what does not fit a queue (in VSU: in DRAM)
+// until `std::vector<WalkEntry> take_back()` or, where nothing of it is wanted any more,
+// `void forget_aside()`. For next() also `ChunkNode node(std::uint32_t)`.
 template <class Source>
 class ChunkWalk {
  public:
-  // capacity: entries of the queue, at least kChunkNodeWidth + 1.
-  ChunkWalk(const View<float>& view, Source& source, std::size_t capacity)
-      : view_(view), source_(source), capacity_(capacity) {}
+  static constexpr std::uint32_t kWalks = 2;  // under way at a time
 
-  // Begins with another group, whether or not the one before came to its end. empty: the tree has
-  // no nodes.
-  void start(const PixelRect& pixels, bool empty) {
-    pixels_ = pixels;
-    queue_.clear();
-    if (aside_) source_.forget_aside();
-    aside_.reset();
-    if (!empty) queue_.push_back({});
+  ChunkWalk(const View<float>& view, Source& source, const WalkRoom& room)
+      : view_(view), source_(source), nodes_(room.nodes), chunks_(room.chunks) {}
+
+  // Begins with another group, behind those that have begun and not ended: at most kWalks. empty:
+  // the tree has no nodes.
+  void begin(const PixelRect& pixels, bool empty) {
+    const auto walk = static_cast<std::uint16_t>(first_ + begun_);
+    pixels_[walk % kWalks] = pixels;
+    ++begun_;
+    if (!empty) push({0, 0, 0, walk});
+  }
+  std::uint32_t begun() const { return begun_; }
+
+  // The first walk has ended, or what is left of it is not wanted: forgets it.
+  void end() {
+    drop(nodes_);
+    drop(chunks_);
+    opening_.erase(std::remove_if(opening_.begin(), opening_.end(),
+                                  [&](const WalkEntry& entry) { return of_first(entry); }),
+                   opening_.end());
+    ++first_;
+    --begun_;
+    if (!aside_) return;
+    if (begun_ > 0) {
+      bring_back();
+    } else {
+      aside_.reset();
+      source_.forget_aside();
+    }
   }
 
-  // The next chunk, or none. Nearest depths never decrease.
+  // The first walk's next chunk, if nothing nearer can come from nodes that are not open yet.
+  // Nearest depths never decrease.
+  std::optional<WalkEntry> take_chunk() {
+    const WalkEntry* chunk = final_chunk();
+    while (chunk == nullptr && aside_is_next()) {
+      bring_back();
+      chunk = final_chunk();
+    }
+    if (chunk == nullptr) return std::nullopt;
+    return chunks_.take_nearest();
+  }
+  // Whether take_chunk() would give one without what was put aside.
+  bool has_chunk() const { return final_chunk() != nullptr; }
+  // The first walk gives no chunk any more.
+  bool exhausted() const {
+    return !(!nodes_.empty() && of_first(nodes_.nearest())) &&
+           !(!chunks_.empty() && of_first(chunks_.nearest())) && !(aside_ && of_first(*aside_)) &&
+           std::none_of(opening_.begin(), opening_.end(),
+                        [&](const WalkEntry& entry) { return of_first(entry); });
+  }
+
+  // The nearest node that is not open, to be read and given to open(); whichever was taken first
+  // need not be opened first.
+  bool has_node() const { return !nodes_.empty(); }
+  WalkEntry take_node() {
+    opening_.push_back(nodes_.take_nearest());
+    return opening_.back();
+  }
+  // The next node is of the first walk, and nothing is being read that could give a chunk.
+  bool needs_node() const {
+    return opening_.empty() && !nodes_.empty() && of_first(nodes_.nearest()) && !has_chunk();
+  }
+  // The children of the nodes that are being read, and of one more, are sure to fit, and leave a
+  // quarter of each queue to those that must be read.
+  bool has_room_for_another() const {
+    const std::size_t children = (opening_.size() + 1) * kChunkNodeWidth;
+    return nodes_.room() >= children + nodes_.capacity() / 4 &&
+           chunks_.room() >= children + chunks_.capacity() / 4;
+  }
+  // All nodes of the walks that have begun are open or being read: another may begin.
+  bool has_read_ahead() const { return begun_ < kWalks && nodes_.empty() && !aside_; }
+
+  // entry: as take_node() gave it. Its walk may have ended meanwhile.
+  void open(const WalkEntry& entry, const ChunkNode& node) {
+    const auto same = std::find_if(opening_.begin(), opening_.end(), [&](const WalkEntry& e) {
+      return e.at == entry.at && e.walk == entry.walk;
+    });
+    if (same == opening_.end()) return;
+    opening_.erase(same);
+    expand(entry, node);
+  }
+
+  // The first walk's next chunk, or none, opening the nodes that it needs and no others.
   std::optional<WalkEntry> next() {
     while (true) {
-      if (aside_ && (queue_.empty() || walks_before(*aside_, queue_.front()))) bring_back();
-      if (queue_.empty()) return std::nullopt;
-      std::pop_heap(queue_.begin(), queue_.end(), behind);
-      const WalkEntry entry = queue_.back();
-      queue_.pop_back();
-      if (entry.count > 0) return entry;
-      expand(entry);
+      if (const std::optional<WalkEntry> chunk = take_chunk()) return chunk;
+      if (!has_node()) return std::nullopt;
+      const WalkEntry node = take_node();
+      open(node, source_.node(node.at));
     }
   }
 
   const WalkCounters& counters() const { return counters_; }
+  const WalkQueue& node_queue() const { return nodes_; }
+  const WalkQueue& chunk_queue() const { return chunks_; }
+  // Of both queues.
+  std::uint64_t queue_operations() const {
+    return nodes_.work().operations() + chunks_.work().operations();
+  }
 
  private:
-  static bool behind(const WalkEntry& a, const WalkEntry& b) { return walks_before(b, a); }
+  bool of_first(const WalkEntry& entry) const { return entry.walk == first_; }
 
-  void expand(const WalkEntry& parent) {
-    const ChunkNode node = source_.node(parent.at);
+  void drop(WalkQueue& queue) {
+    while (!queue.empty() && of_first(queue.nearest())) queue.take_nearest();
+  }
+
+  // Whether an entry comes before all nodes that are not open.
+  bool before_unopened(const WalkEntry& entry) const {
+    return (nodes_.empty() || walks_before(entry, nodes_.nearest())) &&
+           std::all_of(opening_.begin(), opening_.end(),
+                       [&](const WalkEntry& node) { return walks_before(entry, node); });
+  }
+
+  const WalkEntry* final_chunk() const {
+    if (chunks_.empty()) return nullptr;
+    const WalkEntry& chunk = chunks_.nearest();
+    const bool final =
+        of_first(chunk) && before_unopened(chunk) && !(aside_ && walks_before(*aside_, chunk));
+    return final ? &chunk : nullptr;
+  }
+
+  bool aside_is_next() const {
+    return aside_ && before_unopened(*aside_) &&
+           (chunks_.empty() || walks_before(*aside_, chunks_.nearest()));
+  }
+
+  void expand(const WalkEntry& parent, const ChunkNode& node) {
     ++counters_.nodes;
-    const GroupFrustum frustum(view_, pixels_);
+    const GroupFrustum frustum(view_, pixels_[parent.walk % kWalks]);
     std::uint32_t slot = node.first_slot, inner = node.first_node;
     for (int c = 0; c < node.children; ++c) {
-      const std::uint32_t count = node.count[c];
+      const std::uint16_t count = node.count[c];
       const std::uint32_t at = count > 0 ? slot : inner;
       (count > 0 ? slot : inner) += count > 0 ? count : 1;
       ++counters_.tests;
       const ChunkTest test = frustum.test(child_bound(node, c));
       // A child's own box may be quantised to begin a little before its parent's.
-      if (test.touches) push({std::max(test.nearest, parent.nearest), at, count});
+      if (test.touches) push({std::max(test.nearest, parent.nearest), at, count, parent.walk});
     }
   }
 
   void push(const WalkEntry& entry) {
-    queue_.push_back(entry);
-    std::push_heap(queue_.begin(), queue_.end(), behind);
-    if (queue_.size() > capacity_) put_aside_farthest();
-    counters_.queue_max = std::max<std::uint64_t>(counters_.queue_max, queue_.size());
+    WalkQueue& queue = entry.count > 0 ? chunks_ : nodes_;
+    if (queue.room() > 0) {
+      queue.push(entry);
+    } else if (walks_before(entry, queue.farthest())) {
+      put_aside(queue.take_farthest());
+      queue.push(entry);
+    } else {
+      put_aside(entry);
+    }
   }
 
-  void put_aside_farthest() {
-    const auto farthest = std::max_element(queue_.begin(), queue_.end(), walks_before);
-    if (!aside_ || walks_before(*farthest, *aside_)) aside_ = *farthest;
-    source_.put_aside(*farthest);
-    ++counters_.overflowed;
-    queue_.erase(farthest);
-    std::make_heap(queue_.begin(), queue_.end(), behind);
+  void put_aside(const WalkEntry& entry) {
+    if (!aside_ || walks_before(entry, *aside_)) aside_ = entry;
+    source_.put_aside(entry);
+    ++counters_.put_aside;
   }
 
+  // All of it: what does not fit goes aside again.
   void bring_back() {
     aside_.reset();
-    for (const WalkEntry& entry : source_.take_back()) push(entry);
+    for (const WalkEntry& entry : source_.take_back()) {
+      // Of a walk that has ended there may be some.
+      if (static_cast<std::int16_t>(entry.walk - first_) >= 0) push(entry);
+    }
   }
 
   const View<float>& view_;
   Source& source_;
-  const std::size_t capacity_;
-  PixelRect pixels_;
-  std::vector<WalkEntry> queue_;    // heap, nearest first
+  std::array<PixelRect, kWalks> pixels_{};  // by the walk's number modulo kWalks
+  std::uint16_t first_ = 0;                 // number of the first walk that has not ended
+  std::uint32_t begun_ = 0;
+  WalkQueue nodes_, chunks_;
+  std::vector<WalkEntry> opening_;  // nodes taken and not open yet
   std::optional<WalkEntry> aside_;  // the nearest of those put aside
   WalkCounters counters_;
 };

@@ -8,49 +8,50 @@
 #include <queue>
 #include <vector>
 
-#include "algorithm/order/chunk_walk.h"
 #include "algorithm/order/tree_in_memory.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/visible_extents.h"
 
 namespace sgs {
 namespace {
 
 struct Key {
   float depth;
-  std::uint32_t index;  // in the file: breaks ties of depth
+  std::uint32_t slot;  // breaks ties of depth
 };
 struct Behind {
   bool operator()(const Key& a, const Key& b) const {
-    return a.depth > b.depth || (a.depth == b.depth && a.index > b.index);
+    return a.depth > b.depth || (a.depth == b.depth && a.slot > b.slot);
   }
 };
 
 // One group's frame: keys wait, are released, become splats and are blended.
 class GroupStream {
  public:
-  GroupStream(const View<float>& view, const ActivatedCloud& cloud, const PixelRect& pixels,
+  GroupStream(const View<float>& view, const ActivatedCloud& cloud,
+              const std::vector<VisibleExtents>& known, const PixelRect& pixels,
               const ExactOrderConfig& config, Flags& contributing, StreamingStats& stats)
       : view_(view),
         cloud_(cloud),
+        known_(known),
         config_(config),
         contributing_(contributing),
         stats_(stats),
-        state_(pixels, view.width, view.height),
+        state_(pixels, view.width, view.height, config.precision),
         watch_(state_.subtile_count()) {}
 
-  void visit(const ChunkTree& tree, const WalkEntry& chunk) {
+  void visit(const WalkEntry& chunk) {
     ++stats_.visits;
     stats_.first_halves += chunk.count;
     for (std::uint32_t slot = chunk.at; slot < chunk.at + chunk.count; ++slot) {
-      const std::uint32_t index = tree.storage_order[slot];
-      const Gaussian<float>& g = cloud_.gaussians[index];
-      const CoarseBound bound =
-          coarse_bound(view_, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
+      const Gaussian<float>& g = cloud_.gaussians[slot];
+      const VisibleExtents& known = known_[slot];
+      const ExtentBound bound = extent_bound(view_, g.mean, known.extent, known.scale_max);
       if (config_.coarse_filter && (!bound.in_front || !touches(bound, state_.pixels()))) continue;
-      pending_.push({bound.depth, index});
+      pending_.push({bound.depth, slot});
       ++stats_.coarse_passed;
     }
   }
@@ -77,22 +78,24 @@ class GroupStream {
 
  private:
   void release() {
-    const std::uint32_t index = pending_.top().index;
+    const std::uint32_t slot = pending_.top().slot;
     pending_.pop();
     ++stats_.second_halves;
-    const Gaussian<float>& g = cloud_.gaussians[index];
+    ++stats_.fine_tests;
+    const Gaussian<float>& g = cloud_.gaussians[slot];
     Splat splat;
     if (!make_geometry(view_, g, splat) || !reaches_group(splat, state_.pixels())) return;
-    add_colour(view_, cloud_.sh_degree, g.mean, cloud_.sh(index), splat);
+    add_colour(view_, cloud_.sh_degree, g.mean, cloud_.sh(slot), splat);
     ++stats_.splats;
     const auto observe = [&](const SubtileBlend& blend) {
-      if (watch_.see(blend, splat.depth)) contributing_.set(index);
+      if (watch_.see(blend, splat.depth)) contributing_.set(slot);
     };
     stats_.subtile_blends += state_.blend(splat, observe).blended;
   }
 
   const View<float>& view_;
   const ActivatedCloud& cloud_;
+  const std::vector<VisibleExtents>& known_;  // [slot]
   const ExactOrderConfig& config_;
   Flags& contributing_;
   StreamingStats& stats_;
@@ -101,23 +104,33 @@ class GroupStream {
   std::priority_queue<Key, std::vector<Key>, Behind> pending_;
 };
 
+// [slot] as the units know them: through the code that is stored.
+std::vector<VisibleExtents> stored_extents(const ActivatedCloud& cloud) {
+  std::vector<VisibleExtents> out(cloud.size());
+  tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t slot) {
+    const Gaussian<float>& g = cloud.gaussians[slot];
+    out[slot] = decode_extents(encode_extents(visible_extents(g)));
+  });
+  return out;
+}
+
 void render_group(const View<float>& view, const ActivatedCloud& cloud, const ChunkTree& tree,
-                  const PixelRect& pixels, const ExactOrderConfig& config, Flags& contributing,
-                  Flags& visited, StreamingStats& stats, RenderResult& frame) {
+                  const std::vector<VisibleExtents>& known, const PixelRect& pixels,
+                  const ExactOrderConfig& config, Flags& contributing, Flags& visited,
+                  StreamingStats& stats, RenderResult& frame) {
   stats.groups = 1;
   TreeInMemory source{tree, {}};
-  ChunkWalk walk(view, source, config.walk_queue_entries);
-  walk.start(pixels, tree.nodes.empty());
-  GroupStream stream(view, cloud, pixels, config, contributing, stats);
+  ChunkWalk walk(view, source, config.walk_room);
+  walk.begin(pixels, tree.nodes.empty());
+  GroupStream stream(view, cloud, known, pixels, config, contributing, stats);
   std::optional<WalkEntry> chunk = walk.next();
   while (chunk && !stream.saturated()) {
-    stream.visit(tree, *chunk);
+    stream.visit(*chunk);
     visited.set(chunk->at);
     chunk = walk.next();
     stream.release_below(chunk ? chunk->nearest : std::numeric_limits<float>::infinity());
   }
   stats.nodes_read = walk.counters().nodes;
-  stats.walk_queue_max = walk.counters().queue_max;
   stream.finish(frame);
 }
 
@@ -132,9 +145,11 @@ StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud
   out.frame.contributors.resize(pixels);
   const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group_px);
   std::vector<StreamingStats> stats(groups.size());
-  Flags contributing(cloud.size()), visited(tree.storage_order.size());
+  const std::vector<VisibleExtents> known = stored_extents(cloud);
+  Flags contributing(cloud.size()), visited(cloud.size());
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    render_group(view, cloud, tree, groups[g], config, contributing, visited, stats[g], out.frame);
+    render_group(view, cloud, tree, known, groups[g], config, contributing, visited, stats[g],
+                 out.frame);
   });
   for (const StreamingStats& s : stats) out.stats += s;
   out.stats.contributing = contributing.count();

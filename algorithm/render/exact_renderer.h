@@ -1,13 +1,15 @@
 // Streaming renderer in exact order: the reference image, chunk by chunk. For each pixel group the
-// chunks that can touch it are streamed by nearest depth; keys (depth, index) of what passes the
+// chunks that can touch it are streamed by nearest depth; keys (depth, slot) of what passes the
 // coarse filter wait until nothing nearer can come; only then is the rest of the Gaussian looked
 // at.
 #pragma once
 
 #include <cstdint>
 
+#include "algorithm/order/chunk_walk.h"
 #include "algorithm/order/on_overflow.h"
 #include "algorithm/render/streaming_result.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/chunk_tree.h"
@@ -19,12 +21,13 @@ struct ExactOrderConfig {
   bool coarse_filter = true;           // off: keys of whole chunks wait
   std::uint32_t merge_entries = 4096;  // keys that wait at most, between two visits
   OnOverflow on_overflow = OnOverflow::kSpill;
-  std::uint32_t walk_queue_entries = 512;  // of the front-to-back walk
+  WalkRoom walk_room{256, 384};                        // of the front-to-back walk
+  BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
   glm::vec3 background{0.0F};
 };
 
-// tree: of this cloud. With kSpill the picture equals render_reference bit for bit. Deterministic
-// whatever the number of threads.
+// tree: of this cloud, which is in storage order. With kSpill the picture equals render_reference
+// bit for bit. Deterministic whatever the number of threads.
 StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud& cloud,
                                    const ChunkTree& tree, const ExactOrderConfig& config);
 

@@ -5,8 +5,9 @@
 
 namespace sgs {
 
-GroupState::GroupState(const PixelRect& pixels, int width_px, int height_px, SubtileTest test)
-    : pixels_(pixels), test_(test) {
+GroupState::GroupState(const PixelRect& pixels, int width_px, int height_px,
+                       BlendPrecision precision, SubtileTest test)
+    : pixels_(pixels), precision_(precision), test_(test) {
   const auto down = [](int px) { return static_cast<std::uint16_t>(px / kSubtilePx); };
   subtiles_ = {down(pixels.x0), down(pixels.y0), down(pixels.x1 + kSubtilePx - 1),
                down(pixels.y1 + kSubtilePx - 1)};

@@ -1,6 +1,8 @@
 // The pixels of one group while it is being blended, as the rendering unit holds them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -8,15 +10,17 @@
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/footprint.h"
 #include "algorithm/splat/rects.h"
+#include "algorithm/splat/row_span.h"
 
 namespace sgs {
 
 // Which 4x4 sub-tiles of a splat's footprint are blended: all, or only those that its visible
-// ellipse can reach. The pixels are the same; the test costs less than the blending it spares.
+// ellipse can reach, row by row (row_span.h). The pixels are the same; the spans cost less than the
+// blending they spare.
 enum class SubtileTest { kBox, kEllipse };
 
 struct BlendWork {
-  std::uint32_t tested = 0;   // sub-tiles of the footprint put to the ellipse test
+  std::uint32_t spans = 0;    // rows of sub-tiles of the footprint whose span was computed
   std::uint32_t blended = 0;  // sub-tiles blended
 };
 
@@ -28,23 +32,52 @@ struct SubtileBlend {
   const SubtileState& behind;  // the pixels with the splat in them
 };
 
+// A sub-tile that a splat reaches, as whoever schedules the blending sees it.
+struct SubtileReach {
+  std::size_t at;       // the sub-tile's place in the group
+  int x, y;             // the sub-tile, in the whole frame
+  bool blends;          // it was unfinished; a finished one does not change
+  bool finishes;        // with this splat
+  std::uint32_t spans;  // rows of this splat whose span was computed so far
+};
+
 class GroupState {
  public:
   // pixels: corner on a multiple of 4 px, cut to the frame of width x height px.
   GroupState(const PixelRect& pixels, int width_px, int height_px,
+             BlendPrecision precision = BlendPrecision::kSingle,
              SubtileTest test = SubtileTest::kEllipse);
 
   // Blends a splat into the unfinished 4x4 sub-tiles of its footprint that it reaches.
   BlendWork blend(const Splat& splat) {
-    return for_reached(splat,
-                       [&](std::size_t at, int x, int y) { sgs::blend(states_[at], x, y, splat); });
+    const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half : sgs::blend;
+    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t) {
+      if (finished_[at] != 0) return false;
+      into(states_[at], x, y, splat);
+      return true;
+    });
   }
   // The same, observed: observer(SubtileBlend) is called behind each.
   template <class Observer>
   BlendWork blend(const Splat& splat, Observer&& observer) {
-    return for_reached(splat, [&](std::size_t at, int x, int y) {
-      const LaneShares shares = blend_and_tell(states_[at], x, y, splat);
+    const auto into =
+        precision_ == BlendPrecision::kHalf ? blend_in_half_and_tell : blend_and_tell;
+    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t) {
+      if (finished_[at] != 0) return false;
+      const LaneShares shares = into(states_[at], x, y, splat);
       observer(SubtileBlend{at, x, y, shares, states_[at]});
+      return true;
+    });
+  }
+  // The same, told of every sub-tile that is reached, row by row: schedule(SubtileReach).
+  template <class Schedule>
+  BlendWork blend_scheduled(const Splat& splat, Schedule&& schedule) {
+    const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half : sgs::blend;
+    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t spans) {
+      const bool blends = finished_[at] == 0;
+      if (blends) into(states_[at], x, y, splat);
+      schedule(SubtileReach{at, x, y, blends, blends && finished(states_[at]), spans});
+      return blends;
     });
   }
   std::size_t subtile_count() const { return states_.size(); }
@@ -62,39 +95,50 @@ class GroupState {
   // A splat on so few sub-tiles is blended in one cycle anyway.
   static constexpr int kUntestedSubtiles = 4;
 
-  // blend_into(place in the group, x, y) for each unfinished sub-tile that the splat reaches.
+  // blend_into(place in the group, x, y, spans so far) for each sub-tile that the splat reaches, row
+  // by row; it says whether it has blended.
   template <class BlendInto>
   BlendWork for_reached(const Splat& splat, const BlendInto& blend_into) {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
-    const int columns = subtiles_.x1 - subtiles_.x0;
     const int count = (reach.x1 - reach.x0) * (reach.y1 - reach.y0);
-    const bool test = test_ == SubtileTest::kEllipse && count > kUntestedSubtiles;
-    const float cutoff = test ? visible_cutoff(splat.opacity) : 0;
     BlendWork work;
+    if (test_ == SubtileTest::kBox || count <= kUntestedSubtiles) {
+      for (int y = reach.y0; y < reach.y1; ++y) blend_row(y, reach.x0, reach.x1, blend_into, work);
+      return work;
+    }
+    RowSpans<float> spans(splat);
+    spans.start(reach.y0 * kSubtilePx);
     for (int y = reach.y0; y < reach.y1; ++y) {
-      for (int x = reach.x0; x < reach.x1; ++x) {
-        const auto at = static_cast<std::size_t>((y - subtiles_.y0) * columns + (x - subtiles_.x0));
-        if (finished_[at] != 0) continue;
-        work.tested += test ? 1 : 0;
-        if (test && !reaches_subtile(splat, cutoff, x, y)) continue;
-        blend_into(at, x, y);
-        ++work.blended;
-        if (finished(states_[at])) {
-          finished_[at] = 1;
-          --unfinished_;
-        }
-      }
+      const RowBounds<float> bounds = spans.next((y + 1) * kSubtilePx);
+      ++work.spans;
+      blend_row(y, std::max<int>(reach.x0, subtile_at(std::ceil(bounds.low))),
+                std::min<int>(reach.x1, subtile_at(bounds.high) + 1), blend_into, work);
     }
     return work;
   }
-  static bool reaches_subtile(const Splat& s, float cutoff, int x, int y) {
-    const PixelRect pixels{x * kSubtilePx, y * kSubtilePx, (x + 1) * kSubtilePx,
-                           (y + 1) * kSubtilePx};
-    return reaches(s.x, s.y, s.conic_a, s.conic_b, s.conic_c, cutoff, pixels);
+  template <class BlendInto>
+  void blend_row(int y, int x0, int x1, const BlendInto& blend_into, BlendWork& work) {
+    const int columns = subtiles_.x1 - subtiles_.x0;
+    for (int x = x0; x < x1; ++x) {
+      const auto at = static_cast<std::size_t>((y - subtiles_.y0) * columns + (x - subtiles_.x0));
+      if (!blend_into(at, x, y, work.spans)) continue;
+      ++work.blended;
+      if (finished(states_[at])) {
+        finished_[at] = 1;
+        --unfinished_;
+      }
+    }
+  }
+  // The sub-tile column of the last pixel centre at or before x_px; -1 left of the frame.
+  static int subtile_at(float x_px) {
+    constexpr auto kRightOfAll = static_cast<float>(kMaxFramePx);
+    if (!(x_px >= 0)) return -1;
+    return static_cast<int>(std::min(x_px, kRightOfAll)) / kSubtilePx;
   }
   const SubtileState& subtile_of(int x, int y, int& lane) const;
 
   PixelRect pixels_;
+  BlendPrecision precision_;
   SubtileTest test_;
   SubtileRect subtiles_;
   std::vector<SubtileState> states_;  // [rows, columns] of sub-tiles

@@ -25,7 +25,7 @@ MissedSplats::MissedSplats(const View<float>& view, const ActivatedCloud& cloud,
     const VoxelRecord& record = grid.voxels[voxel];
     for (std::uint32_t slot = record.first; slot < record.first + record.count; ++slot) {
       Splat splat;
-      if (!make_geometry(view, cloud.gaussians[grid.storage_order[slot]], splat)) continue;
+      if (!make_geometry(view, cloud.gaussians[slot], splat)) continue;
       const SubtileRect& f = splat.footprint;
       for (int y = f.y0 / subtiles; y <= (f.y1 - 1) / subtiles; ++y) {
         for (int x = f.x0 / subtiles; x <= (f.x1 - 1) / subtiles; ++x) {

@@ -5,6 +5,7 @@
 
 #include "algorithm/order/group_visits.h"
 #include "algorithm/render/streaming_result.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/voxel_grid.h"
@@ -17,10 +18,16 @@ struct PaperOrderConfig {
   float sample_step_voxels = 0;  // 0: exact traversal of every cell; else the distance of samples
   // Voxels with more Gaussians are cut (voxel_cuts.h), each piece a visit of its own; 0: never.
   std::uint32_t visit_gaussians = 0;
+  // Parts of a group, each filtered and blended by itself (group_parts.h): a square number. In
+  // single precision the pixels are the same for any. In half they are not: rounding moves the
+  // ellipse's edge by some hundredths of a pixel, and which sub-tiles are tested against it follows
+  // from how many of a part's a splat may reach.
+  std::uint32_t parts = 1;
+  BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
   glm::vec3 background{0.0F};
 };
 
-// grid: of this cloud. Deterministic whatever the number of threads.
+// grid: of this cloud, which is in storage order. Deterministic whatever the number of threads.
 StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud& cloud,
                                    const VoxelGrid& grid, const PaperOrderConfig& config);
 

@@ -20,6 +20,9 @@ class SplatSequence {
   // InputError when the cloud has 2^32 Gaussians or more.
   SplatSequence(const View<float>& view, const ActivatedCloud& cloud);
 
+  // Of all Gaussians near the frustum, by (depth, index).
+  const std::vector<DepthKey>& keys() const { return keys_; }
+
   bool at_end() const { return next_ == keys_.size(); }
 
   // Makes `batch` the splats, coloured, of the next `most` keys or of as many as there are. The
@@ -29,7 +32,7 @@ class SplatSequence {
  private:
   const View<float> view_;
   const ActivatedCloud& cloud_;
-  std::vector<DepthKey> keys_;  // by (depth, index)
+  std::vector<DepthKey> keys_;
   std::size_t next_ = 0;
 };
 

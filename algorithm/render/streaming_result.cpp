@@ -10,7 +10,8 @@ StreamingStats& StreamingStats::operator+=(const StreamingStats& other) {
   for (const Count count :
        {&StreamingStats::groups, &StreamingStats::visits, &StreamingStats::visits_saturated,
         &StreamingStats::blocks_visited, &StreamingStats::first_halves,
-        &StreamingStats::coarse_passed, &StreamingStats::second_halves, &StreamingStats::splats,
+        &StreamingStats::coarse_passed, &StreamingStats::second_halves, &StreamingStats::fine_tests,
+        &StreamingStats::splats,
         &StreamingStats::subtile_blends, &StreamingStats::contributors,
         &StreamingStats::contributing, &StreamingStats::misordered, &StreamingStats::missed,
         &StreamingStats::ray_steps, &StreamingStats::edges_offered, &StreamingStats::nodes_read,
@@ -18,7 +19,7 @@ StreamingStats& StreamingStats::operator+=(const StreamingStats& other) {
     this->*count += other.*count;
   }
   for (const Count largest : {&StreamingStats::table_bytes_max, &StreamingStats::visit_splats_max,
-                              &StreamingStats::walk_queue_max, &StreamingStats::pending_keys_max}) {
+                              &StreamingStats::pending_keys_max}) {
     this->*largest = std::max(this->*largest, other.*largest);
   }
   return *this;

@@ -10,14 +10,12 @@
 namespace sgs {
 namespace {
 
-// [Gaussian] its voxel; Gaussians that are not stored get one that nobody visits.
-std::vector<std::uint32_t> voxels_of(const VoxelGrid& grid, std::size_t gaussians) {
-  std::vector<std::uint32_t> voxel_of(gaussians, static_cast<std::uint32_t>(grid.voxels.size()));
+// [slot] its voxel.
+std::vector<std::uint32_t> voxels_of(const VoxelGrid& grid, std::size_t slots) {
+  std::vector<std::uint32_t> voxel_of(slots);
   for (std::uint32_t voxel = 0; voxel < grid.voxels.size(); ++voxel) {
     const VoxelRecord& record = grid.voxels[voxel];
-    for (std::uint32_t slot = record.first; slot < record.first + record.count; ++slot) {
-      voxel_of[grid.storage_order[slot]] = voxel;
-    }
+    std::fill_n(voxel_of.begin() + record.first, record.count, voxel);
   }
   return voxel_of;
 }

@@ -12,13 +12,13 @@
 namespace sgs {
 
 // The reference image less the splats that paper order misses: each pixel blends, by (depth,
-// index), all splats of the voxels that its group's rays cross. Against the reference only missed
+// slot), all splats of the voxels that its group's rays cross. Against the reference only missed
 // splats are wrong; a paper-order frame differs from it only by the order, which includes what that
 // frame left out because a pixel was finished too early. Where no splat is missed it is the
 // reference image, bit for bit. Misordering without missing has no picture: a missed splat has no
 // place in the paper's order.
-// grid: of this cloud. group_voxels: as in StreamingResult. The same bits whatever the number of
-// threads.
+// grid: of this cloud, which is in storage order. group_voxels: as in StreamingResult. The same
+// bits whatever the number of threads.
 Image render_visited_in_order(const View<float>& view, const ActivatedCloud& cloud,
                               const VoxelGrid& grid, int group_px,
                               const std::vector<std::vector<std::uint32_t>>& group_voxels,

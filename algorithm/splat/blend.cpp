@@ -3,6 +3,11 @@
 // bits. Leaving early where no lane is hit costs more than it saves.
 #include "algorithm/splat/blend.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "algorithm/splat/half_scalar.h"
+
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define SGS_WIDEST_LANES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
@@ -12,38 +17,89 @@
 
 namespace sgs {
 namespace {
-constexpr float kFinish = static_cast<float>(kTransmittanceMin);
+
+// A splat as the arithmetic T takes it, beside a sub-tile's first pixel.
+template <class T>
+struct LaneInput {
+  T a, b, c, opacity, red, green, blue;
+  T left, top;     // splat centre minus the sub-tile's first pixel
+  float pixel_px;  // distance of neighbours, in the same unit
+};
+
+LaneInput<float> lane_input(const Splat& s, float left, float top, float) {
+  return {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x,
+          s.rgb.y,   s.rgb.z,   left,      top,       1.0F};
+}
+
+// 4^e in [1/4, 1) of the larger of A and C: lengths are in units of 2^e px.
+LaneInput<HalfScalar> lane_input(const Splat& s, float left, float top, HalfScalar) {
+  int exponent = 0;
+  std::frexp(std::max(s.conic_a, s.conic_c), &exponent);
+  const int e = (exponent + (exponent & 1)) / 2;
+  const float unit = std::ldexp(1.0F, e), per_area = std::ldexp(1.0F, -2 * e);
+  using H = HalfScalar;
+  return {H(s.conic_a * per_area),
+          H(s.conic_b * per_area),
+          H(s.conic_c * per_area),
+          H(s.opacity),
+          H(s.rgb.x),
+          H(s.rgb.y),
+          H(s.rgb.z),
+          H(left * unit),
+          H(top * unit),
+          unit};
+}
+
+float in_float(float x) { return x; }
+float in_float(HalfScalar x) { return x.value(); }
+void set(float& to, float x) { to = x; }
+void set(HalfScalar& to, float x) { to = HalfScalar::exactly(x); }
 
 // note(lane, alpha, T before) is told of each lane, with alpha 0 where nothing is blended. Inlined,
 // so that it is compiled for the same machine as its caller.
-template <class Note>
+template <class T, class Note>
 [[gnu::always_inline]] inline void blend_lanes(SubtileState& state, int subtile_x, int subtile_y,
                                                const Splat& splat, const Note& note) {
-  const float left = splat.x - static_cast<float>(subtile_x * kSubtilePx);
-  const float top = splat.y - static_cast<float>(subtile_y * kSubtilePx);
-  const float a = splat.conic_a, b = splat.conic_b, c = splat.conic_c, opacity = splat.opacity;
-  const float red = splat.rgb.x, green = splat.rgb.y, blue = splat.rgb.z;
-  float alpha[kSubtilePixels];
+  const LaneInput<T> in =
+      lane_input(splat, splat.x - static_cast<float>(subtile_x * kSubtilePx),
+                 splat.y - static_cast<float>(subtile_y * kSubtilePx), T{});
+  const T finish = constant<T>(kTransmittanceMin);
+  T alpha[kSubtilePixels];
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    const float dx = left - static_cast<float>(lane % kSubtilePx);
-    const float dy = top - static_cast<float>(lane / kSubtilePx);
-    alpha[lane] = alpha_at(a, b, c, opacity, dx, dy);
+    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_px);
+    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_px);
+    alpha[lane] = alpha_at(in.a, in.b, in.c, in.opacity, dx, dy);
   }
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    const float before = state.transmittance[lane];
-    const float after = before * (1.0F - alpha[lane]);
-    const std::int32_t hit = (alpha[lane] > 0.0F ? -1 : 0) & state.active[lane];
-    const std::int32_t ends = hit & (after < kFinish ? -1 : 0);
+    T before, red, green, blue;
+    set(before, state.transmittance[lane]);
+    set(red, state.red[lane]);
+    set(green, state.green[lane]);
+    set(blue, state.blue[lane]);
+    const LightShare<T> light = take_light(alpha[lane], before);
+    const std::int32_t hit = (alpha[lane] > T(0.0F) ? -1 : 0) & state.active[lane];
+    const std::int32_t ends = hit & (light.after < finish ? -1 : 0);
     const std::int32_t blends = hit & ~ends;
-    const float weight = alpha[lane] * before * static_cast<float>(-blends);
-    state.red[lane] += red * weight;
-    state.green[lane] += green * weight;
-    state.blue[lane] += blue * weight;
-    state.transmittance[lane] = blends != 0 ? after : before;
+    const T weight = blends != 0 ? light.weight : T(0.0F);
+    state.red[lane] = in_float(T(red + in.red * weight));
+    state.green[lane] = in_float(T(green + in.green * weight));
+    state.blue[lane] = in_float(T(blue + in.blue * weight));
+    state.transmittance[lane] = in_float(blends != 0 ? light.after : before);
     state.active[lane] &= ~ends;
     state.contributors[lane] -= blends;
-    note(lane, blends != 0 ? alpha[lane] : 0.0F, before);
+    note(lane, blends != 0 ? in_float(alpha[lane]) : 0.0F, in_float(before));
   }
+}
+
+template <class T>
+[[gnu::always_inline]] inline LaneShares shares_of(SubtileState& state, int subtile_x,
+                                                   int subtile_y, const Splat& splat) {
+  LaneShares shares;
+  blend_lanes<T>(state, subtile_x, subtile_y, splat, [&](int lane, float alpha, float before) {
+    shares.alpha[lane] = alpha;
+    shares.before[lane] = before;
+  });
+  return shares;
 }
 
 }  // namespace
@@ -67,17 +123,23 @@ bool finished(const SubtileState& state) {
 
 SGS_WIDEST_LANES
 void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
-  blend_lanes(state, subtile_x, subtile_y, splat, [](int, float, float) {});
+  blend_lanes<float>(state, subtile_x, subtile_y, splat, [](int, float, float) {});
 }
 
 SGS_WIDEST_LANES
 LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
-  LaneShares shares;
-  blend_lanes(state, subtile_x, subtile_y, splat, [&](int lane, float alpha, float before) {
-    shares.alpha[lane] = alpha;
-    shares.before[lane] = before;
-  });
-  return shares;
+  return shares_of<float>(state, subtile_x, subtile_y, splat);
+}
+
+SGS_WIDEST_LANES
+void blend_in_half(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
+  blend_lanes<HalfScalar>(state, subtile_x, subtile_y, splat, [](int, float, float) {});
+}
+
+SGS_WIDEST_LANES
+LaneShares blend_in_half_and_tell(SubtileState& state, int subtile_x, int subtile_y,
+                                  const Splat& splat) {
+  return shares_of<HalfScalar>(state, subtile_x, subtile_y, splat);
 }
 
 }  // namespace sgs

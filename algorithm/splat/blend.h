@@ -29,6 +29,11 @@ struct SubtileState {
   std::int32_t contributors[kSubtilePixels];  // splats blended
 };
 
+// In which arithmetic pixels are blended and kept. kHalf: each operation rounded to 16 bits
+// (half_scalar.h), the conic and distances of a splat scaled by a power of two of its own, so that
+// wide splats do not vanish among the subnormal.
+enum class BlendPrecision : std::uint8_t { kSingle, kHalf };
+
 // Fresh state; lanes whose pixel lies outside the frame (width x height px) begin finished.
 SubtileState make_subtile(int subtile_x, int subtile_y, int width_px, int height_px);
 
@@ -38,10 +43,23 @@ struct LaneShares {
   float before[kSubtilePixels];  // T in front of it; behind it is the state's
 };
 
+// What a splat of this alpha takes of a pixel's light, and what it leaves.
+template <class T>
+struct LightShare {
+  T weight, after;
+};
+template <class T>
+inline LightShare<T> take_light(T alpha, T before) {
+  return {T(alpha * before), T(before * T(T(1.0F) - alpha))};
+}
+
 // Blends `splat` into the sub-tile (subtile_x, subtile_y) of the frame.
 void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
+void blend_in_half(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
 // The same, and what the splat took. A function of its own: who does not look pays nothing.
 LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
+LaneShares blend_in_half_and_tell(SubtileState& state, int subtile_x, int subtile_y,
+                                  const Splat& splat);
 
 // Whether every pixel of the block is finished.
 bool finished(const SubtileState& state);

@@ -23,6 +23,8 @@ struct Counting {
   explicit operator double() const { return static_cast<double>(value); }
 };
 
+inline float value_of(Counting a) { return a.value; }
+
 inline Counting input(DataFlow& flow, float value) { return {value, &flow, flow.input()}; }
 
 inline DataFlow::Operand operand_of(Counting a) {

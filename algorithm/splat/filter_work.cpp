@@ -1,13 +1,16 @@
 // The filters run with the counting scalar.
 #include "algorithm/splat/filter_work.h"
 
-#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/row_span.h"
+#include "algorithm/splat/visible_extents.h"
 
 namespace sgs {
 namespace {
@@ -45,14 +48,21 @@ FilterCase longest_case() {
   return out;
 }
 
-OperationCounts coarse_work(const FilterCase& tested) {
+OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested) {
   DataFlow flow;
   const auto view = make_view<Counting>(tested.camera);
-  const glm::vec3& scale = tested.gaussian.scale;
-  const auto bound = coarse_bound(view, input(flow, tested.gaussian.mean),
-                                  input(flow, std::max({scale.x, scale.y, scale.z})));
+  const auto mean = input(flow, tested.gaussian.mean);
+  const VisibleExtents known = visible_extents(tested.gaussian);
   // Counted whatever it says.
-  if (bound.in_front) static_cast<void>(touches(bound, tested.group));
+  const auto run = [&](const auto& bound) {
+    if (bound.in_front) static_cast<void>(touches(bound, tested.group));
+  };
+  if (bound_by == CoarseBoundBy::kLargestScale) {
+    run(coarse_bound(view, mean, input(flow, known.scale_max)));
+  } else {
+    const auto extent = input(flow, known.extent);
+    run(extent_bound(view, mean, extent, input(flow, known.scale_max)));
+  }
   return flow.counts(0, flow.size());
 }
 
@@ -71,6 +81,40 @@ FineWork fine_work(const FilterCase& tested, int sh_degree) {
   if (kept) add_colour(view, sh_degree, gaussian.mean, sh.data(), splat);
   return {flow.counts(0, geometry_end), flow.counts(geometry_end, test_end),
           flow.counts(test_end, flow.size())};
+}
+
+RenderingWork rendering_work() {
+  DataFlow flow;
+  SplatOf<Counting> splat{};
+  // An ellipse that leans, some 20 px wide, and a row through its middle: every step is taken.
+  splat.x = input(flow, 101.5F);
+  splat.y = input(flow, 57.25F);
+  splat.conic_a = input(flow, 0.03F);
+  splat.conic_b = input(flow, 0.01F);
+  splat.conic_c = input(flow, 0.05F);
+  splat.opacity = input(flow, 0.9F);
+  splat.rgb = input(flow, glm::vec3(0.1F, 0.2F, 0.3F));
+  RenderingWork work;
+  RowSpans<Counting> spans(splat);
+  spans.start(52);
+  const std::size_t begun = flow.size();
+  static_cast<void>(spans.next(56));
+  const std::size_t spanned = flow.size();
+  const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    const Counting dx = left - Counting(static_cast<float>(lane % kSubtilePx));
+    const Counting dy = top - Counting(static_cast<float>(lane / kSubtilePx));
+    const Counting alpha = alpha_at(splat.conic_a, splat.conic_b, splat.conic_c, splat.opacity, dx, dy);
+    const LightShare<Counting> light = take_light(alpha, input(flow, 0.5F));
+    static_cast<void>(light.after < constant<Counting>(kTransmittanceMin));
+    for (int channel = 0; channel < 3; ++channel) {
+      static_cast<void>(input(flow, 0.25F) + splat.rgb[channel] * light.weight);
+    }
+  }
+  work.spans_begin = flow.counts(0, begun);
+  work.span = flow.counts(begun, spanned);
+  work.subtile_blend = flow.counts(spanned, flow.size());
+  return work;
 }
 
 OperationCounts FineWork::total() const { return geometry + group_test + colour; }

@@ -1,9 +1,11 @@
-// What one test of the coarse and of the fine filter executes, counted by running it.
+// What one test of the coarse and of the fine filter executes, and what rendering does for a splat,
+// counted by running it.
 // Values of the camera and of the group are constants: what depends on them alone is computed once
-// a frame or a group and kept. The decoding of a second half is not included.
+// a frame or a group and kept. The decoding of records is not included.
 #pragma once
 
 #include "algorithm/scene/camera.h"
+#include "algorithm/splat/coarse_bound_by.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/operation_counts.h"
 #include "algorithm/splat/rects.h"
@@ -23,7 +25,7 @@ struct FilterCase {
 FilterCase longest_case();
 
 // Of the coarse test, up to where it fails or to its end.
-OperationCounts coarse_work(const FilterCase& tested);
+OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested);
 
 // Of the fine test, up to where it fails or to its end. An operation that two parts need counts
 // with the first.
@@ -34,5 +36,12 @@ struct FineWork {
   OperationCounts total() const;
 };
 FineWork fine_work(const FilterCase& tested, int sh_degree);
+
+// Of rendering: a splat's spans are begun once; each row of sub-tiles adds one; each sub-tile is
+// blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once.
+struct RenderingWork {
+  OperationCounts spans_begin, span, subtile_blend;
+};
+RenderingWork rendering_work();
 
 }  // namespace sgs

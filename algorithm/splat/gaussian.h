@@ -21,7 +21,7 @@ struct Gaussian {
 // Computed in double and rounded once, so that memory image and renderers hold the same floats.
 struct ActivatedCloud {
   int sh_degree = 0;
-  std::vector<Gaussian<float>> gaussians;  // [N], the order of the file
+  std::vector<Gaussian<float>> gaussians;  // [N]
   std::vector<glm::vec3> sh_coeffs;        // [N, (degree+1)^2] rgb
 
   std::size_t size() const { return gaussians.size(); }

@@ -17,6 +17,9 @@ constexpr T constant(double value) {
   }
 }
 
+// The float behind a value, for what is decided and not computed.
+inline float value_of(float x) { return x; }
+
 template <class T>
 inline T sqrt_of(T x) {
   using std::sqrt;

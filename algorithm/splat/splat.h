@@ -14,7 +14,7 @@ struct SplatOf {
   T conic_a, conic_b, conic_c;  // 1/px^2
   T opacity;
   T depth;              // v_z, the sorting key
-  std::uint32_t index;  // tie-break of equal depths
+  std::uint32_t index;  // in the cloud: orders equal depths
   glm::vec<3, T> rgb;
   SubtileRect footprint;  // sub-tiles that may be blended, in the whole frame
 };

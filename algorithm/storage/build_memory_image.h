@@ -1,4 +1,4 @@
-// The bytes of an encoded scene in its storage order.
+// The bytes of an encoded scene that is in storage order.
 #pragma once
 
 #include <cstring>
@@ -6,21 +6,19 @@
 
 #include "algorithm/memory/memory_image.h"
 #include "algorithm/storage/encoded_cloud.h"
-#include "algorithm/storage/file_order.h"
+#include "algorithm/storage/stored_scene.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 
-// The table is of scene.decoded.
+// The table is of scene.decoded: slots are its indices.
 MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid);
 MemoryImage build_memory_image(const EncodedCloud& scene, const ChunkTree& tree);
-MemoryImage build_memory_image(const EncodedCloud& scene, const FileOrder& order);
+MemoryImage build_memory_image(const EncodedCloud& scene, NoTable);
 
-// What they are made of: records and codebooks, Gaussian storage_order[slot] in each slot; and, one
-// by one, the order's own records.
-MemoryImage store_gaussians(const EncodedCloud& scene, SceneLayout layout,
-                            const std::vector<std::uint32_t>& storage_order);
+// What they are made of: records and codebooks and, one by one, the order's own records.
+MemoryImage store_gaussians(const EncodedCloud& scene, SceneLayout layout);
 
 template <class Record>
 void store_table(const std::vector<Record>& records, std::uint64_t address, MemoryImage& image) {

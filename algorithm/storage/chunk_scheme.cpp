@@ -3,7 +3,6 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/storage/build_memory_image.h"
-#include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/schemes.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/stored_tables.h"
@@ -35,20 +34,18 @@ class ChunkScheme : public StorageScheme {
     throw InputError("chunk_gaussians: got 0, expected 1 or more");
   }
 
-  void store(const EncodedCloud& encoded, StoredScene& out) const override {
-    ChunkTree tree =
-        build_chunk_tree(encoded.decoded, out.storage.chunk_gaussians, stored_of(out.storage));
-    out.image = build_memory_image(encoded, tree);
-    out.table = std::move(tree);
+  Arrangement<StoredTable> arrange(const ActivatedCloud& decoded,
+                                   const StorageConfig& config) const override {
+    auto [tree, storage_order] =
+        arrange_by_chunks(decoded, config.chunk_gaussians, stored_of(config));
+    return {std::move(tree), std::move(storage_order)};
   }
-
-  void restore(const PackedScene& packed, const std::string& source,
-               StoredScene& out) const override {
-    std::vector<std::uint32_t> ranks =
-        read_file_ranks(packed.image, packed.facts.gaussians, source);
-    out.decoded = decode_image(packed.image, ranks, source);
-    out.table = read_chunk_table(packed.image, packed.storage.chunk_gaussians, std::move(ranks),
-                                 out.decoded, source);
+  MemoryImage image_of(const EncodedCloud& encoded, const StoredTable& table) const override {
+    return build_memory_image(encoded, std::get<ChunkTree>(table));
+  }
+  StoredTable restore(const PackedScene& packed, const ActivatedCloud& decoded,
+                      const std::string& source) const override {
+    return read_chunk_table(packed.image, packed.storage.chunk_gaussians, decoded, source);
   }
 
   TableLayout empty_table() const override { return ChunkTableLayout{}; }
@@ -84,13 +81,10 @@ class ChunkScheme : public StorageScheme {
 }  // namespace
 
 MemoryImage build_memory_image(const EncodedCloud& scene, const ChunkTree& tree) {
-  MemoryImage image = store_gaussians(scene,
-                                      lay_out_chunks(scene.format, count_of(tree.storage_order),
-                                                     count_of(tree.nodes), tree.chunk_count),
-                                      tree.storage_order);
-  const ChunkTableLayout& table = image.layout.chunk_table();
-  store_table(tree.nodes, table.nodes.base, image);
-  store_table(tree.storage_order, table.indices.base, image);
+  MemoryImage image =
+      store_gaussians(scene, lay_out_chunks(scene.format, count_of(scene.decoded.gaussians),
+                                            count_of(tree.nodes), tree.chunk_count));
+  store_table(tree.nodes, image.layout.chunk_table().nodes.base, image);
   return image;
 }
 

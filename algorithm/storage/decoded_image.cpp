@@ -59,8 +59,7 @@ void check_codebooks(const MemoryImage& image, const std::string& source) {
   }
 }
 
-Fault fault_of_indices(const SecondHalfFormat& format, const std::byte* record) {
-  const CodebookIndices indices = decode_indices(format, record);
+Fault fault_of_indices(const SecondHalfFormat& format, const CodebookIndices& indices) {
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
     if (format.entries[id] > 0 && indices[id] >= format.entries[id]) {
       return fmt::format("index into codebook {}: got {}, expected less than {}",
@@ -75,18 +74,35 @@ bool within(const glm::vec3& v, double magnitude) {
   return std::abs(v.x) <= magnitude && std::abs(v.y) <= magnitude && std::abs(v.z) <= magnitude;
 }
 
-Fault fault_of_values(const FirstHalf& first, const DecodedGaussian& decoded, int sh_degree) {
+// What the coarse filter goes by must not be less than what is there.
+Fault fault_of_bound(const SplitFirstHalf& first, const Gaussian<float>& g, CoarseBoundBy by) {
+  const VisibleExtents least = visible_extents(g);
+  const VisibleExtents& got = first.extents;
+  if (by == CoarseBoundBy::kLargestScale) {
+    if (got.scale_max == least.scale_max) return {};
+    return fmt::format("scales: the largest is {}, the first half says {}", least.scale_max,
+                       got.scale_max);
+  }
+  if (got.scale_max >= least.scale_max && got.extent.x >= least.extent.x &&
+      got.extent.y >= least.extent.y && got.extent.z >= least.extent.z) {
+    return {};
+  }
+  return fmt::format(
+      "visible extents: got ({}, {}, {}) of a scale of {}, expected at least ({}, {}, {}) of {}",
+      got.extent.x, got.extent.y, got.extent.z, got.scale_max, least.extent.x, least.extent.y,
+      least.extent.z, least.scale_max);
+}
+
+Fault fault_of_values(const DecodedGaussian& decoded, int sh_degree) {
   constexpr double kRounding = 1 + 1e-5;  // of an exponential in float
   const Gaussian<float>& g = decoded.gaussian;
   if (!within(g.mean, kMaxCoordinate)) {
     return fmt::format("centre: got ({}, {}, {}), expected magnitudes of at most {}", g.mean.x,
                        g.mean.y, g.mean.z, kMaxCoordinate);
   }
-  if (!within(g.scale, kMaxScale * kRounding) ||
-      std::min({g.scale.x, g.scale.y, g.scale.z}) < 0 ||
-      std::max({g.scale.x, g.scale.y, g.scale.z}) != first.scale_max) {
-    return fmt::format("scales: got ({}, {}, {}), expected 0 to the largest, {}, itself at most {}",
-                       g.scale.x, g.scale.y, g.scale.z, first.scale_max, kMaxScale);
+  if (!within(g.scale, kMaxScale * kRounding) || std::min({g.scale.x, g.scale.y, g.scale.z}) < 0) {
+    return fmt::format("scales: got ({}, {}, {}), expected 0 to {}", g.scale.x, g.scale.y,
+                       g.scale.z, kMaxScale);
   }
   if (!is_rotation(g.quat)) {
     return fmt::format("rotation: got ({}, {}, {}, {}), expected a quaternion of length 1",
@@ -105,8 +121,7 @@ Fault fault_of_values(const FirstHalf& first, const DecodedGaussian& decoded, in
 
 }  // namespace
 
-ActivatedCloud decode_image(const MemoryImage& image, const std::vector<std::uint32_t>& places,
-                            const std::string& source) {
+ActivatedCloud decode_image(const MemoryImage& image, const std::string& source) {
   check_codebooks(image, source);
   const SceneLayout& layout = image.layout;
   const SecondHalfFormat& format = layout.second_half;
@@ -118,15 +133,21 @@ ActivatedCloud decode_image(const MemoryImage& image, const std::vector<std::uin
   cloud.sh_coeffs.resize(layout.gaussian_count() * stride);
   const auto decode = [&](std::size_t at) -> Fault {
     const auto slot = static_cast<std::uint32_t>(at);
-    const FirstHalf first = decode_first_half(image.at(layout.first_halves.address(slot)));
+    const RecordSplit& split = layout.split;
+    const SplitFirstHalf first =
+        read_first_half(split, image.at(layout.first_halves.address(slot)));
     const std::byte* record = image.at(layout.second_halves.address(slot));
     Fault fault;
-    if (format.quantised()) fault = fault_of_indices(format, record);
+    if (format.quantised()) {
+      fault = fault_of_indices(format, read_indices(split, format, first.carried, record));
+    }
     if (!fault) {
-      const DecodedGaussian decoded = decode_second_half(format, first, record, codebooks);
-      fault = fault_of_values(first, decoded, format.sh_degree);
-      cloud.gaussians[places[slot]] = decoded.gaussian;
-      std::copy_n(decoded.sh, stride, cloud.sh_coeffs.data() + places[slot] * stride);
+      const DecodedGaussian decoded =
+          read_record(split, format, first.mean, first.carried, record, codebooks);
+      fault = fault_of_values(decoded, format.sh_degree);
+      if (!fault) fault = fault_of_bound(first, decoded.gaussian, split.bound_by);
+      cloud.gaussians[slot] = decoded.gaussian;
+      std::copy_n(decoded.sh, stride, cloud.sh_coeffs.data() + slot * stride);
     }
     if (fault) return fmt::format("{}: Gaussian in slot {}: {}", source, slot, *fault);
     return {};

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "algorithm/scene/gaussian_cloud.h"
+#include "algorithm/splat/reorder.h"
 
 namespace sgs {
 namespace {
@@ -45,6 +46,18 @@ void EncodedCloud::write_second_half(std::size_t index, std::byte* out) const {
     return;
   }
   std::memcpy(out, records.data() + index * format.bytes(), format.bytes());
+}
+
+EncodedCloud reordered(EncodedCloud encoded, const std::vector<std::uint32_t>& order) {
+  encoded.decoded = reordered(encoded.decoded, order);
+  if (encoded.records.empty()) return encoded;
+  const std::size_t bytes = encoded.format.bytes();
+  std::vector<std::byte> records(order.size() * bytes);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    std::memcpy(records.data() + i * bytes, encoded.records.data() + order[i] * bytes, bytes);
+  }
+  encoded.records = std::move(records);
+  return encoded;
 }
 
 EncodedCloud encode_raw(ActivatedCloud cloud) {

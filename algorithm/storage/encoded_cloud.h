@@ -21,6 +21,9 @@ struct EncodedCloud {
   void write_second_half(std::size_t index, std::byte* out) const;
 };
 
+// order: as in ../splat/reorder.h.
+EncodedCloud reordered(EncodedCloud encoded, const std::vector<std::uint32_t>& order);
+
 EncodedCloud encode_raw(ActivatedCloud cloud);
 EncodedCloud encode_half(const ActivatedCloud& cloud);
 // encoding: kVq or kVqPacked. quantised: of this cloud.

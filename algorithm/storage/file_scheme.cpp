@@ -1,9 +1,6 @@
 // Stored by file: the order that the scene came in, for machines that read all of it and find what
-// they need by themselves. Slots are in the order that breaks ties of depth, so no index is kept.
-#include <numeric>
-
+// they need by themselves.
 #include "algorithm/storage/build_memory_image.h"
-#include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/schemes.h"
 #include "algorithm/storage/storage_scheme.h"
 
@@ -14,19 +11,16 @@ class FileScheme : public StorageScheme {
  public:
   const char* name() const override { return "file"; }
 
-  void store(const EncodedCloud& encoded, StoredScene& out) const override {
-    FileOrder order{stored_gaussians(encoded.decoded, stored_of(out.storage))};
-    out.image = build_memory_image(encoded, order);
-    out.table = std::move(order);
+  Arrangement<StoredTable> arrange(const ActivatedCloud& decoded,
+                                   const StorageConfig& config) const override {
+    return {NoTable{}, stored_gaussians(decoded, stored_of(config))};
   }
-
-  void restore(const PackedScene& packed, const std::string& source,
-               StoredScene& out) const override {
-    FileOrder order;
-    order.storage_order.resize(packed.image.layout.gaussian_count());
-    std::iota(order.storage_order.begin(), order.storage_order.end(), 0U);
-    out.decoded = decode_image(packed.image, order.storage_order, source);
-    out.table = std::move(order);
+  MemoryImage image_of(const EncodedCloud& encoded, const StoredTable& table) const override {
+    return build_memory_image(encoded, std::get<NoTable>(table));
+  }
+  StoredTable restore(const PackedScene&, const ActivatedCloud&,
+                      const std::string&) const override {
+    return NoTable{};
   }
 
   TableLayout empty_table() const override { return NoTableLayout{}; }
@@ -41,9 +35,8 @@ class FileScheme : public StorageScheme {
 
 }  // namespace
 
-MemoryImage build_memory_image(const EncodedCloud& scene, const FileOrder& order) {
-  return store_gaussians(scene, lay_out_file(scene.format, count_of(order.storage_order)),
-                         order.storage_order);
+MemoryImage build_memory_image(const EncodedCloud& scene, NoTable) {
+  return store_gaussians(scene, lay_out_file(scene.format, count_of(scene.decoded.gaussians)));
 }
 
 const StorageScheme& file_scheme() {

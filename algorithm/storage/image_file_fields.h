@@ -80,7 +80,7 @@ void visit_fields(Fields& fields, ImageFileHeader& header) {
   fields("vq.sh_entries", storage.vq.sh_entries, 1, kMaxCodebookEntries);
   fields("vq.iterations", storage.vq.iterations, 0, kMostIterations);
   fields("vq.seed", storage.vq.seed, 0, kAny);
-  fields("Gaussians in the scene", header.facts.gaussians, 0, kWord);  // indices have 32 bits
+  fields("Gaussians in the scene", header.facts.gaussians, 0, kWord);  // slots have 32 bits
   fields("Gaussians dropped as invalid", header.facts.dropped_invalid, 0, kAny);
   fields("stored Gaussians", header.stored, 0, kWord);
   fields("SH degree", header.format.sh_degree, 0, kMostDegree);

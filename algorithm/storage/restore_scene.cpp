@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/storage_scheme.h"
 
 namespace sgs {
@@ -10,7 +11,8 @@ namespace sgs {
 StoredScene restore_scene(PackedScene packed, const std::string& source) {
   StoredScene out;
   out.gaussians = packed.facts.gaussians;
-  scheme_of(packed.storage.order).restore(packed, source, out);
+  out.decoded = decode_image(packed.image, source);
+  out.table = scheme_of(packed.storage.order).restore(packed, out.decoded, source);
   out.storage = packed.storage;
   out.image = std::move(packed.image);
   return out;

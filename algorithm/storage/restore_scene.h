@@ -8,10 +8,8 @@
 
 namespace sgs {
 
-// `decoded` holds the stored Gaussians alone: by voxels in the order of their slots, else in that
-// of the scene's file, which breaks ties of depth. Golden renderers give the same bits on it as on
-// the scene that was stored. source: what errors name. Throws InputError when tables or records say
-// what no builder could have written.
+// Golden renderers give the same bits on it as on the scene that was stored. source: what errors
+// name. Throws InputError when tables or records say what no builder could have written.
 StoredScene restore_scene(PackedScene packed, const std::string& source);
 
 }  // namespace sgs

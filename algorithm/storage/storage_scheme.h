@@ -16,6 +16,7 @@
 #include "algorithm/storage/storage_choices.h"
 #include "algorithm/storage/stored_scene.h"
 #include "algorithm/storage/table_fields.h"
+#include "algorithm/voxel/arrangement.h"
 
 namespace sgs {
 
@@ -50,12 +51,15 @@ class StorageScheme {
   // Throws InputError where a size is still open, or cannot be.
   virtual void check(const StorageConfig&) const {}
 
-  // Making and restoring. Both fill in `out.table`; store() of encoded.decoded, by out.storage, and
-  // `out.image`; restore() `out.decoded` of packed.image, with nothing in it believed (source: what
-  // errors name). Both throw InputError.
-  virtual void store(const EncodedCloud& encoded, StoredScene& out) const = 0;
-  virtual void restore(const PackedScene& packed, const std::string& source,
-                       StoredScene& out) const = 0;
+  // Making: the table of a cloud and its storage order, then the bytes of the scene in that order.
+  // Throws InputError.
+  virtual Arrangement<StoredTable> arrange(const ActivatedCloud& decoded,
+                                           const StorageConfig&) const = 0;
+  virtual MemoryImage image_of(const EncodedCloud& encoded, const StoredTable&) const = 0;
+  // Restoring: the table of an image whose records are `decoded`, with nothing in it believed.
+  // source: what errors name. Throws InputError.
+  virtual StoredTable restore(const PackedScene& packed, const ActivatedCloud& decoded,
+                              const std::string& source) const = 0;
 
   // Files. The numbers that a packed scene's header has of this order, in the order of the file;
   // `table` is of this order, and only what its layout follows from need be right in it.

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "algorithm/splat/reorder.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/vq/image_weights.h"
 
@@ -33,8 +34,15 @@ StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
     encoded = encode(cloud, config, weighing, progress);
     out.original = std::move(cloud);
   }
-  scheme.store(encoded, out);
+  // From here on there is no other order than that of storage.
+  Arrangement<StoredTable> arrangement = scheme.arrange(encoded.decoded, config);
+  const std::vector<std::uint32_t>& order = arrangement.storage_order;
+  encoded = reordered(std::move(encoded), order);
+  if (out.original) out.original = reordered(*out.original, order);
+  out.image = scheme.image_of(encoded, arrangement.table);
+  out.table = std::move(arrangement.table);
   out.decoded = std::move(encoded.decoded);
+  out.file_indices = std::move(arrangement.storage_order);
   return out;
 }
 

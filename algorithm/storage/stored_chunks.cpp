@@ -13,12 +13,13 @@ namespace {
 
 class TableCheck {
  public:
-  TableCheck(const ChunkTree& tree, std::uint32_t chunk_gaussians, const std::string& source)
-      : tree_(tree), most_(chunk_gaussians), source_(source) {}
+  TableCheck(const ChunkTree& tree, std::uint32_t chunk_gaussians, const ActivatedCloud& decoded,
+             const std::string& source)
+      : tree_(tree), most_(chunk_gaussians), decoded_(decoded), source_(source) {}
 
   // Every node is the child of one before it, every slot in one chunk. Returns the levels of nodes.
   std::uint32_t check_shape() {
-    const std::size_t slots = tree_.storage_order.size();
+    const std::size_t slots = decoded_.size();
     level_.assign(tree_.nodes.size(), 0);
     in_chunk_.assign(slots, 0);
     std::uint32_t depth = 0;
@@ -51,10 +52,10 @@ class TableCheck {
   }
 
   // A child's bound holds all Gaussians below it. After check_shape().
-  void check_bounds(const ActivatedCloud& decoded) const {
-    std::vector<ChunkBound> of_slot(tree_.storage_order.size());
+  void check_bounds() const {
+    std::vector<ChunkBound> of_slot(decoded_.size());
     tbb::parallel_for(std::size_t{0}, of_slot.size(), [&](std::size_t slot) {
-      of_slot[slot] = gaussian_bound(decoded.gaussians[tree_.storage_order[slot]]);
+      of_slot[slot] = gaussian_bound(decoded_.gaussians[slot]);
     });
     std::vector<ChunkBound> below(tree_.nodes.size());
     for (std::size_t at = tree_.nodes.size(); at-- > 0;) {
@@ -103,11 +104,6 @@ class TableCheck {
     for (std::uint64_t slot = first; slot < first + count; ++slot) {
       if (in_chunk_[slot] != 0) refuse(node, fmt::format("slot {} is in another chunk too", slot));
       in_chunk_[slot] = 1;
-      if (slot > first && tree_.storage_order[slot] <= tree_.storage_order[slot - 1]) {
-        refuse(node, fmt::format("slot {} is not behind slot {} in the scene's file, expected a "
-                                 "chunk in its order",
-                                 slot, slot - 1));
-      }
     }
   }
 
@@ -126,6 +122,7 @@ class TableCheck {
 
   const ChunkTree& tree_;
   const std::uint32_t most_;
+  const ActivatedCloud& decoded_;
   const std::string& source_;
   std::vector<std::uint32_t> level_;  // of each node, from 1; 0: no parent yet
   std::vector<char> in_chunk_;        // of each slot
@@ -134,20 +131,18 @@ class TableCheck {
 }  // namespace
 
 ChunkTree read_chunk_table(const MemoryImage& image, std::uint32_t chunk_gaussians,
-                           std::vector<std::uint32_t> storage_order, const ActivatedCloud& decoded,
-                           const std::string& source) {
+                           const ActivatedCloud& decoded, const std::string& source) {
   const ChunkTableLayout& layout = image.layout.chunk_table();
   ChunkTree tree;
-  tree.storage_order = std::move(storage_order);
   tree.chunk_count = layout.chunk_count;
   tree.nodes.resize(layout.nodes.count);
   if (layout.nodes.count > 0) {
     std::memcpy(tree.nodes.data(), image.at(layout.nodes.base),
                 tree.nodes.size() * sizeof(ChunkNode));
   }
-  TableCheck check(tree, chunk_gaussians, source);
+  TableCheck check(tree, chunk_gaussians, decoded, source);
   tree.depth = check.check_shape();
-  check.check_bounds(decoded);
+  check.check_bounds();
   return tree;
 }
 

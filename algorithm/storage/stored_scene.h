@@ -4,23 +4,33 @@
 #include <cstdint>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "algorithm/memory/memory_image.h"
 #include "algorithm/memory/storage_config.h"
 #include "algorithm/splat/gaussian.h"
-#include "algorithm/storage/file_order.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 
+// Gaussians as the scene's file has them, less those that are not stored; no table finds them.
+struct NoTable {};
+
+// [StorageOrder]
+using StoredTable = std::variant<VoxelGrid, ChunkTree, NoTable>;
+
+// Its clouds are in storage order, a Gaussian's index its slot, and hold what is stored and no
+// more: what is left out no view can show, in the one as in the other.
 struct StoredScene {
   StorageConfig storage;  // nothing left to be chosen
   MemoryImage image;
-  ActivatedCloud decoded;  // what the units get out of the image's records
-  std::variant<VoxelGrid, ChunkTree, FileOrder> table;  // of `decoded`, by the storage order
+  ActivatedCloud decoded;                  // what the units get out of the image's records
+  StoredTable table;                       // of `decoded`
   std::optional<ActivatedCloud> original;  // that was encoded; none where nothing was lost
-  std::uint64_t gaussians = 0;             // in the scene, stored or not
+  // [slot] index in the scene's file; none of a scene out of a packed file, which does not say.
+  std::optional<std::vector<std::uint32_t>> file_indices;
+  std::uint64_t gaussians = 0;  // in the scene, stored or not
 
   // Whether `original`, or `decoded` in its stead, is what was stored. Not of a scene restored from
   // a lossy encoding: what that cost cannot be told.

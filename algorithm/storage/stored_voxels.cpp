@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <numeric>
 #include <optional>
 
 #include "algorithm/input_error.h"
@@ -117,8 +116,6 @@ VoxelGrid read_voxel_table(const MemoryImage& image, const ActivatedCloud& decod
   if (layout.cuts.count > 0) {
     std::memcpy(grid.cuts.data(), image.at(layout.cuts.base), grid.cuts.size() * sizeof(float));
   }
-  grid.storage_order.resize(gaussians);
-  std::iota(grid.storage_order.begin(), grid.storage_order.end(), 0U);
 
   check_records(grid, gaussians, source);
   const std::vector<glm::ivec3> cells = voxel_cells(grid, source);

@@ -2,11 +2,9 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <numeric>
 
 #include "algorithm/input_error.h"
 #include "algorithm/storage/build_memory_image.h"
-#include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/schemes.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/stored_tables.h"
@@ -38,21 +36,18 @@ class VoxelScheme : public StorageScheme {
                                  config.voxel_size));
   }
 
-  void store(const EncodedCloud& encoded, StoredScene& out) const override {
-    const StorageConfig& config = out.storage;
-    VoxelGrid grid =
-        build_voxel_grid(encoded.decoded, static_cast<float>(config.voxel_size), stored_of(config));
-    out.image = build_memory_image(encoded, grid);
-    out.table = std::move(grid);
+  Arrangement<StoredTable> arrange(const ActivatedCloud& decoded,
+                                   const StorageConfig& config) const override {
+    auto [grid, storage_order] =
+        arrange_by_voxels(decoded, static_cast<float>(config.voxel_size), stored_of(config));
+    return {std::move(grid), std::move(storage_order)};
   }
-
-  // The file has no index of a slot in the scene: the slots' order stands for it.
-  void restore(const PackedScene& packed, const std::string& source,
-               StoredScene& out) const override {
-    std::vector<std::uint32_t> slots(packed.image.layout.gaussian_count());
-    std::iota(slots.begin(), slots.end(), 0U);
-    out.decoded = decode_image(packed.image, slots, source);
-    out.table = read_voxel_table(packed.image, out.decoded, source);
+  MemoryImage image_of(const EncodedCloud& encoded, const StoredTable& table) const override {
+    return build_memory_image(encoded, std::get<VoxelGrid>(table));
+  }
+  StoredTable restore(const PackedScene& packed, const ActivatedCloud& decoded,
+                      const std::string& source) const override {
+    return read_voxel_table(packed.image, decoded, source);
   }
 
   TableLayout empty_table() const override { return VoxelTableLayout{}; }
@@ -98,11 +93,9 @@ class VoxelScheme : public StorageScheme {
 }  // namespace
 
 MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid) {
-  MemoryImage image =
-      store_gaussians(scene,
-                      lay_out_voxels(scene.format, count_of(grid.storage_order), grid.frame,
-                                     count_of(grid.nodes), count_of(grid.voxels)),
-                      grid.storage_order);
+  MemoryImage image = store_gaussians(
+      scene, lay_out_voxels(scene.format, count_of(scene.decoded.gaussians), grid.frame,
+                            count_of(grid.nodes), count_of(grid.voxels)));
   const VoxelTableLayout& table = image.layout.voxel_table();
   store_table(grid.nodes, table.nodes.base, image);
   store_table(grid.voxels, table.voxels.base, image);

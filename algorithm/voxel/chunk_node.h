@@ -12,11 +12,13 @@ namespace sgs {
 constexpr int kChunkNodeWidth = 8;
 
 // What is known of all Gaussians below a child without looking at them. World frame.
-struct ChunkBound {
-  glm::vec3 low{0.0F}, high{0.0F};  // box of the centres
-  glm::vec3 extent{0.0F};           // largest visible half-extent along each axis
-  float scale_max = 0;              // largest scale
+template <class T>
+struct ChunkBoundOf {
+  glm::vec<3, T> low{T(0.0F)}, high{T(0.0F)};  // box of the centres
+  glm::vec<3, T> extent{T(0.0F)};              // largest visible half-extent along each axis
+  T scale_max = T(0.0F);                       // largest scale
 };
+using ChunkBound = ChunkBoundOf<float>;
 
 // The bound of two sets of Gaussians together.
 ChunkBound merged(const ChunkBound& a, const ChunkBound& b);

@@ -20,7 +20,6 @@
 // pixels without it.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,24 +29,147 @@
 
 namespace sgs {
 
-struct ChunkTest {
-  bool touches;   // false: no Gaussian of the chunk changes a pixel of the group
-  float nearest;  // no Gaussian of the chunk that is in front has a smaller computed v_z
+template <class T>
+struct ChunkTestOf {
+  bool touches;  // false: no Gaussian of the chunk changes a pixel of the group
+  T nearest;     // no Gaussian of the chunk that is in front has a smaller computed v_z
 };
+using ChunkTest = ChunkTestOf<float>;
 
-class GroupFrustum {
+template <class T>
+class GroupFrustumOf {
  public:
-  GroupFrustum(const View<float>& view, const PixelRect& pixels) : view_(view), pixels_(pixels) {}
+  GroupFrustumOf(const View<T>& view, const PixelRect& pixels) : view_(view), pixels_(pixels) {}
 
-  ChunkTest test(const ChunkBound& bound) const;
+  ChunkTestOf<T> test(const ChunkBoundOf<T>& bound) const;
 
  private:
-  // One side of the group: a point passes when direction . v >= 0 in the camera frame.
-  bool beyond_side(const glm::vec3& centre, const glm::vec3& half, int axis, float sign,
-                   float edge_px, float padding_px, float reach, float rounding) const;
+  using Vec = glm::vec<3, T>;
+  struct Interval {
+    T low, high;
+  };
 
-  const View<float>& view_;
+  static Interval ratio_range(Interval x, Interval z, T limit);
+  static T reach_along(const Vec& axis, const Vec& axis_z, Interval range, const Vec& extent);
+  // One side of the group: a point passes when direction . v >= 0 in the camera frame.
+  bool beyond_side(const Vec& centre, const Vec& half, int axis, T sign, T edge_px, T padding_px,
+                   T reach, T rounding) const;
+
+  const View<T>& view_;
   PixelRect pixels_;
 };
+using GroupFrustum = GroupFrustumOf<float>;
+
+// Sum over the world's axes of |n_a| E_a, at its largest for n = axis - t axis_z with t in the
+// range: |n_a| is convex in t, so one of the ends.
+template <class T>
+T GroupFrustumOf<T>::reach_along(const Vec& axis, const Vec& axis_z, Interval range,
+                                 const Vec& extent) {
+  using std::abs;
+  T sum = T(0.0F);
+  for (int a = 0; a < 3; ++a) {
+    const T n = max_of(T(abs(T(axis[a] - range.low * axis_z[a]))),
+                       T(abs(T(axis[a] - range.high * axis_z[a]))));
+    // An infinite extent along an axis that does not matter.
+    sum = sum + (n > T(0.0F) ? n * extent[a] : T(0.0F));
+  }
+  return sum;
+}
+
+// Range of clamp(v_x / v_z) over a box with v_z in [near, far], near > 0.
+template <class T>
+typename GroupFrustumOf<T>::Interval GroupFrustumOf<T>::ratio_range(Interval x, Interval z,
+                                                                    T limit) {
+  using std::abs;
+  const T low = x.low >= T(0.0F) ? x.low / z.high : x.low / z.low;
+  const T high = x.high >= T(0.0F) ? x.high / z.low : x.high / z.high;
+  const T rounding = T(1e-5F), one = T(1.0F);
+  return {max_of(T(-limit), T(low - rounding * (one + T(abs(low))))),
+          min_of(limit, T(high + rounding * (one + T(abs(high)))))};
+}
+
+template <class T>
+bool GroupFrustumOf<T>::beyond_side(const Vec& centre, const Vec& half, int axis, T sign, T edge_px,
+                                    T padding_px, T reach, T rounding) const {
+  using std::abs;
+  using std::isfinite;
+  const T focal = axis == 0 ? view_.focal_x : view_.focal_y;
+  const T middle = axis == 0 ? view_.centre_x : view_.centre_y;
+  const T slope = sign * (middle - edge_px) + padding_px;
+  T most = T(0.0F);
+  for (int a = 0; a < 3; ++a) {
+    const T n = sign * focal * view_.cam_from_world[axis][a] + slope * view_.cam_from_world[2][a];
+    most = most + (n * centre[a] + T(abs(n)) * half[a]);
+  }
+  const T slack = T(64 * kRoundoff) * (focal + T(abs(slope))) * rounding;
+  const T margin = most + focal * reach + slack;
+  return margin < T(0.0F) && isfinite(margin);  // a sum that overflowed says nothing
+}
+
+template <class T>
+ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
+  using std::abs;
+  const T one = T(1.0F);
+  // Box of the centres relative to the camera: middle and half-size, the latter rounded up.
+  Vec centre, half;
+  T far_sum = T(0.0F);  // largest sum_a |p_a - c_a|
+  // from_eye is monotonic in each coordinate: the corners bound what it gives for every centre.
+  const Vec low = from_eye(view_, bound.low), high = from_eye(view_, bound.high);
+  for (int a = 0; a < 3; ++a) {
+    centre[a] = T(0.5F) * low[a] + T(0.5F) * high[a];
+    half[a] = (high[a] - centre[a]) * T(1 + 4 * kRoundoff) + T(4 * kRoundoff) * T(abs(centre[a]));
+    far_sum = far_sum + (T(abs(centre[a])) + half[a]);
+  }
+  const auto range_along = [&](int axis) {
+    T at = T(0.0F), spread = T(0.0F);
+    for (int a = 0; a < 3; ++a) {
+      at = at + view_.cam_from_world[axis][a] * centre[a];
+      spread = spread + T(abs(view_.cam_from_world[axis][a])) * half[a];
+    }
+    const T rounding = T(16 * kRoundoff) * far_sum;
+    return Interval{at - spread - rounding, at + spread + rounding};
+  };
+  const T near_plane = constant<T>(kNearPlane);
+  const Interval depth = range_along(2);
+  if (depth.high < near_plane) return {false, T(0.0F)};
+  // Beyond float depth.low may not be a number: then nothing is known.
+  const Interval z{depth.low > near_plane ? depth.low : near_plane, depth.high};
+  const Interval u = ratio_range(range_along(0), z, view_.limit_x);
+  const Interval w = ratio_range(range_along(1), z, view_.limit_y);
+
+  const T u_max = max_of(T(abs(u.low)), T(abs(u.high)));
+  const T w_max = max_of(T(abs(w.low)), T(abs(w.high)));
+  const T stretch = sqrt_of(T(one + u_max * u_max + w_max * w_max)) * view_.stretch * T(1.00001F);
+  const T focal = max_of(view_.focal_x, view_.focal_y);
+  const T spread = focal * bound.scale_max * stretch / z.low;
+  const T lambda = (spread * spread + constant<T>(kLowPass)) * T(1.0001F);
+  const T widening = ellipse_widening(T(T(4.0F) / constant<T>(kLowPass) * lambda));
+
+  T reach_x, reach_y, padding_px;
+  if (widening < T(kMaxWidening)) {
+    const T factor = sqrt_of(T(one + widening)) * T(1.0002F);
+    const Vec* axes = view_.cam_from_world;
+    reach_x = factor * reach_along(axes[0], axes[2], u, bound.extent);
+    reach_y = factor * reach_along(axes[1], axes[2], w, bound.extent);
+    // sqrt(0.3)
+    padding_px = factor * constant<T>(kVisibleSigmas) * T(0.5478F) + T(0.05F);
+  } else {
+    // focal / focal_x or _y: beyond_side multiplies by the focal length of its own axis.
+    const T reach = constant<T>(kRadiusSigmas) * bound.scale_max * stretch * T(1.0001F);
+    reach_x = reach * focal / view_.focal_x;
+    reach_y = reach * focal / view_.focal_y;
+    // sqrt(0.3 + sqrt(0.1))
+    padding_px = constant<T>(kRadiusSigmas) * T(0.7851F) + one + constant<T>(kTilePx);
+  }
+  const auto px = [](int at) { return T(static_cast<float>(at)); };
+  const bool outside =
+      beyond_side(centre, half, 0, one, px(pixels_.x0), padding_px, reach_x, far_sum) ||
+      beyond_side(centre, half, 0, -one, px(pixels_.x1 - 1), padding_px, reach_x, far_sum) ||
+      beyond_side(centre, half, 1, one, px(pixels_.y0), padding_px, reach_y, far_sum) ||
+      beyond_side(centre, half, 1, -one, px(pixels_.y1 - 1), padding_px, reach_y, far_sum);
+  return {!outside, z.low};
+}
+
+extern template class GroupFrustumOf<float>;
 
 }  // namespace sgs

@@ -10,8 +10,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
-#include "algorithm/splat/footprint.h"
+#include "algorithm/splat/visible_extents.h"
 
 namespace sgs {
 namespace {
@@ -151,11 +152,13 @@ class Builder {
 // Turns the binary tree into wide nodes and gives chunks their storage slots.
 class Widener {
  public:
-  Widener(std::vector<Item>& items, ChunkTree& tree) : items_(items), tree_(tree) {}
+  Widener(std::vector<Item>& items, Arrangement<ChunkTree>& out)
+      : items_(items), tree_(out.table), storage_order_(out.storage_order) {}
 
   void run(const Binary& root) {
     tree_.nodes.emplace_back();
     fill(0, root, 1);
+    number_by_level();
   }
 
  private:
@@ -165,7 +168,7 @@ class Widener {
     std::vector<ChunkBound> bounds;
     ChunkNode node;
     node.children = static_cast<std::uint8_t>(children.size());
-    node.first_slot = static_cast<std::uint32_t>(tree_.storage_order.size());
+    node.first_slot = static_cast<std::uint32_t>(storage_order_.size());
     node.first_node = static_cast<std::uint32_t>(tree_.nodes.size());
     for (std::size_t c = 0; c < children.size(); ++c) {
       bounds.push_back(children[c]->bound);
@@ -182,6 +185,22 @@ class Widener {
     for (const Binary* child : children) {
       if (!child->leaf()) fill(inner++, *child, level + 1);
     }
+  }
+
+  // Breadth first, so that the nodes that every group opens are the first; slots keep the order of
+  // the descent, in which neighbours are near.
+  void number_by_level() {
+    std::vector<ChunkNode> numbered;
+    numbered.reserve(tree_.nodes.size());
+    numbered.push_back(tree_.nodes[0]);
+    for (std::size_t at = 0; at < numbered.size(); ++at) {
+      const std::uint32_t first = numbered[at].first_node;
+      numbered[at].first_node = static_cast<std::uint32_t>(numbered.size());
+      std::uint32_t inner = 0;
+      for (int c = 0; c < numbered[at].children; ++c) inner += numbered[at].count[c] == 0 ? 1 : 0;
+      for (std::uint32_t k = 0; k < inner; ++k) numbered.push_back(tree_.nodes[first + k]);
+    }
+    tree_.nodes = std::move(numbered);
   }
 
   // Up to eight descendants that together hold all of `from`: the largest is opened first.
@@ -206,46 +225,30 @@ class Widener {
 
   void store(const Binary& leaf) {
     ++tree_.chunk_count;
-    const auto first = tree_.storage_order.size();
+    const auto first = storage_order_.size();
     for (std::uint32_t i = leaf.begin; i < leaf.end; ++i) {
-      tree_.storage_order.push_back(items_[i].index);
+      storage_order_.push_back(items_[i].index);
     }
-    std::sort(tree_.storage_order.begin() + static_cast<std::ptrdiff_t>(first),
-              tree_.storage_order.end());
+    std::sort(storage_order_.begin() + static_cast<std::ptrdiff_t>(first), storage_order_.end());
   }
 
   std::vector<Item>& items_;
   ChunkTree& tree_;
+  std::vector<std::uint32_t>& storage_order_;
 };
 
 }  // namespace
 
 ChunkBound gaussian_bound(const Gaussian<float>& g) {
-  float rotation[3][3];
-  rotation_rows(g.quat, rotation);
-  const float k = std::sqrt(std::max(0.0F, visible_cutoff(g.opacity)));
-  constexpr float kRoundedUp = 1.00001F;
-  ChunkBound bound;
-  bound.low = bound.high = g.mean;
-  for (int a = 0; a < 3; ++a) {
-    float sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float m = rotation[a][axis] * g.scale[axis];
-      sum += m * m;
-    }
-    // Beyond float the square overflows where the length does not.
-    bound.extent[a] = std::isfinite(sum) ? k * std::sqrt(sum) * kRoundedUp
-                                         : std::numeric_limits<float>::infinity();
-    bound.scale_max = std::max(bound.scale_max, g.scale[a]);
-  }
-  return bound;
+  const VisibleExtents extents = visible_extents(g);
+  return {g.mean, g.mean, extents.extent, extents.scale_max};
 }
 
-ChunkTree build_chunk_tree(const ActivatedCloud& cloud, std::uint32_t chunk_gaussians,
-                           Stored stored) {
-  ChunkTree tree;
+Arrangement<ChunkTree> arrange_by_chunks(const ActivatedCloud& cloud, std::uint32_t chunk_gaussians,
+                                         Stored stored) {
+  Arrangement<ChunkTree> out;
   const std::vector<std::uint32_t> kept = stored_gaussians(cloud, stored);
-  if (kept.empty()) return tree;
+  if (kept.empty()) return out;
   std::vector<Item> items(kept.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, kept.size(), 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -257,11 +260,11 @@ ChunkTree build_chunk_tree(const ActivatedCloud& cloud, std::uint32_t chunk_gaus
       item.along[3] = std::log2(std::clamp(std::max({e.x, e.y, e.z}), 1e-30F, 1e30F));
     }
   });
-  tree.storage_order.reserve(items.size());
+  out.storage_order.reserve(items.size());
   const auto root =
       Builder(items, chunk_gaussians).build(0, static_cast<std::uint32_t>(items.size()));
-  Widener(items, tree).run(*root);
-  return tree;
+  Widener(items, out).run(*root);
+  return out;
 }
 
 }  // namespace sgs

@@ -14,21 +14,19 @@
 namespace sgs {
 
 struct ChunkTree {
-  std::vector<ChunkNode> nodes;  // root at 0; empty for an empty cloud
-  std::vector<std::uint32_t>
-      storage_order;  // [stored] file index of each slot: by chunk, then index
+  std::vector<ChunkNode> nodes;  // breadth first: root at 0; empty for an empty cloud
   std::uint32_t chunk_count = 0;
   std::uint32_t depth = 0;  // levels of nodes
 };
 
-// chunk_gaussians: most Gaussians in a chunk, 1 to 65535. Deterministic whatever the number of
-// threads. Splits minimise the surface area heuristic over boxes inflated by the visible extents:
-// the area is what decides how many pixel groups a chunk meets.
-ChunkTree build_chunk_tree(const ActivatedCloud& cloud, std::uint32_t chunk_gaussians,
-                           Stored stored = Stored::kVisible);
+// Storage order: by chunk, then index. chunk_gaussians: most Gaussians in a chunk, 1 to 65535.
+// Deterministic whatever the number of threads. Splits minimise the surface area heuristic over
+// boxes inflated by the visible extents: the area is what decides how many pixel groups a chunk
+// meets.
+Arrangement<ChunkTree> arrange_by_chunks(const ActivatedCloud& cloud, std::uint32_t chunk_gaussians,
+                                         Stored stored = Stored::kVisible);
 
-// Bound of one Gaussian: its centre, k sqrt(Sigma_aa) with k = sqrt(2 ln(255 opacity)), its largest
-// scale; rounded up.
+// Bound of one Gaussian: its centre and its visible extents.
 ChunkBound gaussian_bound(const Gaussian<float>& g);
 
 }  // namespace sgs

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <type_traits>
 
 #include "algorithm/voxel/ray.h"
 #include "algorithm/voxel/voxel_grid.h"
@@ -15,15 +16,18 @@ namespace sgs {
 
 // Table is anything with `VoxelNode node(std::uint32_t index)`: a grid in memory or, in VSU, a
 // cache in front of the modelled DRAM (the call may then take simulated time).
-template <class Table>
+template <class Table, class T = float>
 class RayWalk {
  public:
-  RayWalk(const VoxelFrame& frame, Table& table) : frame_(frame), table_(table) {}
+  RayWalk(const VoxelFrame& frame, Table& table) : RayWalk(frame, table, T(frame.voxel_size)) {}
+  // voxel_size: the frame's, as a value of the datapath.
+  RayWalk(const VoxelFrame& frame, Table& table, T voxel_size)
+      : frame_(frame), voxel_size_(voxel_size), table_(table) {}
 
   // Calls visit(voxel index) for each occupied voxel that the ray meets, nearest first. Returns the
   // number of steps taken: nodes looked into and blocks crossed.
   template <class Visit>
-  std::uint32_t walk(const Ray& ray, Visit&& visit) {
+  std::uint32_t walk(const RayOf<T>& ray, Visit&& visit) {
     ray_ = &ray;
     std::uint32_t steps = 1;
     if (!enter()) return steps;
@@ -58,6 +62,16 @@ class RayWalk {
   }
 
  private:
+  // In which a position along a ray is computed from its time.
+  using Wide = std::conditional_t<std::is_same_v<T, float>, double, T>;
+  static Wide wide(int value) {
+    if constexpr (std::is_same_v<Wide, double>) {
+      return value;
+    } else {
+      return Wide(static_cast<float>(value));
+    }
+  }
+
   bool outside() const {
     const auto side = static_cast<unsigned>(frame_.side_cells());
     return static_cast<unsigned>(cell_.x) >= side || static_cast<unsigned>(cell_.y) >= side ||
@@ -65,22 +79,21 @@ class RayWalk {
   }
 
   // Time at which the ray crosses the plane below `cell` (relative to the root) of an axis.
-  float plane_time(int axis, int cell) const {
-    return ray_->plane_time(axis, cell + frame_.origin_cell[axis], frame_.voxel_size);
+  T plane_time(int axis, int cell) const {
+    return ray_->plane_time(axis, cell + frame_.origin_cell[axis], voxel_size_);
   }
 
   // Cell along `axis` when the ray crosses another axis' plane at `time`, between `from` and `last`
   // (in the direction of travel): all planes crossed before count.
-  int cell_when(int axis, float time, int crossed_axis, int from, int last) const {
+  int cell_when(int axis, T time, int crossed_axis, int from, int last) const {
     const int step = ray_->step[axis];
     if (step == 0 || from == last) return from;
-    const double position =
-        (ray_->origin[axis] + static_cast<double>(time) * ray_->direction[axis]) /
-        frame_.voxel_size;
-    const double relative = std::floor(position) - frame_.origin_cell[axis];
+    using std::floor;
+    const Wide position =
+        (Wide(ray_->origin[axis]) + Wide(time) * Wide(ray_->direction[axis])) / Wide(voxel_size_);
+    const Wide relative = floor(position) - wide(frame_.origin_cell[axis]);
     const int low = std::min(from, last), high = std::max(from, last);
-    int cell =
-        static_cast<int>(std::clamp(relative, static_cast<double>(low), static_cast<double>(high)));
+    int cell = static_cast<int>(clamp_of(relative, wide(low), wide(high)));
     const int far_side = step > 0 ? 1 : 0;  // plane by which a cell is left
     const auto left_before = [&](int c) {
       return crosses_before(plane_time(axis, c + far_side), axis, time, crossed_axis);
@@ -94,12 +107,12 @@ class RayWalk {
   void leave_block(int level) {
     const int size = 1 << (2 * level);
     int exit_axis = 0;
-    float exit_time = std::numeric_limits<float>::infinity();
+    T exit_time = T(std::numeric_limits<float>::infinity());
     glm::ivec3 last;
     for (int axis = 0; axis < 3; ++axis) {
       const int low = cell_[axis] & ~(size - 1);
       last[axis] = ray_->step[axis] > 0 ? low + size - 1 : low;
-      const float time = plane_time(axis, ray_->step[axis] > 0 ? low + size : low);
+      const T time = plane_time(axis, ray_->step[axis] > 0 ? low + size : low);
       if (axis == 0 || time < exit_time) {
         exit_time = time;
         exit_axis = axis;
@@ -120,14 +133,15 @@ class RayWalk {
   // Puts the ray into the camera's cell or, from outside, into the first cell of the root.
   bool enter() {
     const int side = frame_.side_cells();
-    float entry_time = 0;
+    T entry_time = T(0.0F);
     int entry_axis = -1;
     for (int axis = 0; axis < 3; ++axis) {
-      cell_[axis] = cell_of(ray_->origin[axis], frame_.voxel_size) - frame_.origin_cell[axis];
+      cell_[axis] =
+          cell_of(value_of(ray_->origin[axis]), frame_.voxel_size) - frame_.origin_cell[axis];
       if (cell_[axis] >= 0 && cell_[axis] < side) continue;
       const int step = ray_->step[axis];
       if (cell_[axis] < 0 ? step <= 0 : step >= 0) return false;
-      const float time = plane_time(axis, step > 0 ? 0 : side);
+      const T time = plane_time(axis, step > 0 ? 0 : side);
       if (entry_axis < 0 || crosses_before(entry_time, entry_axis, time, axis)) {
         entry_time = time;
         entry_axis = axis;
@@ -150,8 +164,9 @@ class RayWalk {
   }
 
   const VoxelFrame frame_;
+  const T voxel_size_;
   Table& table_;
-  const Ray* ray_ = nullptr;
+  const RayOf<T>* ray_ = nullptr;
   glm::ivec3 cell_{0};     // relative to the root's corner
   VoxelNode node_at_[12];  // by level: the path from the root to the current cell
 };

@@ -106,11 +106,13 @@ std::vector<std::uint32_t> stored_gaussians(const ActivatedCloud& cloud, Stored 
   return kept;
 }
 
-VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size, Stored stored) {
-  VoxelGrid grid;
+Arrangement<VoxelGrid> arrange_by_voxels(const ActivatedCloud& cloud, float voxel_size,
+                                         Stored stored) {
+  Arrangement<VoxelGrid> out;
+  VoxelGrid& grid = out.table;
   grid.frame.voxel_size = voxel_size;
   const std::vector<std::uint32_t> kept = stored_gaussians(cloud, stored);
-  if (kept.empty()) return grid;
+  if (kept.empty()) return out;
   grid.frame = fit_frame(cloud, kept, voxel_size);
 
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(kept.size());
@@ -127,17 +129,17 @@ VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size, Stored
   tbb::parallel_sort(keyed.begin(), keyed.end());
 
   std::vector<std::uint64_t> codes;
-  grid.storage_order.reserve(keyed.size());
+  out.storage_order.reserve(keyed.size());
   for (const auto& [code, index] : keyed) {
     if (codes.empty() || codes.back() != code) {
       codes.push_back(code);
-      grid.voxels.push_back({static_cast<std::uint32_t>(grid.storage_order.size()), 0});
+      grid.voxels.push_back({static_cast<std::uint32_t>(out.storage_order.size()), 0});
     }
     ++grid.voxels.back().count;
-    grid.storage_order.push_back(index);
+    out.storage_order.push_back(index);
   }
 
-  grid.cuts = cut_voxels(cloud, grid.voxels, grid.storage_order);
+  grid.cuts = cut_voxels(cloud, grid.voxels, out.storage_order);
 
   // Levels bottom up, stored top down: the base of each level is known once all are counted.
   std::vector<std::vector<VoxelNode>> levels;
@@ -149,7 +151,7 @@ VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size, Stored
       grid.nodes.push_back(node);
     }
   }
-  return grid;
+  return out;
 }
 
 float inner_extent(const ActivatedCloud& cloud) {

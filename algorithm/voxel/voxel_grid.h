@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/voxel/arrangement.h"
 
 namespace sgs {
 
@@ -39,9 +40,7 @@ struct VoxelGrid {
   VoxelFrame frame;
   std::vector<VoxelNode> nodes;     // breadth first, root at 0; empty for an empty cloud
   std::vector<VoxelRecord> voxels;  // Morton order
-  std::vector<std::uint32_t>
-      storage_order;        // [N] file index of each storage slot: by voxel, piece, then index
-  std::vector<float> cuts;  // of voxels into pieces: voxel_cuts.h
+  std::vector<float> cuts;          // of voxels into pieces: voxel_cuts.h
 };
 
 // Place of local cell (x, y, z), each 0 to 3, among the 64 children.
@@ -53,16 +52,16 @@ inline unsigned child_bit(unsigned x, unsigned y, unsigned z) {
 // Which Gaussians are stored: all, or only those that some view could show (opacity >= 1/255).
 enum class Stored { kAll, kVisible };
 
-// Their file indices, ascending.
+// Their indices in the cloud, ascending.
 std::vector<std::uint32_t> stored_gaussians(const ActivatedCloud& cloud, Stored stored);
 
 // Cell of a coordinate along one axis.
 int cell_of(float coordinate, float voxel_size);
 
-// Throws InputError when the occupied cells span more than 2^20 along an axis (the message names
-// the smallest voxel size that fits).
-VoxelGrid build_voxel_grid(const ActivatedCloud& cloud, float voxel_size,
-                           Stored stored = Stored::kVisible);
+// Storage order: by voxel, then index. Throws InputError when the occupied cells span more than
+// 2^20 along an axis (the message names the smallest voxel size that fits).
+Arrangement<VoxelGrid> arrange_by_voxels(const ActivatedCloud& cloud, float voxel_size,
+                                         Stored stored = Stored::kVisible);
 
 // Longest side of the box between the 0.1 % and 99.9 % quantiles of the centres; world units.
 float inner_extent(const ActivatedCloud& cloud);

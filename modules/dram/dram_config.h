@@ -39,8 +39,8 @@ struct DramConfig {
   // The way through the controller and the PHY: of a request to its first command, and of a datum
   // (or of the answer to a write that is not posted) back. gem5's defaults are 10 and 10
   // (src/mem/MemCtrl.py: static_frontend_latency, static_backend_latency).
-  double front_end_ns = 0;
-  double back_end_ns = 0;
+  double front_end_ns = 10;
+  double back_end_ns = 10;
 
   RefreshMode refresh = RefreshMode::kAllBank;
   std::uint32_t refresh_postpone_max = 0;      // refresh commands that may be owed
@@ -48,7 +48,7 @@ struct DramConfig {
   std::uint32_t self_refresh_idle_cycles = 0;  // of a rank, until self-refresh; 0: never
 
   std::string current_set;     // of the memspec; empty: its default
-  double io_pj_per_bit = 0.0;  // stated adder; no published set separates VDDQ
+  double io_pj_per_bit = 3.0;  // stated adder; no published set separates VDDQ
 
   // InputError naming the key, what it is and what is allowed. Loads the memspec.
   void validate() const;

@@ -12,9 +12,10 @@ namespace sgs {
 struct BuiltFor {
   std::uint32_t group_px = 0;
   FrameFormat frame_format = FrameFormat::kRgb8;
-  SecondHalfFormat second_half;       // the widest
-  std::uint32_t chunk_gaussians = 0;  // exact order: most in one chunk
-  MemoryPortConfig memory_port;       // of each unit's port
+  SecondHalfFormat second_half;                               // the widest
+  std::uint32_t first_half_bytes = 0, second_half_bytes = 0;  // the largest of any degree
+  std::uint32_t chunk_gaussians = 0;                          // exact order: most in one chunk
+  MemoryPortConfig memory_port;                               // of each unit's port
 };
 
 // The on-chip memories.

@@ -17,13 +17,24 @@ void visit(ConfigVisitor& v, ExactConfig& c) {
 }
 
 ExactFifos::ExactFifos(const ExactConfig& c)
-    : keys{"keys to sorting", "keys", c.hfus * c.sorting_units, c.hfu.candidate_fifo_entries,
-           c.hfu.cfu_depth_cycles},
-      sorted_keys{"keys to merge", "keys", c.sorting_units, c.merge.input_fifo_entries,
-                  c.merge.latency_cycles},
-      released{"keys to HFUs", "keys", c.hfus, c.merge.output_fifo_entries, 1},
-      splats{"splats to rendering", "splats", c.hfus, c.rendering.input_fifo_entries,
-             c.hfu.ffu_depth_cycles} {}
+    : keys{"keys to sorting",        "keys",
+           c.hfus * c.sorting_units, c.hfu.candidate_fifo_entries,
+           c.hfu.cfu_depth_cycles,   "hfu.candidate_fifo_entries"},
+      sorted_keys{"keys to merge",        "keys",
+                  c.sorting_units,        c.merge.input_fifo_entries,
+                  c.merge.latency_cycles, "merge.input_fifo_entries"},
+      released{"keys to HFUs",
+               "keys",
+               c.hfus,
+               c.merge.output_fifo_entries,
+               1,
+               "merge.output_fifo_entries"},
+      splats{"splats to rendering",
+             "splats",
+             c.hfus,
+             c.rendering.input_fifo_entries,
+             c.hfu.ffu_depth_cycles,
+             "rendering.input_fifo_entries"} {}
 
 SramUses sram_uses(const ExactConfig& c, const StorageConfig& storage) {
   const BuiltFor made = built_for(c, storage);

@@ -22,7 +22,7 @@ struct ExactConfig : StreamingConfig {
     group_px = 128;
     sram = {8192, 0, 355328};
     hfu.slice_gaussians = 16;
-    hfu.input_slots = 8;
+    hfu.input_slots = 5;
     hfu.second_half_slots = 16;
     rendering.pixel_buffers = 1;
   }

@@ -11,11 +11,11 @@ namespace sgs {
 void ExactDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   storage_ = storage;
   resolve_sram(
-      config_, [&] { return sram_uses(config_, storage_); }, chosen);
+      config_, storage_, [&] { return sram_uses(config_, storage_); }, chosen);
 }
 
 void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
-  sgs::adapt(config_, format, chosen);
+  sgs::adapt(config_, storage_order(), format, chosen);
 }
 
 FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const {
@@ -29,7 +29,8 @@ GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.coarse_filter = config_.hfu.coarse_filter;
   order.merge_entries = config_.merge.entries;
   order.on_overflow = config_.merge.on_overflow;
-  order.walk_queue_entries = config_.vsu.queue_entries;
+  order.walk_room = config_.vsu.walk_room();
+  order.precision = config_.rendering.precision;
   order.background = job.background;
   StreamingResult result = render_exact_order(job.view, scene.decoded, scene.tree(), order);
   publish_left_out(config_, scene, sheet);

@@ -3,6 +3,7 @@
 
 #include "modules/machine_design.h"
 #include "modules/streaminggs/exact_config.h"
+#include "modules/streaminggs/streaming_sram.h"
 
 namespace sgs {
 
@@ -11,6 +12,7 @@ class ExactDesign : public MachineDesign {
   void visit(ConfigVisitor& v) override { sgs::visit(v, config_); }
   StorageOrder storage_order() const override { return StorageOrder::kChunks; }
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
+  void fit_memories() override { sgs::fit_memories(config_); }
   void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) override;
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,

@@ -14,6 +14,7 @@ struct FifoKind {
   const char* name;  // of the SRAM use
   const char* what;  // the entries are
   std::uint32_t count, entries, latency_cycles;
+  const char* key = nullptr;  // of the configuration that says how many entries; null: fixed
 
   SramUse each() const { return fifo_use<T>(name, kSharedSram, entries, what); }
   SramUse all() const {

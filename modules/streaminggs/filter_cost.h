@@ -3,17 +3,15 @@
 
 #include <vector>
 
+#include "algorithm/splat/coarse_bound_by.h"
 #include "modules/auto_choice.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
-#include "tlm/data_sheet.h"
 
 namespace sgs {
 
 // With hfu.cost counted, replaces hfu.cfu_macs and hfu.ffu_macs by what the filters execute on a
 // scene of this SH degree (algorithm/splat/filter_work.h), and says so; with paper does nothing.
-std::vector<AutoChoice> resolve_filter_cost(HfuConfig& config, int sh_degree);
-
-// What a test of each filter executes, beside what the paper says and what the run was charged.
-void publish_filters(DataSheet& sheet, const HfuConfig& config, int sh_degree);
+std::vector<AutoChoice> resolve_filter_cost(HfuConfig& config, CoarseBoundBy bound_by,
+                                            int sh_degree);
 
 }  // namespace sgs

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/splat.h"
 
@@ -26,14 +27,15 @@ struct VisitShare {
 
 // Coarse filter -> (sorting -> merge, in exact order) -> second-half fetch -> fine filter.
 struct FineCandidate {
-  // Slot, centre, largest scale, and depth or parts: paper order sorts later.
-  static constexpr std::uint32_t kSramBytes = 24;
+  // Slot, centre, what is carried, and depth or parts: paper order sorts later.
+  static constexpr std::uint32_t kSramBytes = 28;
   std::uint32_t group = 0;
   std::uint32_t visit = 0;
   std::uint32_t slot = 0;
   float depth = 0;          // v_z: with the slot the key of exact order
   float release_below = 0;  // with kEndOfVisit, in exact order
-  float mean_x = 0, mean_y = 0, mean_z = 0, scale_max = 0;
+  float mean_x = 0, mean_y = 0, mean_z = 0;
+  CarriedWords carried{};    // of the first half, for the second
   std::uint64_t ticket = 0;  // of the second half's read
   std::uint32_t buffer = 0;  // where it lands
   std::uint32_t parts = 1;   // of the group that it may touch, a bit each

@@ -17,11 +17,14 @@ struct PaperConfig : StreamingConfig {
   PaperVsuConfig vsu;
   PaperSorterConfig sorting;
 
+  // The paper's memories, and the multiply-accumulates that it states.
   PaperConfig() {
     sram = {16 * 1024, 250 * 1024, 89 * 1024};
     fetch = Fetch::kShared;
+    hfu.cost = FilterCost::kPaper;
     hfu.slice_gaussians = 512;  // 8 KB, twice
-    group_px = 48;
+    group_px = 64;              // with pixels of 8 B: 32 KB of the paper's 89
+    rendering.precision = BlendPrecision::kHalf;
     rendering.pixel_buffers = 1;
   }
 

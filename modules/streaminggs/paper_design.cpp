@@ -33,11 +33,11 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   storage_ = storage;
   check(config_);
   resolve_sram(
-      config_, [&] { return sram_uses(config_, storage_); }, chosen);
+      config_, storage_, [&] { return sram_uses(config_, storage_); }, chosen);
 }
 
 void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
-  sgs::adapt(config_, format, chosen);
+  sgs::adapt(config_, storage_order(), format, chosen);
 }
 
 FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const {
@@ -51,6 +51,8 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.coarse_filter = config_.hfu.coarse_filter;
   order.sample_step_voxels = static_cast<float>(config_.vsu.sample_step_voxels);
   order.visit_gaussians = config_.vsu.visit_gaussians;
+  order.parts = config_.parts();
+  order.precision = config_.rendering.precision;
   order.background = job.background;
   StreamingResult result = render_paper_order(job.view, scene.decoded, scene.grid(), order);
   publish_left_out(scene, result.stats.blocks_visited, sheet);

@@ -60,6 +60,34 @@ class SpillWriter {
   std::vector<std::byte> block_;
 };
 
+// A run whose entries come in the opposite order, the last one first: written from its back.
+template <class Codec>
+class ReverseSpillWriter {
+ public:
+  // run: its bytes are in DRAM once all entries are appended and the port is drained.
+  ReverseSpillWriter(SpillPort to, const SpillRun& run, Codec codec)
+      : to_(to), codec_(codec), run_(run), next_(run.entries) {}
+
+  // Blocks lie as SpillReader reads them; each goes when its first entry has come.
+  void append(const typename Codec::Entry& entry) {
+    --next_;
+    const std::size_t at = next_ % to_.block_entries * Codec::kBytes;
+    if (block_.empty()) block_.resize(at + Codec::kBytes);
+    codec_.encode(entry, block_.data() + at);
+    if (at > 0) return;
+    start_write(to_.port, to_.activity, run_.address + next_ * Codec::kBytes, block_.data(),
+                static_cast<std::uint32_t>(block_.size()), to_.region);
+    block_.clear();
+  }
+
+ private:
+  SpillPort to_;
+  Codec codec_;
+  SpillRun run_;
+  std::uint64_t next_;  // entries that are still to come
+  std::vector<std::byte> block_;
+};
+
 template <class Codec>
 class SpillReader {
  public:

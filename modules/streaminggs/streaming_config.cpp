@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "algorithm/input_error.h"
-#include "algorithm/memory/records.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/constants.h"
 #include "modules/memory_port_keys.h"
-#include "modules/streaminggs/group_parts.h"
+#include "algorithm/render/group_parts.h"
 
 namespace sgs {
 
@@ -50,7 +51,7 @@ void check_parts(const StreamingConfig& c) {
   }
   for (const auto& [key, value] :
        {std::pair{"rendering.clusters", c.rendering.clusters},
-        {"rendering.subtile_tests_per_cycle", c.rendering.subtile_tests_per_cycle},
+        {"rendering.span_lanes", c.rendering.span_lanes},
         {"rendering.drain_pixels_per_cycle", c.rendering.drain_pixels_per_cycle}}) {
     if (value % parts != 0) {
       throw InputError(fmt::format("{}: got {} with fetch shared, expected a multiple of hfus {}",
@@ -61,14 +62,24 @@ void check_parts(const StreamingConfig& c) {
 
 BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) {
   constexpr int kMostDegree = 3;
-  return {config.group_px, config.framebuffer, storage.widest_format(kMostDegree),
-          storage.chunk_gaussians, config.memory_port};
+  BuiltFor out;
+  out.group_px = config.group_px;
+  out.frame_format = config.framebuffer;
+  out.second_half = storage.widest_format(kMostDegree);
+  for (int degree = 0; degree <= kMostDegree; ++degree) {
+    const RecordSplit split = split_of(storage.order, storage.widest_format(degree));
+    out.first_half_bytes = std::max(out.first_half_bytes, split.first_bytes());
+    out.second_half_bytes = std::max(out.second_half_bytes, split.second_bytes);
+  }
+  out.chunk_gaussians = storage.chunk_gaussians;
+  out.memory_port = config.memory_port;
+  return out;
 }
 
 RenderingConfig rendering_of_part(const StreamingConfig& c) {
   RenderingConfig part = c.rendering;
   part.clusters /= c.parts();
-  part.subtile_tests_per_cycle /= c.parts();
+  part.span_lanes /= c.parts();
   part.drain_pixels_per_cycle /= c.parts();
   return part;
 }
@@ -78,15 +89,16 @@ BuiltFor built_for_part(const StreamingConfig& c, BuiltFor built_for) {
   return built_for;
 }
 
-void check(const StreamingConfig& c) {
+void check(const StreamingConfig& c, const StorageConfig& storage) {
   if (c.group_px == 0 || c.group_px % kSubtilePx != 0) {
     throw InputError(
         fmt::format("group_px: got {}, expected a multiple of {}", c.group_px, kSubtilePx));
   }
-  if (c.hfu.slice_gaussians * kFirstHalfBytes % 32 != 0) {
+  const std::uint32_t record_bytes = built_for(c, storage).first_half_bytes;
+  if (c.hfu.slice_gaussians * record_bytes % 32 != 0) {
     throw InputError(fmt::format(
         "hfu.slice_gaussians: got {}, {} B each, expected a whole number of 32 B bursts",
-        c.hfu.slice_gaussians, kFirstHalfBytes));
+        c.hfu.slice_gaussians, record_bytes));
   }
 }
 

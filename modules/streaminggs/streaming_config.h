@@ -62,6 +62,6 @@ BuiltFor built_for_part(const StreamingConfig& config, BuiltFor built_for);
 // Throw InputError: HFUs that share a fetch and whose parts of a group do not come out even; what
 // neither order can build.
 void check_parts(const StreamingConfig& config);
-void check(const StreamingConfig& config);
+void check(const StreamingConfig& config, const StorageConfig& storage);
 
 }  // namespace sgs

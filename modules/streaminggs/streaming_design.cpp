@@ -5,7 +5,7 @@
 
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/filter_cost.h"
-#include "modules/streaminggs/group_parts.h"
+#include "algorithm/render/group_parts.h"
 #include "modules/streaminggs/hfu/codebook_buffer.h"
 #include "modules/streaminggs/streaming_sram.h"
 
@@ -16,13 +16,14 @@ constexpr int kMaxDegree = 3;
 
 }  // namespace
 
-void adapt(StreamingConfig& config, const SecondHalfFormat& format,
+void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& format,
            std::vector<AutoChoice>& chosen) {
-  for (AutoChoice& cost : resolve_filter_cost(config.hfu, format.sh_degree)) {
+  for (AutoChoice& cost :
+       resolve_filter_cost(config.hfu, split_of(order, format).bound_by, format.sh_degree)) {
     chosen.push_back(std::move(cost));
   }
-  check_sram("sram.codebook_bytes", config.sram.codebook_bytes, CodebookBuffer::sram_uses(format),
-             kCodebookSram);
+  check_sram("sram.codebook_bytes", config.sram.codebook_bytes,
+             CodebookBuffer::sram_uses(config.codebook, format), kCodebookSram);
 }
 
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {
@@ -65,10 +66,14 @@ void publish_left_out(const StreamingConfig& config, const StoredScene& scene, D
   SecondHalfFormat of_degree = full;
   of_degree.sh_degree = format.sh_degree;
   if (format.sh_degree == 0) of_degree.entries[static_cast<std::size_t>(Codebook::kSh)] = 0;
+  const auto bytes = [&](const SecondHalfFormat& of) {
+    const RecordSplit split = split_of(scene.image.layout.order(), of);
+    return split.first_bytes() + split.second_bytes;
+  };
   const std::string degree = fmt::format("the scene has SH degree {}", format.sh_degree);
   if (format.sh_degree < kMaxDegree) {
     sheet.left_out("sh_bands", degree.c_str(), scene.image.layout.gaussian_count(),
-                   fmt::format("{} B a second half", full.bytes() - of_degree.bytes()));
+                   fmt::format("{} B a Gaussian", bytes(full) - bytes(of_degree)));
   }
   if (!format.quantised()) {
     sheet.left_out("codebooks", "second halves are not quantised",
@@ -86,9 +91,9 @@ void publish_left_out(const StreamingConfig& config, const StoredScene& scene, D
     fewer += of_degree.entries[id] - format.entries[id];
   }
   sheet.left_out("codebook_entries", "the scene has no more distinct values", fewer,
-                 fmt::format("{} B of DRAM, of the load and of SRAM, {} B a second half",
+                 fmt::format("{} B of DRAM, of the load and of SRAM, {} B a Gaussian",
                              of_degree.codebook_bytes() - format.codebook_bytes(),
-                             of_degree.bytes() - format.bytes()));
+                             bytes(of_degree) - bytes(format)));
   sheet.left_out("codebook_load", "an earlier frame left them in the buffer",
                  config.codebook.preloaded ? 1 : 0,
                  fmt::format("{} B of traffic", format.codebook_bytes()));

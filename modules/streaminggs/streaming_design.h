@@ -14,7 +14,7 @@ namespace sgs {
 
 // Costs that were left to the model, and codebooks that must fit their buffer, for a scene with
 // such second halves. Throws InputError.
-void adapt(StreamingConfig& config, const SecondHalfFormat& format,
+void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& format,
            std::vector<AutoChoice>& chosen);
 
 // A frame of the scene, with the regions `spill` and `frame_buffer` behind the scene's own.

@@ -2,10 +2,20 @@
 #include "modules/streaminggs/streaming_machine.h"
 
 #include "modules/streaminggs/filter_cost.h"
-#include "modules/streaminggs/group_parts.h"
 #include "modules/streaminggs/streaming_sram.h"
 
 namespace sgs {
+namespace {
+
+// The job of what renders one part of the groups: its pixels in place of theirs.
+StreamingJob job_of_part(const StreamingJob& job, std::uint32_t part) {
+  StreamingJob out = job;
+  out.groups = job.parts[part];
+  out.parts = {out.groups};
+  return out;
+}
+
+}  // namespace
 
 StreamingMachine::StreamingMachine(const sc_core::sc_module_name& name,
                                    const StreamingConfig& config, const StreamingJob& job,
@@ -87,11 +97,11 @@ void StreamingMachine::publish(DataSheet& sheet) {
   for (const Queue& queue : queues_) {
     sheet.sram(queue.use);
     sheet.queue(*queue.fifo, queue.use.name.c_str());
+    if (queue.key != nullptr) sheet.remedy(*queue.fifo, WaitFor::kRoom, queue.key);
   }
   sheet.sram_available(kInputSram, config_.sram.input_bytes);
   sheet.sram_available(kCodebookSram, config_.sram.codebook_bytes);
   sheet.sram_available(kSharedSram, config_.sram.shared_bytes);
-  publish_filters(sheet, config_.hfu, job_.layout.sh_degree());
 }
 
 }  // namespace sgs

@@ -39,6 +39,7 @@ class StreamingMachine : public Machine {
   struct Queue {
     FifoChannel* fifo;
     SramUse use;
+    const char* key;  // as FifoKind
   };
   std::vector<Queue> queues_;  // between the units
 
@@ -55,7 +56,7 @@ class StreamingMachine : public Machine {
     fifos.push_back(
         std::make_unique<TimedFifo<T>>(name.c_str(), clock_, kind.entries, kind.latency_cycles));
     if (options_.stalls.probability > 0) fifos.back()->inject(options_.stalls);
-    queues_.push_back({fifos.back().get(), kind.each()});
+    queues_.push_back({fifos.back().get(), kind.each(), kind.key});
   }
 
   UnitContext context() const { return {clock_, job_, built_for_}; }

@@ -66,15 +66,15 @@ void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
                                sram_sum(uses, memory)));
 }
 
-void resolve_sram(StreamingConfig& config, const std::function<SramUses()>& uses,
-                  std::vector<AutoChoice>& chosen) {
+void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
+                  const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen) {
   if (config.group_px == 0 && config.sram.shared_bytes == 0) {
     throw InputError(
         "group_px: got 0 with sram.shared_bytes 0, expected one of them: each is chosen "
         "by the other");
   }
   if (config.group_px == 0) chosen.push_back(choose_group(config, uses));
-  check(config);
+  check(config, storage);
   const SramUses all = uses();
   size("sram.input_bytes", config.sram.input_bytes, all, kInputSram, chosen);
   size("sram.shared_bytes", config.sram.shared_bytes, all, kSharedSram, chosen);

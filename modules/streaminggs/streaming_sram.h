@@ -23,8 +23,13 @@ SramUses streaming_sram_uses(const StreamingConfig& config, const BuiltFor& buil
 // SRAM left to the model (0 bytes) is what is used. uses(): of `config` as it is then. Adds to
 // `chosen`. Throws InputError when both are left open, and when more is used than there is; the
 // message shows the sum.
-void resolve_sram(StreamingConfig& config, const std::function<SramUses()>& uses,
-                  std::vector<AutoChoice>& chosen);
+void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
+                  const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen);
+
+// Leaves the memories that the other parameters fill to what they need; codebooks are of the scene.
+inline void fit_memories(StreamingConfig& config) {
+  config.sram.input_bytes = config.sram.shared_bytes = 0;
+}
 
 // Throws InputError, with the sum, when more is used of `memory` than there is; key: what says how
 // much there is.

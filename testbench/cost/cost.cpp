@@ -1,41 +1,83 @@
 // Sums of energy and area.
 #include "testbench/cost/cost.h"
 
+#include <algorithm>
+
 namespace sgs {
 namespace {
 
-void add(CostResult& cost, const std::string& component, double amount) {
-  cost.total += amount;
+constexpr double kPj = 1e-12, kMw = 1e-3;
+
+void add(CostResult& cost, const std::string& component, const Band& amount) {
+  cost.total = cost.total + amount;
   for (auto& [name, sum] : cost.by_component) {
     if (name != component) continue;
-    sum += amount;
+    sum = sum + amount;
     return;
   }
   cost.by_component.emplace_back(component, amount);
 }
 
-}  // namespace
-
-CostResult energy_of(const FrameResult& frame, const Technology& technology) {
-  constexpr double kPj = 1e-12, kMw = 1e-3;
-  CostResult energy;
-  for (const Amount& work : frame.machine.operations) {
-    add(energy, work.component, work.count * technology.operation(work.kind).pj * kPj);
-  }
-  for (const Amount& part : frame.machine.parts) {
-    const double mw = part.count * technology.part(part.kind).leakage_mw;
-    if (mw > 0) add(energy, part.component + "_leakage", mw * kMw * frame.time_s());
-  }
-  add(energy, "dram", frame.memory.energy_j);
-  return energy;
+// "pixel state" -> "pixel_state": as components are written.
+std::string component_of(std::string use) {
+  std::replace(use.begin(), use.end(), ' ', '_');
+  return use;
 }
 
-CostResult area_of(const MachineResult& machine, const Technology& technology) {
+CostResult logic_area(const MachineResult& machine, const Technology& technology) {
   CostResult area;
-  for (const Amount& part : machine.parts) {
+  for (const Parts& part : machine.parts) {
     add(area, part.component, part.count * technology.part(part.kind).mm2);
   }
   return area;
+}
+
+}  // namespace
+
+CostResult area_of(const FrameResult& frame, const Technology& technology) {
+  CostResult area = logic_area(frame.machine, technology);
+  Band sram;
+  for (const SramUse& use : frame.machine.sram_uses) sram = sram + technology.sram.mm2(use);
+  add(area, "sram", sram);
+  if (technology.memory_interface.counted) {
+    add(area, "memory_interface", frame.memory.channels * technology.memory_interface.mm2);
+  }
+  return area;
+}
+
+Band access_energy_j(const MachineResult& machine, const SramUse& use, const SramModel& model) {
+  for (const SramAccesses& accesses : machine.sram_accesses) {
+    if (accesses.use != use.name) continue;
+    return kPj * (static_cast<double>(accesses.reads) * model.read_pj(use) +
+                  static_cast<double>(accesses.writes) * model.write_pj(use));
+  }
+  return {};
+}
+
+CostResult energy_of(const FrameResult& frame, const Technology& technology) {
+  const MachineResult& machine = frame.machine;
+  CostResult energy;
+  for (const Operations& work : machine.operations) {
+    add(energy, work.component, work.count * kPj * technology.part(work.kind).pj);
+  }
+  Band sram_leakage;
+  for (const SramUse& use : machine.sram_uses) {
+    add(energy, component_of(use.name), access_energy_j(machine, use, technology.sram));
+    sram_leakage = sram_leakage + technology.sram.leakage_mw(use);
+  }
+  const auto cycles = static_cast<double>(frame.cycles);
+  const Band logic = logic_area(machine, technology).total;
+  add(energy, "clock", cycles * kPj * (technology.die.clock_pj_mm2_cycle * logic));
+  add(energy, "logic_leakage",
+      kMw * frame.time_s() * (technology.die.logic_leakage_mw_mm2 * logic));
+  add(energy, "sram_leakage", kMw * frame.time_s() * sram_leakage);
+  if (technology.memory_interface.counted) {
+    add(energy, "memory_interface",
+        frame.memory.channels * kMw * frame.time_s() * technology.memory_interface.mw);
+  }
+  const double dram = frame.memory.energy_j;
+  add(energy, "dram", {dram, dram, dram});
+  return energy;
 }
 
 }  // namespace sgs

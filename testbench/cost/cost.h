@@ -1,4 +1,4 @@
-// Joules and square millimetres: amounts of work and of parts times a technology's table.
+// Joules and square millimetres: what was done and what stands there, times a technology's table.
 #pragma once
 
 #include <string>
@@ -12,16 +12,20 @@ namespace sgs {
 
 // By component, in the order in which the data sheets name them.
 struct CostResult {
-  std::vector<std::pair<std::string, double>> by_component;
-  double total = 0;
+  std::vector<std::pair<std::string, Band>> by_component;
+  Band total;
 };
 
-// Joules of the machine's work, the leakage of its parts over the frame (component
-// `<part's>_leakage`) and the memory's (`dram`). Throws InputError for work that the table has no
-// row for.
+// Square millimetres of the parts, by component, and of the on-chip memory that is used (`sram`).
+// Throws InputError for a part that the table has no row for.
+CostResult area_of(const FrameResult& frame, const Technology& technology);
+
+// Joules of the operations, by component; of the accesses, by use of on-chip memory; of the clock
+// (`clock`); of leakage over the frame (`logic_leakage`, `sram_leakage`); and the memory's
+// (`dram`). Throws InputError as above.
 CostResult energy_of(const FrameResult& frame, const Technology& technology);
 
-// Square millimetres of the parts that stand there. Throws InputError as above.
-CostResult area_of(const MachineResult& machine, const Technology& technology);
+// Of all accesses of one use.
+Band access_energy_j(const MachineResult& machine, const SramUse& use, const SramModel& model);
 
 }  // namespace sgs

@@ -7,44 +7,43 @@
 #include "modules/config/strict_json.h"
 
 namespace sgs {
-namespace {
-
-template <class Row>
-const Row& row_of(const Technology& technology, const std::map<std::string, Row>& rows,
-                  const char* what, const std::string& kind) {
-  const auto at = rows.find(kind);
-  if (at != rows.end()) return at->second;
-  throw InputError(
-      fmt::format("technology {}: {} has no row \"{}\", expected one for all that a "
-                  "machine is made of and does",
-                  technology.name, what, kind));
-}
-
-}  // namespace
-
-const OperationCost& Technology::operation(const std::string& kind) const {
-  return row_of(*this, operations, "operations", kind);
-}
 
 const PartCost& Technology::part(const std::string& kind) const {
-  return row_of(*this, parts, "parts", kind);
-}
-
-void visit(ConfigVisitor& v, OperationCost& cost) {
-  v("pj", cost.pj, in_range(0, 1e9), "picojoules of one");
-  v("source", cost.source, "where the number is from, and how sure it is");
+  const auto at = parts.find(kind);
+  if (at != parts.end()) return at->second;
+  throw InputError(
+      fmt::format("technology {}: parts has no row \"{}\", expected one for all that a machine is "
+                  "made of",
+                  name, kind));
 }
 
 void visit(ConfigVisitor& v, PartCost& cost) {
-  v("mm2", cost.mm2, in_range(0, 1e6), "square millimetres of one");
-  v("leakage_mw", cost.leakage_mw, in_range(0, 1e6), "milliwatts that one leaks");
+  v.section("mm2", cost.mm2, "square millimetres of one");
+  v.section("pj", cost.pj, "picojoules of one operation");
+  v("source", cost.source, "where the numbers are from, and how sure they are");
+}
+
+void visit(ConfigVisitor& v, DieCost& cost) {
+  v.section("clock_pj_mm2_cycle", cost.clock_pj_mm2_cycle,
+            "picojoules of the clock tree for each square millimetre and cycle");
+  v.section("logic_leakage_mw_mm2", cost.logic_leakage_mw_mm2,
+            "milliwatts that a square millimetre of logic leaks");
+  v("source", cost.source, "where the numbers are from, and how sure they are");
+}
+
+void visit(ConfigVisitor& v, MemoryInterfaceCost& cost) {
+  v("counted", cost.counted, "whether it is part of area and energy");
+  v.section("mm2", cost.mm2, "square millimetres of one channel");
+  v.section("mw", cost.mw, "milliwatts of one channel, apart from what moves bits");
   v("source", cost.source, "where the numbers are from, and how sure they are");
 }
 
 void visit(ConfigVisitor& v, Technology& technology) {
   v("name", technology.name, "of the node");
-  v.sections("operations", technology.operations, "work, by kind");
-  v.sections("parts", technology.parts, "what stands there, by kind");
+  v.sections("parts", technology.parts, "logic, by kind");
+  v.section("sram", technology.sram, "on-chip memory");
+  v.section("die", technology.die, "by area");
+  v.section("memory_interface", technology.memory_interface, "of each memory channel");
 }
 
 Technology load_technology(const std::string& path) {

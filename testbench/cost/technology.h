@@ -1,37 +1,49 @@
-// What one operation costs in joules and one part in square millimetres: a table of data that a
+// What stands there costs in square millimetres, what it does in joules: a table of data that a
 // user can replace.
 #pragma once
 
 #include <map>
 #include <string>
 
-#include "modules/config/config_visitor.h"
+#include "testbench/cost/band.h"
+#include "testbench/cost/sram_model.h"
 
 namespace sgs {
 
-struct OperationCost {
-  double pj = 0;
+// A part of logic, and one operation that it does.
+struct PartCost {
+  Band mm2, pj;
   std::string source;
 };
 
-struct PartCost {
-  double mm2 = 0;
-  double leakage_mw = 0;
+// What lies under all of them, by area.
+struct DieCost {
+  Band clock_pj_mm2_cycle;  // clock tree and registers, of logic
+  Band logic_leakage_mw_mm2;
+  std::string source;
+};
+
+// PHY and controller of one channel of the memory, on the accelerator's die.
+struct MemoryInterfaceCost {
+  bool counted = false;
+  Band mm2, mw;
   std::string source;
 };
 
 struct Technology {
   std::string name;
-  std::map<std::string, OperationCost> operations;  // by kind
-  std::map<std::string, PartCost> parts;            // by kind
+  std::map<std::string, PartCost> parts;  // by kind
+  SramModel sram;
+  DieCost die;
+  MemoryInterfaceCost memory_interface;
 
-  // Throw InputError, naming the kind, where the table has no such row.
-  const OperationCost& operation(const std::string& kind) const;
+  // Throws InputError, naming the kind, where the table has no such row.
   const PartCost& part(const std::string& kind) const;
 };
 
-void visit(ConfigVisitor& v, OperationCost& cost);
 void visit(ConfigVisitor& v, PartCost& cost);
+void visit(ConfigVisitor& v, DieCost& cost);
+void visit(ConfigVisitor& v, MemoryInterfaceCost& cost);
 void visit(ConfigVisitor& v, Technology& technology);
 
 // Throws InputError.

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <tuple>
+#include <utility>
 
 namespace sgs {
 namespace {
@@ -17,53 +20,139 @@ class Collector : public LeftOutCollector {
   }
   void activity(Activity& activity, const char* resource, const char* meaning) override {
     activity.close();
-    into_.units.back().activities.push_back({activity.basename(), resource, meaning,
-                                             activity.busy_cycles(), activity.starved_cycles(),
-                                             activity.blocked_cycles()});
+    ActivityResult result{activity.basename(), resource, meaning, activity.busy_cycles(), {}, ""};
+    for (const Activity::Wait& wait : activity.waits()) {
+      if (wait.cycles > 0) result.waits.push_back(wait_of(wait, activity));
+    }
+    // Which was waited for first may depend on the order of processes, if only for no time at all.
+    std::sort(result.waits.begin(), result.waits.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.what, a.at) < std::tie(b.what, b.at);
+    });
+    into_.units.back().activities.push_back(std::move(result));
+  }
+  void remedy(const Activity& activity, const char* key) override {
+    for_work_[path_below(activity, machine_)] = key;
+  }
+  void remedy(const sc_core::sc_object& at, WaitFor what, const char* key) override {
+    for_waits_[{path_below(at, machine_), what}] = key;
   }
   void counter(const char* name, const char* unit, const char* meaning,
                std::uint64_t value) override {
     into_.units.back().counters.push_back({name, unit, meaning, value});
   }
-  void operations(const char* component, const char* kind, double count) override {
-    add(into_.operations, component, kind, count);
+  void datapath(const Datapath& path, std::uint64_t items) override {
+    part(path.component.c_str(), path.lane.c_str(), static_cast<double>(path.all_lanes()), 1);
+    operations(path.component.c_str(), path.lane.c_str(),
+               static_cast<double>(items) * path.used_macs);
+    const auto same =
+        std::find_if(into_.datapaths.begin(), into_.datapaths.end(),
+                     [&](const DatapathResult& d) { return d.datapath.name == path.name; });
+    if (same != into_.datapaths.end()) {
+      same->datapath.copies += path.copies;
+      same->items += items;
+    } else {
+      into_.datapaths.push_back({path, items});
+    }
   }
-  void part(const char* component, const char* kind, double count) override {
-    add(into_.parts, component, kind, count);
+  void part(const char* component, const char* kind, double count, double per_cycle) override {
+    Parts& parts = entry(into_.parts, component, kind);
+    parts.count += count;
+    parts.per_cycle += count * per_cycle;
+  }
+  void operations(const char* component, const char* kind, double count) override {
+    entry(into_.operations, component, kind).count += count;
+    if (count > 0) into_.units.back().charged = true;
   }
   void sram(const SramUse& use) override { sgs::add(into_.sram_uses, use); }
-  void sram_available(const char* memory, std::uint64_t bytes) override {
-    constexpr double kKiB = 1024;
-    into_.sram_available.emplace_back(memory, bytes);
-    add(into_.parts, "sram", "sram_kib", static_cast<double>(bytes) / kKiB);
+  void accesses(const char* use, std::uint64_t reads, std::uint64_t writes) override {
+    auto same = std::find_if(into_.sram_accesses.begin(), into_.sram_accesses.end(),
+                             [&](const SramAccesses& a) { return a.use == use; });
+    if (same == into_.sram_accesses.end()) {
+      same = into_.sram_accesses.insert(same, {use, 0, 0});
+    }
+    same->reads += reads;
+    same->writes += writes;
+    if (reads + writes > 0) into_.units.back().charged = true;
   }
-  void datapath(const Datapath& datapath) override { into_.datapaths.push_back(datapath); }
+  void queue(FifoChannel& queue, const char* use) override {
+    if (queue.entry_bytes() > 0) accesses(use, queue.popped(), queue.pushed());
+  }
+  void port(MemoryPort& port, const char* writes) override {
+    if (*writes != '\0') accesses(writes, port.words_written(), port.words_written());
+  }
+  void sram_available(const char* memory, std::uint64_t bytes) override {
+    into_.sram_available.emplace_back(memory, bytes);
+  }
+
+  // To be called when all units have published: a FIFO's remedy comes from who made it, not from
+  // who waits at it.
+  void apply_remedies() {
+    const auto in = [](const auto& remedies, const auto& at) {
+      const auto found = remedies.find(at);
+      return found == remedies.end() ? std::string() : found->second;
+    };
+    for (UnitResult& unit : into_.units) {
+      for (ActivityResult& activity : unit.activities) {
+        activity.key = in(for_work_, unit.name + "." + activity.name);
+        for (WaitResult& wait : activity.waits) {
+          // More entries are what helps both ends of a FIFO.
+          const bool at_fifo = wait.what == WaitFor::kInput;
+          wait.key = in(for_waits_, std::pair(wait.at, at_fifo ? WaitFor::kRoom : wait.what));
+        }
+      }
+    }
+  }
 
  private:
-  static void add(std::vector<Amount>& amounts, const char* component, const char* kind,
-                  double count) {
-    const auto same = std::find_if(amounts.begin(), amounts.end(), [&](const Amount& a) {
-      return a.component == component && a.kind == kind;
-    });
-    if (same != amounts.end()) {
-      same->count += count;
-    } else {
-      amounts.push_back({component, kind, count});
+  WaitResult wait_of(const Activity::Wait& wait, const Activity& waiting) const {
+    WaitResult result{wait.what, "", "", "", wait.cycles};
+    if (wait.at != nullptr) result.at = path_below(*wait.at, machine_);
+    if (const auto* fifo = dynamic_cast<const FifoChannel*>(wait.at)) {
+      const Activity* other = fifo->writer() == &waiting ? fifo->reader() : fifo->writer();
+      if (other != nullptr) result.other = path_below(*other, machine_);
     }
+    return result;
+  }
+
+  template <class Entry>
+  static Entry& entry(std::vector<Entry>& entries, const char* component, const char* kind) {
+    const auto same = std::find_if(entries.begin(), entries.end(), [&](const Entry& e) {
+      return e.component == component && e.kind == kind;
+    });
+    if (same != entries.end()) return *same;
+    Entry fresh;
+    fresh.component = component;
+    fresh.kind = kind;
+    entries.push_back(fresh);
+    return entries.back();
   }
 
   const Machine& machine_;
   MachineResult& into_;
+  std::map<std::string, std::string> for_work_;
+  std::map<std::pair<std::string, WaitFor>, std::string> for_waits_;
 };
 
 class Drained : public DataSheet {
  public:
   void queue(FifoChannel& queue, const char*) override { all = all && queue.fill() == 0; }
-  void port(MemoryPort& port) override { all = all && port.idle(); }
+  void port(MemoryPort& port, const char*) override { all = all && port.idle(); }
   bool all = true;
 };
 
 }  // namespace
+
+std::uint64_t ActivityResult::waited_for(WaitFor what) const {
+  std::uint64_t sum = 0;
+  for (const WaitResult& wait : waits) sum += wait.what == what ? wait.cycles : 0;
+  return sum;
+}
+
+std::uint64_t ActivityResult::waited() const {
+  std::uint64_t sum = 0;
+  for (const WaitResult& wait : waits) sum += wait.cycles;
+  return sum;
+}
 
 void LeftOutCollector::left_out(const char* what, const char* why, std::uint64_t count,
                                 const std::string& saves) {
@@ -81,9 +170,16 @@ MachineResult collect(Machine& machine) {
   MachineResult result;
   Collector collector(machine, result);
   machine.publish(collector);
+  collector.apply_remedies();
   std::uint64_t idle = 0;
   for (const UnitResult& unit : result.units) {
     for (const ActivityResult& activity : unit.activities) idle += activity.busy_cycles == 0;
+  }
+  for (const auto& [memory, available] : result.sram_available) {
+    const std::uint64_t used = sram_bytes(result.sram_uses, memory);
+    if (used >= available) continue;
+    collector.left_out(("unused_sram_" + memory).c_str(), "configured, and taken by no unit",
+                       available - used, "bytes that are not built: no area, no leakage");
   }
   collector.left_out("idle_activities", "never fed in this frame", idle,
                      "their area, if every frame is like this one");

@@ -27,6 +27,7 @@ MemoryResult collect_memory(DramController& memory, const Regions& regions,
            stats.clock_period_ns;
   };
   MemoryResult m;
+  m.key = "dram.channels";
   m.bytes = stats.bytes();
   m.bus_bytes = stats.bus_bytes();
   for (const auto& row : stats.traffic.rows()) {
@@ -51,6 +52,7 @@ MemoryResult collect_memory(DramController& memory, const Regions& regions,
   m.refreshes = all.refreshes();
   m.bandwidth_gb_s = stats.bandwidth_gb_per_s();
   m.busy_bandwidth_gb_s = stats.busy_bandwidth_gb_per_s();
+  m.channels = static_cast<std::uint32_t>(stats.channels.size());
   m.peak_gb_s = stats.peak_gb_per_s;
   m.read_latency_mean_ns = stats.read_latency_cycles.mean() * stats.clock_period_ns;
   m.read_latency_p50_ns = latency_ns(0.5);

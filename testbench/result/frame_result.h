@@ -12,9 +12,23 @@
 
 namespace sgs {
 
+// Cycles that an activity waited for one thing at one place. Names are paths below the machine.
+struct WaitResult {
+  WaitFor what = WaitFor::kIdle;
+  std::string at;     // FIFO, port or unit; empty with kIdle
+  std::string other;  // path of the activity at the other end of the FIFO; empty elsewhere
+  std::string key;    // what to raise in the configuration to wait less; empty: nothing is known
+  std::uint64_t cycles = 0;
+};
+
 struct ActivityResult {
   std::string name, resource, meaning;
-  std::uint64_t busy_cycles = 0, starved_cycles = 0, blocked_cycles = 0;  // add up to the frame
+  std::uint64_t busy_cycles = 0;
+  std::vector<WaitResult> waits;  // with the busy cycles they add up to the frame
+  std::string key;                // what to raise in the configuration to work faster, or empty
+
+  std::uint64_t waited_for(WaitFor what) const;
+  std::uint64_t waited() const;
 };
 
 struct CounterResult {
@@ -26,12 +40,30 @@ struct UnitResult {
   std::string name;  // path below the machine
   std::vector<ActivityResult> activities;
   std::vector<CounterResult> counters;
+  bool charged = false;  // it did something that is paid for: operations, items or accesses
 };
 
-// An amount of one kind (of work, of a part) that one component has.
-struct Amount {
+// Work of one kind that one component did, and what did it.
+struct Operations {
   std::string component, kind;
   double count = 0;
+};
+struct Parts {
+  std::string component, kind;
+  double count = 0;
+  double per_cycle = 0;  // operations that all of them can do a cycle
+};
+
+// A datapath with all its copies in all units, and what they did.
+struct DatapathResult {
+  Datapath datapath;
+  std::uint64_t items = 0;
+};
+
+// Accesses of one use, of all units that have it.
+struct SramAccesses {
+  std::string use;
+  std::uint64_t reads = 0, writes = 0;
 };
 
 struct LeftOut {
@@ -43,11 +75,13 @@ struct LeftOut {
 // What the data sheets of a machine say, in the order in which they are published.
 struct MachineResult {
   std::vector<UnitResult> units;
-  std::vector<Amount> operations, parts;
-  std::vector<LeftOut> left_out;  // one entry a saving: counts of several units added up
-  SramUses sram_uses;             // the same use of several units added up
+  std::vector<Operations> operations;  // those of lanes included
+  std::vector<Parts> parts;            // lanes included
+  std::vector<LeftOut> left_out;       // one entry a saving: counts of several units added up
+  SramUses sram_uses;                  // the same use of several units added up
   std::vector<std::pair<std::string, std::uint64_t>> sram_available;  // (memory, bytes)
-  std::vector<Datapath> datapaths;
+  std::vector<SramAccesses> sram_accesses;
+  std::vector<DatapathResult> datapaths;
 };
 
 // Bytes that one requester asked for in one region.
@@ -64,7 +98,9 @@ struct MemoryResult {
   std::uint64_t row_hits = 0, row_misses = 0, row_conflicts = 0, refreshes = 0;
   double bandwidth_gb_s = 0, busy_bandwidth_gb_s = 0, peak_gb_s = 0;
   double read_latency_mean_ns = 0, read_latency_p50_ns = 0, read_latency_p99_ns = 0;
+  std::uint32_t channels = 0;
   double bus_utilisation = 0;  // of the busiest channel's data bus, 0 to 1
+  std::string key;             // what to raise in the configuration for more of it
   double energy_j = 0;
   std::vector<std::pair<std::string, double>> energy_by_current_set_j, energy_by_region_j;
 };

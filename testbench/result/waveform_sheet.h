@@ -16,7 +16,7 @@ class WaveformSheet : public DataSheet {
   void unit(const sc_core::sc_object& unit) override { unit_ = unit.name(); }
   void activity(Activity& activity, const char*, const char*) override { activity.trace(file_); }
   void queue(FifoChannel& queue, const char*) override { queue.trace(file_); }
-  void port(MemoryPort& port) override { port.trace(file_); }
+  void port(MemoryPort& port, const char*) override { port.trace(file_); }
   void signal(const char* name, const std::uint32_t& value) override {
     sc_core::sc_trace(file_, value, unit_ + "." + name);
   }

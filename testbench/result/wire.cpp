@@ -10,8 +10,12 @@
 namespace sgs {
 
 template <class Archive>
+void serialize(Archive& a, WaitResult& r) {
+  a(r.what, r.at, r.other, r.key, r.cycles);
+}
+template <class Archive>
 void serialize(Archive& a, ActivityResult& r) {
-  a(r.name, r.resource, r.meaning, r.busy_cycles, r.starved_cycles, r.blocked_cycles);
+  a(r.name, r.resource, r.meaning, r.busy_cycles, r.waits, r.key);
 }
 template <class Archive>
 void serialize(Archive& a, CounterResult& r) {
@@ -19,27 +23,45 @@ void serialize(Archive& a, CounterResult& r) {
 }
 template <class Archive>
 void serialize(Archive& a, UnitResult& r) {
-  a(r.name, r.activities, r.counters);
+  a(r.name, r.activities, r.counters, r.charged);
 }
 template <class Archive>
-void serialize(Archive& a, Amount& r) {
+void serialize(Archive& a, Operations& r) {
   a(r.component, r.kind, r.count);
+}
+template <class Archive>
+void serialize(Archive& a, Parts& r) {
+  a(r.component, r.kind, r.count, r.per_cycle);
 }
 template <class Archive>
 void serialize(Archive& a, LeftOut& r) {
   a(r.what, r.why, r.count, r.saves);
 }
 template <class Archive>
+void serialize(Archive& a, SramShape& r) {
+  a(r.width_bits, r.ports, r.banks);
+}
+template <class Archive>
 void serialize(Archive& a, SramUse& r) {
-  a(r.name, r.memory, r.bytes, r.arithmetic, r.count);
+  a(r.name, r.memory, r.bytes, r.arithmetic, r.count, r.shape);
+}
+template <class Archive>
+void serialize(Archive& a, SramAccesses& r) {
+  a(r.use, r.reads, r.writes);
 }
 template <class Archive>
 void serialize(Archive& a, Datapath& r) {
-  a(r.name, r.counts, r.counted_macs, r.published_macs, r.used_macs, r.lanes);
+  a(r.name, r.component, r.lane, r.lanes, r.copies, r.used_macs, r.counted_macs, r.published_macs,
+    r.counts);
+}
+template <class Archive>
+void serialize(Archive& a, DatapathResult& r) {
+  a(r.datapath, r.items);
 }
 template <class Archive>
 void serialize(Archive& a, MachineResult& r) {
-  a(r.units, r.operations, r.parts, r.left_out, r.sram_uses, r.sram_available, r.datapaths);
+  a(r.units, r.operations, r.parts, r.left_out, r.sram_uses, r.sram_available, r.sram_accesses,
+    r.datapaths);
 }
 template <class Archive>
 void serialize(Archive& a, RegionTraffic& r) {
@@ -49,8 +71,8 @@ template <class Archive>
 void serialize(Archive& a, MemoryResult& r) {
   a(r.bytes, r.bus_bytes, r.traffic, r.bus_bytes_by_region, r.transactions, r.row_hits,
     r.row_misses, r.row_conflicts, r.refreshes, r.bandwidth_gb_s, r.busy_bandwidth_gb_s,
-    r.peak_gb_s, r.read_latency_mean_ns, r.read_latency_p50_ns, r.read_latency_p99_ns,
-    r.bus_utilisation, r.energy_j, r.energy_by_current_set_j, r.energy_by_region_j);
+    r.peak_gb_s, r.read_latency_mean_ns, r.read_latency_p50_ns, r.read_latency_p99_ns, r.channels,
+    r.bus_utilisation, r.key, r.energy_j, r.energy_by_current_set_j, r.energy_by_region_j);
 }
 template <class Archive>
 void serialize(Archive& a, FrameResult& r) {

@@ -1,21 +1,75 @@
-// Utilisations and what follows from them.
+// Utilisations, the way of waiting, and what follows from them.
 #include "testbench/streaminggs/binding.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace sgs {
+namespace {
+
+using Activities = std::map<std::string, const ActivityResult*>;  // by path
+
+double share(std::uint64_t cycles, const FrameResult& frame) {
+  return static_cast<double>(cycles) / std::max(1.0, static_cast<double>(frame.cycles));
+}
+
+Activities activities_of(const FrameResult& frame) {
+  Activities all;
+  for (const UnitResult& unit : frame.machine.units) {
+    for (const ActivityResult& a : unit.activities) all[unit.name + "." + a.name] = &a;
+  }
+  return all;
+}
+
+// The place of the most cycles among those of the cause of the most; null: it never waited. Having
+// nothing to do is no cause.
+const WaitResult* longest_wait(const ActivityResult& activity) {
+  WaitFor most = WaitFor::kIdle;
+  std::uint64_t cycles = 0;
+  for (const WaitResult& wait : activity.waits) {
+    if (wait.what == WaitFor::kIdle || activity.waited_for(wait.what) <= cycles) continue;
+    most = wait.what;
+    cycles = activity.waited_for(wait.what);
+  }
+  const WaitResult* longest = nullptr;
+  for (const WaitResult& wait : activity.waits) {
+    if (most == WaitFor::kIdle || wait.what != most) continue;
+    if (longest == nullptr || wait.cycles > longest->cycles) longest = &wait;
+  }
+  return longest;
+}
+
+const char* meaning(WaitFor what) {
+  constexpr std::array<const char*, kWaitForCount> kMeanings = {"nothing to do",
+                                                                "input",
+                                                                "answers to its reads",
+                                                                "answers to its writes",
+                                                                "room behind it",
+                                                                "room in its memory port",
+                                                                "on-chip memory being filled"};
+  return kMeanings[static_cast<std::size_t>(what)];
+}
+
+std::string waits_text(const ActivityResult& activity, const WaitResult& wait,
+                       const FrameResult& frame) {
+  return fmt::format("waits for {} {:.0f} % of the frame", meaning(wait.what),
+                     100 * share(activity.waited_for(wait.what), frame));
+}
+
+std::string key_text(const std::string& key) {
+  return key.empty() ? "no key of the configuration is known to change that" : "raise " + key;
+}
+
+}  // namespace
 
 std::vector<ResourceUse> resource_uses(const FrameResult& frame) {
-  const double cycles = std::max(1.0, static_cast<double>(frame.cycles));
   std::vector<ResourceUse> uses;
   for (const UnitResult& unit : frame.machine.units) {
     for (const ActivityResult& activity : unit.activities) {
-      const ResourceUse use{activity.resource, static_cast<double>(activity.busy_cycles) / cycles,
-                            activity.starved_cycles > activity.blocked_cycles
-                                ? "waits for input"
-                                : "waits for room downstream"};
+      const ResourceUse use{activity.resource, share(activity.busy_cycles, frame), activity.key};
       const auto same = std::find_if(uses.begin(), uses.end(), [&](const ResourceUse& other) {
         return other.name == use.name;
       });
@@ -26,8 +80,42 @@ std::vector<ResourceUse> resource_uses(const FrameResult& frame) {
       }
     }
   }
-  uses.push_back({"dram", frame.memory.bus_utilisation, "waits for requests"});
+  uses.push_back({"dram", frame.memory.bus_utilisation, frame.memory.key});
   return uses;
+}
+
+Cause follow_waiting(const FrameResult& frame) {
+  const Activities activities = activities_of(frame);
+  const auto busiest = std::max_element(
+      activities.begin(), activities.end(),
+      [](const auto& a, const auto& b) { return a.second->busy_cycles < b.second->busy_cycles; });
+  Cause cause;
+  if (busiest == activities.end()) return cause;
+  std::uint64_t to_explain = 0;  // cycles that the one before waited
+  for (auto at = busiest;;) {
+    const ActivityResult& activity = *at->second;
+    cause.path.push_back(at->first);
+    cause.holds = at->first;
+    cause.key = activity.key;
+    const WaitResult* wait = longest_wait(activity);
+    const std::uint64_t waited = wait == nullptr ? 0 : activity.waited_for(wait->what);
+    if (wait == nullptr || 2 * waited < to_explain) {
+      cause.why =
+          fmt::format("works {:.0f} % of the frame", 100 * share(activity.busy_cycles, frame));
+      return cause;
+    }
+    const auto other = activities.find(wait->other);
+    const bool met =
+        std::find(cause.path.begin(), cause.path.end(), wait->other) != cause.path.end();
+    if (other == activities.end() || met) {
+      cause.holds = wait->at;
+      cause.key = wait->key;
+      cause.why = waits_text(activity, *wait, frame);
+      return cause;
+    }
+    to_explain = waited;
+    at = other;
+  }
 }
 
 Binding find_binding(const FrameResult& frame) {
@@ -36,19 +124,25 @@ Binding find_binding(const FrameResult& frame) {
     return a.utilisation > b.utilisation;
   });
   const ResourceUse next = uses.size() > 1 ? uses[1] : ResourceUse{"nothing else", 0, ""};
-  Binding binding{uses[0].name, next.name, uses[0].utilisation, next.utilisation, ""};
+  Binding binding{uses[0].name, next.name, uses[0].utilisation, next.utilisation, uses[0].name,
+                  uses[0].key,  ""};
   binding.explanation = fmt::format(
       "{} works {:.0f} % of the frame, {} {:.0f} %: {} with no limit of its own, the frame would "
       "take at least {:.0f} % of its time",
       binding.unit, 100 * binding.utilisation, binding.next, 100 * binding.next_utilisation,
       binding.unit, 100 * binding.next_utilisation);
-  constexpr double kSaturated = 0.8;
-  if (binding.utilisation < kSaturated) {
+  // Twice as much of it can save half the share in which it works; no more waiting, the rest.
+  constexpr double kMostly = 2.0 / 3;
+  const Cause cause = follow_waiting(frame);
+  if (binding.utilisation < kMostly && !cause.path.empty()) {
+    binding.holds = cause.holds;
+    binding.key = cause.key;
     binding.explanation += fmt::format(
-        "; no resource is busy all the time: {} {} for the rest, so latency and order between the "
-        "units hold the frame",
-        binding.unit, uses[0].waits);
+        "; no resource is busy most of the time: the waiting of {} leads to {}, which {}{}",
+        cause.path.front(), cause.path.back(), cause.why,
+        cause.holds == cause.path.back() ? "" : ", at " + cause.holds);
   }
+  binding.explanation += "; " + key_text(binding.key);
   return binding;
 }
 

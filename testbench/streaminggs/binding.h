@@ -1,4 +1,4 @@
-// Which resource limits a frame, and how far the next one is.
+// Which resource limits a frame, how far the next one is, and what to change.
 #pragma once
 
 #include <string>
@@ -12,16 +12,32 @@ namespace sgs {
 struct ResourceUse {
   std::string name;
   double utilisation = 0;
-  std::string waits;  // for what, when it does not work
+  std::string key;  // of the configuration: what to raise for more of it; empty: nothing is known
 };
 
 // Every resource that an activity names, in the order of the data sheets, and the memory's data
 // buses.
 std::vector<ResourceUse> resource_uses(const FrameResult& frame);
 
+// What the waiting of an activity leads to, from one end of a FIFO to the other: an activity that
+// works, or a place at which the last one waits.
+struct Cause {
+  std::vector<std::string> path;  // activities, from the one that waits
+  std::string holds;              // an activity, a FIFO, a port or a unit
+  std::string why;                // "works 62 % of the frame", "answers to its reads": of the last
+  std::string key;                // what to raise in the configuration; empty: nothing is known
+};
+
+// From the busiest activity on, each time to the other end of the FIFO at which the most cycles
+// are lost, until one is reached whose own waiting explains less than half of that (it works
+// instead), that waits for memory, or that waits for one that was met before: then the FIFO between
+// the two holds both.
+Cause follow_waiting(const FrameResult& frame);
+
 struct Binding {
   std::string unit, next;  // the busiest resource, and the one after it
   double utilisation = 0, next_utilisation = 0;
+  std::string holds, key;   // the resource, or where nothing is busy the cause; what to raise
   std::string explanation;  // a sentence with the numbers
 };
 

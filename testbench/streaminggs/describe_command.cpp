@@ -66,18 +66,22 @@ void print_sheets(const MachineResult& machine) {
           fmt::format("`{}` | `{}` | {} | {} ", numberless(unit.name), c.name, c.unit, c.meaning));
     }
   }
-  Table parts("| component | part | how many |");
-  for (const Amount& part : machine.parts) {
-    parts.row(fmt::format("{} | {} | {:g} ", part.component, part.kind, part.count));
+  Table parts("| component | part | how many | operations a cycle |");
+  for (const Parts& part : machine.parts) {
+    parts.row(fmt::format("{} | {} | {:g} | {:g} ", part.component, part.kind, part.count,
+                          part.per_cycle));
   }
-  Table work("| component | work |");
-  for (const Amount& amount : machine.operations) {
-    work.row(fmt::format("{} | {} ", amount.component, amount.kind));
+  Table datapaths("| datapath | component | lanes | multiply-accumulates of an item |");
+  for (const auto& [d, items] : machine.datapaths) {
+    datapaths.row(fmt::format("{} | {} | {} {} | {} ", d.name, d.component, d.all_lanes(), d.lane,
+                              d.used_macs));
   }
-  Table sram("| on-chip memory | use | bytes | arithmetic |");
+  Table sram("| on-chip memory | use | bytes | arithmetic | memories | ports | bits wide |");
   for (const SramUse& use : machine.sram_uses) {
-    sram.row(
-        fmt::format("{} | {} | {} | {} ", use.memory, use.name, use.total_bytes(), use.product()));
+    sram.row(fmt::format("{} | {} | {} | {} | {} | {} | {} ", use.memory, use.name,
+                         use.total_bytes(), use.product(), use.count * use.shape.banks,
+                         use.shape.ports == SramPorts::kOne ? "one" : "read and write",
+                         use.shape.width_bits));
   }
 }
 

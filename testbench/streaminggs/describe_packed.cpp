@@ -40,7 +40,7 @@ void print_packed(const PackedFacts& facts, const StorageConfig& storage, const 
   line("storage order", order_line(storage, layout, readers));
   line("second halves",
        fmt::format("{}, {} B each", kEncodingNames[static_cast<std::size_t>(format.encoding)],
-                   format.bytes()));
+                   layout.second_halves.record_bytes));
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
     if (format.entries[id] == 0) continue;
     const auto codebook = static_cast<Codebook>(id);

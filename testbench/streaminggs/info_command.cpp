@@ -27,7 +27,7 @@ void print_voxels(const ActivatedCloud& cloud) {
   const auto voxel_size = static_cast<float>(choose_voxel_size(cloud).value);
   fmt::print("{:<26}{} world units\n", "voxel size", rounded(voxel_size));
   try {
-    const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
+    const VoxelGrid grid = arrange_by_voxels(cloud, voxel_size).table;
     fmt::print("{:<26}{}\n{:<26}{}\n", "occupied voxels", grouped(grid.voxels.size()), "tree nodes",
                grouped(grid.nodes.size()));
   } catch (const InputError& error) {

@@ -1,15 +1,17 @@
-// streaminggs pack SCENE --out FILE.sgs
+// streaminggs pack SCENE --out FILE.sgs|.ply
 #include <fmt/format.h>
 
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "algorithm/input_error.h"
 #include "algorithm/output_plan.h"
+#include "algorithm/scene/ply_writer.h"
+#include "algorithm/splat/deactivate.h"
+#include "algorithm/splat/reorder.h"
 #include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/image_file.h"
 #include "testbench/command_line/config_source.h"
@@ -29,16 +31,23 @@ struct PackArguments : SceneArguments {
 
 // Throws InputError for what a reader of the file would refuse: scales beyond float, for example.
 void check_records(const MemoryImage& image, const std::string& scene) {
-  std::vector<std::uint32_t> slots(image.layout.gaussian_count());
-  std::iota(slots.begin(), slots.end(), 0U);
-  decode_image(image, slots, scene);
+  decode_image(image, scene);
+}
+
+bool is_ply(const std::string& path) { return std::filesystem::path(path).extension() == ".ply"; }
+
+// What the scene's file has of the stored Gaussians, by slot; of a lossy encoding what it decodes
+// to.
+GaussianCloud stored_cloud(const GaussianCloud& in_file, const StoredScene& stored) {
+  return stored.original ? deactivate(stored.decoded) : reordered(in_file, *stored.file_indices);
 }
 
 int run(const PackArguments& arguments, const Kinds& kinds) {
   const auto began = std::chrono::steady_clock::now();
-  if (!is_image_file(arguments.out)) {
-    throw InputError(fmt::format("--out: {}, expected a name that ends in {}", arguments.out,
-                                 kImageFileExtension));
+  const bool as_ply = is_ply(arguments.out);
+  if (!as_ply && !is_image_file(arguments.out)) {
+    throw InputError(fmt::format("--out: {}, expected a name that ends in {} or .ply",
+                                 arguments.out, kImageFileExtension));
   }
   RunConfig config = read_run_config(arguments.config.document(), kinds);
   OutputPlan plan;
@@ -48,13 +57,17 @@ int run(const PackArguments& arguments, const Kinds& kinds) {
   plan.add_output(arguments.out);
   plan.check();
   resolve(config);
-  Scene scene = arguments.load();
+  const Scene scene = arguments.load();
   const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
-  const PreparedScene prepared = prepare(std::move(scene), config, weighing);
+  const PreparedScene prepared = prepare(scene, config, weighing);
   const MemoryImage& image = prepared.stored.image;
   check_records(image, arguments.scene);
   const PackedFacts facts{prepared.name, prepared.stored.gaussians, prepared.dropped_invalid};
-  write_image_file(arguments.out, facts, prepared.stored.storage, image);
+  if (as_ply) {
+    write_ply(arguments.out, stored_cloud(scene.cloud, prepared.stored));
+  } else {
+    write_image_file(arguments.out, facts, prepared.stored.storage, image);
+  }
   print_packed(facts, prepared.stored.storage, image.layout,
                readers_of(kinds, prepared.stored.storage.order));
   if (image.layout.second_half.quantised()) {
@@ -79,7 +92,8 @@ SubCommand add_pack_command(CommandLine& line, const Kinds& kinds) {
   arguments->add_weighing_to(line);
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(line);
-  line.text("--out", arguments->out, "file to write, .sgs", Given::kAlways);
+  line.text("--out", arguments->out,
+            "file to write: .sgs, or .ply with the Gaussians in storage order", Given::kAlways);
   return [arguments, &kinds] { return run(*arguments, kinds); };
 }
 

@@ -17,7 +17,7 @@ struct PreparedScene {
   std::uint64_t dropped_invalid = 0;
   StoredScene stored;
 
-  // What the reference picture is of: the scene as given, where it is at hand.
+  // What the reference picture is of: the scene as given, where it is at hand, in storage order.
   const ActivatedCloud& given() const {
     return stored.original ? *stored.original : stored.decoded;
   }

@@ -6,6 +6,7 @@
 
 #include "algorithm/image/quality.h"
 #include "algorithm/storage/storage_scheme.h"
+#include "testbench/result/ledger.h"
 
 namespace sgs {
 namespace {
@@ -61,6 +62,13 @@ Json error_parts_of(const OrderLoss& loss) {
   return out;
 }
 
+Json file_order_of(const std::optional<FileOrderDifference>& difference) {
+  if (!difference) return nullptr;
+  return {{"psnr_db", finite(difference->psnr_db)},
+          {"max_abs_error", difference->max_abs_error},
+          {"pixels", difference->pixels}};
+}
+
 Json image_of(const ViewResult& view, bool original_known) {
   const GoldenFrame& golden = view.golden;
   Json out = {{"reference", original_known ? "scene" : "decoded_scene"},
@@ -72,11 +80,33 @@ Json image_of(const ViewResult& view, bool original_known) {
   if (original_known) {
     out["encoding_psnr_db"] = finite(psnr_db(view.decoded_reference, view.reference));
   }
+  out["file_order"] = file_order_of(view.file_order);
   out["equals_streaming_renderer"] = view.equals_golden;
   out["missed"] = golden.missed;
   out["misordered"] = golden.misordered;
   out["blends"] = golden.blends;
   if (view.order_loss) out["error_parts"] = error_parts_of(*view.order_loss);
+  return out;
+}
+
+Json activity_of(const ActivityResult& activity) {
+  Json waited = Json::object();
+  for (std::size_t k = 0; k < kWaitForCount; ++k) {
+    const auto what = static_cast<WaitFor>(k);
+    waited[name_of(what)] = activity.waited_for(what);
+  }
+  Json waits = Json::array();
+  for (const WaitResult& wait : activity.waits) {
+    Json& out = waits.emplace_back(Json{{"for", name_of(wait.what)}, {"cycles", wait.cycles}});
+    if (!wait.at.empty()) out["on"] = wait.at;
+    if (!wait.other.empty()) out["other_end"] = wait.other;
+    if (!wait.key.empty()) out["key"] = wait.key;
+  }
+  Json out = {{"resource", activity.resource},
+              {"busy_cycles", activity.busy_cycles},
+              {"waited_cycles", waited},
+              {"waits", waits}};
+  if (!activity.key.empty()) out["key"] = activity.key;
   return out;
 }
 
@@ -86,10 +116,7 @@ Json units_of(const MachineResult& machine) {
     Json& out = units[unit.name];
     out["activities"] = Json::object();
     for (const ActivityResult& a : unit.activities) {
-      out["activities"][a.name] = {{"resource", a.resource},
-                                   {"busy_cycles", a.busy_cycles},
-                                   {"starved_cycles", a.starved_cycles},
-                                   {"blocked_cycles", a.blocked_cycles}};
+      out["activities"][a.name] = activity_of(a);
     }
     out["counters"] = Json::object();
     for (const CounterResult& c : unit.counters) out["counters"][c.name] = c.value;
@@ -122,22 +149,32 @@ Json dram_of(const MemoryResult& m) {
           {"read_latency_p99_ns", m.read_latency_p99_ns}};
 }
 
+Json band_of(const Band& band) {
+  return {{"low", band.low}, {"middle", band.middle}, {"high", band.high}};
+}
+
+// Middle values, and beside them what the sources allow.
+Json costs_of(const CostResult& cost, const char* suffix) {
+  Json out = Json::object(), bands = Json::object();
+  for (const auto& [component, amount] : cost.by_component) {
+    out[component + suffix] = amount.middle;
+    bands[component + suffix] = band_of(amount);
+  }
+  out[std::string("total") + suffix] = cost.total.middle;
+  bands[std::string("total") + suffix] = band_of(cost.total);
+  out["bands"] = bands;
+  return out;
+}
+
 Json energy_section(const ViewResult& view) {
-  Json out = object_of(view.energy_j.by_component, "_j");
-  out["total_j"] = view.energy_j.total;
+  Json out = costs_of(view.energy_j, "_j");
   out["mean_power_w"] = view.mean_power_w();
   out["dram_by_current_set_j"] = object_of(view.run.memory.energy_by_current_set_j);
   out["dram_by_region_j"] = object_of(view.run.memory.energy_by_region_j);
   return out;
 }
 
-Json area_section(const CostResult& area) {
-  Json out = object_of(area.by_component);
-  out["total"] = area.total;
-  return out;
-}
-
-Json sram_of(const MachineResult& machine) {
+Json sram_of(const MachineResult& machine, const SramModel& model) {
   Json out;
   for (const auto& [memory, available] : machine.sram_available) {
     out[memory + "_bytes"] = sram_bytes(machine.sram_uses, memory);
@@ -148,23 +185,48 @@ Json sram_of(const MachineResult& machine) {
     out["uses"].push_back({{"name", use.name},
                            {"memory", use.memory},
                            {"bytes", use.total_bytes()},
-                           {"arithmetic", use.product()}});
+                           {"arithmetic", use.product()},
+                           {"memories", use.count * use.shape.banks},
+                           {"width_bits", use.shape.width_bits},
+                           {"mm2", model.mm2(use).middle}});
+    for (const SramAccesses& a : machine.sram_accesses) {
+      if (a.use != use.name) continue;
+      Json& line = out["uses"].back();
+      line["reads"] = a.reads;
+      line["writes"] = a.writes;
+      line["energy_j"] = access_energy_j(machine, use, model).middle;
+    }
   }
   return out;
 }
 
-Json datapaths_of(const std::vector<Datapath>& datapaths) {
+Json datapaths_of(const std::vector<DatapathResult>& datapaths) {
   Json out = Json::object();
-  for (const Datapath& d : datapaths) {
-    const auto cost = [&](std::uint32_t macs) -> Json {
-      return {{"macs", macs}, {"interval_cycles", (macs + d.lanes - 1) / d.lanes}};
+  for (const auto& [d, items] : datapaths) {
+    const auto cost = [&, lanes = d.lanes](std::uint32_t macs) -> Json {
+      return {{"macs", macs}, {"interval_cycles", (macs + lanes - 1) / lanes}};
     };
-    out[d.name] = {{"counts", object_of(d.counts)},
-                   {"counted", cost(d.counted_macs)},
-                   {"paper", cost(d.published_macs)},
-                   {"used", cost(d.used_macs)}};
+    Json& line = out[d.name];
+    line = {{"lane", d.lane},
+            {"lanes", d.all_lanes()},
+            {"items", items},
+            {"counts", object_of(d.counts)},
+            {"counted", cost(d.counted_macs)}};
+    if (d.published_macs > 0) line["paper"] = cost(d.published_macs);
+    line["used"] = cost(d.used_macs);
   }
   return out;
+}
+
+Json ledger_section(const FrameResult& run) {
+  Json lines = Json::array();
+  for (const LedgerLine& line : ledger_of(run.machine)) {
+    lines.push_back({{"what", line.what},
+                     {"done", line.done},
+                     {"per_cycle", line.per_cycle},
+                     {"utilisation", line.utilisation(run.cycles)}});
+  }
+  return {{"lines", lines}, {"faults", ledger_faults(run.machine, run.cycles)}};
 }
 
 Json left_out_section(const std::vector<LeftOut>& list) {
@@ -194,12 +256,15 @@ Json view_report(const ViewResult& view, const PreparedScene& scene) {
                        {"utilisation", view.binding.utilisation},
                        {"next", view.binding.next},
                        {"next_utilisation", view.binding.next_utilisation},
+                       {"holds", view.binding.holds},
+                       {"key", view.binding.key},
                        {"explanation", view.binding.explanation}};
   report["dram"] = dram_of(run.memory);
   report["energy"] = energy_section(view);
-  report["area_mm2"] = area_section(view.area_mm2);
-  report["sram"] = sram_of(run.machine);
+  report["area_mm2"] = costs_of(view.area_mm2, "");
+  report["sram"] = sram_of(run.machine, view.sram_model);
   report["datapath"] = datapaths_of(run.machine.datapaths);
+  report["ledger"] = ledger_section(run);
   report["limit"] = {{"contributing_gaussians", view.golden.contributing},
                      {"bytes_read_once", view.once_bytes},
                      {"ratio", view.once_ratio()}};

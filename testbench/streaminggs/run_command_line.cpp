@@ -19,6 +19,7 @@ int run_command_line(int argc, char* argv[], const Kinds& kinds) {
     commands.emplace_back(&command, make(command, kinds));
   };
   add("simulate", "send a scene through the accelerator", add_simulate_command);
+  add("what-if", "double each resource in turn: what it gains and costs", add_what_if_command);
   add("pack", "write the memory image of a scene into a file", add_pack_command);
   add("render", "write one golden image", add_render_command);
   add("compare", "PSNR, SSIM and largest error of two images", add_compare_command);

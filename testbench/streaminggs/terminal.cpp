@@ -39,14 +39,23 @@ void print_table_line(const ViewResult& v) {
       v.view, std::isinf(v.psnr_db) ? "equal" : fmt::format("{:.2f}", v.psnr_db), v.ssim,
       v.equals_golden ? "yes" : "NO", grouped(v.run.cycles),
       grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
-      static_cast<double>(v.run.memory.bytes) / 1e6, v.once_ratio(), v.energy_j.total * 1e3,
+      static_cast<double>(v.run.memory.bytes) / 1e6, v.once_ratio(), v.energy_j.total.middle * 1e3,
       v.mean_power_w(), v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
 }
 
 void print_details(const ViewResult& v) {
   fmt::print("\nview {}: {}\n", v.view, v.binding.explanation);
+  const Band& energy = v.energy_j.total;
+  fmt::print("view {}: energy {:.3f} ({:.3f} .. {:.3f}) mJ\n", v.view, energy.middle * 1e3,
+             energy.low * 1e3, energy.high * 1e3);
   if (v.golden.contributing == 0) {
     fmt::print("view {}: no Gaussian contributes to the picture\n", v.view);
+  }
+  if (v.file_order && v.file_order->pixels > 0) {
+    fmt::print(
+        "  ties of depth in the file's order: {} pixels of the reference picture differ, {:.2f} "
+        "dB, by at most {:.2g}\n",
+        grouped(v.file_order->pixels), v.file_order->psnr_db, v.file_order->max_abs_error);
   }
   if (v.order_loss) print_order_loss(*v.order_loss);
   fmt::print("  {:<14} {:>14} {:>14}\n", "DRAM region", "B asked for", "B on the bus");
@@ -76,12 +85,16 @@ void print_machine(const ViewResult& v, const std::vector<AutoChoice>& chosen,
                    const std::string& technology) {
   std::string parts;
   for (const auto& [component, mm2] : v.area_mm2.by_component) {
-    parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", component, mm2);
+    parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", component, mm2.middle);
   }
-  fmt::print("\narea {:.2f} mm2 at {}: {}\n", v.area_mm2.total, technology, parts);
-  for (const Datapath& d : v.run.machine.datapaths) {
-    fmt::print("multiply-accumulates of a {} test: {} counted, {} published, {} charged\n", d.name,
-               d.counted_macs, d.published_macs, d.used_macs);
+  const Band& area = v.area_mm2.total;
+  fmt::print("\narea {:.2f} ({:.2f} .. {:.2f}) mm2 at {}: {}\n", area.middle, area.low, area.high,
+             technology, parts);
+  for (const auto& [d, items] : v.run.machine.datapaths) {
+    const std::string published =
+        d.published_macs > 0 ? fmt::format(" {} published,", d.published_macs) : "";
+    fmt::print("{}: {} lanes ({}); multiply-accumulates each: {} counted,{} {} charged\n", d.name,
+               d.all_lanes(), d.lane, d.counted_macs, published, d.used_macs);
   }
   for (const AutoChoice& choice : chosen) {
     fmt::print("chosen: {} {:g}: {}\n", choice.key, choice.value, choice.why);

@@ -6,7 +6,6 @@
 #include "algorithm/image/quality.h"
 #include "algorithm/input_error.h"
 #include "algorithm/memory/frame_buffer.h"
-#include "algorithm/memory/records.h"
 #include "algorithm/render/reference_renderer.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
@@ -30,8 +29,7 @@ void list_left_out(const StoredScene& scene, const MachineResult& machine, DataS
   const SceneLayout& layout = scene.image.layout;
   const std::uint64_t invisible = scene.gaussians - layout.gaussian_count();
   sheet.left_out("invisible_gaussians", "opacity below 1/255: no view can show them", invisible,
-                 fmt::format("{} B of DRAM",
-                             invisible * (kFirstHalfBytes + layout.second_halves.record_bytes)));
+                 fmt::format("{} B of DRAM", invisible * layout.record_bytes()));
   for (const LeftOut& entry : machine.left_out) {
     sheet.left_out(entry.what.c_str(), entry.why.c_str(), entry.count, entry.saves);
   }
@@ -52,6 +50,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   view.decoded_reference = reference_of(scene.stored.decoded);
   view.reference =
       scene.stored.original ? reference_of(*scene.stored.original) : view.decoded_reference;
+  view.file_order = file_order_difference(scene, job.view, job.background, view.reference);
   LeftOutCollector left_out(view.left_out);
   view.golden = config.design->golden(scene.stored, job, left_out);
 
@@ -68,11 +67,10 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   list_left_out(scene.stored, view.run.machine, left_out);
   view.binding = find_binding(view.run);
   view.energy_j = energy_of(view.run, technology);
-  view.area_mm2 = area_of(view.run.machine, technology);
+  view.area_mm2 = area_of(view.run, technology);
+  view.sram_model = technology.sram;
   const SceneLayout& layout = scene.stored.image.layout;
-  view.once_bytes =
-      view.golden.contributing * (kFirstHalfBytes + layout.second_halves.record_bytes) +
-      job.frame_buffer.bytes;
+  view.once_bytes = view.golden.contributing * layout.record_bytes() + job.frame_buffer.bytes;
   return view;
 }
 

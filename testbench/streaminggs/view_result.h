@@ -12,6 +12,7 @@
 #include "testbench/cost/cost.h"
 #include "testbench/result/frame_result.h"
 #include "testbench/streaminggs/binding.h"
+#include "testbench/streaminggs/file_order.h"
 #include "testbench/streaminggs/frame_run.h"
 #include "testbench/streaminggs/order_loss.h"
 #include "testbench/streaminggs/prepared_scene.h"
@@ -21,22 +22,24 @@ namespace sgs {
 struct ViewResult {
   int view = 0;
   Image frame;              // as read back from the modelled DRAM
-  Image reference;          // of the scene as given
+  Image reference;          // of the scene as given, in storage order
   Image decoded_reference;  // of the scene as encoded
   GoldenFrame golden;
   bool equals_golden = false;    // bytes of the frame buffer against the golden renderer's
   double psnr_db = 0, ssim = 0;  // of the frame against `reference`; infinite where they are equal
+  std::optional<FileOrderDifference> file_order;  // of `reference`; none where it is not known
   std::optional<OrderLoss> order_loss;  // where splats were missed or blended out of order
   FrameResult run;
   std::vector<LeftOut> left_out;
   Binding binding;
   CostResult energy_j, area_mm2;
+  SramModel sram_model;          // that they were made with
   std::uint64_t image_hash = 0;  // of the bytes loaded into the memory
   std::uint64_t once_bytes = 0;  // each contributing Gaussian read once, each pixel written
   double once_ratio() const {
     return static_cast<double>(run.memory.bytes) / static_cast<double>(once_bytes);
   }
-  double mean_power_w() const { return run.cycles > 0 ? energy_j.total / run.time_s() : 0; }
+  double mean_power_w() const { return run.cycles > 0 ? energy_j.total.middle / run.time_s() : 0; }
 };
 
 // Simulates one view and judges it: golden picture, costs, binding unit. Throws InputError when

@@ -4,18 +4,23 @@
 #include <algorithm>
 #include <utility>
 
-#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/memory/first_half_test.h"
 #include "algorithm/splat/make_splat.h"
 
 namespace sgs::tb {
 namespace {
 
+SplitFirstHalf first_half_of(const TestScene& scene, std::uint32_t slot) {
+  const SceneLayout& layout = scene.job.layout;
+  return read_first_half(layout.split, scene.image.at(layout.first_halves.address(slot)));
+}
+
 DecodedGaussian decode_slot(const TestScene& scene, std::uint32_t slot) {
   const SceneLayout& layout = scene.job.layout;
   const MemoryImage& image = scene.image;
-  return decode_second_half(
-      layout.second_half, decode_first_half(image.at(layout.first_halves.address(slot))),
-      image.at(layout.second_halves.address(slot)), image.at(layout.codebooks.base));
+  const SplitFirstHalf first = first_half_of(scene, slot);
+  return read_record(layout.split, layout.second_half, first.mean, first.carried,
+                     image.at(layout.second_halves.address(slot)), image.at(layout.codebooks.base));
 }
 
 // Lines that hold a byte of one of the record's entries, counted entry by entry.
@@ -23,7 +28,8 @@ std::uint32_t lines_of(const HfuPlan& plan, std::uint32_t slot) {
   const SceneLayout& layout = plan.scene.job.layout;
   const SecondHalfFormat& format = layout.second_half;
   const CodebookIndices indices =
-      decode_indices(format, plan.scene.image.at(layout.second_halves.address(slot)));
+      read_indices(layout.split, format, first_half_of(plan.scene, slot).carried,
+                   plan.scene.image.at(layout.second_halves.address(slot)));
   std::uint32_t lines = 0;
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
     if (format.entries[id] == 0) continue;
@@ -45,9 +51,9 @@ ExpectedShare expect(const HfuPlan& plan, const VisitShare& share) {
   for (std::uint32_t slot = share.first; slot < share.first + share.count; ++slot) {
     const DecodedGaussian decoded = decode_slot(scene, slot);
     const Gaussian<float>& g = decoded.gaussian;
-    const CoarseBound bound =
-        coarse_bound(scene.job.view, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
-    const bool near = bound.in_front && touches(bound, pixels);
+    const bool near = touches(
+        bound_first_half(scene.job.layout.split, first_half_of(scene, slot), scene.job.view),
+        pixels);
     out.passes.push_back(near || !plan.config.coarse_filter);
     if (scene.job.layout.second_half.quantised()) out.lines.push_back(lines_of(plan, slot));
     Splat splat{};

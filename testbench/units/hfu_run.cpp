@@ -69,13 +69,16 @@ void add_feedback(UnitBench& bench, const HfuPlan& plan, FinishedGroups& finishe
 void check_counters(UnitBench& bench, const HfuPlan& plan, const HfuTimes& times, bool exact) {
   Checks& checks = bench.checks();
   const bool quantised = plan.scene.job.layout.second_half.quantised();
-  bench.check_operations("coarse", "fp32_mac",
+  bench.check_operations("coarse", "fp32_lane",
                          bench.counter("coarse_tests") * plan.config.cfu_macs);
-  bench.check_operations("fine", "fp32_mac", bench.counter("fine_tests") * plan.config.ffu_macs);
-  // First halves, second halves and splats each pass a buffer.
-  const std::uint64_t buffered = bench.bytes_read() + bench.counter("splats") * kSplatEntryBytes;
-  bench.check_operations("buffers", "sram_small_write_bit", 8 * buffered);
-  bench.check_operations("buffers", "sram_small_read_bit", 8 * buffered);
+  bench.check_operations("fine", "fp32_lane", bench.counter("fine_tests") * plan.config.ffu_macs);
+  // Every half that was fetched went into its buffer, in words of 32 B the second ones.
+  const std::uint64_t halves = bench.counter("first_halves");
+  checks.equal(bench.accesses("input").second, halves, "first halves written");
+  checks.that(bench.accesses("input").first <= halves, "first halves read");
+  const std::uint64_t record = plan.scene.job.layout.second_halves.record_bytes;
+  const std::uint64_t words = bench.counter("second_halves") * ((record + 31) / 32);
+  bench.check_accesses("second halves", words, words);
   if (exact) {
     bench.check_counter("first_halves", times.first_halves);
     bench.check_counter("coarse_tests", times.coarse_tests);
@@ -192,10 +195,10 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
   bench.run();
 
   bench.check_counter("shares", plan.shares.size());
-  checks.equal(unit->coarse.memory.bytes_read(), bench.counter("first_halves") * kFirstHalfBytes,
-               "bytes read of first halves");
-  checks.equal(unit->fine.memory.bytes_read(),
-               bench.counter("second_halves") * plan.scene.job.layout.second_half.bytes(),
+  const RecordSplit& split = plan.scene.job.layout.split;
+  checks.equal(unit->coarse.memory.bytes_read(),
+               bench.counter("first_halves") * split.first_bytes(), "bytes read of first halves");
+  checks.equal(unit->fine.memory.bytes_read(), bench.counter("second_halves") * split.second_bytes,
                "bytes read of second halves");
   bool any_finished = false;
   for (std::uint32_t g = 0; g < plan.scene.job.groups.size(); ++g) {

@@ -2,26 +2,23 @@
 #include "testbench/units/merge_plan.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "testbench/units/random_splats.h"
 
 namespace sgs::tb {
 
 StreamingJob merge_job(const MergePlan& plan) {
-  const std::uint64_t spill_bytes = 2ULL * plan.slots * kSpilledKeyBytes;
-  StreamingJob job =
-      frame_job(16 * static_cast<int>(plan.groups.size()), 16, 16, FrameFormat::kRgb8, spill_bytes);
-  ChunkTableLayout table;
-  table.indices = job.layout.regions.add_records("indices", sizeof(std::uint32_t), plan.slots);
-  job.layout.table = table;
-  return job;
+  const std::uint64_t spill_bytes = 2ULL * plan.slots * FineCandidate::kSramBytes;
+  return frame_job(16 * static_cast<int>(plan.groups.size()), 16, 16, FrameFormat::kRgb8,
+                   spill_bytes);
 }
 
-std::vector<std::byte> index_bytes(const MergePlan& plan) {
-  std::vector<std::byte> bytes(plan.index_of.size() * sizeof(std::uint32_t));
-  if (!bytes.empty()) std::memcpy(bytes.data(), plan.index_of.data(), bytes.size());
-  return bytes;
+std::uint32_t longest_visit(const MergePlan& plan) {
+  std::size_t longest = 0;
+  for (const MergeGroup& group : plan.groups) {
+    for (const MergeVisit& visit : group.visits) longest = std::max(longest, visit.keys.size());
+  }
+  return static_cast<std::uint32_t>(longest);
 }
 
 FineCandidate candidate(std::uint32_t group, std::uint32_t visit, const MergeKey& key) {
@@ -34,14 +31,13 @@ FineCandidate candidate(std::uint32_t group, std::uint32_t visit, const MergeKey
   c.mean_x = static_cast<float>(key.slot) + 0.25F;
   c.mean_y = -c.mean_x;
   c.mean_z = key.depth + 1;
-  c.scale_max = 0.5F + static_cast<float>(key.slot % 7);
+  c.carried = {key.slot * 2654435761U, ~key.slot};
   return c;
 }
 
 std::vector<MergeKey> expected_order(const MergePlan& plan, const MergeGroup& group) {
-  const auto in_order = [&](const MergeKey& a, const MergeKey& b) {
-    return a.depth < b.depth ||
-           (a.depth == b.depth && plan.index_of[a.slot] < plan.index_of[b.slot]);
+  const auto in_order = [](const MergeKey& a, const MergeKey& b) {
+    return a.depth < b.depth || (a.depth == b.depth && a.slot < b.slot);
   };
   std::vector<MergeKey> waiting, out;
   for (const MergeVisit& visit : group.visits) {
@@ -58,14 +54,6 @@ std::vector<MergeKey> expected_order(const MergePlan& plan, const MergeGroup& gr
   std::sort(waiting.begin(), waiting.end(), in_order);
   out.insert(out.end(), waiting.begin(), waiting.end());
   return out;
-}
-
-MergePlan merge_plan(std::mt19937_64& random, std::uint32_t slots) {
-  MergePlan plan;
-  plan.slots = slots;
-  for (std::uint32_t slot = 0; slot < slots; ++slot) plan.index_of.push_back(slot);
-  std::shuffle(plan.index_of.begin(), plan.index_of.end(), random);
-  return plan;
 }
 
 MergeGroup random_group(std::mt19937_64& random, const MergePlan& plan, std::uint32_t chunk,

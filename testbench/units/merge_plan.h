@@ -35,13 +35,12 @@ struct MergePlan {
   std::uint32_t sorters = 2, hfus = 4;
   std::uint32_t input_entries = 16, output_entries = 4;
   std::uint32_t feedback_cycles = 1;
-  std::uint32_t slots = 0;              // of the scene: what the spill area is sized for
-  std::vector<std::uint32_t> index_of;  // [slots] in the file
+  std::uint32_t slots = 0;  // of the scene: what the spill area is sized for
   std::vector<MergeGroup> groups;
 };
 
-// No groups yet; slots of the scene have file indices at random.
-MergePlan merge_plan(std::mt19937_64& random, std::uint32_t slots);
+// Most keys in a visit.
+std::uint32_t longest_visit(const MergePlan& plan);
 
 // Visits of up to `chunk` neighbouring slots each. depths: how many different ones, so that ties
 // lie within visits and across them; a visit's nearest key may be as near as the visit before
@@ -52,15 +51,12 @@ MergeGroup random_group(std::mt19937_64& random, const MergePlan& plan, std::uin
 // One visit of n keys, in slots 0 to n - 1: all at one depth, or each behind the one before.
 MergeGroup one_visit(std::uint32_t n, bool tied);
 
-// A frame whose groups are the plan's, with a spill region and, behind it, an index region.
+// A frame whose groups are the plan's, with a spill region.
 StreamingJob merge_job(const MergePlan& plan);
-
-// What lies in the index region.
-std::vector<std::byte> index_bytes(const MergePlan& plan);
 
 FineCandidate candidate(std::uint32_t group, std::uint32_t visit, const MergeKey& key);
 
-// Keys in the order of release. Exact: all by (depth, index). blend_early: what the renderer of
+// Keys in the order of release. Exact: all by (depth, slot). blend_early: what the renderer of
 // algorithm/ does, in words: after a visit what is final goes, then the nearest until the rest
 // fits.
 std::vector<MergeKey> expected_order(const MergePlan& plan, const MergeGroup& group);

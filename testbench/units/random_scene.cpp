@@ -80,13 +80,20 @@ EncodedCloud encode(ActivatedCloud cloud, SecondHalfEncoding encoding) {
 TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   TestScene scene;
   EncodedCloud encoded = encode(random_cloud(random, shape), shape.encoding);
-  scene.grid = build_voxel_grid(encoded.decoded, shape.voxel_size);
+  auto [grid, order] = arrange_by_voxels(encoded.decoded, shape.voxel_size);
+  encoded = reordered(std::move(encoded), order);
+  scene.grid = std::move(grid);
   const Camera camera = random_camera(random, shape);
   StreamingJob& job = scene.job;
   job.view = make_view<float>(camera);
   job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
   job.parts = {job.groups};
-  scene.image = build_memory_image(encoded, scene.grid);
+  // Records as the order has them, in the order of the grid; the tree's nodes are not read.
+  constexpr std::uint32_t kChunkGaussians = 16;
+  scene.image =
+      shape.order == StorageOrder::kChunks
+          ? build_memory_image(encoded, arrange_by_chunks(encoded.decoded, kChunkGaussians).table)
+          : build_memory_image(encoded, scene.grid);
   scene.cloud = std::move(encoded.decoded);
   place(scene.image.layout, 0, job);
   return scene;

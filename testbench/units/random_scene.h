@@ -16,13 +16,14 @@ struct SceneShape {
   std::size_t gaussians = 200;
   int sh_degree = 1;
   SecondHalfEncoding encoding = SecondHalfEncoding::kRaw;
+  StorageOrder order = StorageOrder::kVoxels;  // of the image; there is a grid all the same
   float extent = 4;  // world units, half the side of the cube that holds the centres
   float voxel_size = 1;
   int width_px = 48, height_px = 40, group_px = 16;
 };
 
 struct TestScene {
-  ActivatedCloud cloud;  // what the image's records decode to
+  ActivatedCloud cloud;  // what the image's records decode to, by slot
   VoxelGrid grid;
   MemoryImage image;
   StreamingJob job;

@@ -79,19 +79,21 @@ void run_plan(Case& test, const BenchConfig& config, const Plan& plan) {
     }
   });
   bench.run();
-  std::uint64_t keys = 0, trivial = 0, busy = 0, exchanges = 0;
+  std::uint64_t keys = 0, trivial = 0, busy = 0, exchanges = 0, moves = 0;
   for (const auto& visit : plan.visits) {
     const std::uint64_t n = visit.size() - 1;
     keys += n;
     trivial += n == 1 ? 1 : 0;
     busy += 2 * n + sort_cost(plan.config, n).cycles;  // in, sort, out
     exchanges += sort_cost(plan.config, n).compare_exchanges;
+    moves += sort_cost(plan.config, n).moves;
   }
   bench.check_counter("visits", plan.visits.size());
   bench.check_counter("visits_trivial", trivial);
   bench.check_counter("keys", keys);
   bench.check_counter("compare_exchanges", exchanges);
   bench.check_operations("sorting", "compare_exchange", exchanges);
+  bench.check_accesses("key sorters", keys + moves, keys + moves);
   checks.equal(bench.busy_cycles("sorting"), busy, "busy cycles");
 }
 

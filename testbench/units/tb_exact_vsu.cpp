@@ -1,11 +1,14 @@
 // Voxel sorting unit in exact order, alone: the chunk tree in memory, visits out to several HFUs.
-// Checked against the same walk over the tree itself; cycles and bytes against that walk's counts.
+// Checked against all chunks below nodes that touch a group, sorted by depth; cycles and bytes
+// against the counts of those nodes.
 #include <algorithm>
 #include <limits>
 
-#include "algorithm/order/tree_in_memory.h"
+#include "algorithm/splat/lane_macs.h"
+#include "algorithm/splat/reorder.h"
 #include "algorithm/storage/build_memory_image.h"
 #include "algorithm/voxel/chunk_tree.h"
+#include "algorithm/voxel/chunk_work.h"
 #include "modules/streaminggs/vsu/exact_vsu.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
@@ -26,49 +29,87 @@ struct Plan {
   std::uint32_t hfus = 4;
   std::uint32_t fifo_entries = kVisitFifoEntries;
   std::uint32_t feedback_cycles = 1;
-  int saturate_one_in = 0;       // 0: never; else how often a reader reports a group as finished
-  bool finished_before = false;  // all groups are reported before the first visit
+  int saturate_one_in = 0;          // 0: never; else how often a reader reports a group as finished
+  bool finished_before = false;     // all groups are reported before the first visit
+  std::uint64_t hfus_begin_at = 0;  // cycle before which they take nothing
+  bool reads_overlap = false;       // most of their latency is hidden
 };
 
 Plan plan_of(const TestScene& scene, std::uint32_t chunk) {
   Plan plan;
-  plan.tree = build_chunk_tree(scene.cloud, chunk);
+  auto [tree, order] = arrange_by_chunks(scene.cloud, chunk);
+  plan.tree = std::move(tree);
   const std::uint64_t aside_bytes =
       (plan.tree.chunk_count + plan.tree.nodes.size()) * kWalkEntryBytes;
   plan.job = scene.job;
-  plan.image = build_memory_image(encode_raw(scene.cloud), plan.tree);
+  plan.image = build_memory_image(encode_raw(reordered(scene.cloud, order)), plan.tree);
   place(plan.image.layout, aside_bytes, plan.job);
   return plan;
 }
 
 struct Expected {
   std::vector<std::vector<WalkEntry>> groups;  // chunks in order
-  WalkCounters walk;
-  std::uint64_t cycles = 0, empty = 0, visits = 0;
+  std::vector<std::uint64_t> nodes_of;         // [group] opened
+  std::uint64_t nodes = 0, upper = 0;          // opened; of these kept on chip
+  std::uint64_t tests = 0, cycles = 0, empty = 0, visits = 0, queue_operations = 0;
 };
+
+std::uint64_t macs_of_a_test() { return folded_macs(chunk_work(longest_chunk_case())); }
+
+// All below one node that touches: its chunks, and the cost of opening it.
+void expect_node(const Plan& plan, const PixelRect& group, const WalkEntry& entry, Expected& out) {
+  const ExactVsuConfig& c = plan.config;
+  const ChunkNode& node = plan.tree.nodes[entry.at];
+  std::uint32_t slot = node.first_slot, inner = node.first_node;
+  std::uint64_t touching = 0;
+  for (int k = 0; k < node.children; ++k) {
+    const std::uint16_t count = node.count[k];
+    const ChunkTest test = GroupFrustum(plan.job.view, group).test(child_bound(node, k));
+    const WalkEntry child{std::max(test.nearest, entry.nearest), count > 0 ? slot : inner, count,
+                          0};
+    (count > 0 ? slot : inner) += count > 0 ? count : 1;
+    if (!test.touches) continue;
+    ++touching;
+    if (count > 0) {
+      out.groups.back().push_back(child);
+    } else {
+      expect_node(plan, group, child, out);
+    }
+  }
+  const auto tests = static_cast<std::uint64_t>(node.children);
+  const std::uint64_t testing = (tests * macs_of_a_test() + c.test_lanes - 1) / c.test_lanes;
+  const std::uint64_t a_operation = c.cycles_per_queue_operation;
+  const bool upper = entry.at < c.upper_nodes;
+  // Taken from its queue and, where it is on chip, opened at once; else when it has come.
+  out.cycles += upper ? std::max((1 + touching) * a_operation, testing)
+                      : a_operation + std::max(touching * a_operation, testing);
+  out.queue_operations += 1 + touching;
+  out.tests += tests;
+  out.upper += upper ? 1 : 0;
+  ++out.nodes;
+}
 
 Expected expect(const Plan& plan) {
   Expected out;
-  TreeInMemory source{plan.tree, {}};
-  ChunkWalk<TreeInMemory> walk(plan.job.view, source, plan.config.queue_entries);
+  const std::uint64_t a_operation = plan.config.cycles_per_queue_operation;
   for (const PixelRect& group : plan.job.groups) {
-    out.groups.emplace_back();
-    walk.start(group, plan.tree.nodes.empty());
-    while (true) {
-      const WalkCounters before = walk.counters();
-      const std::optional<WalkEntry> chunk = walk.next();
-      const std::uint64_t tests = walk.counters().tests - before.tests;
-      const std::uint64_t per_cycle = plan.config.tests_per_cycle;
-      // A queue operation, one a node, and the tests.
-      out.cycles +=
-          1 + (walk.counters().nodes - before.nodes) + (tests + per_cycle - 1) / per_cycle;
-      if (!chunk) break;
-      out.groups.back().push_back(*chunk);
+    const std::uint64_t before = out.nodes;
+    std::vector<WalkEntry>& chunks = out.groups.emplace_back();
+    out.cycles += 1;  // the group's end
+    if (plan.tree.nodes.empty()) {
+      out.cycles += 1;  // its beginning
+    } else {
+      out.cycles += a_operation;
+      ++out.queue_operations;
+      expect_node(plan, group, {}, out);
     }
-    out.visits += out.groups.back().size();
-    out.empty += out.groups.back().empty() ? 1 : 0;
+    std::sort(chunks.begin(), chunks.end(), walks_before);
+    out.nodes_of.push_back(out.nodes - before);
+    out.cycles += chunks.size() * a_operation + (chunks.empty() ? 0 : 1);  // the last one's release
+    out.queue_operations += chunks.size();
+    out.visits += chunks.size();
+    out.empty += chunks.empty() ? 1 : 0;
   }
-  out.walk = walk.counters();
   return out;
 }
 
@@ -97,32 +138,63 @@ void check_group(Checks& checks, std::uint32_t group, const std::vector<WalkEntr
       fmt::format("group {}: end", group));
 }
 
+// Visits [first, end) of a group and its end, and the cycles in which they came: one goes out only
+// while the group is not seen as finished, and when the group ends without the rest it is.
+void check_left_out(Checks& checks, const ReportedGroups& groups, std::uint32_t group,
+                    std::size_t first, std::size_t end, const std::vector<std::uint64_t>& cycles,
+                    std::size_t all) {
+  constexpr std::uint64_t kOnTheWay = 2;  // a cycle's work behind the decision, one in the FIFO
+  for (std::size_t k = first; k + 1 < end; ++k) {
+    checks.that(cycles[k] - kOnTheWay < groups.seen_from(group),
+                fmt::format("group {}: visit {} although the group is finished", group, k - first));
+  }
+  if (end - first == all) return;
+  checks.that(cycles[end] - kOnTheWay >= groups.seen_from(group),
+              fmt::format("group {}: the rest is left out too soon", group));
+}
+
 void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected,
                     bool any_finished) {
   Checks& checks = bench.checks();
-  const std::uint64_t aside_bytes = bench.counter("queue_entries_put_aside") * kWalkEntryBytes;
-  const std::uint64_t misses = bench.counter("node_cache_misses");
+  const std::uint64_t put_aside = bench.counter("queue_entries_put_aside");
+  const std::uint64_t aside_bytes = put_aside * kWalkEntryBytes;
   checks.equal(bench.bytes_written(), aside_bytes, "bytes put aside");
-  checks.that(bench.counter("queue_entries_max") <= plan.config.queue_entries,
+  checks.that(bench.counter("chunk_queue_max") <= plan.config.queue_entries,
               "the queue holds more than it can");
-  const std::uint64_t table_bytes = misses * sizeof(ChunkNode);
+  checks.that(bench.counter("node_queue_max") <= plan.config.node_queue_entries,
+              "the queue of nodes holds more than it can");
+  const std::uint64_t upper =
+      std::min<std::uint64_t>(plan.config.upper_nodes, plan.tree.nodes.size());
+  const std::uint64_t table_bytes = (upper + bench.counter("nodes_read")) * sizeof(ChunkNode);
   checks.that(bench.bytes_read() >= table_bytes, "bytes read of the tree");
   checks.that(bench.bytes_read() <= table_bytes + aside_bytes, "bytes read of what was put aside");
-  constexpr std::uint64_t kMacsOfATest = 80;
-  bench.check_operations("vsu", "fp32_mac", bench.counter("tests") * kMacsOfATest);
+  bench.check_operations("vsu", "fp32_lane", bench.counter("tests") * macs_of_a_test());
+  checks.equal(bench.counter("nodes"),
+                bench.counter("upper_nodes_opened") + bench.counter("nodes_read") -
+                    bench.counter("nodes_dropped"),
+                "nodes opened");
+  // Four accesses of 32 B a node.
+  bench.check_accesses("upper nodes", 4 * bench.counter("upper_nodes_opened"), 4 * upper);
+  bench.check_accesses("nodes in flight", 4 * bench.counter("nodes_read"),
+                       4 * bench.counter("nodes_read"));
+  checks.equal(bench.busy_cycles("visits"), bench.counter("visits") + plan.job.groups.size(),
+                "cycles of handing out visits and ends of groups");
   if (any_finished) return;
   bench.check_counter("visits", expected.visits);
-  bench.check_counter("nodes", expected.walk.nodes);
-  bench.check_counter("tests", expected.walk.tests);
-  bench.check_counter("queue_entries_put_aside", expected.walk.overflowed);
-  bench.check_counter("queue_entries_max", expected.walk.queue_max);
+  bench.check_counter("nodes", expected.nodes);
+  bench.check_counter("upper_nodes_opened", expected.upper);
+  bench.check_counter("nodes_dropped", 0);
+  bench.check_counter("tests", expected.tests);
   bench.check_counter("groups_empty", expected.empty);
   bench.check_counter("groups_saturated", 0);
-  checks.equal(bench.busy_cycles("vsu"), expected.cycles, "busy cycles");
-  // A cache that holds the whole tree reads each node once.
-  const std::uint64_t tree_bytes = plan.tree.nodes.size() * sizeof(ChunkNode);
-  if (4 * tree_bytes <= plan.config.node_cache_bytes) {
-    checks.that(misses <= plan.tree.nodes.size(), "nodes read again");
+  const std::uint64_t operations =
+      bench.counter("chunk_queue_operations") + bench.counter("node_queue_operations");
+  if (put_aside == 0) {
+    checks.equal(bench.busy_cycles("vsu"), expected.cycles, "busy cycles");
+    checks.equal(operations, expected.queue_operations, "operations of the queues");
+  } else {
+    checks.that(bench.busy_cycles("vsu") >= operations * plan.config.cycles_per_queue_operation,
+                "operations of the queues take no time");
   }
 }
 
@@ -142,6 +214,12 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   std::vector<VisitShare> received;
   std::vector<std::uint64_t> cycles;  // in which they came
   bench.add_thread("hfus", [&](Activity& activity) {
+    bench.clock().wait_cycles(plan.hfus_begin_at);
+    if (plan.hfus_begin_at > 0) {
+      // Nothing has left but what fills the FIFOs: the walk has gone on into the next group.
+      bench.checks().that(bench.counter("nodes") > expected.nodes_of[0],
+                          "the next group's walk waits for this one's visits");
+    }
     for (std::size_t ends = 0; ends < plan.job.groups.size();) {
       received.push_back(visits[received.size() % plan.hfus]->pop(activity));
       cycles.push_back(bench.clock().now_cycles());
@@ -167,13 +245,15 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     if (at == received.size()) return;
     check_group(bench.checks(), g, expected.groups[g], received, first, at, finished.finished(g));
     if (bench.without_stalls()) {
-      const auto begin = cycles.begin() + static_cast<std::ptrdiff_t>(first);
-      check_feedback(bench.checks(), finished, g,
-                     {begin, begin + static_cast<std::ptrdiff_t>(at - first)},
-                     expected.groups[g].size());
+      check_left_out(bench.checks(), finished, g, first, at, cycles, expected.groups[g].size());
     }
     visits_seen += at - first;
     any_finished = any_finished || finished.finished(g);
+  }
+  if (plan.reads_overlap) {
+    bench.checks().that(
+        2 * cycles.back() < bench.counter("nodes_read") * bench_config.latency_cycles,
+        "reads wait for each other");
   }
   bench.check_counter("visits", visits_seen);
   if (plan.finished_before) bench.checks().equal(visits_seen, std::uint64_t{0}, "visits");
@@ -189,7 +269,7 @@ BenchConfig still_bench(const Plan& plan) {
 void directed(Case& test, const SceneShape& shape, std::uint32_t chunk,
               std::uint32_t queue_entries) {
   Plan plan = plan_of(random_scene(test.random, shape), chunk);
-  plan.config.queue_entries = queue_entries;
+  plan.config.queue_entries = plan.config.node_queue_entries = queue_entries;
   run_plan(test, still_bench(plan), plan);
 }
 
@@ -199,10 +279,14 @@ void random_case(Case& test) {
                       1 + static_cast<std::uint32_t>(random() % 20));
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.fifo_entries = 1 + static_cast<std::uint32_t>(random() % 6);
-  plan.config.tests_per_cycle = 1 + static_cast<std::uint32_t>(random() % 8);
+  plan.config.test_lanes = 1 + static_cast<std::uint32_t>(random() % 600);
   plan.config.queue_entries =
       kChunkNodeWidth + 1 + static_cast<std::uint32_t>(random() % (random() % 2 == 0 ? 10 : 500));
-  plan.config.node_cache_bytes = 64U << (random() % 14);
+  plan.config.node_queue_entries =
+      kChunkNodeWidth + 1 + static_cast<std::uint32_t>(random() % (random() % 2 == 0 ? 10 : 500));
+  plan.config.upper_nodes = static_cast<std::uint32_t>(random() % 40);
+  plan.config.nodes_in_flight = 1 + static_cast<std::uint32_t>(random() % 12);
+  plan.config.cycles_per_queue_operation = 1 + static_cast<std::uint32_t>(random() % 4);
   plan.saturate_one_in = random() % 3 == 0 ? 10 : 0;
   plan.feedback_cycles = 1 + static_cast<std::uint32_t>(random() % 40);
   run_plan(test, random_bench(random, memory_bytes(plan.job)), plan);
@@ -243,10 +327,27 @@ int sc_main(int argc, char* argv[]) {
     crowded.gaussians = 1000;
     crowded.group_px = 8;
     Plan plan = plan_of(random_scene(test.random, crowded), 1);
-    plan.config.queue_entries = kChunkNodeWidth + 1;
+    plan.config.queue_entries = plan.config.node_queue_entries = kChunkNodeWidth + 1;
     plan.saturate_one_in = 12;
     plan.fifo_entries = 1;
     run_plan(test, still_bench(plan), plan);
+  });
+  runner.add_directed("the next group's walk begins while this one's visits wait", [=](Case& test) {
+    SceneShape few = shape;
+    few.gaussians = 300;
+    Plan plan = plan_of(random_scene(test.random, few), 4);
+    plan.hfus_begin_at = 50'000;
+    run_plan(test, still_bench(plan), plan);
+  });
+  runner.add_directed("reads overlap", [=](Case& test) {
+    SceneShape many = shape;
+    many.gaussians = 1000;
+    Plan plan = plan_of(random_scene(test.random, many), 2);
+    plan.config.upper_nodes = 0;
+    plan.reads_overlap = true;
+    BenchConfig config = still_bench(plan);
+    config.latency_cycles = 200;
+    run_plan(test, config, plan);
   });
   runner.set_random(random_case);
   return runner.run(argc, argv);

@@ -1,6 +1,7 @@
 // Hierarchical filtering unit alone: shares of visits in, splats out to several sorting units.
 // Checked against the coarse bound and make_splat on what the bytes in memory decode to; times
 // against hfu_timing_model.h.
+#include "algorithm/splat/reorder.h"
 #include "algorithm/storage/build_memory_image.h"
 #include "testbench/units/hfu_run.h"
 #include "testbench/units/job_memory.h"
@@ -35,7 +36,9 @@ void exact_coarse_time(Case& test, std::uint32_t n) {
       g.mean[axis] = view.position[axis] - 2 * view.cam_from_world[2][axis];
     }
   }
-  plan.scene.grid = build_voxel_grid(plan.scene.cloud, shape.voxel_size);
+  auto [grid, order] = arrange_by_voxels(plan.scene.cloud, shape.voxel_size);
+  plan.scene.grid = std::move(grid);
+  plan.scene.cloud = reordered(plan.scene.cloud, order);
   plan.scene.image = build_memory_image(encode_raw(plan.scene.cloud), plan.scene.grid);
   place(plan.scene.image.layout, 0, plan.scene.job);
   constexpr std::uint64_t kLatency = 37, kInterval = 14, kDepth = 12;  // ceil(55 / 4)
@@ -180,6 +183,7 @@ void random_case(Case& test) {
   std::mt19937_64& random = test.random;
   SceneShape shape = random_shape(random);
   shape.encoding = static_cast<SecondHalfEncoding>(random() % 4);
+  shape.order = random() % 2 == 0 ? StorageOrder::kChunks : StorageOrder::kVoxels;
   HfuPlan plan = plan_of(random_scene(random, shape));
   HfuConfig& config = plan.config;
   plan.codebook.banks = 1 + static_cast<std::uint32_t>(random() % 16);
@@ -222,11 +226,15 @@ int sc_main(int argc, char* argv[]) {
     directed(test, large, {}, 2, 2000);
   });
   for (int degree = 0; degree <= 3; ++degree) {
-    runner.add_directed(fmt::format("SH degree {}", degree), [=](Case& test) {
-      SceneShape of_degree = shape;
-      of_degree.sh_degree = degree;
-      directed(test, of_degree, {}, 2, 100);
-    });
+    for (const auto& [name, order] :
+         {std::pair{"voxels", StorageOrder::kVoxels}, {"chunks", StorageOrder::kChunks}}) {
+      runner.add_directed(fmt::format("by {}, SH degree {}", name, degree), [=](Case& test) {
+        SceneShape of_degree = shape;
+        of_degree.sh_degree = degree;
+        of_degree.order = order;
+        directed(test, of_degree, {}, 2, 100);
+      });
+    }
   }
   for (const auto& [name, encoding] : {std::pair{"half", SecondHalfEncoding::kHalf},
                                        {"vq", SecondHalfEncoding::kVq},

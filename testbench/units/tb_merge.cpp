@@ -1,8 +1,7 @@
 // Merge unit alone: sorted keys of the visits of several groups in, keys in final order out.
-// Checked against std::sort by (depth, index in the file); cycles, bytes and conservation.
+// Checked against std::sort by (depth, slot); cycles, bytes and conservation.
 #include <algorithm>
 #include <limits>
-#include <map>
 
 #include "modules/streaminggs/merge/merge_unit.h"
 #include "testbench/units/case_runner.h"
@@ -15,10 +14,18 @@ namespace sgs::tb {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::uint64_t kKeyBytes = 28;  // depth, slot, centre, largest scale
 
 bool same_payload(const FineCandidate& a, const FineCandidate& b) {
   return a.slot == b.slot && a.depth == b.depth && a.mean_x == b.mean_x && a.mean_y == b.mean_y &&
-         a.mean_z == b.mean_z && a.scale_max == b.scale_max;
+         a.mean_z == b.mean_z && a.carried == b.carried;
+}
+
+// For visits as long as the plan's.
+UnitContext merge_context(const UnitBench& bench, const StreamingJob& job, const MergePlan& plan) {
+  UnitContext context = bench.context(job);
+  context.built_for.chunk_gaussians = longest_visit(plan);
+  return context;
 }
 
 struct Run {
@@ -34,8 +41,7 @@ struct Run {
         finished(bench.clock(), plan.groups.size(), plan.feedback_cycles),
         inputs(bench.add_fifos<FineCandidate>("sorted_by", plan.sorters, plan.input_entries, 1)),
         outputs(bench.add_fifos<FineCandidate>("to_hfu", plan.hfus, plan.output_entries, 1)),
-        unit("merge", plan.config, job.spill, bench.context(job)) {
-    bench.load(job.layout.chunk_table().indices.base, index_bytes(plan));
+        unit("merge", plan.config, job.spill, merge_context(bench, job, plan)) {
     for (TimedFifo<FineCandidate>* input : inputs) unit.sorted(*input);
     for (TimedFifo<FineCandidate>* output : outputs) unit.released(*output);
     unit.finished(finished.channel);
@@ -89,9 +95,10 @@ void add_reader(Run& run, const MergePlan& plan) {
               fmt::format("group {}, key {}: slot {} at depth {}, expected {} at {}", g, got,
                           key.slot, key.depth, expected[got].slot, expected[got].depth));
         }
-        // Decided on a cycle before it was put into the FIFO.
+        // Decided on before the heap was at work, then it went through the FIFO.
         if (run.bench.without_stalls()) {
-          checks.that(run.bench.clock().now_cycles() - 2 < run.finished.seen_from(g),
+          const std::uint64_t cycles = plan.config.cycles_per_operation + 1;
+          checks.that(run.bench.clock().now_cycles() - cycles < run.finished.seen_from(g),
                       fmt::format("group {}: key {} although the group is finished", g, got));
         }
         if (got + 1 >= group.saturates_after) run.finished.finish(g);
@@ -101,20 +108,14 @@ void add_reader(Run& run, const MergePlan& plan) {
         checks.equal(got, expected.size(), fmt::format("group {}: keys", g));
       }
     }
-    // Indices that a finished group asked for may still be on their way.
-    constexpr std::uint64_t kLongerThanMemoryTakes = 10'000;
-    run.bench.clock().wait_cycles(kLongerThanMemoryTakes);
   });
 }
 
-// Keys of depths that another key of the group has.
-std::uint64_t tied_keys(const MergeGroup& group) {
-  std::map<float, std::uint64_t> keys;
-  for (const MergeVisit& visit : group.visits) {
-    for (const MergeKey& key : visit.keys) ++keys[key.depth];
-  }
+// Keys released behind one of the same depth.
+std::uint64_t tied_keys(const MergePlan& plan, const MergeGroup& group) {
+  const std::vector<MergeKey> keys = expected_order(plan, group);
   std::uint64_t tied = 0;
-  for (const auto& [depth, count] : keys) tied += count > 1 ? count : 0;
+  for (std::size_t k = 1; k < keys.size(); ++k) tied += keys[k].depth == keys[k - 1].depth ? 1 : 0;
   return tied;
 }
 
@@ -129,24 +130,30 @@ void check_counters(Run& run, const MergePlan& plan) {
   }
   run.bench.check_counter("keys", keys);
   std::uint64_t tied = 0;
-  for (const MergeGroup& group : plan.groups) tied += tied_keys(group);
-  const bool in_order = plan.config.on_overflow == OnOverflow::kSpill;
-  if (in_order && !saturating) {
-    run.bench.check_counter("ties_looked_up", tied);
-    if (c.runs_spilled == 0) run.bench.check_counter("index_lookups", tied);
-  }
+  for (const MergeGroup& group : plan.groups) tied += tied_keys(plan, group);
+  if (!saturating) run.bench.check_counter("ties", tied);
   checks.that(c.ties <= tied, "more ties than keys of one depth");
-  checks.that(c.looked_up <= keys, "a key was looked up twice");
   checks.equal(c.released + c.dropped_saturated, keys, "keys accounted for");
   if (!saturating) run.bench.check_counter("released", keys);
-  // A cycle in, a cycle out, a cycle a mark, a cycle each time into DRAM.
+  // What the heap takes and gives at its own pace; a cycle for a key that is dropped on arrival,
+  // read from a run or moved to another, and for a mark.
+  const HeapWork& heap = run.unit.heap_work();
+  run.bench.check_counter("inserts", heap.inserts);
+  run.bench.check_counter("delete_mins", heap.delete_mins);
+  run.bench.check_counter("delete_maxs", heap.delete_maxs);
   checks.equal(run.bench.busy_cycles("merge"),
-               c.keys + c.released + plan.groups.size() + c.keys_spilled, "busy cycles");
-  checks.equal(run.bench.bytes_written(), run.bench.counter("keys_spilled") * kSpilledKeyBytes,
+               plan.config.cycles_per_operation * heap.operations() + (c.keys - heap.inserts) +
+                   (c.released - heap.delete_mins) + (c.keys_spilled - heap.delete_maxs) +
+                   plan.groups.size(),
+               "busy cycles");
+  if (!saturating) {
+    checks.equal(heap.inserts, keys, "inserts");
+    checks.equal(heap.delete_mins + heap.delete_maxs, keys, "deletes");
+  }
+  checks.equal(run.bench.bytes_written(), run.bench.counter("keys_spilled") * kKeyBytes,
                "bytes written");
   if (!saturating) {
-    checks.that(run.bench.bytes_read() >= c.keys_spilled * kSpilledKeyBytes,
-                "spilled keys were read back");
+    checks.equal(run.bench.bytes_read(), c.keys_spilled * kKeyBytes, "bytes read back");
   }
   if (plan.config.on_overflow == OnOverflow::kSpill) {
     checks.that(run.bench.counter("pending_keys_max") <= plan.config.entries,
@@ -155,12 +162,14 @@ void check_counters(Run& run, const MergePlan& plan) {
   } else {
     run.bench.check_counter("runs_spilled", 0);
   }
-  // A key passes all levels of the heap on its way in and on its way out.
-  std::uint64_t levels = 0;
-  for (std::uint64_t held = plan.config.entries - 1; held > 0; held /= 2) ++levels;
-  const std::uint64_t moved_bytes = 2 * keys * levels * kWaitingKeyBytes;
-  run.bench.check_operations("merge", "sram_middle_read_bit", 8 * moved_bytes);
-  run.bench.check_operations("merge", "sram_middle_write_bit", 8 * moved_bytes);
+  // Two nodes a word read, one written; a key is depth and slot.
+  const std::uint64_t words = run.bench.counter("heap_words_read");
+  run.bench.check_accesses("waiting keys", 2 * words, run.bench.counter("heap_nodes_written"));
+  std::uint64_t comparisons = 2 * run.bench.counter("heap_comparisons");
+  if (plan.config.on_overflow == OnOverflow::kSpill) {
+    comparisons += 2 * (plan.config.spill_runs - 1) * run.bench.counter("keys_spilled");
+  }
+  run.bench.check_operations("merge", "comparator", comparisons);
   // Nothing went past the spill area.
   const RegionSpan& spill = run.job.spill;
   const std::vector<std::byte> behind =
@@ -187,12 +196,14 @@ BenchConfig still_bench(const MergePlan& plan) {
 
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
-  MergePlan plan = merge_plan(random, static_cast<std::uint32_t>(random() % 400));
+  MergePlan plan;
+  plan.slots = static_cast<std::uint32_t>(random() % 400);
   plan.sorters = 1 + static_cast<std::uint32_t>(random() % 4);
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 5);
   plan.input_entries = 1 + static_cast<std::uint32_t>(random() % 16);
   plan.output_entries = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.config.entries = 2 + static_cast<std::uint32_t>(random() % (random() % 2 == 0 ? 20 : 400));
+  plan.config.cycles_per_operation = 1 + static_cast<std::uint32_t>(random() % 4);
   plan.config.spill_runs = 2 + static_cast<std::uint32_t>(random() % 6);
   plan.config.spill_block_entries = 1 + static_cast<std::uint32_t>(random() % 10);
   if (random() % 5 == 0) plan.config.on_overflow = OnOverflow::kBlendEarly;
@@ -206,9 +217,11 @@ void random_case(Case& test) {
   run_plan(test, random_bench(random, still_bench(plan).memory_bytes), plan);
 }
 
-// n keys without ties that wait at the input: one cycle each in, one each out.
-void exact_time(Case& test, std::uint32_t n) {
-  MergePlan plan = merge_plan(test.random, n);
+// n keys without ties that wait at the input: an operation each in, one each out.
+void exact_time(Case& test, std::uint32_t n, std::uint32_t cycles_per_operation) {
+  MergePlan plan;
+  plan.slots = n;
+  plan.config.cycles_per_operation = cycles_per_operation;
   plan.sorters = plan.hfus = 1;
   plan.input_entries = n + 2;
   plan.output_entries = n + 1;
@@ -217,13 +230,14 @@ void exact_time(Case& test, std::uint32_t n) {
   Run run(test, still_bench(plan), plan);
   add_sorters(run, plan);
   run.bench.add_thread("reader", [&](Activity& activity) {
-    // FIFO in, n in, the first out, FIFO out.
-    const std::uint64_t first = 1 + n + 1 + 1;
-    run.bench.wait_until_just_before(first);
+    // FIFO in, n in, the first out (the mark, where there is none), FIFO out.
+    std::uint64_t due = 1 + n * cycles_per_operation + (n > 0 ? cycles_per_operation : 1) + 1;
+    run.bench.wait_until_just_before(due);
     run.bench.checks().that(!run.outputs[0]->can_pop(), "released a cycle too soon");
     for (std::uint32_t i = 0; i <= n; ++i) {
       run.outputs[0]->pop(activity);
-      run.bench.checks().equal(run.bench.clock().now_cycles(), first + i, "time of a key");
+      run.bench.checks().equal(run.bench.clock().now_cycles(), due, "time of a key");
+      due += i + 1 < n ? cycles_per_operation : 1;
     }
   });
   run.bench.run();
@@ -231,13 +245,14 @@ void exact_time(Case& test, std::uint32_t n) {
 
 // What is final comes out although nothing more goes in; what ties with the bound does not.
 void final_keys_do_not_wait(Case& test) {
-  MergePlan plan = merge_plan(test.random, 4);
+  MergePlan plan;
+  plan.slots = 4;
   plan.sorters = plan.hfus = 1;
   plan.groups.emplace_back();
   Run run(test, still_bench(plan), plan);
   std::uint64_t last_in = 0;
   run.bench.add_thread("sorter", [&](Activity& activity) {
-    const MergeKey keys[] = {{1, 0}, {2, 1}, {3, 2}};
+    const MergeKey keys[] = {{1, 0}, {2, 3}, {3, 2}};
     for (const MergeKey& key : keys) run.inputs[0]->push(candidate(0, 0, key), activity);
     FineCandidate end;
     end.mark = Mark::kEndOfVisit;
@@ -245,7 +260,7 @@ void final_keys_do_not_wait(Case& test) {
     run.inputs[0]->push(end, activity);
     run.bench.clock().wait_cycles(1000);
     last_in = run.bench.clock().now_cycles();
-    run.inputs[0]->push(candidate(0, 1, {2, 3}), activity);
+    run.inputs[0]->push(candidate(0, 1, {2, 1}), activity);
     end.visit = 1;
     end.release_below = kInfinity;
     run.inputs[0]->push(end, activity);
@@ -257,11 +272,10 @@ void final_keys_do_not_wait(Case& test) {
     Checks& checks = run.bench.checks();
     checks.equal(run.outputs[0]->pop(activity).slot, 0U, "the first key");
     checks.that(run.bench.clock().now_cycles() < 20, "a final key waited");
-    const bool lower_first = plan.index_of[1] < plan.index_of[3];
-    checks.equal(run.outputs[0]->pop(activity).slot, lower_first ? 1U : 3U, "the nearer index");
+    checks.equal(run.outputs[0]->pop(activity).slot, 1U, "the lower slot");
     checks.that(run.bench.clock().now_cycles() > last_in && last_in > 0,
                 "a key was released before its tie had come");
-    checks.equal(run.outputs[0]->pop(activity).slot, lower_first ? 3U : 1U, "the farther index");
+    checks.equal(run.outputs[0]->pop(activity).slot, 3U, "the higher slot");
     checks.equal(run.outputs[0]->pop(activity).slot, 2U, "the last key");
     checks.that(run.outputs[0]->pop(activity).mark == Mark::kEndOfGroup, "the end");
   });
@@ -270,7 +284,8 @@ void final_keys_do_not_wait(Case& test) {
 
 void one_group(Case& test, std::uint32_t n, std::uint32_t entries, bool tied,
                const std::function<void(Checks&, const MergeUnit::Counters&)>& also) {
-  MergePlan plan = merge_plan(test.random, n);
+  MergePlan plan;
+  plan.slots = n;
   plan.config.entries = entries;
   plan.config.spill_runs = 3;
   plan.groups.push_back(one_visit(n, tied));
@@ -283,9 +298,10 @@ void one_group(Case& test, std::uint32_t n, std::uint32_t entries, bool tied,
 int sc_main(int argc, char* argv[]) {
   using namespace sgs;
   using namespace sgs::tb;
-  CaseRunner runner("tb_merge", "Merge unit alone, against std::sort by depth and file index");
+  CaseRunner runner("tb_merge", "Merge unit alone, against std::sort by depth and slot");
   runner.add_directed("groups without a visit, visits without a key", [](Case& test) {
-    MergePlan plan = merge_plan(test.random, 8);
+    MergePlan plan;
+    plan.slots = 8;
     plan.groups.resize(5);
     plan.groups[1].visits.resize(3);
     plan.groups[3].visits.resize(1);
@@ -318,7 +334,8 @@ int sc_main(int argc, char* argv[]) {
   runner.add_directed("all keys at one depth, capacity of two keys",
                       [=](Case& test) { one_group(test, 40, 2, true, spills); });
   runner.add_directed("groups finished while keys wait on chip and in DRAM", [](Case& test) {
-    MergePlan plan = merge_plan(test.random, 300);
+    MergePlan plan;
+    plan.slots = 300;
     plan.config.entries = 24;
     for (const std::uint64_t after : {1U, 10U, 60U, 299U}) {
       plan.groups.push_back(random_group(test.random, plan, 16, 20));
@@ -328,15 +345,17 @@ int sc_main(int argc, char* argv[]) {
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("blend_early", [](Case& test) {
-    MergePlan plan = merge_plan(test.random, 300);
+    MergePlan plan;
+    plan.slots = 300;
     plan.config.entries = 8;
     plan.config.on_overflow = OnOverflow::kBlendEarly;
     for (int g = 0; g < 3; ++g) plan.groups.push_back(random_group(test.random, plan, 16, 30));
     const MergeUnit::Counters c = run_plan(test, still_bench(plan), plan);
     test.checks.that(c.forced_early > 0, "nothing was forced out");
   });
-  runner.add_directed("bytes of a spill: keys out and back, an index each", [](Case& test) {
-    MergePlan plan = merge_plan(test.random, 70);
+  runner.add_directed("bytes of a spill: keys out and back", [](Case& test) {
+    MergePlan plan;
+    plan.slots = 70;
     plan.config.entries = 64;
     plan.groups.push_back(one_visit(70, false));
     Run run(test, still_bench(plan), plan);
@@ -345,12 +364,14 @@ int sc_main(int argc, char* argv[]) {
     run.bench.run();
     // 64 wait: an eighth goes, 8 keys, and the other 6 fit.
     test.checks.equal(run.unit.counters().keys_spilled, std::uint64_t{8}, "keys spilled");
-    test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * 28}, "bytes written");
-    test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * 28 + 8 * 4}, "bytes read");
+    test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * kKeyBytes}, "bytes written");
+    test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kKeyBytes}, "bytes read");
   });
   for (const std::uint32_t n : {0U, 1U, 2U, 16U, 100U}) {
-    runner.add_directed(fmt::format("time of {} keys", n),
-                        [n](Case& test) { exact_time(test, n); });
+    for (const std::uint32_t cycles : {1U, 2U, 3U}) {
+      runner.add_directed(fmt::format("time of {} keys, an operation every {} cycles", n, cycles),
+                          [=](Case& test) { exact_time(test, n, cycles); });
+    }
   }
   runner.set_random(random_case);
   return runner.run(argc, argv);

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "algorithm/render/paper_renderer.h"
+#include "algorithm/splat/lane_macs.h"
+#include "algorithm/voxel/ray_work.h"
 #include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"
 #include "testbench/units/case_runner.h"
@@ -50,6 +52,8 @@ struct Expected {
   std::uint64_t visits = 0, empty = 0, rays = 0, steps = 0, edges = 0, table_bytes_max = 0;
 };
 
+std::uint64_t macs_of_a_step() { return folded_macs(ray_step_work()); }
+
 Expected expect(const Plan& plan) {
   Expected out;
   const VoxelGrid& grid = plan.scene.grid;
@@ -59,7 +63,7 @@ Expected expect(const Plan& plan) {
     const GroupVisits visits = paper_visits(plan.scene.job.view, group, grid, step, table);
     if (!grid.nodes.empty()) {
       const auto count = [&](std::uint32_t steps, std::size_t edges) {
-        out.traverse_cycles += std::max(ceil_div(steps, plan.config.steps_per_cycle),
+        out.traverse_cycles += std::max(ceil_div(steps * macs_of_a_step(), plan.config.step_lanes),
                                         ceil_div(edges, plan.config.edges_per_cycle));
       };
       const GridTable nodes{grid};
@@ -205,8 +209,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("rays", expected.rays);
   bench.check_counter("steps", expected.steps);
   bench.check_counter("edges", expected.edges);
-  constexpr std::uint64_t kMacsOfAStep = 6;
-  bench.check_operations("vsu", "fp32_mac", expected.steps * kMacsOfAStep);
+  bench.check_operations("vsu", "fp32_lane", expected.steps * macs_of_a_step());
   bench.check_counter("groups_empty", expected.empty);
   bench.check_counter("ordering_table_bytes_max", expected.table_bytes_max);
   checks.equal(bench.busy_cycles("vsu"), expected.traverse_cycles, "busy cycles of the traversal");
@@ -251,7 +254,7 @@ void random_case(Case& test) {
   Plan plan = plan_of(random_scene(random, random_shape(random)));
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.fifo_entries = 1 + static_cast<std::uint32_t>(random() % 6);
-  plan.config.steps_per_cycle = 1 + static_cast<std::uint32_t>(random() % 5);
+  plan.config.step_lanes = 1 + static_cast<std::uint32_t>(random() % 200);
   plan.config.edges_per_cycle = 1 + static_cast<std::uint32_t>(random() % 2);
   plan.config.groups_ahead = 1 + static_cast<std::uint32_t>(random() % 3);
   plan.config.node_cache_bytes = 256U << (random() % 5);

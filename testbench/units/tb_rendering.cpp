@@ -1,5 +1,5 @@
 // Rendering unit alone: sorted splats in, a frame buffer in memory out. Checked against GroupState;
-// times against a recurrence over the groups.
+// times against a model stepped cycle by cycle and a recurrence over the groups.
 #include <optional>
 
 #include "algorithm/render/group_state.h"
@@ -7,6 +7,7 @@
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/random_splats.h"
+#include "testbench/units/rendering_timing_model.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
@@ -23,15 +24,27 @@ struct Plan {
 
 std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
-// What must come out, from the algorithm layer.
+// What must come out: pixels and counts from the algorithm layer, times from the stepped model.
 struct Expected {
   std::vector<std::byte> frame;
   RenderingUnit::Counters counters;
-  // [group] blending until the last of its pixels is finished; none: some never are
-  std::vector<std::optional<std::uint64_t>> saturated_after;
-  std::vector<std::uint64_t> blend_cycles;  // [group]
-  std::vector<std::uint64_t> drain_cycles;  // [group]
+  std::uint64_t functional_blends = 0;       // into unfinished sub-tiles
+  std::vector<RenderingTimes> times;         // [group]
+  std::vector<std::uint64_t> drain_cycles;   // [group]
+  std::vector<bool> saturated;               // [group]
 };
+
+// Blends a splat and says what of the group it reaches.
+RenderingToken blended(const Splat& splat, GroupState& state, Expected& out) {
+  RenderingToken token;
+  token.is_splat = true;
+  const BlendWork work = state.blend_scheduled(
+      splat, [&](const SubtileReach& subtile) { token.reaches.push_back(subtile); });
+  token.spans = work.spans;
+  out.functional_blends += work.blended;
+  out.counters.splats += work.blended > 0 ? 1 : 0;
+  return token;
+}
 
 Expected expect(const Plan& plan) {
   Expected out;
@@ -41,31 +54,20 @@ Expected expect(const Plan& plan) {
   frame.contributors.resize(frame.image.pixels.size());
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
     const PixelRect& pixels = plan.job.groups[g];
-    GroupState state(pixels, plan.job.view.width, plan.job.view.height,
+    GroupState state(pixels, plan.job.view.width, plan.job.view.height, plan.config.precision,
                      plan.config.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox);
-    std::uint64_t cycles = 0;
-    std::optional<std::uint64_t> saturated_after;
+    std::vector<RenderingToken> tokens;
     for (const auto& visit : plan.groups[g]) {
-      for (const Splat& splat : visit) {
-        if (state.saturated()) {
-          ++out.counters.splats_saturated;
-          continue;
-        }
-        const BlendWork work = state.blend(splat);
-        cycles += std::max({std::uint64_t{1}, ceil_div(work.blended, plan.config.clusters),
-                            ceil_div(work.tested, plan.config.subtile_tests_per_cycle)});
-        out.counters.subtile_tests += work.tested;
-        out.counters.subtile_blends += work.blended;
-        out.counters.splats += work.blended > 0 ? 1 : 0;
-        if (state.saturated()) saturated_after = cycles;
-      }
-      cycles += plan.arrival == Arrival::kByToken ? 1 : 0;  // a rejected key
+      for (const Splat& splat : visit) tokens.push_back(blended(splat, state, out));
+      tokens.emplace_back();  // a rejected key, or the end of a visit
     }
+    tokens.emplace_back();  // the end of the group
+    out.times.push_back(step_rendering(plan.config, state.subtile_count(), tokens));
     ++out.counters.groups;
     out.counters.groups_saturated += state.saturated() ? 1 : 0;
+    out.counters.splats_saturated += out.times.back().splats_dropped;
     out.counters.contributors += state.contributors();
-    out.saturated_after.push_back(saturated_after);
-    out.blend_cycles.push_back(cycles);
+    out.saturated.push_back(state.saturated());
     out.drain_cycles.push_back(
         static_cast<std::uint64_t>(pixels.height()) *
         ceil_div(static_cast<std::uint64_t>(pixels.width()), plan.config.drain_pixels_per_cycle));
@@ -91,7 +93,7 @@ Times expected_times(const Plan& plan, const Expected& expected,
     const std::size_t buffers = plan.config.pixel_buffers;
     if (g >= buffers) blend_end = std::max(blend_end, drained[g - buffers]);
     times.blend_begins.push_back(blend_end);
-    blend_end += expected.blend_cycles[g];
+    blend_end += expected.times[g].cycles;
     std::uint64_t drain = blend_end + plan.config.depth_cycles;
     if (g > 0) drain = std::max(drain, drained[g - 1]);
     drained.push_back(drain + expected.drain_cycles[g]);
@@ -176,30 +178,53 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("groups", want.groups);
   bench.check_counter("groups_saturated", want.groups_saturated);
   bench.check_counter("splats", want.splats);
-  bench.check_counter("splats_saturated", want.splats_saturated);
-  bench.check_counter("subtile_tests", want.subtile_tests);
-  bench.check_counter("subtile_blends", want.subtile_blends);
   bench.check_counter("contributors", want.contributors);
-  const std::uint64_t pixels = 16 * want.subtile_blends;
-  bench.check_operations("rendering", "pixel_blend", pixels);
-  bench.check_operations("pixel_state", "sram_large_read_bit", 8 * pixels * kPixelStateBytes);
-  bench.check_operations("pixel_state", "sram_large_write_bit", 8 * pixels * kPixelStateBytes);
+  checks.that(unit.schedule_counters().blends - unit.schedule_counters().late_blends ==
+                  expected.functional_blends,
+              "blends that change pixels");
   std::uint64_t blend = 0, drain = 0;
+  RenderingTimes sum;
   for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-    const std::optional<std::uint64_t>& saturated_after = expected.saturated_after[g];
-    const bool told = saturated_after && plan.config.saturation_feedback;
+    const RenderingTimes& group = expected.times[g];
+    const bool told = expected.saturated[g] && plan.config.saturation_feedback;
     checks.equal(feedback.cycles[g].size(), told ? 1U : 0U,
                  fmt::format("how often group {} was said to be finished", g));
     if (bench_config.still() && told && !feedback.cycles[g].empty()) {
-      checks.equal(feedback.cycles[g][0],
-                   times.blend_begins[g] + *saturated_after + plan.config.depth_cycles,
+      checks.equal(feedback.cycles[g][0], times.blend_begins[g] + *group.finished,
                    fmt::format("cycle in which group {} was finished", g));
     }
-    blend += expected.blend_cycles[g];
+    blend += group.cycles;
     drain += expected.drain_cycles[g];
+    sum.blends += group.blends;
+    sum.spans += group.spans;
+    sum.splats_spanned += group.splats_spanned;
+    sum.late_blends += group.late_blends;
+    sum.hazard_cycles += group.hazard_cycles;
+    sum.queue_cycles += group.queue_cycles;
   }
-  checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");
   checks.equal(bench.busy_cycles("drain"), drain, "busy cycles of draining");
+  // With stalls it depends on when splats come what is known of sub-tiles.
+  if (!bench_config.still()) return;
+  bench.check_counter("splats_saturated", want.splats_saturated);
+  bench.check_counter("subtile_blends", sum.blends);
+  bench.check_counter("subtile_blends_late", sum.late_blends);
+  bench.check_counter("hazard_cycles", sum.hazard_cycles);
+  bench.check_counter("queue_cycles", sum.queue_cycles);
+  const RenderingMacs& macs = rendering_macs();
+  const std::uint64_t blend_macs = sum.blends * macs.subtile_blend;
+  const std::uint64_t span_macs = sum.spans * macs.span + sum.splats_spanned * macs.spans_begin;
+  const bool in_half = plan.config.precision == BlendPrecision::kHalf;
+  bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
+  if (in_half) bench.check_operations("rendering", "fp16_lane", blend_macs);
+  // A sub-tile at once: blended, cleared before and drained behind.
+  std::uint64_t subtiles = sum.blends;
+  for (const PixelRect& px : plan.job.groups) {
+    subtiles += ceil_div(static_cast<std::uint64_t>(px.width()), 4) *
+                ceil_div(static_cast<std::uint64_t>(px.height()), 4);
+  }
+  bench.check_accesses("pixel state", subtiles, subtiles);
+  bench.check_accesses("cluster queues", sum.blends, sum.blends);
+  checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");
 }
 
 Plan make_plan(int width_px, int height_px, int group_px, FrameFormat format) {
@@ -249,7 +274,11 @@ void random_case(Case& test) {
   plan.config.drain_pixels_per_cycle = 1 + static_cast<std::uint32_t>(random() % 16);
   plan.config.saturation_feedback = random() % 2 == 0;
   plan.config.ellipse_test = random() % 2 == 0;
-  plan.config.subtile_tests_per_cycle = 1 + static_cast<std::uint32_t>(random() % 16);
+  plan.config.span_lanes = 1 + static_cast<std::uint32_t>(random() % 256);
+  plan.config.cluster_lanes = 100 + static_cast<std::uint32_t>(random() % 500);
+  plan.config.cluster_queue_entries = 1 + static_cast<std::uint32_t>(random() % 8);
+  plan.config.state_loop_cycles = 1 + static_cast<std::uint32_t>(random() % 12);
+  plan.config.precision = random() % 4 == 0 ? BlendPrecision::kHalf : BlendPrecision::kSingle;
   plan.arrival = random() % 2 == 0 ? Arrival::kByVisit : Arrival::kByToken;
   const BenchConfig bench = random_bench(random, memory_bytes(plan.job));
   // With stalls, tokens may as well wait for room.

@@ -157,9 +157,8 @@ void UnitBench::check_end() {
   }
   for (Activity* activity : published_.activities) {
     activity->close();
-    checks().equal(
-        activity->busy_cycles() + activity->starved_cycles() + activity->blocked_cycles(),
-        clock_.now_cycles(), fmt::format("{}: busy + starved + blocked", activity->name()));
+    checks().equal(activity->busy_cycles() + activity->waited(), clock_.now_cycles(),
+                   fmt::format("{}: cycles busy and waited", activity->name()));
   }
 }
 
@@ -184,6 +183,12 @@ void UnitBench::check_operations(const std::string& component, const std::string
                                  std::uint64_t expected) {
   checks().equal(publish().operations(component, kind), static_cast<double>(expected),
                  component + ": " + kind);
+}
+
+void UnitBench::check_accesses(const std::string& use, std::uint64_t reads, std::uint64_t writes) {
+  const auto [read, written] = publish().accesses(use);
+  checks().equal(read, reads, use + ": reads");
+  checks().equal(written, writes, use + ": writes");
 }
 
 std::uint64_t UnitBench::bytes_read() const {

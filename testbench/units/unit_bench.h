@@ -113,6 +113,11 @@ class UnitBench {
   void check_counter(const std::string& name, std::uint64_t expected);
   void check_operations(const std::string& component, const std::string& kind,
                         std::uint64_t expected);
+  // Reads and writes of one of the unit's uses of on-chip memory.
+  std::pair<std::uint64_t, std::uint64_t> accesses(const std::string& use) const {
+    return publish().accesses(use);
+  }
+  void check_accesses(const std::string& use, std::uint64_t reads, std::uint64_t writes);
   std::uint64_t bytes_read() const;
   std::uint64_t bytes_written() const;
   std::uint64_t transactions() const;

@@ -131,7 +131,7 @@ class Reports(unittest.TestCase):
 
     def test_sums(self):
         self.assertEqual(simulations.region_bytes(self.VIEW, "spill"), 12)
-        self.assertEqual(simulations.region_bytes(self.VIEW, "indices"), 0)
+        self.assertEqual(simulations.region_bytes(self.VIEW, "codebooks"), 0)
         self.assertEqual(simulations.work(self.VIEW, "keys"), 7)
         self.assertEqual(simulations.psnr_text(self.VIEW), "equal")
 

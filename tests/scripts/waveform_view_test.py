@@ -25,6 +25,7 @@ VCD = """
     $scope module reader0 $end
     $scope module add $end
     $var wire    1  aaaab  busy       $end
+    $var wire    3  aaaae  waits_for [2:0]  $end
     $upscope $end
     $scope module memory $end
     $var wire   64  aaaac  bytes_outstanding [63:0]  $end
@@ -70,6 +71,7 @@ class View(unittest.TestCase):
             "+{reader0 add busy} SystemC.machine.reader0.add.busy",
             "+{reader0 memory bytes_outstanding} "
             "SystemC.machine.reader0.memory.bytes_outstanding[63:0]",
+            "+{reader0 add waits_for} SystemC.machine.reader0.add.waits_for[2:0]",
             "-reader0",
             "-reader1",
             "+{reader1 add busy} SystemC.machine.reader1.add.busy",
@@ -81,6 +83,11 @@ class View(unittest.TestCase):
             "+{dram channel0 row_hits} SystemC.dram.channel0.row_hits[63:0]",
             "-dram.channel0",
         ])
+        # A bit, a number and a curve.
+        for name, flag in (("add busy", "@28"), ("add waits_for", "@24"),
+                           ("memory bytes_outstanding", "@8024")):
+            shown = next(i for i, li in enumerate(lines) if li.startswith("+{reader0 " + name))
+            self.assertEqual(lines[shown - 1], flag)
         # The second of two equal units begins folded.
         self.assertEqual(lines[lines.index("-reader0") - 1], "@800200")
         self.assertEqual(lines[lines.index("-reader1") - 1], "@c00200")

@@ -133,6 +133,7 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
             2,
             {"--ordering paper", "of machine exact", "expected one of machine paper"}},
            {"$SG info nofile.ply", 2, {"nofile.ply: no such file", ".ply", ".sgs"}},
+           {"$SG pack $S --out a.txt", 2, {"--out: a.txt, expected", "ends in .sgs or .ply"}},
            {"$SG pack nofile.ply --out a.sgs", 2, {"a .ply file or builtin:NAME?n=COUNT\n"}},
            {"$SG simulate a.ply --drop-invalid --cameras c --out o",
             2,

@@ -1,13 +1,14 @@
 // Joules and savings of a report, counted a second time from its counters.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <fstream>
 #include <map>
 #include <string>
 
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_writer.h"
+#include "testbench/cost/technology.h"
+#include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/lane_macs.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
@@ -16,79 +17,56 @@ namespace {
 
 using Json = nlohmann::json;
 
-class Prices {
- public:
-  Prices() {
-    std::ifstream file(SGS_TECHNOLOGY);
-    table_ = Json::parse(file);
-  }
-  double of(const std::string& kind) const {
-    return table_["operations"][kind]["pj"].get<double>() * 1e-12;
-  }
-  // Of so many bytes written once and read once.
-  double in_and_out(const std::string& size, double bytes) const {
-    return 8 * bytes * (of("sram_" + size + "_write_bit") + of("sram_" + size + "_read_bit"));
-  }
-
- private:
-  Json table_;
-};
-
 double sum_of(const Json& view, const char* name) { return static_cast<double>(total(view, name)); }
 
+// A use of on-chip memory as the report describes it.
+Json use_of(const Json& view, const std::string& name) {
+  for (const Json& use : view["sram"]["uses"]) {
+    if (use["name"] == name) return use;
+  }
+  FAIL("no use " << name);
+  return {};
+}
+
 void check_joules(const Json& view) {
-  const Prices prices;
-  const Json& config = view["config"];
-  const Json& hfu = config["hfu"];
+  const Technology technology = load_technology(SGS_TECHNOLOGY);
+  const auto pj = [&](const char* kind) { return technology.part(kind).pj.middle * 1e-12; };
+  const Json& hfu = view["config"]["hfu"];
   std::map<std::string, double> expected;
   expected["coarse"] =
-      sum_of(view, "coarse_tests") * hfu["cfu_macs"].get<double>() * prices.of("fp32_mac");
-  expected["fine"] =
-      sum_of(view, "fine_tests") * hfu["ffu_macs"].get<double>() * prices.of("fp32_mac");
-  expected["sorting"] = sum_of(view, "compare_exchanges") * prices.of("compare_exchange");
-  const double blended_pixels = 16 * sum_of(view, "subtile_blends");
-  expected["rendering"] = blended_pixels * prices.of("pixel_blend");
-  expected["pixel_state"] = prices.in_and_out("large", 16 * blended_pixels);
-  double splats = 0;  // of the fine filters
-  for (const auto& [name, unit] : view["units"].items()) {
-    if (name.find(".fine") != std::string::npos) {
-      splats += static_cast<double>(counter(view, name, "splats"));
-    }
-  }
-  expected["buffers"] =
-      prices.in_and_out("small", 16 * sum_of(view, "first_halves") + 48 * splats) +
-      8 * view["scene"]["second_half_bytes"].get<double>() *
-          (sum_of(view, "second_halves") * prices.of("sram_small_write_bit") +
-           sum_of(view, "second_halves_taken") * prices.of("sram_small_read_bit"));
-  if (config["machine"] == "exact") {
-    expected["vsu"] =
-        80 * static_cast<double>(counter(view, "vsu", "tests")) * prices.of("fp32_mac");
-    const double levels = std::ceil(std::log2(config["merge"]["entries"].get<double>()));
-    expected["merge"] = prices.in_and_out(
-        "middle", 2 * levels * 28 * static_cast<double>(counter(view, "merge", "keys")));
-  } else {
-    expected["vsu"] =
-        6 * static_cast<double>(counter(view, "vsu", "steps")) * prices.of("fp32_mac");
-  }
-  if (view["units"].contains("codebooks")) {
-    expected["codebooks"] = 8 * prices.of("sram_large_read_bit") *
-                                config["codebook"]["line_bytes"].get<double>() *
-                                sum_of(view, "lines_read") +
-                            8 * prices.of("sram_large_write_bit") * sum_of(view, "bytes_loaded");
-  }
-  double sum =
-      view["energy"]["dram_j"].get<double>() + view["energy"]["sram_leakage_j"].get<double>();
+      sum_of(view, "coarse_tests") * hfu["cfu_macs"].get<double>() * pj("fp32_lane");
+  expected["fine"] = sum_of(view, "fine_tests") * hfu["ffu_macs"].get<double>() * pj("fp32_lane");
+  expected["sorting"] = sum_of(view, "compare_exchanges") * pj("compare_exchange");
   for (const auto& [component, joules] : expected) {
     INFO(component);
     CHECK(joules > 0);
     CHECK(view["energy"][component + "_j"].get<double>() == Approx(joules));
-    sum += joules;
   }
-  CHECK(view["energy"]["total_j"].get<double>() == Approx(sum));
+  const Json& energy = view["energy"];
+  double sum = 0;
+  for (const auto& [component, band] : energy["bands"].items()) {
+    INFO(component);
+    CHECK(band["middle"] == energy[component]);
+    CHECK(band["low"].get<double>() <= band["middle"].get<double>());
+    CHECK(band["middle"].get<double>() <= band["high"].get<double>());
+    if (component != "total_j") sum += band["middle"].get<double>();
+  }
+  CHECK(energy["total_j"].get<double>() == Approx(sum));
+  // The uses' own joules and square millimetres are those of the sections.
+  double mm2 = 0;
+  for (const Json& use : view["sram"]["uses"]) {
+    std::string component = use["name"];
+    std::replace(component.begin(), component.end(), ' ', '_');
+    CHECK(energy[component + "_j"].get<double>() == Approx(use["energy_j"].get<double>()));
+    mm2 += use["mm2"].get<double>();
+  }
+  CHECK(view["area_mm2"]["sram"].get<double>() == Approx(mm2));
+  CHECK(use_of(view, "input")["writes"] == total(view, "first_halves"));
+  CHECK(use_of(view, "pixel state")["reads"].get<std::uint64_t>() >= total(view, "subtile_blends"));
   double by_region = 0;
-  for (const Json& joules : view["energy"]["dram_by_region_j"]) by_region += joules.get<double>();
-  CHECK(by_region == Approx(view["energy"]["dram_j"].get<double>()));
-  CHECK(view["energy"]["mean_power_w"].get<double>() ==
+  for (const Json& joules : energy["dram_by_region_j"]) by_region += joules.get<double>();
+  CHECK(by_region == Approx(energy["dram_j"].get<double>()));
+  CHECK(energy["mean_power_w"].get<double>() ==
         Approx(sum / view["frame"]["time_s"].get<double>()));
 }
 

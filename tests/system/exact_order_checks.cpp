@@ -27,14 +27,19 @@ std::vector<std::string> random_exact_options(std::mt19937_64& random) {
   set("group_px", 4 * between(1, random() % 2 == 0 ? 8 : 50));
   set("storage.chunk_gaussians", between(1, random() % 2 == 0 ? 16 : 256));
   set("merge.entries", between(2, random() % 2 == 0 ? 32 : 4096));
+  set("merge.cycles_per_operation", between(1, 4));
   set("merge.spill_runs", between(2, 8));
   set("merge.spill_block_entries", between(1, 16));
   set("vsu.queue_entries", between(9, random() % 2 == 0 ? 16 : 512));
-  set("vsu.node_cache_bytes", 64U << between(0, 8));
+  set("vsu.node_queue_entries", between(9, random() % 2 == 0 ? 16 : 128));
+  set("vsu.upper_nodes", between(0, 40));
+  set("vsu.nodes_in_flight", between(1, 16));
+  // A slow walk has visits left when a group finishes.
+  set("vsu.cycles_per_queue_operation", between(1, random() % 2 == 0 ? 4 : 64));
   set("hfus", between(1, 6));
   set("sorting_units", between(1, 4));
   set("hfu.second_half_slots", between(1, 16));
-  set("hfu.slice_gaussians", 2 * between(1, 64));
+  set("hfu.slice_gaussians", 4 * between(1, 32));  // of 16 or 24 B: whole bursts
   set("merge.output_fifo_entries", between(1, 4));
   set("rendering.pixel_buffers", between(1, 2));
   if (random() % 2 == 0) {
@@ -65,7 +70,7 @@ void fuzz_exact_frames(unsigned first_seed, unsigned scenes) {
     spilled += counter(view, "merge", "keys_spilled");
     put_aside += counter(view, "vsu", "queue_entries_put_aside");
     saturated += counter(view, "vsu", "groups_saturated");
-    ties += counter(view, "merge", "ties_looked_up");
+    ties += counter(view, "merge", "ties");
   }
   fmt::print("{} blends, {} keys spilled, {} entries put aside, {} groups ended early, {} ties\n",
              blends, spilled, put_aside, saturated, ties);

@@ -49,8 +49,10 @@ double joules_a_mac(const Json& view, const char* filter, const char* counter) {
          view["datapath"][filter]["used"]["macs"].get<double>();
 }
 
-TEST_CASE("filter cost: the paper's is the default, counted changes time and energy, no pixel") {
-  const Simulation paper(kObject), counted(with(kObject, "hfu.cost=counted"));
+TEST_CASE(
+    "filter cost: counted is exact order's default, the paper's changes time and energy, no "
+    "pixel") {
+  const Simulation paper(with(kObject, "hfu.cost=paper")), counted(kObject);
   paper.check();
   counted.check();
   CHECK(counted.frame(0) == paper.frame(0));

@@ -1,6 +1,7 @@
 // Accounts, bytes, flow and bounds of a view.
 #include "tests/system/frame_checks.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
 
@@ -20,20 +21,39 @@ std::uint64_t of(const Json& unit, const char* name) {
   return unit["counters"].value(name, std::uint64_t{0});
 }
 
+// Where a key is stated, the configuration has it.
+void check_key(const Json& view, const Json& stated) {
+  if (!stated.contains("key")) return;
+  std::string path = "/" + stated["key"].get<std::string>();
+  std::replace(path.begin(), path.end(), '.', '/');
+  INFO(path);
+  CHECK(view["config"].contains(Json::json_pointer(path)));
+}
+
 void check_accounts(const Json& view) {
   std::size_t activities = 0;
   for (const auto& [name, unit] : view["units"].items()) {
     for (const auto& [activity, spent] : unit["activities"].items()) {
       INFO(name << " " << activity);
       ++activities;
-      CHECK(count(spent["busy_cycles"]) + count(spent["starved_cycles"]) +
-                count(spent["blocked_cycles"]) ==
-            frame_cycles(view));
+      std::uint64_t waited = 0, by_place = 0;
+      for (const Json& cycles : spent["waited_cycles"]) waited += count(cycles);
+      for (const Json& wait : spent["waits"]) {
+        by_place += count(wait["cycles"]);
+        CHECK(wait.contains("on") == (wait["for"] != "idle"));
+        check_key(view, wait);
+      }
+      CHECK(count(spent["busy_cycles"]) + waited == frame_cycles(view));
+      CHECK(by_place == waited);
       CHECK(count(spent["busy_cycles"]) <= frame_cycles(view));
       CHECK_FALSE(spent["resource"].get<std::string>().empty());
+      check_key(view, spent);
     }
   }
   CHECK(activities > 0);
+  const Json& binding = view["binding"];
+  CHECK_FALSE(binding["holds"].get<std::string>().empty());
+  if (binding["key"] != "") check_key(view, binding);
 }
 
 void check_memory(const Json& view) {
@@ -57,8 +77,8 @@ bool quantised(const Json& view) {
   return encoding == "vq" || encoding == "vq_packed";
 }
 
-// Of one second half, from the configuration and the codebooks' entries.
-std::uint64_t second_half_bytes(const Json& view) {
+// Of one second half as encoded, from the configuration and the codebooks' entries.
+std::uint64_t encoded_bytes(const Json& view) {
   const auto degree = view["scene"]["sh_degree"].get<std::uint64_t>();
   const std::uint64_t raw = 4 * (7 + 3 * (degree + 1) * (degree + 1));
   const std::string encoding = view["config"]["storage"]["encoding"];
@@ -75,6 +95,25 @@ std::uint64_t second_half_bytes(const Json& view) {
   std::uint64_t bytes = 1;
   while (8 * bytes < 8 + bits) bytes *= 2;
   return bytes;
+}
+
+struct HalfBytes {
+  std::uint64_t first, second;
+};
+
+// By voxels as published; by chunks with the largest scale, in whole bursts (algorithm/memory).
+HalfBytes half_bytes(const Json& view) {
+  const std::uint64_t encoded = encoded_bytes(view);
+  if (view["scene"]["stored_by"] != "chunks") return {16, encoded};
+  const auto degree = view["scene"]["sh_degree"].get<std::size_t>();
+  constexpr HalfBytes kRaw[] = {{24, 32}, {16, 80}, {24, 128}, {16, 224}};
+  constexpr std::uint64_t kHalf[] = {32, 48, 72, 128};
+  const std::string encoding = view["config"]["storage"]["encoding"];
+  if (encoding == "raw") return kRaw[degree];
+  if (encoding == "half") return {16, kHalf[degree]};
+  std::uint64_t bytes = 1;
+  while (bytes < encoded + 4) bytes *= 2;
+  return {16, bytes};
 }
 
 // Codebooks come once, decoding is for what was fetched.
@@ -109,13 +148,13 @@ std::uint64_t parts_of(const Json& config) {
 
 // Bytes asked for against counters of the units that asked.
 void check_bytes(const Json& view) {
-  const std::uint64_t second_half = second_half_bytes(view);
+  const auto [first_half, second_half] = half_bytes(view);
   CHECK(count(view["scene"]["second_half_bytes"]) == second_half);
-  CHECK(region_bytes(view, "first_halves", "read") == 16 * total(view, "first_halves"));
+  CHECK(region_bytes(view, "first_halves", "read") == first_half * total(view, "first_halves"));
   CHECK(region_bytes(view, "second_halves", "read") == second_half * total(view, "second_halves"));
   for (const auto& [name, unit] : view["units"].items()) {
     INFO(name);
-    CHECK(asked_bytes(view, "first_halves", name, "read") == 16 * of(unit, "first_halves"));
+    CHECK(asked_bytes(view, "first_halves", name, "read") == first_half * of(unit, "first_halves"));
     CHECK(asked_bytes(view, "second_halves", name, "read") ==
           second_half * of(unit, "second_halves"));
   }
@@ -153,8 +192,15 @@ void check_bounds(const Json& view) {
           frame);
     CHECK(of(unit, "fine_tests") * fine_interval <= parts * frame);
     CHECK(ceil_div(of(unit, "subtile_blends"), clusters) <= frame);
+    if (of(unit, "inserts") > 0) {
+      CHECK((of(unit, "inserts") + of(unit, "delete_mins") + of(unit, "delete_maxs")) *
+                count(config["merge"]["cycles_per_operation"]) <=
+            frame);
+    }
     if (of(unit, "steps") > 0) {
-      CHECK(of(unit, "steps") / count(config["vsu"]["steps_per_cycle"]) <= frame);
+      CHECK(of(unit, "steps") * count(view["datapath"]["ray_step"]["used"]["macs"]) /
+                count(config["vsu"]["step_lanes"]) <=
+            frame);
     }
   }
 }
@@ -194,6 +240,13 @@ void check_flow(const Json& view) {
     CHECK(counter(view, "merge", "keys") ==
           counter(view, "merge", "released") + counter(view, "merge", "dropped_saturated"));
     CHECK(counter(view, "merge", "released") == tested_or_dropped);
+    // What went into the heap came out at one end or the other, or was dropped with its group.
+    const std::uint64_t inserts = counter(view, "merge", "inserts"),
+                        deletes = counter(view, "merge", "delete_mins") +
+                                  counter(view, "merge", "delete_maxs");
+    CHECK(inserts <= counter(view, "merge", "keys"));
+    CHECK(deletes <= inserts);
+    if (counter(view, "merge", "dropped_saturated") == 0) CHECK(deletes == inserts);
     CHECK(blended + late <= fine_splats);
     CHECK(total(view, "visits") == 2 * counter(view, "vsu", "visits") + groups);
   }
@@ -206,6 +259,8 @@ void check_any_machine(const Json& view) {
   CHECK(view["schema_version"] == 2);
   CHECK(view["image"]["equals_streaming_renderer"] == true);
   CHECK(view["frame"]["drained"] == true);
+  INFO(view["ledger"]["faults"].dump(2));
+  CHECK(view["ledger"]["faults"].empty());
   check_accounts(view);
   check_memory(view);
 }

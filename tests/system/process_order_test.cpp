@@ -122,7 +122,7 @@ TEST_CASE("process order: FIFOs of one entry, and what does not fit goes to DRAM
                                    "hfu.second_half_slots=1", "hfu.input_slots=2"});
   const Arguments exact =
       settings({"merge.input_fifo_entries=1", "merge.output_fifo_entries=1", "merge.entries=32",
-                "merge.spill_block_entries=2", "vsu.queue_entries=9"});
+                "merge.spill_block_entries=2", "vsu.queue_entries=9", "vsu.node_queue_entries=9"});
   const Arguments paper = settings({"sorting.input_fifo_entries=1", "sorting.buffer_entries=16",
                                     "vsu.visit_gaussians=0", "storage.encoding=raw"});
   for (const Arguments& stalls : {Arguments{}, kStalls}) {

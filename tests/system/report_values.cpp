@@ -33,12 +33,24 @@ std::uint64_t total(const Json& view, const std::string& name) {
   return sum;
 }
 
-std::uint64_t cycles(const Json& view, const std::string& unit, const std::string& activity,
-                     const std::string& state) {
+namespace {
+
+const Json& activity_of(const Json& view, const std::string& unit, const std::string& activity) {
   INFO(unit << " " << activity);
   REQUIRE(view["units"].contains(unit));
   REQUIRE(view["units"][unit]["activities"].contains(activity));
-  return view["units"][unit]["activities"][activity][state + "_cycles"];
+  return view["units"][unit]["activities"][activity];
+}
+
+}  // namespace
+
+std::uint64_t cycles(const Json& view, const std::string& unit, const std::string& activity) {
+  return activity_of(view, unit, activity)["busy_cycles"];
+}
+
+std::uint64_t waited_cycles(const Json& view, const std::string& unit, const std::string& activity,
+                            const std::string& what) {
+  return activity_of(view, unit, activity)["waited_cycles"][what];
 }
 
 std::uint64_t total_busy(const Json& view, const std::string& activity) {

@@ -17,9 +17,13 @@ std::uint64_t counter_of_all(const nlohmann::json& view, const std::string& pref
 // Sum of a counter over all units of a view that have it; 0 where none has.
 std::uint64_t total(const nlohmann::json& view, const std::string& name);
 
-// Cycles that one activity of a unit spent in a state: "busy", "starved" or "blocked".
+// Cycles that one activity of a unit worked.
 std::uint64_t cycles(const nlohmann::json& view, const std::string& unit,
-                     const std::string& activity, const std::string& state = "busy");
+                     const std::string& activity);
+
+// Cycles that it waited for something: "input", "reads", "room" and so on.
+std::uint64_t waited_cycles(const nlohmann::json& view, const std::string& unit,
+                            const std::string& activity, const std::string& what);
 
 // Sum of the busy cycles over all activities of this name, numbered or not.
 std::uint64_t total_busy(const nlohmann::json& view, const std::string& activity);

@@ -2,6 +2,7 @@
 #include "tlm/timed_fifo.h"
 
 #include <catch2/catch.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,7 @@ TEST_CASE("timed FIFO: an entry is there after the latency and not a cycle soone
   CHECK(threads.run_all());
 }
 
-TEST_CASE("timed FIFO: a reader that waits is starved until the entry is ready") {
+TEST_CASE("timed FIFO: a reader waits for input until the entry is ready") {
   const ClockDomain clock(1000);
   Activity writer("writer", clock), reader("reader", clock);
   TimedFifo<int> fifo("fifo", clock, 1, 4);
@@ -52,7 +53,7 @@ TEST_CASE("timed FIFO: a reader that waits is starved until the entry is ready")
                      fifo.push(1, writer);
                    },
                    [&] {
-                     reader.enter(ActivityState::kBusy);
+                     reader.works();
                      clock.wait_cycles(2);
                      fifo.pop(reader);
                      CHECK(clock.now_cycles() == 14);
@@ -61,11 +62,15 @@ TEST_CASE("timed FIFO: a reader that waits is starved until the entry is ready")
                    }});
   CHECK(threads.run_all());
   CHECK(reader.busy_cycles() == 5);
-  CHECK(reader.starved_cycles() == 12);
-  CHECK(reader.blocked_cycles() == 0);
+  CHECK(reader.waited_for(WaitFor::kInput) == 12);
+  CHECK(reader.waited() == 12);
+  REQUIRE(reader.waits().size() == 2);
+  CHECK(reader.waits()[1].at == &fifo);
+  CHECK(fifo.writer() == &writer);
+  CHECK(fifo.reader() == &reader);
 }
 
-TEST_CASE("timed FIFO: a reader that waits for a credit is blocked") {
+TEST_CASE("timed FIFO: a reader that waits for a credit waits for room") {
   const ClockDomain clock(1000);
   Activity writer("writer", clock), reader("reader", clock);
   TimedFifo<int> fifo("fifo", clock, 1, 0);
@@ -74,23 +79,23 @@ TEST_CASE("timed FIFO: a reader that waits for a credit is blocked") {
                      fifo.push(1, writer);
                    },
                    [&] {
-                     reader.enter(ActivityState::kBusy);
-                     fifo.pop(reader, ActivityState::kBlocked);
+                     reader.works();
+                     fifo.pop(reader, WaitFor::kRoom);
                      CHECK(clock.now_cycles() == 6);
                      reader.close();
                    }});
   CHECK(threads.run_all());
-  CHECK(reader.blocked_cycles() == 6);
-  CHECK(reader.starved_cycles() == 0);
+  CHECK(reader.waited_for(WaitFor::kRoom) == 6);
+  CHECK(reader.waited() == 6);
 }
 
-TEST_CASE("timed FIFO: a full one holds its writer back, who is blocked meanwhile") {
+TEST_CASE("timed FIFO: a full one holds its writer back, who waits for room") {
   const ClockDomain clock(1000);
   Activity writer("writer", clock), reader("reader", clock);
   TimedFifo<int> fifo("fifo", clock, 2, 1);
   std::vector<int> got;
   Threads threads({[&] {
-                     writer.enter(ActivityState::kBusy);
+                     writer.works();
                      fifo.push(1, writer);
                      fifo.push(2, writer);
                      CHECK(clock.now_cycles() == 0);
@@ -106,8 +111,8 @@ TEST_CASE("timed FIFO: a full one holds its writer back, who is blocked meanwhil
                    }});
   CHECK(threads.run_all());
   CHECK(got == std::vector<int>{1, 2, 3});
-  CHECK(writer.blocked_cycles() == 20);
-  CHECK(writer.starved_cycles() == 0);
+  CHECK(writer.waited_for(WaitFor::kRoom) == 20);
+  CHECK(writer.waited() == 20);
   CHECK(fifo.capacity() == 2);
   CHECK(fifo.fill() == 0);
   CHECK(fifo.empty());
@@ -138,7 +143,7 @@ TEST_CASE("timed FIFO: random stalls change times, not what comes out, and are a
                        writer.work(1);
                        fifo.push(i, writer);
                      }
-                     writer.enter(ActivityState::kStarved);
+                     writer.idles();
                    },
                    [&] {
                      for (; next < 1000; ++next) CHECK(fifo.pop(reader) == next);
@@ -147,10 +152,9 @@ TEST_CASE("timed FIFO: random stalls change times, not what comes out, and are a
   CHECK(next == 1000);
   writer.close();
   CHECK(writer.busy_cycles() == 1000);
-  CHECK(writer.blocked_cycles() > 0);
+  CHECK(writer.waited_for(WaitFor::kRoom) > 0);
   CHECK(clock.now_cycles() > 1100);
-  CHECK(writer.busy_cycles() + writer.blocked_cycles() + writer.starved_cycles() ==
-        clock.now_cycles());
+  CHECK(writer.busy_cycles() + writer.waited() == clock.now_cycles());
 }
 
 TEST_CASE("stall injector: as often and as long as it is told") {
@@ -181,27 +185,51 @@ TEST_CASE("stall injector: each place has a sequence of its own, the same in eve
   CHECK(draws(1, "top.fifo.writer") != draws(2, "top.fifo.writer"));
 }
 
-TEST_CASE("activity: every cycle is in one of three accounts") {
+TEST_CASE("activity: every cycle is in one account, by what is waited for and where") {
   const ClockDomain clock(1000);
   Activity activity("unit", clock);
+  const TimedFifo<int> full("full", clock, 1), other("other", clock, 1);
   Threads threads({[&] {
-    clock.wait_cycles(3);  // starved from the start
+    clock.wait_cycles(3);  // idle from the start
     activity.work(5);      // then as before
     clock.wait_cycles(2);
-    activity.enter(ActivityState::kBlocked);
+    activity.waits_for(WaitFor::kRoom, full);
     clock.wait_cycles(11);
     activity.work(0);
-    activity.enter(ActivityState::kBusy);
+    activity.waits_for(WaitFor::kRoom, other);
+    clock.wait_cycles(1);
+    activity.waits_for(WaitFor::kInput, full);
+    clock.wait_cycles(4);
+    activity.waits_for(WaitFor::kRoom, full);
+    clock.wait_cycles(20);
+    activity.works();
     clock.wait_cycles(7);
     activity.close();
     CHECK(activity.busy_cycles() == 12);
-    CHECK(activity.starved_cycles() == 5);
-    CHECK(activity.blocked_cycles() == 11);
+    CHECK(activity.waited() == 5 + 31 + 1 + 4);
     clock.wait_cycles(1);
     activity.close();  // the state goes on
     CHECK(activity.busy_cycles() == 13);
   }});
   CHECK(threads.run_all());
+  struct Row {
+    WaitFor what;
+    const sc_core::sc_object* at;
+    std::uint64_t cycles;
+  };
+  const std::vector<Row> rows = {{WaitFor::kIdle, nullptr, 5},
+                                 {WaitFor::kRoom, &full, 31},
+                                 {WaitFor::kRoom, &other, 1},
+                                 {WaitFor::kInput, &full, 4}};
+  REQUIRE(activity.waits().size() == rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    INFO(name_of(rows[i].what));
+    CHECK(activity.waits()[i].what == rows[i].what);
+    CHECK(activity.waits()[i].at == rows[i].at);
+    CHECK(activity.waits()[i].cycles == rows[i].cycles);
+  }
+  CHECK(activity.waited_for(WaitFor::kRoom) == 32);
+  CHECK(activity.waited_for(WaitFor::kReads) == 0);
 }
 
 TEST_CASE("clock domain: whole cycles, and the next edge from between two") {
@@ -247,7 +275,7 @@ TEST_CASE("FIFO selector: in turn while several have entries, and none is forgot
   CHECK(turns == std::vector<int>{1, 2, 0, 1, 2, 0, 2, 0, 2, 0});
 }
 
-TEST_CASE("FIFO selector: waits for the first that is wanted, and is starved meanwhile") {
+TEST_CASE("FIFO selector: waits for the first that is wanted, and is charged for that one") {
   const ClockDomain clock(1000);
   Activity writer("writer", clock), reader("reader", clock);
   TimedFifo<int> a("a", clock, 4, 3), b("b", clock, 4, 3);
@@ -260,7 +288,7 @@ TEST_CASE("FIFO selector: waits for the first that is wanted, and is starved mea
                    },
                    [&] {
                      FifoSelector<int> selector(inputs.in);
-                     reader.enter(ActivityState::kBusy);
+                     reader.works();
                      const auto only_b = [](int i) { return i == 1; };
                      CHECK(selector.select(reader, only_b) == 1);
                      CHECK(clock.now_cycles() == 13);
@@ -271,7 +299,38 @@ TEST_CASE("FIFO selector: waits for the first that is wanted, and is starved mea
                      reader.close();
                    }});
   CHECK(threads.run_all());
-  CHECK(reader.starved_cycles() == 13);
+  CHECK(reader.waited_for(WaitFor::kInput) == 13);
+  REQUIRE(reader.waits().size() == 2);
+  CHECK(reader.waits()[1].at == &b);
+}
+
+TEST_CASE("FIFO selector: waiting is charged to the FIFO whose entry ended it") {
+  const ClockDomain clock(1000);
+  Activity writer("writer", clock), reader("reader", clock);
+  TimedFifo<int> a("a", clock, 4, 2), b("b", clock, 4, 2), c("c", clock, 4, 2);
+  Reader inputs("inputs");
+  for (TimedFifo<int>* fifo : {&a, &b, &c}) inputs.in(*fifo);
+  Threads threads({[&] {
+                     clock.wait_cycles(10);
+                     c.push(2, writer);
+                     clock.wait_cycles(1);
+                     a.push(0, writer);
+                   },
+                   [&] {
+                     FifoSelector<int> selector(inputs.in);
+                     const auto any = [](int) { return true; };
+                     for (const int expected : {2, 0}) {
+                       CHECK(selector.select(reader, any) == expected);
+                       CHECK(inputs.in[expected]->pop(reader) == expected);
+                     }
+                     reader.close();
+                   }});
+  CHECK(threads.run_all());
+  std::map<const sc_core::sc_object*, std::uint64_t> waited;
+  for (const Activity::Wait& wait : reader.waits()) waited[wait.at] += wait.cycles;
+  CHECK(waited[&c] == 12);
+  CHECK(waited[&a] == 1);
+  CHECK(waited[&b] == 0);
 }
 
 // A unit between two FIFOs.
@@ -300,8 +359,8 @@ TEST_CASE("FIFO ports: what is left open, or bound twice, fails elaboration by i
     const std::string message = in_child([&] {
       const ClockDomain clock(1000);
       sc_core::sc_vector<TimedFifo<int>> fifos("fifo");
-      fifos.init(
-          3, [&](const char* name, std::size_t) { return new TimedFifo<int>(name, clock, 1); });
+      fifos.init(3,
+                 [&](const char* name, std::size_t) { return new TimedFifo<int>(name, clock, 1); });
       Passer unit("unit");
       Reader reader("reader");
       try {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "algorithm/memory/records.h"
+#include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
 
@@ -12,10 +12,14 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
     : sc_module(name),
       memory("memory", context.built_for.memory_port),
       config_(config),
+      built_for_(context.built_for),
+      tests_(side_by_side(coarse_datapath(config, context.job.layout.split.bound_by),
+                          static_cast<std::uint32_t>(context.job.parts.size()))),
       job_(context.job),
+      record_bytes_(job_.layout.first_halves.record_bytes),
       load_("load", context.clock),
       filter_("filter", context.clock),
-      input_(std::size_t{config.input_slots} * config.slice_gaussians * kFirstHalfBytes),
+      input_(std::size_t{config.input_slots} * config.slice_gaussians * record_bytes_),
       slices_("slices", context.clock, config.input_slots),
       free_slots_("free_slots", context.clock, config.input_slots, 0) {
   SC_THREAD(run_load);
@@ -37,13 +41,12 @@ void CoarseFilter::run_load() {
       Slice slice;
       slice.share = share;
       slice.share.count = std::min(end - share.first, config_.slice_gaussians);
-      slice.slot = free_slots_.pop(load_, ActivityState::kBlocked);
+      slice.slot = free_slots_.pop(load_, WaitFor::kRoom);
       if (slice.share.count > 0) {
         load_.work(1);
-        slice.ticket = start_read(
-            memory, load_, job_.layout.first_halves.address(share.first),
-            input_.data() + std::size_t{slice.slot} * config_.slice_gaussians * kFirstHalfBytes,
-            slice.share.count * kFirstHalfBytes, job_.layout.first_halves.region);
+        slice.ticket = start_read(memory, load_, job_.layout.first_halves.address(share.first),
+                                  first_half(slice.slot, 0), slice.share.count * record_bytes_,
+                                  job_.layout.first_halves.region);
         counters_.first_halves += slice.share.count;
       }
       share.first += slice.share.count;
@@ -75,11 +78,15 @@ void CoarseFilter::run_filter() {
   }
 }
 
+std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
+  return input_.data() +
+         (std::size_t{slot} * config_.slice_gaussians + at) * std::size_t{record_bytes_};
+}
+
 // The CFUs take `cfus` Gaussians at a time. Simulated time is only let pass where somebody could
 // see it: before a candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
-  const std::byte* records =
-      input_.data() + std::size_t{slice.slot} * config_.slice_gaussians * kFirstHalfBytes;
+  const RecordSplit& split = job_.layout.split;
   std::uint64_t pending_cycles = 0;
   std::uint32_t open = 0;  // parts
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
@@ -89,10 +96,11 @@ void CoarseFilter::filter_slice(const Slice& slice) {
         counters_.dropped_saturated += slice.share.count - i;
         break;
       }
-      if (config_.coarse_filter) pending_cycles += config_.cfu_interval_cycles();
+      if (config_.coarse_filter) pending_cycles += tests_.interval_cycles();
     }
-    const FirstHalf first = decode_first_half(records + std::size_t{i} * kFirstHalfBytes);
-    const CoarseBound bound = coarse_bound(job_.view, first.mean, first.scale_max);
+    ++counters_.read;
+    const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
+    const FirstHalfBound bound = bound_first_half(split, first, job_.view);
     const std::uint32_t parts = test(bound, slice.share.group, open);
     if (parts == 0) continue;
     counters_.passed += count_parts(parts);
@@ -104,11 +112,11 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     candidate.visit = slice.share.visit;
     candidate.slot = slice.share.first + i;
     candidate.parts = parts;
-    candidate.depth = bound.depth;
+    candidate.depth = depth_of(bound);
     candidate.mean_x = first.mean.x;
     candidate.mean_y = first.mean.y;
     candidate.mean_z = first.mean.z;
-    candidate.scale_max = first.scale_max;
+    candidate.carried = first.carried;
     in_turn(survivors, candidate.visit).push(candidate, filter_);
   }
   filter_.work(pending_cycles);
@@ -116,11 +124,10 @@ void CoarseFilter::filter_slice(const Slice& slice) {
 
 // The parts that the Gaussian may touch, of those that are open. A part without pixels is finished
 // as soon as the news of it has arrived; until then nothing touches it.
-std::uint32_t CoarseFilter::test(const CoarseBound& bound, std::uint32_t group,
+std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t group,
                                  std::uint32_t open) {
   if (!config_.coarse_filter) return open;
   counters_.tests += count_parts(open);
-  if (!bound.in_front) return 0;
   std::uint32_t parts = 0;
   for (std::uint32_t p = 0; p < part_count(); ++p) {
     const bool tested = (open >> p & 1U) != 0;
@@ -130,11 +137,12 @@ std::uint32_t CoarseFilter::test(const CoarseBound& bound, std::uint32_t group,
   return parts;
 }
 
-SramUses CoarseFilter::sram_uses(const HfuConfig& config) {
+SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
   return {sram_use("input", kInputSram,
                    {{config.input_slots, "slots"},
                     {config.slice_gaussians, "Gaussians"},
-                    {kFirstHalfBytes, "B"}}),
+                    {built_for.first_half_bytes, "B"}},
+                   {8 * built_for.first_half_bytes}),
           fifo_use<Slice>("slices", kSharedSram, config.input_slots, "slices")};
 }
 
@@ -153,16 +161,18 @@ void CoarseFilter::publish(DataSheet& sheet) {
                 counters_.candidates);
   sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
                 counters_.dropped_saturated);
-  sheet.operations("coarse", "fp32_mac", static_cast<double>(counters_.tests) * config_.cfu_macs);
-  const double buffered = 8.0 * static_cast<double>(counters_.first_halves) * kFirstHalfBytes;
-  sheet.operations("buffers", "sram_small_write_bit", buffered);
-  sheet.operations("buffers", "sram_small_read_bit", buffered);
-  sheet.part("hfus", "mac_lane", part_count() * config_.cfus * config_.cfu_lanes);
+  sheet.datapath(tests_, counters_.tests);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.port(memory);
-  sheet.sram(sram_uses(config_));
+  sheet.sram(sram_uses(config_, built_for_));
+  sheet.accesses("input", counters_.read, counters_.first_halves);
   sheet.queue(slices_, "slices");
+  sheet.remedy(filter_, "hfu.cfu_lanes");
+  sheet.remedy(memory, WaitFor::kReads, "hfu.input_slots");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
+  sheet.remedy(slices_, WaitFor::kRoom, "hfu.input_slots");
+  sheet.remedy(free_slots_, WaitFor::kRoom, "hfu.input_slots");
   sheet.signal("group", current_group_);
   sheet.signal("visit", current_visit_);
 }

@@ -1,8 +1,8 @@
 // The coarse half of an HFU, or of all HFUs that share a fetch: streams shares of visits through
-// the CFUs, which know only centre and largest scale. With a shared fetch each first half is read
-// once and broadcast; the CFUs of every HFU test it against their own part of the group, in lock
-// step. Timing: `cfus` Gaussians every cfu_interval_cycles; the next slices are fetched while this
-// one is filtered. Function: algorithm/splat/coarse_bound.h.
+// the CFUs, which know only what stands in a first half. With a shared fetch each first half is
+// read once and broadcast; the CFUs of every HFU test it against their own part of the group, in
+// lock step. Timing: `cfus` Gaussians every cfu_interval_cycles; the next slices are fetched while
+// this one is filtered. Function: algorithm/memory/first_half_test.h.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <systemc>
 #include <vector>
 
-#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/memory/first_half_test.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
 #include "modules/streaminggs/messages.h"
@@ -35,13 +35,14 @@ class CoarseFilter : public sc_core::sc_module {
   struct Counters {
     std::uint64_t shares = 0;             // of visits, empty ones and ends of groups included
     std::uint64_t first_halves = 0;       // fetched
+    std::uint64_t read = 0;               // of these, from the input buffer
     std::uint64_t tests = 0;              // of a Gaussian against a part
     std::uint64_t passed = 0;             // of these
     std::uint64_t candidates = 0;         // Gaussians that passed for one part or more
     std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
   };
   const Counters& counters() const { return counters_; }
-  static SramUses sram_uses(const HfuConfig& config);
+  static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
@@ -56,11 +57,16 @@ class CoarseFilter : public sc_core::sc_module {
   void run_load();    // thread: first halves into the input buffer
   void run_filter();  // thread: CFUs
   void filter_slice(const Slice& slice);
-  std::uint32_t test(const CoarseBound& bound, std::uint32_t group, std::uint32_t open);
+  std::uint32_t test(const FirstHalfBound& bound, std::uint32_t group, std::uint32_t open);
   std::uint32_t part_count() const { return static_cast<std::uint32_t>(job_.parts.size()); }
 
+  std::byte* first_half(std::uint32_t slot, std::uint32_t at);  // in the input buffer
+
   const HfuConfig config_;
+  const BuiltFor built_for_;
+  const Datapath tests_;
   const StreamingJob& job_;
+  const std::uint32_t record_bytes_;
   Activity load_, filter_;
   std::vector<std::byte> input_;  // [input_slots, slice_gaussians] first halves
   TimedFifo<Slice> slices_;       // filled slots

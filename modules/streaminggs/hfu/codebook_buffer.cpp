@@ -1,6 +1,9 @@
 // Filling of the codebook buffer, and who reads which bank when.
 #include "modules/streaminggs/hfu/codebook_buffer.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace sgs {
 
 CodebookBuffer::CodebookBuffer(const sc_core::sc_module_name& name, const CodebookConfig& config,
@@ -38,7 +41,7 @@ void CodebookBuffer::run_load() {
   start_read(memory, load_, base, bytes_.data(), static_cast<std::uint32_t>(bytes_.size()),
              job_.layout.codebooks.region);
   await_all(memory, load_);
-  load_.enter(ActivityState::kStarved);
+  load_.idles();
   counters_.bytes_loaded = bytes_.size();
   counters_.loaded_at_cycle = load_.clock().now_cycles();
   full_ = true;
@@ -48,10 +51,10 @@ void CodebookBuffer::run_load() {
 void CodebookBuffer::read_entries(std::uint32_t reader, const CodebookIndices& indices,
                                   Activity& activity) {
   if (!full_) {
-    activity.enter(ActivityState::kStarved);
+    activity.waits_for(WaitFor::kLoading, *this);
     while (!full_) sc_core::wait(filled_);
     activity.clock().align();
-    activity.enter(ActivityState::kBusy);
+    activity.works();
   }
   Request& request = requests_[reader];
   request.indices = &indices;
@@ -75,13 +78,14 @@ std::uint64_t CodebookBuffer::take_record(const CodebookIndices& indices, std::u
   const SecondHalfFormat& format = job_.layout.second_half;
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
     if (format.entries[id] == 0) continue;
-    cycle = take_lines(format.entry(static_cast<Codebook>(id), indices[id]), cycle);
+    cycle = take_lines(id, format.entry(static_cast<Codebook>(id), indices[id]), cycle);
   }
   ++counters_.records;
   return cycle;
 }
 
-std::uint64_t CodebookBuffer::take_lines(const EntryRange& entry, std::uint64_t cycle) {
+std::uint64_t CodebookBuffer::take_lines(std::size_t codebook, const EntryRange& entry,
+                                         std::uint64_t cycle) {
   if (entry.bytes == 0) return cycle;
   const std::uint32_t first = entry.begin / config_.line_bytes;
   const std::uint32_t last = (entry.begin + entry.bytes - 1) / config_.line_bytes;
@@ -89,17 +93,20 @@ std::uint64_t CodebookBuffer::take_lines(const EntryRange& entry, std::uint64_t 
     const std::uint64_t taken = banks_.take(line % config_.banks, cycle);
     counters_.conflict_cycles += taken - cycle;
     ++counters_.lines;
+    ++counters_.lines_of[codebook];
     cycle = taken + 1;
   }
   return cycle;
 }
 
-SramUses CodebookBuffer::sram_uses(const SecondHalfFormat& format) {
+// Lines of every codebook lie in all banks.
+SramUses CodebookBuffer::sram_uses(const CodebookConfig& config, const SecondHalfFormat& format) {
   SramUses uses;
   for (std::size_t id = 0; format.quantised() && id < kCodebookCount; ++id) {
     uses.push_back(sram_use(
         kCodebookNames[id], kCodebookSram,
-        {{format.entries[id], "entries"}, {format.entry_bytes(static_cast<Codebook>(id)), "B"}}));
+        {{format.entries[id], "entries"}, {format.entry_bytes(static_cast<Codebook>(id)), "B"}},
+        {8 * config.line_bytes, SramPorts::kOne, config.banks}));
   }
   return uses;
 }
@@ -114,12 +121,21 @@ void CodebookBuffer::publish(DataSheet& sheet) {
   sheet.counter("lines_read", "lines", "of the banks", counters_.lines);
   sheet.counter("bank_conflict_cycles", "cycles", "that lines waited for a bank being read",
                 counters_.conflict_cycles);
-  sheet.operations("codebooks", "sram_large_read_bit",
-                   8.0 * static_cast<double>(counters_.lines) * config_.line_bytes);
-  sheet.operations("codebooks", "sram_large_write_bit",
-                   8.0 * static_cast<double>(counters_.bytes_loaded));
-  sheet.sram(sram_uses(job_.layout.second_half));
+  // An entry's place: its number times its bytes, and the lines from there.
+  sheet.part("codebooks", "comparator", static_cast<double>(requests_.size()), 1);
+  sheet.operations("codebooks", "comparator", static_cast<double>(counters_.lines));
+  const SecondHalfFormat& format = job_.layout.second_half;
+  const SramUses uses = sram_uses(config_, format);
+  sheet.sram(uses);
+  for (const SramUse& use : uses) {
+    const auto id = static_cast<std::size_t>(
+        std::find(std::begin(kCodebookNames), std::end(kCodebookNames), use.name) -
+        std::begin(kCodebookNames));
+    sheet.accesses(use.name.c_str(), counters_.lines_of[id],
+                   counters_.bytes_loaded > 0 ? sram_words(use.bytes, use.shape) : 0);
+  }
   sheet.port(memory);
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("full", full_);
 }
 

@@ -36,11 +36,12 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
     std::uint64_t loaded_at_cycle = 0;  // the buffer was full
     std::uint64_t records = 0;          // decoded
     std::uint64_t lines = 0;            // read
+    std::uint64_t lines_of[kCodebookCount] = {};
     std::uint64_t conflict_cycles = 0;  // a line waited because its bank was being read
   };
   const Counters& counters() const { return counters_; }
   // Codebooks of one scene.
-  static SramUses sram_uses(const SecondHalfFormat& format);
+  static SramUses sram_uses(const CodebookConfig& config, const SecondHalfFormat& format);
   void publish(DataSheet& sheet);
 
  private:
@@ -55,7 +56,7 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
   void run_load();  // thread: the codebooks into the buffer
   void decide() override;
   std::uint64_t take_record(const CodebookIndices& indices, std::uint64_t cycle);
-  std::uint64_t take_lines(const EntryRange& entry, std::uint64_t cycle);
+  std::uint64_t take_lines(std::size_t codebook, const EntryRange& entry, std::uint64_t cycle);
 
   const CodebookConfig config_;
   const StreamingJob& job_;

@@ -1,9 +1,10 @@
 // The threads of the fine filter.
 #include "modules/streaminggs/hfu/fine_filter.h"
 
-#include "algorithm/memory/second_half.h"
+#include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
+#include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
 namespace {
@@ -23,6 +24,8 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
       place_(place),
       job_(context.job),
       fetch_("fetch", context.clock),
+      tests_(side_by_side(fine_datapath(config, context.job.layout.sh_degree()),
+                          static_cast<std::uint32_t>(context.job.parts.size()))),
       record_bytes_(job_.layout.second_halves.record_bytes),
       second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
       wanted_(config.second_half_slots),
@@ -67,7 +70,7 @@ void FineFilter::fetch(FineCandidate candidate) {
   }
   counters_.dropped_saturated += count_parts(all & ~candidate.parts);
   counters_.dropped_fetched += count_parts(all & ~candidate.parts);
-  candidate.buffer = free_slots_.pop(fetch_, ActivityState::kBlocked);
+  candidate.buffer = free_slots_.pop(fetch_, WaitFor::kRoom);
   fetch_.work(1);
   candidate.ticket =
       start_read(memory, fetch_, job_.layout.second_halves.address(candidate.slot),
@@ -96,14 +99,15 @@ FineFilter::Decoded FineFilter::take_fetched(Part& part, Activity& activity) {
   if (candidate.mark != Mark::kNone) return out;
   await(memory, activity, candidate.ticket);
   const SecondHalfFormat& format = job_.layout.second_half;
+  const RecordSplit& split = job_.layout.split;
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
   ++counters_.taken;
   if (part.stage && !finished[static_cast<int>(part.index)]->finished(candidate.group)) {
-    codebooks->read_entries(place_.reader + part.index, decode_indices(format, record), activity);
+    codebooks->read_entries(place_.reader + part.index,
+                            read_indices(split, format, candidate.carried, record), activity);
   }
-  const FirstHalf first{{candidate.mean_x, candidate.mean_y, candidate.mean_z},
-                        candidate.scale_max};
-  out.second = decode_second_half(format, first, record, part.stage ? codebooks->bytes() : nullptr);
+  out.second = read_record(split, format, {candidate.mean_x, candidate.mean_y, candidate.mean_z},
+                           candidate.carried, record, part.stage ? codebooks->bytes() : nullptr);
   free_slot(candidate.buffer, activity);
   return out;
 }
@@ -142,7 +146,7 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
     reject(part, candidate);
     return;
   }
-  part.filter.work(config_.ffu_interval_cycles());
+  part.filter.work(tests_.interval_cycles());
   ++counters_.tests;
   SplatToken token;
   if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||
@@ -177,7 +181,8 @@ SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_fo
                                std::uint32_t parts) {
   SramUses uses = {
       sram_use("second halves", kSharedSram,
-               {{config.second_half_slots, "slots"}, {built_for.second_half.bytes(), "B"}})};
+               {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
+               {8 * kPortBytes})};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
                               "candidates"),
@@ -206,14 +211,9 @@ void FineFilter::publish(DataSheet& sheet) {
                 counters_.dropped_saturated);
   sheet.counter("dropped_fetched", "Gaussians", "of these with their second half already fetched",
                 counters_.dropped_fetched);
-  sheet.operations("fine", "fp32_mac", static_cast<double>(counters_.tests) * config_.ffu_macs);
-  const double splats_bits = 8.0 * static_cast<double>(counters_.splats) * kSplatEntryBytes;
-  const double record_bits = 8.0 * record_bytes_;
-  sheet.operations("buffers", "sram_small_write_bit",
-                   static_cast<double>(counters_.second_halves) * record_bits + splats_bits);
-  sheet.operations("buffers", "sram_small_read_bit",
-                   static_cast<double>(counters_.taken) * record_bits + splats_bits);
-  sheet.part("hfus", "mac_lane", static_cast<double>(parts_.size()) * config_.ffu_lanes);
+  sheet.datapath(tests_, counters_.tests);
+  const std::uint64_t words = sram_words(record_bytes_, {8 * kPortBytes});
+  sheet.accesses("second halves", counters_.taken * words, counters_.second_halves * words);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated - counters_.dropped_fetched,
                  "filtering and second halves");
@@ -223,8 +223,15 @@ void FineFilter::publish(DataSheet& sheet) {
   sheet.sram(sram_uses(config_, built_for_, static_cast<std::uint32_t>(parts_.size())));
   for (const auto& part : parts_) {
     sheet.queue(part->fetched, "fetched candidates");
-    if (part->stage) sheet.queue(part->stage->decoded, "decoded Gaussians");
+    sheet.remedy(part->filter, "hfu.ffu_lanes");
+    sheet.remedy(part->fetched, WaitFor::kRoom, "hfu.second_half_slots");
+    if (!part->stage) continue;
+    sheet.queue(part->stage->decoded, "decoded Gaussians");
+    sheet.remedy(part->stage->decode, "codebook.line_bytes");
   }
+  sheet.remedy(memory, WaitFor::kReads, "hfu.second_half_slots");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
+  sheet.remedy(free_slots_, WaitFor::kRoom, "hfu.second_half_slots");
 }
 
 }  // namespace sgs

@@ -14,7 +14,7 @@
 #include <systemc>
 #include <vector>
 
-#include "algorithm/memory/records.h"
+#include "algorithm/memory/record_split.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/codebook_config.h"
 #include "modules/streaminggs/hfu/codebook_if.h"
@@ -109,6 +109,7 @@ class FineFilter : public sc_core::sc_module {
   const FineFilterPlace place_;
   const StreamingJob& job_;
   Activity fetch_;
+  const Datapath tests_;
   const std::uint32_t record_bytes_;
   std::vector<std::byte> second_halves_;  // [second_half_slots] records
   std::vector<std::uint32_t> wanted_;     // [second_half_slots] parts that have not yet taken it

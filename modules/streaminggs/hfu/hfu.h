@@ -23,7 +23,7 @@ class Hfu : public sc_core::sc_module {
 
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                             std::uint32_t parts) {
-    SramUses uses = CoarseFilter::sram_uses(config);
+    SramUses uses = CoarseFilter::sram_uses(config, built_for);
     add(uses, FineFilter::sram_uses(config, built_for, parts));
     return uses;
   }

@@ -16,7 +16,7 @@ constexpr std::uint32_t kPaperFfuMacs = 427;
 enum class FilterCost { kPaper, kCounted };
 
 struct HfuConfig {
-  FilterCost cost = FilterCost::kPaper;
+  FilterCost cost = FilterCost::kCounted;
   std::uint32_t cfus = 4;  // coarse filters in one HFU
   std::uint32_t cfu_macs = kPaperCfuMacs;
   std::uint32_t cfu_lanes = 4;          // MAC lanes of one CFU

@@ -11,7 +11,10 @@ void visit(ConfigVisitor& v, MergeConfig& c) {
   v("spill_runs", c.spill_runs, in_range(2, 1024), "spilled runs read back side by side");
   v("spill_block_entries", c.spill_block_entries, in_range(1, 1024),
     "keys read and written at once");
-  v("latency_cycles", c.latency_cycles, in_range(1, 1000), "of the pipelined heap");
+  v("cycles_per_operation", c.cycles_per_operation, in_range(1, 16),
+    "of the heap: from one insert or delete to the next");
+  v("latency_cycles", c.latency_cycles, in_range(1, 1000),
+    "of a key from a sorting unit until it may be released");
   v("input_fifo_entries", c.input_fifo_entries, in_range(1, 4096),
     "sorted keys waiting from each sorting unit");
   v("output_fifo_entries", c.output_fifo_entries, in_range(1, 4096),

@@ -9,19 +9,19 @@
 namespace sgs {
 
 struct MergeConfig {
-  std::uint32_t entries = 1952;  // keys that wait on chip
+  std::uint32_t entries = 1660;  // keys that wait on chip
   OnOverflow on_overflow = OnOverflow::kSpill;
   std::uint32_t spill_runs = 8;           // runs in DRAM that are read back side by side
   std::uint32_t spill_block_entries = 8;  // keys read and written at once: 224 B
-  std::uint32_t latency_cycles = 12;      // through the levels of the pipelined heap
+  // Of the heap, from one insert or delete to the next. 2: two neighbouring levels work on one
+  // operation (../../../algorithm/order/interval_heap.h), each deciding in a cycle. 1 would take
+  // results forwarded through all levels in one cycle, 3 or 4 memories that read nothing ahead.
+  std::uint32_t cycles_per_operation = 2;
+  std::uint32_t latency_cycles = 2;       // of a key from sorting until it may be released
   std::uint32_t input_fifo_entries = 16;  // sorted keys waiting, from each sorting unit
   std::uint32_t output_fifo_entries = 4;  // released keys waiting, for each HFU
 };
 
 void visit(ConfigVisitor& v, MergeConfig& config);
-
-// While it waits, and in DRAM, a key has room for the Gaussian's index in the file.
-constexpr std::uint32_t kWaitingKeyBytes = 28;
-constexpr std::uint32_t kSpilledKeyBytes = 28;
 
 }  // namespace sgs

@@ -1,17 +1,71 @@
 // Keys of the rendering unit.
 #include "modules/streaminggs/rendering/rendering_config.h"
 
+#include "algorithm/splat/filter_work.h"
+#include "modules/streaminggs/counted_datapath.h"
+#include "modules/streaminggs/work_rates.h"
+
 namespace sgs {
 
+namespace {
+
+const RenderingWork& counted() {
+  static const RenderingWork work = rendering_work();
+  return work;
+}
+
+}  // namespace
+
+const RenderingMacs& rendering_macs() {
+  static const RenderingMacs macs{folded_macs(counted().spans_begin), folded_macs(counted().span),
+                                  folded_macs(counted().subtile_blend)};
+  return macs;
+}
+
+Datapath blend_datapath(const RenderingConfig& config) {
+  Datapath path = counted_datapath("subtile_blend", "rendering", counted().subtile_blend);
+  if (config.precision == BlendPrecision::kHalf) path.lane = "fp16_lane";
+  path.lanes = config.cluster_lanes;
+  path.copies = config.clusters;
+  return path;
+}
+
+Datapath span_datapath(const RenderingConfig& config) {
+  Datapath path = counted_datapath("row_span", "rendering", counted().span);
+  path.lanes = config.span_lanes;
+  return path;
+}
+
+std::uint32_t RenderingConfig::cluster_interval_cycles() const {
+  return static_cast<std::uint32_t>(cycles_for(rendering_macs().subtile_blend, cluster_lanes));
+}
+
+std::uint32_t RenderingConfig::span_cycles(std::uint32_t spans) const {
+  if (spans == 0) return 0;
+  const RenderingMacs& macs = rendering_macs();
+  return static_cast<std::uint32_t>(
+      cycles_for(macs.spans_begin + std::uint64_t{spans} * macs.span, span_lanes));
+}
+
 void visit(ConfigVisitor& v, RenderingConfig& c) {
-  v("clusters", c.clusters, in_range(1, 256), "4x4 sub-tiles blended a cycle");
+  v("clusters", c.clusters, in_range(1, 256), "blend a 4x4 sub-tile at a time each");
+  v("cluster_lanes", c.cluster_lanes, in_range(1, 4096),
+    "MAC lanes of one cluster: how often it starts a sub-tile follows");
+  v("precision", c.precision,
+    names<BlendPrecision>({{"fp32", BlendPrecision::kSingle}, {"fp16", BlendPrecision::kHalf}}),
+    "of blending and of the pixels on chip");
+  v("cluster_queue_entries", c.cluster_queue_entries, in_range(1, 1024),
+    "sub-tiles waiting for each cluster");
+  v("state_loop_cycles", c.state_loop_cycles, in_range(1, 1000),
+    "until the next splat may be blended into the same sub-tile");
   v("depth_cycles", c.depth_cycles, in_range(1, 1000),
     "latency of a blend: drain and news of a finished group come so much later");
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "groups whose pixels are on chip");
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");
   v("ellipse_test", c.ellipse_test, "sub-tiles that a splat's ellipse cannot reach are skipped");
-  v("subtile_tests_per_cycle", c.subtile_tests_per_cycle, in_range(1, 4096), "of the ellipse");
+  v("span_lanes", c.span_lanes, in_range(1, 4096),
+    "MAC lanes that find the sub-tiles of an ellipse, row by row");
   v("feedback_latency_cycles", c.feedback_latency_cycles, in_range(1, 1000),
     "until VSU and HFUs see that a group is finished");
   v("saturation_feedback", c.saturation_feedback, "a finished group's visits are dropped upstream");

@@ -3,27 +3,51 @@
 
 #include <cstdint>
 
+#include "algorithm/splat/blend.h"
 #include "modules/config/config_visitor.h"
+#include "tlm/datapath.h"
 
 namespace sgs {
 
 struct RenderingConfig {
-  std::uint32_t clusters = 4;       // 4x4 sub-tiles blended a cycle: 64 pixels
-  std::uint32_t depth_cycles = 3;   // alpha, transmittance, blend
+  std::uint32_t clusters = 4;        // each holds the pixels of its sub-tiles in a bank of its own
+  std::uint32_t cluster_lanes = 480;  // multiply-accumulates of one cluster
+  BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels on chip
+  std::uint32_t cluster_queue_entries = 8;             // sub-tiles waiting for each cluster
+  // Some two dozen operations that wait for each other, from a pixel's distance to its colour.
+  std::uint32_t depth_cycles = 24;
+  // Of these from reading a pixel to having it written: a splat behind another on the same sub-tile
+  // waits as long. Read, 1 - alpha and colour times weight are there; multiply or add; write.
+  std::uint32_t state_loop_cycles = 4;
   std::uint32_t pixel_buffers = 2;  // groups whose pixels are on chip; 2: drain while blending
   std::uint32_t drain_pixels_per_cycle = 8;  // conversion to the frame's format
   bool ellipse_test = true;                  // skips sub-tiles that the ellipse cannot reach
-  std::uint32_t subtile_tests_per_cycle = 16;
-  bool saturation_feedback = true;  // a finished group's visits are dropped upstream
+  std::uint32_t span_lanes = 64;             // multiply-accumulates for the spans of rows
+  bool saturation_feedback = true;           // a finished group's visits are dropped upstream
   // A register where it leaves, a wire over at most the side of the die (2.3 mm, below a cycle at
   // 32 nm), a register where it arrives.
   std::uint32_t feedback_latency_cycles = 2;
   std::uint32_t input_fifo_entries = 8;  // sorted splats waiting, for each sorting unit
+
+  // A cluster starts a sub-tile every so many cycles.
+  std::uint32_t cluster_interval_cycles() const;
+  // Until a splat's first `spans` rows have their spans; 0 for none.
+  std::uint32_t span_cycles(std::uint32_t spans) const;
+  // Bytes of state a pixel: R, G, B and transmittance.
+  std::uint32_t pixel_state_bytes() const { return precision == BlendPrecision::kHalf ? 8 : 16; }
 };
 
-void visit(ConfigVisitor& v, RenderingConfig& config);
+// Multiply-accumulates of a splat's spans, of each row of them and of blending a sub-tile, counted
+// by running the code (algorithm/splat/filter_work.h).
+struct RenderingMacs {
+  std::uint32_t spans_begin, span, subtile_blend;
+};
+const RenderingMacs& rendering_macs();
 
-// Bytes of state a pixel: R, G, B and transmittance in float.
-constexpr std::uint32_t kPixelStateBytes = 16;
+// The lanes of all clusters, an item a sub-tile; those of the spans, an item a row.
+Datapath blend_datapath(const RenderingConfig& config);
+Datapath span_datapath(const RenderingConfig& config);
+
+void visit(ConfigVisitor& v, RenderingConfig& config);
 
 }  // namespace sgs

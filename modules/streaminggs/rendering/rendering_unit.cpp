@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "algorithm/memory/splat_record.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
@@ -20,7 +21,8 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
       blend_("blend", context.clock),
       drain_("drain", context.clock),
       finished_("finished", context.clock, config.pixel_buffers, config.depth_cycles),
-      free_buffers_("free_buffers", context.clock, config.pixel_buffers, 0) {
+      free_buffers_("free_buffers", context.clock, config.pixel_buffers, 0),
+      schedule_(config_) {
   SC_THREAD(run_blend);
   SC_THREAD(run_drain);
 }
@@ -28,17 +30,18 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
 void RenderingUnit::run_blend() {
   std::size_t turn = 0;
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
-    free_buffers_.pop(blend_, ActivityState::kBlocked);
+    free_buffers_.pop(blend_, WaitFor::kRoom);
     current_group_ = group;
     auto state = std::make_shared<GroupState>(
-        job_.groups[group], job_.view.width, job_.view.height,
+        job_.groups[group], job_.view.width, job_.view.height, config_.precision,
         config_.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox);
+    schedule_.begin_group(state->subtile_count());
     for (Mark mark = Mark::kNone; mark != Mark::kEndOfGroup;) {
       const SplatToken token = in_turn(splats, turn).pop(blend_);
       mark = token.mark;
       if (mark == Mark::kNone) {
         blend_splat(token.splat, group, *state);
-      } else if (mark == Mark::kRejected) {
+      } else {
         blend_.work(1);
       }
       turn += mark != Mark::kNone || arrival_ == Arrival::kByToken ? 1 : 0;
@@ -46,26 +49,36 @@ void RenderingUnit::run_blend() {
     ++counters_.groups;
     counters_.groups_saturated += state->saturated() && !state->pixels().empty() ? 1 : 0;
     counters_.contributors += state->contributors();
+    work_until(schedule_.all_done());
     finished_.push(std::move(state), blend_);
   }
-  blend_.enter(ActivityState::kStarved);
+  blend_.idles();
+}
+
+void RenderingUnit::work_until(std::uint64_t cycle) {
+  const std::uint64_t now = blend_.clock().now_cycles();
+  if (cycle > now) blend_.work(cycle - now);
 }
 
 void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupState& state) {
-  if (state.saturated()) {
+  const std::uint64_t now = blend_.clock().now_cycles();
+  const bool was_saturated = state.saturated();
+  if (was_saturated && now >= schedule_.group_finished_from()) {
     ++counters_.splats_saturated;
+    blend_.work(1);
     return;
   }
-  const BlendWork work = state.blend(splat);
-  blend_.work(std::max({std::uint64_t{1}, cycles_for(work.blended, config_.clusters),
-                        cycles_for(work.tested, config_.subtile_tests_per_cycle)}));
-  counters_.subtile_tests += work.tested;
-  counters_.subtile_blends += work.blended;
+  schedule_.begin_splat(now);
+  const BlendWork work = state.blend_scheduled(
+      splat, [&](const SubtileReach& subtile) { schedule_.reach(subtile); });
+  counters_.spans += work.spans;
+  counters_.splats_spanned += work.spans > 0 ? 1 : 0;
   counters_.splats += work.blended > 0 ? 1 : 0;
   // The last transmittance is known when the blend has left the pipeline.
-  if (state.saturated() && config_.saturation_feedback) {
-    finish->finish(group, config_.depth_cycles);
+  if (state.saturated() && !was_saturated && config_.saturation_feedback) {
+    finish->finish(group, static_cast<std::uint32_t>(schedule_.group_finished_from() - now));
   }
+  work_until(schedule_.end_splat(work.spans));
 }
 
 void RenderingUnit::run_drain() {
@@ -78,7 +91,7 @@ void RenderingUnit::run_drain() {
     free_buffers_.push(0, drain_);
   }
   await_all(memory, drain_);
-  drain_.enter(ActivityState::kStarved);
+  drain_.idles();
   on_done_();
 }
 
@@ -103,9 +116,38 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
   const std::uint32_t px = built_for.group_px;
   return {
       sram_use("pixel state", kSharedSram,
-               {{config.pixel_buffers, "groups"}, {px, "px"}, {px, "px"}, {kPixelStateBytes, "B"}}),
+               {{config.pixel_buffers, "groups"},
+                {px, "px"},
+                {px, "px"},
+                {config.pixel_state_bytes(), "B"}},
+               {8 * kSubtilePixels * config.pixel_state_bytes(), SramPorts::kReadAndWrite,
+                config.clusters}),
+      sram_use("cluster queues", kSharedSram,
+               {{config.clusters, "clusters"},
+                {config.cluster_queue_entries, "splats"},
+                {kSplatEntryBytes, "B"}},
+               {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}),
       unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
                         px * pixel_bytes(built_for.frame_format))};
+}
+
+void RenderingUnit::publish_ledger(DataSheet& sheet) {
+  const ClusterSchedule::Counters& clusters = schedule_.counters();
+  sheet.datapath(blend_datapath(config_), clusters.blends);
+  const Datapath spans = span_datapath(config_);
+  sheet.datapath(spans, counters_.spans);
+  sheet.operations(spans.component.c_str(), spans.lane.c_str(),
+                   static_cast<double>(counters_.splats_spanned) * rendering_macs().spans_begin);
+  sheet.accesses("cluster queues", clusters.blends, clusters.blends);
+  // Each blend reads and writes a sub-tile; so do clearing and draining a group.
+  std::uint64_t subtiles = clusters.blends;
+  for (std::uint64_t group = 0; group < counters_.groups; ++group) {
+    const PixelRect& px = job_.groups[group];
+    subtiles += cycles_for(static_cast<std::uint64_t>(px.width()), kSubtilePx) *
+                cycles_for(static_cast<std::uint64_t>(px.height()), kSubtilePx);
+  }
+  sheet.accesses("pixel state", subtiles, subtiles);
+  sheet.port(memory, "pixel writes");
 }
 
 void RenderingUnit::publish(DataSheet& sheet) {
@@ -118,18 +160,28 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.counter("splats", "splats", "blended into at least one sub-tile", counters_.splats);
   sheet.counter("splats_saturated", "splats", "that came when their group was finished",
                 counters_.splats_saturated);
-  sheet.counter("subtile_tests", "sub-tiles", "put to the ellipse test", counters_.subtile_tests);
-  sheet.counter("subtile_blends", "sub-tiles", "blended", counters_.subtile_blends);
+  sheet.counter("splats_spanned", "splats", "on more sub-tiles than a few: rows got spans",
+                counters_.splats_spanned);
+  sheet.counter("spans", "rows", "of sub-tiles whose span in the ellipse was computed",
+                counters_.spans);
+  const ClusterSchedule::Counters& clusters = schedule_.counters();
+  sheet.counter("subtile_blends", "sub-tiles", "blended", clusters.blends);
+  sheet.counter("subtile_blends_late", "sub-tiles",
+                "of these finished already, which was not known yet", clusters.late_blends);
+  sheet.counter("hazard_cycles", "cycles", "that clusters waited for the splat ahead on a sub-tile",
+                clusters.hazard_cycles);
+  sheet.counter("queue_cycles", "cycles", "that sub-tiles waited for room at their cluster",
+                clusters.queue_cycles);
   sheet.counter("contributors", "pixels", "blended with an alpha above 1/255",
                 counters_.contributors);
-  const double pixels = static_cast<double>(counters_.subtile_blends) * kSubtilePixels;
-  sheet.operations("rendering", "pixel_blend", pixels);
-  sheet.operations("pixel_state", "sram_large_write_bit", 8.0 * pixels * kPixelStateBytes);
-  sheet.operations("pixel_state", "sram_large_read_bit", 8.0 * pixels * kPixelStateBytes);
-  sheet.part("rendering", "pixel_lane", config_.clusters * kSubtilePixels);
-  sheet.port(memory);
+  publish_ledger(sheet);
+  sheet.remedy(blend_, "rendering.clusters");
+  sheet.remedy(drain_, "rendering.drain_pixels_per_cycle");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.sram(sram_uses(config_, built_for_));
   sheet.queue(finished_, "pixel state");
+  sheet.remedy(finished_, WaitFor::kRoom, "rendering.pixel_buffers");
+  sheet.remedy(free_buffers_, WaitFor::kRoom, "rendering.pixel_buffers");
   sheet.signal("group", current_group_);
 }
 

@@ -12,6 +12,7 @@
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/messages.h"
+#include "modules/streaminggs/rendering/cluster_schedule.h"
 #include "modules/streaminggs/rendering/rendering_config.h"
 #include "modules/streaminggs/unit_context.h"
 #include "tlm/data_sheet.h"
@@ -39,12 +40,13 @@ class RenderingUnit : public sc_core::sc_module {
     std::uint64_t groups = 0;
     std::uint64_t splats = 0;            // blended into at least one sub-tile
     std::uint64_t splats_saturated = 0;  // arrived when their group was finished
-    std::uint64_t subtile_tests = 0;     // of the ellipse
-    std::uint64_t subtile_blends = 0;
-    std::uint64_t contributors = 0;  // (splat, pixel) blends
+    std::uint64_t splats_spanned = 0;    // on more sub-tiles than a few
+    std::uint64_t spans = 0;             // of rows of sub-tiles
+    std::uint64_t contributors = 0;      // (splat, pixel) blends
     std::uint64_t groups_saturated = 0;
   };
   const Counters& counters() const { return counters_; }
+  const ClusterSchedule::Counters& schedule_counters() const { return schedule_.counters(); }
   static SramUses sram_uses(const RenderingConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
@@ -52,6 +54,8 @@ class RenderingUnit : public sc_core::sc_module {
   void run_blend();  // thread
   void run_drain();  // thread
   void blend_splat(const Splat& splat, std::uint32_t group, GroupState& state);
+  void work_until(std::uint64_t cycle);
+  void publish_ledger(DataSheet& sheet);
   void write_group(const GroupState& state);
 
   const RenderingConfig config_;
@@ -62,6 +66,7 @@ class RenderingUnit : public sc_core::sc_module {
   Activity blend_, drain_;
   TimedFifo<std::shared_ptr<GroupState>> finished_;
   TimedFifo<std::uint32_t> free_buffers_;
+  ClusterSchedule schedule_;
   Counters counters_;
   std::uint32_t current_group_ = 0;  // for the waveform
 };

@@ -40,6 +40,7 @@ void ExactSorter::run() {
     counters_.visits_trivial += list.size() == 1 ? 1 : 0;
     counters_.keys += list.size();
     counters_.compare_exchanges += cost.compare_exchanges;
+    counters_.moves += cost.moves;
     for (const FineCandidate& next : list) {
       sort_.work(1);
       sorted->push(next, sort_);
@@ -50,7 +51,8 @@ void ExactSorter::run() {
 
 SramUses ExactSorter::sram_uses(const BuiltFor& built_for) {
   return {sram_use("key sorters", kSharedSram,
-                   {{built_for.chunk_gaussians, "keys"}, {FineCandidate::kSramBytes, "B"}})};
+                   {{built_for.chunk_gaussians, "keys"}, {FineCandidate::kSramBytes, "B"}},
+                   {8 * FineCandidate::kSramBytes, SramPorts::kReadAndWrite, kNetworkWidth})};
 }
 
 void ExactSorter::publish(DataSheet& sheet) {
@@ -62,10 +64,12 @@ void ExactSorter::publish(DataSheet& sheet) {
   sheet.counter("keys", "keys", "received", counters_.keys);
   sheet.counter("compare_exchanges", "operations", "of the sorting network",
                 counters_.compare_exchanges);
-  sheet.operations("sorting", "compare_exchange", static_cast<double>(counters_.compare_exchanges));
-  sheet.part("sorting", "sorting_unit", 1);
+  publish_network(sheet, config_, counters_.compare_exchanges);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(built_for_));
+  const std::uint64_t moved = counters_.keys + counters_.moves;
+  sheet.accesses("key sorters", moved, moved);
+  sheet.remedy(sort_, "sorting_units");
   sheet.signal("visit", visit_);
 }
 

@@ -28,6 +28,7 @@ class ExactSorter : public sc_core::sc_module {
     std::uint64_t visits_trivial = 0;  // 1 key: nothing to sort
     std::uint64_t keys = 0;
     std::uint64_t compare_exchanges = 0;
+    std::uint64_t moves = 0;  // of entries through the network
   };
   const Counters& counters() const { return counters_; }
   static SramUses sram_uses(const BuiltFor& built_for);

@@ -106,6 +106,7 @@ void PaperSorter::sort_buffer() {
   const SortingCost cost = sort_cost(config_, buffer_.size());
   sort_.work(place_.lists_of_network * cost.cycles);
   counters_.compare_exchanges += cost.compare_exchanges;
+  counters_.moves += cost.moves;
 }
 
 void PaperSorter::spill_buffer() {
@@ -173,6 +174,7 @@ void PaperSorter::merge(const SpillRun* runs, std::size_t count, Sink&& sink) {
     sort_.work(owed / kMergeWidth);
     owed %= kMergeWidth;
     counters_.compare_exchanges += std::uint64_t{levels} * kMergeStages;
+    counters_.moves += levels;
     sink(readers[nearest].front());
     readers[nearest].pop();
     if (!readers[nearest].exhausted()) heads.push(nearest);
@@ -200,10 +202,12 @@ SubtileRect PaperSorter::group_subtiles() const {
 // Runs that are read back lie in the sort buffer, which is empty then.
 SramUses PaperSorter::sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for) {
   const SramUse block = sram_use("spill blocks", kSharedSram,
-                                 {{config.spill_block_entries, "splats"}, {kSplatEntryBytes, "B"}});
+                                 {{config.spill_block_entries, "splats"}, {kSplatEntryBytes, "B"}},
+                                 {8 * kSplatEntryBytes});
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
   return {sram_use("sort buffers", kSharedSram,
-                   {{config.buffer_entries, "splats"}, {kSplatEntryBytes, "B"}}),
+                   {{config.buffer_entries, "splats"}, {kSplatEntryBytes, "B"}},
+                   {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, kNetworkWidth}),
           block, unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes)};
 }
 
@@ -222,11 +226,17 @@ void PaperSorter::publish(DataSheet& sheet) {
   sheet.counter("entries_spilled", "splats", "written to DRAM, over all passes",
                 counters_.entries_spilled);
   sheet.counter("list_max", "splats", "longest list of one visit", counters_.list_max);
-  sheet.operations("sorting", "compare_exchange", static_cast<double>(counters_.compare_exchanges));
-  sheet.part("sorting", "sorting_unit", 1.0 / place_.lists_of_network);
+  publish_network(sheet, config_, counters_.compare_exchanges, place_.lists_of_network);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(config_, built_for_));
-  sheet.port(memory);
+  // In and out, through the network, and those spilled and read back once more each.
+  const std::uint64_t moved = counters_.splats + counters_.moves + counters_.entries_spilled;
+  sheet.accesses("sort buffers", moved, moved);
+  sheet.accesses("spill blocks", counters_.entries_spilled, counters_.entries_spilled);
+  sheet.port(memory, "spill writes");
+  sheet.remedy(sort_, "sorting_units");
+  sheet.remedy(memory, WaitFor::kReads, "sorting.buffer_entries");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);
   sheet.signal("visit", visit_);
 }

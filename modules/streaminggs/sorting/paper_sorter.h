@@ -43,6 +43,7 @@ class PaperSorter : public sc_core::sc_module {
     std::uint64_t splats = 0;            // received
     std::uint64_t splats_saturated = 0;  // dropped: the group was finished
     std::uint64_t compare_exchanges = 0;
+    std::uint64_t moves = 0;  // of entries through the network
     std::uint64_t runs_spilled = 0;
     std::uint64_t entries_spilled = 0;  // written to DRAM, over all passes
     std::uint64_t list_max = 0;         // longest list of one visit

@@ -1,11 +1,28 @@
-// The thread of VSU in exact order.
+// The threads of VSU.
 #include "modules/streaminggs/vsu/exact_vsu.h"
 
+#include <algorithm>
 #include <limits>
 
-#include "modules/streaminggs/work_rates.h"
+#include "algorithm/voxel/chunk_work.h"
+#include "modules/streaminggs/counted_datapath.h"
+#include "modules/streaminggs/heap_ledger.h"
 
 namespace sgs {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr HeapLedger kChunkQueue{"chunk queue", "chunk queue counts", "vsu", kWalkEntryBytes, 2};
+constexpr HeapLedger kNodeQueue{"node queue", "node queue counts", "vsu", kNodeEntryBytes, 2};
+constexpr std::uint32_t kReadyVisits = 4;  // a cycle there, a cycle back, and some of jitter
+
+Datapath chunk_test(const ExactVsuConfig& config) {
+  Datapath path = counted_datapath("chunk_test", "vsu", chunk_work(longest_chunk_case()));
+  path.lanes = config.test_lanes;
+  return path;
+}
+
+}  // namespace
 
 ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& config,
                    const UnitContext& context, const RegionSpan& aside)
@@ -15,113 +32,266 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
       built_for_(context.built_for),
       job_(context.job),
       walk_("walk", context.clock),
-      nodes_(config.node_cache_bytes, job_.layout.chunk_table().nodes),
-      source_(*this, aside),
-      chunk_walk_(job_.view, source_, config.queue_entries) {
+      hand_out_("hand_out", context.clock),
+      tests_(chunk_test(config)),
+      upper_(std::min<std::uint64_t>(config.upper_nodes, job_.layout.chunk_table().nodes.count)),
+      nodes_(config.nodes_in_flight, job_.layout.chunk_table().nodes),
+      aside_(*this, aside),
+      chunk_walk_(job_.view, aside_, config.walk_room()),
+      ready_("ready", context.clock, kReadyVisits),
+      taken_("taken", context.clock, kReadyVisits),
+      room_(kReadyVisits),
+      saturated_(job_.groups.size()) {
+  taken_.announce_to(news_);
   SC_THREAD(run_walk);
+  SC_THREAD(run_arrivals);
+  SC_THREAD(run_hand_out);
 }
 
 void ExactVsu::run_walk() {
-  for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
-    current_group_ = group;
-    chunk_walk_.start(job_.groups[group], job_.layout.chunk_table().nodes.count == 0);
-    std::optional<WalkEntry> chunk = next();
-    counters_.groups_empty += chunk ? 0 : 1;
-    while (chunk && !finished->finished(group)) {
-      // A visit goes out once its successor is known: that bounds what may still come.
-      const std::optional<WalkEntry> following = next();
-      hand_out(group, *chunk,
-               following ? following->nearest : std::numeric_limits<float>::infinity());
-      chunk = following;
+  load_upper_nodes();
+  while (group_ < job_.groups.size()) {
+    while (taken_.can_pop()) {
+      taken_.pop(walk_);
+      ++room_;
     }
-    counters_.groups_saturated += chunk ? 1 : 0;
-    mark_end(group);
+    if (!step()) wait_for_news();
   }
-  walk_.enter(ActivityState::kStarved);
+  counters_.nodes_dropped += nodes_.used();
+  walk_.idles();
 }
 
-std::optional<WalkEntry> ExactVsu::next() {
-  const WalkCounters before = chunk_walk_.counters();
-  const std::optional<WalkEntry> chunk = chunk_walk_.next();
-  const WalkCounters& after = chunk_walk_.counters();
-  walk_.work(1 + (after.nodes - before.nodes) +
-             cycles_for(after.tests - before.tests, config_.tests_per_cycle));
-  return chunk;
+void ExactVsu::load_upper_nodes() {
+  const RecordArray& nodes = job_.layout.chunk_table().nodes;
+  if (upper_.empty()) return;
+  await(memory, walk_,
+        start_read(memory, walk_, nodes.base, upper_.data(),
+                   static_cast<std::uint32_t>(upper_.size() * sizeof(ChunkNode)), nodes.region));
 }
 
-void ExactVsu::hand_out(std::uint32_t group, const WalkEntry& chunk, float release_below) {
+// Reads first: the longest way. Nothing else is done in the same step, so that what comes meanwhile
+// is seen.
+bool ExactVsu::step() { return begin_group() || read_node() || give_chunk() || open_node(); }
+
+bool ExactVsu::begin_group() {
+  if (next_group_ == job_.groups.size()) return false;
+  if (chunk_walk_.begun() > 0 && !chunk_walk_.has_read_ahead()) return false;
+  chunk_walk_.begin(job_.groups[next_group_], job_.layout.chunk_table().nodes.count == 0);
+  ++next_group_;
+  work_on_queues(1);
+  return true;
+}
+
+// Ahead of need as long as no entry is put aside for it.
+bool ExactVsu::read_node() {
+  if (!chunk_walk_.has_node()) return false;
+  if (!chunk_walk_.has_room_for_another() && !chunk_walk_.needs_node()) return false;
+  // One that is on chip takes no slot, but which it is comes out with the queue's head.
+  if (nodes_.full()) return false;
+  const WalkEntry entry = chunk_walk_.take_node();
+  if (entry.at < upper_.size()) {
+    ++counters_.upper_reads;
+    const std::uint64_t tests = chunk_walk_.counters().tests;
+    chunk_walk_.open(entry, upper_[entry.at]);
+    work_on_queues(tests_.cycles(chunk_walk_.counters().tests - tests));
+  } else {
+    work_on_queues(1);
+    ++counters_.nodes_read;
+    nodes_.ask(entry, memory, walk_);
+  }
+  return true;
+}
+
+bool ExactVsu::open_node() {
+  if (!nodes_.can_take()) return false;
+  const auto [entry, node] = nodes_.take();
+  const std::uint64_t opened = chunk_walk_.counters().nodes, tests = chunk_walk_.counters().tests;
+  chunk_walk_.open(entry, node);
+  counters_.nodes_dropped += chunk_walk_.counters().nodes == opened ? 1 : 0;
+  work_on_queues(tests_.cycles(chunk_walk_.counters().tests - tests));
+  return true;
+}
+
+// A visit goes out once its successor is known: that bounds what may still come.
+bool ExactVsu::give_chunk() {
+  if (room_ == 0 || chunk_walk_.begun() == 0) return false;
+  if (finished->finished(group_) && !chunk_walk_.exhausted()) {
+    end_group(true);
+    return true;
+  }
+  if (const std::optional<WalkEntry> next = chunk_walk_.take_chunk()) {
+    any_chunk_ = true;
+    if (held_) give(*held_, next->nearest);
+    held_ = next;
+    work_on_queues(1);
+    return true;
+  }
+  // What was put aside may have come back: there is a node to read then.
+  if (!chunk_walk_.exhausted()) return work_on_queues(0);
+  if (held_) {
+    give(*held_, kInfinity);
+    held_.reset();
+    work_on_queues(1);
+  } else {
+    counters_.groups_empty += any_chunk_ ? 0 : 1;
+    end_group(false);
+  }
+  return true;
+}
+
+void ExactVsu::give(const WalkEntry& chunk, float release_below) {
   current_chunk_ = chunk.at;
-  in_turn(visits, next_visit_)
-      .push({group, next_visit_, chunk.at, chunk.count, Mark::kEndOfVisit, release_below}, walk_);
-  ++next_visit_;
-  ++counters_.visits;
+  ready_.push({group_, 0, chunk.at, chunk.count, Mark::kEndOfVisit, release_below}, walk_);
+  --room_;
 }
 
-void ExactVsu::mark_end(std::uint32_t group) {
-  in_turn(visits, next_visit_)
-      .push({group, next_visit_, 0, 0, Mark::kEndOfGroup, std::numeric_limits<float>::infinity()},
-            walk_);
-  ++next_visit_;
+void ExactVsu::end_group(bool saturated) {
+  if (saturated) mark_saturated(group_);
+  held_.reset();
+  any_chunk_ = false;
+  chunk_walk_.end();
+  ready_.push({group_, 0, 0, 0, Mark::kEndOfGroup, kInfinity}, walk_);
+  --room_;
+  ++group_;
+  work_on_queues(1);
+}
+
+void ExactVsu::mark_saturated(std::uint32_t group) {
+  counters_.groups_saturated += saturated_[group] ? 0 : 1;
+  saturated_[group] = true;
+}
+
+// The time of the queues' operations since it was last let pass, and of `other_cycles` beside them.
+// Whether there was any.
+bool ExactVsu::work_on_queues(std::uint64_t other_cycles) {
+  const std::uint64_t operations = chunk_walk_.queue_operations();
+  const std::uint64_t queues =
+      (operations - queue_operations_) * config_.cycles_per_queue_operation;
+  queue_operations_ = operations;
+  const std::uint64_t cycles = std::max(queues, other_cycles);
+  walk_.work(cycles);
+  return cycles > 0;
+}
+
+void ExactVsu::wait_for_news() {
+  if (room_ == 0) {
+    walk_.waits_for(WaitFor::kRoom, ready_);
+  } else {
+    walk_.waits_for(WaitFor::kReads, memory);
+  }
+  const bool node = nodes_.any_arrived(), room = !taken_.empty();
+  if (node || room) {
+    // What comes meanwhile can be taken no sooner: all have the same latency.
+    sc_core::sc_time first = node ? nodes_.ready_at() : taken_.ready_at();
+    if (room) first = std::min(first, taken_.ready_at());
+    sc_core::wait(first - sc_core::sc_time_stamp());
+  } else {
+    sc_core::wait(news_);
+  }
+  walk_.clock().jitter();
+  walk_.works();
+}
+
+void ExactVsu::run_arrivals() { nodes_.run_arrivals(memory, walk_.clock(), news_); }
+
+void ExactVsu::run_hand_out() {
+  while (true) {
+    VisitShare visit = ready_.pop(hand_out_);
+    taken_.push(0, hand_out_);
+    if (visit.mark == Mark::kEndOfVisit && finished->finished(visit.group)) {
+      mark_saturated(visit.group);
+      continue;
+    }
+    hand_out_.work(1);
+    visit.visit = next_visit_;
+    in_turn(visits, next_visit_).push(visit, hand_out_);
+    ++next_visit_;
+    counters_.visits += visit.mark == Mark::kEndOfVisit ? 1 : 0;
+  }
 }
 
 SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built_for) {
-  return {
-      sram_use("node cache", kSharedSram, {{config.node_cache_bytes, "B"}}),
-      sram_use("walk queue", kSharedSram,
-               {{config.queue_entries, "entries"}, {kWalkEntryBytes, "B"}}),
-      unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes)};
+  constexpr SramShape kOfPort{8 * kPortBytes};
+  SramUses uses = {
+      sram_use("upper nodes", kSharedSram,
+               {{config.upper_nodes, "nodes"}, {sizeof(ChunkNode), "B"}}, kOfPort),
+      sram_use("nodes in flight", kSharedSram,
+               {{config.nodes_in_flight, "nodes"}, {sizeof(ChunkNode) + kNodeEntryBytes, "B"}},
+               kOfPort)};
+  add(uses, kChunkQueue.sram_uses(config.queue_entries));
+  add(uses, kNodeQueue.sram_uses(config.node_queue_entries));
+  uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
+  uses.push_back(
+      unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes));
+  return uses;
 }
 
 void ExactVsu::publish(DataSheet& sheet) {
   const WalkCounters& walk = chunk_walk_.counters();
   sheet.unit(*this);
   sheet.activity(walk_, "vsu", "walks the chunk tree, one group after the other");
+  sheet.activity(hand_out_, "visits", "hands out what is final");
   sheet.counter("nodes", "nodes", "of the chunk tree opened", walk.nodes);
-  sheet.counter("node_cache_misses", "nodes", "of these read from DRAM", nodes_.misses());
+  sheet.counter("upper_nodes_opened", "nodes", "of these kept on chip", counters_.upper_reads);
+  sheet.counter("nodes_read", "nodes", "read from DRAM", counters_.nodes_read);
+  sheet.counter("nodes_dropped", "nodes", "of these not opened: their group had finished",
+                counters_.nodes_dropped);
   sheet.counter("tests", "children", "tested against a group", walk.tests);
   sheet.counter("visits", "chunks", "handed out, once for each group", counters_.visits);
   sheet.counter("groups_saturated", "groups", "finished before their walk ended",
                 counters_.groups_saturated);
   sheet.counter("groups_empty", "groups", "that no chunk can touch", counters_.groups_empty);
-  sheet.counter("queue_entries_max", "entries", "most in the walk's queue", walk.queue_max);
+  sheet.counter("chunk_queue_max", "entries", "most in the queue of chunks",
+                chunk_walk_.chunk_queue().most());
+  sheet.counter("node_queue_max", "entries", "most in the queue of nodes",
+                chunk_walk_.node_queue().most());
+  sheet.counter("chunk_queue_operations", "operations", "insertions and removals",
+                chunk_walk_.chunk_queue().work().operations());
+  sheet.counter("node_queue_operations", "operations", "insertions and removals",
+                chunk_walk_.node_queue().work().operations());
   sheet.counter("queue_entries_put_aside", "entries", "that went to DRAM: the queue was full",
-                walk.overflowed);
-  sheet.operations("vsu", "fp32_mac", static_cast<double>(walk.tests) * kChunkTestMacs);
-  sheet.part("vsu", "vsu", 1);
+                walk.put_aside);
+  sheet.datapath(tests_, walk.tests);
   sheet.left_out("saturated_groups", "every pixel was finished before the walk ended",
                  counters_.groups_saturated, "the rest of the tree is not walked");
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
                  "no visit, no blending");
   sheet.sram(sram_uses(config_, built_for_));
-  sheet.port(memory);
-  sheet.signal("group", current_group_);
+  // A node comes in and goes out whole, eight children and their common numbers.
+  constexpr std::uint64_t kWords = sizeof(ChunkNode) / kPortBytes;
+  sheet.accesses("upper nodes", kWords * counters_.upper_reads, kWords * upper_.size());
+  sheet.accesses("nodes in flight", kWords * counters_.nodes_read, kWords * counters_.nodes_read);
+  kChunkQueue.publish(sheet, config_.queue_entries, chunk_walk_.chunk_queue().work());
+  kNodeQueue.publish(sheet, config_.node_queue_entries, chunk_walk_.node_queue().work());
+  sheet.port(memory, "entries put aside");
+  sheet.queue(ready_, "final visits");
+  sheet.remedy(walk_, "vsu.test_lanes");
+  sheet.remedy(memory, WaitFor::kReads, "vsu.nodes_in_flight");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
+  sheet.signal("group", group_);
   sheet.signal("chunk", current_chunk_);
 }
 
-ChunkNode ExactVsu::Source::node(std::uint32_t index) {
-  return vsu_.nodes_.get(index, vsu_.memory, vsu_.walk_);
-}
-
-void ExactVsu::Source::put_aside(const WalkEntry& entry) {
+void ExactVsu::Aside::put_aside(const WalkEntry& entry) {
   static_assert(sizeof(WalkEntry) == kWalkEntryBytes);
-  start_write(vsu_.memory, vsu_.walk_, aside_.base + std::uint64_t{aside_count_} * kWalkEntryBytes,
-              &entry, kWalkEntryBytes, aside_.region);
-  ++aside_count_;
+  start_write(vsu_.memory, vsu_.walk_, span_.base + std::uint64_t{count_} * kWalkEntryBytes, &entry,
+              kWalkEntryBytes, span_.region);
+  ++count_;
 }
 
-std::vector<WalkEntry> ExactVsu::Source::take_back() {
-  std::vector<WalkEntry> entries(aside_count_);
+std::vector<WalkEntry> ExactVsu::Aside::take_back() {
+  std::vector<WalkEntry> entries(count_);
   await_all(vsu_.memory, vsu_.walk_);  // they have been written
   await(vsu_.memory, vsu_.walk_,
-        start_read(vsu_.memory, vsu_.walk_, aside_.base, entries.data(),
-                   aside_count_ * kWalkEntryBytes, aside_.region));
-  aside_count_ = 0;
+        start_read(vsu_.memory, vsu_.walk_, span_.base, entries.data(), count_ * kWalkEntryBytes,
+                   span_.region));
+  count_ = 0;
   return entries;
 }
 
-void ExactVsu::Source::forget_aside() {
+void ExactVsu::Aside::forget_aside() {
   await_all(vsu_.memory, vsu_.walk_);  // or they could overtake the next group's
-  aside_count_ = 0;
+  count_ = 0;
 }
 
 }  // namespace sgs

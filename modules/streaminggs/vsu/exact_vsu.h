@@ -1,10 +1,14 @@
 // Voxel sorting unit (VSU), exact order: for each pixel group it walks the chunk tree front to back
 // and hands out the chunks that can touch the group, each with the depth below which nothing
-// follows. Timing: tests_per_cycle children a cycle, one cycle a queue operation; nodes that its
-// cache does not hold wait for DRAM. Function: algorithm/order/chunk_walk.h.
+// follows. Nodes are read ahead, several at a time, as long as their children are sure to fit the
+// queues; when a group's nodes have all been read the next group's walk begins.
+// Timing: of a node the longer of its tests, on test_lanes, and its insertions into the queues; each
+// operation of a queue takes cycles_per_queue_operation; a visit leaves a cycle.
+// Function: algorithm/order/chunk_walk.h.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -13,9 +17,10 @@
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
-#include "modules/streaminggs/vsu/table_cache.h"
+#include "modules/streaminggs/vsu/node_buffer.h"
 #include "tlm/data_sheet.h"
 #include "tlm/memory_access.h"
+#include "tlm/timed_fifo.h"
 
 namespace sgs {
 
@@ -31,47 +36,70 @@ class ExactVsu : public sc_core::sc_module {
            const UnitContext& context, const RegionSpan& aside);
 
   struct Counters {
+    std::uint64_t upper_reads = 0;       // nodes opened that were on chip
+    std::uint64_t nodes_read = 0;        // from DRAM, opened or not
+    std::uint64_t nodes_dropped = 0;     // of these: their group had ended when they came
     std::uint64_t visits = 0;            // handed out
-    std::uint64_t groups_saturated = 0;  // walks that ended before the tree did
+    std::uint64_t groups_saturated = 0;  // whose walk ended before the tree did
     std::uint64_t groups_empty = 0;      // no chunk touches
   };
   const Counters& counters() const { return counters_; }
   const WalkCounters& walk_counters() const { return chunk_walk_.counters(); }
-  std::uint64_t node_misses() const { return nodes_.misses(); }
   static SramUses sram_uses(const ExactVsuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
-  // The tree and the overflow area as the walk sees them: bytes in DRAM.
-  class Source {
+  // The overflow area as the walk sees it: bytes in DRAM.
+  class Aside {
    public:
-    Source(ExactVsu& vsu, const RegionSpan& aside) : vsu_(vsu), aside_(aside) {}
-    ChunkNode node(std::uint32_t index);
+    Aside(ExactVsu& vsu, const RegionSpan& span) : vsu_(vsu), span_(span) {}
     void put_aside(const WalkEntry& entry);
     std::vector<WalkEntry> take_back();
     void forget_aside();
 
    private:
     ExactVsu& vsu_;
-    const RegionSpan aside_;
-    std::uint32_t aside_count_ = 0;
+    const RegionSpan span_;
+    std::uint32_t count_ = 0;
   };
 
-  void run_walk();  // thread
-  std::optional<WalkEntry> next();
-  void hand_out(std::uint32_t group, const WalkEntry& chunk, float release_below);
-  void mark_end(std::uint32_t group);
+  void run_walk();      // thread: queues and tests
+  void run_arrivals();  // thread: nodes that come from memory
+  void run_hand_out();  // thread: visits to the HFUs
+  void load_upper_nodes();
+  bool step();
+  bool begin_group();
+  bool read_node();
+  bool give_chunk();
+  bool open_node();
+  void give(const WalkEntry& chunk, float release_below);
+  void end_group(bool saturated);
+  void mark_saturated(std::uint32_t group);
+  void wait_for_news();
+  bool work_on_queues(std::uint64_t other_cycles);
 
   const ExactVsuConfig config_;
   const BuiltFor built_for_;
   const StreamingJob& job_;
-  Activity walk_;
-  TableCache<ChunkNode> nodes_;
-  Source source_;
-  ChunkWalk<Source> chunk_walk_;
+  Activity walk_, hand_out_;
+  const Datapath tests_;
+  std::vector<ChunkNode> upper_;  // the tree's first nodes
+  NodeBuffer nodes_;
+  Aside aside_;
+  ChunkWalk<Aside> chunk_walk_;
+  TimedFifo<VisitShare> ready_;         // final visits
+  TimedFifo<std::uint32_t> taken_;      // of these, room that hand_out has given back
+  sc_core::sc_event news_;              // for the walk: a node has come, or room
+  std::uint32_t room_;                  // in ready_, as the walk knows it
+  std::uint32_t group_ = 0;             // whose chunks are given out
+  std::uint32_t next_group_ = 0;        // whose walk has not begun
+  std::optional<WalkEntry> held_;       // goes when what follows it is known
+  bool any_chunk_ = false;              // of group_
+  std::uint64_t queue_operations_ = 0;  // that have taken their time
+  std::vector<bool> saturated_;         // [group]
   Counters counters_;
   std::uint32_t next_visit_ = 0;
-  std::uint32_t current_group_ = 0, current_chunk_ = 0;  // for the waveform
+  std::uint32_t current_chunk_ = 0;  // for the waveform
 };
 
 }  // namespace sgs

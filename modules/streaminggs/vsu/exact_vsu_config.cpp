@@ -6,10 +6,17 @@
 namespace sgs {
 
 void visit(ConfigVisitor& v, ExactVsuConfig& c) {
-  v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");
-  v("tests_per_cycle", c.tests_per_cycle, in_range(1, 64), "chunk bounds a cycle");
+  v("upper_nodes", c.upper_nodes, in_range(0, 1 << 20),
+    "first nodes of the chunk tree, loaded once a frame");
+  v("nodes_in_flight", c.nodes_in_flight, in_range(1, 1024),
+    "nodes on their way from DRAM at a time");
+  v("test_lanes", c.test_lanes, in_range(1, 10000), "MAC lanes of the chunk test");
   v("queue_entries", c.queue_entries, in_range(kChunkNodeWidth + 1, 1 << 24),
-    "queue of the front-to-back walk");
+    "chunks in the queue of the front-to-back walk");
+  v("node_queue_entries", c.node_queue_entries, in_range(kChunkNodeWidth + 1, 1 << 24),
+    "nodes in the queue of the front-to-back walk");
+  v("cycles_per_queue_operation", c.cycles_per_queue_operation, in_range(1, 64),
+    "until the next may enter a queue's heap");
 }
 
 }  // namespace sgs

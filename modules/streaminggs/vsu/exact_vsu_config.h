@@ -3,19 +3,29 @@
 
 #include <cstdint>
 
+#include "algorithm/order/chunk_walk.h"
 #include "modules/config/config_visitor.h"
 
 namespace sgs {
 
 struct ExactVsuConfig {
-  std::uint32_t node_cache_bytes = 4096;  // in front of the chunk tree in DRAM
-  std::uint32_t tests_per_cycle = 2;      // children of tree nodes against the group
-  std::uint32_t queue_entries = 512;      // of the front-to-back walk
+  std::uint32_t upper_nodes = 24;          // of the chunk tree, kept on chip
+  std::uint32_t nodes_in_flight = 4;       // others, on their way from DRAM
+  std::uint32_t test_lanes = 64;           // multiply-accumulates a cycle of the chunk test
+  std::uint32_t queue_entries = 384;       // chunks in the queue of the front-to-back walk
+  std::uint32_t node_queue_entries = 256;  // nodes in that of the nodes
+  // A level of an interval heap reads both children in one cycle, compares and writes in the next;
+  // behind that the next operation can enter the level.
+  std::uint32_t cycles_per_queue_operation = 2;
+
+  WalkRoom walk_room() const { return {node_queue_entries, queue_entries}; }
 };
 
 void visit(ConfigVisitor& v, ExactVsuConfig& config);
 
-// An entry of the walk's queue, on chip and in DRAM: depth, place, count.
+// An entry of the queue of chunks, and of either queue in DRAM: depth, place, count, walk.
 constexpr std::uint32_t kWalkEntryBytes = 12;
+// Of the queue of nodes: depth, node, and in its top bit which of two walks.
+constexpr std::uint32_t kNodeEntryBytes = 8;
 
 }  // namespace sgs

@@ -7,7 +7,9 @@
 
 #include "algorithm/voxel/ray_sampling.h"
 #include "algorithm/voxel/ray_walk.h"
+#include "algorithm/voxel/ray_work.h"
 #include "algorithm/voxel/voxel_cuts.h"
+#include "modules/streaminggs/counted_datapath.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
@@ -31,6 +33,12 @@ class CachedTree {
   Activity& activity_;
 };
 
+Datapath ray_steps(const PaperVsuConfig& config) {
+  Datapath path = counted_datapath("ray_step", "vsu", ray_step_work());
+  path.lanes = config.step_lanes;
+  return path;
+}
+
 }  // namespace
 
 PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
@@ -42,6 +50,7 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       job_(context.job),
       traverse_("traverse", context.clock),
       emit_("emit", context.clock),
+      ray_steps_(ray_steps(config)),
       nodes_(config.node_cache_bytes, job_.layout.voxel_table().nodes),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
@@ -60,7 +69,7 @@ void PaperVsu::run_traverse() {
     if (ordered->voxels.empty()) ++counters_.groups_empty;
     ordered_.push(std::move(ordered), traverse_);
   }
-  traverse_.enter(ActivityState::kStarved);
+  traverse_.idles();
 }
 
 GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
@@ -68,8 +77,7 @@ GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
   if (voxels.nodes.count == 0) return {};
   CachedTree tree(nodes_, node_memory, traverse_);
   const auto on_ray = [this](std::uint32_t steps, std::size_t edges) {
-    traverse_.work(std::max(cycles_for(steps, config_.steps_per_cycle),
-                            cycles_for(edges, config_.edges_per_cycle)));
+    traverse_.work(std::max(ray_steps_.cycles(steps), cycles_for(edges, config_.edges_per_cycle)));
   };
   GroupVisits visits;
   if (config_.sample_step_voxels > 0) {
@@ -84,6 +92,7 @@ GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
   counters_.rays += visits.rays;
   counters_.steps += visits.steps;
   counters_.edges += visits.edges_offered;
+  counters_.table_entries += table_.voxel_count() + table_.edge_count();
   counters_.table_bytes_max = std::max(counters_.table_bytes_max, visits.table_bytes);
   if (visits.table_bytes > config_.table_bytes) {
     SC_REPORT_ERROR("/sgs/vsu",
@@ -107,11 +116,12 @@ void PaperVsu::run_emit() {
     }
     mark_end(ordered->group);
   }
-  emit_.enter(ActivityState::kStarved);
+  emit_.idles();
 }
 
 void PaperVsu::visit_voxel(std::uint32_t group, std::uint32_t voxel) {
   current_voxel_ = voxel;
+  ++counters_.voxels;
   const auto plane = [&](std::uint32_t index) {
     emit_.work(1);
     ++counters_.cuts;
@@ -153,13 +163,19 @@ void PaperVsu::mark_end(std::uint32_t group) {
 
 SramUses PaperVsu::sram_uses(const PaperVsuConfig& config) {
   // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
-  return {sram_use("node cache", kSharedSram, {{config.node_cache_bytes, "B"}}),
-          sram_use("record cache", kSharedSram, {{config.record_cache_bytes, "B"}}),
-          sram_use("cut cache", kSharedSram, {{config.cut_cache_bytes, "B"}}),
-          sram_use("open pieces", kSharedSram, {{kOpenPieces, "pieces"}, {kPieceBytes, "B"}}),
-          sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}}),
-          sram_use("ordered voxels", kSharedSram,
-                   {{config.groups_ahead, "groups"}, {config.table_bytes / 2, "B"}})};
+  SramUses uses = TableCache<VoxelNode>::sram_uses("node cache", "node cache tags", kSharedSram,
+                                                   config.node_cache_bytes);
+  add(uses, TableCache<VoxelRecord>::sram_uses("record cache", "record cache tags", kSharedSram,
+                                               config.record_cache_bytes));
+  add(uses, TableCache<float>::sram_uses("cut cache", "cut cache tags", kSharedSram,
+                                         config.cut_cache_bytes));
+  uses.push_back(sram_use("open pieces", kSharedSram,
+                          {{kOpenPieces, "pieces"}, {kPieceBytes, "B"}}, {8 * kPieceBytes}));
+  uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
+                          {64, SramPorts::kReadAndWrite, 2 * config.edges_per_cycle}));
+  uses.push_back(sram_use("ordered voxels", kSharedSram,
+                          {{config.groups_ahead, "groups"}, {config.table_bytes / 2, "B"}}, {32}));
+  return uses;
 }
 
 void PaperVsu::publish(DataSheet& sheet) {
@@ -180,16 +196,33 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.counter("node_cache_misses", "nodes", "read from DRAM", nodes_.misses());
   sheet.counter("cut_cache_misses", "planes", "of cut voxels read from DRAM", cuts_.misses());
   sheet.counter("record_cache_misses", "voxel records", "read from DRAM", records_.misses());
-  sheet.operations("vsu", "fp32_mac", static_cast<double>(counters_.steps) * kRayStepMacs);
-  sheet.part("vsu", "vsu", 1);
+  sheet.datapath(ray_steps_, counters_.steps);
+  nodes_.publish_accesses(sheet, "node cache", "node cache tags");
+  records_.publish_accesses(sheet, "record cache", "record cache tags");
+  cuts_.publish_accesses(sheet, "cut cache", "cut cache tags");
+  // A voxel is entered, and taken in two for each cut; what is visited is taken.
+  sheet.accesses("open pieces", counters_.visits + counters_.cuts,
+                 counters_.voxels + 2 * counters_.cuts);
+  // An edge is looked for and found or entered; each voxel and edge is taken once more, in order;
+  // the eye lies before or behind a cut.
+  sheet.part("vsu", "comparator", 2.0 * config_.edges_per_cycle + 1, 1);
+  const std::uint64_t lookups = counters_.edges + counters_.table_entries;
+  sheet.operations("vsu", "comparator", static_cast<double>(lookups + counters_.cuts));
+  sheet.accesses("ordering table", lookups, 2 * counters_.table_entries);
+  const std::uint64_t ordered = counters_.voxels + counters_.visits_saturated;
+  sheet.accesses("ordered voxels", ordered, ordered);
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
                  "no visit, no blending");
   sheet.left_out("saturated_visits", "every pixel of the group was finished",
                  counters_.visits_saturated, "their Gaussians are not streamed");
   sheet.port(node_memory);
   sheet.port(record_memory);
+  sheet.remedy(traverse_, "vsu.step_lanes");
+  sheet.remedy(node_memory, WaitFor::kReads, "vsu.node_cache_bytes");
+  sheet.remedy(record_memory, WaitFor::kReads, "vsu.record_cache_bytes");
   sheet.sram(sram_uses(config_));
   sheet.queue(ordered_, "ordered voxels");
+  sheet.remedy(ordered_, WaitFor::kRoom, "vsu.groups_ahead");
   sheet.signal("group", current_group_);
   sheet.signal("voxel", current_voxel_);
 }

@@ -1,8 +1,8 @@
 // Voxel sorting unit (VSU), paper order: for each pixel group it follows the pixels' rays through
 // the voxel tree, orders the voxels that they meet, and hands each out as a visit to the HFUs; one
 // with more Gaussians than a list holds in pieces, the nearest first.
-// Timing: steps / steps_per_cycle + edges / edges_per_cycle a ray, one cycle a voxel and edge to
-// order them, one cycle a visit and a cut; table misses wait for DRAM. Function:
+// Timing: steps on step_lanes lanes beside edges / edges_per_cycle a ray, one cycle a voxel and
+// edge to order them, one cycle a visit and a cut; table misses wait for DRAM. Function:
 // algorithm/order/group_visits.h, algorithm/voxel/voxel_cuts.h.
 #pragma once
 
@@ -36,6 +36,8 @@ class PaperVsu : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t rays = 0, steps = 0, edges = 0;
+    std::uint64_t table_entries = 0;     // voxels and distinct edges, over all groups
+    std::uint64_t voxels = 0;            // handed out, whole or in pieces
     std::uint64_t visits = 0;            // handed out
     std::uint64_t cuts = 0;              // of voxels into pieces
     std::uint64_t visits_saturated = 0;  // voxels left out: the group was finished
@@ -61,6 +63,7 @@ class PaperVsu : public sc_core::sc_module {
   const PaperVsuConfig config_;
   const StreamingJob& job_;
   Activity traverse_, emit_;
+  const Datapath ray_steps_;
   TableCache<VoxelNode> nodes_;
   TableCache<VoxelRecord> records_;
   TableCache<float> cuts_;

@@ -4,7 +4,7 @@
 namespace sgs {
 
 void visit(ConfigVisitor& v, PaperVsuConfig& c) {
-  v("steps_per_cycle", c.steps_per_cycle, in_range(1, 64), "tree nodes or cells a cycle");
+  v("step_lanes", c.step_lanes, in_range(1, 10000), "MAC lanes of the rays' steps");
   v("edges_per_cycle", c.edges_per_cycle, in_range(1, 64), "insertions into the ordering table");
   v("sample_step_voxels", c.sample_step_voxels, in_range(0, 10),
     "distance of samples on a ray; 0: every cell is visited");

@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "algorithm/memory/regions.h"
+#include "tlm/data_sheet.h"
 #include "tlm/memory_access.h"
 
 namespace sgs {
 
 constexpr std::uint32_t kCacheWays = 4;
+constexpr std::uint32_t kCacheTagBytes = 4;  // upper bits of the address, age within the set
 
 // Record: trivially copyable, its size a power of two.
 template <class Record>
@@ -29,6 +31,7 @@ class TableCache {
 
   // The record's bytes; on a miss the calling thread waits for DRAM.
   Record get(std::uint32_t index, MemoryPort& port, Activity& activity) {
+    ++lookups_;
     const std::uint64_t address = table_.address(index);
     const std::uint64_t tag = address / kCacheLineBytes;
     const Line& line = find_or_fetch(tag, port, activity);
@@ -37,7 +40,26 @@ class TableCache {
     return record;
   }
 
+  std::uint64_t lookups() const { return lookups_; }
   std::uint64_t misses() const { return misses_; }
+
+  // Its lines and their tags: the four ways of a set lie side by side, tags and age are read at
+  // once.
+  static SramUses sram_uses(const char* lines_name, const char* tags_name, const char* memory,
+                            std::uint32_t capacity_bytes) {
+    const std::uint32_t lines =
+        kCacheWays * std::max(1U, capacity_bytes / (kCacheLineBytes * kCacheWays));
+    return {sram_use(lines_name, memory, {{capacity_bytes, "B"}}, {8 * kPortBytes}),
+            sram_use(tags_name, memory, {{lines, "lines"}, {kCacheTagBytes, "B"}},
+                     {8 * kCacheTagBytes * kCacheWays})};
+  }
+  // What was read and written of both so far.
+  void publish_accesses(DataSheet& sheet, const char* lines_name, const char* tags_name) const {
+    const std::uint64_t line = sram_words(kCacheLineBytes, {8 * kPortBytes});
+    sheet.accesses(lines_name, lookups_ * sram_words(sizeof(Record), {8 * kPortBytes}),
+                   misses_ * line);
+    sheet.accesses(tags_name, lookups_, lookups_);
+  }
 
  private:
   struct Line {
@@ -66,7 +88,7 @@ class TableCache {
 
   const RecordArray table_;
   std::vector<Set> sets_;
-  std::uint64_t misses_ = 0;
+  std::uint64_t lookups_ = 0, misses_ = 0;
 };
 
 }  // namespace sgs

@@ -173,3 +173,17 @@ TEST_CASE("comparisons refuse pictures of different or no size") {
   CHECK_THROWS_AS(fraction_within(a, b, 1), InputError);
   CHECK_THROWS_AS(psnr_db(none, none), InputError);
 }
+
+TEST_CASE("differing pixels: those of which any channel differs") {
+  Image a = noise_image(7, 5, 0.0, 1.0, 1);
+  Image b = a;
+  CHECK(differing_pixels(a, b) == 0);
+  b.at(3, 2).y = std::nextafter(b.at(3, 2).y, 2.0F);
+  b.at(6, 4) += 1.0F;
+  CHECK(differing_pixels(a, b) == 2);
+  a.at(0, 0).x = b.at(0, 0).x = std::numeric_limits<float>::quiet_NaN();
+  CHECK(differing_pixels(a, b) == 2);
+  b.at(0, 0).x = 0;
+  CHECK(differing_pixels(a, b) == 3);
+  CHECK_THROWS_AS(differing_pixels(a, Image(5, 7)), InputError);
+}

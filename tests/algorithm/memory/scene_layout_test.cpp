@@ -81,45 +81,41 @@ TEST_CASE("scene layout: every region where it has always been") {
        14123456,
        640 * 360,
        {{"first_halves", 0, 4019744},
-        {"second_halves", 4022272, 55271480},
-        {"codebooks", 59297792, 0},
-        {"chunk_table", 59297792, 295040},
-        {"indices", 59596800, 1004936},
-        {"spill", 60604416, 14123456},
-        {"frame_buffer", 74731520, 691200}}},
+         {"second_halves", 4022272, 56276416},
+         {"codebooks", 60301312, 0},
+         {"chunk_table", 60301312, 295040},
+         {"spill", 60600320, 14123456},
+         {"frame_buffer", 74727424, 691200}}},
       {"chunks, vq",
        lay_out_chunks(vq, 251234, 2305, 16123),
        14123456,
        640 * 360,
        {{"first_halves", 0, 4019744},
-        {"second_halves", 4022272, 4270978},
-        {"codebooks", 8294400, 256000},
-        {"chunk_table", 8552448, 295040},
-        {"indices", 8851456, 1004936},
-        {"spill", 9859072, 14123456},
-        {"frame_buffer", 23986176, 691200}}},
+         {"second_halves", 4022272, 8039488},
+         {"codebooks", 12062720, 256000},
+         {"chunk_table", 12320768, 295040},
+         {"spill", 12619776, 14123456},
+         {"frame_buffer", 26746880, 691200}}},
       {"chunks, vq_packed, no SH",
        lay_out_chunks({Encoding::kVqPacked, 0, {4096, 4000, 17, 0}}, 251234, 2305, 16123),
        1,
        640 * 360 + 1,
        {{"first_halves", 0, 4019744},
-        {"second_halves", 4022272, 2009872},
-        {"codebooks", 6033408, 113356},
-        {"chunk_table", 6148096, 295040},
-        {"indices", 6447104, 1004936},
-        {"spill", 7454720, 1},
-        {"frame_buffer", 7458816, 691203}}},
+         {"second_halves", 4022272, 4019744},
+         {"codebooks", 8044544, 113356},
+         {"chunk_table", 8159232, 295040},
+         {"spill", 8458240, 1},
+         {"frame_buffer", 8462336, 691203}}},
       {"chunks, half, whole rows",
        lay_out_chunks({Encoding::kHalf, 1, {}}, 256, 32, 16),
        0,
        1024,
        {{"first_halves", 0, 4096},
-        {"second_halves", 4096, 9728},
+        {"second_halves", 4096, 12288},
         {"codebooks", 16384, 0},
         {"chunk_table", 16384, 4096},
-        {"indices", 20480, 1024},
-        {"spill", 24576, 0},
-        {"frame_buffer", 24576, 3072}}},
+        {"spill", 20480, 0},
+        {"frame_buffer", 20480, 3072}}},
       {"voxels, vq",
        lay_out_voxels(vq, 1763452, frame, 901, 30011),
        1410240,
@@ -158,7 +154,6 @@ TEST_CASE("scene layout: every region where it has always been") {
         {"second_halves", 0, 0},
         {"codebooks", 0, 0},
         {"chunk_table", 0, 0},
-        {"indices", 0, 0},
         {"spill", 0, 0},
         {"frame_buffer", 0, 300}}},
       {"a thousand, by file, vq_packed",
@@ -217,11 +212,9 @@ TEST_CASE("scene layout: tables and records lie in the regions that they name") 
   CHECK(chunks.order() == StorageOrder::kChunks);
   const ChunkTableLayout& tree = chunks.chunk_table();
   check_in(chunks.regions, "chunk_table", tree.nodes);
-  check_in(chunks.regions, "indices", tree.indices);
   CHECK(tree.nodes.record_bytes == sizeof(ChunkNode));
   CHECK(tree.nodes.count == 9);
   CHECK(tree.chunk_count == 63);
-  CHECK(tree.indices.count == 1000);
   CHECK_THROWS_AS(chunks.voxel_table(), std::bad_variant_access);
 
   const SceneLayout file = lay_out_file(format, 1000);
@@ -232,8 +225,11 @@ TEST_CASE("scene layout: tables and records lie in the regions that they name") 
   for (const SceneLayout& layout : {voxels, chunks, file}) {
     check_in(layout.regions, "first_halves", layout.first_halves);
     check_in(layout.regions, "second_halves", layout.second_halves);
-    CHECK(layout.first_halves.record_bytes == kFirstHalfBytes);
-    CHECK(layout.second_halves.record_bytes == format.bytes());
+    const RecordSplit split = split_of(layout.order(), format);
+    CHECK(layout.split.bound_by == split.bound_by);
+    CHECK(layout.first_halves.record_bytes == split.first_bytes());
+    CHECK(layout.second_halves.record_bytes == split.second_bytes);
+    CHECK(layout.record_bytes() == split.first_bytes() + split.second_bytes);
     CHECK(layout.regions[layout.codebooks.region].name == "codebooks");
     CHECK(layout.codebooks.bytes == format.codebook_bytes());
     CHECK(layout.stored_bytes == layout.regions.next_base());

@@ -6,6 +6,7 @@
 #include "algorithm/splat/activate.h"
 #include "testbench/builtin/open_scene.h"
 #include "tests/algorithm/order/order_checks.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 
 namespace sgs {
 namespace {
@@ -23,8 +24,7 @@ TEST_CASE("paper order: every ray respected, playbot") { test::check_order_of_sh
 
 TEST_CASE("paper order: a camera that looks along an axis from a cell's corner") {
   const Scene scene = open_scene("builtin:object?n=5000");
-  const ActivatedCloud cloud = activate(scene.cloud);
-  const VoxelGrid grid = build_voxel_grid(cloud, 0.5F);
+  const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), 0.5F);
   Camera camera;
   camera.width = camera.height = 65;  // the middle pixel's ray is parallel to the axis
   camera.focal_x = camera.focal_y = 40;

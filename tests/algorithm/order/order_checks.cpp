@@ -12,6 +12,7 @@
 #include "algorithm/scene/cameras.h"
 #include "algorithm/splat/activate.h"
 #include "testbench/builtin/open_scene.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 #include "tests/support/shared_inputs.h"
 
 namespace sgs::test {
@@ -84,7 +85,7 @@ void check_order(const ActivatedCloud& cloud, const VoxelGrid& grid, const Camer
                  int group_px) {
   std::vector<glm::ivec3> cells;
   for (const VoxelRecord& record : grid.voxels) {
-    const glm::vec3& mean = cloud.gaussians[grid.storage_order[record.first]].mean;
+    const glm::vec3& mean = cloud.gaussians[record.first].mean;
     cells.emplace_back(cell_of(mean.x, grid.frame.voxel_size),
                        cell_of(mean.y, grid.frame.voxel_size),
                        cell_of(mean.z, grid.frame.voxel_size));
@@ -110,9 +111,9 @@ void check_order(const ActivatedCloud& cloud, const VoxelGrid& grid, const Camer
 
 void check_order(const std::string& spec, const std::vector<Camera>& cameras, float voxel_size) {
   const Scene scene = open_scene(spec);
-  const ActivatedCloud cloud = activate(scene.cloud);
-  if (voxel_size == 0) voxel_size = static_cast<float>(paper_voxel_size(inner_extent(cloud)));
-  const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
+  const ActivatedCloud in_file = activate(scene.cloud);
+  if (voxel_size == 0) voxel_size = static_cast<float>(paper_voxel_size(inner_extent(in_file)));
+  const auto [cloud, grid] = by_voxels(in_file, voxel_size);
   for (const Camera& camera : cameras.empty() ? scene.cameras : cameras) {
     for (const int group_px : {16, 64}) check_order(cloud, grid, camera, group_px);
   }

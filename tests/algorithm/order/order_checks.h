@@ -11,7 +11,7 @@
 
 namespace sgs::test {
 
-// One view in groups of group_px.
+// One view in groups of group_px. cloud: in storage order.
 void check_order(const ActivatedCloud& cloud, const VoxelGrid& grid, const Camera& camera,
                  int group_px);
 

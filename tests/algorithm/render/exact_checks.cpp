@@ -11,6 +11,7 @@
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/voxel/hard_scenes.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 #include "tests/support/shared_inputs.h"
 
 namespace sgs::test {
@@ -47,14 +48,13 @@ void fuzz_exact_order(unsigned first_seed, unsigned scenes) {
     HardScenes hard(seed);
     constexpr std::size_t kCounts[] = {0, 1, 30, 300, 2000};
     const HardScene scene = hard.next(kCounts[hard.pick(5)], hard.pick(20) == 0 ? 1 : 160);
-    const ActivatedCloud cloud = activate(scene.cloud);
     const auto chunk = static_cast<std::uint32_t>(1 + hard.pick(hard.pick(2) == 0 ? 16 : 256));
-    const ChunkTree tree =
-        build_chunk_tree(cloud, chunk, hard.pick(2) == 0 ? Stored::kVisible : Stored::kAll);
+    const auto [cloud, tree] = by_chunks(activate(scene.cloud), chunk,
+                                         hard.pick(2) == 0 ? Stored::kVisible : Stored::kAll);
     ExactOrderConfig config;
     config.group_px = 4 * (1 + hard.pick(50));
     config.merge_entries = static_cast<std::uint32_t>(2 + hard.pick(100));
-    config.walk_queue_entries = static_cast<std::uint32_t>(9 + hard.pick(60));
+    config.walk_room = {9 + hard.pick(60), 9 + hard.pick(60)};
     config.background = {0.25F, 0.5F, 1};
     const View<float> view = make_view<float>(scene.camera);
     const StreamingResult exact = render_exact_order(view, cloud, tree, config);
@@ -78,14 +78,13 @@ void check_exact_on_shared(const std::string& name) {
   ExactOrderConfig small;
   small.group_px = 32;
   small.merge_entries = 64;
-  small.walk_queue_entries = 24;
-  const ChunkTree of_16 = build_chunk_tree(cloud, 16), of_100 = build_chunk_tree(cloud, 100);
+  small.walk_room = {24, 24};
+  const auto of_16 = by_chunks(cloud, 16), of_100 = by_chunks(cloud, 100);
   for (const Camera& camera : cameras) {
     CAPTURE(name, camera.id);
     const View<float> view = make_view<float>(camera);
-    const RenderResult reference = render_reference(view, cloud, shipped.background);
-    CHECK(first_difference(render_exact_order(view, cloud, of_16, shipped).frame, reference) == "");
-    CHECK(first_difference(render_exact_order(view, cloud, of_100, small).frame, reference) == "");
+    CHECK(difference_from_reference(view, of_16.cloud, of_16.table, shipped) == "");
+    CHECK(difference_from_reference(view, of_100.cloud, of_100.table, small) == "");
   }
 }
 

@@ -14,6 +14,7 @@
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/render/exact_checks.h"
 #include "tests/algorithm/render/test_clouds.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 
 using namespace sgs;
 using test::difference_from_reference;
@@ -52,10 +53,11 @@ TEST_CASE("exact order equals the reference: SH degrees 0 to 3, odd frames, ever
                                           {0, 0, 4}, 4, 0.02F, 0.5F);
     for (const auto& [width, height] : {std::pair{1, 1}, {17, 1}, {1, 33}, {101, 47}}) {
       const Ready ready = cloud_before_camera(cloud, width, height);
-      const ChunkTree tree = build_chunk_tree(ready.cloud, 16);
+      const auto stored = test::by_chunks(ready.cloud, 16);
       for (const int group : {4, 12, 16, 100, 200}) {
         CAPTURE(degree, width, height, group);
-        CHECK(difference_from_reference(ready.view, ready.cloud, tree, with_group(group)) == "");
+        CHECK(difference_from_reference(ready.view, stored.cloud, stored.table,
+                                        with_group(group)) == "");
       }
     }
   }
@@ -72,8 +74,8 @@ TEST_CASE("exact order equals the reference: equal depths across many chunks") {
   }
   const Ready ready = cloud_before_camera(cloud, 120, 90);
   for (const std::uint32_t chunk : {1U, 16U, 256U}) {
-    const ChunkTree tree = build_chunk_tree(ready.cloud, chunk);
-    CHECK(difference_from_reference(ready.view, ready.cloud, tree, with_group(32)) == "");
+    const auto stored = test::by_chunks(ready.cloud, chunk);
+    CHECK(difference_from_reference(ready.view, stored.cloud, stored.table, with_group(32)) == "");
   }
 }
 
@@ -104,8 +106,8 @@ TEST_CASE("exact order equals the reference: extreme clouds") {
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     CAPTURE(i);
     const Ready ready = cloud_before_camera(clouds[i], 70, 50);
-    const ChunkTree tree = build_chunk_tree(ready.cloud, 16);
-    CHECK(difference_from_reference(ready.view, ready.cloud, tree, with_group(32)) == "");
+    const auto stored = test::by_chunks(ready.cloud, 16);
+    CHECK(difference_from_reference(ready.view, stored.cloud, stored.table, with_group(32)) == "");
   }
 }
 
@@ -113,9 +115,10 @@ TEST_CASE("exact order equals the reference: coordinates of 10^6") {
   const glm::vec3 centre(1e6F, -1e6F, 1e6F);
   Camera camera = test::forward_camera(160, 90, 200);
   camera.position = {1e6 + 0.01237, -1e6 - 0.03411, 1e6 - 1.50173};
-  const ActivatedCloud cloud = activate(test::random_cloud(11, 3000, 2, centre, 1, 1e-3F, 0.05F));
+  const auto [cloud, tree] =
+      test::by_chunks(activate(test::random_cloud(11, 3000, 2, centre, 1, 1e-3F, 0.05F)), 16);
   const View<float> view = make_view<float>(camera);
-  const ChunkTree tree = build_chunk_tree(cloud, 16);
+
   CHECK(difference_from_reference(view, cloud, tree, with_group(16)) == "");
 }
 
@@ -163,8 +166,7 @@ TEST_CASE("exact order equals the reference: chunks that only the slack of their
       test::add_ball(cloud, mean, 1e-30, 0.5, {1, 1, 1});
       cloud.opacity_logits.back() = 100;  // the widest reach
     }
-    const ActivatedCloud points = activate(cloud);
-    const ChunkTree tree = build_chunk_tree(points, 2);
+    const auto [points, tree] = test::by_chunks(activate(cloud), 2);
     REQUIRE(tree.chunk_count == 1);
     CHECK(difference_from_reference(view, points, tree, with_group(4)) == "");
     CHECK(render_exact_order(view, points, tree, with_group(4)).stats.contributors > 5);
@@ -174,8 +176,7 @@ TEST_CASE("exact order equals the reference: chunks that only the slack of their
 TEST_CASE("exact order equals the reference: built-in scenes, all views") {
   for (const std::string spec : {"builtin:object?n=20000", "builtin:outdoor?n=40000"}) {
     const BuiltinScene scene = make_builtin_scene(spec);
-    const ActivatedCloud cloud = activate(scene.cloud);
-    const ChunkTree tree = build_chunk_tree(cloud, 16);
+    const auto [cloud, tree] = test::by_chunks(activate(scene.cloud), 16);
     for (const Camera& camera : scene.cameras) {
       CAPTURE(spec, camera.id);
       CHECK(difference_from_reference(make_view<float>(camera), cloud, tree, with_group(128)) ==
@@ -186,9 +187,9 @@ TEST_CASE("exact order equals the reference: built-in scenes, all views") {
 
 TEST_CASE("blend_early: a small buffer costs quality, one that suffices costs nothing") {
   const BuiltinScene scene = make_builtin_scene("builtin:outdoor?n=20000");
-  const ActivatedCloud cloud = activate(scene.cloud);
+  const auto [cloud, tree] = test::by_chunks(activate(scene.cloud), 64);
   const View<float> view = make_view<float>(scene.cameras[0]);
-  const ChunkTree tree = build_chunk_tree(cloud, 64);
+
   ExactOrderConfig config = with_group(64);
   const StreamingResult exact = render_exact_order(view, cloud, tree, config);
 
@@ -215,9 +216,9 @@ TEST_CASE("blend_early: a small buffer costs quality, one that suffices costs no
 
 TEST_CASE("exact order: counts add up, the same with one thread and with many") {
   const BuiltinScene scene = make_builtin_scene("builtin:object?n=10000");
-  const ActivatedCloud cloud = activate(scene.cloud);
+  const auto [cloud, tree] = test::by_chunks(activate(scene.cloud), 16);
   const View<float> view = make_view<float>(scene.cameras[1]);
-  const ChunkTree tree = build_chunk_tree(cloud, 16);
+
   const StreamingResult many = render_exact_order(view, cloud, tree, with_group(64));
   const StreamingStats& s = many.stats;
   CHECK(s.groups == 60);

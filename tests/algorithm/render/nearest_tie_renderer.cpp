@@ -26,7 +26,7 @@ std::vector<double> distances(const View<float>& view, const ActivatedCloud& clo
   std::vector<double> out;
   const float size = grid.frame.voxel_size;
   for (const VoxelRecord& record : grid.voxels) {
-    const glm::vec3& mean = cloud.gaussians[grid.storage_order[record.first]].mean;
+    const glm::vec3& mean = cloud.gaussians[record.first].mean;
     double squared = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double d = (cell_of(mean[axis], size) + 0.5) * size - view.position[axis];
@@ -90,11 +90,10 @@ Image render_with_nearest_ties(const View<float>& view, const ActivatedCloud& cl
       run.clear();
       const VoxelRecord& record = grid.voxels[voxel];
       for (std::uint32_t slot = record.first; slot < record.first + record.count; ++slot) {
-        const std::uint32_t index = grid.storage_order[slot];
-        const Gaussian<float>& gaussian = cloud.gaussians[index];
+        const Gaussian<float>& gaussian = cloud.gaussians[slot];
         Splat splat{};
         if (!make_geometry(view, gaussian, splat) || !reaches_group(splat, groups[g])) continue;
-        add_colour(view, cloud.sh_degree, gaussian.mean, cloud.sh(index), splat);
+        add_colour(view, cloud.sh_degree, gaussian.mean, cloud.sh(slot), splat);
         splat.index = slot;
         run.push_back(splat);
       }

@@ -14,6 +14,7 @@
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/nearest_tie_renderer.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 #include "tests/support/shared_inputs.h"
 
 namespace sgs::test {
@@ -41,8 +42,8 @@ class Range {
 void check_paper_quality(const PaperScene& scene) {
   constexpr int kGroupPx = 64;
   const auto cameras = read_cameras(shared_path("cameras/" + scene.name + ".json"));
-  const ActivatedCloud cloud = activate(read_ply(shared_scene(scene.name)).cloud);
-  const VoxelGrid grid = build_voxel_grid(cloud, scene.voxel_size);
+  const auto [cloud, grid] =
+      by_voxels(activate(read_ply(shared_scene(scene.name)).cloud), scene.voxel_size);
   Range first_met, nearest;
   StreamingStats sum;
   for (const Camera& camera : cameras) {

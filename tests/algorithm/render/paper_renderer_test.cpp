@@ -15,6 +15,7 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/make_splat.h"
 #include "testbench/builtin/open_scene.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 
 namespace sgs {
 namespace {
@@ -63,7 +64,7 @@ Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const
   std::vector<std::uint32_t> voxel_of(cloud.size(), ~0U);
   for (std::uint32_t v = 0; v < grid.voxels.size(); ++v) {
     for (std::uint32_t k = 0; k < grid.voxels[v].count; ++k) {
-      voxel_of[grid.storage_order[grid.voxels[v].first + k]] = v;
+      voxel_of[grid.voxels[v].first + k] = v;
     }
   }
   OrderingTable table(grid.voxels.size());
@@ -77,7 +78,7 @@ Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const
         continue;
       }
       add_colour(view, cloud.sh_degree, cloud.gaussians[i].mean, cloud.sh(i), splat);
-      splat.index = i;  // within a voxel slots follow the file's order
+      splat.index = i;
       of_voxel[voxel_of[i]].push_back(splat);
     }
     std::vector<Splat> sequence;
@@ -105,8 +106,7 @@ Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const
 void check_against_slow(const char* spec, float voxel_size, int group_px, int width_px,
                         int height_px) {
   const Scene scene = open_scene(spec);
-  const ActivatedCloud cloud = activate(scene.cloud);
-  const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
+  const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), voxel_size);
   std::uint64_t missed = 0, misordered = 0;
   for (const Camera& camera : scene.cameras) {
     const View<float> view = make_view<float>(scaled_to(camera, width_px, height_px));
@@ -144,11 +144,11 @@ TEST_CASE("paper renderer: picture, missed and misordered as counted pixel by pi
 
 TEST_CASE("paper renderer: one voxel that holds all is the reference image") {
   const Scene scene = open_scene("builtin:object?n=3000");
-  ActivatedCloud cloud = activate(scene.cloud);
+  ActivatedCloud in_file = activate(scene.cloud);
   // Away from the origin, where eight voxels would meet.
   constexpr float kAway = 500;
-  for (Gaussian<float>& g : cloud.gaussians) g.mean += kAway;
-  const VoxelGrid grid = build_voxel_grid(cloud, 4096.0F);
+  for (Gaussian<float>& g : in_file.gaussians) g.mean += kAway;
+  const auto [cloud, grid] = test::by_voxels(in_file, 4096.0F);
   REQUIRE(grid.voxels.size() == 1);
   for (Camera camera : scene.cameras) {
     camera.position += kAway;

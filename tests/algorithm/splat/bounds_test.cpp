@@ -1,11 +1,15 @@
-// The bounds of footprint.h and coarse_bound.h never remove a pixel whose computed alpha is
-// visible: seeded random Gaussians, needles of ratio 10^10, giants and the near plane among them.
+// The bounds of footprint.h, coarse_bound.h and extent_bound.h never remove a pixel whose computed
+// alpha is visible: seeded random Gaussians, needles of ratio 10^10, giants and the near plane
+// among them.
 #include <catch2/catch.hpp>
 #include <vector>
 
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/row_span.h"
+#include "algorithm/splat/visible_extents.h"
 #include "tests/algorithm/splat/random_gaussian.h"
 
 using namespace sgs;
@@ -40,8 +44,29 @@ struct Counts {
   long visible_px = 0;   // pixels with alpha > 0
   long kept = 0;         // 4x4 blocks of the footprint that `reaches` keeps
   long hit = 0;          // of those, with a visible pixel
+  long spanned = 0;      // of the footprint's, in the spans of their rows
   long coarse_kept = 0;  // Gaussians that the coarse bound keeps in the frame
+  long extent_kept = 0;  // and the bound on extents
 };
+
+// Bounds of each row of sub-tiles of a footprint.
+std::vector<RowBounds<float>> rows_of(const Projected<float>& p, float opacity,
+                                      const SubtileRect& footprint) {
+  Splat splat{};
+  splat.x = p.x;
+  splat.y = p.y;
+  splat.conic_a = p.conic_a;
+  splat.conic_b = p.conic_b;
+  splat.conic_c = p.conic_c;
+  splat.opacity = opacity;
+  RowSpans<float> spans(splat);
+  spans.start(footprint.y0 * kSubtilePx);
+  std::vector<RowBounds<float>> rows;
+  for (int y = footprint.y0; y < footprint.y1; ++y) {
+    rows.push_back(spans.next((y + 1) * kSubtilePx));
+  }
+  return rows;
+}
 
 void fail(const char* bound, const Projected<float>& p, float opacity, int x, int y) {
   CAPTURE(x, y, p.x, p.y, p.cov_a, p.cov_b, p.cov_c, p.determinant, p.radius, opacity);
@@ -54,7 +79,13 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
   const auto v = to_camera(view, g.mean);
   REQUIRE(bound.in_front == (v.z > 0.2F));
   if (!bound.in_front) return;
+  // As it is stored.
+  const VisibleExtents known = decode_extents(encode_extents(visible_extents(g)));
+  const ExtentBound by_extents = extent_bound(view, g.mean, known.extent, known.scale_max);
+  REQUIRE(by_extents.in_front);
+  REQUIRE(by_extents.depth == bound.depth);
   counts.coarse_kept += touches(bound, frame_of(view));
+  counts.extent_kept += touches(by_extents, frame_of(view));
   const auto p = project(view, g, v);
   const PixelRect tiles = tile_rect(p.x, p.y, p.radius, view.width, view.height);
   const SubtileRect cut = footprint(p, g.opacity, view.width, view.height);
@@ -62,6 +93,7 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
   const PixelRect pixels = intersection(
       PixelRect{tiles.x0 * kTilePx, tiles.y0 * kTilePx, tiles.x1 * kTilePx, tiles.y1 * kTilePx},
       frame_of(view));
+  const std::vector<RowBounds<float>> rows = rows_of(p, g.opacity, cut);
   bool drawn = false;
   const auto columns = static_cast<std::size_t>(view.width / kSubtilePx + 1);
   const auto subtile = [&](int x, int y) { return static_cast<std::size_t>(y) * columns + x; };
@@ -73,12 +105,16 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
       ++counts.visible_px;
       hit[subtile(x / kSubtilePx, y / kSubtilePx)] = 1;
       if (!holds(cut, x, y)) fail("the footprint", p, g.opacity, x, y);
+      const auto row = rows[static_cast<std::size_t>(y / kSubtilePx - cut.y0)];
+      const auto column = static_cast<float>(x);
+      if (!(column >= row.low && column <= row.high)) fail("its row's span", p, g.opacity, x, y);
       for (const int side : {1, 4, 16, 64}) {
         const PixelRect block = block_of(view, x, y, side);
         if (!reaches(p.x, p.y, p.conic_a, p.conic_b, p.conic_c, cutoff, block)) {
           fail("reaches()", p, g.opacity, x, y);
         }
         if (!touches(bound, block)) fail("the coarse bound", p, g.opacity, x, y);
+        if (!touches(by_extents, block)) fail("the extents", p, g.opacity, x, y);
       }
     }
   }
@@ -89,7 +125,10 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
   counts.ill += ill;
   if (ill) return;
   for (int y = cut.y0; y < cut.y1; ++y) {
+    const auto row = rows[static_cast<std::size_t>(y - cut.y0)];
     for (int x = cut.x0; x < cut.x1; ++x) {
+      const auto first = static_cast<float>(x * kSubtilePx);
+      counts.spanned += first + kSubtilePx - 1 >= row.low && first <= row.high ? 1 : 0;
       if (!reaches(p.x, p.y, p.conic_a, p.conic_b, p.conic_c, cutoff,
                    block_of(view, x * kSubtilePx, y * kSubtilePx, kSubtilePx))) {
         continue;
@@ -110,12 +149,15 @@ void run(unsigned seed, double skew) {
     const auto view = make_view<float>(camera);
     for (int i = 0; i < 1000; ++i) check_gaussian(view, random.gaussian(camera), counts);
   }
-  CAPTURE(counts.drawn, counts.ill, counts.visible_px, counts.kept, counts.hit, counts.coarse_kept);
+  CAPTURE(counts.drawn, counts.ill, counts.visible_px, counts.kept, counts.hit, counts.spanned,
+          counts.coarse_kept, counts.extent_kept);
   // The test has seen what it is for, and the bounds are of use: most of what they keep is visible.
   CHECK(counts.drawn > 10000);
   CHECK(counts.ill > 300);
   CHECK(static_cast<double>(counts.hit) > 0.8 * static_cast<double>(counts.kept));
+  CHECK(static_cast<double>(counts.hit) > 0.8 * static_cast<double>(counts.spanned));
   CHECK(counts.drawn > counts.coarse_kept / 2);
+  CHECK(counts.extent_kept < counts.coarse_kept);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/make_splat.h"
 #include "tests/algorithm/splat/random_gaussian.h"
@@ -42,6 +43,13 @@ void check_same(const FilterCase& tested, const std::vector<glm::vec3>& sh) {
   CHECK(same_bits(counted.reach_px.value, bound.reach_px));
   CHECK(same_bits(counted.square_px.value, bound.square_px));
   CHECK(touches(counted, tested.group) == touches(bound, tested.group));
+
+  const ExtentBound extents = extent_bound(view, g.mean, g.scale, g.scale.x);
+  const auto counted_extents =
+      extent_bound(counting_view, counting_g.mean, counting_g.scale, counting_g.scale.x);
+  CHECK(same_bits(counted_extents.reach_squared_x.value, extents.reach_squared_x));
+  CHECK(same_bits(counted_extents.reach_squared_y.value, extents.reach_squared_y));
+  CHECK(touches(counted_extents, tested.group) == touches(extents, tested.group));
 
   Splat splat{};
   SplatOf<Counting> counted_splat{};
@@ -92,11 +100,13 @@ TEST_CASE("filter work: the counting scalar takes the same decisions and gives t
 }
 
 TEST_CASE("filter work: no Gaussian takes more of any operation than the longest case") {
-  const OperationCounts coarse = coarse_work(longest_case());
+  const OperationCounts coarse = coarse_work(CoarseBoundBy::kLargestScale, longest_case());
+  const OperationCounts extents = coarse_work(CoarseBoundBy::kExtents, longest_case());
   const FineWork fine = fine_work(longest_case(), 3);
   int as_long = 0;
   for_random_cases(3000, [&](const FilterCase& tested, RandomGaussians&) {
-    CHECK(none_exceeds(coarse_work(tested), coarse));
+    CHECK(none_exceeds(coarse_work(CoarseBoundBy::kLargestScale, tested), coarse));
+    CHECK(none_exceeds(coarse_work(CoarseBoundBy::kExtents, tested), extents));
     const FineWork work = fine_work(tested, 3);
     CHECK(none_exceeds(work.total(), fine.total()));
     as_long += folded_macs(work.total()) == folded_macs(fine.total()) ? 1 : 0;
@@ -122,13 +132,28 @@ TEST_CASE("filter work: a test that fails early has executed less") {
   FilterCase behind = longest_case();
   behind.gaussian.mean = glm::vec3(behind.camera.position);
   // p - c in two parts, its rotation, and a comparison.
-  const OperationCounts coarse = coarse_work(behind);
-  CHECK(coarse.comparisons == 1);
-  CHECK(coarse.multiplies == 9);
-  CHECK(coarse.adds == 12);
-  CHECK(coarse.fused == 6);
-  CHECK(folded_macs(coarse) == 16);
+  for (const CoarseBoundBy bound_by : {CoarseBoundBy::kLargestScale, CoarseBoundBy::kExtents}) {
+    const OperationCounts coarse = coarse_work(bound_by, behind);
+    CHECK(coarse.comparisons == 1);
+    CHECK(coarse.multiplies == 9);
+    CHECK(coarse.adds == 12);
+    CHECK(coarse.fused == 6);
+    CHECK(folded_macs(coarse) == 16);
+  }
   CHECK(folded_macs(fine_work(behind, 3).total()) == 16);
+}
+
+TEST_CASE("work of rendering a splat, counted") {
+  const RenderingWork work = rendering_work();
+  // By hand, a sub-tile: its corner from the centre, 4 columns of dx, A dx^2 (2) and B dx, 4 rows of dy and C dy^2 (2); 16
+  // pixels of a sum, -1/2 of it, a product and a difference, exp, opacity, the cap and two
+  // selections, weight, 1 - alpha, T behind, its end, and three products and sums of colour.
+  CHECK(work.subtile_blend.multiplies == 4 * 3 + 4 * 2 + 16 * (2 + 1 + 2 + 3));
+  CHECK(work.subtile_blend.exponentials == 16);
+  CHECK(work.subtile_blend.comparisons == 16 * 4);
+  CHECK(work.span.square_roots == 1);
+  CHECK(work.spans_begin.square_roots == 2);
+  CHECK(work.subtile_blend.adds == 2 + 4 + 4 + 16 * (1 + 1 + 1 + 3));
 }
 
 }  // namespace sgs::test

@@ -6,7 +6,9 @@
 #include "algorithm/input_error.h"
 #include "algorithm/scene/gaussian_limits.h"
 #include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/visible_extents.h"
 #include "tests/algorithm/splat/random_gaussian.h"
 
 using namespace sgs;
@@ -75,7 +77,10 @@ TEST_CASE("within the limits of parameters nothing leaves float") {
     if (covers) REQUIRE(make_geometry(view, g, splat));
     if (covers) {
       const auto scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
-      REQUIRE(touches(coarse_bound(view, g.mean, scale_max), {0, 0, view.width, view.height}));
+      const PixelRect frame{0, 0, view.width, view.height};
+      REQUIRE(touches(coarse_bound(view, g.mean, scale_max), frame));
+      const VisibleExtents known = decode_extents(encode_extents(visible_extents(g)));
+      REQUIRE(touches(extent_bound(view, g.mean, known.extent, known.scale_max), frame));
     }
     glm::vec3 sh[16];
     for (glm::vec3& coefficient : sh) {

@@ -6,6 +6,7 @@
 
 #include "algorithm/splat/activate.h"
 #include "testbench/builtin/open_scene.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 
 namespace sgs {
 namespace {
@@ -22,45 +23,43 @@ void check_table(const MemoryImage& image, const RecordArray& table,
   }
 }
 
-void check_records(const MemoryImage& image, const ActivatedCloud& cloud,
-                   const std::vector<std::uint32_t>& storage_order) {
+void check_records(const MemoryImage& image, const ActivatedCloud& cloud) {
   const SceneLayout& layout = image.layout;
-  REQUIRE(layout.gaussian_count() == storage_order.size());
+  REQUIRE(layout.gaussian_count() == cloud.size());
   REQUIRE(image.bytes.size() == layout.stored_bytes);
   for (std::uint32_t slot = 0; slot < layout.gaussian_count(); ++slot) {
-    const std::uint32_t index = storage_order[slot];
-    const Gaussian<float>& g = cloud.gaussians[index];
-    const FirstHalf first = decode_first_half(image.at(layout.first_halves.address(slot)));
+    const Gaussian<float>& g = cloud.gaussians[slot];
+    const SplitFirstHalf first =
+        read_first_half(layout.split, image.at(layout.first_halves.address(slot)));
     const DecodedGaussian back =
-        decode_raw_second_half(first, image.at(layout.second_halves.address(slot)), 3);
+        read_record(layout.split, layout.second_half, first.mean, first.carried,
+                    image.at(layout.second_halves.address(slot)), nullptr);
     REQUIRE(std::memcmp(&back.gaussian, &g, sizeof g) == 0);
-    REQUIRE(std::memcmp(back.sh, cloud.sh(index), 16 * sizeof(glm::vec3)) == 0);
+    REQUIRE(std::memcmp(back.sh, cloud.sh(slot), 16 * sizeof(glm::vec3)) == 0);
   }
 }
 
 TEST_CASE("memory image: every record lies at its address, by voxels, chunks and file") {
-  const ActivatedCloud cloud = object_2k();
-  const VoxelGrid grid = build_voxel_grid(cloud, 0.4F);
-  const MemoryImage by_voxels = build_memory_image(encode_raw(cloud), grid);
-  check_records(by_voxels, cloud, grid.storage_order);
+  const ActivatedCloud in_file = object_2k();
+  const auto [in_voxels, grid] = test::by_voxels(in_file, 0.4F);
+  const MemoryImage by_voxels = build_memory_image(encode_raw(in_voxels), grid);
+  check_records(by_voxels, in_voxels);
   check_table(by_voxels, by_voxels.layout.voxel_table().nodes, grid.nodes);
   check_table(by_voxels, by_voxels.layout.voxel_table().voxels, grid.voxels);
 
-  const ChunkTree tree = build_chunk_tree(cloud, 16);
-  const MemoryImage by_chunks = build_memory_image(encode_raw(cloud), tree);
-  check_records(by_chunks, cloud, tree.storage_order);
+  const auto [in_chunks, tree] = test::by_chunks(in_file, 16);
+  const MemoryImage by_chunks = build_memory_image(encode_raw(in_chunks), tree);
+  check_records(by_chunks, in_chunks);
   check_table(by_chunks, by_chunks.layout.chunk_table().nodes, tree.nodes);
-  check_table(by_chunks, by_chunks.layout.chunk_table().indices, tree.storage_order);
   CHECK(by_chunks.layout.chunk_table().chunk_count == tree.chunk_count);
 
-  const FileOrder order{stored_gaussians(cloud, Stored::kVisible)};
-  check_records(build_memory_image(encode_raw(cloud), order), cloud, order.storage_order);
+  check_records(build_memory_image(encode_raw(in_file), NoTable{}), in_file);
 }
 
 TEST_CASE("memory image: an empty scene has no bytes") {
   for (const MemoryImage& image : {build_memory_image(EncodedCloud{}, VoxelGrid{}),
                                    build_memory_image(EncodedCloud{}, ChunkTree{}),
-                                   build_memory_image(EncodedCloud{}, FileOrder{})}) {
+                                   build_memory_image(EncodedCloud{}, NoTable{})}) {
     CHECK(image.bytes.empty());
     CHECK(image.layout.gaussian_count() == 0);
   }

@@ -1,10 +1,12 @@
 // Storing by configuration: what is asked for is stored, and what was left open is chosen by rule.
 #include "algorithm/storage/store_scene.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 
 #include "algorithm/input_error.h"
+#include "algorithm/splat/reorder.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/storage/packed_scenes.h"
@@ -50,16 +52,21 @@ TEST_CASE("store: every encoding in every order, with and without what nobody ca
           CHECK(scene.tree().chunk_count >= layout.gaussian_count() / 5);
         } else if (order == StorageOrder::kVoxels) {
           CHECK(layout.voxel_table().frame.voxel_size == 0.4F);
-          CHECK(scene.grid().storage_order.size() == layout.gaussian_count());
         } else {
-          CHECK(std::get<FileOrder>(scene.table).storage_order ==
-                stored_gaussians(scene.decoded, stored_of(config)));
+          CHECK(std::is_sorted(scene.file_indices->begin(), scene.file_indices->end()));
         }
+        // Every cloud is in storage order.
+        REQUIRE(scene.file_indices);
+        CHECK(scene.file_indices->size() == layout.gaussian_count());
+        const ActivatedCloud expected = reordered(cloud, *scene.file_indices);
         // The original is kept where it is not what the units decode.
         const bool lossy = encoding != SecondHalfEncoding::kRaw;
         REQUIRE(scene.original.has_value() == lossy);
-        CHECK(same_gaussians(lossy ? *scene.original : scene.decoded, cloud));
-        CHECK(same_gaussians(scene.decoded, cloud) == !lossy);
+        CHECK(same_gaussians(lossy ? *scene.original : scene.decoded, expected));
+        CHECK(same_gaussians(scene.decoded, expected) == !lossy);
+        std::vector<std::uint32_t> once = *scene.file_indices;
+        std::sort(once.begin(), once.end());
+        CHECK(once == stored_gaussians(cloud, stored_of(config)));
       }
     }
   }

@@ -17,10 +17,10 @@ using Cell = std::array<std::int64_t, 3>;
 // Cell of each of a cloud's centres, with the voxel id that a grid in Morton order gives it.
 class OccupiedCells {
  public:
+  // cloud: in storage order.
   OccupiedCells(const ActivatedCloud& cloud, const VoxelGrid& grid) : size_(grid.frame.voxel_size) {
     for (std::uint32_t v = 0; v < grid.voxels.size(); ++v) {
-      const std::uint32_t index = grid.storage_order[grid.voxels[v].first];
-      const Cell cell = cell_at(cloud.gaussians[index].mean);
+      const Cell cell = cell_at(cloud.gaussians[grid.voxels[v].first].mean);
       voxel_of_[cell] = v;
       for (int axis = 0; axis < 3; ++axis) {
         low_[axis] = v == 0 ? cell[axis] : std::min(low_[axis], cell[axis]);

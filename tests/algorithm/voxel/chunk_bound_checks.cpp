@@ -9,9 +9,12 @@
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/visible_extents.h"
 #include "algorithm/voxel/chunk_test.h"
 #include "algorithm/voxel/chunk_tree.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 
 namespace sgs::test {
 namespace {
@@ -29,6 +32,12 @@ struct Found {
 bool could_blend(const View<float>& view, const Gaussian<float>& g, const PixelRect& group) {
   Splat splat{};
   return make_geometry(view, g, splat) && reaches_group(splat, group);
+}
+
+// The bound of an HFU that streams chunks.
+ExtentBound stored_bound(const View<float>& view, const Gaussian<float>& g) {
+  const VisibleExtents known = decode_extents(encode_extents(visible_extents(g)));
+  return extent_bound(view, g.mean, known.extent, known.scale_max);
 }
 
 class Checker {
@@ -59,7 +68,7 @@ class Checker {
   }
 
   Found look_at(std::uint32_t slot, const PixelRect& group) {
-    const Gaussian<float>& g = cloud_.gaussians[tree_.storage_order[slot]];
+    const Gaussian<float>& g = cloud_.gaussians[slot];
     const CoarseBound coarse =
         coarse_bound(view_, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
     Found found;
@@ -68,6 +77,9 @@ class Checker {
     found.blended = could_blend(view_, g, group);
     tally_.splats += found.blended ? 1 : 0;
     if (found.blended && !touches(coarse, group)) tally_.failure = "coarse filter";
+    if (found.blended && !touches(stored_bound(view_, g), group)) {
+      tally_.failure = "coarse filter by extents";
+    }
     return found;
   }
 
@@ -94,8 +106,7 @@ class Checker {
 
 void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, int group_px,
                         BoundTally& tally) {
-  const ActivatedCloud cloud = activate(scene.cloud);
-  const ChunkTree tree = build_chunk_tree(cloud, chunk, Stored::kAll);
+  const auto [cloud, tree] = by_chunks(activate(scene.cloud), chunk, Stored::kAll);
   const View<float> view = make_view<float>(scene.camera);
   Checker checker(view, cloud, tree, tally);
   for (const PixelRect& group : pixel_groups(view.width, view.height, group_px)) {
@@ -159,6 +170,7 @@ int check_bounds_at_the_edge(unsigned seed, int gaussians) {
     g.mean[axis] = reached;
     ++edges;
     const ChunkTest test = GroupFrustum(view, group).test(gaussian_bound(g));
+    if (!touches(stored_bound(view, g), group)) FAIL("extents of Gaussian " << k);
     if (!test.touches) FAIL("Gaussian " << k << ", sigma " << sigma_px << " px");
   }
   return edges;

@@ -32,13 +32,13 @@ struct Shape {
 };
 
 // The true bound of the Gaussians of one chunk, which must begin where the one before ended.
-ChunkBound check_chunk(const ActivatedCloud& cloud, const ChunkTree& tree, std::uint32_t slot,
-                       std::uint32_t count, Shape& shape) {
+ChunkBound check_chunk(const ActivatedCloud& cloud, const Arrangement<ChunkTree>& arrangement,
+                       std::uint32_t slot, std::uint32_t count, Shape& shape) {
   ++shape.chunks;
   REQUIRE(slot == shape.next_slot);
   shape.next_slot = slot + count;
-  REQUIRE(shape.next_slot <= tree.storage_order.size());
-  const auto first = tree.storage_order.begin() + slot;
+  REQUIRE(shape.next_slot <= arrangement.storage_order.size());
+  const auto first = arrangement.storage_order.begin() + slot;
   REQUIRE(std::is_sorted(first, first + count));
   ChunkBound bound = gaussian_bound(cloud.gaussians[*first]);
   for (auto it = first; it != first + count; ++it) {
@@ -49,8 +49,9 @@ ChunkBound check_chunk(const ActivatedCloud& cloud, const ChunkTree& tree, std::
 
 // Walks a node and what is below it; the true bound of its Gaussians. A node's own chunks lie
 // before those of its inner children.
-ChunkBound check_node(const ActivatedCloud& cloud, const ChunkTree& tree, std::uint32_t at,
-                      std::uint32_t chunk, std::uint32_t level, Shape& shape) {
+ChunkBound check_node(const ActivatedCloud& cloud, const Arrangement<ChunkTree>& arrangement,
+                      std::uint32_t at, std::uint32_t chunk, std::uint32_t level, Shape& shape) {
+  const ChunkTree& tree = arrangement.table;
   REQUIRE(at < tree.nodes.size());
   REQUIRE_FALSE(shape.node_seen[at]);
   shape.node_seen[at] = true;
@@ -63,11 +64,12 @@ ChunkBound check_node(const ActivatedCloud& cloud, const ChunkTree& tree, std::u
   for (std::size_t c = 0; c < node.children; ++c) {
     if (node.count[c] == 0) continue;
     REQUIRE(node.count[c] <= chunk);
-    children[c] = check_chunk(cloud, tree, slot, node.count[c], shape);
+    children[c] = check_chunk(cloud, arrangement, slot, node.count[c], shape);
     slot += node.count[c];
   }
   for (std::size_t c = 0; c < node.children; ++c) {
-    if (node.count[c] == 0) children[c] = check_node(cloud, tree, inner++, chunk, level + 1, shape);
+    if (node.count[c] > 0) continue;
+    children[c] = check_node(cloud, arrangement, inner++, chunk, level + 1, shape);
   }
   ChunkBound all = children[0];
   for (std::size_t c = 0; c < node.children; ++c) {
@@ -77,9 +79,10 @@ ChunkBound check_node(const ActivatedCloud& cloud, const ChunkTree& tree, std::u
   return all;
 }
 
-void check_tree(const ActivatedCloud& cloud, const ChunkTree& tree, std::uint32_t chunk,
-                Stored stored) {
-  std::vector<std::uint32_t> sorted = tree.storage_order;
+void check_tree(const ActivatedCloud& cloud, const Arrangement<ChunkTree>& arrangement,
+                std::uint32_t chunk, Stored stored) {
+  const ChunkTree& tree = arrangement.table;
+  std::vector<std::uint32_t> sorted = arrangement.storage_order;
   std::sort(sorted.begin(), sorted.end());
   REQUIRE(sorted == stored_gaussians(cloud, stored));
   if (sorted.empty()) {
@@ -89,8 +92,8 @@ void check_tree(const ActivatedCloud& cloud, const ChunkTree& tree, std::uint32_
   }
   Shape shape;
   shape.node_seen.resize(tree.nodes.size());
-  check_node(cloud, tree, 0, chunk, 1, shape);
-  CHECK(shape.next_slot == tree.storage_order.size());
+  check_node(cloud, arrangement, 0, chunk, 1, shape);
+  CHECK(shape.next_slot == arrangement.storage_order.size());
   CHECK(shape.chunks == tree.chunk_count);
   CHECK(shape.depth == tree.depth);
   CHECK(
@@ -98,9 +101,10 @@ void check_tree(const ActivatedCloud& cloud, const ChunkTree& tree, std::uint32_
   CHECK(tree.chunk_count >= (sorted.size() + chunk - 1) / chunk);
 }
 
-bool same(const ChunkTree& a, const ChunkTree& b) {
-  return a.storage_order == b.storage_order && a.nodes.size() == b.nodes.size() &&
-         std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(ChunkNode)) == 0;
+bool same(const Arrangement<ChunkTree>& a, const Arrangement<ChunkTree>& b) {
+  const std::vector<ChunkNode>&of_a = a.table.nodes, &of_b = b.table.nodes;
+  return a.storage_order == b.storage_order && of_a.size() == of_b.size() &&
+         std::memcmp(of_a.data(), of_b.data(), of_a.size() * sizeof(ChunkNode)) == 0;
 }
 
 ActivatedCloud hard_cloud(unsigned seed, std::size_t count) {
@@ -110,14 +114,15 @@ ActivatedCloud hard_cloud(unsigned seed, std::size_t count) {
 }  // namespace
 
 TEST_CASE("chunk tree of an empty cloud has no nodes") {
-  check_tree({}, build_chunk_tree({}, 16), 16, Stored::kVisible);
+  check_tree({}, arrange_by_chunks({}, 16), 16, Stored::kVisible);
 }
 
 TEST_CASE("chunk tree of one Gaussian is one node with one chunk") {
   ActivatedCloud cloud;
   cloud.gaussians.push_back({{1, 2, 3}, {0.1F, 0.2F, 0.3F}, {1, 0, 0, 0}, 0.5F});
-  const ChunkTree tree = build_chunk_tree(cloud, 16);
-  check_tree(cloud, tree, 16, Stored::kVisible);
+  const Arrangement<ChunkTree> arrangement = arrange_by_chunks(cloud, 16);
+  check_tree(cloud, arrangement, 16, Stored::kVisible);
+  const ChunkTree& tree = arrangement.table;
   CHECK(tree.nodes.size() == 1);
   CHECK(tree.chunk_count == 1);
   CHECK(tree.nodes[0].count[0] == 1);
@@ -129,7 +134,7 @@ TEST_CASE("chunk trees of hard clouds, chunks of 1 to 256") {
     for (const std::uint32_t chunk : {1U, 2U, 3U, 16U, 64U, 255U, 256U}) {
       const Stored stored = seed % 2 == 0 ? Stored::kVisible : Stored::kAll;
       CAPTURE(seed, chunk);
-      check_tree(cloud, build_chunk_tree(cloud, chunk, stored), chunk, stored);
+      check_tree(cloud, arrange_by_chunks(cloud, chunk, stored), chunk, stored);
     }
   }
 }
@@ -137,8 +142,9 @@ TEST_CASE("chunk trees of hard clouds, chunks of 1 to 256") {
 TEST_CASE("chunk tree of equal Gaussians: full chunks, logarithmic depth") {
   ActivatedCloud cloud;
   cloud.gaussians.assign(20000, {{1, 2, 3}, glm::vec3(0.1F), {1, 0, 0, 0}, 0.5F});
-  const ChunkTree tree = build_chunk_tree(cloud, 16);
-  check_tree(cloud, tree, 16, Stored::kVisible);
+  const Arrangement<ChunkTree> arrangement = arrange_by_chunks(cloud, 16);
+  check_tree(cloud, arrangement, 16, Stored::kVisible);
+  const ChunkTree& tree = arrangement.table;
   CHECK(tree.chunk_count == 1250);
   CHECK(tree.depth <= 11);  // 2^11 > 1250: no deeper than a balanced binary tree
 }
@@ -147,15 +153,15 @@ TEST_CASE("chunk tree leaves out what no view can show") {
   ActivatedCloud cloud;
   cloud.gaussians.assign(100, {{1, 2, 3}, glm::vec3(0.1F), {1, 0, 0, 0}, 0.5F});
   for (std::size_t i = 0; i < 100; i += 2) cloud.gaussians[i].opacity = 0.003F;
-  CHECK(build_chunk_tree(cloud, 16, Stored::kVisible).storage_order.size() == 50);
-  CHECK(build_chunk_tree(cloud, 16, Stored::kAll).storage_order.size() == 100);
+  CHECK(arrange_by_chunks(cloud, 16, Stored::kVisible).storage_order.size() == 50);
+  CHECK(arrange_by_chunks(cloud, 16, Stored::kAll).storage_order.size() == 100);
 }
 
 TEST_CASE("chunk tree is the same with one thread and with many") {
   const ActivatedCloud cloud = activate(make_builtin_scene("builtin:outdoor?n=60000").cloud);
-  const ChunkTree many = build_chunk_tree(cloud, 16);
+  const Arrangement<ChunkTree> many = arrange_by_chunks(cloud, 16);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  CHECK(same(many, build_chunk_tree(cloud, 16)));
+  CHECK(same(many, arrange_by_chunks(cloud, 16)));
   check_tree(cloud, many, 16, Stored::kVisible);
 }
 
@@ -168,7 +174,7 @@ TEST_CASE("chunk tree: giants do not widen the chunks of small Gaussians") {
     cloud.gaussians.push_back(
         {{at, static_cast<float>(i / 100), 0}, glm::vec3(scale), {1, 0, 0, 0}, 0.5F});
   }
-  const ChunkTree tree = build_chunk_tree(cloud, 10);
+  const ChunkTree tree = arrange_by_chunks(cloud, 10).table;
   std::uint32_t wide = 0;
   for (const ChunkNode& node : tree.nodes) {
     for (int c = 0; c < node.children; ++c) {

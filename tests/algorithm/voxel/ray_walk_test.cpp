@@ -8,6 +8,7 @@
 
 #include "algorithm/voxel/ray_sampling.h"
 #include "tests/algorithm/voxel/cell_stepper.h"
+#include "tests/algorithm/voxel/stored_clouds.h"
 
 namespace sgs {
 namespace {
@@ -79,8 +80,7 @@ void compare_with_stepping(unsigned seed, float half_side, float voxel_size,
   std::mt19937 random(seed);
   std::vector<glm::vec3> means;
   for (std::size_t i = 0; i < points; ++i) means.push_back(in_cube(random, half_side) + centre);
-  const ActivatedCloud cloud = cloud_of(means);
-  const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
+  const auto [cloud, grid] = test::by_voxels(cloud_of(means), voxel_size);
   const OccupiedCells cells(cloud, grid);
   REQUIRE(cells.count() == grid.voxels.size());
   const GridTable table{grid};
@@ -121,16 +121,14 @@ TEST_CASE("ray walk: coordinates of a million") {
 }
 
 // Cells 0, 1, 2, ... along x at y = z = 0, size 1; voxel ids are in Morton order, here that of x.
-VoxelGrid row_of_cells(ActivatedCloud& cloud, int count) {
+VoxelGrid row_of_cells(int count) {
   std::vector<glm::vec3> means;
   for (int x = 0; x < count; ++x) means.emplace_back(static_cast<float>(x) + 0.5F, 0.5F, 0.5F);
-  cloud = cloud_of(means);
-  return build_voxel_grid(cloud, 1.0F);
+  return arrange_by_voxels(cloud_of(means), 1.0F).table;
 }
 
 TEST_CASE("ray walk: a row of cells, by hand") {
-  ActivatedCloud cloud;
-  const VoxelGrid grid = row_of_cells(cloud, 6);
+  const VoxelGrid grid = row_of_cells(6);
   const GridTable table{grid};
   RayWalk walk(grid.frame, table);
   using Met = std::vector<std::uint32_t>;
@@ -162,8 +160,7 @@ TEST_CASE("ray walk: a ray along an edge of cells stays in the cells on one side
       for (const float z : {-0.5F, 0.5F}) means.emplace_back(static_cast<float>(x) + 0.5F, y, z);
     }
   }
-  const ActivatedCloud cloud = cloud_of(means);
-  const VoxelGrid grid = build_voxel_grid(cloud, 1.0F);
+  const auto [cloud, grid] = test::by_voxels(cloud_of(means), 1.0F);
   const OccupiedCells cells(cloud, grid);
   const GridTable table{grid};
   RayWalk walk(grid.frame, table);
@@ -176,7 +173,7 @@ TEST_CASE("ray walk: a ray along an edge of cells stays in the cells on one side
 TEST_CASE("ray walk: empty space is crossed in few steps") {
   // Two voxels a hundred thousand cells apart.
   const ActivatedCloud cloud = cloud_of({{0.5F, 0.5F, 0.5F}, {100000.5F, 0.5F, 0.5F}});
-  const VoxelGrid grid = build_voxel_grid(cloud, 1.0F);
+  const VoxelGrid grid = arrange_by_voxels(cloud, 1.0F).table;
   const GridTable table{grid};
   RayWalk walk(grid.frame, table);
   std::vector<std::uint32_t> met;
@@ -192,7 +189,7 @@ TEST_CASE("ray sampling: finds what the walk finds, in its order, and with fine 
   std::vector<glm::vec3> means;
   for (int i = 0; i < 500; ++i) means.push_back(in_cube(random, 10));
   const ActivatedCloud cloud = cloud_of(means);
-  const VoxelGrid grid = build_voxel_grid(cloud, 1.0F);
+  const VoxelGrid grid = arrange_by_voxels(cloud, 1.0F).table;
   const GridTable table{grid};
   RayWalk walk(grid.frame, table);
   RaySampling coarse(grid.frame, table, 0.5F), fine(grid.frame, table, 0.01F);

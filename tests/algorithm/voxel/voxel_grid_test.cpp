@@ -63,7 +63,10 @@ std::map<std::uint32_t, glm::ivec3> cells_in_tree(const VoxelGrid& grid) {
   return found;
 }
 
-void check_grid(const ActivatedCloud& cloud, const VoxelGrid& grid, Stored stored) {
+void check_grid(const ActivatedCloud& cloud, const Arrangement<VoxelGrid>& arrangement,
+                Stored stored) {
+  const VoxelGrid& grid = arrangement.table;
+  const std::vector<std::uint32_t>& storage_order = arrangement.storage_order;
   const auto cells = cells_in_tree(grid);
   REQUIRE(cells.size() == grid.voxels.size());
   std::set<std::uint32_t> seen;
@@ -73,10 +76,10 @@ void check_grid(const ActivatedCloud& cloud, const VoxelGrid& grid, Stored store
     REQUIRE(record.first == slot);  // contiguous, in the order of ids
     REQUIRE(record.count > 0);
     for (; slot < record.first + record.count; ++slot) {
-      const std::uint32_t index = grid.storage_order[slot];
+      const std::uint32_t index = storage_order[slot];
       REQUIRE(seen.insert(index).second);
       if (slot > record.first && record.count <= kLeastCut) {
-        REQUIRE(index > grid.storage_order[slot - 1]);
+        REQUIRE(index > storage_order[slot - 1]);
       }
       for (int axis = 0; axis < 3; ++axis) {
         const double place = static_cast<double>(cloud.gaussians[index].mean[axis]) /
@@ -85,7 +88,7 @@ void check_grid(const ActivatedCloud& cloud, const VoxelGrid& grid, Stored store
       }
     }
   }
-  REQUIRE(slot == grid.storage_order.size());
+  REQUIRE(slot == storage_order.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i) {
     const bool visible = cloud.gaussians[i].opacity >= 1.0F / 255;
     REQUIRE(seen.count(i) == (visible || stored == Stored::kAll ? 1U : 0U));
@@ -96,16 +99,18 @@ TEST_CASE("voxel grid: every visible Gaussian in the voxel of its centre") {
   for (unsigned seed = 0; seed < 10; ++seed) {
     for (const float voxel_size : {0.05F, 0.4F, 2.0F, 100.0F}) {
       const ActivatedCloud cloud = random_cloud(seed, 500, 5);
-      check_grid(cloud, build_voxel_grid(cloud, voxel_size), Stored::kVisible);
-      check_grid(cloud, build_voxel_grid(cloud, voxel_size, Stored::kAll), Stored::kAll);
+      check_grid(cloud, arrange_by_voxels(cloud, voxel_size), Stored::kVisible);
+      check_grid(cloud, arrange_by_voxels(cloud, voxel_size, Stored::kAll), Stored::kAll);
     }
   }
 }
 
 // Every piece of `most` or fewer; a box in front of another on an axis is visited before it by an
 // eye in front of the plane between them.
-void check_pieces(const ActivatedCloud& cloud, const VoxelGrid& grid, const glm::vec3& eye,
-                  std::uint32_t most) {
+void check_pieces(const ActivatedCloud& cloud, const Arrangement<VoxelGrid>& arrangement,
+                  const glm::vec3& eye, std::uint32_t most) {
+  const VoxelGrid& grid = arrangement.table;
+  const std::vector<std::uint32_t>& storage_order = arrangement.storage_order;
   for (const VoxelRecord& voxel : grid.voxels) {
     std::vector<VoxelRecord> pieces;
     const auto plane = [&](std::uint32_t index) { return grid.cuts[index]; };
@@ -120,12 +125,12 @@ void check_pieces(const ActivatedCloud& cloud, const VoxelGrid& grid, const glm:
     std::vector<Box> boxes;
     for (const VoxelRecord& piece : pieces) {
       CHECK(piece.count <= std::max(most, kLeastCut));
-      Box box{cloud.gaussians[grid.storage_order[piece.first]].mean, {}};
+      Box box{cloud.gaussians[storage_order[piece.first]].mean, {}};
       box.high = box.low;
       for (std::uint32_t slot = piece.first; slot < piece.first + piece.count; ++slot) {
         CHECK(slots.insert(slot).second);
         for (int axis = 0; axis < 3; ++axis) {
-          const float at = cloud.gaussians[grid.storage_order[slot]].mean[axis];
+          const float at = cloud.gaussians[storage_order[slot]].mean[axis];
           box.low[axis] = std::min(box.low[axis], at);
           box.high[axis] = std::max(box.high[axis], at);
         }
@@ -154,10 +159,10 @@ TEST_CASE("voxel grid: pieces of voxels are boxes, the nearest first") {
   for (unsigned seed = 0; seed < 4; ++seed) {
     const ActivatedCloud cloud = random_cloud(seed, 3000, 5);
     for (const float voxel_size : {1.0F, 100.0F}) {
-      const VoxelGrid grid = build_voxel_grid(cloud, voxel_size);
+      const Arrangement<VoxelGrid> arrangement = arrange_by_voxels(cloud, voxel_size);
       for (const std::uint32_t most : {1U, 64U, 128U, 500U}) {
-        check_pieces(cloud, grid, {0.1F, -0.3F, 0.2F}, most);
-        check_pieces(cloud, grid, {9, -20, 3}, most);
+        check_pieces(cloud, arrangement, {0.1F, -0.3F, 0.2F}, most);
+        check_pieces(cloud, arrangement, {9, -20, 3}, most);
       }
     }
   }
@@ -166,33 +171,34 @@ TEST_CASE("voxel grid: pieces of voxels are boxes, the nearest first") {
 TEST_CASE("voxel grid: Gaussians in one place are cut all the same") {
   ActivatedCloud cloud;
   cloud.gaussians.assign(1000, at(0.5F, 0.5F, 0.5F));
-  const VoxelGrid grid = build_voxel_grid(cloud, 1.0F);
-  REQUIRE(grid.voxels.size() == 1);
-  check_pieces(cloud, grid, {0, 0, 0}, 64);
+  const Arrangement<VoxelGrid> arrangement = arrange_by_voxels(cloud, 1.0F);
+  REQUIRE(arrangement.table.voxels.size() == 1);
+  check_pieces(cloud, arrangement, {0, 0, 0}, 64);
 }
 
 TEST_CASE("voxel grid: nothing is sized by the dense grid") {
   ActivatedCloud cloud;
   cloud.gaussians = {at(-5e5F, 0, 0), at(5e5F, 1e5F, -3e5F), at(0.25F, 0.25F, 0.25F)};
-  const VoxelGrid grid = build_voxel_grid(cloud, 1.0F);
+  const Arrangement<VoxelGrid> arrangement = arrange_by_voxels(cloud, 1.0F);
+  const VoxelGrid& grid = arrangement.table;
   CHECK(grid.frame.levels == 10);
   CHECK(grid.voxels.size() == 3);
   CHECK(grid.nodes.size() <= 30);  // ten levels for each
-  check_grid(cloud, grid, Stored::kVisible);
+  check_grid(cloud, arrangement, Stored::kVisible);
 }
 
 TEST_CASE("voxel grid: empty scenes, and scenes that nobody can see") {
-  CHECK(build_voxel_grid({}, 1.0F).nodes.empty());
+  CHECK(arrange_by_voxels({}, 1.0F).table.nodes.empty());
   ActivatedCloud cloud;
   cloud.gaussians = {at(0, 0, 0, 0.0F), at(1, 1, 1, 0.003F)};
-  CHECK(build_voxel_grid(cloud, 1.0F).storage_order.empty());
-  CHECK(build_voxel_grid(cloud, 1.0F, Stored::kAll).storage_order.size() == 2);
+  CHECK(arrange_by_voxels(cloud, 1.0F).storage_order.empty());
+  CHECK(arrange_by_voxels(cloud, 1.0F, Stored::kAll).storage_order.size() == 2);
 }
 
 TEST_CASE("voxel grid: one Gaussian makes one voxel of one root") {
   ActivatedCloud cloud;
   cloud.gaussians = {at(-7.3F, 2.1F, 0.0F)};
-  const VoxelGrid grid = build_voxel_grid(cloud, 0.5F);
+  const VoxelGrid grid = arrange_by_voxels(cloud, 0.5F).table;
   CHECK(grid.nodes.size() == 1);
   CHECK(grid.frame.levels == 1);
   CHECK(grid.frame.origin_cell == glm::ivec3(-15, 4, 0));
@@ -206,13 +212,13 @@ TEST_CASE("voxel grid: a million cells an axis at most, and the message says wha
   cloud.gaussians = {at(0, 0, 0), at(1048576, 0, 0)};
   std::string message;
   try {
-    build_voxel_grid(cloud, 0.5F);
+    arrange_by_voxels(cloud, 0.5F);
   } catch (const InputError& error) {
     message = error.what();
   }
   CHECK(message.find("voxel_size: 0.5") != std::string::npos);
   CHECK(message.find("at least 1") != std::string::npos);
-  CHECK_NOTHROW(build_voxel_grid(cloud, 1.01F));
+  CHECK_NOTHROW(arrange_by_voxels(cloud, 1.01F));
 }
 
 TEST_CASE("voxel grid: a centre on a face belongs to the cell above it") {

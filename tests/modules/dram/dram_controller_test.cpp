@@ -21,6 +21,7 @@ using test::Initiator;
 
 DramConfig quiet() {
   DramConfig c;
+  c.front_end_ns = c.back_end_ns = 0;
   c.refresh = RefreshMode::kOff;
   return c;
 }
@@ -208,6 +209,7 @@ TEST_CASE("dram controller: blocking and non-blocking requests do not mix") {
 
 TEST_CASE("dram controller: time, bandwidth and refreshes of idle time are accounted") {
   DramConfig config;
+  config.front_end_ns = config.back_end_ns = 0;
   run(config, [](Initiator& i, DramController& dram) {
     i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 256));
     sc_core::wait(39000, SC_NS);  // ten refresh intervals

@@ -136,7 +136,7 @@ TEST_CASE("sram budget: more than there is, and a queue in no use, are refused b
   machine.says = [&](DataSheet& sheet, FifoChannel& fifo) {
     sheet.sram(fits);
     sheet.sram(fits);
-    sheet.sram(sram_use("blocks", "scratch", {{3, "blocks"}, {7, "B"}}));
+    sheet.sram(sram_use("blocks", "scratch", {{3, "blocks"}, {7, "B"}}, {32}));
     sheet.queue(fifo, "messages");
     sheet.sram_available("scratch", 220);
   };
@@ -166,17 +166,18 @@ TEST_CASE("sram budget: more than there is, and a queue in no use, are refused b
   CHECK_THROWS_WITH(check_sram_budget(machine), Contains("hold 200 B") && Contains("uses 100"));
 }
 
-TEST_CASE("sram budget: what stands there is a part, whoever takes it") {
+TEST_CASE("sram budget: what no unit takes is not built, and said so") {
   Publisher machine("machine");
   machine.says = [](DataSheet& sheet, FifoChannel&) {
+    sheet.sram(sram_use("blocks", "scratch", {{1000, "B"}}, {32}));
     sheet.sram_available("scratch", 3072);
-    sheet.sram_available("other", 512);
+    sheet.sram_available("full", 0);
   };
   const MachineResult result = collect(machine);
-  REQUIRE(result.parts.size() == 1);
-  CHECK(result.parts[0].component == "sram");
-  CHECK(result.parts[0].kind == "sram_kib");
-  CHECK(result.parts[0].count == 3.5);
+  CHECK(result.parts.empty());
+  REQUIRE(result.left_out.size() == 1);
+  CHECK(result.left_out[0].what == "unused_sram_scratch");
+  CHECK(result.left_out[0].count == 2072);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The binding resource is the busiest, and the next is the one after it.
+// The binding resource is the busiest, and the next is the one after it; where none is busy most of
+// the time, the waiting leads to what holds the frame.
 #include "testbench/streaminggs/binding.h"
 
 #include <catch2/catch.hpp>
@@ -8,66 +9,205 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-// Of 1,000 cycles.
-ActivityResult activity(const char* resource, std::uint64_t busy, std::uint64_t starved) {
-  return {"activity", resource, "", busy, starved, 1000 - busy - starved};
+// Of 1,000 cycles; the rest is waiting for input.
+ActivityResult activity(const char* resource, std::uint64_t busy) {
+  const WaitResult rest{WaitFor::kInput, "fifo", "", "entries", 1000 - busy};
+  return {"activity", resource, "", busy, {rest}, std::string("more_") + resource};
 }
 
 FrameResult frame_of(const std::vector<ActivityResult>& activities, double bus) {
   FrameResult frame;
   frame.cycles = 1000;
-  for (const ActivityResult& a : activities) frame.machine.units.push_back({"unit", {a}, {}});
+  for (const ActivityResult& a : activities) {
+    const std::string unit = "unit" + std::to_string(frame.machine.units.size());
+    frame.machine.units.push_back({unit, {a}, {}});
+  }
   frame.memory.bus_utilisation = bus;
+  frame.memory.key = "channels";
   return frame;
 }
 
 TEST_CASE("binding: the busiest of all, whatever their order") {
   for (const std::vector<ActivityResult>& activities :
-       {std::vector<ActivityResult>{activity("idle", 0, 1000), activity("slow", 900, 50),
-                                    activity("middle", 400, 300)},
-        {activity("slow", 900, 50), activity("middle", 400, 300), activity("idle", 0, 1000)},
-        {activity("middle", 400, 300), activity("idle", 0, 1000), activity("slow", 900, 50)}}) {
+       {std::vector<ActivityResult>{activity("idle", 0), activity("slow", 900),
+                                    activity("middle", 400)},
+        {activity("slow", 900), activity("middle", 400), activity("idle", 0)},
+        {activity("middle", 400), activity("idle", 0), activity("slow", 900)}}) {
     const Binding binding = find_binding(frame_of(activities, 0.1));
     CHECK(binding.unit == "slow");
     CHECK(binding.utilisation == Approx(0.9));
     CHECK(binding.next == "middle");
     CHECK(binding.next_utilisation == Approx(0.4));
+    CHECK(binding.holds == "slow");
+    CHECK(binding.key == "more_slow");
     CHECK_THAT(binding.explanation, Contains("slow works 90 % of the frame, middle 40 %") &&
-                                        Contains("at least 40 % of its time") &&
+                                        Contains("at least 40 % of its time; raise more_slow") &&
                                         !Contains("no resource is busy"));
   }
 }
 
 TEST_CASE("binding: the memory's buses are one of the resources") {
-  const std::vector<ActivityResult> activities = {activity("unit", 500, 500)};
+  const std::vector<ActivityResult> activities = {activity("unit", 500)};
   CHECK(find_binding(frame_of(activities, 0.51)).unit == "dram");
   CHECK(find_binding(frame_of(activities, 0.51)).next == "unit");
   CHECK(find_binding(frame_of(activities, 0.49)).unit == "unit");
   CHECK(find_binding(frame_of(activities, 0.49)).next == "dram");
   CHECK(find_binding(frame_of({}, 0.49)).next == "nothing else");
+  CHECK(find_binding(frame_of(activities, 0.9)).key == "channels");
 }
 
 TEST_CASE("binding: a resource is as busy as its busiest activity") {
   const std::vector<ActivityResult> activities = {
-      activity("filters", 100, 0), activity("filters", 700, 300), activity("filters", 300, 0),
-      activity("sorting", 600, 0)};
+      activity("filters", 100), activity("filters", 700), activity("filters", 300),
+      activity("sorting", 600)};
   const std::vector<ResourceUse> uses = resource_uses(frame_of(activities, 0));
   REQUIRE(uses.size() == 3);
   CHECK(uses[0].name == "filters");
   CHECK(uses[0].utilisation == Approx(0.7));
-  CHECK(uses[0].waits == "waits for input");
   CHECK(uses[1].name == "sorting");
-  CHECK(uses[1].waits == "waits for room downstream");
   CHECK(find_binding(frame_of(activities, 0)).unit == "filters");
 }
 
-TEST_CASE("binding: where nothing is busy all the time, it says what the busiest waits for") {
-  CHECK_THAT(find_binding(frame_of({activity("a", 790, 200)}, 0)).explanation,
-             Contains("no resource is busy all the time: a waits for input"));
-  CHECK_THAT(find_binding(frame_of({activity("a", 790, 10)}, 0)).explanation,
-             Contains("a waits for room downstream"));
-  CHECK_THAT(find_binding(frame_of({activity("a", 810, 10)}, 0)).explanation,
+TEST_CASE("binding: the waiting is followed from two thirds of the frame downwards") {
+  CHECK_THAT(find_binding(frame_of({activity("a", 660)}, 0)).explanation,
+             Contains("no resource is busy most of the time"));
+  CHECK_THAT(find_binding(frame_of({activity("a", 670)}, 0)).explanation,
              !Contains("no resource is busy"));
+}
+
+// A pipeline of up to three activities: unit.walk -> visits -> filter.test -> splats -> blend.draw.
+struct Stage {
+  std::uint64_t busy;
+  std::vector<WaitResult> waits;
+};
+
+FrameResult pipeline_of(const Stage& walk, const Stage& test, const Stage& draw) {
+  FrameResult frame;
+  frame.cycles = 1000;
+  const auto add = [&](const char* unit, const char* name, const Stage& stage) {
+    frame.machine.units.push_back(
+        {unit, {{name, unit, "", stage.busy, stage.waits, std::string(unit) + ".rate"}}, {}});
+  };
+  add("unit", "walk", walk);
+  add("filter", "test", test);
+  add("blend", "draw", draw);
+  return frame;
+}
+
+TEST_CASE("binding: waiting leads to a unit, a memory or a FIFO") {
+  const auto visits_in = [](std::uint64_t n) {
+    return WaitResult{WaitFor::kInput, "visits", "unit.walk", "visits.entries", n};
+  };
+  const auto splats_in = [](std::uint64_t n) {
+    return WaitResult{WaitFor::kInput, "splats", "filter.test", "splats.entries", n};
+  };
+  const auto visits_room = [](std::uint64_t n) {
+    return WaitResult{WaitFor::kRoom, "visits", "filter.test", "visits.entries", n};
+  };
+  const auto splats_room = [](std::uint64_t n) {
+    return WaitResult{WaitFor::kRoom, "splats", "blend.draw", "splats.entries", n};
+  };
+  const auto at_port = [](WaitFor what, const char* key, std::uint64_t n) {
+    return WaitResult{what, "unit.memory", "", key, n};
+  };
+  const auto idle = [](std::uint64_t n) { return WaitResult{WaitFor::kIdle, "", "", "", n}; };
+  struct Row {
+    const char* what;
+    Stage walk, test, draw;
+    std::vector<std::string> path;
+    std::string holds, key, why;
+  };
+  const std::vector<Row> rows = {
+      {"reads at the far end",
+       {200, {at_port(WaitFor::kReads, "in_flight", 800)}},
+       {300, {visits_in(700)}},
+       {600, {splats_in(400)}},
+       {"blend.draw", "filter.test", "unit.walk"},
+       "unit.memory",
+       "in_flight",
+       "waits for answers to its reads 80 % of the frame"},
+      {"its port, in the middle",
+       {100, {visits_room(900)}},
+       {300, {visits_in(100), at_port(WaitFor::kPort, "outstanding", 600)}},
+       {500, {splats_in(500)}},
+       {"blend.draw", "filter.test"},
+       "unit.memory",
+       "outstanding",
+       "waits for room in its memory port 60 % of the frame"},
+      {"one that waits less than half as long as the one it feeds",
+       {100, {visits_room(900)}},
+       {650, {visits_in(90), idle(260)}},
+       {660, {splats_in(190), idle(150)}},
+       {"blend.draw", "filter.test"},
+       "filter.test",
+       "filter.rate",
+       "works 65 % of the frame"},
+      {"and one that waits half as long",
+       {300, {at_port(WaitFor::kReads, "in_flight", 700)}},
+       {500, {visits_in(100), idle(400)}},
+       {660, {splats_in(190), idle(150)}},
+       {"blend.draw", "filter.test", "unit.walk"},
+       "unit.memory",
+       "in_flight",
+       "waits for answers to its reads 70 % of the frame"},
+      {"downstream",
+       {600, {visits_room(400)}},
+       {200, {splats_room(800)}},
+       {500, {splats_in(100), idle(400)}},
+       {"unit.walk", "filter.test", "blend.draw"},
+       "blend.draw",
+       "blend.rate",
+       "works 50 % of the frame"},
+      {"two that wait for each other in turn: the FIFO between them",
+       {300, {visits_room(700)}},
+       {450, {visits_in(550)}},
+       {100, {splats_in(900)}},
+       {"filter.test", "unit.walk"},
+       "visits",
+       "visits.entries",
+       "waits for room behind it 70 % of the frame"},
+      {"many places of one cause together outweigh one of another",
+       {400,
+        {at_port(WaitFor::kReads, "in_flight", 210),
+         {WaitFor::kReads, "unit.other", "", "other_in_flight", 200},
+         visits_room(190)}},
+       {100, {visits_in(900)}},
+       {100, {splats_in(900)}},
+       {"unit.walk"},
+       "unit.memory",
+       "in_flight",
+       "waits for answers to its reads 41 % of the frame"},
+      {"having had nothing to do is no cause",
+       {500, {idle(500)}},
+       {100, {visits_in(900)}},
+       {100, {splats_in(900)}},
+       {"unit.walk"},
+       "unit.walk",
+       "unit.rate",
+       "works 50 % of the frame"},
+  };
+  for (const Row& row : rows) {
+    INFO(row.what);
+    const FrameResult frame = pipeline_of(row.walk, row.test, row.draw);
+    const Cause cause = follow_waiting(frame);
+    CHECK(cause.path == row.path);
+    CHECK(cause.holds == row.holds);
+    CHECK(cause.key == row.key);
+    CHECK(cause.why == row.why);
+    const Binding binding = find_binding(frame);
+    CHECK(binding.holds == row.holds);
+    CHECK(binding.key == row.key);
+    CHECK_THAT(binding.explanation, Contains("the waiting of " + row.path.front() + " leads to " +
+                                             row.path.back() + ", which " + row.why) &&
+                                        Contains("raise " + row.key));
+  }
+}
+
+TEST_CASE("binding: what no key can change is said to be so") {
+  FrameResult frame = frame_of({activity("a", 500)}, 0);
+  frame.machine.units[0].activities[0].waits[0].key = "";
+  CHECK(find_binding(frame).key.empty());
+  CHECK_THAT(find_binding(frame).explanation, Contains("no key of the configuration is known"));
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ void FetchUnit::run_ask() {
     Fetched next;
     next.group = group;
     next.block = block_of(group, job_, config_);
-    next.slot = free_slots_.pop(ask_, ActivityState::kBlocked);
+    next.slot = free_slots_.pop(ask_, WaitFor::kRoom);
     ask_.work(1);
     next.ticket = start_read(memory, ask_, job_.layout.first_halves.address(next.block.first),
                              slot(next.slot), next.block.count * kFirstHalfBytes,
@@ -40,7 +40,7 @@ void FetchUnit::run_ask() {
     gaussians_ += next.block.count;
     fetched_.push(next, ask_);
   }
-  ask_.enter(ActivityState::kStarved);
+  ask_.idles();
 }
 
 void FetchUnit::run_add() {
@@ -59,7 +59,8 @@ SramUses FetchUnit::sram_uses(const ToyConfig& config) {
   return {sram_use("blocks", kScratch,
                    {{config.fetch.buffer_blocks, "blocks"},
                     {config.fetch.block_gaussians, "Gaussians"},
-                    {kFirstHalfBytes, "B"}}),
+                    {kFirstHalfBytes, "B"}},
+                   {8 * kFirstHalfBytes}),
           fifo_use<Fetched>("fetched", kScratch, config.fetch.buffer_blocks, "blocks")};
 }
 
@@ -68,11 +69,12 @@ void FetchUnit::publish(DataSheet& sheet) {
   sheet.activity(ask_, "fetching", "asks for blocks of first halves");
   sheet.activity(add_, "adding", "adds their centres up");
   sheet.counter("gaussians", "Gaussians", "fetched and added up", gaussians_);
-  sheet.operations("adder", "fp32_mac", 3 * static_cast<double>(gaussians_));
-  const double buffered = 8.0 * static_cast<double>(gaussians_) * kFirstHalfBytes;
-  sheet.operations("scratch", "sram_small_write_bit", buffered);
-  sheet.operations("scratch", "sram_small_read_bit", buffered);
-  sheet.part("adder", "mac_lane", 3);
+  Datapath adder;
+  adder.name = adder.component = "adder";
+  adder.lane = "fp32_lane";
+  adder.lanes = adder.used_macs = 3;
+  sheet.datapath(adder, gaussians_);
+  sheet.accesses("blocks", gaussians_, gaussians_);
   sheet.port(memory);
   sheet.sram(sram_uses(config_));
   sheet.queue(fetched_, "fetched");

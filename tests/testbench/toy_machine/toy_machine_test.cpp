@@ -2,12 +2,12 @@
 // data sheets alone.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "algorithm/scene/cameras.h"
 #include "testbench/builtin/builtin_scene.h"
+#include "testbench/cost/technology.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/system/frame_checks.h"
 #include "tests/system/report_values.h"
@@ -78,34 +78,37 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   CHECK(view["binding"]["utilisation"] ==
         Approx(static_cast<double>(cycles(view, "write", "write")) / frame));
 
-  std::ifstream file(SGS_TECHNOLOGY);
-  const Json technology = Json::parse(file);
-  const auto pj = [&](const char* kind) {
-    return technology["operations"][kind]["pj"].get<double>() * 1e-12;
-  };
-  const auto mm2 = [&](const char* kind) { return technology["parts"][kind]["mm2"].get<double>(); };
+  const Technology technology = load_technology(SGS_TECHNOLOGY);
+  const auto pj = [&](const char* kind) { return technology.part(kind).pj.middle * 1e-12; };
+  const auto mm2 = [&](const char* kind) { return technology.part(kind).mm2.middle; };
   const Json& energy = view["energy"];
-  CHECK(energy["adder_j"] == Approx(3 * kGaussians * pj("fp32_mac")));
-  CHECK(energy["scratch_j"] ==
-        Approx(8 * 16 * kGaussians * (pj("sram_small_read_bit") + pj("sram_small_write_bit"))));
-  CHECK(energy["writer_j"] == Approx(kPixels * pj("pixel_blend")));
-  const double leakage = 4 * technology["parts"]["sram_kib"]["leakage_mw"].get<double>() * 1e-3 *
-                         view["frame"]["time_s"].get<double>();
-  CHECK(energy["sram_leakage_j"] == Approx(leakage));
+  CHECK(energy["adder_j"] == Approx(3 * kGaussians * pj("fp32_lane")));
+  CHECK(energy["writer_j"] == Approx(kPixels * pj("comparator")));
+  const SramUse blocks = sram_use("blocks", "scratch", {{3, ""}, {8, ""}, {16, ""}}, {128});
+  CHECK(energy["blocks_j"] ==
+        Approx(kGaussians * 1e-12 *
+               (technology.sram.read_pj(blocks).middle + technology.sram.write_pj(blocks).middle)));
+  const double logic = 3 * mm2("fp32_lane") + 4 * mm2("comparator");
+  CHECK(energy["clock_j"] ==
+        Approx(frame * logic * technology.die.clock_pj_mm2_cycle.middle * 1e-12));
   double sum = 0;
-  for (const char* part : {"adder_j", "scratch_j", "writer_j", "sram_leakage_j", "dram_j"}) {
-    CHECK(energy[part].get<double>() > 0);
-    sum += energy[part].get<double>();
+  for (const auto& [part, joules] : energy.items()) {
+    if (part == "total_j" || part == "bands" || part.find("_j") != part.size() - 2) continue;
+    if (joules.is_object()) continue;
+    CHECK(joules.get<double>() > 0);
+    sum += joules.get<double>();
+    CHECK(energy["bands"][part]["low"].get<double>() <= joules.get<double>());
+    CHECK(energy["bands"][part]["high"].get<double>() >= joules.get<double>());
   }
   CHECK(energy["total_j"] == Approx(sum));
 
   const Json& area = view["area_mm2"];
-  CHECK(area["adder"] == Approx(3 * mm2("mac_lane")));
-  CHECK(area["writer"] == Approx(4 * mm2("pixel_lane")));
-  CHECK(area["sram"] == Approx(4 * mm2("sram_kib")));
-  CHECK(area["total"] == Approx(area["adder"].get<double>() + area["writer"].get<double>() +
-                                area["sram"].get<double>()));
-  CHECK(area.size() == 4);
+  CHECK(area["adder"] == Approx(3 * mm2("fp32_lane")));
+  CHECK(area["writer"] == Approx(4 * mm2("comparator")));
+  CHECK(area["total"] == Approx(logic + area["sram"].get<double>()));
+  CHECK(area.size() == 5);  // with the bands
+  CHECK(left_out(view, "unused_sram_scratch") ==
+        4096 - (3 * 8 * 16 + 3 * 12 + 2 * 16 * 3 + 2 * 16));
 
   // Blocks, what is said of them in the queue, writes of 16 px that are unanswered, and colours.
   CHECK(view["sram"]["scratch_bytes"] == 3 * 8 * 16 + 3 * 12 + 2 * 16 * 3 + 2 * 16);
@@ -121,7 +124,7 @@ TEST_CASE("toy machine: waveform and terminal") {
     INFO(scope);
     CHECK_THAT(wave, Contains("$scope module " + std::string(scope) + " $end"));
   }
-  for (const char* signal : {"busy", "starved", "blocked", "fill", "bytes_outstanding", "group"}) {
+  for (const char* signal : {"busy", "waits_for", "fill", "bytes_outstanding", "group"}) {
     INFO(signal);
     CHECK_THAT(wave, Contains("  " + std::string(signal) + " "));
   }

@@ -23,7 +23,7 @@ void WriteUnit::run() {
     fill(groups[next.group], next.colour);
   }
   await_all(memory, write_);
-  write_.enter(ActivityState::kStarved);
+  write_.idles();
   on_done_();
 }
 
@@ -52,10 +52,10 @@ void WriteUnit::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(write_, "writing", "fills groups with their colour");
   sheet.counter("pixels", "pixels", "written", pixels_);
-  sheet.operations("writer", "pixel_blend", static_cast<double>(pixels_));
-  sheet.part("writer", "pixel_lane", config_.write.pixels_per_cycle);
+  sheet.part("writer", "comparator", config_.write.pixels_per_cycle, 1);
+  sheet.operations("writer", "comparator", static_cast<double>(pixels_));
   sheet.sram(sram_uses(config_));
-  sheet.port(memory);
+  sheet.port(memory, "pixels");
 }
 
 }  // namespace sgs::toy

@@ -1,5 +1,5 @@
 // Where the parts of a group lie.
-#include "modules/streaminggs/group_parts.h"
+#include "algorithm/render/group_parts.h"
 
 #include "algorithm/splat/constants.h"
 
@@ -44,13 +44,6 @@ std::vector<std::vector<PixelRect>> group_parts(const std::vector<PixelRect>& gr
       out[p].push_back(part_of(group, p % across, p / across, subtiles, across));
     }
   }
-  return out;
-}
-
-StreamingJob job_of_part(const StreamingJob& job, std::uint32_t part) {
-  StreamingJob out = job;
-  out.groups = job.parts[part];
-  out.parts = {out.groups};
   return out;
 }
 

@@ -1,12 +1,11 @@
-// A pixel group cut into parts, one for each HFU that shares a fetch: a square grid of them, of
-// whole 4x4 sub-tiles.
+// A pixel group cut into parts, each filtered and blended by itself: a square grid of them, of whole
+// 4x4 sub-tiles.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "algorithm/splat/rects.h"
-#include "modules/streaminggs/streaming_job.h"
 
 namespace sgs {
 
@@ -20,8 +19,5 @@ std::uint32_t part_px(std::uint32_t group_px, std::uint32_t parts);
 // where the group has fewer sub-tiles than parts. parts: a square number.
 std::vector<std::vector<PixelRect>> group_parts(const std::vector<PixelRect>& groups,
                                                 std::uint32_t group_px, std::uint32_t parts);
-
-// The job of what renders one part: its pixels in place of the groups'.
-StreamingJob job_of_part(const StreamingJob& job, std::uint32_t part);
 
 }  // namespace sgs

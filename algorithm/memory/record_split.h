@@ -1,0 +1,84 @@
+// How the bytes of a Gaussian are divided between its first half, which the coarse filter reads of
+// every Gaussian of a block, and its second half, which is fetched of those that pass.
+//
+// A second half in its encoding (second_half.h) with the largest scale in front of it is the
+// payload. The first half holds x, y, z, then (by extents) the code of the visible extents, then
+// the first words of the payload; the second half holds the rest.
+//   published   the paper's halves: x, y, z and the largest scale; the second half as encoded.
+//   by bursts   for storage by chunks. Second halves are fetched one here, one there, and a burst
+//               is moved whole: what counts is how many bursts of 32 B a record touches. Each takes
+//               whole bursts, or a power of two below one. From the table, in bytes:
+//
+//     encoding, degree  published     by bursts  why
+//     raw 0             16 + 40 (64)  24 + 32    56 B with extents: one word of the quaternion is
+//                                                left out, two words go to the first half
+//     raw 1             16 + 76 (104) 16 + 80 (96)   96 = 16 + 80 with nothing left out; 28 + 64
+//                                                would save 32 for 12 B more in every first half
+//                                                and in every key that waits
+//     raw 2             16 + 136 (160) 24 + 128  as degree 0
+//     raw 3             16 + 220 (248) 16 + 224  seven bursts without any art
+//     half 0, 1, 2, 3   16 + 20 .. 110           32, 48, 72, 128: padded where that saves bursts
+//     vq, vq_packed     16 + 17, 8               32, 16: the next power of two
+//
+// (in brackets: bytes on the bus, the mean over the places at which such a record may begin). Where
+// a word of the quaternion is left out (short_quaternion.h), the payload is the scales in their
+// order, three words of the quaternion, the opacity and the SH coefficients. The 8 bits that bring
+// the fourth word back are kept where bits of these are nought: the signs of scales and opacity,
+// and the upper exponent bit of what does not exceed 1. All of it comes back to the bit.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "algorithm/memory/second_half.h"
+#include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/splat/visible_extents.h"
+
+namespace sgs {
+
+struct RecordSplit {
+  CoarseBoundBy bound_by = CoarseBoundBy::kLargestScale;  // what the first half is tested by
+  std::uint32_t carried_words = 1;                        // of the payload, in the first half
+  bool short_quaternion = false;                          // three words of four are stored
+  std::uint32_t second_bytes = 0;
+
+  std::uint32_t first_bytes() const {
+    return 12 + (bound_by == CoarseBoundBy::kExtents ? 4 : 0) + 4 * carried_words;
+  }
+};
+
+RecordSplit published_split(const SecondHalfFormat& format);
+RecordSplit burst_split(const SecondHalfFormat& format);
+
+// Words of the payload in a first half: they wait with its key until the second half comes.
+constexpr std::size_t kMostCarriedWords = 2;
+using CarriedWords = std::array<std::uint32_t, kMostCarriedWords>;
+
+// A first half as it is read.
+struct SplitFirstHalf {
+  glm::vec3 mean;
+  VisibleExtents extents;  // by the largest scale: that alone
+  CarriedWords carried{};
+};
+
+// encoded: the second half, format.bytes() bytes, of this Gaussian, as its decoder sees it. Writes
+// split.first_bytes() and split.second_bytes. With a short quaternion it must be of unit length to
+// a few units in the last place; throws std::invalid_argument where it is not.
+void write_record(const RecordSplit& split, const SecondHalfFormat& format,
+                  const Gaussian<float>& g, const std::byte* encoded, std::byte* first,
+                  std::byte* second);
+
+SplitFirstHalf read_first_half(const RecordSplit& split, const std::byte* first);
+
+// codebooks: as decode_second_half() takes them.
+DecodedGaussian read_record(const RecordSplit& split, const SecondHalfFormat& format,
+                            const glm::vec3& mean, const CarriedWords& carried,
+                            const std::byte* second, const std::byte* codebooks);
+
+// Of a quantised record.
+CodebookIndices read_indices(const RecordSplit& split, const SecondHalfFormat& format,
+                             const CarriedWords& carried, const std::byte* second);
+
+}  // namespace sgs

@@ -1,0 +1,63 @@
+// Arithmetic in 16 bits as a unit does it that has no wider registers: every sum, difference and
+// product is rounded to the nearest IEEE half (ties to even), too large ones to the largest. A
+// float holds each value: its 24 bits are more than twice the 11 of a half and two, so that
+// computing in float and rounding once gives the correctly rounded half. Branch-free, so that loops
+// over pixels become vector code.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/splat/scalar.h"
+
+namespace sgs {
+
+constexpr float kLargestHalf = 65504.0F;
+
+// The half nearest to x; NaN becomes +-kLargestHalf.
+inline float rounded_to_half(float x) {
+  constexpr float kLeastNormal = 0x1p-14F;
+  // In [0.5, 1) neighbours in float lie 2^-24 apart, as halves do below kLeastNormal.
+  constexpr float kAlign = 0.75F;
+  constexpr std::uint32_t kDropped = 13;  // of the 23 bits behind the point
+  const auto bits = __builtin_bit_cast(std::uint32_t, x);
+  const std::uint32_t odd = (bits >> kDropped) & 1U;
+  const std::uint32_t nearest = (bits + (1U << (kDropped - 1)) - 1U + odd) >> kDropped << kDropped;
+  const float normal = __builtin_bit_cast(float, nearest);
+  const float subnormal = (x + kAlign) - kAlign;
+  const float magnitude = __builtin_fabsf(x);
+  const float rounded = magnitude < kLeastNormal ? subnormal : normal;
+  const float largest = __builtin_copysignf(kLargestHalf, x);
+  return __builtin_fabsf(rounded) <= kLargestHalf ? rounded : largest;
+}
+
+// A half in a float.
+class HalfScalar {
+ public:
+  HalfScalar() = default;
+  explicit HalfScalar(float x) : value_(rounded_to_half(x)) {}
+  // x is a half already.
+  static HalfScalar exactly(float x) {
+    HalfScalar out;
+    out.value_ = x;
+    return out;
+  }
+  float value() const { return value_; }
+
+  friend HalfScalar operator-(HalfScalar a) { return exactly(-a.value_); }
+  friend HalfScalar operator+(HalfScalar a, HalfScalar b) { return HalfScalar(a.value_ + b.value_); }
+  friend HalfScalar operator-(HalfScalar a, HalfScalar b) { return HalfScalar(a.value_ - b.value_); }
+  friend HalfScalar operator*(HalfScalar a, HalfScalar b) { return HalfScalar(a.value_ * b.value_); }
+  friend bool operator<(HalfScalar a, HalfScalar b) { return a.value_ < b.value_; }
+  friend bool operator>(HalfScalar a, HalfScalar b) { return a.value_ > b.value_; }
+  friend bool operator>=(HalfScalar a, HalfScalar b) { return a.value_ >= b.value_; }
+
+ private:
+  float value_;
+};
+
+template <>
+inline HalfScalar exp_of<HalfScalar>(HalfScalar x) {
+  return HalfScalar(exp_of(x.value()));
+}
+
+}  // namespace sgs

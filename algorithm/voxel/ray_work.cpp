@@ -1,0 +1,40 @@
+// The traversal run with the counting scalar.
+#include "algorithm/voxel/ray_work.h"
+
+#include "algorithm/splat/counting.h"
+#include "algorithm/voxel/ray_walk.h"
+
+namespace sgs {
+namespace {
+
+// A tree whose root has no occupied child: each step crosses a block of 4 cells a side.
+struct EmptyTree {
+  VoxelNode node(std::uint32_t) { return {}; }
+};
+
+}  // namespace
+
+OperationCounts ray_step_work() {
+  DataFlow flow;
+  VoxelFrame frame;
+  frame.voxel_size = 0.7F;
+  frame.levels = 2;
+  const Counting voxel_size = input(flow, frame.voxel_size);
+  RayOf<Counting> ray{};
+  // In the block at the root's far corner: the first step leaves the root.
+  const glm::vec3 origin{8.6F, 8.8F, 9.1F}, direction{0.61F, 0.53F, 0.59F};
+  for (int axis = 0; axis < 3; ++axis) {
+    ray.origin[axis] = input(flow, origin[axis]);
+    ray.direction[axis] = input(flow, direction[axis]);
+    ray.inverse[axis] = input(flow, 1 / direction[axis]);
+    ray.step[axis] = 1;
+  }
+  static_cast<void>(ray.origin[0] / voxel_size);  // its reciprocal is made once a frame
+  const std::size_t before = flow.size();
+  EmptyTree tree;
+  RayWalk<EmptyTree, Counting> walk(frame, tree, voxel_size);
+  walk.walk(ray, [](std::uint32_t) {});
+  return flow.counts(before, flow.size());
+}
+
+}  // namespace sgs

@@ -1,0 +1,30 @@
+// A datapath from what was counted by running its code.
+#pragma once
+
+#include "algorithm/splat/lane_macs.h"
+#include "tlm/datapath.h"
+
+namespace sgs {
+
+// Single precision, charged with what was counted, one lane until it is said otherwise.
+inline Datapath counted_datapath(const char* name, const char* component,
+                                 const OperationCounts& c) {
+  Datapath path;
+  path.name = name;
+  path.component = component;
+  path.lane = "fp32_lane";
+  path.used_macs = path.counted_macs = folded_macs(c);
+  path.counts = {{"multiplies", c.multiplies},
+                 {"adds", c.adds},
+                 {"fused", c.fused},
+                 {"divisions", c.divisions},
+                 {"divisors", c.divisors},
+                 {"square_roots", c.square_roots},
+                 {"logarithms", c.logarithms},
+                 {"exponentials", c.exponentials},
+                 {"comparisons", c.comparisons},
+                 {"roundings", c.roundings}};
+  return path;
+}
+
+}  // namespace sgs

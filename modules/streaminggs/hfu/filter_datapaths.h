@@ -1,0 +1,19 @@
+// The lanes of the coarse and of the fine filter of one HFU, and what a test takes of them.
+#pragma once
+
+#include "algorithm/splat/coarse_bound_by.h"
+#include "modules/streaminggs/hfu/hfu_config.h"
+#include "tlm/datapath.h"
+
+namespace sgs {
+
+Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by);
+Datapath fine_datapath(const HfuConfig& config, int sh_degree);
+
+// That of several HFUs.
+inline Datapath side_by_side(Datapath of_one, std::uint32_t hfus) {
+  of_one.copies *= hfus;
+  return of_one;
+}
+
+}  // namespace sgs

@@ -1,0 +1,78 @@
+// Gains, their order, and what they say of the binding.
+#include "testbench/streaminggs/what_if.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sgs {
+namespace {
+
+// Below this share of the frame two gains are the same.
+constexpr double kSameGain = 0.005;
+
+double saved(double before, double after) { return before > 0 ? 1 - after / before : 0; }
+
+}  // namespace
+
+std::vector<std::string> remedies_of(const FrameResult& frame) {
+  std::vector<std::string> keys;
+  const auto add = [&](const std::string& key) {
+    if (!key.empty() && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  };
+  for (const UnitResult& unit : frame.machine.units) {
+    for (const ActivityResult& activity : unit.activities) {
+      add(activity.key);
+      for (const WaitResult& wait : activity.waits) add(wait.key);
+    }
+  }
+  add(frame.memory.key);
+  return keys;
+}
+
+double time_saved(const Outcome& base, const Outcome& doubled) {
+  return saved(static_cast<double>(base.cycles), static_cast<double>(doubled.cycles));
+}
+
+double energy_saved(const Outcome& base, const Outcome& doubled) {
+  return saved(base.joules, doubled.joules);
+}
+
+void rank(const Outcome& base, std::vector<Doubling>& doublings) {
+  std::stable_sort(doublings.begin(), doublings.end(), [&](const Doubling& a, const Doubling& b) {
+    if (a.refused.empty() != b.refused.empty()) return a.refused.empty();
+    if (!a.refused.empty()) return false;
+    const double gain_a = time_saved(base, a.outcome), gain_b = time_saved(base, b.outcome);
+    if (gain_a != gain_b) return gain_a > gain_b;
+    return a.outcome.mm2 < b.outcome.mm2;
+  });
+}
+
+std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings) {
+  const Binding& binding = base.binding;
+  if (doublings.empty() || !doublings.front().refused.empty()) {
+    return "nothing could be doubled";
+  }
+  const Doubling& best = doublings.front();
+  const double most = time_saved(base, best.outcome);
+  const auto named =
+      std::find_if(doublings.begin(), doublings.end(),
+                   [&](const Doubling& doubling) { return doubling.key == binding.key; });
+  if (binding.key.empty() || named == doublings.end() || !named->refused.empty()) {
+    return fmt::format("binding names {}, which no key doubles; {} gains most: {:.1f} % of the time",
+                       binding.holds, best.key, 100 * most);
+  }
+  const double gain = time_saved(base, named->outcome);
+  if (most - gain < kSameGain) {
+    return fmt::format("binding names {}, and it gains most: {:.1f} % of the time", named->key,
+                       100 * gain);
+  }
+  const Binding& then = named->outcome.binding;
+  return fmt::format(
+      "binding names {}, which gains {:.1f} % of the time; {} gains most: {:.1f} %. With {} doubled, "
+      "{} holds the frame: {} works {:.0f} % of it",
+      named->key, 100 * gain, best.key, 100 * most, named->key, then.holds, then.unit,
+      100 * then.utilisation);
+}
+
+}  // namespace sgs

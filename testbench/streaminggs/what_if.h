@@ -1,0 +1,42 @@
+// What a frame would gain from twice as much of one thing, one thing after the other.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "testbench/cost/cost.h"
+#include "testbench/result/frame_result.h"
+#include "testbench/streaminggs/binding.h"
+
+namespace sgs {
+
+// A frame's time and price.
+struct Outcome {
+  std::uint64_t cycles = 0;
+  double joules = 0, mm2 = 0;
+  Binding binding;
+};
+
+struct Doubling {
+  std::string key;
+  double from = 0, to = 0;
+  std::string refused;  // why it cannot be; empty: it was simulated
+  Outcome outcome;
+};
+
+// Keys that the machine's data sheets and the memory name as remedies, each once, in their order.
+std::vector<std::string> remedies_of(const FrameResult& frame);
+
+// Shares of the base's time and energy that are saved; negative: it takes more.
+double time_saved(const Outcome& base, const Outcome& doubled);
+double energy_saved(const Outcome& base, const Outcome& doubled);
+
+// Most time saved first, the cheaper of equals; what was refused comes last.
+void rank(const Outcome& base, std::vector<Doubling>& doublings);
+
+// Whether the resource that the base's binding names is the one that gains most, with the numbers;
+// where it is not, what holds the frame once it is doubled. doublings: ranked.
+std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings);
+
+}  // namespace sgs

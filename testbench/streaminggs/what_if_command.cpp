@@ -1,0 +1,206 @@
+// streaminggs what-if SCENE: the frame as configured, then with twice as much of each thing.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "algorithm/data_files.h"
+#include "algorithm/input_error.h"
+#include "algorithm/memory/frame_buffer.h"
+#include "algorithm/output_file.h"
+#include "algorithm/output_plan.h"
+#include "testbench/command_line/config_source.h"
+#include "testbench/result/collect.h"
+#include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/frame_run.h"
+#include "testbench/streaminggs/prepared_scene.h"
+#include "testbench/streaminggs/scene_arguments.h"
+#include "testbench/streaminggs/what_if.h"
+
+namespace sgs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct WhatIfArguments : SceneArguments {
+  ConfigSource config;
+  std::string technology = data_file("technology_32nm.json");
+  std::string out;  // JSON; empty: the terminal alone
+};
+
+// A scene, and a machine for it whose every size is decided but those of its on-chip memories.
+struct Base {
+  std::string document;  // the resolved configuration
+  PreparedScene scene;
+  Technology technology;
+  const Kinds* kinds = nullptr;
+
+  // The configuration with one value changed; empty: as it is. Throws InputError where it cannot be.
+  RunConfig variant(const std::string& assignment) const {
+    ConfigDocument changed;
+    changed.add_text(document, "the configuration");
+    if (!assignment.empty()) changed.add_override(assignment);
+    RunConfig config = read_run_config(changed, *kinds);
+    config.design->fit_memories();
+    resolve(config);
+    config.design->adapt(scene.stored.image.layout.second_half, config.chosen);
+    return config;
+  }
+};
+
+class NothingLeftOut : public DataSheet {};
+
+// One frame of a variant. golden: the picture that all variants must give.
+FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
+                const std::vector<std::byte>& golden) {
+  const FrameJob job = config.design->job(base.scene.stored, camera);
+  FrameResult frame = run_frame(*config.design, job, base.scene.stored.image, config.dram, {});
+  if (frame.frame != golden) {
+    throw std::runtime_error("the frame differs from the golden renderer's");
+  }
+  return frame;
+}
+
+Outcome outcome_of(const FrameResult& frame, const Technology& technology) {
+  return {frame.cycles, energy_of(frame, technology).total.middle,
+          area_of(frame, technology).total.middle, find_binding(frame)};
+}
+
+// The number at "key.path" of a document.
+double value_at(const Json& document, std::string key) {
+  for (char& c : key) c = c == '.' ? '/' : c;
+  return document.at(Json::json_pointer("/" + key)).get<double>();
+}
+
+void print(const Outcome& base, const std::vector<Doubling>& doublings) {
+  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9} {:>10} {:>10}   then holds\n", "doubled",
+             "from", "to", "cycles", "time", "energy", "mm2", "time/mm2", "energy/mm2");
+  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9.3f} {:>10} {:>10}   {}\n", "nothing", "",
+             "", base.cycles, "", "", base.mm2, "", "", base.binding.holds);
+  for (const Doubling& d : doublings) {
+    if (!d.refused.empty()) continue;
+    const double time = 100 * time_saved(base, d.outcome);
+    const double energy = 100 * energy_saved(base, d.outcome);
+    const double mm2 = d.outcome.mm2 - base.mm2;
+    const auto per_mm2 = [&](double gain) {
+      return mm2 > 0 ? fmt::format("{:+.1f} %", -gain / mm2) : std::string("-");
+    };
+    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>+6.1f} % {:>+6.1f} % {:>+9.3f} {:>10} {:>10}   {}\n",
+               d.key, d.from, d.to, d.outcome.cycles, -time, -energy, mm2, per_mm2(time),
+               per_mm2(energy), d.outcome.binding.holds);
+  }
+  for (const Doubling& d : doublings) {
+    if (!d.refused.empty()) fmt::print("{}={}: cannot be: {}\n", d.key, d.to, d.refused);
+  }
+}
+
+Json to_json(const Outcome& outcome) {
+  return {{"cycles", outcome.cycles},
+          {"energy_j", outcome.joules},
+          {"area_mm2", outcome.mm2},
+          {"holds", outcome.binding.holds},
+          {"key", outcome.binding.key}};
+}
+
+Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings) {
+  Json out = {{"view", view}, {"base", to_json(base)}, {"verdict", verdict(base, doublings)}};
+  for (const Doubling& d : doublings) {
+    Json row = {{"key", d.key}, {"from", d.from}, {"to", d.to}};
+    if (d.refused.empty()) {
+      row.update(to_json(d.outcome), true);
+      row["time_saved"] = time_saved(base, d.outcome);
+      row["energy_saved"] = energy_saved(base, d.outcome);
+    } else {
+      row["refused"] = d.refused;
+    }
+    out["doubled"].push_back(std::move(row));
+  }
+  return out;
+}
+
+Json run_view(const Base& base, int number, const Camera& camera) {
+  const RunConfig config = base.variant("");
+  const FrameJob job = config.design->job(base.scene.stored, camera);
+  NothingLeftOut sheet;
+  const std::vector<std::byte> golden = encode_frame(
+      job.frame_format, config.design->golden(base.scene.stored, job, sheet).image);
+  const FrameResult frame = run(base, config, camera, golden);
+  const Outcome outcome = outcome_of(frame, base.technology);
+  const Json document = Json::parse(base.document);
+  std::vector<Doubling> doublings;
+  for (const std::string& key : remedies_of(frame)) {
+    const double from = value_at(document, key);
+    Doubling doubling{key, from, 2 * from, "", {}};
+    try {
+      const RunConfig doubled = base.variant(fmt::format("{}={}", key, doubling.to));
+      doubling.outcome = outcome_of(run(base, doubled, camera, golden), base.technology);
+    } catch (const InputError& error) {
+      doubling.refused = error.what();
+    }
+    doublings.push_back(std::move(doubling));
+  }
+  rank(outcome, doublings);
+  fmt::print("\nview {}: {}\n", number, outcome.binding.explanation);
+  print(outcome, doublings);
+  fmt::print("{}\n", verdict(outcome, doublings));
+  std::fflush(stdout);
+  return to_json(number, outcome, doublings);
+}
+
+int run(const WhatIfArguments& arguments, const Kinds& kinds) {
+  Base base;
+  base.kinds = &kinds;
+  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  std::optional<PackedScene> packed = arguments.load_packed();
+  if (packed) {
+    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
+  } else {
+    resolve(config);
+  }
+  base.technology = load_technology(arguments.technology);
+  Scene scene;
+  if (!packed) scene = arguments.load();
+  const auto views = arguments.cameras(scene.cameras);
+  if (!arguments.out.empty()) {
+    OutputPlan plan;
+    arguments.add_inputs_to(plan);
+    plan.add_input(arguments.config.path());
+    plan.add_input(arguments.technology);
+    plan.add_output(arguments.out);
+    plan.check();
+  }
+  if (packed) {
+    base.scene = prepare(std::move(*packed), arguments.scene, config);
+  } else {
+    const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
+    base.scene = prepare(std::move(scene), config, weighing);
+  }
+  base.document = to_json(config);
+  Json report = Json::array();
+  for (const auto& [number, camera] : views) report.push_back(run_view(base, number, camera));
+  if (!arguments.out.empty()) {
+    const std::string text = report.dump(2) + "\n";
+    write_whole_file(arguments.out, text.data(), text.size());
+  }
+  return 0;
+}
+
+}  // namespace
+
+SubCommand add_what_if_command(CommandLine& line, const Kinds& kinds) {
+  auto arguments = std::make_shared<WhatIfArguments>();
+  arguments->add_scene_to(line);
+  arguments->add_views_to(line);
+  arguments->add_weighing_to(line);
+  arguments->config.config = kinds.front().name;
+  arguments->config.add_to(line);
+  line.file("--technology", arguments->technology, "table of energy and area");
+  line.file("--out", arguments->out, "write the table as JSON");
+  return [arguments, &kinds] { return run(*arguments, kinds); };
+}
+
+}  // namespace sgs

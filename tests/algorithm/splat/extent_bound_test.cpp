@@ -1,0 +1,78 @@
+// Tests of algorithm/splat/extent_bound.h: values by hand, and the two ways to cut. (That nothing
+// is lost: bounds_test.cpp, ../voxel/chunk_bound_checks.cpp.)
+#include "algorithm/splat/extent_bound.h"
+
+#include <catch2/catch.hpp>
+
+namespace sgs {
+namespace {
+
+Camera camera_at_origin() {
+  Camera camera;
+  camera.width = 100;
+  camera.height = 50;
+  camera.focal_x = 100;
+  camera.focal_y = 80;
+  return camera;
+}
+
+constexpr double kLowPassReach = 0.3 * (2 * 5.541263545158426 + 1e-4);  // px^2, 2 ln 255
+
+TEST_CASE("extent bound by hand") {
+  // v = (1, 0.5, 4): u = 0.25, w = 0.125, n_x = (1, 0, -0.25), n_y = (0, 1, -0.125).
+  const auto bound =
+      extent_bound(make_view<float>(camera_at_origin()), {1, 0.5F, 4}, {0.4F, 0.8F, 1.6F}, 0.6F);
+  const double reach_x = 25 * (0.4 + 0.25 * 1.6), reach_y = 20 * (0.8 + 0.125 * 1.6);
+  // lambda = (100 * 0.6 / 4)^2 (1 + 0.0625 + 0.015625) + 0.3
+  const double widened = 1 + 64 * 0x1p-24 * 4 / 0.3 * (225 * 1.078125 + 0.3);
+  CHECK(bound.in_front);
+  CHECK(bound.depth == 4);
+  CHECK(bound.x == 74.5F);
+  CHECK(bound.y == 34.5F);
+  CHECK(bound.slack_px == 0.05F);
+  for (const auto& [found, reach] :
+       {std::pair(bound.reach_squared_x, reach_x), std::pair(bound.reach_squared_y, reach_y)}) {
+    const double least = (reach * reach + kLowPassReach) * widened;
+    CHECK(found >= least);
+    CHECK(found < least * 1.0006);
+  }
+}
+
+TEST_CASE("extent bound: on and behind the near plane nothing is in front") {
+  const auto view = make_view<float>(camera_at_origin());
+  const glm::vec3 extent(1);
+  CHECK_FALSE(extent_bound(view, {0, 0, 0.2F}, extent, 1.0F).in_front);
+  CHECK_FALSE(extent_bound(view, {0, 0, -4}, extent, 1.0F).in_front);
+  CHECK(extent_bound(view, {0, 0, std::nextafter(0.2F, 1.0F)}, extent, 1.0F).in_front);
+}
+
+TEST_CASE("extent bound: wider than the bound on rounding, only tiles cut") {
+  const auto view = make_view<float>(camera_at_origin());
+  // lambda = (25 S)^2 + 0.3; its widening reaches 1/2 at 9830 px^2: S = 3.9658.
+  const auto below = extent_bound(view, {0, 0, 4}, {0.1F, 0.1F, 0.1F}, 3.96F);
+  CHECK(below.slack_px == 0.05F);
+  CHECK(below.reach_squared_x < 20);
+  const auto beyond = extent_bound(view, {0, 0, 4}, {0.1F, 0.1F, 0.1F}, 3.97F);
+  CHECK(beyond.slack_px >= 17);
+  CHECK(beyond.reach_squared_x >= 9 * (99.25 * 99.25 + 0.3 + 0.3162));
+  CHECK(beyond.reach_squared_x == beyond.reach_squared_y);
+  CHECK(touches(extent_bound(view, {0, 0, 0.3F}, glm::vec3(3e7F), 1e7F), {0, 0, 4, 4}));
+}
+
+TEST_CASE("extent bound: a rectangle of pixels is touched along both axes or not at all") {
+  // 2 px beside the slack along x, 3 along y.
+  const ExtentBound bound{true, 1, 10, 20, 0.5F, 4, 9};
+  CHECK(touches(bound, {0, 0, 30, 30}));
+  CHECK(touches(bound, {12, 0, 30, 30}));
+  CHECK_FALSE(touches(bound, {13, 0, 30, 30}));
+  CHECK(touches(bound, {0, 0, 9, 30}));  // the last pixel is 8
+  CHECK_FALSE(touches(bound, {0, 0, 8, 30}));
+  CHECK(touches(bound, {0, 23, 30, 30}));
+  CHECK_FALSE(touches(bound, {0, 24, 30, 30}));
+  CHECK(touches(bound, {0, 0, 30, 18}));
+  CHECK_FALSE(touches(bound, {0, 0, 30, 17}));
+  CHECK(touches(bound, {12, 23, 30, 30}));  // off a corner
+}
+
+}  // namespace
+}  // namespace sgs

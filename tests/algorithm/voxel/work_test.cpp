@@ -1,0 +1,80 @@
+// What a chunk test and a step of a ray execute: counts that can be told from the formulas.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "algorithm/splat/counting.h"
+#include "algorithm/splat/lane_macs.h"
+#include "algorithm/voxel/chunk_test.h"
+#include "algorithm/voxel/chunk_work.h"
+#include "algorithm/voxel/ray_work.h"
+
+namespace sgs::test {
+namespace {
+
+ChunkBoundOf<Counting> counted(const ChunkBound& bound) {
+  ChunkBoundOf<Counting> out;
+  for (int k = 0; k < 3; ++k) {
+    out.low[k] = Counting(bound.low[k]);
+    out.high[k] = Counting(bound.high[k]);
+    out.extent[k] = Counting(bound.extent[k]);
+  }
+  out.scale_max = Counting(bound.scale_max);
+  return out;
+}
+
+TEST_CASE("chunk work: the counted test computes what the float one computes") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> place(-3, 3), size(0, 0.5F);
+  const ChunkCase tested = longest_chunk_case();
+  const auto view = make_view<float>(tested.camera);
+  const auto counting_view = make_view<Counting>(tested.camera);
+  int touching = 0;
+  for (int i = 0; i < 2000; ++i) {
+    ChunkBound bound = tested.bound;
+    for (int k = 0; k < 3; ++k) {
+      bound.low[k] += place(random);
+      bound.high[k] = bound.low[k] + size(random);
+      bound.extent[k] = size(random);
+    }
+    bound.scale_max = size(random);
+    const ChunkTest test = GroupFrustum(view, tested.group).test(bound);
+    const auto again = GroupFrustumOf<Counting>(counting_view, tested.group).test(counted(bound));
+    CHECK(test.touches == again.touches);
+    CHECK(test.nearest == again.nearest.value);
+    touching += test.touches ? 1 : 0;
+  }
+  CHECK(touching > 100);
+  CHECK(touching < 1900);
+}
+
+TEST_CASE("chunk work: the longest case takes all sides, and what the formulas say at least") {
+  const ChunkCase tested = longest_chunk_case();
+  CHECK(GroupFrustum(make_view<float>(tested.camera), tested.group).test(tested.bound).touches);
+  const OperationCounts work = chunk_work(tested);
+  // One quotient for each end of two ranges and one of the spread, by near and far.
+  CHECK(work.divisions == 5);
+  CHECK(work.divisors <= 2);
+  CHECK(work.square_roots == 2);
+  // Four sides: three products with the middle, three with the half-size, three for n each; three
+  // rows of the camera twice.
+  CHECK(work.multiplies >= 4 * 9 + 3 * 6);
+  ChunkCase behind = tested;
+  for (glm::vec3* v : {&behind.bound.low, &behind.bound.high}) {
+    *v = glm::vec3(behind.camera.position) - (*v - glm::vec3(behind.camera.position));
+  }
+  std::swap(behind.bound.low, behind.bound.high);
+  CHECK(folded_macs(chunk_work(behind)) < folded_macs(work) / 2);
+}
+
+TEST_CASE("ray work: a step takes three plane times and two positions at least") {
+  const OperationCounts step = ray_step_work();
+  // A plane's time is two products, a position one and a quotient.
+  CHECK(step.multiplies >= 3 * 2 + 2);
+  CHECK(step.divisions == 2);
+  CHECK(step.divisors == 0);       // the voxel size is the same for all
+  CHECK(step.roundings >= 2 * 2);  // to whole, to a number of a cell
+  CHECK(folded_macs(step) < 100);
+}
+
+}  // namespace
+}  // namespace sgs::test

@@ -1,0 +1,239 @@
+// The ledger of whole frames, of both machines: what is charged is what the golden renderers count,
+// every line is missed when it is not there, and no part or port does more than the frame has time
+// for, whatever the configuration.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "algorithm/order/chunk_walk.h"
+#include "algorithm/order/tree_in_memory.h"
+#include "algorithm/render/exact_renderer.h"
+#include "algorithm/render/group_state.h"
+#include "algorithm/render/paper_renderer.h"
+#include "modules/machines.h"
+#include "testbench/builtin/open_scene.h"
+#include "testbench/result/ledger.h"
+#include "testbench/streaminggs/frame_run.h"
+#include "testbench/streaminggs/prepared_scene.h"
+
+namespace sgs::test {
+namespace {
+
+using Settings = std::vector<std::string>;
+
+// A frame of a machine, and the scene that it was given.
+struct Frame {
+  RunConfig config;
+  std::optional<PreparedScene> scene;
+  FrameJob job;
+  FrameResult result;
+};
+
+Frame simulated(const std::string& preset, const Settings& settings, const std::string& source) {
+  ConfigDocument document;
+  document.add_file(std::string(SGS_SOURCE_DIR) + "/testbench/configs/" + preset + ".json");
+  for (const std::string& setting : settings) document.add_override(setting);
+  Frame frame;
+  frame.config = read_run_config(document, machine_kinds());
+  frame.config.storage.vq.iterations = 1;
+  resolve(frame.config);
+  Scene scene = open_scene(source);
+  const Camera camera = scaled_to(scene.cameras.front(), 72, 48);
+  frame.scene.emplace(prepare(std::move(scene), frame.config, {camera}));
+  frame.job = frame.config.design->job(frame.scene->stored, camera);
+  frame.result =
+      run_frame(*frame.config.design, frame.job, frame.scene->stored.image, frame.config.dram, {});
+  return frame;
+}
+
+void check_paid(const Frame& frame) {
+  for (const std::string& fault : ledger_faults(frame.result.machine, frame.result.cycles)) {
+    FAIL_CHECK(fault);
+  }
+}
+
+std::uint64_t items(const Frame& frame, const std::string& datapath) {
+  for (const auto& [d, count] : frame.result.machine.datapaths) {
+    if (d.name == datapath) return count;
+  }
+  FAIL("no datapath " << datapath);
+  return 0;
+}
+
+SramAccesses accesses(const Frame& frame, const std::string& use) {
+  for (const SramAccesses& a : frame.result.machine.sram_accesses) {
+    if (a.use == use) return a;
+  }
+  FAIL("no accesses of " << use);
+  return {};
+}
+
+std::uint64_t counter(const Frame& frame, const std::string& name) {
+  std::uint64_t sum = 0;
+  for (const UnitResult& unit : frame.result.machine.units) {
+    for (const CounterResult& c : unit.counters) sum += c.name == name ? c.value : 0;
+  }
+  return sum;
+}
+
+constexpr int kGroupPx = 24;
+const Settings kPlain = {"storage.encoding=raw", fmt::format("group_px={}", kGroupPx),
+                         "rendering.saturation_feedback=false"};
+// Nothing in it is finished early: what reaches a group late is still needed.
+constexpr const char* kSparse = "builtin:object?n=300";
+
+// The parts that both orders share, against a golden renderer's counts.
+void check_shared(const Frame& frame, const StreamingStats& golden) {
+  REQUIRE(counter(frame, "groups_saturated") == 0);
+  CHECK(items(frame, "coarse") == golden.first_halves);
+  CHECK(accesses(frame, "input").reads == golden.first_halves);
+  CHECK(items(frame, "fine") == golden.second_halves);
+  const std::uint64_t words = (frame.job.layout.second_halves.record_bytes + 31) / 32;
+  CHECK(accesses(frame, "second halves").reads == golden.second_halves * words);
+  // Every sub-tile is cleared and drained once beside its blends; and what comes before it is known
+  // that a sub-tile is finished is blended, and paid, for nothing.
+  const std::uint64_t subtiles = 72 / 4 * 48 / 4 + counter(frame, "subtile_blends_late");
+  CHECK(accesses(frame, "pixel state").reads == golden.subtile_blends + subtiles);
+  CHECK(accesses(frame, "pixel state").writes == golden.subtile_blends + subtiles);
+}
+
+TEST_CASE("ledger: exact order is charged with what the golden renderer counts") {
+  const Frame frame = simulated("exact", kPlain, kSparse);
+  check_paid(frame);
+  ExactOrderConfig order;
+  order.group_px = kGroupPx;
+  const ChunkTree& tree = frame.scene->stored.tree();
+  const StreamingStats golden =
+      render_exact_order(frame.job.view, frame.scene->stored.decoded, tree, order).stats;
+  check_shared(frame, golden);
+  // Children of the nodes that the walk opens, one by one.
+  TreeInMemory source{tree, {}};
+  ChunkWalk<TreeInMemory> walk(frame.job.view, source, 512);
+  for (const PixelRect& group : pixel_groups(72, 48, kGroupPx)) {
+    walk.start(group, false);
+    while (walk.next()) {
+    }
+  }
+  const std::uint64_t tests = walk.counters().tests;
+  const std::uint64_t operations = walk.counters().queue_operations;
+  CHECK(walk.counters().nodes == golden.nodes_read);
+  CHECK(tests >= 2 * golden.nodes_read);
+  CHECK(items(frame, "chunk_test") == tests);
+  CHECK(accesses(frame, "walk queue").reads == 9 * operations);  // 512 entries
+  // Every key that the coarse filter passes lies in a sorter, a queue and the heap once.
+  CHECK(accesses(frame, "key sorters").reads >= 2 * golden.coarse_passed);
+  CHECK(accesses(frame, "waiting keys").writes >= golden.coarse_passed);
+}
+
+TEST_CASE("ledger: paper order is charged with what the golden renderer counts") {
+  const Frame frame = simulated("paper_no_vq", kPlain, kSparse);
+  check_paid(frame);
+  PaperOrderConfig order;
+  order.group_px = kGroupPx;
+  const StreamingStats golden = render_paper_order(frame.job.view, frame.scene->stored.decoded,
+                                                   frame.scene->stored.grid(), order)
+                                    .stats;
+  check_shared(frame, golden);
+  CHECK(items(frame, "ray_step") == golden.ray_steps);
+  CHECK(accesses(frame, "ordering table").reads >= golden.edges_offered);
+  CHECK(accesses(frame, "ordered voxels").reads == golden.visits);
+  CHECK(accesses(frame, "sort buffers").reads >= golden.splats);
+}
+
+TEST_CASE("ledger: of a real frame, no line can be left out unseen") {
+  for (const char* preset : {"exact_vq", "paper"}) {
+    INFO(preset);
+    const Frame frame = simulated(preset, {"group_px=24"}, kSparse);
+    check_paid(frame);
+    const MachineResult& machine = frame.result.machine;
+    for (std::size_t i = 0; i < machine.sram_accesses.size(); ++i) {
+      MachineResult without = machine;
+      without.sram_accesses.erase(without.sram_accesses.begin() + static_cast<std::ptrdiff_t>(i));
+      CHECK(ledger_faults(without, frame.result.cycles).size() == 1);
+    }
+    for (const Operations& work : machine.operations) {
+      if (work.count == 0) continue;
+      INFO(work.component << " " << work.kind);
+      MachineResult without = machine;
+      without.parts.erase(std::remove_if(without.parts.begin(), without.parts.end(),
+                                         [&](const Parts& part) {
+                                           return part.component == work.component &&
+                                                  part.kind == work.kind;
+                                         }),
+                          without.parts.end());
+      CHECK(ledger_faults(without, frame.result.cycles).size() == 1);
+    }
+  }
+}
+
+// Values that a key may have; one of each is drawn.
+using Choices = std::map<std::string, std::vector<std::string>>;
+
+const Choices kShared = {{"hfus", {"1", "2", "4", "6"}},
+                         {"sorting_units", {"1", "2", "3"}},
+                         {"group_px", {"8", "16", "24", "48"}},
+                         {"hfu.cfus", {"1", "4"}},
+                         {"hfu.cfu_lanes", {"1", "4", "60"}},
+                         {"hfu.ffu_lanes", {"4", "16", "430"}},
+                         {"hfu.cost", {"paper", "counted"}},
+                         {"hfu.input_slots", {"2", "5"}},
+                         {"hfu.second_half_slots", {"1", "16"}},
+                         {"sorting.sort_interval_cycles", {"1", "3"}},
+                         {"sorting.merge_interval_cycles", {"1", "2"}},
+                         {"rendering.clusters", {"1", "4", "16"}},
+                         {"memory_port.max_writes", {"1", "4"}},
+                         {"dram.channels", {"1", "4"}},
+                         {"codebook.banks", {"1", "8"}},
+                         {"sram.shared_bytes", {"0"}},
+                         {"sram.input_bytes", {"0"}}};
+const Choices kExact = {{"vsu.test_lanes", {"8", "128", "600"}},
+                        {"vsu.queue_entries", {"9", "512"}},
+                        {"merge.entries", {"16", "300"}},
+                        {"merge.on_overflow", {"spill", "blend_early"}}};
+const Choices kPaper = {{"vsu.step_lanes", {"8", "128", "600"}},
+                        {"vsu.edges_per_cycle", {"1", "4"}},
+                        {"vsu.groups_ahead", {"1", "3"}},
+                        {"vsu.table_bytes", {"32768"}},
+                        {"sorting.buffer_entries", {"16", "256"}}};
+
+TEST_CASE("ledger: no part and no port does more than a frame has time for") {
+  struct Machine {
+    const char* preset;
+    const Choices& choices;
+  };
+  std::mt19937_64 random(11);
+  for (const auto& [preset, own] : {Machine{"exact", kExact}, Machine{"exact_vq", kExact},
+                                    Machine{"paper", kPaper}, Machine{"paper_no_vq", kPaper}}) {
+    for (int repeat = 0; repeat < 8; ++repeat) {
+      Settings settings = {"sram.codebook_bytes=256000"};
+      std::string all = preset;
+      for (const Choices* choices : {&kShared, &own}) {
+        for (const auto& [key, values] : *choices) {
+          settings.push_back(key + "=" + values[random() % values.size()]);
+          all += " " + settings.back();
+        }
+      }
+      INFO(all);
+      const Frame frame = simulated(preset, settings, "builtin:object?n=900");
+      check_paid(frame);
+      const auto cycles = static_cast<double>(frame.result.cycles);
+      for (const auto& [d, count] : frame.result.machine.datapaths) {
+        INFO(d.name);
+        CHECK(static_cast<double>(d.cycles(count)) <= cycles);
+      }
+      for (const LedgerLine& line : ledger_of(frame.result.machine)) {
+        INFO(line.what);
+        CHECK(line.done <= line.per_cycle * cycles);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test

@@ -1,0 +1,107 @@
+// The ledger of a machine written by hand: each way in which work can go unpaid is found and named.
+#include "testbench/result/ledger.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sgs::test {
+namespace {
+
+using Catch::Matchers::Contains;
+
+constexpr std::uint64_t kCycles = 100;
+
+// Two lanes, three comparators, four memories of two ports and one of one.
+MachineResult paid() {
+  MachineResult machine;
+  UnitResult unit;
+  unit.name = "adder";
+  unit.activities = {{"add", "adding", "adds", 60, {{WaitFor::kInput, "fifo", "", "", 40}}, ""}};
+  unit.charged = true;
+  machine.units = {unit};
+  machine.parts = {{"adder", "fp32_lane", 2, 2}, {"heap", "comparator", 3, 3}};
+  machine.operations = {{"adder", "fp32_lane", 200}, {"heap", "comparator", 300}};
+  const SramShape banks{32, SramPorts::kReadAndWrite, 2};
+  add(machine.sram_uses, sram_use("rows", "scratch", {{64, "B"}}, banks), 2);
+  add(machine.sram_uses, sram_use("table", "scratch", {{64, "B"}}, {32, SramPorts::kOne, 1}));
+  machine.sram_accesses = {{"rows", 400, 400}, {"table", 60, 40}};
+  return machine;
+}
+
+struct Fault {
+  const char* what;
+  std::function<void(MachineResult&)> plant;
+  const char* message;
+};
+
+TEST_CASE("ledger: a machine that pays for all has no fault, at full use too") {
+  CHECK(ledger_faults(paid(), kCycles).empty());
+  for (const LedgerLine& line : ledger_of(paid())) {
+    INFO(line.what);
+    CHECK(line.utilisation(kCycles) == Approx(1));
+  }
+}
+
+TEST_CASE("ledger: every kind of unpaid work is found by name") {
+  const std::vector<Fault> faults = {
+      {"a use without accesses",
+       [](MachineResult& m) {
+         add(m.sram_uses, sram_use("cache", "scratch", {{8, "B"}}, {32}));
+       },
+       "nobody says the accesses of \"cache\""},
+      {"accesses of nothing",
+       [](MachineResult& m) {
+         m.sram_accesses.push_back({"cache", 0, 0});
+       },
+       "\"cache\", which is no use"},
+      {"two uses of a name",
+       [](MachineResult& m) {
+         add(m.sram_uses, sram_use("rows", "scratch", {{8, "B"}}, {32}));
+       },
+       "two different uses of on-chip memory are named \"rows\""},
+      {"operations of no part",
+       [](MachineResult& m) {
+         m.operations.push_back({"x", "lane", 1});
+       },
+       "x: lane: 1 done, and nothing stands there"},
+      {"operations of another component's part",
+       [](MachineResult& m) {
+         m.operations.push_back({"heap", "fp32_lane", 1});
+       },
+       "heap: fp32_lane: 1 done"},
+      {"too many operations", [](MachineResult& m) { m.operations[1].count += 1; },
+       "heap: comparator: 301 done, 3 a cycle"},
+      {"too many reads", [](MachineResult& m) { m.sram_accesses[0].reads += 1; },
+       "rows: reads: 401 done, 4 a cycle"},
+      {"too many writes", [](MachineResult& m) { m.sram_accesses[0].writes += 1; },
+       "rows: writes: 401 done"},
+      {"too many accesses of one port", [](MachineResult& m) { m.sram_accesses[1].reads += 1; },
+       "table: accesses: 101 done, 1 a cycle"},
+      {"a busy unit that charges nothing", [](MachineResult& m) { m.units[0].charged = false; },
+       "adder was busy for 60 cycles and charged nothing"}};
+  for (const Fault& fault : faults) {
+    INFO(fault.what);
+    MachineResult machine = paid();
+    fault.plant(machine);
+    const std::vector<std::string> found = ledger_faults(machine, kCycles);
+    REQUIRE(found.size() >= 1);
+    bool named = false;
+    for (const std::string& text : found) {
+      INFO(text);
+      named = named || text.find(fault.message) != std::string::npos;
+    }
+    CHECK(named);
+  }
+}
+
+TEST_CASE("ledger: what was idle needs to have charged nothing") {
+  MachineResult machine = paid();
+  machine.units[0].charged = false;
+  machine.units[0].activities[0].busy_cycles = 0;
+  CHECK(ledger_faults(machine, kCycles).empty());
+}
+
+}  // namespace
+}  // namespace sgs::test

@@ -1,0 +1,35 @@
+// A datapath: lanes of one precision that stand in a unit, and what one item takes of them. Time,
+// area and energy of the unit's arithmetic all follow from this one struct.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sgs {
+
+struct Datapath {
+  std::string name;       // of what it does to an item: "coarse", "chunk_test"
+  std::string component;  // whose square millimetres and joules
+  std::string lane;       // row of the technology table: "fp32_lane", "fp16_lane"
+  // Lanes that work on one item, each a multiply-accumulate a cycle, and how often these stand
+  // there, side by side.
+  std::uint32_t lanes = 1, copies = 1;
+  // Multiply-accumulates of an item: charged, in time and energy; counted by running it, and
+  // published by the paper (0: not).
+  std::uint32_t used_macs = 0, counted_macs = 0, published_macs = 0;
+  std::vector<std::pair<std::string, std::uint64_t>> counts;  // by class of operation
+
+  std::uint64_t all_lanes() const { return std::uint64_t{lanes} * copies; }
+
+  // Cycles that the lanes of one copy are busy with an item: the next can start so much later.
+  std::uint64_t interval_cycles() const { return (used_macs + std::uint64_t{lanes} - 1) / lanes; }
+
+  // Fewest cycles of so many items in all copies.
+  std::uint64_t cycles(std::uint64_t items) const {
+    return (items * used_macs + all_lanes() - 1) / all_lanes();
+  }
+};
+
+}  // namespace sgs
