@@ -19,7 +19,9 @@ struct PaperConfig : StreamingConfig {
   PaperConfig() {
     sram = {16 * 1024, 250 * 1024, 89 * 1024};
     hfu.cost = FilterCost::kPaper;
-    hfu.candidate_fifo_entries = 14;  // what fits the paper's 89 KB with pixels in float
+    // What fits the paper's 89 KB with pixels in float.
+    hfu.candidate_fifo_entries = 14;
+    rendering.cluster_queue_entries = 3;
   }
 };
 
