@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -75,7 +77,12 @@ class Collector : public LeftOutCollector {
     if (reads + writes > 0) into_.units.back().charged = true;
   }
   void queue(FifoChannel& queue, const char* use) override {
-    if (queue.entry_bytes() > 0) accesses(use, queue.popped(), queue.pushed());
+    if (queue.entry_bytes() == 0) return;
+    accesses(use, queue.popped(), queue.pushed());
+    // Whoever puts entries in or takes them out is charged with that, wherever the queue is said.
+    for (const Activity* end : {queue.writer(), queue.reader()}) {
+      if (end != nullptr) movers_.insert(path_below(*end->get_parent_object(), machine_));
+    }
   }
   void port(MemoryPort& port, const char* writes) override {
     if (*writes != '\0') accesses(writes, port.words_written(), port.words_written());
@@ -84,8 +91,14 @@ class Collector : public LeftOutCollector {
     into_.sram_available.emplace_back(memory, bytes);
   }
 
-  // To be called when all units have published: a FIFO's remedy comes from who made it, not from
-  // who waits at it.
+  // To be called when all units have published: what concerns the ends of a FIFO comes from who made
+  // it, not from who is there.
+  void join_ends() {
+    for (UnitResult& unit : into_.units) unit.charged |= movers_.count(unit.name) > 0;
+    apply_remedies();
+  }
+
+ private:
   void apply_remedies() {
     const auto in = [](const auto& remedies, const auto& at) {
       const auto found = remedies.find(at);
@@ -103,7 +116,6 @@ class Collector : public LeftOutCollector {
     }
   }
 
- private:
   WaitResult wait_of(const Activity::Wait& wait, const Activity& waiting) const {
     WaitResult result{wait.what, "", "", "", wait.cycles};
     if (wait.at != nullptr) result.at = path_below(*wait.at, machine_);
@@ -129,6 +141,7 @@ class Collector : public LeftOutCollector {
 
   const Machine& machine_;
   MachineResult& into_;
+  std::set<std::string> movers_;  // units at an end of a FIFO that entries went through
   std::map<std::string, std::string> for_work_;
   std::map<std::pair<std::string, WaitFor>, std::string> for_waits_;
 };
@@ -170,7 +183,7 @@ MachineResult collect(Machine& machine) {
   MachineResult result;
   Collector collector(machine, result);
   machine.publish(collector);
-  collector.apply_remedies();
+  collector.join_ends();
   std::uint64_t idle = 0;
   for (const UnitResult& unit : result.units) {
     for (const ActivityResult& activity : unit.activities) idle += activity.busy_cycles == 0;

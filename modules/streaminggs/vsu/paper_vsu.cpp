@@ -76,8 +76,13 @@ GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
   const VoxelTableLayout& voxels = job_.layout.voxel_table();
   if (voxels.nodes.count == 0) return {};
   CachedTree tree(nodes_, node_memory, traverse_);
-  const auto on_ray = [this](std::uint32_t steps, std::size_t edges) {
-    traverse_.work(std::max(ray_steps_.cycles(steps), cycles_for(edges, config_.edges_per_cycle)));
+  // The cache gives a node a cycle.
+  std::uint64_t looked_up = nodes_.lookups();
+  const auto on_ray = [&](std::uint32_t steps, std::size_t edges) {
+    const std::uint64_t lookups = nodes_.lookups() - looked_up;
+    looked_up = nodes_.lookups();
+    traverse_.work(std::max({ray_steps_.cycles(steps), lookups,
+                             cycles_for(edges, config_.edges_per_cycle)}));
   };
   GroupVisits visits;
   if (config_.sample_step_voxels > 0) {

@@ -57,6 +57,7 @@ TEST_CASE("published rows: grouped writes cost the two turn-arounds a batch pair
   // (high - low) requests of two bursts, and 30 % of all bursts are writes.
   StreamBench bench;
   bench.dram.channels = 1;
+  bench.dram.front_end_ns = bench.dram.back_end_ns = 0;
   bench.dram.mapping = "row:rank:bank:column:channel";
   bench.stream.pattern = Pattern::kSequential;
   bench.stream.request_bytes = 64;
