@@ -216,6 +216,12 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("steps", expected.steps);
   bench.check_counter("edges", expected.edges);
   bench.check_operations("vsu", "fp32_lane", expected.steps * macs_of_a_step());
+  // Each voxel is opened, and two pieces for a cut; what is left of a finished group's is dropped.
+  const std::uint64_t pieces = bench.counter("voxels") + 2 * bench.counter("cuts");
+  bench.check_accesses("open pieces", visits + bench.counter("cuts"), pieces);
+  if (visits == expected.visits) {
+    checks.equal(pieces, visits + bench.counter("cuts"), "pieces opened and taken");
+  }
   bench.check_counter("groups_empty", expected.empty);
   bench.check_counter("ordering_table_bytes_max", expected.table_bytes_max);
   checks.equal(bench.busy_cycles("vsu"), expected.traverse_cycles, "busy cycles of the traversal");

@@ -192,6 +192,7 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.counter("edges", "edges", "offered to the ordering table", counters_.edges);
   sheet.counter("visits", "voxels", "or pieces of them handed out, once for each group",
                 counters_.visits);
+  sheet.counter("voxels", "voxels", "of these visits, whole or in pieces", counters_.voxels);
   sheet.counter("cuts", "cuts", "of voxels into pieces", counters_.cuts);
   sheet.counter("visits_saturated", "voxels", "left out: the group was finished",
                 counters_.visits_saturated);
