@@ -23,7 +23,10 @@ PAPER = "paper_no_vq"
 # The codebook buffer is idle with raw second halves; one group's pixels on chip leave room for
 # larger groups and longer sort buffers.
 SAME_SRAM = ("sram.codebook_bytes=0", "sram.shared_bytes=347136", "rendering.pixel_buffers=1")
-WIDE = (*SAME_SRAM, "vsu.table_bytes=16384", "group_px=128")
+# The points were searched with a fetch for each HFU, which is the faster reading, two lists of whole
+# voxels being sorted, and its input buffers.
+SPLIT = ("fetch=split", "hfu.slice_gaussians=128", "vsu.visit_gaussians=0")
+WIDE = (*SAME_SRAM, *SPLIT, "vsu.table_bytes=16384", "group_px=128")
 # VSU four times as fast; the largest sort buffers that fit beside a group of so many px.
 FASTER_VSU = ("vsu.step_lanes=512", "vsu.edges_per_cycle=4", "vsu.table_bytes=16384")
 SORT_BUFFER = {64: 2400, 96: 1550, 128: 367}
@@ -42,6 +45,7 @@ def chosen(scene: str) -> tuple[str, ...]:
     voxel, group_px = CHOSEN[scene]
     return (
         *SAME_SRAM,
+        *SPLIT,
         *FASTER_VSU,
         f"storage.voxel_size={voxel}",
         f"group_px={group_px}",

@@ -2,6 +2,7 @@
 #include "algorithm/memory/scene_layout.h"
 
 #include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
 namespace {
@@ -25,12 +26,15 @@ SceneLayout lay_out_voxels(const SecondHalfFormat& format, std::uint32_t gaussia
                            const VoxelFrame& frame, std::uint32_t nodes, std::uint32_t voxels) {
   SceneLayout layout;
   const std::uint64_t node_bytes = std::uint64_t{nodes} * sizeof(VoxelNode);
+  const std::uint64_t voxel_bytes = std::uint64_t{voxels} * sizeof(VoxelRecord);
+  const std::uint32_t cuts = cut_count(gaussians);
   const RegionSpan region =
-      layout.regions.add("voxel_table", node_bytes + std::uint64_t{voxels} * sizeof(VoxelRecord));
+      layout.regions.add("voxel_table", node_bytes + voxel_bytes + cuts * sizeof(float));
   VoxelTableLayout table;
   table.frame = frame;
   table.nodes = region.records(0, sizeof(VoxelNode), nodes);
   table.voxels = region.records(node_bytes, sizeof(VoxelRecord), voxels);
+  table.cuts = region.records(node_bytes + voxel_bytes, sizeof(float), cuts);
   layout.table = table;
   place_records(format, split_of(StorageOrder::kVoxels, format), gaussians, layout);
   layout.stored_bytes = layout.regions.next_base();

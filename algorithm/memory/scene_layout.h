@@ -20,7 +20,7 @@ RecordSplit split_of(StorageOrder order, const SecondHalfFormat& format);
 
 struct VoxelTableLayout {
   VoxelFrame frame;
-  RecordArray nodes, voxels;  // VoxelNode, VoxelRecord
+  RecordArray nodes, voxels, cuts;  // VoxelNode, VoxelRecord, float (voxel_cuts.h)
 };
 
 struct ChunkTableLayout {

@@ -81,6 +81,7 @@ class GroupStream {
     const std::uint32_t slot = pending_.top().slot;
     pending_.pop();
     ++stats_.second_halves;
+    ++stats_.fine_tests;
     const Gaussian<float>& g = cloud_.gaussians[slot];
     Splat splat;
     if (!make_geometry(view_, g, splat) || !reaches_group(splat, state_.pixels())) return;

@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "algorithm/render/blend_watch.h"
+#include "algorithm/render/group_parts.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/missed_splats.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
 namespace {
@@ -22,30 +24,70 @@ struct GridTable {
   const VoxelNode& node(std::uint32_t index) const { return grid.nodes[index]; }
 };
 
-// Splats of one visit, front to back, equal depths by slot.
-void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
-                     const VoxelRecord& voxel, const PixelRect& pixels, bool coarse_filter,
-                     std::vector<Splat>& run, StreamingStats& stats) {
-  run.clear();
+// A part of a group while it is being rendered.
+struct Part {
+  PixelRect pixels;
+  GroupState state;
+  BlendWatch watch;
+  std::vector<Splat> run;  // of one visit
+
+  Part(const PixelRect& at, const View<float>& view, BlendPrecision precision)
+      : pixels(at),
+        state(at, view.width, view.height, precision),
+        watch(state.subtile_count()) {}
+};
+
+bool all_saturated(const std::vector<Part>& parts) {
+  return std::all_of(parts.begin(), parts.end(),
+                     [](const Part& part) { return part.state.saturated(); });
+}
+
+// Splats of one visit into the parts that they reach, front to back, equal depths by slot.
+void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const VoxelRecord& voxel,
+                     bool coarse_filter, std::vector<Part>& parts, StreamingStats& stats) {
+  for (Part& part : parts) part.run.clear();
   for (std::uint32_t slot = voxel.first; slot < voxel.first + voxel.count; ++slot) {
     const Gaussian<float>& g = cloud.gaussians[slot];
-    if (coarse_filter) {
-      const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
-      const CoarseBound bound = coarse_bound(view, g.mean, scale_max);
-      if (!bound.in_front || !touches(bound, pixels)) continue;
-    }
-    ++stats.coarse_passed;
-    ++stats.second_halves;
+    const CoarseBound bound =
+        coarse_bound(view, g.mean, std::max({g.scale.x, g.scale.y, g.scale.z}));
+    const auto passes = [&](const Part& part) {
+      if (part.pixels.empty()) return false;
+      return !coarse_filter || (bound.in_front && touches(bound, part.pixels));
+    };
+    std::uint32_t tests = 0;
     Splat splat;
-    if (!make_geometry(view, g, splat) || !reaches_group(splat, pixels)) continue;
-    add_colour(view, cloud.sh_degree, g.mean, cloud.sh(slot), splat);
-    splat.index = slot;
-    run.push_back(splat);
+    bool on_screen = false, coloured = false;
+    for (Part& part : parts) {
+      if (!passes(part)) continue;
+      if (tests++ == 0) on_screen = make_geometry(view, g, splat);
+      if (!on_screen || !reaches_group(splat, part.pixels)) continue;
+      if (!coloured) add_colour(view, cloud.sh_degree, g.mean, cloud.sh(slot), splat);
+      coloured = true;
+      splat.index = slot;
+      part.run.push_back(splat);
+    }
+    stats.coarse_passed += tests > 0 ? 1 : 0;
+    stats.second_halves += tests > 0 ? 1 : 0;
+    stats.fine_tests += tests;
   }
-  std::sort(run.begin(), run.end(), in_front);
   stats.first_halves += voxel.count;
-  stats.splats += run.size();
-  stats.visit_splats_max = std::max<std::uint64_t>(stats.visit_splats_max, run.size());
+  for (Part& part : parts) {
+    std::sort(part.run.begin(), part.run.end(), in_front);
+    stats.splats += part.run.size();
+    stats.visit_splats_max = std::max<std::uint64_t>(stats.visit_splats_max, part.run.size());
+  }
+}
+
+// What is blended is seen: seen(slot).
+template <class Seen>
+void blend_run(Part& part, StreamingStats& stats, const Seen& seen) {
+  for (const Splat& splat : part.run) {
+    if (part.state.saturated()) return;
+    const auto observe = [&](const SubtileBlend& blend) {
+      if (part.watch.see(blend, splat.depth)) seen(splat.index);
+    };
+    stats.subtile_blends += part.state.blend(splat, observe).blended;
+  }
 }
 
 }  // namespace
@@ -72,6 +114,8 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
   out.frame.contributors.resize(pixels);
 
   const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group_px);
+  const std::vector<std::vector<PixelRect>> parts_of_groups =
+      group_parts(groups, static_cast<std::uint32_t>(config.group_px), config.parts);
   const MissedSplats missed(view, cloud, grid, config.group_px);
   std::vector<StreamingStats> stats(groups.size());
   out.group_voxels.resize(groups.size());
@@ -87,28 +131,32 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
     s.table_bytes_max = visits.table_bytes;
     s.missed = missed.count(index, visits.voxels);
 
-    GroupState state(group, view.width, view.height, config.precision);
-    BlendWatch watch(state.subtile_count());
-    std::vector<Splat> run;
+    std::vector<Part> parts;
+    for (const auto& part : parts_of_groups) {
+      parts.emplace_back(part[index], view, config.precision);
+    }
     for (const std::uint32_t voxel : visits.voxels) {
-      if (state.saturated()) {
+      if (all_saturated(parts)) {
         ++s.visits_saturated;
         continue;
       }
-      ++s.visits;
       visited.set(voxel);
-      filter_and_sort(view, cloud, grid, grid.voxels[voxel], group, config.coarse_filter, run, s);
-      for (const Splat& splat : run) {
-        if (state.saturated()) break;
-        const auto observe = [&](const SubtileBlend& blend) {
-          if (watch.see(blend, splat.depth)) contributing.set(splat.index);
-        };
-        s.subtile_blends += state.blend(splat, observe).blended;
-      }
+      const auto plane = [&](std::uint32_t index) { return grid.cuts[index]; };
+      const auto visit = [&](const VoxelRecord& piece) {
+        ++s.visits;
+        filter_and_sort(view, cloud, piece, config.coarse_filter, parts, s);
+        for (Part& part : parts) {
+          blend_run(part, s, [&](std::uint32_t slot) { contributing.set(slot); });
+        }
+        return !all_saturated(parts);
+      };
+      visit_pieces(grid.voxels[voxel], view.position, config.visit_gaussians, plane, visit);
     }
-    s.misordered = watch.misordered();
-    s.contributors = state.contributors();
-    state.store(config.background, out.frame);
+    for (const Part& part : parts) {
+      s.misordered += part.watch.misordered();
+      s.contributors += part.state.contributors();
+      part.state.store(config.background, out.frame);
+    }
     out.group_voxels[index] = std::move(visits.voxels);
   });
   for (const StreamingStats& s : stats) out.stats += s;

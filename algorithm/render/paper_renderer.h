@@ -16,6 +16,13 @@ struct PaperOrderConfig {
   int group_px = 64;             // side of a pixel group, a multiple of 4
   bool coarse_filter = true;     // off: every Gaussian of a voxel goes to the fine filter
   float sample_step_voxels = 0;  // 0: exact traversal of every cell; else the distance of samples
+  // Voxels with more Gaussians are cut (voxel_cuts.h), each piece a visit of its own; 0: never.
+  std::uint32_t visit_gaussians = 0;
+  // Parts of a group, each filtered and blended by itself (group_parts.h): a square number. In
+  // single precision the pixels are the same for any. In half they are not: rounding moves the
+  // ellipse's edge by some hundredths of a pixel, and which sub-tiles are tested against it follows
+  // from how many of a part's a splat may reach.
+  std::uint32_t parts = 1;
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
   glm::vec3 background{0.0F};
 };

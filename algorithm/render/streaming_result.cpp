@@ -10,7 +10,8 @@ StreamingStats& StreamingStats::operator+=(const StreamingStats& other) {
   for (const Count count :
        {&StreamingStats::groups, &StreamingStats::visits, &StreamingStats::visits_saturated,
         &StreamingStats::blocks_visited, &StreamingStats::first_halves,
-        &StreamingStats::coarse_passed, &StreamingStats::second_halves, &StreamingStats::splats,
+        &StreamingStats::coarse_passed, &StreamingStats::second_halves, &StreamingStats::fine_tests,
+        &StreamingStats::splats,
         &StreamingStats::subtile_blends, &StreamingStats::contributors,
         &StreamingStats::contributing, &StreamingStats::misordered, &StreamingStats::missed,
         &StreamingStats::ray_steps, &StreamingStats::edges_offered, &StreamingStats::nodes_read,

@@ -16,8 +16,9 @@ struct StreamingStats {
   std::uint64_t blocks_visited = 0;    // by at least one group
   std::uint64_t first_halves = 0;      // Gaussians seen by the coarse filter
   std::uint64_t coarse_passed = 0;     // of these
-  std::uint64_t second_halves = 0;     // seen by the fine filter
-  std::uint64_t splats = 0;            // that passed both
+  std::uint64_t second_halves = 0;     // fetched
+  std::uint64_t fine_tests = 0;        // of these, once for each part of a group that wants them
+  std::uint64_t splats = 0;            // that passed both, likewise
   std::uint64_t subtile_blends = 0;    // (splat, 4x4 sub-tile) pairs
   std::uint64_t contributors = 0;      // (splat, pixel) blends
   std::uint64_t contributing = 0;      // Gaussians blended into at least one pixel of the frame

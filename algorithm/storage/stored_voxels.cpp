@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <optional>
 
 #include "algorithm/input_error.h"
 #include "algorithm/storage/first_fault.h"
 #include "algorithm/storage/stored_tables.h"
+#include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
 namespace {
@@ -72,6 +74,26 @@ void check_records(const VoxelGrid& grid, std::uint32_t gaussians, const std::st
   }
 }
 
+// Each cut of a voxel lies between what it parts. Returns what is wrong.
+std::optional<std::string> fault_of_cuts(const VoxelGrid& grid, const ActivatedCloud& decoded,
+                                         const VoxelRecord& piece, int axis,
+                                         const std::string& source) {
+  if (piece.count <= kLeastCut) return {};
+  const std::uint32_t cut = cut_slot(piece), end = piece.first + piece.count;
+  const float plane = grid.cuts[cut_index(cut)];
+  for (std::uint32_t slot = piece.first; slot < end; ++slot) {
+    const float at = decoded.gaussians[slot].mean[axis];
+    if (slot < cut ? at <= plane : at >= plane) continue;
+    return fmt::format(
+        "{}: Gaussian in slot {}: got {} along axis {}, expected {} {}: its voxel "
+        "is cut there at slot {}",
+        source, slot, at, axis, slot < cut ? "at most" : "at least", plane, cut);
+  }
+  const int next = (axis + 1) % 3;
+  auto fault = fault_of_cuts(grid, decoded, {piece.first, cut - piece.first}, next, source);
+  return fault ? fault : fault_of_cuts(grid, decoded, {cut, end - cut}, next, source);
+}
+
 }  // namespace
 
 VoxelGrid read_voxel_table(const MemoryImage& image, const ActivatedCloud& decoded,
@@ -89,6 +111,10 @@ VoxelGrid read_voxel_table(const MemoryImage& image, const ActivatedCloud& decod
   if (layout.voxels.count > 0) {
     std::memcpy(grid.voxels.data(), image.at(layout.voxels.base),
                 grid.voxels.size() * sizeof(VoxelRecord));
+  }
+  grid.cuts.resize(layout.cuts.count);
+  if (layout.cuts.count > 0) {
+    std::memcpy(grid.cuts.data(), image.at(layout.cuts.base), grid.cuts.size() * sizeof(float));
   }
 
   check_records(grid, gaussians, source);
@@ -111,7 +137,7 @@ VoxelGrid read_voxel_table(const MemoryImage& image, const ActivatedCloud& decod
             source, slot, cell, axis, cells[v][axis], v);
       }
     }
-    return {};
+    return fault_of_cuts(grid, decoded, record, 0, source);
   });
   if (fault) throw InputError(*fault);
   return grid;

@@ -99,6 +99,7 @@ MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid)
   const VoxelTableLayout& table = image.layout.voxel_table();
   store_table(grid.nodes, table.nodes.base, image);
   store_table(grid.voxels, table.voxels.base, image);
+  store_table(grid.cuts, table.cuts.base, image);
   return image;
 }
 

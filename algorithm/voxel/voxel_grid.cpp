@@ -12,6 +12,7 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/splat/footprint.h"
+#include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
 namespace {
@@ -137,6 +138,8 @@ Arrangement<VoxelGrid> arrange_by_voxels(const ActivatedCloud& cloud, float voxe
     ++grid.voxels.back().count;
     out.storage_order.push_back(index);
   }
+
+  grid.cuts = cut_voxels(cloud, grid.voxels, out.storage_order);
 
   // Levels bottom up, stored top down: the base of each level is known once all are counted.
   std::vector<std::vector<VoxelNode>> levels;

@@ -60,8 +60,8 @@ void ExactMachine::add_fifos() {
 }
 
 void ExactMachine::bind() {
-  vsu_->finished(finished_groups_);
-  merge_->finished(finished_groups_);
+  vsu_->finished(*finished_groups_[0]);
+  merge_->finished(*finished_groups_[0]);
   for (std::uint32_t h = 0; h < config_.hfus; ++h) {
     vsu_->visits(*visits_[h]);
     for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
@@ -72,7 +72,7 @@ void ExactMachine::bind() {
     merge_->released(*released_[h]);
     hfus_[h]->fine.candidates(*released_[h]);
     hfus_[h]->fine.splats(*splats_[h]);
-    rendering_->splats(*splats_[h]);
+    rendering_[0]->splats(*splats_[h]);
   }
   for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {
     sorters_[s]->sorted(*sorted_keys_[s]);
@@ -86,7 +86,7 @@ void ExactMachine::publish_units(DataSheet& sheet) {
   for (const auto& hfu : hfus_) hfu->publish(sheet);
   for (const auto& sorter : sorters_) sorter->publish(sheet);
   merge_->publish(sheet);
-  rendering_->publish(sheet);
+  rendering_[0]->publish(sheet);
 }
 
 }  // namespace sgs

@@ -2,6 +2,7 @@
 // asks sees it `latency` cycles after it was known, and drops what is left of the group.
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <systemc>
@@ -54,6 +55,25 @@ class FinishedGroups : public sc_core::sc_prim_channel,
 };
 
 using FinishedGroupsIn = sc_core::sc_port<FinishedGroupsIf>;
+// One for each part of the groups, in their order.
+using FinishedGroupsIns = sc_core::sc_port<FinishedGroupsIf, 0>;
 using FinishGroupOut = sc_core::sc_port<FinishGroupIf>;
+
+// How many parts are in a set of them, a bit each.
+inline std::uint32_t count_parts(std::uint32_t parts) {
+  return static_cast<std::uint32_t>(std::bitset<32>(parts).count());
+}
+
+// Parts of the group that are not finished, a bit each.
+inline std::uint32_t unfinished_parts(FinishedGroupsIns& parts, std::uint32_t group) {
+  std::uint32_t open = 0;
+  for (int p = 0; p < parts.size(); ++p) open |= parts[p]->finished(group) ? 0U : 1U << p;
+  return open;
+}
+
+// All parts of the group are finished.
+inline bool all_finished(FinishedGroupsIns& parts, std::uint32_t group) {
+  return unfinished_parts(parts, group) == 0;
+}
 
 }  // namespace sgs

@@ -27,7 +27,8 @@ struct VisitShare {
 
 // Coarse filter -> (sorting -> merge, in exact order) -> second-half fetch -> fine filter.
 struct FineCandidate {
-  static constexpr std::uint32_t kSramBytes = 28;  // depth, slot, centre, what is carried
+  // Slot, centre, what is carried, and depth or parts: paper order sorts later.
+  static constexpr std::uint32_t kSramBytes = 28;
   std::uint32_t group = 0;
   std::uint32_t visit = 0;
   std::uint32_t slot = 0;
@@ -37,6 +38,7 @@ struct FineCandidate {
   CarriedWords carried{};    // of the first half, for the second
   std::uint64_t ticket = 0;  // of the second half's read
   std::uint32_t buffer = 0;  // where it lands
+  std::uint32_t parts = 1;   // of the group that it may touch, a bit each
   Mark mark = Mark::kNone;   // with a mark there is no Gaussian
 };
 

@@ -1,6 +1,9 @@
 // Keys and on-chip memory of the machine of paper order.
 #include "modules/streaminggs/paper_config.h"
 
+#include <fmt/format.h>
+
+#include "algorithm/input_error.h"
 #include "modules/streaminggs/sorting/paper_sorter.h"
 #include "modules/streaminggs/streaming_sram.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"
@@ -9,29 +12,54 @@ namespace sgs {
 
 void visit(ConfigVisitor& v, PaperConfig& c) {
   visit_head(v, c);
+  v("fetch", c.fetch, names<Fetch>({{"shared", Fetch::kShared}, {"split", Fetch::kSplit}}),
+    "shared: one feeds all HFUs, each with its part of the group; split: each its part of a visit");
   v.section("vsu", c.vsu, "voxel sorting unit");
   v.section("sorting", c.sorting, "each sorting unit");
   visit_tail(v, c);
 }
 
+void check(const PaperConfig& c) {
+  check_parts(c);
+  if (c.lists() % c.sorting_units != 0 || c.sorting_units % c.lists_of_part() != 0) {
+    throw InputError(fmt::format(
+        "sorting_units: got {} with fetch shared, expected a divisor or a multiple of hfus {}",
+        c.sorting_units, c.hfus));
+  }
+  if (c.sorting.buffer_entries < 4 * c.sorting.spill_block_entries) {
+    throw InputError(fmt::format(
+        "sorting.buffer_entries: got {} splats, expected at least {}: two runs are merged with two "
+        "blocks of {} each",
+        c.sorting.buffer_entries, 4 * c.sorting.spill_block_entries,
+        c.sorting.spill_block_entries));
+  }
+}
+
 PaperFifos::PaperFifos(const PaperConfig& c)
     : candidates{"candidates",
                  "candidates",
-                 c.hfus,
+                 c.fetches(),
                  c.hfu.candidate_fifo_entries,
                  c.hfu.cfu_depth_cycles,
                  "hfu.candidate_fifo_entries"},
-      splats{"splats to sorting",      "splats",
-             c.hfus * c.sorting_units, c.sorting.input_fifo_entries,
-             c.hfu.ffu_depth_cycles,   "sorting.input_fifo_entries"},
-      sorted{"splats to rendering",          "splats", c.sorting_units,
-             c.rendering.input_fifo_entries, 1,        "rendering.input_fifo_entries"} {}
+      splats{"splats to sorting",
+             "splats",
+             c.fetches() * c.lists(),
+             c.sorting.input_fifo_entries,
+             c.hfu.ffu_depth_cycles,
+             "sorting.input_fifo_entries"},
+      sorted{"splats to rendering",
+             "splats",
+             c.lists(),
+             c.rendering.input_fifo_entries,
+             1,
+             "rendering.input_fifo_entries"} {}
 
 SramUses sram_uses(const PaperConfig& c, const StorageConfig& storage) {
   const BuiltFor made = built_for(c, storage);
   SramUses uses = streaming_sram_uses(c, made);
   add(uses, PaperVsu::sram_uses(c.vsu));
-  add(uses, PaperSorter::sram_uses(c.sorting, made), c.sorting_units);
+  add(uses, PaperSorter::sram_uses(c.sorting, made), c.lists());
   const PaperFifos fifos(c);
   for (const SramUse& use : {fifos.candidates.all(), fifos.splats.all(), fifos.sorted.all()}) {
     add(uses, use);

@@ -1,6 +1,8 @@
 // What can be chosen about the machine of paper order.
 #pragma once
 
+#include <algorithm>
+
 #include "algorithm/memory/storage_config.h"
 #include "modules/streaminggs/fifo_kind.h"
 #include "modules/streaminggs/messages.h"
@@ -18,14 +20,25 @@ struct PaperConfig : StreamingConfig {
   // The paper's memories, and the multiply-accumulates that it states.
   PaperConfig() {
     sram = {16 * 1024, 250 * 1024, 89 * 1024};
+    fetch = Fetch::kShared;
     hfu.cost = FilterCost::kPaper;
-    // What fits the paper's 89 KB with pixels in float.
-    hfu.candidate_fifo_entries = 14;
-    rendering.cluster_queue_entries = 3;
+    hfu.slice_gaussians = 512;  // 8 KB, twice
+    group_px = 64;              // with pixels of 8 B: 32 KB of the paper's 89
+    rendering.precision = BlendPrecision::kHalf;
+    rendering.pixel_buffers = 1;
   }
+
+  // Lists that are sorted side by side: those of one part of the groups, and of all. A network
+  // serves several lists in turn where there are more lists than networks.
+  std::uint32_t lists_of_part() const { return std::max(1U, sorting_units / parts()); }
+  std::uint32_t lists() const { return parts() * lists_of_part(); }
+  std::uint32_t lists_of_network() const { return lists() / sorting_units; }
 };
 
 void visit(ConfigVisitor& v, PaperConfig& config);
+
+// Throws InputError for what cannot be built.
+void check(const PaperConfig& config);
 
 // FIFOs between its units, beside those of visits.
 struct PaperFifos {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "algorithm/input_error.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/visited_in_order.h"
+#include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/paper_machine.h"
 #include "modules/streaminggs/streaming_design.h"
 #include "modules/streaminggs/streaming_sram.h"
@@ -16,28 +16,24 @@
 namespace sgs {
 namespace {
 
-// For each sorting unit two copies of the largest voxel's splats.
+// For each list that is being sorted two copies of the longest; none where every list fits.
 std::uint64_t spill_bytes(const PaperConfig& config, const VoxelGrid& grid) {
+  const std::uint32_t most = config.vsu.visit_gaussians;
+  if (most > 0 && std::max(most, kLeastCut) <= config.sorting.buffer_entries) return 0;
   std::uint64_t longest = 0;
   for (const VoxelRecord& voxel : grid.voxels) {
     longest = std::max<std::uint64_t>(longest, voxel.count);
   }
-  return config.sorting_units * 2 * longest * kSplatEntryBytes;
+  return config.lists() * 2 * longest * kSplatEntryBytes;
 }
 
 }  // namespace
 
 void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   storage_ = storage;
+  check(config_);
   resolve_sram(
       config_, storage_, [&] { return sram_uses(config_, storage_); }, chosen);
-  const PaperSorterConfig& sorting = config_.sorting;
-  if (sorting.buffer_entries < 4 * sorting.spill_block_entries) {
-    throw InputError(fmt::format(
-        "sorting.buffer_entries: got {} splats, expected at least {}: two runs are merged with two "
-        "blocks of {} each",
-        sorting.buffer_entries, 4 * sorting.spill_block_entries, sorting.spill_block_entries));
-  }
 }
 
 void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
@@ -54,6 +50,8 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.group_px = static_cast<int>(config_.group_px);
   order.coarse_filter = config_.hfu.coarse_filter;
   order.sample_step_voxels = static_cast<float>(config_.vsu.sample_step_voxels);
+  order.visit_gaussians = config_.vsu.visit_gaussians;
+  order.parts = config_.parts();
   order.precision = config_.rendering.precision;
   order.background = job.background;
   StreamingResult result = render_paper_order(job.view, scene.decoded, scene.grid(), order);

@@ -20,11 +20,11 @@ class PaperMachine : public StreamingMachine {
   void publish_units(DataSheet& sheet) override;
 
   const PaperConfig config_;
-  Fifos<FineCandidate> candidates_;  // [HFU]
-  Fifos<SplatToken> splats_;         // [sorting unit, HFU]
-  Fifos<SplatToken> sorted_;         // [sorting unit]
+  Fifos<FineCandidate> candidates_;  // [fetch]
+  Fifos<SplatToken> splats_;         // [list, fetch]
+  Fifos<SplatToken> sorted_;         // [list]
   std::unique_ptr<PaperVsu> vsu_;
-  std::vector<std::unique_ptr<PaperSorter>> sorters_;
+  std::vector<std::unique_ptr<PaperSorter>> sorters_;  // [list]: those of a part one after another
 };
 
 }  // namespace sgs

@@ -9,6 +9,7 @@
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/constants.h"
 #include "modules/memory_port_keys.h"
+#include "algorithm/render/group_parts.h"
 
 namespace sgs {
 
@@ -39,6 +40,26 @@ void visit_tail(ConfigVisitor& v, StreamingConfig& c) {
   v.section("memory_port", c.memory_port, "how units talk to memory");
 }
 
+// Each part of a group has its share of everything behind the fetch.
+void check_parts(const StreamingConfig& c) {
+  const std::uint32_t parts = c.parts();
+  if (parts_across(parts) == 0 || parts > kMostParts) {
+    throw InputError(
+        fmt::format("hfus: got {} with fetch shared, expected a square number up to {}: each has "
+                    "its part of a square group",
+                    parts, kMostParts));
+  }
+  for (const auto& [key, value] :
+       {std::pair{"rendering.clusters", c.rendering.clusters},
+        {"rendering.span_lanes", c.rendering.span_lanes},
+        {"rendering.drain_pixels_per_cycle", c.rendering.drain_pixels_per_cycle}}) {
+    if (value % parts != 0) {
+      throw InputError(fmt::format("{}: got {} with fetch shared, expected a multiple of hfus {}",
+                                   key, value, parts));
+    }
+  }
+}
+
 BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) {
   constexpr int kMostDegree = 3;
   BuiltFor out;
@@ -53,6 +74,19 @@ BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) 
   out.chunk_gaussians = storage.chunk_gaussians;
   out.memory_port = config.memory_port;
   return out;
+}
+
+RenderingConfig rendering_of_part(const StreamingConfig& c) {
+  RenderingConfig part = c.rendering;
+  part.clusters /= c.parts();
+  part.span_lanes /= c.parts();
+  part.drain_pixels_per_cycle /= c.parts();
+  return part;
+}
+
+BuiltFor built_for_part(const StreamingConfig& c, BuiltFor built_for) {
+  built_for.group_px = part_px(built_for.group_px, c.parts());
+  return built_for;
 }
 
 void check(const StreamingConfig& c, const StorageConfig& storage) {

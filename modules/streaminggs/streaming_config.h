@@ -21,17 +21,28 @@ struct SramConfig {
   std::uint32_t shared_bytes;    // everything between the stages
 };
 
+// Who fetches what the HFUs filter.
+enum class Fetch {
+  kShared,  // one fetch feeds all: each HFU tests every Gaussian against its part of the group
+  kSplit    // each HFU fetches its share of a visit and tests it against the whole group
+};
+
 struct StreamingConfig {
   double clock_mhz = 1000;
   std::uint32_t group_px = 32;  // 0: as large as the SRAM allows
   FrameFormat framebuffer = FrameFormat::kRgb8;
   std::uint32_t hfus = 4;
+  Fetch fetch = Fetch::kSplit;  // a key of paper order
   std::uint32_t sorting_units = 2;
   SramConfig sram{};
   HfuConfig hfu;
   CodebookConfig codebook;
   RenderingConfig rendering;
   MemoryPortConfig memory_port;  // of each unit's port
+
+  // HFUs behind one fetch, each with its part of a group; and how many fetches there are.
+  std::uint32_t parts() const { return fetch == Fetch::kShared ? hfus : 1; }
+  std::uint32_t fetches() const { return hfus / parts(); }
 };
 
 void visit(ConfigVisitor& v, SramConfig& config);
@@ -43,7 +54,14 @@ void visit_tail(ConfigVisitor& v, StreamingConfig& config);
 // full codebooks.
 BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage);
 
-// Throws InputError for what neither order can build.
+// What one part of the groups has of it: its share of the rendering unit, and buffers for its
+// pixels.
+RenderingConfig rendering_of_part(const StreamingConfig& config);
+BuiltFor built_for_part(const StreamingConfig& config, BuiltFor built_for);
+
+// Throw InputError: HFUs that share a fetch and whose parts of a group do not come out even; what
+// neither order can build.
+void check_parts(const StreamingConfig& config);
 void check(const StreamingConfig& config, const StorageConfig& storage);
 
 }  // namespace sgs

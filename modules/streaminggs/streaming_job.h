@@ -10,6 +10,8 @@ namespace sgs {
 
 struct StreamingJob : FrameJob {
   std::vector<PixelRect> groups;  // in the order in which they are rendered
+  // [part][group] what each of the HFUs that share a fetch has of a group; one part: all of it.
+  std::vector<std::vector<PixelRect>> parts;
 };
 
 }  // namespace sgs

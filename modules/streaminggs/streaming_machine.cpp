@@ -5,6 +5,17 @@
 #include "modules/streaminggs/streaming_sram.h"
 
 namespace sgs {
+namespace {
+
+// The job of what renders one part of the groups: its pixels in place of theirs.
+StreamingJob job_of_part(const StreamingJob& job, std::uint32_t part) {
+  StreamingJob out = job;
+  out.groups = job.parts[part];
+  out.parts = {out.groups};
+  return out;
+}
+
+}  // namespace
 
 StreamingMachine::StreamingMachine(const sc_core::sc_module_name& name,
                                    const StreamingConfig& config, const StreamingJob& job,
@@ -15,25 +26,50 @@ StreamingMachine::StreamingMachine(const sc_core::sc_module_name& name,
       built_for_(built_for),
       options_(options),
       clock_(config.clock_mhz, options.process_order),
-      finished_groups_("finished_groups", clock_, job.groups.size(),
-                       config.rendering.feedback_latency_cycles),
-      hfus_(config.hfus) {
-  for (std::uint32_t h = 0; h < config.hfus; ++h) {
+      hfus_(config.fetches()),
+      rendering_(config.parts()) {
+  for (std::uint32_t p = 0; p < config.parts(); ++p) part_jobs_.push_back(job_of_part(job_, p));
+  make_finished_groups();
+  for (std::uint32_t h = 0; h < config.fetches(); ++h) {
     add_fifo(visits_, fmt::format("visits_to_hfu{}", h), visit_fifos(config));
   }
 }
 
+std::string StreamingMachine::name_of_part(const char* what, std::uint32_t part) const {
+  return config_.parts() > 1 ? fmt::format("{}{}", what, part) : what;
+}
+
+// A part of a group that has no pixels is finished from the start.
+void StreamingMachine::make_finished_groups() {
+  for (std::uint32_t p = 0; p < config_.parts(); ++p) {
+    const std::vector<PixelRect>& groups = part_jobs_[p].groups;
+    finished_groups_.push_back(
+        std::make_unique<FinishedGroups>(name_of_part("finished_groups", p).c_str(), clock_,
+                                         groups.size(), config_.rendering.feedback_latency_cycles));
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+      if (groups[g].empty()) finished_groups_[p]->finish(g, 0);
+    }
+  }
+}
+
 void StreamingMachine::make_units(Construction parts, Rejects rejects, Arrival arrival) {
-  for (std::uint32_t h = 0; h < config_.hfus; ++h) {
+  for (std::uint32_t h = 0; h < config_.fetches(); ++h) {
     parts.push_back([this, h, rejects] {
-      hfus_[h] = std::make_unique<Hfu>(fmt::format("hfu{}", h).c_str(), config_.hfu,
-                                       config_.codebook, FineFilterPlace{h, rejects}, context());
+      hfus_[h] =
+          std::make_unique<Hfu>(fmt::format("hfu{}", h).c_str(), config_.hfu, config_.codebook,
+                                FineFilterPlace{h * config_.parts(), rejects}, context());
     });
   }
-  parts.push_back([this, arrival] {
-    rendering_ = std::make_unique<RenderingUnit>("rendering", config_.rendering, arrival, context(),
-                                                 [this] { finish_frame(); });
-  });
+  for (std::uint32_t p = 0; p < config_.parts(); ++p) {
+    parts.push_back([this, p, arrival] {
+      rendering_[p] = std::make_unique<RenderingUnit>(name_of_part("rendering", p).c_str(),
+                                                      rendering_of_part(config_), arrival,
+                                                      part_context(p), [this] {
+                                                        if (++parts_done_ == config_.parts())
+                                                          finish_frame();
+                                                      });
+    });
+  }
   if (job_.layout.second_half.quantised()) {
     parts.push_back([this] {
       codebooks_ = std::make_unique<CodebookBuffer>("codebooks", config_.codebook, context(),
@@ -42,12 +78,16 @@ void StreamingMachine::make_units(Construction parts, Rejects rejects, Arrival a
   }
   construct(std::move(parts), options_.process_order);
 
-  rendering_->finish(finished_groups_);
-  for (std::uint32_t h = 0; h < config_.hfus; ++h) {
+  for (std::uint32_t p = 0; p < config_.parts(); ++p) {
+    rendering_[p]->finish(*finished_groups_[p]);
+  }
+  for (std::uint32_t h = 0; h < config_.fetches(); ++h) {
     hfus_[h]->coarse.shares(*visits_[h]);
-    hfus_[h]->coarse.finished(finished_groups_);
-    hfus_[h]->fine.finished(finished_groups_);
     if (codebooks_) hfus_[h]->fine.codebooks(*codebooks_);
+    for (const auto& finished : finished_groups_) {
+      hfus_[h]->coarse.finished(*finished);
+      hfus_[h]->fine.finished(*finished);
+    }
   }
 }
 

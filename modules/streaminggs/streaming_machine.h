@@ -34,6 +34,8 @@ class StreamingMachine : public Machine {
   const BuiltFor built_for_;
   const BuildOptions options_;
   const ClockDomain clock_;
+  std::vector<StreamingJob> part_jobs_;  // [part]
+  std::uint32_t parts_done_ = 0;
   struct Queue {
     FifoChannel* fifo;
     SramUse use;
@@ -58,6 +60,10 @@ class StreamingMachine : public Machine {
   }
 
   UnitContext context() const { return {clock_, job_, built_for_}; }
+  // For units that have one part of the groups: its pixels are their groups.
+  UnitContext part_context(std::uint32_t part) const {
+    return {clock_, part_jobs_[part], built_for_part(config_, built_for_)};
+  }
   const StreamingJob& job() const { return job_; }
 
   // Makes the shared units and those of the order, in the order of construction that is asked for,
@@ -68,11 +74,15 @@ class StreamingMachine : public Machine {
   // The units in the order of the pipeline.
   virtual void publish_units(DataSheet& sheet) = 0;
 
-  FinishedGroups finished_groups_;
-  Fifos<VisitShare> visits_;                   // [HFU]
+  std::vector<std::unique_ptr<FinishedGroups>> finished_groups_;  // [part]
+  Fifos<VisitShare> visits_;                                      // [fetch]
   std::unique_ptr<CodebookBuffer> codebooks_;  // null where second halves are not quantised
-  std::vector<std::unique_ptr<Hfu>> hfus_;
-  std::unique_ptr<RenderingUnit> rendering_;
+  std::vector<std::unique_ptr<Hfu>> hfus_;     // [fetch]
+  std::vector<std::unique_ptr<RenderingUnit>> rendering_;  // [part]
+
+ private:
+  void make_finished_groups();
+  std::string name_of_part(const char* what, std::uint32_t part) const;
 };
 
 }  // namespace sgs

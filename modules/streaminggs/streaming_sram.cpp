@@ -46,12 +46,14 @@ void size(const char* key, std::uint32_t& bytes, const SramUses& uses, const std
 }  // namespace
 
 FifoKind<VisitShare> visit_fifos(const StreamingConfig& c) {
-  return {"visits", "visits", c.hfus, kVisitFifoEntries, 1};
+  return {"visits", "visits", c.fetches(), kVisitFifoEntries, 1};
 }
 
 SramUses streaming_sram_uses(const StreamingConfig& c, const BuiltFor& built_for) {
-  SramUses uses = RenderingUnit::sram_uses(c.rendering, built_for);
-  add(uses, Hfu::sram_uses(c.hfu, built_for), c.hfus);
+  SramUses uses;
+  add(uses, RenderingUnit::sram_uses(rendering_of_part(c), built_for_part(c, built_for)),
+      c.parts());
+  add(uses, Hfu::sram_uses(c.hfu, built_for, c.parts()), c.fetches());
   add(uses, visit_fifos(c).all());
   return uses;
 }

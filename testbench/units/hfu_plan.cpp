@@ -51,9 +51,9 @@ ExpectedShare expect(const HfuPlan& plan, const VisitShare& share) {
   for (std::uint32_t slot = share.first; slot < share.first + share.count; ++slot) {
     const DecodedGaussian decoded = decode_slot(scene, slot);
     const Gaussian<float>& g = decoded.gaussian;
-    const bool near =
-        test_first_half(scene.job.layout.split, first_half_of(scene, slot), scene.job.view, pixels)
-            .touches;
+    const bool near = touches(
+        bound_first_half(scene.job.layout.split, first_half_of(scene, slot), scene.job.view),
+        pixels);
     out.passes.push_back(near || !plan.config.coarse_filter);
     if (scene.job.layout.second_half.quantised()) out.lines.push_back(lines_of(plan, slot));
     Splat splat{};

@@ -87,6 +87,7 @@ TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   StreamingJob& job = scene.job;
   job.view = make_view<float>(camera);
   job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
+  job.parts = {job.groups};
   // Records as the order has them, in the order of the grid; the tree's nodes are not read.
   constexpr std::uint32_t kChunkGaussians = 16;
   scene.image =

@@ -37,6 +37,7 @@ StreamingJob frame_job(int width_px, int height_px, int group_px, FrameFormat fo
   job.background = {0.25F, 0.5F, 0.75F};
   job.frame_format = format;
   job.groups = pixel_groups(width_px, height_px, group_px);
+  job.parts = {job.groups};
   place(layout, spill_bytes, job);
   return job;
 }

@@ -62,6 +62,113 @@ void exact_coarse_time(Case& test, std::uint32_t n) {
   bench.check_counter("second_halves", 0);
 }
 
+// Quadrants of 8 px of each group of 16.
+std::vector<std::vector<PixelRect>> quadrants(const std::vector<PixelRect>& groups) {
+  std::vector<std::vector<PixelRect>> parts(4);
+  for (const PixelRect& group : groups) {
+    for (int p = 0; p < 4; ++p) {
+      const int x = group.x0 + p % 2 * 8, y = group.y0 + p / 2 * 8;
+      const PixelRect cut = intersection({x, y, x + 8, y + 8}, group);
+      parts[static_cast<std::size_t>(p)].push_back(cut.empty() ? PixelRect{x, y, x, y} : cut);
+    }
+  }
+  return parts;
+}
+
+// Four HFUs behind one fetch: each part of a group gets the splats that one HFU would make for it
+// alone, and every half is read once.
+void shared_fetch(Case& test, SecondHalfEncoding encoding, std::uint32_t slots) {
+  constexpr std::uint32_t kParts = 4;
+  SceneShape shape;
+  shape.encoding = encoding;
+  HfuPlan plan = plan_of(random_scene(test.random, shape));
+  plan.config.second_half_slots = slots;
+  plan.sorting_units = 1;
+  add_shares(test.random, plan, 3, 150);
+  const std::vector<PixelRect> groups = plan.scene.job.groups;
+  plan.scene.job.parts = quadrants(groups);
+  UnitBench bench(test, still_bench(plan));
+  Checks& checks = bench.checks();
+  bench.load(0, plan.scene.image.bytes);
+  auto& input = bench.add_fifo<VisitShare>("shares", 4, 1);
+  auto& candidates = bench.add_fifo<FineCandidate>("candidates", 16, 12);
+  const auto outputs = bench.add_fifos<SplatToken>("to_part", kParts, 4, 1);
+  std::unique_ptr<CodebookBuffer> codebooks;
+  if (plan.scene.job.layout.second_half.quantised()) {
+    CodebookConfig full = plan.codebook;
+    full.preloaded = true;
+    codebooks = std::make_unique<CodebookBuffer>("codebooks", full, bench.context(plan.scene.job),
+                                                 bench.instant_end(), kParts);
+    bench.add_unit(*codebooks);
+  }
+  std::vector<std::unique_ptr<FinishedGroups>> finished;
+  Hfu unit("hfu", plan.config, plan.codebook, FineFilterPlace{0, Rejects::kDropped},
+           bench.context(plan.scene.job));
+  unit.coarse.shares(input);
+  unit.coarse.survivors(candidates);
+  unit.fine.candidates(candidates);
+  if (codebooks) unit.fine.codebooks(*codebooks);
+  for (std::uint32_t p = 0; p < kParts; ++p) {
+    finished.push_back(std::make_unique<FinishedGroups>(fmt::format("finished{}", p).c_str(),
+                                                        bench.clock(), groups.size(), 1));
+    unit.coarse.finished(*finished.back());
+    unit.fine.finished(*finished.back());
+    unit.fine.splats(*outputs[p]);
+  }
+  bench.add_unit(unit);
+  bench.add_thread("vsu", [&](Activity& activity) {
+    for (const VisitShare& share : plan.shares) input.push(share, activity);
+  });
+  // [share][slot] parts that it passes for.
+  std::vector<std::vector<std::uint32_t>> wanted;
+  std::uint64_t first_halves = 0;
+  for (const VisitShare& share : plan.shares) {
+    wanted.emplace_back(share.count, 0U);
+    first_halves += share.count;
+  }
+  for (std::uint32_t p = 0; p < kParts; ++p) {
+    HfuPlan alone = plan;
+    alone.scene.job.groups = plan.scene.job.parts[p];
+    std::vector<std::vector<Splat>> splats;
+    for (std::size_t k = 0; k < plan.shares.size(); ++k) {
+      const ExpectedShare expected = expect(alone, plan.shares[k]);
+      const bool pixels = !alone.scene.job.groups[plan.shares[k].group].empty();
+      for (std::size_t i = 0; i < wanted[k].size(); ++i) {
+        wanted[k][i] += pixels && expected.passes[i] ? 1 : 0;
+      }
+      splats.push_back(pixels ? expected.splats : std::vector<Splat>{});
+    }
+    bench.add_thread(fmt::format("part{}", p), [&, p, splats](Activity& activity) {
+      for (std::size_t k = 0; k < plan.shares.size(); ++k) {
+        std::vector<std::uint32_t> got, should;
+        SplatToken token = outputs[p]->pop(activity);
+        for (; token.mark == Mark::kNone; token = outputs[p]->pop(activity)) {
+          got.push_back(token.splat.index);
+        }
+        for (const Splat& splat : splats[k]) should.push_back(splat.index);
+        checks.that(got == should, fmt::format("part {}, visit {}: splats", p, k));
+        checks.that(token.mark == plan.shares[k].mark && token.visit == plan.shares[k].visit,
+                    fmt::format("part {}, visit {}: end", p, k));
+      }
+    });
+  }
+  bench.run();
+  std::uint64_t fetched = 0, taken = 0;
+  for (const auto& share : wanted) {
+    for (const std::uint32_t parts : share) {
+      fetched += parts > 0 ? 1 : 0;
+      taken += parts;
+    }
+  }
+  bench.check_counter("first_halves", first_halves);
+  bench.check_counter("coarse_tests", kParts * first_halves);
+  bench.check_counter("coarse_passed", taken);
+  bench.check_counter("coarse_candidates", fetched);
+  bench.check_counter("second_halves", fetched);
+  bench.check_counter("second_halves_taken", taken);
+  bench.check_counter("fine_tests", taken);
+}
+
 // Of all orders of magnitude.
 std::vector<std::uint64_t> random_cycles(std::mt19937_64& random, std::size_t count) {
   std::vector<std::uint64_t> cycles;
@@ -190,6 +297,12 @@ int sc_main(int argc, char* argv[]) {
                           add_shares(test.random, plan, 2, 200);
                           run_hfu(test, still_bench(plan), plan);
                         });
+  }
+  for (const std::uint32_t slots : {1U, 6U, 40U}) {
+    runner.add_directed(fmt::format("four HFUs behind one fetch, {} slots", slots),
+                        [=](Case& test) { shared_fetch(test, SecondHalfEncoding::kRaw, slots); });
+    runner.add_directed(fmt::format("four HFUs behind one fetch, {} slots, vq", slots),
+                        [=](Case& test) { shared_fetch(test, SecondHalfEncoding::kVq, slots); });
   }
   for (const std::uint32_t n : {1U, 4U, 5U, 100U, 128U}) {
     runner.add_directed(fmt::format("time of the coarse filter for {}", n),

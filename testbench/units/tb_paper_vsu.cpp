@@ -5,6 +5,7 @@
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/lane_macs.h"
 #include "algorithm/voxel/ray_work.h"
+#include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
@@ -29,6 +30,7 @@ Plan plan_of(TestScene scene) {
   Plan plan;
   plan.scene = std::move(scene);
   plan.config.table_bytes = 1U << 20U;
+  plan.config.visit_gaussians = 0;
   return plan;
 }
 
@@ -47,7 +49,8 @@ struct GridTable {
 };
 
 struct Expected {
-  std::vector<GroupVisits> groups;
+  std::vector<std::vector<VoxelRecord>> groups;  // pieces of voxels in visiting order
+  std::uint64_t cuts = 0;
   std::uint64_t traverse_cycles = 0;
   std::uint64_t first_group_cycles = 0;
   std::uint64_t visits = 0, empty = 0, rays = 0, steps = 0, edges = 0, table_bytes_max = 0;
@@ -80,13 +83,26 @@ Expected expect(const Plan& plan) {
       out.traverse_cycles += table.voxel_count() + table.edge_count();
     }
     if (out.groups.empty()) out.first_group_cycles = out.traverse_cycles;
-    out.visits += visits.voxels.size();
+    std::vector<VoxelRecord> pieces;
+    for (const std::uint32_t voxel : visits.voxels) {
+      const auto plane = [&](std::uint32_t index) {
+        ++out.cuts;
+        return grid.cuts[index];
+      };
+      const auto visit = [&](const VoxelRecord& piece) {
+        pieces.push_back(piece);
+        return true;
+      };
+      visit_pieces(grid.voxels[voxel], plan.scene.job.view.position, plan.config.visit_gaussians,
+                   plane, visit);
+    }
+    out.visits += pieces.size();
     out.empty += visits.voxels.empty() ? 1 : 0;
     out.rays += visits.rays;
     out.steps += visits.steps;
     out.edges += visits.edges_offered;
     out.table_bytes_max = std::max(out.table_bytes_max, visits.table_bytes);
-    out.groups.push_back(visits);
+    out.groups.push_back(std::move(pieces));
   }
   return out;
 }
@@ -98,8 +114,7 @@ struct Received {
 };
 
 void check_visit(Checks& checks, const Plan& plan, std::uint32_t number, const Received& got,
-                 std::uint32_t group, std::uint32_t voxel) {
-  const VoxelRecord& record = plan.scene.grid.voxels[voxel];
+                 std::uint32_t group, const VoxelRecord& record) {
   std::uint32_t sum = 0, at = record.first;
   for (std::uint32_t k = 0; k < plan.hfus; ++k) {
     const VisitShare& share = got.shares[(k + number) % plan.hfus];
@@ -115,7 +130,7 @@ void check_visit(Checks& checks, const Plan& plan, std::uint32_t number, const R
     at += share.count;
     sum += share.count;
   }
-  checks.equal(sum, record.count, fmt::format("visit {}: Gaussians of voxel {}", number, voxel));
+  checks.equal(sum, record.count, fmt::format("visit {}: Gaussians", number));
 }
 
 // Every group's visits in the expected order (of a finished group, the first of them), then its
@@ -126,21 +141,21 @@ void check_stream(UnitBench& bench, const Plan& plan, const Expected& expected,
   std::uint32_t number = 0;
   std::uint64_t left_out = 0;
   for (std::uint32_t group = 0; group < expected.groups.size(); ++group) {
-    const std::vector<std::uint32_t>& voxels = expected.groups[group].voxels;
+    const std::vector<VoxelRecord>& pieces = expected.groups[group];
     std::size_t visit = 0;
     std::vector<std::uint64_t> cycles;
     for (; number < received.size(); ++number, ++visit) {
       const Received& got = received[number];
       if (got.shares[0].mark == Mark::kEndOfGroup) break;
-      checks.that(visit < voxels.size(), fmt::format("group {}: too many visits", group));
-      if (visit < voxels.size()) check_visit(checks, plan, number, got, group, voxels[visit]);
+      checks.that(visit < pieces.size(), fmt::format("group {}: too many visits", group));
+      if (visit < pieces.size()) check_visit(checks, plan, number, got, group, pieces[visit]);
       cycles.push_back(got.cycle);
     }
-    if (bench.without_stalls()) check_feedback(checks, finished, group, cycles, voxels.size());
+    if (bench.without_stalls()) check_feedback(checks, finished, group, cycles, pieces.size());
     if (!finished.finished(group)) {
-      checks.equal(visit, voxels.size(), fmt::format("group {}: visits", group));
+      checks.equal(visit, pieces.size(), fmt::format("group {}: visits", group));
     }
-    left_out += voxels.size() - std::min(visit, voxels.size());
+    left_out += pieces.size() - std::min(visit, pieces.size());
     checks.that(number < received.size(), fmt::format("group {}: no end", group));
     if (number == received.size()) return;
     for (const VisitShare& end : received[number].shares) {
@@ -151,7 +166,9 @@ void check_stream(UnitBench& bench, const Plan& plan, const Expected& expected,
     ++number;
   }
   checks.equal(number, received.size(), "visits and ends");
-  bench.check_counter("visits_saturated", left_out);
+  // Left out are voxels, which nobody has cut.
+  if (plan.config.visit_gaussians == 0) bench.check_counter("visits_saturated", left_out);
+  if (left_out == 0) bench.check_counter("cuts", expected.cuts);
   checks.equal(bench.counter("visits") + left_out, expected.visits, "visits accounted for");
 }
 
@@ -199,16 +216,23 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("steps", expected.steps);
   bench.check_counter("edges", expected.edges);
   bench.check_operations("vsu", "fp32_lane", expected.steps * macs_of_a_step());
+  // Each voxel is opened, and two pieces for a cut; what is left of a finished group's is dropped.
+  const std::uint64_t pieces = bench.counter("voxels") + 2 * bench.counter("cuts");
+  bench.check_accesses("open pieces", visits + bench.counter("cuts"), pieces);
+  if (visits == expected.visits) {
+    checks.equal(pieces, visits + bench.counter("cuts"), "pieces opened and taken");
+  }
   bench.check_counter("groups_empty", expected.empty);
   bench.check_counter("ordering_table_bytes_max", expected.table_bytes_max);
   checks.equal(bench.busy_cycles("vsu"), expected.traverse_cycles, "busy cycles of the traversal");
-  checks.equal(bench.busy_cycles("visits"), visits + expected.groups.size(),
+  checks.equal(bench.busy_cycles("visits"), visits + bench.counter("cuts") + expected.groups.size(),
                "busy cycles of handing out");
   // A line a miss.
   const std::uint64_t node_misses = unit.node_memory.transactions();
   const std::uint64_t record_misses = unit.record_memory.transactions();
   checks.equal(bench.counter("node_cache_misses"), node_misses, "misses of the tree's cache");
-  checks.equal(bench.counter("record_cache_misses"), record_misses, "misses of the voxels' cache");
+  checks.equal(bench.counter("record_cache_misses") + bench.counter("cut_cache_misses"),
+               record_misses, "misses of the voxels' caches");
   checks.that(bench.bytes_read() <= kLineBytes * (node_misses + record_misses),
               "bytes read: more than a line a miss");
   // A cache that holds all of the tree fetches each of its lines once.
@@ -221,7 +245,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     // room aside), one cycle for the end, one for the FIFO.
     checks.equal(first_end_cycle,
                  expected.first_group_cycles + node_misses * bench_config.latency_cycles + 1 +
-                     visits + record_misses * bench_config.latency_cycles + 1 + 1,
+                     visits + expected.cuts + record_misses * bench_config.latency_cycles + 1 + 1,
                  "end of the group at HFU 0");
   }
 }
@@ -249,6 +273,8 @@ void random_case(Case& test) {
   plan.config.record_cache_bytes = 256U << (random() % 3);
   plan.config.min_share = 2 + static_cast<std::uint32_t>(random() % 40);
   plan.config.sample_step_voxels = random() % 4 == 0 ? 0.5 : 0;
+  plan.config.visit_gaussians =
+      random() % 2 == 0 ? 0 : 1 + static_cast<std::uint32_t>(random() % 300);
   plan.saturate_one_in = random() % 3 == 0 ? 5 : 0;
   plan.feedback_cycles = 1 + static_cast<std::uint32_t>(random() % 40);
   run_plan(test, random_bench(random, memory_bytes(plan.scene.job)), plan);
@@ -274,6 +300,15 @@ int sc_main(int argc, char* argv[]) {
   crowded.voxel_size = 100;
   runner.add_directed("voxels that hold an eighth of all",
                       [=](Case& test) { directed(test, crowded); });
+  SceneShape many = crowded;
+  many.gaussians = 5000;
+  for (const std::uint32_t most : {1U, 64U, 100U, 1000U}) {
+    runner.add_directed(fmt::format("voxels cut into pieces of {}", most), [=](Case& test) {
+      Plan plan = plan_of(random_scene(test.random, many));
+      plan.config.visit_gaussians = most;
+      run_plan(test, still_bench(plan), plan);
+    });
+  }
   SceneShape fine = shape;
   fine.voxel_size = 0.001F;
   runner.add_directed("a voxel for each Gaussian", [=](Case& test) { directed(test, fine); });

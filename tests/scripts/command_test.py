@@ -7,6 +7,7 @@ from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
 import compare_orders
 import compare_variants
 import explore
+import paper_claims
 import simulations
 import timing
 import tuned_orders
@@ -33,8 +34,9 @@ class WithTheCommand(InFolder):
                 ("--axis", "hfus=2,4", "--axis", "group_px=16,32"),
                 {"of 4 configurations": 1, "Refused": 0},
             ),
-            (explore, ("--config", "paper", "--axis", "hfus=2"), {"| 2 | 32 |": 1}),
+            (explore, ("--config", "paper", "--axis", "hfus=1"), {"| 1 | 48 |": 1}),
             (timing, ("--repeats", "1", "--configs", "exact", "paper"), {"| truck | 64 |": 2}),
+            (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1}),
             (tuned_orders, (), {"| truck |": 1}),
             (work_precision, (), {"| truck | 0 |": 20, "| 4,096 |": 2}),
         ):
@@ -48,7 +50,7 @@ class WithTheCommand(InFolder):
         scene = find_scene(str(self.scene))
         for config in ("exact", "paper_no_vq"):
             with self.subTest(config):
-                overrides = (*simulations.SRAM_AS_NEEDED, "hfus=2", "group_px=48")
+                overrides = (*simulations.SRAM_AS_NEEDED, "hfus=1", "group_px=48")
                 run = simulations.Run(scene, config=config, overrides=overrides)
                 (view,) = simulations.simulate(pathlib.Path(COMMAND), run).accepted()
                 for memory in ("input", "shared"):

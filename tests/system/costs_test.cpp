@@ -115,8 +115,11 @@ TEST_CASE("costs: the binding resource is the busiest") {
     for (const char* slow :
          {"rendering.clusters=1", "hfu.ffu_lanes=1", "hfu.cfu_lanes=1", "dram.channels=1"}) {
       INFO(machine << " " << slow);
-      const Simulation simulation({"builtin:object?n=2000", "--size", "96x54", "--config", machine,
-                                   "--set", "storage.encoding=raw", "--set", slow});
+      const Simulation simulation(
+          {"builtin:object?n=2000", "--size", "96x54", "--config", machine, "--set",
+           "storage.encoding=raw", "--set", slow,
+           // HFUs that share a fetch have a cluster each
+           "--set", std::string(slow) == "rendering.clusters=1" ? "hfus=1" : "hfus=4"});
       check_binding(simulation.views()[0]);
       if (std::string(slow) == "hfu.ffu_lanes=1") {
         CHECK(simulation.views()[0]["binding"]["unit"] == "fine");
@@ -173,9 +176,11 @@ TEST_CASE("costs: what was left out: empty groups are empty, saturated ones satu
     CHECK(empty >= kGroups / 4);
     CHECK(empty <= kGroups * 3 / 4);
     CHECK(left_out(plain, "empty_groups") == empty);
-    const std::uint64_t finished = counter(view, "rendering", "groups_saturated");
+    const std::uint64_t finished = counter_of_all(view, "rendering", "groups_saturated");
     CHECK(finished > 0);
-    CHECK(finished + empty <= kGroups);
+    // In paper order each HFU has its part of every group.
+    const std::uint64_t parts = std::string(machine) == "paper" ? 4 : 1;
+    CHECK(finished + parts * empty <= parts * kGroups);
     for (const char* what :
          {"saturated_groups", "saturated_visits", "saturated_gaussians", "saturated_tests"}) {
       CHECK(left_out(plain, what) == 0);  // nobody was told
@@ -183,8 +188,9 @@ TEST_CASE("costs: what was left out: empty groups are empty, saturated ones satu
     CHECK(left_out(view, "saturated_gaussians") > 0);
     // Some were dropped with their second half, which was not spared.
     CHECK(left_out(view, "saturated_tests") > 0);
-    CHECK(left_out(view, "saturated_tests") ==
-          total(view, "second_halves") - total(view, "fine_tests"));
+    const std::uint64_t untested = total(view, "second_halves_taken") - total(view, "fine_tests");
+    CHECK(left_out(view, "saturated_tests") >= untested);
+    if (parts == 1) CHECK(left_out(view, "saturated_tests") == untested);
     CHECK(left_out(view, "saturated_gaussians") + left_out(view, "saturated_tests") ==
           total(view, "dropped_saturated"));
     if (std::string(machine) == "exact") {

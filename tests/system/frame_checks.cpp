@@ -129,15 +129,21 @@ void check_codebooks(const Json& view) {
   CHECK(bytes <= count(view["config"]["sram"]["codebook_bytes"]));
   CHECK(view["units"].contains("codebooks") == quantised(view));
   if (!quantised(view)) return;
-  CHECK(total(view, "records_decoded") <= total(view, "second_halves"));
+  // Where several HFUs share a fetch each decodes what it takes of it.
+  CHECK(total(view, "records_decoded") <= total(view, "second_halves_taken"));
   CHECK(total(view, "records_decoded") >= total(view, "fine_tests"));
   if (view["config"]["rendering"]["saturation_feedback"] == false) {
     CHECK(total(view, "dropped_saturated") == 0);
-    CHECK(total(view, "records_decoded") == total(view, "second_halves"));
+    CHECK(total(view, "records_decoded") == total(view, "second_halves_taken"));
   }
   // An HFU reads a line a cycle; the rest of the time it decodes nothing.
   CHECK(total_busy(view, "decode") ==
         total(view, "lines_read") + total(view, "bank_conflict_cycles"));
+}
+
+// HFUs behind one fetch, each with its part of the groups.
+std::uint64_t parts_of(const Json& config) {
+  return config["machine"] == "paper" && config["fetch"] == "shared" ? count(config["hfus"]) : 1;
 }
 
 // Bytes asked for against counters of the units that asked.
@@ -161,7 +167,8 @@ void check_bytes(const Json& view) {
     CHECK(asked_bytes(view, "voxel_table", "vsu.node_memory", "read") <=
           kLine * counter(view, "vsu", "node_cache_misses"));
     CHECK(asked_bytes(view, "voxel_table", "vsu.record_memory", "read") <=
-          kLine * counter(view, "vsu", "record_cache_misses"));
+          kLine * (counter(view, "vsu", "record_cache_misses") +
+                   counter(view, "vsu", "cut_cache_misses")));
   } else {
     constexpr std::uint64_t kKey = 28, kWalkEntry = 12;
     CHECK(asked_bytes(view, "spill", "merge", "write") ==
@@ -178,10 +185,13 @@ void check_bounds(const Json& view) {
   const Json& hfu = config["hfu"];
   const std::uint64_t coarse_interval = ceil_div(count(hfu["cfu_macs"]), count(hfu["cfu_lanes"]));
   const std::uint64_t fine_interval = ceil_div(count(hfu["ffu_macs"]), count(hfu["ffu_lanes"]));
+  const std::uint64_t parts = parts_of(config);
+  const std::uint64_t clusters = count(config["rendering"]["clusters"]) / parts;
   for (const Json& unit : view["units"]) {
-    CHECK(ceil_div(of(unit, "coarse_tests"), count(hfu["cfus"])) * coarse_interval <= frame);
-    CHECK(of(unit, "fine_tests") * fine_interval <= frame);
-    CHECK(ceil_div(of(unit, "subtile_blends"), count(config["rendering"]["clusters"])) <= frame);
+    CHECK(ceil_div(of(unit, "coarse_tests"), parts * count(hfu["cfus"])) * coarse_interval <=
+          frame);
+    CHECK(of(unit, "fine_tests") * fine_interval <= parts * frame);
+    CHECK(ceil_div(of(unit, "subtile_blends"), clusters) <= frame);
     if (of(unit, "inserts") > 0) {
       CHECK((of(unit, "inserts") + of(unit, "delete_mins") + of(unit, "delete_maxs")) *
                 count(config["merge"]["cycles_per_operation"]) <=
@@ -197,8 +207,10 @@ void check_bounds(const Json& view) {
 
 // What one unit hands on the next receives.
 void check_flow(const Json& view) {
-  const std::uint64_t blended = counter(view, "rendering", "splats");
-  const std::uint64_t late = counter(view, "rendering", "splats_saturated");
+  const std::uint64_t blended = counter_of_all(view, "rendering", "splats");
+  const std::uint64_t late = counter_of_all(view, "rendering", "splats_saturated");
+  const std::uint64_t parts = parts_of(view["config"]);
+  const std::uint64_t groups = counter_of_all(view, "rendering", "groups") / parts;
   std::uint64_t fine_splats = 0, fine_dropped = 0, sorted = 0, sorting_dropped = 0;
   for (const auto& [name, unit] : view["units"].items()) {
     if (unit["counters"].contains("fine_tests")) {
@@ -211,17 +223,16 @@ void check_flow(const Json& view) {
     }
   }
   // A visit, or a group's end: of one HFU in exact order, of all in paper order.
-  const std::uint64_t visits =
-      counter(view, "vsu", "visits") + counter(view, "rendering", "groups");
+  const std::uint64_t visits = counter(view, "vsu", "visits") + groups;
   const std::uint64_t tested_or_dropped = total(view, "fine_tests") + fine_dropped;
   if (view["config"]["machine"] == "paper") {
-    CHECK(total(view, "shares") == count(view["config"]["hfus"]) * visits);
+    CHECK(total(view, "shares") == count(view["config"]["hfus"]) / parts * visits);
+    CHECK(total(view, "second_halves") <= total(view, "coarse_candidates"));
     CHECK(total(view, "coarse_passed") == tested_or_dropped);
     CHECK(fine_splats == sorted);
     CHECK(blended + late <= sorted - sorting_dropped);
-    // A visit, or a group's end, takes a number of one sorting unit.
-    CHECK(total(view, "visits") ==
-          2 * counter(view, "vsu", "visits") + counter(view, "rendering", "groups"));
+    // A visit, or a group's end, takes a number of one sorting unit of each part.
+    CHECK(counter_of_all(view, "sorting", "visits") == parts * visits);
   } else {
     CHECK(total(view, "shares") == visits);
     CHECK(total(view, "coarse_passed") == sorted);
@@ -237,8 +248,7 @@ void check_flow(const Json& view) {
     CHECK(deletes <= inserts);
     if (counter(view, "merge", "dropped_saturated") == 0) CHECK(deletes == inserts);
     CHECK(blended + late <= fine_splats);
-    CHECK(total(view, "visits") ==
-          2 * counter(view, "vsu", "visits") + counter(view, "rendering", "groups"));
+    CHECK(total(view, "visits") == 2 * counter(view, "vsu", "visits") + groups);
   }
 }
 

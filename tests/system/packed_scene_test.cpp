@@ -316,7 +316,7 @@ TEST_CASE("pack: what is said of storage is as the file has it, or a preset's") 
     CHECK_FALSE(std::filesystem::exists(scenes.path("out")));
   }
   for (const auto& [more, word] : std::vector<std::pair<Arguments, std::string>>{
-           {with("hfus=2"), "storage from scene.sgs: half, voxels of 2 (preset paper_no_vq: raw)"},
+           {with("hfus=1"), "storage from scene.sgs: half, voxels of 2 (preset paper_no_vq: raw)"},
            {{"paper"}, "storage from scene.sgs: half, voxels of 2 (preset paper: vq)"},
            {with("storage.encoding=half"), "storage from scene.sgs: half, voxels of 2\n"},
            {{"paper", "--set", "storage.encoding=half", "--set", "storage.voxel_size=0"},

@@ -14,6 +14,19 @@ std::uint64_t counter(const Json& view, const std::string& unit, const std::stri
   return view["units"][unit]["counters"][name];
 }
 
+std::uint64_t counter_of_all(const Json& view, const std::string& prefix, const std::string& name) {
+  std::uint64_t sum = 0;
+  bool any = false;
+  for (const auto& [unit, of_unit] : view["units"].items()) {
+    if (unit.rfind(prefix, 0) != 0) continue;
+    sum += counter(view, unit, name);
+    any = true;
+  }
+  INFO(prefix);
+  REQUIRE(any);
+  return sum;
+}
+
 std::uint64_t total(const Json& view, const std::string& name) {
   std::uint64_t sum = 0;
   for (const Json& unit : view["units"]) sum += unit["counters"].value(name, std::uint64_t{0});
@@ -43,8 +56,10 @@ std::uint64_t waited_cycles(const Json& view, const std::string& unit, const std
 std::uint64_t total_busy(const Json& view, const std::string& activity) {
   std::uint64_t sum = 0;
   for (const Json& unit : view["units"]) {
-    if (!unit["activities"].contains(activity)) continue;
-    sum += unit["activities"][activity]["busy_cycles"].get<std::uint64_t>();
+    for (const auto& [name, of_name] : unit["activities"].items()) {
+      if (name.substr(0, name.find_last_not_of("0123456789") + 1) != activity) continue;
+      sum += of_name["busy_cycles"].get<std::uint64_t>();
+    }
   }
   return sum;
 }

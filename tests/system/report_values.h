@@ -10,6 +10,10 @@ namespace sgs::test {
 // A counter of one unit.
 std::uint64_t counter(const nlohmann::json& view, const std::string& unit, const std::string& name);
 
+// Sum of a counter over the units whose names begin with `prefix`.
+std::uint64_t counter_of_all(const nlohmann::json& view, const std::string& prefix,
+                             const std::string& name);
+
 // Sum of a counter over all units of a view that have it; 0 where none has.
 std::uint64_t total(const nlohmann::json& view, const std::string& name);
 
@@ -21,7 +25,7 @@ std::uint64_t cycles(const nlohmann::json& view, const std::string& unit,
 std::uint64_t waited_cycles(const nlohmann::json& view, const std::string& unit,
                             const std::string& activity, const std::string& what);
 
-// Sum of the busy cycles over all activities of this name.
+// Sum of the busy cycles over all activities of this name, numbered or not.
 std::uint64_t total_busy(const nlohmann::json& view, const std::string& activity);
 
 // Cycles of the frame.

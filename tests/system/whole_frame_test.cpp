@@ -60,6 +60,20 @@ TEST_CASE("whole frame: groups of 4 to 128 px, most of them no divisor of the fr
   }
 }
 
+// In half precision it matters which sub-tiles of a part were tested against an ellipse.
+TEST_CASE("whole frame: pixels in half where parts of a group meet") {
+  for (const char* hfus : {"1", "4"}) {
+    for (const char* group : {"8", "28"}) {
+      INFO(hfus << " " << group);
+      Simulation(joined({"builtin:object?n=20000", "--size", "160x96", "--config", "paper", "--set",
+                         "storage.encoding=raw", "--set", "rendering.precision=fp16", "--set",
+                         std::string("hfus=") + hfus, "--set", std::string("group_px=") + group},
+                        roomy("paper")))
+          .check();
+    }
+  }
+}
+
 TEST_CASE("whole frame: frames of one pixel, one row and one column") {
   for (const char* order : {"paper", "exact"}) {
     for (const char* size : {"1x1", "200x1", "1x200", "3x5"}) {
@@ -90,7 +104,9 @@ TEST_CASE("whole frame: other numbers of units, ports and memory channels") {
   for (const char* order : {"paper", "exact"}) {
     for (const Arguments& variant :
          {Arguments{"--set", "hfus=1", "--set", "sorting_units=1"},
-          Arguments{"--set", "hfus=3", "--set", "sorting_units=5"},
+          order == std::string("paper")
+              ? Arguments{"--set", "hfus=3", "--set", "fetch=split", "--set", "sorting_units=5"}
+              : Arguments{"--set", "hfus=3", "--set", "sorting_units=5"},
           Arguments{"--set", "memory_port.max_outstanding=1", "--set", "dram.channels=1"},
           Arguments{"--set", "clock_mhz=733"},
           Arguments{"--set", "hfu.cfus=1", "--set", "hfu.second_half_slots=1", "--set",

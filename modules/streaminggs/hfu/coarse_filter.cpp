@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "algorithm/memory/first_half_test.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
@@ -14,7 +13,8 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
       memory("memory", context.built_for.memory_port),
       config_(config),
       built_for_(context.built_for),
-      tests_(coarse_datapath(config, context.job.layout.split.bound_by)),
+      tests_(side_by_side(coarse_datapath(config, context.job.layout.split.bound_by),
+                          static_cast<std::uint32_t>(context.job.parts.size()))),
       job_(context.job),
       record_bytes_(job_.layout.first_halves.record_bytes),
       load_("load", context.clock),
@@ -32,7 +32,7 @@ void CoarseFilter::run_load() {
   }
   while (true) {
     VisitShare share = shares->pop(load_);
-    if (share.count > 0 && finished->finished(share.group)) {
+    if (share.count > 0 && all_finished(finished, share.group)) {
       counters_.dropped_saturated += share.count;
       share.count = 0;
     }
@@ -86,12 +86,13 @@ std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
 // The CFUs take `cfus` Gaussians at a time. Simulated time is only let pass where somebody could
 // see it: before a candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
-  const PixelRect& pixels = job_.groups[slice.share.group];
   const RecordSplit& split = job_.layout.split;
   std::uint64_t pending_cycles = 0;
+  std::uint32_t open = 0;  // parts
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
     if (i % config_.cfus == 0) {
-      if (finished->finished(slice.share.group)) {
+      open = unfinished_parts(finished, slice.share.group);
+      if (open == 0) {
         counters_.dropped_saturated += slice.share.count - i;
         break;
       }
@@ -99,19 +100,19 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     }
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
-    const FirstHalfTest test = test_first_half(split, first, job_.view, pixels);
-    if (config_.coarse_filter) {
-      ++counters_.tests;
-      if (!test.touches) continue;
-    }
-    ++counters_.passed;
+    const FirstHalfBound bound = bound_first_half(split, first, job_.view);
+    const std::uint32_t parts = test(bound, slice.share.group, open);
+    if (parts == 0) continue;
+    counters_.passed += count_parts(parts);
+    ++counters_.candidates;
     filter_.work(pending_cycles);
     pending_cycles = 0;
     FineCandidate candidate;
     candidate.group = slice.share.group;
     candidate.visit = slice.share.visit;
     candidate.slot = slice.share.first + i;
-    candidate.depth = test.depth;
+    candidate.parts = parts;
+    candidate.depth = depth_of(bound);
     candidate.mean_x = first.mean.x;
     candidate.mean_y = first.mean.y;
     candidate.mean_z = first.mean.z;
@@ -119,6 +120,21 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     in_turn(survivors, candidate.visit).push(candidate, filter_);
   }
   filter_.work(pending_cycles);
+}
+
+// The parts that the Gaussian may touch, of those that are open. A part without pixels is finished
+// as soon as the news of it has arrived; until then nothing touches it.
+std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t group,
+                                 std::uint32_t open) {
+  if (!config_.coarse_filter) return open;
+  counters_.tests += count_parts(open);
+  std::uint32_t parts = 0;
+  for (std::uint32_t p = 0; p < part_count(); ++p) {
+    const bool tested = (open >> p & 1U) != 0;
+    const PixelRect& pixels = job_.parts[p][group];
+    if (tested && !pixels.empty() && touches(bound, pixels)) parts |= 1U << p;
+  }
+  return parts;
 }
 
 SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
@@ -137,8 +153,12 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.counter("shares", "shares", "of visits, empty ones and ends of groups included",
                 counters_.shares);
   sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
-  sheet.counter("coarse_tests", "Gaussians", "tested", counters_.tests);
-  sheet.counter("coarse_passed", "Gaussians", "that may touch their group", counters_.passed);
+  sheet.counter("coarse_tests", "Gaussians", "tested, once for each part of the group",
+                counters_.tests);
+  sheet.counter("coarse_passed", "Gaussians", "of these, that may touch their part",
+                counters_.passed);
+  sheet.counter("coarse_candidates", "Gaussians", "that may touch a part of the group",
+                counters_.candidates);
   sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
                 counters_.dropped_saturated);
   sheet.datapath(tests_, counters_.tests);

@@ -1,7 +1,8 @@
-// The coarse half of an HFU: streams shares of visits through the CFUs, which know only what stands
-// in a first half.
-// Timing: `cfus` Gaussians every cfu_interval_cycles; the next slices are fetched while this one is
-// filtered. Function: algorithm/memory/first_half_test.h.
+// The coarse half of an HFU, or of all HFUs that share a fetch: streams shares of visits through
+// the CFUs, which know only what stands in a first half. With a shared fetch each first half is
+// read once and broadcast; the CFUs of every HFU test it against their own part of the group, in
+// lock step. Timing: `cfus` Gaussians every cfu_interval_cycles; the next slices are fetched while
+// this one is filtered. Function: algorithm/memory/first_half_test.h.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <systemc>
 #include <vector>
 
+#include "algorithm/memory/first_half_test.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
 #include "modules/streaminggs/messages.h"
@@ -23,19 +25,20 @@ class CoarseFilter : public sc_core::sc_module {
  public:
   FifoIn<VisitShare> shares{"shares"};
   FifoOuts<FineCandidate> survivors{"survivors"};  // visit v goes to v modulo their number
-  FinishedGroupsIn finished{"finished"};
-  MemoryPort memory;  // first halves
+  FinishedGroupsIns finished{"finished"};          // one a part
+  MemoryPort memory;                               // first halves
 
   SC_HAS_PROCESS(CoarseFilter);
   CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
                const UnitContext& context);
 
   struct Counters {
-    std::uint64_t shares = 0;        // of visits, empty ones and ends of groups included
-    std::uint64_t first_halves = 0;  // fetched
-    std::uint64_t read = 0;          // of these, from the input buffer
-    std::uint64_t tests = 0;
-    std::uint64_t passed = 0;
+    std::uint64_t shares = 0;             // of visits, empty ones and ends of groups included
+    std::uint64_t first_halves = 0;       // fetched
+    std::uint64_t read = 0;               // of these, from the input buffer
+    std::uint64_t tests = 0;              // of a Gaussian against a part
+    std::uint64_t passed = 0;             // of these
+    std::uint64_t candidates = 0;         // Gaussians that passed for one part or more
     std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
   };
   const Counters& counters() const { return counters_; }
@@ -54,6 +57,8 @@ class CoarseFilter : public sc_core::sc_module {
   void run_load();    // thread: first halves into the input buffer
   void run_filter();  // thread: CFUs
   void filter_slice(const Slice& slice);
+  std::uint32_t test(const FirstHalfBound& bound, std::uint32_t group, std::uint32_t open);
+  std::uint32_t part_count() const { return static_cast<std::uint32_t>(job_.parts.size()); }
 
   std::byte* first_half(std::uint32_t slot, std::uint32_t at);  // in the input buffer
 

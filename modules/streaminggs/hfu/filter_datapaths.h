@@ -10,4 +10,10 @@ namespace sgs {
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by);
 Datapath fine_datapath(const HfuConfig& config, int sh_degree);
 
+// That of several HFUs.
+inline Datapath side_by_side(Datapath of_one, std::uint32_t hfus) {
+  of_one.copies *= hfus;
+  return of_one;
+}
+
 }  // namespace sgs

@@ -24,17 +24,25 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
       place_(place),
       job_(context.job),
       fetch_("fetch", context.clock),
-      filter_("filter", context.clock),
-      tests_(fine_datapath(config, context.job.layout.sh_degree())),
+      tests_(side_by_side(fine_datapath(config, context.job.layout.sh_degree()),
+                          static_cast<std::uint32_t>(context.job.parts.size()))),
       record_bytes_(job_.layout.second_halves.record_bytes),
       second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
-      fetched_("fetched", context.clock, fetched_entries(config)),
+      wanted_(config.second_half_slots),
       free_slots_("free_slots", context.clock, config.second_half_slots, 0) {
   SC_THREAD(run_fetch);
-  SC_THREAD(run_filter);
+  for (std::uint32_t p = 0; p < job_.parts.size(); ++p) make_part(p, context.clock, codebook);
+}
+
+void FineFilter::make_part(std::uint32_t index, const ClockDomain& clock,
+                           const CodebookConfig& codebook) {
+  const std::string number = job_.parts.size() > 1 ? std::to_string(index) : "";
+  parts_.push_back(std::make_unique<Part>(index, number, clock, fetched_entries(config_)));
+  Part& part = *parts_.back();
+  sc_core::sc_spawn([this, &part] { run_filter(part); }, ("run_filter" + number).c_str());
   if (!job_.layout.second_half.quantised()) return;
-  stage_ = std::make_unique<DecodeStage>(context.clock, codebook);
-  SC_THREAD(run_decode);
+  part.stage = std::make_unique<DecodeStage>(number, clock, codebook);
+  sc_core::sc_spawn([this, &part] { run_decode(part); }, ("run_decode" + number).c_str());
 }
 
 void FineFilter::run_fetch() {
@@ -42,86 +50,108 @@ void FineFilter::run_fetch() {
     free_slots_.push(slot, fetch_);
   }
   while (true) {
-    FineCandidate candidate = candidates->pop(fetch_);
+    const FineCandidate candidate = candidates->pop(fetch_);
     if (candidate.mark == Mark::kNone) {
-      if (finished->finished(candidate.group)) {
-        drop_saturated(candidate);
-        continue;
-      }
-      candidate.buffer = free_slots_.pop(fetch_, WaitFor::kRoom);
-      fetch_.work(1);
-      candidate.ticket =
-          start_read(memory, fetch_, job_.layout.second_halves.address(candidate.slot),
-                     second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_,
-                     record_bytes_, job_.layout.second_halves.region);
-      ++counters_.second_halves;
+      fetch(candidate);
+    } else {
+      for (const auto& part : parts_) part->fetched.push(candidate, fetch_);
     }
-    fetched_.push(candidate, fetch_);
+  }
+}
+
+// For those parts that still want it.
+void FineFilter::fetch(FineCandidate candidate) {
+  const std::uint32_t all = candidate.parts;
+  candidate.parts &= unfinished_parts(finished, candidate.group);
+  if (candidate.parts == 0) {
+    drop_saturated(candidate);
+    counters_.dropped_saturated += count_parts(all);
+    return;
+  }
+  counters_.dropped_saturated += count_parts(all & ~candidate.parts);
+  counters_.dropped_fetched += count_parts(all & ~candidate.parts);
+  candidate.buffer = free_slots_.pop(fetch_, WaitFor::kRoom);
+  fetch_.work(1);
+  candidate.ticket =
+      start_read(memory, fetch_, job_.layout.second_halves.address(candidate.slot),
+                 second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_,
+                 record_bytes_, job_.layout.second_halves.region);
+  ++counters_.second_halves;
+  wanted_[candidate.buffer] = count_parts(candidate.parts);
+  for (const auto& part : parts_) {
+    if ((candidate.parts >> part->index & 1U) != 0) part->fetched.push(candidate, fetch_);
   }
 }
 
 // A token that nothing follows keeps its place in the order all the same.
 void FineFilter::drop_saturated(const FineCandidate& candidate) {
-  ++counters_.dropped_saturated;
   if (place_.rejects == Rejects::kDropped) return;
   FineCandidate rejected = candidate;
   rejected.mark = Mark::kRejected;
-  fetched_.push(rejected, fetch_);
+  for (const auto& part : parts_) part->fetched.push(rejected, fetch_);
 }
 
 // The next candidate in order, its second half read from what was fetched.
-FineFilter::Decoded FineFilter::take_fetched(Activity& activity) {
+FineFilter::Decoded FineFilter::take_fetched(Part& part, Activity& activity) {
   Decoded out;
-  out.candidate = fetched_.pop(activity);
+  out.candidate = part.fetched.pop(activity);
   const FineCandidate& candidate = out.candidate;
   if (candidate.mark != Mark::kNone) return out;
   await(memory, activity, candidate.ticket);
   const SecondHalfFormat& format = job_.layout.second_half;
   const RecordSplit& split = job_.layout.split;
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
-  if (stage_ && !finished->finished(candidate.group)) {
-    codebooks->read_entries(place_.reader, read_indices(split, format, candidate.carried, record),
-                            activity);
+  ++counters_.taken;
+  if (part.stage && !finished[static_cast<int>(part.index)]->finished(candidate.group)) {
+    codebooks->read_entries(place_.reader + part.index,
+                            read_indices(split, format, candidate.carried, record), activity);
   }
   out.second = read_record(split, format, {candidate.mean_x, candidate.mean_y, candidate.mean_z},
-                           candidate.carried, record, stage_ ? codebooks->bytes() : nullptr);
-  free_slots_.push(candidate.buffer, activity);
+                           candidate.carried, record, part.stage ? codebooks->bytes() : nullptr);
+  free_slot(candidate.buffer, activity);
   return out;
 }
 
-void FineFilter::run_decode() {
-  while (true) stage_->decoded.push(take_fetched(stage_->decode), stage_->decode);
+// By one of the parts that want what is in it.
+void FineFilter::free_slot(std::uint32_t slot, Activity& activity) {
+  if (--wanted_[slot] == 0) free_slots_.push(slot, activity);
 }
 
-void FineFilter::run_filter() {
+void FineFilter::run_decode(Part& part) {
+  DecodeStage& stage = *part.stage;
+  while (true) stage.decoded.push(take_fetched(part, stage.decode), stage.decode);
+}
+
+void FineFilter::run_filter(Part& part) {
   while (true) {
-    const Decoded next = stage_ ? stage_->decoded.pop(filter_) : take_fetched(filter_);
+    const Decoded next =
+        part.stage ? part.stage->decoded.pop(part.filter) : take_fetched(part, part.filter);
     if (next.candidate.mark == Mark::kNone) {
-      test(next);
+      test(part, next);
       continue;
     }
     SplatToken end;
     end.group = next.candidate.group;
     end.visit = next.candidate.visit;
     end.mark = next.candidate.mark;
-    in_turn(splats, end.visit).push(end, filter_);
+    to_sorting(part, end.visit).push(end, part.filter);
   }
 }
 
-void FineFilter::test(const Decoded& decoded) {
+void FineFilter::test(Part& part, const Decoded& decoded) {
   const FineCandidate& candidate = decoded.candidate;
-  if (finished->finished(candidate.group)) {
+  if (finished[static_cast<int>(part.index)]->finished(candidate.group)) {
     ++counters_.dropped_saturated;
     ++counters_.dropped_fetched;
-    reject(candidate);
+    reject(part, candidate);
     return;
   }
-  filter_.work(tests_.interval_cycles());
+  part.filter.work(tests_.interval_cycles());
   ++counters_.tests;
   SplatToken token;
   if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||
-      !reaches_group(token.splat, job_.groups[candidate.group])) {
-    reject(candidate);
+      !reaches_group(token.splat, job_.parts[part.index][candidate.group])) {
+    reject(part, candidate);
     return;
   }
   add_colour(job_.view, job_.layout.sh_degree(), decoded.second.gaussian.mean, decoded.second.sh,
@@ -129,28 +159,37 @@ void FineFilter::test(const Decoded& decoded) {
   token.splat.index = candidate.slot;
   token.group = candidate.group;
   token.visit = candidate.visit;
-  in_turn(splats, candidate.visit).push(token, filter_);
+  to_sorting(part, candidate.visit).push(token, part.filter);
   ++counters_.splats;
 }
 
-void FineFilter::reject(const FineCandidate& candidate) {
+void FineFilter::reject(Part& part, const FineCandidate& candidate) {
   if (place_.rejects == Rejects::kDropped) return;
   SplatToken token;
   token.group = candidate.group;
   token.visit = candidate.visit;
   token.mark = Mark::kRejected;
-  in_turn(splats, candidate.visit).push(token, filter_);
+  to_sorting(part, candidate.visit).push(token, part.filter);
 }
 
-SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
+FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t visit) {
+  const std::size_t of_part = static_cast<std::size_t>(splats.size()) / parts_.size();
+  return *splats[static_cast<int>(part.index * of_part + visit % of_part)];
+}
+
+SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for,
+                               std::uint32_t parts) {
   SramUses uses = {
       sram_use("second halves", kSharedSram,
                {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
-               {8 * kPortBytes}),
+               {8 * kPortBytes})};
+  add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
-                              "candidates")};
+                              "candidates"),
+      parts);
   if (built_for.second_half.quantised()) {
-    uses.push_back(fifo_use<Decoded>("decoded Gaussians", kSharedSram, kDecodedEntries, "entries"));
+    add(uses, fifo_use<Decoded>("decoded Gaussians", kSharedSram, kDecodedEntries, "entries"),
+        parts);
   }
   return uses;
 }
@@ -158,32 +197,40 @@ SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_fo
 void FineFilter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(fetch_, "fetch", "asks for second halves");
-  if (stage_) sheet.activity(stage_->decode, "decode", "reads their codebook entries");
-  sheet.activity(filter_, "fine", "puts them through the FFU");
+  for (const auto& part : parts_) {
+    if (part->stage) sheet.activity(part->stage->decode, "decode", "reads their codebook entries");
+    sheet.activity(part->filter, "fine", "puts them through the FFU");
+  }
   sheet.counter("second_halves", "Gaussians", "fetched", counters_.second_halves);
-  sheet.counter("fine_tests", "Gaussians", "tested", counters_.tests);
-  sheet.counter("splats", "splats", "that touch their group, passed on", counters_.splats);
-  sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
+  sheet.counter("second_halves_taken", "Gaussians",
+                "of these, once for each part of the group that wanted them", counters_.taken);
+  sheet.counter("fine_tests", "Gaussians", "tested, once for each part of the group",
+                counters_.tests);
+  sheet.counter("splats", "splats", "that touch their part, passed on", counters_.splats);
+  sheet.counter("dropped_saturated", "Gaussians", "dropped: their part was finished",
                 counters_.dropped_saturated);
   sheet.counter("dropped_fetched", "Gaussians", "of these with their second half already fetched",
                 counters_.dropped_fetched);
   sheet.datapath(tests_, counters_.tests);
-  const std::uint64_t words = counters_.second_halves * sram_words(record_bytes_, {8 * kPortBytes});
-  sheet.accesses("second halves", words, words);
+  const std::uint64_t words = sram_words(record_bytes_, {8 * kPortBytes});
+  sheet.accesses("second halves", counters_.taken * words, counters_.second_halves * words);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated - counters_.dropped_fetched,
                  "filtering and second halves");
   sheet.left_out("saturated_tests", "the group finished while second halves were under way",
                  counters_.dropped_fetched, "the fine test: second halves were fetched");
   sheet.port(memory);
-  sheet.sram(sram_uses(config_, built_for_));
-  sheet.queue(fetched_, "fetched candidates");
-  if (stage_) sheet.queue(stage_->decoded, "decoded Gaussians");
-  sheet.remedy(filter_, "hfu.ffu_lanes");
-  if (stage_) sheet.remedy(stage_->decode, "codebook.line_bytes");
+  sheet.sram(sram_uses(config_, built_for_, static_cast<std::uint32_t>(parts_.size())));
+  for (const auto& part : parts_) {
+    sheet.queue(part->fetched, "fetched candidates");
+    sheet.remedy(part->filter, "hfu.ffu_lanes");
+    sheet.remedy(part->fetched, WaitFor::kRoom, "hfu.second_half_slots");
+    if (!part->stage) continue;
+    sheet.queue(part->stage->decoded, "decoded Gaussians");
+    sheet.remedy(part->stage->decode, "codebook.line_bytes");
+  }
   sheet.remedy(memory, WaitFor::kReads, "hfu.second_half_slots");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
-  sheet.remedy(fetched_, WaitFor::kRoom, "hfu.second_half_slots");
   sheet.remedy(free_slots_, WaitFor::kRoom, "hfu.second_half_slots");
 }
 

@@ -1,12 +1,16 @@
-// The fine half of an HFU: fetches the second half of each candidate, decodes it and puts it
-// through the FFU: projection, exact test against the group, colour. Timing: one candidate every
-// ffu_interval_cycles, second_half_slots fetches ahead; quantised second halves pass a stage before
-// the FFU that reads the codebook buffer. Function: algorithm/splat/make_splat.h.
+// The fine half of an HFU, or of all HFUs that share a fetch: fetches the second half of each
+// candidate, decodes it and puts it through the FFU: projection, exact test against the group,
+// colour. With a shared fetch a second half is read once and taken by the HFU of each part of the
+// group that the candidate may touch; its slot is free when all have it.
+// Timing: one candidate every ffu_interval_cycles in each FFU, second_half_slots fetches ahead;
+// quantised second halves pass a stage before the FFU that reads the codebook buffer. Function:
+// algorithm/splat/make_splat.h.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <systemc>
 #include <vector>
 
@@ -29,17 +33,18 @@ enum class Rejects { kDropped, kReported };
 
 // Which of the fine filters this is, and how the machine around it wants to be told.
 struct FineFilterPlace {
-  std::uint32_t reader = 0;  // number at the codebook buffer
+  std::uint32_t reader = 0;  // number of its first HFU at the codebook buffer
   Rejects rejects = Rejects::kDropped;
 };
 
 class FineFilter : public sc_core::sc_module {
  public:
   FifoIn<FineCandidate> candidates{"candidates"};
-  FifoOuts<SplatToken> splats{"splats"};  // visit v goes to v modulo their number
-  CodebookIn codebooks{"codebooks"};      // open where second halves are not quantised
-  FinishedGroupsIn finished{"finished"};
-  MemoryPort memory;  // second halves
+  // As many for each part, part by part; of a part's, visit v goes to v modulo their number.
+  FifoOuts<SplatToken> splats{"splats"};
+  CodebookIn codebooks{"codebooks"};       // open where second halves are not quantised
+  FinishedGroupsIns finished{"finished"};  // one a part
+  MemoryPort memory;                       // second halves
 
   SC_HAS_PROCESS(FineFilter);
   FineFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
@@ -48,13 +53,15 @@ class FineFilter : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t second_halves = 0;  // fetched
+    std::uint64_t taken = 0;          // read from their slots, by each HFU that wants it
     std::uint64_t tests = 0;
     std::uint64_t splats = 0;             // passed on
-    std::uint64_t dropped_saturated = 0;  // candidates: the group was finished
+    std::uint64_t dropped_saturated = 0;  // candidates of a part: it was finished
     std::uint64_t dropped_fetched = 0;    // of these, with their second half
   };
   const Counters& counters() const { return counters_; }
-  static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for);
+  static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for,
+                            std::uint32_t parts);
   void publish(DataSheet& sheet);
 
  private:
@@ -68,29 +75,45 @@ class FineFilter : public sc_core::sc_module {
   struct DecodeStage {
     Activity decode;
     TimedFifo<Decoded> decoded;
-    DecodeStage(const ClockDomain& clock, const CodebookConfig& config)
-        : decode("decode", clock),
-          decoded("decoded", clock, kDecodedEntries, config.latency_cycles) {}
+    DecodeStage(const std::string& number, const ClockDomain& clock, const CodebookConfig& config)
+        : decode(("decode" + number).c_str(), clock),
+          decoded(("decoded" + number).c_str(), clock, kDecodedEntries, config.latency_cycles) {}
+  };
+  // What each HFU has behind the fetch. number: behind the names, where there are several.
+  struct Part {
+    const std::uint32_t index;
+    Activity filter;
+    TimedFifo<FineCandidate> fetched;
+    std::unique_ptr<DecodeStage> stage;  // null where second halves are not quantised
+    Part(std::uint32_t at, const std::string& number, const ClockDomain& clock,
+         std::uint32_t fetched_entries)
+        : index(at),
+          filter(("filter" + number).c_str(), clock),
+          fetched(("fetched" + number).c_str(), clock, fetched_entries) {}
   };
 
-  void run_fetch();   // thread: second halves of the candidates
-  void run_decode();  // thread: codebook entries of quantised ones
-  void run_filter();  // thread: FFU
-  Decoded take_fetched(Activity& activity);
-  void test(const Decoded& decoded);
-  void reject(const FineCandidate& candidate);
+  void make_part(std::uint32_t index, const ClockDomain& clock, const CodebookConfig& codebook);
+  void run_fetch();             // thread: second halves of the candidates
+  void run_decode(Part& part);  // thread: codebook entries of quantised ones
+  void run_filter(Part& part);  // thread: FFU
+  void fetch(FineCandidate candidate);
+  Decoded take_fetched(Part& part, Activity& activity);
+  void free_slot(std::uint32_t slot, Activity& activity);
+  void test(Part& part, const Decoded& decoded);
+  void reject(Part& part, const FineCandidate& candidate);
   void drop_saturated(const FineCandidate& candidate);
+  FifoWriteIf<SplatToken>& to_sorting(const Part& part, std::uint32_t visit);
 
   const HfuConfig config_;
   const BuiltFor built_for_;
   const FineFilterPlace place_;
   const StreamingJob& job_;
-  Activity fetch_, filter_;
+  Activity fetch_;
   const Datapath tests_;
   const std::uint32_t record_bytes_;
   std::vector<std::byte> second_halves_;  // [second_half_slots] records
-  TimedFifo<FineCandidate> fetched_;
-  std::unique_ptr<DecodeStage> stage_;  // null where second halves are not quantised
+  std::vector<std::uint32_t> wanted_;     // [second_half_slots] parts that have not yet taken it
+  std::vector<std::unique_ptr<Part>> parts_;
   TimedFifo<std::uint32_t> free_slots_;
   Counters counters_;
 };

@@ -1,5 +1,6 @@
-// Hierarchical filtering unit (HFU): a coarse and a fine filter. In paper order the one feeds the
-// other; in exact order the keys are merged in between: the machine binds their ports.
+// Hierarchical filtering unit (HFU), or those that share a fetch: coarse and fine filters. In paper
+// order the one feeds the other; in exact order the keys are merged in between: the machine binds
+// their ports. How many share it: the parts into which the job's groups are cut.
 #pragma once
 
 #include <systemc>
@@ -20,9 +21,10 @@ class Hfu : public sc_core::sc_module {
         coarse("coarse", config, context),
         fine("fine", config, codebook, place, context) {}
 
-  static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
+  static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for,
+                            std::uint32_t parts) {
     SramUses uses = CoarseFilter::sram_uses(config, built_for);
-    add(uses, FineFilter::sram_uses(config, built_for));
+    add(uses, FineFilter::sram_uses(config, built_for, parts));
     return uses;
   }
   void publish(DataSheet& sheet) {

@@ -40,4 +40,7 @@ struct HfuConfig {
 
 void visit(ConfigVisitor& v, HfuConfig& config);
 
+// HFUs that share a fetch, at most: parts of a group are told by the bits of a word.
+constexpr std::uint32_t kMostParts = 16;
+
 }  // namespace sgs

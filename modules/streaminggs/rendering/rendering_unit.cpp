@@ -47,7 +47,7 @@ void RenderingUnit::run_blend() {
       turn += mark != Mark::kNone || arrival_ == Arrival::kByToken ? 1 : 0;
     }
     ++counters_.groups;
-    counters_.groups_saturated += state->saturated() ? 1 : 0;
+    counters_.groups_saturated += state->saturated() && !state->pixels().empty() ? 1 : 0;
     counters_.contributors += state->contributors();
     work_until(schedule_.all_done());
     finished_.push(std::move(state), blend_);

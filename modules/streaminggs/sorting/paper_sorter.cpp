@@ -104,7 +104,7 @@ void PaperSorter::accept(const SplatToken& token) {
 void PaperSorter::sort_buffer() {
   std::sort(buffer_.begin(), buffer_.end(), in_front);
   const SortingCost cost = sort_cost(config_, buffer_.size());
-  sort_.work(cost.cycles);
+  sort_.work(place_.lists_of_network * cost.cycles);
   counters_.compare_exchanges += cost.compare_exchanges;
   counters_.moves += cost.moves;
 }
@@ -170,7 +170,7 @@ void PaperSorter::merge(const SpillRun* runs, std::size_t count, Sink&& sink) {
   while (!heads.empty() && !finished->finished(group_)) {
     const std::size_t nearest = heads.top();
     heads.pop();
-    owed += std::uint64_t{levels} * config_.merge_interval_cycles;
+    owed += std::uint64_t{levels} * config_.merge_interval_cycles * place_.lists_of_network;
     sort_.work(owed / kMergeWidth);
     owed %= kMergeWidth;
     counters_.compare_exchanges += std::uint64_t{levels} * kMergeStages;
@@ -226,7 +226,7 @@ void PaperSorter::publish(DataSheet& sheet) {
   sheet.counter("entries_spilled", "splats", "written to DRAM, over all passes",
                 counters_.entries_spilled);
   sheet.counter("list_max", "splats", "longest list of one visit", counters_.list_max);
-  publish_network(sheet, config_, counters_.compare_exchanges);
+  publish_network(sheet, config_, counters_.compare_exchanges, place_.lists_of_network);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(config_, built_for_));
   // In and out, through the network, and those spilled and read back once more each.

@@ -1,7 +1,7 @@
 // Sorting unit, paper order: puts the splats of one visit in order, front to back, equal depths by
-// index. Timing: one entry a cycle in and out, sorting_cost.h between. A visit with more splats
-// than the buffer holds spills sorted runs to DRAM and merges them back, in several passes if need
-// be.
+// index. Timing: one entry a cycle in and out, sorting_cost.h between, as many times longer as
+// there are lists that the network serves in turn. A visit with more splats than the buffer holds
+// spills sorted runs to DRAM and merges them back, in several passes if need be.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,12 @@
 
 namespace sgs {
 
-// Which visits a unit sorts, first_visit, first_visit + visit_step, ..., and its part of the spill
-// region, which holds two copies of the longest list.
+// Which visits a unit sorts (of the part of the groups that it has), first_visit, first_visit +
+// visit_step, ..., and its part of the spill region, which holds two copies of the longest list.
 struct PaperSorterPlace {
   std::uint32_t first_visit, visit_step;
   RegionSpan spill;
+  std::uint32_t lists_of_network = 1;  // that its sorting network serves in turn
 };
 
 class PaperSorter : public sc_core::sc_module {

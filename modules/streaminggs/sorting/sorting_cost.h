@@ -49,10 +49,12 @@ constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_
           blocks * kNetworkWidth + merges * kMergeWidth};
 }
 
-// The network of a unit, and what it did so far.
+// The network of a unit, or its share of one that serves several units in turn, and what it did so
+// far.
 inline void publish_network(DataSheet& sheet, const SortingNetworkConfig& config,
-                            std::uint64_t compare_exchanges) {
-  sheet.part("sorting", "compare_exchange", network_comparators(config), 1);
+                            std::uint64_t compare_exchanges, std::uint32_t units_of_network = 1) {
+  const double comparators = network_comparators(config);
+  sheet.part("sorting", "compare_exchange", comparators / units_of_network, 1);
   sheet.operations("sorting", "compare_exchange", static_cast<double>(compare_exchanges));
 }
 

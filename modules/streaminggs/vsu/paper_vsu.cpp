@@ -8,11 +8,15 @@
 #include "algorithm/voxel/ray_sampling.h"
 #include "algorithm/voxel/ray_walk.h"
 #include "algorithm/voxel/ray_work.h"
+#include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/counted_datapath.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
 namespace {
+
+// Of a voxel that is being cut: one for each halving of its count; first slot and count.
+constexpr std::uint32_t kOpenPieces = 32, kPieceBytes = 8;
 
 // The voxel tree as a traversal sees it: nodes come out of the cache. Misses are waited for as they
 // happen, the cycles of the steps themselves pass at the end of each ray.
@@ -49,6 +53,7 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       ray_steps_(ray_steps(config)),
       nodes_(config.node_cache_bytes, job_.layout.voxel_table().nodes),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
+      cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
       table_(static_cast<std::uint32_t>(job_.layout.voxel_table().voxels.count)),
       ordered_("ordered", context.clock, config.groups_ahead) {
   SC_THREAD(run_traverse);
@@ -108,31 +113,46 @@ void PaperVsu::run_emit() {
   for (std::size_t done = 0; done < job_.groups.size(); ++done) {
     const std::shared_ptr<OrderedGroup> ordered = ordered_.pop(emit_);
     for (const std::uint32_t voxel : ordered->voxels) {
-      if (finished->finished(ordered->group)) {
+      if (all_finished(finished, ordered->group)) {
         ++counters_.visits_saturated;
         continue;
       }
-      current_voxel_ = voxel;
-      hand_out(ordered->group, records_.get(voxel, record_memory, emit_));
+      visit_voxel(ordered->group, voxel);
     }
     mark_end(ordered->group);
   }
   emit_.idles();
 }
 
-// Splits a visit into contiguous shares of even size, no smaller than min_share and whole bursts of
-// first halves; which HFU begins rotates, so that small visits spread.
-void PaperVsu::hand_out(std::uint32_t group, const VoxelRecord& voxel) {
-  const auto hfus = static_cast<std::uint32_t>(shares.size());
+void PaperVsu::visit_voxel(std::uint32_t group, std::uint32_t voxel) {
+  current_voxel_ = voxel;
+  ++counters_.voxels;
+  const auto plane = [&](std::uint32_t index) {
+    emit_.work(1);
+    ++counters_.cuts;
+    return cuts_.get(index, record_memory, emit_);
+  };
+  const auto visit = [&](const VoxelRecord& piece) {
+    hand_out(group, piece);
+    return !all_finished(finished, group);
+  };
+  visit_pieces(records_.get(voxel, record_memory, emit_), job_.view.position,
+               config_.visit_gaussians, plane, visit);
+}
+
+// Splits a visit into contiguous shares of even size, one for each fetch, no smaller than min_share
+// and whole bursts of first halves; which begins rotates, so that small visits spread.
+void PaperVsu::hand_out(std::uint32_t group, const VoxelRecord& piece) {
+  const auto fetches = static_cast<std::uint32_t>(shares.size());
   const std::uint32_t unit = std::max(2U, config_.min_share);
   const std::uint32_t share =
-      static_cast<std::uint32_t>(cycles_for(cycles_for(voxel.count, hfus), unit)) * unit;
+      static_cast<std::uint32_t>(cycles_for(cycles_for(piece.count, fetches), unit)) * unit;
   emit_.work(1);
-  for (std::uint32_t k = 0; k < hfus; ++k) {
-    const std::uint32_t begin = std::min(k * share, voxel.count);
-    const std::uint32_t end = std::min(begin + share, voxel.count);
+  for (std::uint32_t k = 0; k < fetches; ++k) {
+    const std::uint32_t begin = std::min(k * share, piece.count);
+    const std::uint32_t end = std::min(begin + share, piece.count);
     in_turn(shares, k + next_visit_)
-        .push({group, next_visit_, voxel.first + begin, end - begin, Mark::kEndOfVisit}, emit_);
+        .push({group, next_visit_, piece.first + begin, end - begin, Mark::kEndOfVisit}, emit_);
   }
   ++next_visit_;
   ++counters_.visits;
@@ -152,6 +172,10 @@ SramUses PaperVsu::sram_uses(const PaperVsuConfig& config) {
                                                    config.node_cache_bytes);
   add(uses, TableCache<VoxelRecord>::sram_uses("record cache", "record cache tags", kSharedSram,
                                                config.record_cache_bytes));
+  add(uses, TableCache<float>::sram_uses("cut cache", "cut cache tags", kSharedSram,
+                                         config.cut_cache_bytes));
+  uses.push_back(sram_use("open pieces", kSharedSram,
+                          {{kOpenPieces, "pieces"}, {kPieceBytes, "B"}}, {8 * kPieceBytes}));
   uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
                           {64, SramPorts::kReadAndWrite, 2 * config.edges_per_cycle}));
   uses.push_back(sram_use("ordered voxels", kSharedSram,
@@ -166,23 +190,32 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.counter("rays", "rays", "followed", counters_.rays);
   sheet.counter("steps", "steps", "of rays through the voxel tree", counters_.steps);
   sheet.counter("edges", "edges", "offered to the ordering table", counters_.edges);
-  sheet.counter("visits", "voxels", "handed out, once for each group", counters_.visits);
+  sheet.counter("visits", "voxels", "or pieces of them handed out, once for each group",
+                counters_.visits);
+  sheet.counter("voxels", "voxels", "of these visits, whole or in pieces", counters_.voxels);
+  sheet.counter("cuts", "cuts", "of voxels into pieces", counters_.cuts);
   sheet.counter("visits_saturated", "voxels", "left out: the group was finished",
                 counters_.visits_saturated);
   sheet.counter("groups_empty", "groups", "with no voxel on any ray", counters_.groups_empty);
   sheet.counter("ordering_table_bytes_max", "bytes", "ordering table of the worst group",
                 counters_.table_bytes_max);
   sheet.counter("node_cache_misses", "nodes", "read from DRAM", nodes_.misses());
+  sheet.counter("cut_cache_misses", "planes", "of cut voxels read from DRAM", cuts_.misses());
   sheet.counter("record_cache_misses", "voxel records", "read from DRAM", records_.misses());
   sheet.datapath(ray_steps_, counters_.steps);
   nodes_.publish_accesses(sheet, "node cache", "node cache tags");
   records_.publish_accesses(sheet, "record cache", "record cache tags");
-  // An edge is looked for and found or entered; each voxel and edge is taken once more, in order.
-  sheet.part("vsu", "comparator", 2.0 * config_.edges_per_cycle, 1);
+  cuts_.publish_accesses(sheet, "cut cache", "cut cache tags");
+  // A voxel is entered, and taken in two for each cut; what is visited is taken.
+  sheet.accesses("open pieces", counters_.visits + counters_.cuts,
+                 counters_.voxels + 2 * counters_.cuts);
+  // An edge is looked for and found or entered; each voxel and edge is taken once more, in order;
+  // the eye lies before or behind a cut.
+  sheet.part("vsu", "comparator", 2.0 * config_.edges_per_cycle + 1, 1);
   const std::uint64_t lookups = counters_.edges + counters_.table_entries;
-  sheet.operations("vsu", "comparator", static_cast<double>(lookups));
+  sheet.operations("vsu", "comparator", static_cast<double>(lookups + counters_.cuts));
   sheet.accesses("ordering table", lookups, 2 * counters_.table_entries);
-  const std::uint64_t ordered = counters_.visits + counters_.visits_saturated;
+  const std::uint64_t ordered = counters_.voxels + counters_.visits_saturated;
   sheet.accesses("ordered voxels", ordered, ordered);
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
                  "no visit, no blending");

@@ -1,8 +1,9 @@
 // Voxel sorting unit (VSU), paper order: for each pixel group it follows the pixels' rays through
-// the voxel tree, orders the voxels that they meet, and hands each out as a visit to the HFUs.
+// the voxel tree, orders the voxels that they meet, and hands each out as a visit to the HFUs; one
+// with more Gaussians than a list holds in pieces, the nearest first.
 // Timing: steps on step_lanes lanes beside edges / edges_per_cycle a ray, one cycle a voxel and
-// edge to order them, one cycle a visit; table misses wait for DRAM. Function:
-// algorithm/order/group_visits.h.
+// edge to order them, one cycle a visit and a cut; table misses wait for DRAM. Function:
+// algorithm/order/group_visits.h, algorithm/voxel/voxel_cuts.h.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,10 @@ namespace sgs {
 
 class PaperVsu : public sc_core::sc_module {
  public:
-  FifoOuts<VisitShare> shares{"shares"};  // one a HFU
-  FinishedGroupsIn finished{"finished"};
-  MemoryPort node_memory;    // tree nodes, for the rays
-  MemoryPort record_memory;  // voxel records, for the visits
+  FifoOuts<VisitShare> shares{"shares"};   // one a fetch
+  FinishedGroupsIns finished{"finished"};  // one for each part of the groups
+  MemoryPort node_memory;                  // tree nodes, for the rays
+  MemoryPort record_memory;                // voxel records, for the visits
 
   SC_HAS_PROCESS(PaperVsu);
   PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
@@ -36,8 +37,10 @@ class PaperVsu : public sc_core::sc_module {
   struct Counters {
     std::uint64_t rays = 0, steps = 0, edges = 0;
     std::uint64_t table_entries = 0;     // voxels and distinct edges, over all groups
+    std::uint64_t voxels = 0;            // handed out, whole or in pieces
     std::uint64_t visits = 0;            // handed out
-    std::uint64_t visits_saturated = 0;  // left out: the group was finished
+    std::uint64_t cuts = 0;              // of voxels into pieces
+    std::uint64_t visits_saturated = 0;  // voxels left out: the group was finished
     std::uint64_t groups_empty = 0;      // no voxel on any ray
     std::uint64_t table_bytes_max = 0;   // ordering table of the worst group
   };
@@ -53,7 +56,8 @@ class PaperVsu : public sc_core::sc_module {
   void run_traverse();  // thread: rays to ordered voxels, some groups ahead
   void run_emit();      // thread: ordered voxels to visits
   GroupVisits order_group(const PixelRect& pixels);
-  void hand_out(std::uint32_t group, const VoxelRecord& voxel);
+  void visit_voxel(std::uint32_t group, std::uint32_t voxel);
+  void hand_out(std::uint32_t group, const VoxelRecord& piece);
   void mark_end(std::uint32_t group);
 
   const PaperVsuConfig config_;
@@ -62,6 +66,7 @@ class PaperVsu : public sc_core::sc_module {
   const Datapath ray_steps_;
   TableCache<VoxelNode> nodes_;
   TableCache<VoxelRecord> records_;
+  TableCache<float> cuts_;
   OrderingTable table_;
   TimedFifo<std::shared_ptr<OrderedGroup>> ordered_;
   Counters counters_;

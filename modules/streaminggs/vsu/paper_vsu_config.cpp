@@ -12,6 +12,9 @@ void visit(ConfigVisitor& v, PaperVsuConfig& c) {
   v("table_bytes", c.table_bytes, in_range(8, 1 << 30), "ordering table of one group");
   v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");
   v("record_cache_bytes", c.record_cache_bytes, in_range(64, 1 << 30), "cache of voxel records");
+  v("cut_cache_bytes", c.cut_cache_bytes, in_range(64, 1 << 30), "cache of cut voxels' planes");
+  v("visit_gaussians", c.visit_gaussians, in_range(0, 1 << 30),
+    "voxels with more are cut into pieces, each a visit; 0: never");
   v("min_share", c.min_share, in_range(2, 1 << 20), "fewest Gaussians of a visit for one HFU");
 }
 

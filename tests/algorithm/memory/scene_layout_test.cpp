@@ -120,22 +120,22 @@ TEST_CASE("scene layout: every region where it has always been") {
        lay_out_voxels(vq, 1763452, frame, 901, 30011),
        1410240,
        640 * 360,
-       {{"voxel_table", 0, 254504},
-        {"first_halves", 258048, 28215232},
-        {"second_halves", 28475392, 29978684},
-        {"codebooks", 58458112, 256000},
-        {"spill", 58716160, 1410240},
-        {"frame_buffer", 60129280, 691200}}},
+       {{"voxel_table", 0, 474936},
+        {"first_halves", 475136, 28215232},
+        {"second_halves", 28692480, 29978684},
+        {"codebooks", 58675200, 256000},
+        {"spill", 58933248, 1410240},
+        {"frame_buffer", 60346368, 691200}}},
       {"voxels, raw",
        lay_out_voxels({Encoding::kRaw, 2, {}}, 1763452, frame, 901, 30011),
        1410240,
        1280 * 720,
-       {{"voxel_table", 0, 254504},
-        {"first_halves", 258048, 28215232},
-        {"second_halves", 28475392, 239829472},
-        {"codebooks", 268308480, 0},
-        {"spill", 268308480, 1410240},
-        {"frame_buffer", 269721600, 2764800}}},
+       {{"voxel_table", 0, 474936},
+        {"first_halves", 475136, 28215232},
+        {"second_halves", 28692480, 239829472},
+        {"codebooks", 268525568, 0},
+        {"spill", 268525568, 1410240},
+        {"frame_buffer", 269938688, 2764800}}},
       {"nothing, by voxels",
        lay_out_voxels({}, 0, {}, 0, 0),
        0,
@@ -200,6 +200,9 @@ TEST_CASE("scene layout: tables and records lie in the regions that they name") 
   const VoxelTableLayout& grid = voxels.voxel_table();
   check_in(voxels.regions, "voxel_table", grid.nodes);
   check_in(voxels.regions, "voxel_table", grid.voxels);
+  check_in(voxels.regions, "voxel_table", grid.cuts);
+  CHECK(grid.cuts.count == 32);  // a plane for every 32 slots
+  CHECK(grid.cuts.address(1) == 5 * 16 + 40 * 8 + 4);
   CHECK(grid.nodes.address(3) == 3 * sizeof(VoxelNode));
   CHECK(grid.voxels.address(2) == 5 * 16 + 2 * 8);
   CHECK(grid.frame.voxel_size == 0.5F);

@@ -163,6 +163,28 @@ TEST_CASE("paper renderer: one voxel that holds all is the reference image") {
   }
 }
 
+TEST_CASE("paper renderer: parts of a group change no pixel in single precision") {
+  const Scene scene = open_scene("builtin:object?n=3000");
+  const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), 0.4F);
+  const View<float> view = make_view<float>(scaled_to(scene.cameras.front(), 97, 53));
+  PaperOrderConfig config;
+  config.group_px = 40;  // ten sub-tiles: not even in three or four
+  const StreamingResult whole = render_paper_order(view, cloud, grid, config);
+  CHECK(whole.stats.fine_tests == whole.stats.second_halves);
+  for (const std::uint32_t parts : {4U, 9U, 16U}) {
+    INFO(parts);
+    config.parts = parts;
+    const StreamingResult cut = render_paper_order(view, cloud, grid, config);
+    CHECK(cut.frame.image.pixels == whole.frame.image.pixels);
+    CHECK(cut.stats.contributors == whole.stats.contributors);
+    CHECK(cut.stats.misordered == whole.stats.misordered);
+    // A second half is fetched once for all parts that want it.
+    CHECK(cut.stats.second_halves <= whole.stats.second_halves);
+    CHECK(cut.stats.fine_tests > cut.stats.second_halves);
+    CHECK(cut.stats.fine_tests < parts * cut.stats.second_halves);
+  }
+}
+
 TEST_CASE("paper renderer: an empty scene is the background") {
   Camera camera;
   camera.width = 33;

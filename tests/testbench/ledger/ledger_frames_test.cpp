@@ -88,14 +88,16 @@ const Settings kPlain = {"storage.encoding=raw", fmt::format("group_px={}", kGro
 // Nothing in it is finished early: what reaches a group late is still needed.
 constexpr const char* kSparse = "builtin:object?n=300";
 
-// The parts that both orders share, against a golden renderer's counts.
-void check_shared(const Frame& frame, const StreamingStats& golden) {
+// The parts that both orders share, against a golden renderer's counts. hfus: that test one fetched
+// Gaussian.
+void check_shared(const Frame& frame, const StreamingStats& golden, std::uint64_t hfus) {
   REQUIRE(counter(frame, "groups_saturated") == 0);
-  CHECK(items(frame, "coarse") == golden.first_halves);
+  CHECK(items(frame, "coarse") == hfus * golden.first_halves);
   CHECK(accesses(frame, "input").reads == golden.first_halves);
-  CHECK(items(frame, "fine") == golden.second_halves);
+  CHECK(items(frame, "fine") == golden.fine_tests);
   const std::uint64_t words = (frame.job.layout.second_halves.record_bytes + 31) / 32;
-  CHECK(accesses(frame, "second halves").reads == golden.second_halves * words);
+  CHECK(accesses(frame, "second halves").reads == golden.fine_tests * words);
+  CHECK(accesses(frame, "second halves").writes == golden.second_halves * words);
   // Every sub-tile is cleared and drained once beside its blends; and what comes before it is known
   // that a sub-tile is finished is blended, and paid, for nothing.
   const std::uint64_t subtiles = 72 / 4 * 48 / 4 + counter(frame, "subtile_blends_late");
@@ -111,7 +113,7 @@ TEST_CASE("ledger: exact order is charged with what the golden renderer counts")
   const ChunkTree& tree = frame.scene->stored.tree();
   const StreamingStats golden =
       render_exact_order(frame.job.view, frame.scene->stored.decoded, tree, order).stats;
-  check_shared(frame, golden);
+  check_shared(frame, golden, 1);
   // Children of the nodes that the walk opens, one by one.
   TreeInMemory source{tree, {}};
   ChunkWalk<TreeInMemory> walk(frame.job.view, source, {256, 384});
@@ -137,14 +139,19 @@ TEST_CASE("ledger: exact order is charged with what the golden renderer counts")
 }
 
 TEST_CASE("ledger: paper order is charged with what the golden renderer counts") {
-  const Frame frame = simulated("paper_no_vq", kPlain, kSparse);
+  Settings settings = kPlain;
+  settings.push_back("vsu.visit_gaussians=0");  // a visit is a voxel
+  const Frame frame = simulated("paper_no_vq", settings, kSparse);
   check_paid(frame);
+  constexpr std::uint32_t kHfus = 4;
   PaperOrderConfig order;
   order.group_px = kGroupPx;
+  order.parts = kHfus;
+  order.precision = BlendPrecision::kHalf;
   const StreamingStats golden = render_paper_order(frame.job.view, frame.scene->stored.decoded,
                                                    frame.scene->stored.grid(), order)
                                     .stats;
-  check_shared(frame, golden);
+  check_shared(frame, golden, kHfus);
   CHECK(items(frame, "ray_step") == golden.ray_steps);
   CHECK(accesses(frame, "ordering table").reads >= golden.edges_offered);
   CHECK(accesses(frame, "ordered voxels").reads == golden.visits);
@@ -205,7 +212,20 @@ const Choices kPaper = {{"vsu.step_lanes", {"8", "128", "600"}},
                         {"vsu.edges_per_cycle", {"1", "4"}},
                         {"vsu.groups_ahead", {"1", "3"}},
                         {"vsu.table_bytes", {"32768"}},
+                        {"vsu.visit_gaussians", {"0", "128"}},
                         {"sorting.buffer_entries", {"16", "256"}}};
+
+Choices with(Choices choices, const Choices& instead) {
+  for (const auto& [key, values] : instead) choices[key] = values;
+  return choices;
+}
+
+const Choices kSplitFetch = with(kPaper, {{"fetch", {"split"}}});
+// HFUs that share a fetch are a square number, and share out what is behind them.
+const Choices kSharedFetch = with(kPaper, {{"fetch", {"shared"}},
+                                           {"hfus", {"1", "4"}},
+                                           {"sorting_units", {"1", "2", "4"}},
+                                           {"rendering.clusters", {"4", "16"}}});
 
 TEST_CASE("ledger: no part and no port does more than a frame has time for") {
   struct Machine {
@@ -214,7 +234,9 @@ TEST_CASE("ledger: no part and no port does more than a frame has time for") {
   };
   std::mt19937_64 random(11);
   for (const auto& [preset, own] : {Machine{"exact", kExact}, Machine{"exact_vq", kExact},
-                                    Machine{"paper", kPaper}, Machine{"paper_no_vq", kPaper}}) {
+                                    Machine{"paper", kSplitFetch}, Machine{"paper", kSharedFetch},
+                                    Machine{"paper_no_vq", kSplitFetch},
+                                    Machine{"paper_no_vq", kSharedFetch}}) {
     for (int repeat = 0; repeat < 8; ++repeat) {
       Settings settings = {"sram.codebook_bytes=256000"};
       std::string all = preset;
