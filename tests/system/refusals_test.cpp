@@ -37,7 +37,7 @@ void check_set_refused(const std::string& order, const Arguments& settings,
 TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
   check_set_refused("paper", {"group_px=128"},
                     {"sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
-                     "4 x 1 groups x 64 px x 64 px x 16 B"});
+                     "4 x 1 groups x 64 px x 64 px x 8 B"});
   check_set_refused("paper", {"hfu.slice_gaussians=1024"},
                     {"sram.input_bytes: 16384 bytes are there", "2 slots x 1024 Gaussians"});
   check_set_refused("exact", {"group_px=128", "sram.shared_bytes=10000"},
