@@ -52,6 +52,8 @@ class FifoChannel : public sc_core::sc_prim_channel {
   // Who puts entries in and who takes them out; null before the first did.
   const Activity* writer() const { return writer_; }
   const Activity* reader() const { return reader_; }
+  // Where several put entries in, which was the last depends on the kernel: says who stands for all.
+  void name_writer(const Activity& writer) { writer_ = &writer; }
 
   void trace(sc_core::sc_trace_file* file) const override {
     sc_core::sc_trace(file, fill_, std::string(name()) + ".fill");
@@ -67,7 +69,8 @@ class FifoChannel : public sc_core::sc_prim_channel {
   std::optional<StallInjector> writer_stalls_, reader_stalls_;
 };
 
-// One writer thread, one reader thread. The waiting times are charged to the Activity that waits:
+// One writer thread, one reader thread; several writers only where there is always room, since each
+// gives back what was taken out. The waiting times are charged to the Activity that waits:
 // the writer for room, the reader for input.
 template <class T>
 class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T> {

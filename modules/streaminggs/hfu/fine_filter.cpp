@@ -1,6 +1,8 @@
 // The threads of the fine filter.
 #include "modules/streaminggs/hfu/fine_filter.h"
 
+#include <algorithm>
+
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
@@ -194,7 +196,17 @@ SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_fo
   return uses;
 }
 
+// A slot is held until the last part has taken what is in it: that is the busiest, mostly.
+void FineFilter::name_holder_of_slots() {
+  for (const auto& part : parts_) part->taker().close();
+  const auto busiest = std::max_element(parts_.begin(), parts_.end(), [](auto& a, auto& b) {
+    return a->taker().busy_cycles() < b->taker().busy_cycles();
+  });
+  free_slots_.name_writer((*busiest)->taker());
+}
+
 void FineFilter::publish(DataSheet& sheet) {
+  name_holder_of_slots();
   sheet.unit(*this);
   sheet.activity(fetch_, "fetch", "asks for second halves");
   for (const auto& part : parts_) {

@@ -85,6 +85,8 @@ class FineFilter : public sc_core::sc_module {
     Activity filter;
     TimedFifo<FineCandidate> fetched;
     std::unique_ptr<DecodeStage> stage;  // null where second halves are not quantised
+    // What takes second halves out of their slots.
+    Activity& taker() { return stage ? stage->decode : filter; }
     Part(std::uint32_t at, const std::string& number, const ClockDomain& clock,
          std::uint32_t fetched_entries)
         : index(at),
@@ -99,6 +101,7 @@ class FineFilter : public sc_core::sc_module {
   void fetch(FineCandidate candidate);
   Decoded take_fetched(Part& part, Activity& activity);
   void free_slot(std::uint32_t slot, Activity& activity);
+  void name_holder_of_slots();
   void test(Part& part, const Decoded& decoded);
   void reject(Part& part, const FineCandidate& candidate);
   void drop_saturated(const FineCandidate& candidate);
