@@ -34,7 +34,7 @@ class WithTheCommand(InFolder):
                 ("--axis", "hfus=2,4", "--axis", "group_px=16,32"),
                 {"of 4 configurations": 1, "Refused": 0},
             ),
-            (explore, ("--config", "paper", "--axis", "hfus=1"), {"| 1 | 48 |": 1}),
+            (explore, ("--config", "paper", "--axis", "hfus=1"), {"| 1 | 64 |": 1}),
             (timing, ("--repeats", "1", "--configs", "exact", "paper"), {"| truck | 64 |": 2}),
             (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1}),
             (tuned_orders, (), {"| truck |": 1}),
