@@ -52,7 +52,8 @@ class FifoChannel : public sc_core::sc_prim_channel {
   // Who puts entries in and who takes them out; null before the first did.
   const Activity* writer() const { return writer_; }
   const Activity* reader() const { return reader_; }
-  // Where several put entries in, which was the last depends on the kernel: says who stands for all.
+  // Where several put entries in, which was the last depends on the kernel: says who stands for
+  // all.
   void name_writer(const Activity& writer) { writer_ = &writer; }
 
   void trace(sc_core::sc_trace_file* file) const override {

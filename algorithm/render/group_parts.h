@@ -1,5 +1,5 @@
-// A pixel group cut into parts, each filtered and blended by itself: a square grid of them, of whole
-// 4x4 sub-tiles.
+// A pixel group cut into parts, each filtered and blended by itself: a square grid of them, of
+// whole 4x4 sub-tiles.
 #pragma once
 
 #include <cstdint>

@@ -32,9 +32,7 @@ struct Part {
   std::vector<Splat> run;  // of one visit
 
   Part(const PixelRect& at, const View<float>& view, BlendPrecision precision)
-      : pixels(at),
-        state(at, view.width, view.height, precision),
-        watch(state.subtile_count()) {}
+      : pixels(at), state(at, view.width, view.height, precision), watch(state.subtile_count()) {}
 };
 
 bool all_saturated(const std::vector<Part>& parts) {

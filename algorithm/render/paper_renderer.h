@@ -19,9 +19,9 @@ struct PaperOrderConfig {
   // Voxels with more Gaussians are cut (voxel_cuts.h), each piece a visit of its own; 0: never.
   std::uint32_t visit_gaussians = 0;
   // Parts of a group, each filtered and blended by itself (group_parts.h): a square number. In
-  // single precision the pixels are the same for any. In half they are not: rounding moves the
-  // ellipse's edge by some hundredths of a pixel, and which sub-tiles are tested against it follows
-  // from how many of a part's a splat may reach.
+  // single precision the pixels are the same for any. In half they are not: rounded, alpha passes
+  // 1/255 some hundredths of a pixel beyond the ellipse, and a splat that reaches a part only so is
+  // dropped by that part's fine filter, where the filter of the whole group lets it through.
   std::uint32_t parts = 1;
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
   glm::vec3 background{0.0F};

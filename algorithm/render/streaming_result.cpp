@@ -11,8 +11,7 @@ StreamingStats& StreamingStats::operator+=(const StreamingStats& other) {
        {&StreamingStats::groups, &StreamingStats::visits, &StreamingStats::visits_saturated,
         &StreamingStats::blocks_visited, &StreamingStats::first_halves,
         &StreamingStats::coarse_passed, &StreamingStats::second_halves, &StreamingStats::fine_tests,
-        &StreamingStats::splats,
-        &StreamingStats::subtile_blends, &StreamingStats::contributors,
+        &StreamingStats::splats, &StreamingStats::subtile_blends, &StreamingStats::contributors,
         &StreamingStats::contributing, &StreamingStats::misordered, &StreamingStats::missed,
         &StreamingStats::ray_steps, &StreamingStats::edges_offered, &StreamingStats::nodes_read,
         &StreamingStats::forced_early}) {

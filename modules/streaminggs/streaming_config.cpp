@@ -7,9 +7,9 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/memory/splat_record.h"
+#include "algorithm/render/group_parts.h"
 #include "algorithm/splat/constants.h"
 #include "modules/memory_port_keys.h"
-#include "algorithm/render/group_parts.h"
 
 namespace sgs {
 

@@ -68,9 +68,9 @@ Expected expect(const Plan& plan) {
     if (!grid.nodes.empty()) {
       GridTable nodes{grid};
       const auto count = [&](std::uint32_t steps, std::size_t edges) {
-        out.traverse_cycles += std::max({ceil_div(steps * macs_of_a_step(), plan.config.step_lanes),
-                                         ceil_div(edges, plan.config.edges_per_cycle),
-                                         nodes.lookups});
+        out.traverse_cycles +=
+            std::max({ceil_div(steps * macs_of_a_step(), plan.config.step_lanes),
+                      ceil_div(edges, plan.config.edges_per_cycle), nodes.lookups});
         nodes.lookups = 0;
       };
       if (step > 0) {

@@ -60,7 +60,8 @@ TEST_CASE("whole frame: groups of 4 to 128 px, most of them no divisor of the fr
   }
 }
 
-// In half precision it matters which sub-tiles of a part were tested against an ellipse.
+// In half precision a splat may reach a pixel just beyond its ellipse, unless the fine filter of
+// that pixel's part has dropped it.
 TEST_CASE("whole frame: pixels in half where parts of a group meet") {
   for (const char* hfus : {"1", "4"}) {
     for (const char* group : {"8", "28"}) {

@@ -181,10 +181,9 @@ FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t 
 
 SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                                std::uint32_t parts) {
-  SramUses uses = {
-      sram_use("second halves", kSharedSram,
-               {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
-               {8 * kPortBytes})};
+  SramUses uses = {sram_use(
+      "second halves", kSharedSram,
+      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}}, {8 * kPortBytes})};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
                               "candidates"),

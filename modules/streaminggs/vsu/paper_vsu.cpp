@@ -81,8 +81,8 @@ GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
   const auto on_ray = [&](std::uint32_t steps, std::size_t edges) {
     const std::uint64_t lookups = nodes_.lookups() - looked_up;
     looked_up = nodes_.lookups();
-    traverse_.work(std::max({ray_steps_.cycles(steps), lookups,
-                             cycles_for(edges, config_.edges_per_cycle)}));
+    traverse_.work(
+        std::max({ray_steps_.cycles(steps), lookups, cycles_for(edges, config_.edges_per_cycle)}));
   };
   GroupVisits visits;
   if (config_.sample_step_voxels > 0) {
@@ -174,8 +174,8 @@ SramUses PaperVsu::sram_uses(const PaperVsuConfig& config) {
                                                config.record_cache_bytes));
   add(uses, TableCache<float>::sram_uses("cut cache", "cut cache tags", kSharedSram,
                                          config.cut_cache_bytes));
-  uses.push_back(sram_use("open pieces", kSharedSram,
-                          {{kOpenPieces, "pieces"}, {kPieceBytes, "B"}}, {8 * kPieceBytes}));
+  uses.push_back(sram_use("open pieces", kSharedSram, {{kOpenPieces, "pieces"}, {kPieceBytes, "B"}},
+                          {8 * kPieceBytes}));
   uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
                           {64, SramPorts::kReadAndWrite, 2 * config.edges_per_cycle}));
   uses.push_back(sram_use("ordered voxels", kSharedSram,

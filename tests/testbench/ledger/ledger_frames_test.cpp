@@ -208,12 +208,10 @@ const Choices kExact = {{"vsu.test_lanes", {"8", "128", "600"}},
                         {"vsu.queue_entries", {"9", "512"}},
                         {"merge.entries", {"16", "300"}},
                         {"merge.on_overflow", {"spill", "blend_early"}}};
-const Choices kPaper = {{"vsu.step_lanes", {"8", "128", "600"}},
-                        {"vsu.edges_per_cycle", {"1", "4"}},
-                        {"vsu.groups_ahead", {"1", "3"}},
-                        {"vsu.table_bytes", {"32768"}},
-                        {"vsu.visit_gaussians", {"0", "128"}},
-                        {"sorting.buffer_entries", {"16", "256"}}};
+const Choices kPaper = {
+    {"vsu.step_lanes", {"8", "128", "600"}}, {"vsu.edges_per_cycle", {"1", "4"}},
+    {"vsu.groups_ahead", {"1", "3"}},        {"vsu.table_bytes", {"32768"}},
+    {"vsu.visit_gaussians", {"0", "128"}},   {"sorting.buffer_entries", {"16", "256"}}};
 
 Choices with(Choices choices, const Choices& instead) {
   for (const auto& [key, values] : instead) choices[key] = values;
@@ -233,10 +231,10 @@ TEST_CASE("ledger: no part and no port does more than a frame has time for") {
     const Choices& choices;
   };
   std::mt19937_64 random(11);
-  for (const auto& [preset, own] : {Machine{"exact", kExact}, Machine{"exact_vq", kExact},
-                                    Machine{"paper", kSplitFetch}, Machine{"paper", kSharedFetch},
-                                    Machine{"paper_no_vq", kSplitFetch},
-                                    Machine{"paper_no_vq", kSharedFetch}}) {
+  for (const auto& [preset, own] :
+       {Machine{"exact", kExact}, Machine{"exact_vq", kExact}, Machine{"paper", kSplitFetch},
+        Machine{"paper", kSharedFetch}, Machine{"paper_no_vq", kSplitFetch},
+        Machine{"paper_no_vq", kSharedFetch}}) {
     for (int repeat = 0; repeat < 8; ++repeat) {
       Settings settings = {"sram.codebook_bytes=256000"};
       std::string all = preset;
