@@ -12,7 +12,7 @@ struct PaperVsuConfig {
   std::uint32_t edges_per_cycle = 1;        // insertions into the ordering table
   double sample_step_voxels = 0;            // 0: every cell of the ray; else distance of samples
   std::uint32_t groups_ahead = 1;           // ordered groups that wait for the HFUs
-  std::uint32_t table_bytes = 7168;         // ordering table of one group
+  std::uint32_t table_bytes = 7680;         // ordering table of one group
   std::uint32_t node_cache_bytes = 9216;    // in front of the tree in DRAM
   std::uint32_t record_cache_bytes = 1024;  // in front of the voxel records
   std::uint32_t cut_cache_bytes = 256;      // in front of the planes of cut voxels
