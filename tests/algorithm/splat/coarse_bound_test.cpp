@@ -3,18 +3,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/algorithm/splat/camera_at_origin.h"
+
 using namespace sgs;
 
 namespace {
 
-Camera camera_at_origin() {
-  Camera camera;
-  camera.width = 100;
-  camera.height = 50;
-  camera.focal_x = 100;
-  camera.focal_y = 80;
-  return camera;
-}
+using test::camera_at_origin;
 
 Gaussian<float> ball(glm::vec3 mean, float radius) {
   return {mean, glm::vec3(radius), {1, 0, 0, 0}, 1.0F};

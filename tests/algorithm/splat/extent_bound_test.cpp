@@ -4,17 +4,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/algorithm/splat/camera_at_origin.h"
+
 namespace sgs {
 namespace {
 
-Camera camera_at_origin() {
-  Camera camera;
-  camera.width = 100;
-  camera.height = 50;
-  camera.focal_x = 100;
-  camera.focal_y = 80;
-  return camera;
-}
+using test::camera_at_origin;
 
 constexpr double kLowPassReach = 0.3 * (2 * 5.541263545158426 + 1e-4);  // px^2, 2 ln 255
 
