@@ -22,6 +22,7 @@
 
 #include "tlm/datapath.h"
 #include "tlm/memory_port.h"
+#include "tlm/remedy.h"
 #include "tlm/sram_use.h"
 #include "tlm/timed_fifo.h"
 
@@ -40,13 +41,12 @@ class DataSheet {
     (void)resource;
     (void)meaning;
   }
-  // What to change in the configuration, key: of which more lets the activity work for fewer
-  // cycles; or wait for fewer, for something at a FIFO, a port or a unit.
-  virtual void remedy(const Activity&, const char* key) { (void)key; }
-  virtual void remedy(const sc_core::sc_object& at, WaitFor what, const char* key) {
+  // What lets the activity work for fewer cycles; or wait for fewer, for something at a FIFO, a port
+  // or a unit.
+  virtual void remedy(const Activity&, const Remedy&) {}
+  virtual void remedy(const sc_core::sc_object& at, WaitFor what, const Remedy&) {
     (void)at;
     (void)what;
-    (void)key;
   }
   // unit: of the value ("cycles", "bytes", "keys").
   virtual void counter(const char* name, const char* unit, const char* meaning,

@@ -22,7 +22,7 @@ class Collector : public LeftOutCollector {
   }
   void activity(Activity& activity, const char* resource, const char* meaning) override {
     activity.close();
-    ActivityResult result{activity.basename(), resource, meaning, activity.busy_cycles(), {}, ""};
+    ActivityResult result{activity.basename(), resource, meaning, activity.busy_cycles(), {}, {}};
     for (const Activity::Wait& wait : activity.waits()) {
       if (wait.cycles > 0) result.waits.push_back(wait_of(wait, activity));
     }
@@ -32,11 +32,11 @@ class Collector : public LeftOutCollector {
     });
     into_.units.back().activities.push_back(std::move(result));
   }
-  void remedy(const Activity& activity, const char* key) override {
-    for_work_[path_below(activity, machine_)] = key;
+  void remedy(const Activity& activity, const Remedy& remedy) override {
+    for_work_[path_below(activity, machine_)] = remedy;
   }
-  void remedy(const sc_core::sc_object& at, WaitFor what, const char* key) override {
-    for_waits_[{path_below(at, machine_), what}] = key;
+  void remedy(const sc_core::sc_object& at, WaitFor what, const Remedy& remedy) override {
+    for_waits_[{path_below(at, machine_), what}] = remedy;
   }
   void counter(const char* name, const char* unit, const char* meaning,
                std::uint64_t value) override {
@@ -102,22 +102,22 @@ class Collector : public LeftOutCollector {
   void apply_remedies() {
     const auto in = [](const auto& remedies, const auto& at) {
       const auto found = remedies.find(at);
-      return found == remedies.end() ? std::string() : found->second;
+      return found == remedies.end() ? Remedy() : found->second;
     };
     for (UnitResult& unit : into_.units) {
       for (ActivityResult& activity : unit.activities) {
-        activity.key = in(for_work_, unit.name + "." + activity.name);
+        activity.remedy = in(for_work_, unit.name + "." + activity.name);
         for (WaitResult& wait : activity.waits) {
           // More entries are what helps both ends of a FIFO.
           const bool at_fifo = wait.what == WaitFor::kInput;
-          wait.key = in(for_waits_, std::pair(wait.at, at_fifo ? WaitFor::kRoom : wait.what));
+          wait.remedy = in(for_waits_, std::pair(wait.at, at_fifo ? WaitFor::kRoom : wait.what));
         }
       }
     }
   }
 
   WaitResult wait_of(const Activity::Wait& wait, const Activity& waiting) const {
-    WaitResult result{wait.what, "", "", "", wait.cycles};
+    WaitResult result{wait.what, "", "", {}, wait.cycles};
     if (wait.at != nullptr) result.at = path_below(*wait.at, machine_);
     if (const auto* fifo = dynamic_cast<const FifoChannel*>(wait.at)) {
       const Activity* other = fifo->writer() == &waiting ? fifo->reader() : fifo->writer();
@@ -142,8 +142,8 @@ class Collector : public LeftOutCollector {
   const Machine& machine_;
   MachineResult& into_;
   std::set<std::string> movers_;  // units at an end of a FIFO that entries went through
-  std::map<std::string, std::string> for_work_;
-  std::map<std::pair<std::string, WaitFor>, std::string> for_waits_;
+  std::map<std::string, Remedy> for_work_;
+  std::map<std::pair<std::string, WaitFor>, Remedy> for_waits_;
 };
 
 class Drained : public DataSheet {

@@ -27,7 +27,7 @@ MemoryResult collect_memory(DramController& memory, const Regions& regions,
            stats.clock_period_ns;
   };
   MemoryResult m;
-  m.key = "dram.channels";
+  m.remedy = "dram.channels";
   m.bytes = stats.bytes();
   m.bus_bytes = stats.bus_bytes();
   for (const auto& row : stats.traffic.rows()) {

@@ -17,7 +17,7 @@ struct WaitResult {
   WaitFor what = WaitFor::kIdle;
   std::string at;     // FIFO, port or unit; empty with kIdle
   std::string other;  // path of the activity at the other end of the FIFO; empty elsewhere
-  std::string key;    // what to raise in the configuration to wait less; empty: nothing is known
+  Remedy remedy;      // to wait less
   std::uint64_t cycles = 0;
 };
 
@@ -25,7 +25,7 @@ struct ActivityResult {
   std::string name, resource, meaning;
   std::uint64_t busy_cycles = 0;
   std::vector<WaitResult> waits;  // with the busy cycles they add up to the frame
-  std::string key;                // what to raise in the configuration to work faster, or empty
+  Remedy remedy;                  // to work faster
 
   std::uint64_t waited_for(WaitFor what) const;
   std::uint64_t waited() const;
@@ -100,7 +100,7 @@ struct MemoryResult {
   double read_latency_mean_ns = 0, read_latency_p50_ns = 0, read_latency_p99_ns = 0;
   std::uint32_t channels = 0;
   double bus_utilisation = 0;  // of the busiest channel's data bus, 0 to 1
-  std::string key;             // what to raise in the configuration for more of it
+  Remedy remedy;               // for more of it
   double energy_j = 0;
   std::vector<std::pair<std::string, double>> energy_by_current_set_j, energy_by_region_j;
 };

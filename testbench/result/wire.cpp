@@ -10,12 +10,16 @@
 namespace sgs {
 
 template <class Archive>
+void serialize(Archive& a, Remedy& r) {
+  a(r.key, r.turn);
+}
+template <class Archive>
 void serialize(Archive& a, WaitResult& r) {
-  a(r.what, r.at, r.other, r.key, r.cycles);
+  a(r.what, r.at, r.other, r.remedy, r.cycles);
 }
 template <class Archive>
 void serialize(Archive& a, ActivityResult& r) {
-  a(r.name, r.resource, r.meaning, r.busy_cycles, r.waits, r.key);
+  a(r.name, r.resource, r.meaning, r.busy_cycles, r.waits, r.remedy);
 }
 template <class Archive>
 void serialize(Archive& a, CounterResult& r) {
@@ -72,7 +76,7 @@ void serialize(Archive& a, MemoryResult& r) {
   a(r.bytes, r.bus_bytes, r.traffic, r.bus_bytes_by_region, r.transactions, r.row_hits,
     r.row_misses, r.row_conflicts, r.refreshes, r.bandwidth_gb_s, r.busy_bandwidth_gb_s,
     r.peak_gb_s, r.read_latency_mean_ns, r.read_latency_p50_ns, r.read_latency_p99_ns, r.channels,
-    r.bus_utilisation, r.key, r.energy_j, r.energy_by_current_set_j, r.energy_by_region_j);
+    r.bus_utilisation, r.remedy, r.energy_j, r.energy_by_current_set_j, r.energy_by_region_j);
 }
 template <class Archive>
 void serialize(Archive& a, FrameResult& r) {

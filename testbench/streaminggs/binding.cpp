@@ -59,8 +59,9 @@ std::string waits_text(const ActivityResult& activity, const WaitResult& wait,
                      100 * share(activity.waited_for(wait.what), frame));
 }
 
-std::string key_text(const std::string& key) {
-  return key.empty() ? "no key of the configuration is known to change that" : "raise " + key;
+std::string text_of(const Remedy& remedy) {
+  if (!remedy.known()) return "no key of the configuration is known to change that";
+  return (remedy.turn == Turn::kUp ? "raise " : "lower ") + remedy.key;
 }
 
 }  // namespace
@@ -69,7 +70,7 @@ std::vector<ResourceUse> resource_uses(const FrameResult& frame) {
   std::vector<ResourceUse> uses;
   for (const UnitResult& unit : frame.machine.units) {
     for (const ActivityResult& activity : unit.activities) {
-      const ResourceUse use{activity.resource, share(activity.busy_cycles, frame), activity.key};
+      const ResourceUse use{activity.resource, share(activity.busy_cycles, frame), activity.remedy};
       const auto same = std::find_if(uses.begin(), uses.end(), [&](const ResourceUse& other) {
         return other.name == use.name;
       });
@@ -80,7 +81,7 @@ std::vector<ResourceUse> resource_uses(const FrameResult& frame) {
       }
     }
   }
-  uses.push_back({"dram", frame.memory.bus_utilisation, frame.memory.key});
+  uses.push_back({"dram", frame.memory.bus_utilisation, frame.memory.remedy});
   return uses;
 }
 
@@ -96,7 +97,7 @@ Cause follow_waiting(const FrameResult& frame) {
     const ActivityResult& activity = *at->second;
     cause.path.push_back(at->first);
     cause.holds = at->first;
-    cause.key = activity.key;
+    cause.remedy = activity.remedy;
     const WaitResult* wait = longest_wait(activity);
     const std::uint64_t waited = wait == nullptr ? 0 : activity.waited_for(wait->what);
     if (wait == nullptr || 2 * waited < to_explain) {
@@ -109,7 +110,7 @@ Cause follow_waiting(const FrameResult& frame) {
         std::find(cause.path.begin(), cause.path.end(), wait->other) != cause.path.end();
     if (other == activities.end() || met) {
       cause.holds = wait->at;
-      cause.key = wait->key;
+      cause.remedy = wait->remedy;
       cause.why = waits_text(activity, *wait, frame);
       return cause;
     }
@@ -123,9 +124,9 @@ Binding find_binding(const FrameResult& frame) {
   std::stable_sort(uses.begin(), uses.end(), [](const ResourceUse& a, const ResourceUse& b) {
     return a.utilisation > b.utilisation;
   });
-  const ResourceUse next = uses.size() > 1 ? uses[1] : ResourceUse{"nothing else", 0, ""};
+  const ResourceUse next = uses.size() > 1 ? uses[1] : ResourceUse{"nothing else", 0, {}};
   Binding binding{uses[0].name, next.name, uses[0].utilisation, next.utilisation, uses[0].name,
-                  uses[0].key,  ""};
+                  uses[0].remedy, ""};
   binding.explanation = fmt::format(
       "{} works {:.0f} % of the frame, {} {:.0f} %: {} with no limit of its own, the frame would "
       "take at least {:.0f} % of its time",
@@ -136,13 +137,13 @@ Binding find_binding(const FrameResult& frame) {
   const Cause cause = follow_waiting(frame);
   if (binding.utilisation < kMostly && !cause.path.empty()) {
     binding.holds = cause.holds;
-    binding.key = cause.key;
+    binding.remedy = cause.remedy;
     binding.explanation += fmt::format(
         "; no resource is busy most of the time: the waiting of {} leads to {}, which {}{}",
         cause.path.front(), cause.path.back(), cause.why,
         cause.holds == cause.path.back() ? "" : ", at " + cause.holds);
   }
-  binding.explanation += "; " + key_text(binding.key);
+  binding.explanation += "; " + text_of(binding.remedy);
   return binding;
 }
 

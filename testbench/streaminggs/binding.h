@@ -12,7 +12,7 @@ namespace sgs {
 struct ResourceUse {
   std::string name;
   double utilisation = 0;
-  std::string key;  // of the configuration: what to raise for more of it; empty: nothing is known
+  Remedy remedy;  // for more of it
 };
 
 // Every resource that an activity names, in the order of the data sheets, and the memory's data
@@ -25,7 +25,7 @@ struct Cause {
   std::vector<std::string> path;  // activities, from the one that waits
   std::string holds;              // an activity, a FIFO, a port or a unit
   std::string why;                // "works 62 % of the frame", "answers to its reads": of the last
-  std::string key;                // what to raise in the configuration; empty: nothing is known
+  Remedy remedy;
 };
 
 // From the busiest activity on, each time to the other end of the FIFO at which the most cycles
@@ -37,7 +37,8 @@ Cause follow_waiting(const FrameResult& frame);
 struct Binding {
   std::string unit, next;  // the busiest resource, and the one after it
   double utilisation = 0, next_utilisation = 0;
-  std::string holds, key;   // the resource, or where nothing is busy the cause; what to raise
+  std::string holds;        // the resource, or where nothing is busy the cause
+  Remedy remedy;            // of that
   std::string explanation;  // a sentence with the numbers
 };
 

@@ -89,6 +89,11 @@ Json image_of(const ViewResult& view, bool original_known) {
   return out;
 }
 
+void add(Json& to, const Remedy& remedy) {
+  if (remedy.known()) to["key"] = remedy.key;
+  if (remedy.known()) to["turn"] = remedy.turn == Turn::kUp ? "up" : "down";
+}
+
 Json activity_of(const ActivityResult& activity) {
   Json waited = Json::object();
   for (std::size_t k = 0; k < kWaitForCount; ++k) {
@@ -100,13 +105,13 @@ Json activity_of(const ActivityResult& activity) {
     Json& out = waits.emplace_back(Json{{"for", name_of(wait.what)}, {"cycles", wait.cycles}});
     if (!wait.at.empty()) out["on"] = wait.at;
     if (!wait.other.empty()) out["other_end"] = wait.other;
-    if (!wait.key.empty()) out["key"] = wait.key;
+    add(out, wait.remedy);
   }
   Json out = {{"resource", activity.resource},
               {"busy_cycles", activity.busy_cycles},
               {"waited_cycles", waited},
               {"waits", waits}};
-  if (!activity.key.empty()) out["key"] = activity.key;
+  add(out, activity.remedy);
   return out;
 }
 
@@ -257,8 +262,8 @@ Json view_report(const ViewResult& view, const PreparedScene& scene) {
                        {"next", view.binding.next},
                        {"next_utilisation", view.binding.next_utilisation},
                        {"holds", view.binding.holds},
-                       {"key", view.binding.key},
                        {"explanation", view.binding.explanation}};
+  add(report["binding"], view.binding.remedy);
   report["dram"] = dram_of(run.memory);
   report["energy"] = energy_section(view);
   report["area_mm2"] = costs_of(view.area_mm2, "");

@@ -15,19 +15,23 @@ double saved(double before, double after) { return before > 0 ? 1 - after / befo
 
 }  // namespace
 
-std::vector<std::string> remedies_of(const FrameResult& frame) {
-  std::vector<std::string> keys;
-  const auto add = [&](const std::string& key) {
-    if (!key.empty() && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+Doubling::Doubling(const Remedy& remedy, double from)
+    : key(remedy.key), from(from), to(remedy.turn == Turn::kUp ? 2 * from : from / 2) {}
+
+std::vector<Remedy> remedies_of(const FrameResult& frame) {
+  std::vector<Remedy> all;
+  const auto add = [&](const Remedy& remedy) {
+    const auto same = [&](const Remedy& other) { return other.key == remedy.key; };
+    if (remedy.known() && std::none_of(all.begin(), all.end(), same)) all.push_back(remedy);
   };
   for (const UnitResult& unit : frame.machine.units) {
     for (const ActivityResult& activity : unit.activities) {
-      add(activity.key);
-      for (const WaitResult& wait : activity.waits) add(wait.key);
+      add(activity.remedy);
+      for (const WaitResult& wait : activity.waits) add(wait.remedy);
     }
   }
-  add(frame.memory.key);
-  return keys;
+  add(frame.memory.remedy);
+  return all;
 }
 
 double time_saved(const Outcome& base, const Outcome& doubled) {
@@ -57,8 +61,8 @@ std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings)
   const double most = time_saved(base, best.outcome);
   const auto named =
       std::find_if(doublings.begin(), doublings.end(),
-                   [&](const Doubling& doubling) { return doubling.key == binding.key; });
-  if (binding.key.empty() || named == doublings.end() || !named->refused.empty()) {
+                   [&](const Doubling& doubling) { return doubling.key == binding.remedy.key; });
+  if (binding.remedy.key.empty() || named == doublings.end() || !named->refused.empty()) {
     return fmt::format("binding names {}, which no key doubles; {} gains most: {:.1f} % of the time",
                        binding.holds, best.key, 100 * most);
   }
@@ -69,9 +73,9 @@ std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings)
   }
   const Binding& then = named->outcome.binding;
   return fmt::format(
-      "binding names {}, which gains {:.1f} % of the time; {} gains most: {:.1f} %. With {} doubled, "
+      "binding names {}, which gains {:.1f} % of the time; {} gains most: {:.1f} %. With {}={}, "
       "{} holds the frame: {} works {:.0f} % of it",
-      named->key, 100 * gain, best.key, 100 * most, named->key, then.holds, then.unit,
+      named->key, 100 * gain, best.key, 100 * most, named->key, named->to, then.holds, then.unit,
       100 * then.utilisation);
 }
 

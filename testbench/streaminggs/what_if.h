@@ -1,4 +1,5 @@
-// What a frame would gain from twice as much of one thing, one thing after the other.
+// What a frame would gain from twice as much of one thing, one thing after the other; of what takes
+// cycles, from half as many.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +20,16 @@ struct Outcome {
 };
 
 struct Doubling {
+  Doubling(const Remedy& remedy, double from);
+
   std::string key;
-  double from = 0, to = 0;
+  double from = 0, to = 0;  // twice, or half where the remedy turns down
   std::string refused;  // why it cannot be; empty: it was simulated
   Outcome outcome;
 };
 
-// Keys that the machine's data sheets and the memory name as remedies, each once, in their order.
-std::vector<std::string> remedies_of(const FrameResult& frame);
+// What the machine's data sheets and the memory name as remedies, each key once, in their order.
+std::vector<Remedy> remedies_of(const FrameResult& frame);
 
 // Shares of the base's time and energy that are saved; negative: it takes more.
 double time_saved(const Outcome& base, const Outcome& doubled);

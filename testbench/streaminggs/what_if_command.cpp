@@ -103,7 +103,7 @@ Json to_json(const Outcome& outcome) {
           {"energy_j", outcome.joules},
           {"area_mm2", outcome.mm2},
           {"holds", outcome.binding.holds},
-          {"key", outcome.binding.key}};
+          {"key", outcome.binding.remedy.key}};
 }
 
 Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings) {
@@ -132,11 +132,10 @@ Json run_view(const Base& base, int number, const Camera& camera) {
   const Outcome outcome = outcome_of(frame, base.technology);
   const Json document = Json::parse(base.document);
   std::vector<Doubling> doublings;
-  for (const std::string& key : remedies_of(frame)) {
-    const double from = value_at(document, key);
-    Doubling doubling{key, from, 2 * from, "", {}};
+  for (const Remedy& remedy : remedies_of(frame)) {
+    Doubling doubling(remedy, value_at(document, remedy.key));
     try {
-      const RunConfig doubled = base.variant(fmt::format("{}={}", key, doubling.to));
+      const RunConfig doubled = base.variant(fmt::format("{}={}", doubling.key, doubling.to));
       doubling.outcome = outcome_of(run(base, doubled, camera, golden), base.technology);
     } catch (const InputError& error) {
       doubling.refused = error.what();

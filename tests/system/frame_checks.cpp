@@ -53,7 +53,7 @@ void check_accounts(const Json& view) {
   CHECK(activities > 0);
   const Json& binding = view["binding"];
   CHECK_FALSE(binding["holds"].get<std::string>().empty());
-  if (binding["key"] != "") check_key(view, binding);
+  check_key(view, binding);
 }
 
 void check_memory(const Json& view) {

@@ -23,7 +23,7 @@ FrameResult frame_of(const std::vector<ActivityResult>& activities, double bus) 
     frame.machine.units.push_back({unit, {a}, {}});
   }
   frame.memory.bus_utilisation = bus;
-  frame.memory.key = "channels";
+  frame.memory.remedy = "channels";
   return frame;
 }
 
@@ -39,7 +39,7 @@ TEST_CASE("binding: the busiest of all, whatever their order") {
     CHECK(binding.next == "middle");
     CHECK(binding.next_utilisation == Approx(0.4));
     CHECK(binding.holds == "slow");
-    CHECK(binding.key == "more_slow");
+    CHECK(binding.remedy.key == "more_slow");
     CHECK_THAT(binding.explanation, Contains("slow works 90 % of the frame, middle 40 %") &&
                                         Contains("at least 40 % of its time; raise more_slow") &&
                                         !Contains("no resource is busy"));
@@ -53,7 +53,7 @@ TEST_CASE("binding: the memory's buses are one of the resources") {
   CHECK(find_binding(frame_of(activities, 0.49)).unit == "unit");
   CHECK(find_binding(frame_of(activities, 0.49)).next == "dram");
   CHECK(find_binding(frame_of({}, 0.49)).next == "nothing else");
-  CHECK(find_binding(frame_of(activities, 0.9)).key == "channels");
+  CHECK(find_binding(frame_of(activities, 0.9)).remedy.key == "channels");
 }
 
 TEST_CASE("binding: a resource is as busy as its busiest activity") {
@@ -192,11 +192,11 @@ TEST_CASE("binding: waiting leads to a unit, a memory or a FIFO") {
     const Cause cause = follow_waiting(frame);
     CHECK(cause.path == row.path);
     CHECK(cause.holds == row.holds);
-    CHECK(cause.key == row.key);
+    CHECK(cause.remedy.key == row.key);
     CHECK(cause.why == row.why);
     const Binding binding = find_binding(frame);
     CHECK(binding.holds == row.holds);
-    CHECK(binding.key == row.key);
+    CHECK(binding.remedy.key == row.key);
     CHECK_THAT(binding.explanation, Contains("the waiting of " + row.path.front() + " leads to " +
                                              row.path.back() + ", which " + row.why) &&
                                         Contains("raise " + row.key));
@@ -205,8 +205,8 @@ TEST_CASE("binding: waiting leads to a unit, a memory or a FIFO") {
 
 TEST_CASE("binding: what no key can change is said to be so") {
   FrameResult frame = frame_of({activity("a", 500)}, 0);
-  frame.machine.units[0].activities[0].waits[0].key = "";
-  CHECK(find_binding(frame).key.empty());
+  frame.machine.units[0].activities[0].waits[0].remedy = {};
+  CHECK(!find_binding(frame).remedy.known());
   CHECK_THAT(find_binding(frame).explanation, Contains("no key of the configuration is known"));
 }
 

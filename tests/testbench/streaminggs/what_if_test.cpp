@@ -15,7 +15,19 @@ Outcome outcome(std::uint64_t cycles, double mm2, const std::string& key = "") {
   out.joules = 1;
   out.binding.unit = out.binding.holds = "unit";
   out.binding.utilisation = 0.7;
-  out.binding.key = key;
+  out.binding.remedy = key;
+  return out;
+}
+
+Doubling doubling(const char* key, const Outcome& outcome) {
+  Doubling out(key, 1);
+  out.outcome = outcome;
+  return out;
+}
+
+Doubling refused(const char* key) {
+  Doubling out(key, 1);
+  out.refused = "too large";
   return out;
 }
 
@@ -25,17 +37,23 @@ TEST_CASE("what-if: every remedy of the data sheets and the memory, once") {
   const WaitResult input{WaitFor::kInput, "fifo", "", "", 5};
   frame.machine.units.push_back({"a", {{"x", "r", "", 1, {room, input}, "lanes"}}, {}});
   frame.machine.units.push_back({"b", {{"y", "r", "", 1, {room}, "lanes"}}, {}});
-  frame.memory.key = "channels";
-  CHECK(remedies_of(frame) == std::vector<std::string>{"lanes", "entries", "channels"});
+  frame.memory.remedy = "channels";
+  std::string keys;
+  for (const Remedy& remedy : remedies_of(frame)) keys += remedy.key + " ";
+  CHECK(keys == "lanes entries channels ");
+}
+
+TEST_CASE("what-if: more of it, or half the cycles") {
+  CHECK(Doubling("lanes", 8).to == 16);
+  CHECK(Doubling({"cycles_per_operation", Turn::kDown}, 2).to == 1);
 }
 
 TEST_CASE("what-if: ranked by time saved, the smaller of equals first, the refused last") {
   const Outcome base = outcome(1000, 5);
-  std::vector<Doubling> doublings = {{"impossible", 1, 2, "too large", {}},
-                                     {"slower", 1, 2, "", outcome(1100, 6)},
-                                     {"large", 1, 2, "", outcome(800, 7)},
-                                     {"small", 1, 2, "", outcome(800, 6)},
-                                     {"best", 1, 2, "", outcome(500, 9)}};
+  std::vector<Doubling> doublings = {
+      refused("impossible"), doubling("slower", outcome(1100, 6)),
+      doubling("large", outcome(800, 7)), doubling("small", outcome(800, 6)),
+      doubling("best", outcome(500, 9))};
   rank(base, doublings);
   std::string order;
   for (const Doubling& d : doublings) order += d.key + " ";
@@ -46,10 +64,9 @@ TEST_CASE("what-if: ranked by time saved, the smaller of equals first, the refus
 }
 
 TEST_CASE("what-if: the verdict on what binding names") {
-  const std::vector<Doubling> doublings = {{"lanes", 1, 2, "", outcome(500, 6)},
-                                           {"entries", 1, 2, "", outcome(502, 6)},
-                                           {"channels", 1, 2, "", outcome(900, 5)},
-                                           {"banks", 1, 2, "no", {}}};
+  const std::vector<Doubling> doublings = {
+      doubling("lanes", outcome(500, 6)), doubling("entries", outcome(502, 6)),
+      doubling("channels", outcome(900, 5)), refused("banks")};
   struct Row {
     const char* named;
     const char* says;
@@ -57,7 +74,7 @@ TEST_CASE("what-if: the verdict on what binding names") {
   for (const Row& row : {Row{"lanes", "binding names lanes, and it gains most: 50.0 %"},
                          Row{"entries", "binding names entries, and it gains most: 49.8 %"},
                          Row{"channels", "binding names channels, which gains 10.0 % of the time; "
-                                         "lanes gains most: 50.0 %. With channels doubled, unit "
+                                         "lanes gains most: 50.0 %. With channels=2, unit "
                                          "holds the frame: unit works 70 %"},
                          Row{"banks", "which no key doubles; lanes gains most"},
                          Row{"", "binding names unit, which no key doubles"}}) {
