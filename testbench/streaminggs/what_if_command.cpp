@@ -103,7 +103,7 @@ Json to_json(const Outcome& outcome) {
           {"energy_j", outcome.joules},
           {"area_mm2", outcome.mm2},
           {"holds", outcome.binding.holds},
-          {"key", outcome.binding.key}};
+          {"holds_key", outcome.binding.key}};
 }
 
 Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings) {

@@ -1,0 +1,217 @@
+"""The search for the machine of an order that does best on several scenes within an area."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import statistics
+from collections.abc import Callable, Iterator, Sequence
+
+from kept_runs import KeptRuns
+from machine_axes import Machine
+from scenes import Scene
+from simulations import Run
+
+# Area is that of the machine, whatever it draws: the smallest frame there is tells it.
+SMALL = Scene("area", "builtin:object?n=500")
+SMALL_SIZE = "64x36"
+
+OBJECTIVES: dict[str, Callable[[dict], float]] = {
+    "cycles": lambda view: view["frame"]["cycles"],
+    "bus bytes": lambda view: view["dram"]["bus_bytes"],
+    "energy": lambda view: view["energy"]["total_j"],
+}
+BETTER = 0.001  # of the logarithm of the mean, to be taken for a gain
+FREED = 0.003  # of the area allowed, to be taken where nothing is lost
+UNKNOWN_HARM = 0.02
+
+
+def area_mm2(view: dict) -> float:
+    return view["area_mm2"]["total"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """A machine on every scene, storage chosen for each."""
+
+    machine: Machine
+    storage: tuple[int, ...]
+    scenes: tuple[Scene, ...]
+    views: tuple[dict, ...]
+
+    def mean(self, value: Callable[[dict], float]) -> float:
+        return statistics.geometric_mean(max(value(view), 1e-30) for view in self.views)
+
+    def area_mm2(self) -> float:
+        return max(map(area_mm2, self.views))
+
+    def stored(self, scene: int) -> str:
+        return self.machine.order.storage.settings[self.storage[scene]][0]
+
+    def overrides(self, scene: int) -> tuple[str, ...]:
+        return (*self.machine.overrides(), self.stored(scene))
+
+
+class Search:
+    """Moves along one axis at a time, from a machine that fits. A move that takes too much area is
+    paid for by steps back on other axes, those first that were seen to harm least for the area they
+    free. Scenes are simulated two at a time, and a move is given up once it is clearly worse.
+    points: every machine that was simulated on all scenes."""
+
+    def __init__(
+        self,
+        kept: KeptRuns,
+        scenes: Sequence[Scene],
+        size: str,
+        budget_mm2: float,
+        objective: str,
+        most_runs: int,
+    ):
+        self.kept, self.scenes, self.size = kept, tuple(scenes), size
+        self.budget_mm2, self.value = budget_mm2, OBJECTIVES[objective]
+        self.runs_left = most_runs
+        self.points: list[Point] = []
+        self.harm: dict[int, float] = {}  # of a step back on an axis
+        self.seen: set[tuple] = set()
+
+    def area(self, machine: Machine) -> float | None:
+        """None: there is no such machine."""
+        storage = machine.order.storage
+        stored = storage.settings[len(storage.settings) // 2]
+        overrides = (*machine.overrides(), *stored)
+        run = Run(SMALL, size=SMALL_SIZE, config=machine.order.preset, overrides=overrides)
+        views = self.kept.outcome(run).views
+        return area_mm2(views[0]) if views else None
+
+    def neighbour(self, machine: Machine, which: int, step: int) -> Machine | None:
+        """The next machine along an axis that there can be."""
+        moved = machine.moved(which, step)
+        while moved and self.area(moved) is None:
+            moved = moved.moved(which, step)
+        return moved
+
+    def fitted(self, machine: Machine, raised: int = -1) -> Machine | None:
+        """The machine with steps back until it fits; None where that is not enough."""
+        area = self.area(machine)
+        while area is not None and area > self.budget_mm2:
+            best: tuple[float, Machine, float] | None = None
+            for which in range(len(machine.at)):
+                back = None if which == raised else self.neighbour(machine, which, -1)
+                freed = area - self.area(back) if back else 0
+                if freed <= 0:
+                    continue
+                # More than what is needed is worth nothing.
+                useful = min(freed, area - self.budget_mm2)
+                price = max(self.harm.get(which, UNKNOWN_HARM), BETTER) / useful
+                if best is None or price < best[0]:
+                    best = (price, back, area - freed)
+            if best is None:
+                return None
+            _, machine, area = best
+        return None if area is None else machine
+
+    def run(self, machine: Machine, storage: Sequence[int], scene: int) -> Run:
+        stored = machine.order.storage.settings[storage[scene]]
+        overrides = (*machine.overrides(), *stored)
+        return Run(self.scenes[scene], "0", self.size, machine.order.preset, overrides)
+
+    def measure(
+        self, machine: Machine, storage: Sequence[int], against: Point | None
+    ) -> tuple[float, Point | None]:
+        """How much worse it is than another point: the mean logarithm of the ratio, over the scenes
+        simulated before it was given up; and the point, if it was not. Infinite where a scene
+        is refused or the machine is larger on a scene than it may be."""
+        views: list[dict] = []
+        worse = 0.0
+        for first in range(0, len(self.scenes), 2):
+            numbers = range(first, min(first + 2, len(self.scenes)))
+            self.runs_left -= len(numbers)
+            for outcome in self.kept.outcomes([self.run(machine, storage, n) for n in numbers]):
+                if outcome.refused or area_mm2(outcome.views[0]) > self.budget_mm2 * 1.0001:
+                    return math.inf, None
+                views.append(outcome.views[0])
+            if against:
+                ratios = [math.log(self.value(a) / self.value(b)) for a, b in zip(views, against.views)]
+                worse = statistics.fmean(ratios)
+                if worse > 0.06 / len(views):
+                    return worse, None
+        point = Point(machine, tuple(storage), self.scenes, tuple(views))
+        self.points.append(point)
+        return worse, point
+
+    def taken(self, machine: Machine, best: Point) -> tuple[float, Point | None]:
+        """A machine that is better, or as good and smaller; it is not looked at twice."""
+        key = (machine.at, best.storage)
+        if key in self.seen or self.runs_left <= 0:
+            return math.inf, None
+        self.seen.add(key)
+        worse, point = self.measure(machine, best.storage, best)
+        if point is None:
+            return worse, None
+        smaller = best.area_mm2() - point.area_mm2() > FREED * self.budget_mm2
+        if worse < -BETTER or (smaller and worse < BETTER):
+            return worse, point
+        return worse, None
+
+    def moves(self, point: Point) -> Iterator[tuple[int, int]]:
+        """Axes and steps: back first, which is cheap to give up and tells what area is worth; then
+        on, what holds most scenes first."""
+        axes = range(len(point.machine.at))
+        yield from ((which, -1) for which in axes)
+        held_by = [view["binding"]["key"] for view in point.views]
+        named = {which: held_by.count(point.machine.order.axes[which].name) for which in axes}
+        yield from ((which, 1) for which in sorted(axes, key=lambda w: -named[w]))
+
+    def descend(self, best: Point) -> Point:
+        """The point from which no move is better, or where the runs end."""
+        improved = True
+        while improved and self.runs_left > 0:
+            improved = False
+            for which, step in self.moves(best):
+                while moved := self.neighbour(best.machine, which, step):
+                    fits = self.fitted(moved, which)
+                    worse, point = self.taken(fits, best) if fits else (math.inf, None)
+                    if step < 0 and math.isfinite(worse):
+                        self.harm[which] = worse
+                    if point is None:
+                        break
+                    best, improved = point, True
+            chosen = self.stored_better(best)
+            improved = improved or chosen is not best
+            best = chosen
+        return best
+
+    def stored_better(self, best: Point) -> Point:
+        """Each scene stored as it does best on this machine."""
+        settings = best.machine.order.storage.settings
+        storage, views = list(best.storage), list(best.views)
+        for step in (-1, 1):
+            moving = list(range(len(self.scenes)))
+            while moving and self.runs_left > 0:
+                moving = [n for n in moving if 0 <= storage[n] + step < len(settings)]
+                trial = [s + step if n in moving else s for n, s in enumerate(storage)]
+                self.runs_left -= len(moving)
+                outcomes = self.kept.outcomes([self.run(best.machine, trial, n) for n in moving])
+                found = {n: o.views[0] for n, o in zip(moving, outcomes) if o.views}
+                moving = [
+                    n
+                    for n, view in found.items()
+                    if self.value(view) < self.value(views[n]) * (1 - BETTER)
+                    and area_mm2(view) <= self.budget_mm2 * 1.0001
+                ]
+                for n in moving:
+                    storage[n], views[n] = trial[n], found[n]
+        if tuple(storage) == best.storage:
+            return best
+        point = Point(best.machine, tuple(storage), self.scenes, tuple(views))
+        self.points.append(point)
+        return point
+
+    def best_from(self, machine: Machine, storage: Sequence[int]) -> Point | None:
+        """The best point found from a start; None where nothing on the way to the area draws all
+        scenes."""
+        start = self.fitted(machine)
+        if start is None:
+            return None
+        _, point = self.measure(start, storage, None)
+        return self.descend(self.stored_better(point)) if point else None

@@ -1,0 +1,179 @@
+"""The table of machines beside each other on all views of several scenes."""
+
+from __future__ import annotations
+
+import dataclasses
+import statistics
+from collections.abc import Callable, Sequence
+
+import run_arguments
+import tables
+from kept_runs import KeptRuns
+from scenes import Scene
+from simulations import Outcome, Run
+
+# Above this the rounding to 8 bits decides: such views are drawn once more, in floats.
+ROUNDING_DB = 50
+
+HEAD = (
+    "scene",
+    "machine",
+    "bus MB",
+    "asked / once",
+    "bus / asked",
+    "M cycles",
+    "fps, worst view",
+    "mJ",
+    "mm2",
+    "PSNR dB",
+    "binds",
+    "VSU waits for reads",
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class Contender:
+    """overrides: for each scene its own, or none for any."""
+
+    name: str
+    preset: str
+    overrides: tuple[tuple[str, ...], ...]
+
+    def run(self, scene: Scene, number: int, view: str, size: str) -> Run:
+        overrides = self.overrides[number] if self.overrides else ()
+        return Run(scene, view, size, self.preset, overrides)
+
+
+def vsu_waits(view: dict) -> float:
+    """The share of the frame in which the activity of VSU that waits most for its own reads does."""
+    activities = view["units"]["vsu"]["activities"].values()
+    waits = max(activity["waited_cycles"]["reads"] for activity in activities)
+    return waits / view["frame"]["cycles"]
+
+
+def binders(views: Sequence[dict]) -> str:
+    units = sorted({view["binding"]["holds"] or view["binding"]["unit"] for view in views})
+    shares = [view["binding"]["utilisation"] for view in views]
+    low, high = f"{min(shares):.0%}", f"{max(shares):.0%}"
+    return f"{', '.join(units)} {low if low == high else f'{low} .. {high}'}"
+
+
+def decibels(view: dict) -> float:
+    """Infinite where the frame equals the reference picture."""
+    psnr_db = view["image"]["psnr_db"]
+    return float("inf") if psnr_db is None else psnr_db
+
+
+def psnr_span(views: Sequence[dict]) -> str:
+    ends = [min(map(decibels, views)), max(map(decibels, views))]
+    texts = ["equal" if end == float("inf") else f"{end:.1f}" for end in ends]
+    return texts[0] if texts[0] == texts[1] else " .. ".join(texts)
+
+
+def in_floats(kept: KeptRuns, outcome: Outcome) -> Sequence[dict]:
+    """The views whose PSNR says what the order costs, not what 8 bits do."""
+    if max(map(decibels, outcome.views)) < ROUNDING_DB:
+        return outcome.views
+    overrides = (*outcome.run.overrides, "framebuffer=rgb32f")
+    return kept.outcome(dataclasses.replace(outcome.run, overrides=overrides)).accepted()
+
+
+def numbers(views: Sequence[dict]) -> tuple[float, ...]:
+    """Bytes on the bus, asked over once, bus over asked, cycles, frames a second, joules, mm2, and
+    waiting: means over the views, but for the slowest view's frames and the worst waiting."""
+
+    def mean(value: Callable[[dict], float]) -> float:
+        return statistics.fmean(value(view) for view in views)
+
+    return (
+        mean(lambda v: v["dram"]["bus_bytes"]),
+        mean(lambda v: v["limit"]["ratio"]),
+        mean(lambda v: v["dram"]["bus_bytes"] / v["dram"]["bytes"]),
+        mean(lambda v: v["frame"]["cycles"]),
+        min(v["frame"]["fps"] for v in views),
+        mean(lambda v: v["energy"]["total_j"]),
+        max(v["area_mm2"]["total"] for v in views),
+        max(map(vsu_waits, views)),
+    )
+
+
+def text_row(kept: KeptRuns, scene: str, name: str, outcome: Outcome) -> tuple:
+    if outcome.refused:
+        return (scene, name, *[""] * (len(HEAD) - 4), f"refused: {outcome.refused}", "")
+    views = outcome.views
+    bus, asked, wasted, cycles, fps, joules, mm2, waits = numbers(views)
+    return (
+        scene,
+        name,
+        f"{bus / 1e6:.1f}",
+        f"{asked:.2f}",
+        f"{wasted:.2f}",
+        f"{cycles / 1e6:.2f}",
+        f"{fps:.0f}",
+        f"{joules * 1e3:.2f}",
+        f"{mm2:.2f}",
+        psnr_span(in_floats(kept, outcome)),
+        binders(views),
+        f"{waits:.0%}",
+    )
+
+
+CSV_HEAD = (
+    "size_px",
+    "scene",
+    "machine",
+    "view",
+    "bus_bytes",
+    "asked_bytes",
+    "bytes_read_once",
+    "cycles",
+    "fps",
+    "energy_j",
+    "area_mm2",
+    "psnr_db",
+    "binds",
+    "binding_key",
+    "vsu_waits_for_reads",
+)
+
+
+def csv_row(size: str, scene: str, name: str, view: dict) -> tuple:
+    return (
+        size,
+        scene,
+        name,
+        view["view"],
+        view["dram"]["bus_bytes"],
+        view["dram"]["bytes"],
+        view["limit"]["bytes_read_once"],
+        view["frame"]["cycles"],
+        view["frame"]["fps"],
+        view["energy"]["total_j"],
+        view["area_mm2"]["total"],
+        decibels(view),
+        view["binding"]["holds"],
+        view["binding"]["key"],
+        vsu_waits(view),
+    )
+
+
+def views_tables(
+    kept: KeptRuns,
+    contenders: Sequence[Contender],
+    scenes: Sequence[Scene],
+    view: str,
+    sizes: Sequence[str],
+) -> tuple[str, str]:
+    """Markdown, a table for each size with a line for each scene and machine; and CSV, a line for
+    each view, as it was drawn in 8 bits."""
+    parts, csv_rows, measured = [], [], []
+    for size in sizes:
+        cases = [(n, scene, c) for n, scene in enumerate(scenes) for c in contenders]
+        outcomes = kept.outcomes([c.run(scene, n, view, size) for n, scene, c in cases])
+        rows = [text_row(kept, s.name, c.name, o) for (_, s, c), o in zip(cases, outcomes)]
+        parts.append(f"{size} px:\n\n{tables.markdown(HEAD, rows)}")
+        for (_, scene, c), outcome in zip(cases, outcomes):
+            csv_rows += [csv_row(size, scene.name, c.name, v) for v in outcome.views]
+            measured += outcome.views
+    made = run_arguments.how_made(measured)
+    return made + "\n".join(parts), tables.csv_text(CSV_HEAD, csv_rows)
