@@ -25,7 +25,7 @@ from collections.abc import Sequence
 
 import run_arguments
 import tables
-from fair_fight_tables import found_table, front_rows, FRONT_HEAD, machine_document, near_front
+from fair_fight_tables import FRONT_HEAD, assigned_document, found_table, front_rows, near_front
 from kept_runs import KeptRuns
 from machine_axes import ORDERS, Order
 from machine_search import OBJECTIVES, Point, Search, area_mm2
@@ -70,6 +70,8 @@ class Fight:
 
     def paper_area(self) -> float:
         """Of the preset, with codebooks as the scene with the largest needs them."""
+        if self.arguments.area:
+            return self.arguments.area
         runs = [Run(s, "0", self.arguments.size, BUDGET_PRESET) for s in self.scenes]
         outcomes = self.kept.outcomes(runs)
         return max(area_mm2(outcome.accepted()[0]) for outcome in outcomes)
@@ -118,7 +120,7 @@ class Fight:
         tables.write_text(out / "fair_fight_machines.md", found)
         for (order, budget, objective), point in self.best.items():
             name = f"fair_fight_{order}_{budget:g}_{objective}.json".replace(" ", "_")
-            document = machine_document(point)
+            document = assigned_document(point.overrides(0), point.views)
             tables.write_text(out / name, json.dumps(document, indent=2) + "\n")
 
     def contenders(self) -> list[Contender]:
@@ -138,8 +140,9 @@ class Fight:
 
 
 def fight(arguments: argparse.Namespace) -> None:
-    if unknown := [b for b in arguments.budgets if b <= 0]:
-        raise ValueError(f"--budgets: {unknown[0]:g}, expected more than 0")
+    for what, given in (("budgets", arguments.budgets), ("area", [arguments.area or 1])):
+        if bad := [n for n in given if n <= 0]:
+            raise ValueError(f"--{what}: {bad[0]:g}, expected more than 0")
     scenes = scenes_in_turn(arguments.scenes)
     kept = KeptRuns(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.side_by_side)
     made = Fight(arguments, kept, scenes)
@@ -162,6 +165,9 @@ def main() -> int:
     parser.add_argument("--orders", nargs="+", choices=ORDERS, default=["exact", "paper"])
     parser.add_argument(
         "--budgets", nargs="+", type=float, default=[1.0, 2.0], metavar="X", help="of paper's area"
+    )
+    parser.add_argument(
+        "--area", type=float, metavar="MM2", help="of budget 1; default: the preset paper's"
     )
     parser.add_argument(
         "--objectives", nargs="+", choices=OBJECTIVES, default=list(OBJECTIVES), metavar="NAME"

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 import tables
+from machine_axes import Machine
 from machine_search import OBJECTIVES, Point
 from machine_views import decibels, psnr_span
 from objectives import pareto_front
@@ -50,9 +51,9 @@ def near_front(points: Sequence[Point]) -> list[bool]:
     return [best and first[of] == n for n, (best, of) in enumerate(zip(pareto_front(boxes), boxes))]
 
 
-def settings(point: Point) -> str:
+def settings_text(machine: Machine) -> str:
     """Without the units' names, which the keys do not need to be told apart."""
-    assignments = [setting.partition("=") for setting in point.machine.settings()]
+    assignments = [setting.partition("=") for setting in machine.settings()]
     return " ".join(f"{key.rpartition('.')[2]}={value}" for key, _, value in assignments)
 
 
@@ -72,7 +73,7 @@ def front_row(point: Point, on_front: bool) -> tuple:
         f"{cycles / 1e6:.3f}",
         f"{joules * 1e3:.2f}",
         f"{point.area_mm2():.2f}",
-        settings(point),
+        settings_text(point.machine),
         stored(point),
         "yes" if on_front else "",
     )
@@ -104,11 +105,10 @@ def json_value(text: str) -> object:
     return text
 
 
-def machine_document(point: Point) -> dict:
-    """The machine as a configuration, its memory as large as the scenes need. Scenes whose storage
-    differs from the first one's name theirs with --set."""
-    document: dict = {"machine": point.views[0]["config"]["machine"]}
-    for assignment in point.overrides(0):
+def assigned_document(overrides: Sequence[str], views: Sequence[dict]) -> dict:
+    """A machine as a configuration, its memory as large as the views need."""
+    document: dict = {"machine": views[0]["config"]["machine"]}
+    for assignment in overrides:
         key, _, value = assignment.partition("=")
         *parents, last = key.split(".")
         part = document
@@ -116,5 +116,5 @@ def machine_document(point: Point) -> dict:
             part = part.setdefault(parent, {})
         part[last] = json_value(value)
     for memory in ("input_bytes", "shared_bytes"):
-        document["sram"][memory] = max(v["config"]["sram"][memory] for v in point.views)
+        document["sram"][memory] = max(view["config"]["sram"][memory] for view in views)
     return document

@@ -30,6 +30,15 @@ def area_mm2(view: dict) -> float:
     return view["area_mm2"]["total"]
 
 
+def machine_area_mm2(kept: KeptRuns, machine: Machine) -> float | None:
+    """None: there is no such machine."""
+    settings = machine.order.storage.settings
+    overrides = (*machine.overrides(), *settings[len(settings) // 2])
+    run = Run(SMALL, size=SMALL_SIZE, config=machine.order.preset, overrides=overrides)
+    views = kept.outcome(run).views
+    return area_mm2(views[0]) if views else None
+
+
 @dataclasses.dataclass(frozen=True)
 class Point:
     """A machine on every scene, storage chosen for each."""
@@ -74,30 +83,21 @@ class Search:
         self.harm: dict[int, float] = {}  # of a step back on an axis
         self.seen: set[tuple] = set()
 
-    def area(self, machine: Machine) -> float | None:
-        """None: there is no such machine."""
-        storage = machine.order.storage
-        stored = storage.settings[len(storage.settings) // 2]
-        overrides = (*machine.overrides(), *stored)
-        run = Run(SMALL, size=SMALL_SIZE, config=machine.order.preset, overrides=overrides)
-        views = self.kept.outcome(run).views
-        return area_mm2(views[0]) if views else None
-
     def neighbour(self, machine: Machine, which: int, step: int) -> Machine | None:
         """The next machine along an axis that there can be."""
         moved = machine.moved(which, step)
-        while moved and self.area(moved) is None:
+        while moved and machine_area_mm2(self.kept, moved) is None:
             moved = moved.moved(which, step)
         return moved
 
     def fitted(self, machine: Machine, raised: int = -1) -> Machine | None:
         """The machine with steps back until it fits; None where that is not enough."""
-        area = self.area(machine)
+        area = machine_area_mm2(self.kept, machine)
         while area is not None and area > self.budget_mm2:
             best: tuple[float, Machine, float] | None = None
             for which in range(len(machine.at)):
                 back = None if which == raised else self.neighbour(machine, which, -1)
-                freed = area - self.area(back) if back else 0
+                freed = area - machine_area_mm2(self.kept, back) if back else 0
                 if freed <= 0:
                     continue
                 # More than what is needed is worth nothing.
