@@ -11,7 +11,7 @@ Then the presets and the machines found for cycles draw every view.
 
 Writes fair_fight_front.csv and .md: the points of both orders that no other one beats in picture,
 bytes, time, energy and area; fair_fight_machines.md: what was chosen, and as a configuration each in
-fair_fight_ORDER_BUDGET_OBJECTIVE.json; fair_fight_views.csv and .md. What was simulated is kept in
+fair_fight_ORDER_BUDGET_OBJECTIVE.json; fair_fight_views.csv and .md, and their summary. What was simulated is kept in
 fair_fight_runs.jsonl, as long as program, presets and technology are the same: started again, the
 script goes on where it ended.
 """
@@ -27,11 +27,12 @@ import run_arguments
 import tables
 from fair_fight_tables import FRONT_HEAD, assigned_document, found_table, front_rows, near_front
 from kept_runs import KeptRuns
+from machine_areas import Areas, area_mm2, start_of
 from machine_axes import ORDERS, Order
-from machine_search import OBJECTIVES, Point, Search, area_mm2
+from machine_search import OBJECTIVES, Point, Search
 from machine_views import Contender, views_tables
 from scenes import Scene, find_scenes, shared_names
-from simulations import Run, resolved_config
+from simulations import Run
 
 BUDGET_PRESET = "paper"
 RUNS_FILE = "fair_fight_runs.jsonl"
@@ -78,21 +79,21 @@ class Fight:
 
     def search_all(self) -> None:
         area = self.paper_area()
+        areas = Areas(self.kept)
         for name in self.arguments.orders:
             order = ORDERS[name]
-            run = Run(self.scenes[0], config=order.preset, overrides=order.fixed)
-            machine = order.start(resolved_config(self.kept.binary, run))
+            machine = start_of(order, self.kept)
             storage = storage_at_start(order, self.kept, self.scenes, self.arguments.size)
             first, *others = self.arguments.objectives
             smallest, *larger = self.arguments.budgets
             for budget, objective, share in (
                 (smallest, first, 1.0),
                 # These begin where the first one ended, and have less to find.
-                *((smallest, other, 0.5) for other in others),
-                *((budget, first, 0.5) for budget in larger),
+                *((smallest, other, 0.4) for other in others),
+                *((budget, first, 0.4) for budget in larger),
             ):
                 search = Search(
-                    self.kept,
+                    areas,
                     self.scenes,
                     self.arguments.size,
                     budget * area,
@@ -151,10 +152,11 @@ def fight(arguments: argparse.Namespace) -> None:
         print((arguments.out / f"{name}.md").read_text())
     if arguments.view != "none":
         sizes = arguments.view_sizes
-        text, csv = views_tables(kept, made.contenders(), scenes, arguments.view, sizes)
-        tables.write_text(arguments.out / "fair_fight_views.md", text)
-        tables.write_text(arguments.out / "fair_fight_views.csv", csv)
-        print(text)
+        drawn = views_tables(kept, made.contenders(), scenes, arguments.view, sizes)
+        tables.write_text(arguments.out / "fair_fight_views.md", drawn.views)
+        tables.write_text(arguments.out / "fair_fight_views.csv", drawn.csv)
+        tables.write_text(arguments.out / "fair_fight_summary.md", drawn.summary)
+        print(f"{drawn.views}\n{drawn.summary}")
     kept.end()
 
 
@@ -173,7 +175,7 @@ def main() -> int:
         "--objectives", nargs="+", choices=OBJECTIVES, default=list(OBJECTIVES), metavar="NAME"
     )
     parser.add_argument(
-        "--most-runs", type=int, default=150, help="simulations in the first search, and half in the others"
+        "--most-runs", type=int, default=200, help="simulations in the first search; 0.4 times as many in the others"
     )
     parser.add_argument("--size", default="640x360", metavar="WxH", help="of the search")
     parser.add_argument("--view", default="all", help="that all machines draw in the end, or none")

@@ -17,7 +17,7 @@ from simulations import MOST_SIDE_BY_SIDE, REPOSITORY, Failure, Outcome, Run, si
 # What a run depends on beside the program and its arguments.
 DATA_FOLDERS = ("testbench/configs", "testbench/cost", "modules/dram/memspecs")
 # Parts of a view's report that no table asks for; they are most of its size.
-NOT_KEPT = ("datapath", "ledger", "left_out", "chosen", "host")
+NOT_KEPT = ("ledger", "left_out", "chosen", "host")
 
 
 def program_digest(binary: pathlib.Path) -> str:
@@ -85,7 +85,7 @@ class KeptRuns:
         except Failure as failure:
             with self.writing:
                 self.failures.append(failure)
-            return Outcome(run, refused=str(failure))
+            return Outcome(run, refused=str(failure), failure=failure)
         outcome = dataclasses.replace(outcome, views=tuple(map(view_to_keep, outcome.views)))
         self.keep(name, outcome)
         return outcome

@@ -33,6 +33,14 @@ class Order:
     axes: tuple[Axis, ...]
     storage: Axis
 
+    def with_blend(self, macs: int) -> Order:
+        """With as many lanes in a cluster as blend a sub-tile in 8, 6, ... 1 cycles; what lies
+        between would be idle."""
+        lanes = axis("rendering.cluster_lanes", *(-(-macs // n) for n in (8, 6, 4, 3, 2, 1)))
+        return dataclasses.replace(
+            self, axes=tuple(lanes if a.name == lanes.name else a for a in self.axes)
+        )
+
     def start(self, config: dict) -> Machine:
         """The machine nearest to a resolved configuration."""
         return Machine(self, tuple(nearest(a, config) for a in self.axes))
@@ -102,7 +110,7 @@ EXACT = Order(
         axis("group_px", 32, 48, 64, 80, 96, 112, 128, 144, 160, 192),
         axis("hfus", 1, 2, 3, 4, 6, 8),
         axis("rendering.clusters", 1, 2, 4, 8),
-        axis("rendering.cluster_lanes", 60, 80, 120, 160, 240, 320, 480),
+        axis("rendering.cluster_lanes", 480),
         axis("rendering.span_lanes", 16, 32, 64),
         axis("merge.entries", 128, 256, 512, 1024, 1848, 3072),
         axis("vsu.test_lanes", 16, 32, 64, 128),
@@ -138,7 +146,7 @@ PAPER = Order(
             ),
         ),
         axis("rendering.clusters", 1, 2, 4, 8),
-        axis("rendering.cluster_lanes", 120, 160, 240, 320, 480),
+        axis("rendering.cluster_lanes", 480),
         Axis(
             "lists",
             (lists(64, 64), lists(128, 128), lists(256, 256), lists(512, 512), lists(0, 1024)),

@@ -7,14 +7,10 @@ import math
 import statistics
 from collections.abc import Callable, Iterator, Sequence
 
-from kept_runs import KeptRuns
+from machine_areas import Areas, area_mm2
 from machine_axes import Machine
 from scenes import Scene
 from simulations import Run
-
-# Area is that of the machine, whatever it draws: the smallest frame there is tells it.
-SMALL = Scene("area", "builtin:object?n=500")
-SMALL_SIZE = "64x36"
 
 OBJECTIVES: dict[str, Callable[[dict], float]] = {
     "cycles": lambda view: view["frame"]["cycles"],
@@ -24,19 +20,6 @@ OBJECTIVES: dict[str, Callable[[dict], float]] = {
 BETTER = 0.001  # of the logarithm of the mean, to be taken for a gain
 FREED = 0.003  # of the area allowed, to be taken where nothing is lost
 UNKNOWN_HARM = 0.02
-
-
-def area_mm2(view: dict) -> float:
-    return view["area_mm2"]["total"]
-
-
-def machine_area_mm2(kept: KeptRuns, machine: Machine) -> float | None:
-    """None: there is no such machine."""
-    settings = machine.order.storage.settings
-    overrides = (*machine.overrides(), *settings[len(settings) // 2])
-    run = Run(SMALL, size=SMALL_SIZE, config=machine.order.preset, overrides=overrides)
-    views = kept.outcome(run).views
-    return area_mm2(views[0]) if views else None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,52 +45,43 @@ class Point:
 
 
 class Search:
-    """Moves along one axis at a time, from a machine that fits. A move that takes too much area is
-    paid for by steps back on other axes, those first that were seen to harm least for the area they
-    free. Scenes are simulated two at a time, and a move is given up once it is clearly worse.
+    """Moves along one axis at a time, from a machine that fits. What takes too much area is paid for
+    by steps back on other axes, those first that were seen to harm least for the area they free. Scenes are simulated two at a time, and a move is given up once it is clearly worse.
     points: every machine that was simulated on all scenes."""
 
     def __init__(
         self,
-        kept: KeptRuns,
+        areas: Areas,
         scenes: Sequence[Scene],
         size: str,
         budget_mm2: float,
         objective: str,
         most_runs: int,
     ):
-        self.kept, self.scenes, self.size = kept, tuple(scenes), size
+        self.areas, self.kept = areas, areas.kept
+        self.scenes, self.size = tuple(scenes), size
         self.budget_mm2, self.value = budget_mm2, OBJECTIVES[objective]
         self.runs_left = most_runs
         self.points: list[Point] = []
         self.harm: dict[int, float] = {}  # of a step back on an axis
         self.seen: set[tuple] = set()
 
-    def neighbour(self, machine: Machine, which: int, step: int) -> Machine | None:
-        """The next machine along an axis that there can be."""
-        moved = machine.moved(which, step)
-        while moved and machine_area_mm2(self.kept, moved) is None:
-            moved = moved.moved(which, step)
-        return moved
-
     def fitted(self, machine: Machine, raised: int = -1) -> Machine | None:
         """The machine with steps back until it fits; None where that is not enough."""
-        area = machine_area_mm2(self.kept, machine)
+        area = self.areas.of(machine)
         while area is not None and area > self.budget_mm2:
-            best: tuple[float, Machine, float] | None = None
+            # More than what is needed is worth nothing.
+            too_much = area - self.budget_mm2
+            prices: list[tuple[float, int, Machine]] = []
             for which in range(len(machine.at)):
-                back = None if which == raised else self.neighbour(machine, which, -1)
-                freed = area - machine_area_mm2(self.kept, back) if back else 0
-                if freed <= 0:
-                    continue
-                # More than what is needed is worth nothing.
-                useful = min(freed, area - self.budget_mm2)
-                price = max(self.harm.get(which, UNKNOWN_HARM), BETTER) / useful
-                if best is None or price < best[0]:
-                    best = (price, back, area - freed)
-            if best is None:
+                back = self.areas.step_back(machine, which) if which != raised else None
+                if back and back[1] > 0:
+                    harm = max(self.harm.get(which, UNKNOWN_HARM), BETTER)
+                    prices.append((harm / min(back[1], too_much), which, back[0]))
+            if not prices:
                 return None
-            _, machine, area = best
+            machine = min(prices, key=lambda price: price[:2])[2]
+            area = self.areas.of(machine)
         return None if area is None else machine
 
     def run(self, machine: Machine, storage: Sequence[int], scene: int) -> Run:
@@ -154,13 +128,27 @@ class Search:
         return worse, None
 
     def moves(self, point: Point) -> Iterator[tuple[int, int]]:
-        """Axes and steps: back first, which is cheap to give up and tells what area is worth; then
-        on, what holds most scenes first."""
+        """Axes and steps: on, what holds most scenes first, then back."""
         axes = range(len(point.machine.at))
-        yield from ((which, -1) for which in axes)
         held_by = [view["binding"]["key"] for view in point.views]
         named = {which: held_by.count(point.machine.order.axes[which].name) for which in axes}
         yield from ((which, 1) for which in sorted(axes, key=lambda w: -named[w]))
+        yield from ((which, -1) for which in axes)
+
+    def look_back(self, machine: Machine, storage: Sequence[int]) -> None:
+        """What a step back on each axis harms, on the first two scenes."""
+        few = range(min(2, len(self.scenes)))
+
+        def costs(of: Machine) -> list[float]:
+            self.runs_left -= len(few)
+            outcomes = self.kept.outcomes([self.run(of, storage, n) for n in few])
+            return [self.value(o.views[0]) if o.views else math.inf for o in outcomes]
+
+        now = costs(machine)
+        for which in range(len(machine.at)):
+            if back := self.areas.step_back(machine, which):
+                ratios = [math.log(a / b) for a, b in zip(costs(back[0]), now)]
+                self.harm[which] = statistics.fmean(ratios)
 
     def descend(self, best: Point) -> Point:
         """The point from which no move is better, or where the runs end."""
@@ -168,7 +156,7 @@ class Search:
         while improved and self.runs_left > 0:
             improved = False
             for which, step in self.moves(best):
-                while moved := self.neighbour(best.machine, which, step):
+                while moved := self.areas.neighbour(best.machine, which, step):
                     fits = self.fitted(moved, which)
                     worse, point = self.taken(fits, best) if fits else (math.inf, None)
                     if step < 0 and math.isfinite(worse):
@@ -210,6 +198,7 @@ class Search:
     def best_from(self, machine: Machine, storage: Sequence[int]) -> Point | None:
         """The best point found from a start; None where nothing on the way to the area draws all
         scenes."""
+        self.look_back(machine, storage)
         start = self.fitted(machine)
         if start is None:
             return None

@@ -157,23 +157,87 @@ def csv_row(size: str, scene: str, name: str, view: dict) -> tuple:
     )
 
 
+SUMMARY_HEAD = (
+    "size px",
+    "machine",
+    "mm2",
+    "bus MB",
+    "M cycles",
+    "mJ",
+    "fps, worst view",
+    "PSNR dB",
+    "VSU waits for reads, most",
+    "faster than paper",
+)
+
+
+def summary_row(
+    size: str, name: str, by_scene: Sequence[Outcome], paper: Sequence[Outcome], in_float: Sequence
+) -> tuple:
+    """Geometric means over the scenes of the means over their views; worst cases of all views."""
+    if refused := [o.run.scene.name for o in by_scene if o.refused]:
+        return (size, name, *[""] * 5, f"refused on {', '.join(refused)}", "", "")
+    of = [numbers(outcome.views) for outcome in by_scene]
+    bus, cycles, joules = (statistics.geometric_mean(n[i] for n in of) for i in (0, 3, 5))
+    faster = [
+        numbers(b.views)[3] / n[3] for n, b in zip(of, paper) if not b.refused and b.views
+    ]
+    times = [f"{ratio:.2f}" for ratio in (min(faster), max(faster))] if faster else []
+    return (
+        size,
+        name,
+        f"{max(n[6] for n in of):.2f}",
+        f"{bus / 1e6:.1f}",
+        f"{cycles / 1e6:.2f}",
+        f"{joules * 1e3:.2f}",
+        f"{min(n[4] for n in of):.0f}",
+        psnr_span([view for views in in_float for view in views]),
+        f"{max(n[7] for n in of):.0%}",
+        " .. ".join(times),
+    )
+
+
+@dataclasses.dataclass(frozen=True)
+class ViewsTables:
+    """views: a table for each size with a line for each scene and machine; csv: a line for each
+    view, as it was drawn in 8 bits; summary: a line for each size and machine."""
+
+    views: str
+    csv: str
+    summary: str
+
+
 def views_tables(
     kept: KeptRuns,
     contenders: Sequence[Contender],
     scenes: Sequence[Scene],
     view: str,
     sizes: Sequence[str],
-) -> tuple[str, str]:
-    """Markdown, a table for each size with a line for each scene and machine; and CSV, a line for
-    each view, as it was drawn in 8 bits."""
-    parts, csv_rows, measured = [], [], []
+) -> ViewsTables:
+    """`faster than paper` is over the second contender."""
+    parts, csv_rows, summary, measured = [], [], [], []
     for size in sizes:
-        cases = [(n, scene, c) for n, scene in enumerate(scenes) for c in contenders]
-        outcomes = kept.outcomes([c.run(scene, n, view, size) for n, scene, c in cases])
-        rows = [text_row(kept, s.name, c.name, o) for (_, s, c), o in zip(cases, outcomes)]
+        by_machine = {
+            c.name: kept.outcomes([c.run(scene, n, view, size) for n, scene in enumerate(scenes)])
+            for c in contenders
+        }
+        rows = [
+            text_row(kept, scene.name, name, outcomes[n])
+            for n, scene in enumerate(scenes)
+            for name, outcomes in by_machine.items()
+        ]
         parts.append(f"{size} px:\n\n{tables.markdown(HEAD, rows)}")
-        for (_, scene, c), outcome in zip(cases, outcomes):
-            csv_rows += [csv_row(size, scene.name, c.name, v) for v in outcome.views]
-            measured += outcome.views
+        for name, outcomes in by_machine.items():
+            in_float = [in_floats(kept, outcome) for outcome in outcomes if outcome.views]
+            paper = by_machine[contenders[1].name]
+            summary.append(summary_row(size, name, outcomes, paper, in_float))
+            for outcome in outcomes:
+                name_of = outcome.run.scene.name
+                csv_rows += [csv_row(size, name_of, name, v) for v in outcome.views]
+                measured += outcome.views
     made = run_arguments.how_made(measured)
-    return made + "\n".join(parts), tables.csv_text(CSV_HEAD, csv_rows)
+    return ViewsTables(
+        made + "\n".join(parts),
+        tables.csv_text(CSV_HEAD, csv_rows),
+        made + tables.markdown(SUMMARY_HEAD, summary),
+    )

@@ -60,9 +60,12 @@ class Outcome:
     run: Run
     views: tuple[dict, ...] = ()
     refused: str = ""  # what the command said about the arguments or the configuration
+    failure: Failure | None = None  # the simulation ended badly, and `refused` says how
 
     def accepted(self) -> tuple[dict, ...]:
-        """The views. Raises ValueError when the run was refused."""
+        """The views. Raises ValueError when the run was refused, Failure when it failed."""
+        if self.failure:
+            raise self.failure
         if self.refused:
             raise ValueError(f"{self.run.label()}: {self.refused}")
         return self.views

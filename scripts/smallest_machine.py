@@ -25,10 +25,10 @@ import run_arguments
 import tables
 from fair_fight_tables import assigned_document, settings_text
 from kept_runs import KeptRuns
+from machine_areas import Areas, start_of
 from machine_axes import EXACT, Machine
-from machine_search import machine_area_mm2
 from scenes import Scene, find_scenes, shared_names
-from simulations import Run, resolved_config
+from simulations import Run
 
 RUNS_FILE = "smallest_machine_runs.jsonl"
 HEAD = (
@@ -60,6 +60,7 @@ class Descent:
 
     def __init__(self, kept: KeptRuns, scenes: Sequence[Scene], size: str, wanted_fps: float):
         self.kept, self.scenes, self.size, self.wanted_fps = kept, scenes, size, wanted_fps
+        self.areas = Areas(kept)
         self.hardest: list[tuple[Scene, int]] = []
 
     def runs(self, machine: Machine, views: Sequence[tuple[Scene, str]]) -> list[Run]:
@@ -89,17 +90,6 @@ class Descent:
                 break
         return slowest
 
-    def step_back(self, machine: Machine, which: int) -> tuple[Machine, float] | None:
-        """The next smaller machine along an axis, and the area that it frees."""
-        area = machine_area_mm2(self.kept, machine)
-        back = machine.moved(which, -1)
-        while back:
-            smaller = machine_area_mm2(self.kept, back)
-            if smaller is not None and smaller < area:
-                return back, area - smaller
-            back = back.moved(which, -1)
-        return None
-
     def grown(self, machine: Machine, view: str) -> tuple[Machine, list[Drawn]]:
         """With more of what binds the slowest view, until that is fast enough. Raises ValueError
         where no axis has more of it."""
@@ -122,9 +112,9 @@ class Descent:
         worth = {which: math.inf for which in range(len(machine.at))}
         while worth:
             which = max(worth, key=lambda w: worth[w])
-            back = self.step_back(machine, which)
-            slower = self.slowest_fps(back[0]) if back else 0
-            if back is None or slower < self.wanted_fps:
+            back = self.areas.step_back(machine, which)
+            slower = self.slowest_fps(back[0]) if back and back[1] > 0 else 0
+            if slower < self.wanted_fps:
                 del worth[which]
                 continue
             now = back[1] / max(math.log(fps / slower), 1e-4)
@@ -169,11 +159,10 @@ def make_tables(arguments: argparse.Namespace) -> None:
         raise ValueError(f"--fps: {arguments.fps:g}, expected more than 0")
     scenes = find_scenes(arguments.scenes or shared_names() or [])
     kept = KeptRuns(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.side_by_side)
-    config = resolved_config(kept.binary, Run(scenes[0], config=EXACT.preset))
     rows, measured = [], []
     for size in arguments.sizes:
         descent = Descent(kept, scenes, size, arguments.fps)
-        preset = EXACT.start(config)
+        preset = start_of(EXACT, kept)
         before = descent.draw_all(preset, arguments.view)
         grown, drawn = descent.grown(preset, arguments.view)
         machine, drawn = descent.smallest(grown, drawn, arguments.view)
