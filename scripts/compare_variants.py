@@ -16,9 +16,9 @@ from collections.abc import Callable, Sequence
 
 import run_arguments
 import tables
-from machine_views import binders
 from scenes import Scene, find_scenes
 from simulations import Run, region_bytes, simulate_all
+from view_numbers import binders
 
 PAPER_VARIANTS = ("paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf")
 EXACT_VARIANTS = ("exact", "exact_half", "exact_vq", "exact_vq_packed")

@@ -4,8 +4,8 @@
 Writes energy_components.md: energy by component with the band that the sources leave, a column for
 each scene; and energy_groups.md and .csv: energy, bytes, cycles and area against the group's size,
 means over the scenes. On-chip memory is as large as each group needs; the ordering table of paper
-order, which grows with the group, is the smallest of a few sizes that every scene can be drawn with.
-What was simulated is kept in energy_runs.jsonl.
+order, which grows with the group, is the smallest of a few sizes that every scene can be drawn
+with. What was simulated is kept in energy_runs.jsonl.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def joules(view: dict, keys: Iterable[str], end: str = "middle") -> float:
 
 
 def with_band(view: dict, keys: Sequence[str]) -> str:
-    """Of the memory the band is that of the published sets of currents, which the total's has not."""
+    """The memory's band is that of the published sets of currents; the total's has none of it."""
     ends = [joules(view, keys, end) for end in ("low", "middle", "high")]
     if keys == OTHER["DRAM"]:
         sets = [*view["energy"]["dram_by_current_set_j"].values(), ends[1]]

@@ -2,18 +2,19 @@
 """Exact order against paper order, each with the machine that does best for it in the same area.
 
 Of each order a machine is searched, one for all scenes, within the area of the shipped preset
-`paper` (--budgets 1) and larger ones; what belongs to a scene's storage, chunk or voxel size, may be
-chosen for each scene. A machine does best when the geometric mean over the scenes, view 0, is
-smallest: of cycles; in the first area also one of bytes on the bus and one of joules. Second halves are raw, memory channels are
-the preset's, on-chip memory is as large as the rest needs and counts by its area.
+`paper` (--budgets 1) and larger ones; what belongs to a scene's storage, chunk or voxel size, may
+be chosen for each scene. A machine does best when the geometric mean over the scenes, view 0, is
+smallest: of cycles; in the first area also one for bytes on the bus and one for joules. Second
+halves are raw, memory channels are the preset's, on-chip memory is as large as the rest needs and
+counts by its area.
 
 Then the presets and the machines found for cycles draw every view.
 
 Writes fair_fight_front.csv and .md: the points of both orders that no other one beats in picture,
 bytes, time, energy and area; fair_fight_machines.md: what was chosen, and as a configuration each in
-fair_fight_ORDER_BUDGET_OBJECTIVE.json; fair_fight_views.csv and .md, and their summary. What was simulated is kept in
-fair_fight_runs.jsonl, as long as program, presets and technology are the same: started again, the
-script goes on where it ended.
+fair_fight_ORDER_BUDGET_OBJECTIVE.json; fair_fight_views.csv and .md, and their summary. What was
+simulated is kept in fair_fight_runs.jsonl, as long as program, presets and technology are the same:
+started again, the script goes on where it ended.
 """
 
 from __future__ import annotations
@@ -125,7 +126,7 @@ class Fight:
             tables.write_text(out / name, json.dumps(document, indent=2) + "\n")
 
     def contenders(self) -> list[Contender]:
-        """The presets, and what was found for the first objective in the area of the first budget."""
+        """The presets, and what was found for the first objective in the first area."""
         presets = [Contender(f"preset {name}", name, ()) for name in ("exact", BUDGET_PRESET)]
         wanted = (self.arguments.budgets[0], self.arguments.objectives[0])
         found = [
@@ -175,7 +176,10 @@ def main() -> int:
         "--objectives", nargs="+", choices=OBJECTIVES, default=list(OBJECTIVES), metavar="NAME"
     )
     parser.add_argument(
-        "--most-runs", type=int, default=200, help="simulations in the first search; 0.4 times as many in the others"
+        "--most-runs",
+        type=int,
+        default=200,
+        help="simulations in the first search of an order; the others get 0.4 times as many",
     )
     parser.add_argument("--size", default="640x360", metavar="WxH", help="of the search")
     parser.add_argument("--view", default="all", help="that all machines draw in the end, or none")

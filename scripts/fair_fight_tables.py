@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import tables
 from machine_axes import Machine
 from machine_search import OBJECTIVES, Point
-from machine_views import decibels, psnr_span
 from objectives import pareto_front
+from view_numbers import decibels, psnr_span
 
 # Points that are this close in everything count as one.
 ALIKE = 1.05

@@ -1,5 +1,5 @@
-"""Simulations that are kept in a file, so that a script which is interrupted, or run again, does not
-repeat them."""
+"""Simulations that are kept in a file, so that a script which is interrupted, or run again, does
+not repeat them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ NOT_KEPT = ("ledger", "left_out", "chosen", "host")
 
 
 def program_digest(binary: pathlib.Path) -> str:
-    """Of the program, the presets and the technology. Raises ValueError when there is no program."""
+    """Of program, presets and technology. Raises ValueError when there is no program."""
     if not binary.is_file():
         raise ValueError(f"{binary}: not there; scripts/setup.sh builds it")
     digest = hashlib.sha256(binary.read_bytes())

@@ -45,8 +45,9 @@ class Point:
 
 
 class Search:
-    """Moves along one axis at a time, from a machine that fits. What takes too much area is paid for
-    by steps back on other axes, those first that were seen to harm least for the area they free. Scenes are simulated two at a time, and a move is given up once it is clearly worse.
+    """Moves along one axis at a time, from a machine that fits. What takes too much area is paid
+    for by steps back on other axes, those first that were seen to harm least for the area they
+    free. Scenes are simulated two at a time, and a move is given up once it is clearly worse.
     points: every machine that was simulated on all scenes."""
 
     def __init__(
@@ -105,8 +106,8 @@ class Search:
                     return math.inf, None
                 views.append(outcome.views[0])
             if against:
-                ratios = [math.log(self.value(a) / self.value(b)) for a, b in zip(views, against.views)]
-                worse = statistics.fmean(ratios)
+                pairs = zip(views, against.views)
+                worse = statistics.fmean(math.log(self.value(a) / self.value(b)) for a, b in pairs)
                 if worse > 0.06 / len(views):
                     return worse, None
         point = Point(machine, tuple(storage), self.scenes, tuple(views))

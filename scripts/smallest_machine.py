@@ -4,9 +4,9 @@
 From the preset resources are taken away a step at a time, on the axes that fair_fight.py searches:
 that step first which frees most area for the time it costs on the hardest view. A step after which
 that view is too slow is not tried again. When none is left every view is drawn; one that turns out
-to be too slow becomes a hardest view beside the first, and the descent begins again. Where the preset
-itself is too slow, it first gets more of what binds the slowest view. Memory channels stay; on-chip
-memory is as large as the rest needs.
+to be too slow becomes a hardest view beside the first, and the descent begins again. Where the
+preset itself is too slow, it first gets more of what binds the slowest view. Memory channels stay;
+on-chip memory is as large as the rest needs.
 
 Writes smallest_machine.md, a line for each size, and each machine as a configuration in
 smallest_machine_SIZE.json. What was simulated is kept in smallest_machine_runs.jsonl.
@@ -40,8 +40,8 @@ HEAD = (
     "mJ, most",
     "fps, worst view",
     "which",
-    "preset: fps",
-    "preset: mm2",
+    "at the start: fps",
+    "at the start: mm2",
     "setting",
 )
 
@@ -136,7 +136,9 @@ class Descent:
                 return small, drawn
 
 
-def row(size: str, wanted: float, machine: Machine, drawn: list[Drawn], before: list[Drawn]) -> tuple:
+def row(
+    size: str, wanted: float, machine: Machine, drawn: Sequence[Drawn], before: Sequence[Drawn]
+) -> tuple:
     first = drawn[0]
     area = first.view["area_mm2"]["bands"]["total"]
     return (

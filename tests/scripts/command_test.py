@@ -42,7 +42,8 @@ class WithTheCommand(InFolder):
             (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1}),
             (
                 fair_fight,
-                ("--most-runs", "4", "--objectives", "cycles", "--budgets", "1", "--view-sizes", "64x36"),
+                ("--most-runs", "4", "--objectives", "cycles", "--budgets", "1")
+                + ("--view-sizes", "64x36"),
                 {"| exact | 1 x paper | cycles |": 1, "| paper | 1 x paper | cycles |": 1}
                 | {"| truck | preset paper |": 1, "| truck | exact, best cycles |": 1},
             ),

@@ -10,11 +10,11 @@ import binding_check
 import energy_tables
 import explore
 import fill_readme
-import machine_views
 import objectives
 import run_arguments
 import simulations
 import tables
+import view_numbers
 import work_precision
 from scenes import find_scene
 
@@ -142,7 +142,7 @@ class Reports(unittest.TestCase):
 
         vsu = {"activities": {"walk": activity(7), "hand_out": activity(3)}}
         view = {"units": {"vsu": vsu}, "frame": {"cycles": 100}}
-        self.assertEqual(machine_views.vsu_waits(view), 0.07)
+        self.assertEqual(view_numbers.vsu_waits(view), 0.07)
 
     def test_components_of_energy_hold_every_joule(self):
         keys = ("vsu_j", "merge_j", "pixel_state_j", "input_j", "clock_j", "sram_leakage_j")
