@@ -46,6 +46,10 @@ HEAD = (
 )
 
 
+class TooSlow(Exception):
+    """No machine on the axes is fast enough; the text says what more of was wanted."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Drawn:
     scene: Scene
@@ -91,17 +95,15 @@ class Descent:
         return slowest
 
     def grown(self, machine: Machine, view: str) -> tuple[Machine, list[Drawn]]:
-        """With more of what binds the slowest view, until that is fast enough. Raises ValueError
-        where no axis has more of it."""
+        """With more of what binds the slowest view, until that is fast enough. Raises TooSlow where
+        no axis has more of it."""
         while (drawn := self.draw_all(machine, view))[0].fps() < self.wanted_fps:
             key = drawn[0].view["binding"]["key"]
             names = [a.name for a in machine.order.axes]
             more = machine.moved(names.index(key), 1) if key in names else None
             if more is None:
-                raise ValueError(
-                    f"{drawn[0].scene.name}: {drawn[0].fps():.1f} frames a second at {self.size}, "
-                    f"expected {self.wanted_fps:g}; no more of '{key}' can be given"
-                )
+                name = drawn[0].scene.name
+                raise TooSlow(f"none: {name} has {drawn[0].fps():.1f} fps, no more of '{key}'")
             machine = more
         return machine, drawn
 
@@ -166,9 +168,14 @@ def make_tables(arguments: argparse.Namespace) -> None:
         descent = Descent(kept, scenes, size, arguments.fps)
         preset = start_of(EXACT, kept)
         before = descent.draw_all(preset, arguments.view)
-        grown, drawn = descent.grown(preset, arguments.view)
+        measured += [d.view for d in before]
+        try:
+            grown, drawn = descent.grown(preset, arguments.view)
+        except TooSlow as why:
+            wanted = f"{arguments.fps:g}"
+            rows.append((size, wanted, *[""] * (len(HEAD) - 3), str(why)))
+            continue
         machine, drawn = descent.smallest(grown, drawn, arguments.view)
-        measured += [d.view for d in drawn]
         rows.append(row(size, arguments.fps, machine, drawn, before))
         document = assigned_document(machine.overrides(), [d.view for d in drawn])
         path = arguments.out / f"smallest_machine_{size}.json"

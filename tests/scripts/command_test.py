@@ -48,6 +48,7 @@ class WithTheCommand(InFolder):
                 | {"| truck | preset paper |": 1, "| truck | exact, best cycles |": 1},
             ),
             (smallest_machine, ("--sizes", "64x36", "--fps", "100000"), {"| truck 0 |": 1}),
+            (smallest_machine, ("--sizes", "64x36", "--fps", "1e9"), {"| none: truck has": 1}),
             (work_precision, (), {"| truck | 0 |": 20, "| 4,096 |": 2}),
         ):
             with self.subTest(script.__name__, arguments=arguments):
