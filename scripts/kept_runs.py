@@ -58,6 +58,7 @@ class KeptRuns:
         self.failures: list[Failure] = []
         self.simulated = 0
         self.writing = threading.Lock()
+        self.running = threading.Semaphore(self.workers)
         for line in path.read_text().splitlines() if path.exists() else []:
             try:
                 entry = json.loads(line)
@@ -81,7 +82,8 @@ class KeptRuns:
             entry = self.known[name]
             return Outcome(run, tuple(entry["views"]), entry["refused"])
         try:
-            outcome = simulate(self.binary, run)
+            with self.running:
+                outcome = simulate(self.binary, run)
         except Failure as failure:
             with self.writing:
                 self.failures.append(failure)
