@@ -108,11 +108,17 @@ class Search:
             if against:
                 pairs = zip(views, against.views)
                 worse = statistics.fmean(math.log(self.value(a) / self.value(b)) for a, b in pairs)
-                if worse > 0.06 / len(views):
+                # Of the first scenes some may still make up for others.
+                early = len(views) < 4 or self.frees(machine, against)
+                if worse > (0.06 / len(views) if early else -BETTER / 2):
                     return worse, None
         point = Point(machine, tuple(storage), self.scenes, tuple(views))
         self.points.append(point)
         return worse, point
+
+    def frees(self, machine: Machine, best: Point) -> bool:
+        area = self.areas.of(machine)
+        return area is not None and best.area_mm2() - area > FREED * self.budget_mm2
 
     def taken(self, machine: Machine, best: Point) -> tuple[float, Point | None]:
         """A machine that is better, or as good and smaller; it is not looked at twice."""
@@ -123,8 +129,7 @@ class Search:
         worse, point = self.measure(machine, best.storage, best)
         if point is None:
             return worse, None
-        smaller = best.area_mm2() - point.area_mm2() > FREED * self.budget_mm2
-        if worse < -BETTER or (smaller and worse < BETTER):
+        if worse < -BETTER or (worse < BETTER and self.frees(machine, best)):
             return worse, point
         return worse, None
 
