@@ -37,7 +37,7 @@ def values(point: Point) -> tuple[float, ...]:
 
 
 def near_front(points: Sequence[Point]) -> list[bool]:
-    """For each point whether it is on the front, one of those that are alike."""
+    """For each point whether it is on the front; of those that are alike, the fastest is."""
 
     def box(of: tuple[float, ...]) -> tuple[int, ...]:
         lost, *others = of
@@ -47,7 +47,8 @@ def near_front(points: Sequence[Point]) -> list[bool]:
         )
 
     boxes = [box(values(point)) for point in points]
-    first = {of: n for n, of in reversed(list(enumerate(boxes)))}
+    slowest_first = sorted(range(len(points)), key=lambda n: -values(points[n])[1])
+    first = {boxes[n]: n for n in slowest_first}
     return [best and first[of] == n for n, (best, of) in enumerate(zip(pareto_front(boxes), boxes))]
 
 

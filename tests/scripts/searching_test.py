@@ -9,7 +9,7 @@ import machine_axes
 import simulations
 from kept_runs import KeptRuns
 from machine_areas import SMALL, Areas
-from machine_search import Search
+from machine_search import Point, Search
 from scenes import Scene
 
 AXES = (
@@ -95,6 +95,16 @@ class Searching(unittest.TestCase):
 
     def test_nothing_fits(self):
         self.assertIsNone(self.found(0.5, 400)[0])
+
+    def test_of_points_that_are_alike_the_fastest_is_on_the_front(self):
+        def point(cycles, bus_bytes):
+            view = {"frame": {"cycles": cycles}, "dram": {"bus_bytes": bus_bytes}}
+            view |= {"energy": {"total_j": 1.0}, "area_mm2": {"total": 5.0}}
+            view |= {"image": {"psnr_db": 30.0}}
+            return Point(None, (), (), (view,))
+
+        points = [point(1010, 900), point(1005, 900), point(2000, 300), point(2000, 1000)]
+        self.assertEqual(fair_fight_tables.near_front(points), [False, True, True, False])
 
     def test_a_machine_as_a_configuration(self):
         view = {"config": {"machine": "exact", "sram": {"input_bytes": 7, "shared_bytes": 9}}}
