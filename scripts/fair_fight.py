@@ -83,7 +83,7 @@ class Fight:
         areas = Areas(self.kept)
         for name in self.arguments.orders:
             order = ORDERS[name]
-            machine = start_of(order, self.kept)
+            machine, harm = start_of(order, self.kept), {}
             storage = storage_at_start(order, self.kept, self.scenes, self.arguments.size)
             first, *others = self.arguments.objectives
             smallest, *larger = self.arguments.budgets
@@ -100,8 +100,10 @@ class Fight:
                     budget * area,
                     objective,
                     round(share * self.arguments.most_runs),
+                    harm,
                 )
                 point = search.best_from(machine, storage)
+                harm = harm or search.harm
                 self.points += search.points
                 if point:
                     self.best[name, budget, objective] = point

@@ -48,7 +48,8 @@ class Search:
     """Moves along one axis at a time, from a machine that fits. What takes too much area is paid
     for by steps back on other axes, those first that were seen to harm least for the area they
     free. Scenes are simulated two at a time, and a move is given up once it is clearly worse.
-    points: every machine that was simulated on all scenes."""
+    points: every machine that was simulated on all scenes. harm: of a step back on each axis, as an
+    earlier search has seen it."""
 
     def __init__(
         self,
@@ -58,13 +59,14 @@ class Search:
         budget_mm2: float,
         objective: str,
         most_runs: int,
+        harm: dict[int, float] | None = None,
     ):
         self.areas, self.kept = areas, areas.kept
         self.scenes, self.size = tuple(scenes), size
         self.budget_mm2, self.value = budget_mm2, OBJECTIVES[objective]
         self.runs_left = most_runs
         self.points: list[Point] = []
-        self.harm: dict[int, float] = {}  # of a step back on an axis
+        self.harm = dict(harm or {})
         self.seen: set[tuple] = set()
 
     def fitted(self, machine: Machine, raised: int = -1) -> Machine | None:
@@ -204,7 +206,8 @@ class Search:
     def best_from(self, machine: Machine, storage: Sequence[int]) -> Point | None:
         """The best point found from a start; None where nothing on the way to the area draws all
         scenes."""
-        self.look_back(machine, storage)
+        if not self.harm:
+            self.look_back(machine, storage)
         start = self.fitted(machine)
         if start is None:
             return None
