@@ -11,8 +11,8 @@ counts by its area.
 Then the presets and the machines found for cycles draw every view.
 
 Writes fair_fight_front.csv and .md: the points of both orders that no other one beats in picture,
-bytes, time, energy and area; fair_fight_machines.md: what was chosen, and as a configuration each in
-fair_fight_ORDER_BUDGET_OBJECTIVE.json; fair_fight_views.csv and .md, and their summary. What was
+bytes, time, energy and area; fair_fight_machines.md: what was chosen, and as a configuration each
+in fair_fight_ORDER_BUDGET_OBJECTIVE.json; fair_fight_views.csv and .md, and their summary. What was
 simulated is kept in fair_fight_runs.jsonl, as long as program, presets and technology are the same:
 started again, the script goes on where it ended.
 """
