@@ -136,8 +136,11 @@ class Search:
         return worse, None
 
     def moves(self, point: Point) -> Iterator[tuple[int, int]]:
-        """Axes and steps: on, what holds most scenes first, then back."""
+        """Axes and steps: back where that was seen to gain; on, what holds most scenes first; then
+        back."""
         axes = range(len(point.machine.at))
+        gains = [which for which in axes if self.harm.get(which, 0) < -BETTER]
+        yield from ((which, -1) for which in sorted(gains, key=lambda w: self.harm[w]))
         held_by = [view["binding"]["key"] for view in point.views]
         named = {which: held_by.count(point.machine.order.axes[which].name) for which in axes}
         yield from ((which, 1) for which in sorted(axes, key=lambda w: -named[w]))
