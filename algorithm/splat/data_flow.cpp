@@ -16,6 +16,7 @@ bool is_unary(Operation operation) {
     case Operation::kCompare:
     case Operation::kMinimum:
     case Operation::kMaximum:
+    case Operation::kScale:
       return false;
     default:
       return true;
@@ -91,6 +92,15 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
         break;
       case Operation::kExponential:
         ++c.exponentials;
+        break;
+      case Operation::kLookUp:
+        ++c.look_ups;
+        break;
+      case Operation::kSplit:
+        ++c.splits;
+        break;
+      case Operation::kScale:
+        ++c.scalings;
         break;
       case Operation::kCompare:
       case Operation::kMinimum:

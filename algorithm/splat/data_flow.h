@@ -24,6 +24,9 @@ enum class Operation : std::uint8_t {
   kSquareRoot,
   kLogarithm,
   kExponential,
+  kLookUp,  // a row of a table
+  kSplit,   // into whole steps and a rest
+  kScale,   // by a power of two that is computed
   kCompare,
   kMinimum,
   kMaximum,

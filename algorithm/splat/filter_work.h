@@ -5,6 +5,7 @@
 #pragma once
 
 #include "algorithm/scene/camera.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound_by.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/operation_counts.h"
@@ -38,10 +39,11 @@ struct FineWork {
 FineWork fine_work(const FilterCase& tested, int sh_degree);
 
 // Of rendering: a splat's spans are begun once; each row of sub-tiles adds one; each sub-tile is
-// blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once.
+// blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once. Ahead of all
+// log2(e) goes into the splat's conic, in single precision.
 struct RenderingWork {
-  OperationCounts spans_begin, span, subtile_blend;
+  OperationCounts conic, spans_begin, span, subtile_blend;
 };
-RenderingWork rendering_work();
+RenderingWork rendering_work(BlendPrecision precision);
 
 }  // namespace sgs

@@ -3,6 +3,8 @@
 #include <optional>
 
 #include "algorithm/render/group_state.h"
+#include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/lane_macs.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
@@ -210,10 +212,16 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("subtile_blends_late", sum.late_blends);
   bench.check_counter("hazard_cycles", sum.hazard_cycles);
   bench.check_counter("queue_cycles", sum.queue_cycles);
-  const RenderingMacs& macs = rendering_macs();
-  const std::uint64_t blend_macs = sum.blends * macs.subtile_blend;
-  const std::uint64_t span_macs = sum.spans * macs.span + sum.splats_spanned * macs.spans_begin;
+  const RenderingWork work = rendering_work(plan.config.precision);
+  const std::uint64_t blend_macs = sum.blends * folded_macs(work.subtile_blend);
+  const std::uint64_t span_macs =
+      bench.counter("splats_taken") * folded_macs(work.conic) + sum.spans * folded_macs(work.span) + sum.splats_spanned * folded_macs(work.spans_begin);
+  bench.check_operations("rendering", "comparator",
+                         sum.blends * comparisons(work.subtile_blend) +
+                             sum.spans * comparisons(work.span) +
+                             sum.splats_spanned * comparisons(work.spans_begin));
   const bool in_half = plan.config.precision == BlendPrecision::kHalf;
+  bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", sum.blends * 16);
   bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
   if (in_half) bench.check_operations("rendering", "fp16_lane", blend_macs);
   // A sub-tile at once: blended, cleared before and drained behind.

@@ -68,6 +68,7 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
     blend_.work(1);
     return;
   }
+  ++counters_.splats_taken;
   schedule_.begin_splat(now);
   const BlendWork work = state.blend_scheduled(
       splat, [&](const SubtileReach& subtile) { schedule_.reach(subtile); });
@@ -133,11 +134,13 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
 
 void RenderingUnit::publish_ledger(DataSheet& sheet) {
   const ClusterSchedule::Counters& clusters = schedule_.counters();
+  sheet.datapath(conic_datapath(), counters_.splats_taken);
   sheet.datapath(blend_datapath(config_), clusters.blends);
   const Datapath spans = span_datapath(config_);
   sheet.datapath(spans, counters_.spans);
-  sheet.operations(spans.component.c_str(), spans.lane.c_str(),
-                   static_cast<double>(counters_.splats_spanned) * rendering_macs().spans_begin);
+  const auto spanned = static_cast<double>(counters_.splats_spanned);
+  sheet.operations("rendering", spans.lane.c_str(), spanned * spans_begin().macs);
+  sheet.operations("rendering", "comparator", spanned * spans_begin().comparisons);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
   // Each blend reads and writes a sub-tile; so do clearing and draining a group.
   std::uint64_t subtiles = clusters.blends;
@@ -158,6 +161,8 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.counter("groups_saturated", "groups", "of these with every pixel finished early",
                 counters_.groups_saturated);
   sheet.counter("splats", "splats", "blended into at least one sub-tile", counters_.splats);
+  sheet.counter("splats_taken", "splats", "sent on to the clusters, whether they reach any or not",
+                counters_.splats_taken);
   sheet.counter("splats_saturated", "splats", "that came when their group was finished",
                 counters_.splats_saturated);
   sheet.counter("splats_spanned", "splats", "on more sub-tiles than a few: rows got spans",

@@ -39,6 +39,7 @@ class RenderingUnit : public sc_core::sc_module {
   struct Counters {
     std::uint64_t groups = 0;
     std::uint64_t splats = 0;            // blended into at least one sub-tile
+    std::uint64_t splats_taken = 0;      // that found their group unfinished
     std::uint64_t splats_saturated = 0;  // arrived when their group was finished
     std::uint64_t splats_spanned = 0;    // on more sub-tiles than a few
     std::uint64_t spans = 0;             // of rows of sub-tiles
