@@ -156,7 +156,7 @@ def effect_row(scene: str, of: dict[str, Views]) -> tuple:
 def removed(views: Views) -> str:
     """Coarse filter, fine filter of what is left, both: shares of the Gaussians tested."""
     passed = sum(work(v, "coarse_passed") for v in views) / sum(
-        work(v, "coarse_tests") for v in views
+        work(v, "coarse_tests_of_parts") for v in views
     )
     # Other units count the splats that they were given.
     counters = (unit["counters"] for v in views for unit in v["units"].values())

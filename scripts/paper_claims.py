@@ -63,7 +63,7 @@ def frames_a_second(view: dict) -> float:
 
 def dropped_percent(view: dict) -> float:
     """Of the tests of a Gaussian against an HFU's part of the group, those that make no splat."""
-    return 100 * (1 - fine_splats(view) / work(view, "coarse_tests"))
+    return 100 * (1 - fine_splats(view) / work(view, "coarse_tests_of_parts"))
 
 
 def not_fetched_percent(view: dict) -> float:

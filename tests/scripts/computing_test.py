@@ -144,7 +144,7 @@ class Reports(unittest.TestCase):
             return {"activities": {}, "counters": counters}
 
         units = {
-            "hfu0.coarse": unit(coarse_tests=100, coarse_passed=50),
+            "hfu0.coarse": unit(coarse_tests_of_parts=100, coarse_passed=50),
             "hfu0.fine": unit(fine_tests=50, splats=20),
             "rendering": unit(splats=7),
         }

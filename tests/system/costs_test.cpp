@@ -34,7 +34,8 @@ void check_joules(const Json& view) {
   const Json& hfu = view["config"]["hfu"];
   std::map<std::string, double> expected;
   expected["coarse"] =
-      sum_of(view, "coarse_tests") * hfu["cfu_macs"].get<double>() * pj("fp32_lane");
+      sum_of(view, "coarse_tests") *
+      view["datapath"]["coarse"]["used"]["macs"].get<double>() * pj("fp32_lane");
   expected["fine"] = sum_of(view, "fine_tests") * hfu["ffu_macs"].get<double>() * pj("fp32_lane");
   expected["sorting"] = sum_of(view, "compare_exchanges") * pj("compare_exchange");
   for (const auto& [component, joules] : expected) {

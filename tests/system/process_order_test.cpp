@@ -92,7 +92,7 @@ std::vector<Arguments> variants(const std::string& machine) {
           machine == "exact"
               ? settings({"hfus=3", "sorting_units=1", "dram.power_down_idle_cycles=10"})
               : settings({"hfus=3", "sorting_units=1", "dram.power_down_idle_cycles=10",
-                          "fetch=split", "hfu.slice_gaussians=64"})};
+                          "fetch=split", "hfu.slice_gaussians=64", "vsu.table_bytes=64"})};
 }
 
 // Groups so small that some saturate.

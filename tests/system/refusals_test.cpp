@@ -79,16 +79,6 @@ TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
   check_set_refused("paper", {"storage.voxel_size=0.0000001"}, {"voxel_size", "2^20", "at least"});
 }
 
-TEST_CASE("refusals: an ordering table that a group outgrows ends the run by name") {
-  const ScratchFolder scratch;
-  const Outcome outcome =
-      run_streaminggs({"simulate", "builtin:object?n=3000", "--size", "64x64", "--config", "paper",
-                       "--set", "vsu.table_bytes=64", "--out", scratch.path("out")});
-  CHECK(outcome.status == 1);
-  CHECK(outcome.err.find("vsu.table_bytes is 64") != std::string::npos);
-  CHECK(outcome.err.find("raise it, or take larger voxels") != std::string::npos);
-}
-
 TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
   check_refused({"simulate", "/no/such/scene.ply", "--cameras", "/no/such/cameras.json"},
                 {"/no/such/scene.ply"});
