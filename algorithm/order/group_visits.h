@@ -100,8 +100,8 @@ bool follow_rays(const View<float>& view, const PixelRect& group, std::uint32_t 
 // that holds one voxel is enough for any group, and no voxel is visited twice.
 //
 // Tracer: `std::uint32_t walk(const Ray&, visit)` (RayWalk or RaySampling). watch.ray(steps, edges)
-// is called after each ray, watch.full() where the table overflows, watch.ordered(voxels, last) with
-// each pass, while the table still holds it; VSU lets simulated time pass there.
+// is called after each ray, watch.full() where the table overflows, watch.ordered(voxels, last)
+// with each pass, while the table still holds it; VSU lets simulated time pass there.
 template <class Tracer, class Watch>
 GroupVisits group_visits(const View<float>& view, const PixelRect& group, std::uint32_t step_px,
                          Tracer& tracer, OrderingTable& table, Watch&& watch) {

@@ -123,8 +123,7 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
   std::vector<StreamingStats> stats(groups.size());
   out.group_voxels.resize(groups.size());
   Flags contributing(cloud.size()), visited(grid.voxels.size());
-  tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(),
-                                                          config.table_bytes);
+  tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(), config.table_bytes);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t index) {
     const PixelRect& group = groups[index];
     StreamingStats& s = stats[index];

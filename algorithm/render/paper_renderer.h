@@ -13,8 +13,8 @@
 namespace sgs {
 
 struct PaperOrderConfig {
-  int group_px = 64;             // side of a pixel group, a multiple of 4
-  bool coarse_filter = true;     // off: every Gaussian of a voxel goes to the fine filter
+  int group_px = 64;          // side of a pixel group, a multiple of 4
+  bool coarse_filter = true;  // off: every Gaussian of a voxel goes to the fine filter
   RayPattern rays;
   // Ordering table of one group: where it is full the group is ordered in passes.
   std::uint64_t table_bytes = OrderingTable::kUnlimited;

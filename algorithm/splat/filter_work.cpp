@@ -112,7 +112,8 @@ RenderingWork rendering_work() {
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
     const Counting dx = left - Counting(static_cast<float>(lane % kSubtilePx));
     const Counting dy = top - Counting(static_cast<float>(lane / kSubtilePx));
-    const Counting alpha = alpha_at(splat.conic_a, splat.conic_b, splat.conic_c, splat.opacity, dx, dy);
+    const Counting alpha =
+        alpha_at(splat.conic_a, splat.conic_b, splat.conic_c, splat.opacity, dx, dy);
     const LightShare<Counting> light = take_light(alpha, input(flow, 0.5F));
     static_cast<void>(light.after < constant<Counting>(kTransmittanceMin));
     for (int channel = 0; channel < 3; ++channel) {

@@ -26,8 +26,8 @@ struct FilterCase {
 // intervals has to be built for this.
 FilterCase longest_case();
 
-// Of the coarse test, up to where it fails or to its end: a bound, and whether it touches the group,
-// or each of across x across parts of it.
+// Of the coarse test, up to where it fails or to its end: a bound, and whether it touches the
+// group, or each of across x across parts of it.
 OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
                             std::uint32_t across = 1);
 

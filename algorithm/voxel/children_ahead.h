@@ -1,5 +1,5 @@
-// Which children of a node a ray can still meet, and how large the block around it is in which there
-// are none: it is crossed in one step.
+// Which children of a node a ray can still meet, and how large the block is in which there are
+// none: it is crossed in one step.
 #pragma once
 
 #include <cstdint>

@@ -108,7 +108,8 @@ class RayWalk {
     return cell;
   }
 
-  // Moves to the first cell beyond the block of 2^log2_size cells a side that holds the current one.
+  // Moves to the first cell beyond the block of 2^log2_size cells a side that holds the current
+  // one.
   void leave_block(int log2_size) {
     const int size = 1 << log2_size;
     int exit_axis = 0;

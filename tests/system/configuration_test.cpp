@@ -49,13 +49,12 @@ struct TightMemory {
     scene.cameras[1] = scaled_to(scene.cameras[1], 1024, 768);
     write_ply(folder.path("scene.ply"), scene.cloud);
     write_cameras(folder.path("cameras.json"), scene.cameras);
-    Json spec = Json::parse(
-        bytes_of(SGS_SOURCE_DIR "/modules/dram/memspecs/lpddr3_1600_4gb.json"));
+    Json spec = Json::parse(bytes_of(SGS_SOURCE_DIR "/modules/dram/memspecs/lpddr3_1600_4gb.json"));
     spec["organisation"]["rows"] = rows;
-    arguments = {"simulate", folder.path("scene.ply"),
+    arguments = {"simulate",  folder.path("scene.ply"),
                  "--cameras", folder.path("cameras.json"),
-                 "--config", "paper_no_vq", "--set",
-                 "dram.memspec=" + folder.write("small.json", spec.dump())};
+                 "--config",  "paper_no_vq",
+                 "--set",     "dram.memspec=" + folder.write("small.json", spec.dump())};
   }
 };
 
@@ -91,8 +90,8 @@ TEST_CASE("configuration: where every view fails nothing is written") {
   for (const auto& [view, status] : {std::pair{"all", 1}, std::pair{"0", 2}}) {
     INFO(view);
     const ScratchFolder scratch;
-    const Outcome outcome = run_streaminggs(
-        joined(tight.arguments, {"--view", view, "--out", scratch.path("out")}));
+    const Outcome outcome =
+        run_streaminggs(joined(tight.arguments, {"--view", view, "--out", scratch.path("out")}));
     CHECK(outcome.status == status);
     CHECK_THAT(outcome.err, Contains("dram: the scene and its frame take"));
     CHECK(scratch.file_count() == 0);

@@ -183,8 +183,8 @@ void check_bounds(const Json& view) {
   const Json& config = view["config"];
   const std::uint64_t frame = frame_cycles(view);
   const Json& hfu = config["hfu"];
-  const std::uint64_t coarse_interval = ceil_div(
-      count(view["datapath"]["coarse"]["used"]["macs"]), count(hfu["cfu_lanes"]));
+  const std::uint64_t coarse_interval =
+      ceil_div(count(view["datapath"]["coarse"]["used"]["macs"]), count(hfu["cfu_lanes"]));
   const std::uint64_t fine_interval = ceil_div(count(hfu["ffu_macs"]), count(hfu["ffu_lanes"]));
   const std::uint64_t parts = parts_of(config);
   const std::uint64_t clusters = count(config["rendering"]["clusters"]) / parts;

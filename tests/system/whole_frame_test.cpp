@@ -123,8 +123,9 @@ TEST_CASE("whole frame: other numbers of units, ports and memory channels") {
 }
 
 TEST_CASE("whole frame: groups that are ordered in passes, with and without stalls, paper order") {
-  const Arguments common = {"builtin:outdoor?n=3000", "--view", "all", "--size", "96x54",
-                            "--config", "paper", "--set", "vsu.table_bytes=64"};
+  const Arguments common = {
+      "builtin:outdoor?n=3000", "--view", "all", "--size", "96x54", "--config", "paper", "--set",
+      "vsu.table_bytes=64"};
   const Simulation plain(common), stalled(joined(common, {"--stalls", "0.2", "--seed", "5"}));
   plain.check();
   stalled.check();

@@ -66,8 +66,8 @@ class PaperVsu::Watch {
   void ray(std::uint32_t steps, std::size_t edges) {
     const std::uint64_t lookups = vsu_.nodes_.lookups() - looked_up_;
     looked_up_ = vsu_.nodes_.lookups();
-    vsu_.traverse_.work(std::max({vsu_.ray_steps_.cycles(steps), lookups,
-                                  cycles_for(edges, vsu_.config_.edges_per_cycle)}));
+    vsu_.traverse_.work(std::max(
+        {vsu_.ray_steps_.cycles(steps), lookups, cycles_for(edges, vsu_.config_.edges_per_cycle)}));
   }
   void full() {
     ++vsu_.counters_.overflows;
@@ -232,8 +232,9 @@ void PaperVsu::publish(DataSheet& sheet) {
   // the eye lies before or behind a cut. A voxel lies in the pass's window: two bounds.
   sheet.part("vsu", "comparator", 2.0 * config_.edges_per_cycle + 3, 1);
   const std::uint64_t lookups = counters_.edges + counters_.table_entries;
+  const std::uint64_t compared = lookups + counters_.cuts + 2 * (counters_.edges + counters_.rays);
   const std::uint64_t written = counters_.entered + counters_.table_entries;
-  sheet.operations("vsu", "comparator", static_cast<double>(lookups + counters_.cuts + 2 * (counters_.edges + counters_.rays)));
+  sheet.operations("vsu", "comparator", static_cast<double>(compared));
   sheet.accesses("ordering table", lookups, written);
   const std::uint64_t ordered = counters_.voxels + counters_.visits_saturated;
   sheet.accesses("ordered voxels", ordered, ordered);

@@ -217,11 +217,11 @@ TEST_CASE("ray walk: empty space is crossed in few steps") {
   const GridTable table{grid};
   RayWalk walk(grid.frame, table);
   std::vector<std::uint32_t> met;
-  const std::uint32_t steps = walk.walk(ray_from({-1, 0.5F, 0.5F}, {1, 0, 0}),
-                                        [&](std::uint32_t voxel, std::uint32_t) {
-                                          met.push_back(voxel);
-                                          return true;
-                                        });
+  const std::uint32_t steps =
+      walk.walk(ray_from({-1, 0.5F, 0.5F}, {1, 0, 0}), [&](std::uint32_t voxel, std::uint32_t) {
+        met.push_back(voxel);
+        return true;
+      });
   CHECK(met == std::vector<std::uint32_t>{0, 1});
   // At most three empty siblings on each of the levels on the way up and on the way down.
   CHECK(steps <= static_cast<std::uint32_t>(10 * grid.frame.levels));

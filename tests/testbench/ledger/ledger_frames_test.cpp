@@ -142,9 +142,9 @@ TEST_CASE("ledger: exact order is charged with what the golden renderer counts")
 
 TEST_CASE("ledger: paper order is charged with what the golden renderer counts") {
   Settings settings = kPlain;
-  settings.insert(settings.end(), {"vsu.visit_gaussians=0",  // a visit is a voxel
-                                   "fetch=shared", "hfu.slice_gaussians=512",
-                                   "sorting.buffer_entries=128"});
+  settings.insert(settings.end(),
+                  {"vsu.visit_gaussians=0",  // a visit is a voxel
+                   "fetch=shared", "hfu.slice_gaussians=512", "sorting.buffer_entries=128"});
   const Frame frame = simulated("paper_no_vq", settings, kSparse);
   check_paid(frame);
   constexpr std::uint32_t kHfus = 4;
