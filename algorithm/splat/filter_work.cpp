@@ -62,14 +62,22 @@ FilterCase longest_case() {
   return out;
 }
 
-OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested) {
+OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
+                            std::uint32_t across) {
   DataFlow flow;
   const auto view = make_view<Counting>(tested.camera);
   const auto mean = input(flow, tested.gaussian.mean);
   const VisibleExtents known = visible_extents(tested.gaussian);
   // Counted whatever it says.
   const auto run = [&](const auto& bound) {
-    if (bound.in_front) static_cast<void>(touches(bound, tested.group));
+    if (!bound.in_front) return;
+    const PixelRect& group = tested.group;
+    const int parts = static_cast<int>(across);
+    const int width = (group.x1 - group.x0) / parts, height = (group.y1 - group.y0) / parts;
+    for (int part = 0; part < parts * parts; ++part) {
+      const int x = group.x0 + part % parts * width, y = group.y0 + part / parts * height;
+      static_cast<void>(touches(bound, PixelRect{x, y, x + width, y + height}));
+    }
   };
   if (bound_by == CoarseBoundBy::kLargestScale) {
     run(coarse_bound(view, mean, input(flow, known.scale_max)));

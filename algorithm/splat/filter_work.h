@@ -4,6 +4,8 @@
 // a frame or a group and kept. The decoding of records is not included.
 #pragma once
 
+#include <cstdint>
+
 #include "algorithm/scene/camera.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound_by.h"
@@ -25,8 +27,10 @@ struct FilterCase {
 // intervals has to be built for this.
 FilterCase longest_case();
 
-// Of the coarse test, up to where it fails or to its end.
-OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested);
+// Of the coarse test, up to where it fails or to its end: a bound, and whether it touches the
+// group, or each of across x across parts of it.
+OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
+                            std::uint32_t across = 1);
 
 // Of the fine test, up to where it fails or to its end. An operation that two parts need counts
 // with the first.

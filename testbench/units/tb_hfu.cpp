@@ -161,7 +161,8 @@ void shared_fetch(Case& test, SecondHalfEncoding encoding, std::uint32_t slots) 
     }
   }
   bench.check_counter("first_halves", first_halves);
-  bench.check_counter("coarse_tests", kParts * first_halves);
+  bench.check_counter("coarse_tests", first_halves);
+  bench.check_counter("coarse_tests_of_parts", kParts * first_halves);
   bench.check_counter("coarse_passed", taken);
   bench.check_counter("coarse_candidates", fetched);
   bench.check_counter("second_halves", fetched);

@@ -159,7 +159,7 @@ void check_bytes(const Json& view) {
           second_half * of(unit, "second_halves"));
   }
   if (view["config"]["machine"] == "paper") {
-    constexpr std::uint64_t kSplat = 48, kLine = 64;
+    constexpr std::uint64_t kSplat = 48, kLine = 32;
     CHECK(region_bytes(view, "spill", "write") == kSplat * total(view, "entries_spilled"));
     if (total(view, "splats_saturated") == 0) {
       CHECK(region_bytes(view, "spill", "read") == region_bytes(view, "spill", "write"));
@@ -183,7 +183,8 @@ void check_bounds(const Json& view) {
   const Json& config = view["config"];
   const std::uint64_t frame = frame_cycles(view);
   const Json& hfu = config["hfu"];
-  const std::uint64_t coarse_interval = ceil_div(count(hfu["cfu_macs"]), count(hfu["cfu_lanes"]));
+  const std::uint64_t coarse_interval =
+      ceil_div(count(view["datapath"]["coarse"]["used"]["macs"]), count(hfu["cfu_lanes"]));
   const std::uint64_t fine_interval = ceil_div(count(hfu["ffu_macs"]), count(hfu["ffu_lanes"]));
   const std::uint64_t parts = parts_of(config);
   const std::uint64_t clusters = count(config["rendering"]["clusters"]) / parts;

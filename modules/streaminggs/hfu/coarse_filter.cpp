@@ -13,7 +13,8 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
       memory("memory", context.built_for.memory_port),
       config_(config),
       built_for_(context.built_for),
-      tests_(side_by_side(coarse_datapath(config, context.job.layout.split.bound_by),
+      tests_(side_by_side(coarse_datapath(config, context.job.layout.split.bound_by,
+                                          static_cast<std::uint32_t>(context.job.parts.size())),
                           static_cast<std::uint32_t>(context.job.parts.size()))),
       job_(context.job),
       record_bytes_(job_.layout.first_halves.record_bytes),
@@ -83,14 +84,14 @@ std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
          (std::size_t{slot} * config_.slice_gaussians + at) * std::size_t{record_bytes_};
 }
 
-// The CFUs take `cfus` Gaussians at a time. Simulated time is only let pass where somebody could
+// The CFUs take a Gaussian each at a time. Simulated time is only let pass where somebody could
 // see it: before a candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
   const RecordSplit& split = job_.layout.split;
   std::uint64_t pending_cycles = 0;
   std::uint32_t open = 0;  // parts
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
-    if (i % config_.cfus == 0) {
+    if (i % tests_.copies == 0) {
       open = unfinished_parts(finished, slice.share.group);
       if (open == 0) {
         counters_.dropped_saturated += slice.share.count - i;
@@ -127,7 +128,8 @@ void CoarseFilter::filter_slice(const Slice& slice) {
 std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t group,
                                  std::uint32_t open) {
   if (!config_.coarse_filter) return open;
-  counters_.tests += count_parts(open);
+  ++counters_.tests;
+  counters_.tests_of_parts += count_parts(open);
   std::uint32_t parts = 0;
   for (std::uint32_t p = 0; p < part_count(); ++p) {
     const bool tested = (open >> p & 1U) != 0;
@@ -153,8 +155,9 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.counter("shares", "shares", "of visits, empty ones and ends of groups included",
                 counters_.shares);
   sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
-  sheet.counter("coarse_tests", "Gaussians", "tested, once for each part of the group",
-                counters_.tests);
+  sheet.counter("coarse_tests", "Gaussians", "tested", counters_.tests);
+  sheet.counter("coarse_tests_of_parts", "Gaussians", "tested, once for each part of the group",
+                counters_.tests_of_parts);
   sheet.counter("coarse_passed", "Gaussians", "of these, that may touch their part",
                 counters_.passed);
   sheet.counter("coarse_candidates", "Gaussians", "that may touch a part of the group",

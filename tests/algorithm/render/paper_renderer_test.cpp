@@ -69,7 +69,7 @@ Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const
   }
   OrderingTable table(grid.voxels.size());
   for (const PixelRect& group : pixel_groups(view.width, view.height, group_px)) {
-    const GroupVisits visits = paper_visits(view, group, grid, 0, table);
+    const GroupVisits visits = paper_visits(view, group, grid, {}, table);
     std::vector<std::vector<Splat>> of_voxel(grid.voxels.size());
     for (std::uint32_t i = 0; i < cloud.size(); ++i) {
       Splat splat{};
