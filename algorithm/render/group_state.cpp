@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "algorithm/splat/finished_pixel.h"
+
 namespace sgs {
 
 GroupState::GroupState(const PixelRect& pixels, int width_px, int height_px,
@@ -31,8 +33,9 @@ glm::vec3 GroupState::colour(int x, int y, const glm::vec3& background) const {
   int lane = 0;
   const SubtileState& s = subtile_of(x, y, lane);
   const float t = s.transmittance[lane];
-  return {s.red[lane] + t * background.x, s.green[lane] + t * background.y,
-          s.blue[lane] + t * background.z};
+  return {over_background(s.red[lane], t, background.x),
+          over_background(s.green[lane], t, background.y),
+          over_background(s.blue[lane], t, background.z)};
 }
 
 std::uint64_t GroupState::contributors() const {

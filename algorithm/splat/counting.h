@@ -66,6 +66,7 @@ inline Counting exp(Counting a) { return recorded(exp_of(a.value), Operation::kE
 inline Counting abs(Counting a) { return recorded(std::abs(a.value), Operation::kAbsolute, a); }
 inline Counting ceil(Counting a) { return recorded(std::ceil(a.value), Operation::kCeil, a); }
 inline Counting floor(Counting a) { return recorded(std::floor(a.value), Operation::kFloor, a); }
+inline Counting round(Counting a) { return recorded(std::round(a.value), Operation::kRound, a); }
 inline Counting::operator int() const {
   recorded(value, Operation::kTruncate, *this);
   return static_cast<int>(value);

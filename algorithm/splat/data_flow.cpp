@@ -111,6 +111,7 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
       case Operation::kCeil:
       case Operation::kFloor:
       case Operation::kTruncate:
+      case Operation::kRound:
         ++c.roundings;
         break;
     }

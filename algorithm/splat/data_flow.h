@@ -33,7 +33,8 @@ enum class Operation : std::uint8_t {
   kIsFinite,
   kCeil,
   kFloor,
-  kTruncate
+  kTruncate,
+  kRound
 };
 
 class DataFlow {

@@ -31,11 +31,17 @@ Json use_of(const Json& view, const std::string& name) {
 void check_joules(const Json& view) {
   const Technology technology = load_technology(SGS_TECHNOLOGY);
   const auto pj = [&](const char* kind) { return technology.part(kind).pj.middle * 1e-12; };
-  const Json& hfu = view["config"]["hfu"];
+  // Of a test: multiply-accumulates as charged, comparisons and roundings as counted.
+  const auto test = [&](const char* filter) {
+    const Json& counts = view["datapath"][filter]["counts"];
+    return view["datapath"][filter]["used"]["macs"].get<double>() * pj("fp32_lane") +
+           (counts["comparisons"].get<double>() +
+            kRoundingComparisons * counts["roundings"].get<double>()) *
+               pj("comparator");
+  };
   std::map<std::string, double> expected;
-  expected["coarse"] = sum_of(view, "coarse_tests") *
-                       view["datapath"]["coarse"]["used"]["macs"].get<double>() * pj("fp32_lane");
-  expected["fine"] = sum_of(view, "fine_tests") * hfu["ffu_macs"].get<double>() * pj("fp32_lane");
+  expected["coarse"] = sum_of(view, "coarse_tests") * test("coarse");
+  expected["fine"] = sum_of(view, "fine_tests") * test("fine");
   expected["sorting"] = sum_of(view, "compare_exchanges") * pj("compare_exchange");
   for (const auto& [component, joules] : expected) {
     INFO(component);

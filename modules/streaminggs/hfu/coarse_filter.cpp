@@ -10,7 +10,7 @@ namespace sgs {
 CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
                            const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       tests_(side_by_side(coarse_datapath(config, context.job.layout.split.bound_by,

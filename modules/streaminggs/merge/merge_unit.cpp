@@ -47,7 +47,7 @@ FineCandidate MergeUnit::KeyCodec::decode(const std::byte* bytes) const {
 MergeUnit::MergeUnit(const sc_core::sc_module_name& name, const MergeConfig& config,
                      const RegionSpan& spill, const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       spill_(spill),

@@ -51,6 +51,13 @@ Datapath span_datapath(const RenderingConfig& config) {
   return path;
 }
 
+Datapath drain_datapath(const RenderingConfig& config, FrameFormat format) {
+  Datapath path = counted_datapath("drain", "rendering", pixel_work(format));
+  path.lanes = path.used_macs;
+  path.copies = config.drain_pixels_per_cycle;
+  return path;
+}
+
 const SpansBegin& spans_begin() { return counted(BlendPrecision::kSingle).begin; }
 
 std::uint32_t RenderingConfig::cluster_interval_cycles() const {

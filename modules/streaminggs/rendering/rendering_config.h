@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "algorithm/memory/frame_buffer.h"
 #include "algorithm/splat/blend.h"
 #include "modules/config/config_visitor.h"
 #include "tlm/datapath.h"
@@ -43,6 +44,8 @@ struct RenderingConfig {
 Datapath conic_datapath();
 Datapath blend_datapath(const RenderingConfig& config);
 Datapath span_datapath(const RenderingConfig& config);
+// An item a finished pixel: as many lanes as drain_pixels_per_cycle of them take.
+Datapath drain_datapath(const RenderingConfig& config, FrameFormat format);
 
 // What a splat takes of the spans' lanes and comparators beside its rows.
 struct SpansBegin {

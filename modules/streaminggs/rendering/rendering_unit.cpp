@@ -12,7 +12,7 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
                              Arrival arrival, const UnitContext& context,
                              std::function<void()> on_done)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       job_(context.job),
@@ -143,12 +143,14 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
   sheet.operations("rendering", "comparator", spanned * spans_begin().comparisons);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
   // Each blend reads and writes a sub-tile; so do clearing and draining a group.
-  std::uint64_t subtiles = clusters.blends;
+  std::uint64_t subtiles = clusters.blends, pixels = 0;
   for (std::uint64_t group = 0; group < counters_.groups; ++group) {
     const PixelRect& px = job_.groups[group];
     subtiles += cycles_for(static_cast<std::uint64_t>(px.width()), kSubtilePx) *
                 cycles_for(static_cast<std::uint64_t>(px.height()), kSubtilePx);
+    pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
   }
+  sheet.datapath(drain_datapath(config_, job_.frame_format), pixels);
   sheet.accesses("pixel state", subtiles, subtiles);
   sheet.port(memory, "pixel writes");
 }

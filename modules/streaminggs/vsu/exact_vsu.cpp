@@ -27,7 +27,7 @@ Datapath chunk_test(const ExactVsuConfig& config) {
 ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& config,
                    const UnitContext& context, const RegionSpan& aside)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       job_(context.job),

@@ -42,8 +42,8 @@ Datapath ray_steps(const PaperVsuConfig& config) {
 PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
                    const UnitContext& context)
     : sc_module(name),
-      node_memory("node_memory", context.built_for.memory_port),
-      record_memory("record_memory", context.built_for.memory_port),
+      node_memory("node_memory", context.built_for.memory_port, context.clock.period()),
+      record_memory("record_memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       job_(context.job),
       traverse_("traverse", context.clock),
