@@ -75,7 +75,7 @@ Cut cut_around(const StatedView& view, const char* axis, double principal, int s
 
 }  // namespace
 
-View complete_view(const StatedView& view) {
+DatasetView complete_view(const StatedView& view) {
   check_sizes(view);
   check_numbers(view);
   const Intrinsics& stated = view.intrinsics;
@@ -86,7 +86,7 @@ View complete_view(const StatedView& view) {
   const Cut x = cut_around(view, "x", principal.x, view.image.width);
   const Cut y = cut_around(view, "y", principal.y, view.image.height);
 
-  View out;
+  DatasetView out;
   out.name = view.name;
   out.image_path = view.image_path;
   out.file = view.image;

@@ -11,6 +11,6 @@ namespace sgs {
 // leaving it would turn the camera. Throws InputError that begins with view.where: sizes that do
 // not match or are above 65536, a focal length or position that is not finite or beyond
 // scene/gaussian_limits.h, a principal point outside of the middle half.
-View complete_view(const StatedView& view);
+DatasetView complete_view(const StatedView& view);
 
 }  // namespace sgs

@@ -18,7 +18,7 @@ enum class Split { kTrain, kTest };
 // Where the split comes from.
 enum class SplitBy { kDataset, kEveryEighth };
 
-struct View {
+struct DatasetView {
   std::string name;        // path of the image as the data set has it, without extension
   std::string image_path;  // PNG or JPEG
   ImageHeader file;        // as the image lies in its file
@@ -38,8 +38,8 @@ struct SfmPoint {
 
 struct Dataset {
   std::string folder;
-  std::string layout;       // for people: "COLMAP", "NSVF", ...
-  std::vector<View> views;  // by name; one or more of Split::kTrain
+  std::string layout;              // for people: "COLMAP", "NSVF", ...
+  std::vector<DatasetView> views;  // by name; one or more of Split::kTrain
   SplitBy split_by = SplitBy::kDataset;
   int left_out = 0;              // views that are neither for training nor for testing: validation
   std::vector<SfmPoint> points;  // empty where the layout brings none

@@ -30,7 +30,8 @@ std::vector<std::string> files_of(const std::vector<std::string>& folders,
   std::vector<std::string> found;
   for (const std::string& folder : folders) {
     const std::string path = (fs::path(folder) / name).lexically_normal().string();
-    if (is_there(path)) found.push_back(path);
+    const bool known = std::find(found.begin(), found.end(), path) != found.end();
+    if (is_there(path) && !known) found.push_back(path);  // an absolute name is in every folder
   }
   return found;
 }

@@ -13,7 +13,7 @@
 
 namespace sgs {
 
-Camera downscaled_camera(const View& view, double downscale) {
+Camera downscaled_camera(const DatasetView& view, double downscale) {
   if (!(downscale >= 1 && std::isfinite(downscale))) {
     throw InputError(
         fmt::format("view '{}': downscale {}, expected a number from 1", view.name, downscale));
@@ -24,7 +24,7 @@ Camera downscaled_camera(const View& view, double downscale) {
   return scaled_to(view.camera, smaller(view.camera.width), smaller(view.camera.height));
 }
 
-RgbaImage load_view(const View& view, double downscale) {
+RgbaImage load_view(const DatasetView& view, double downscale) {
   const Camera camera = downscaled_camera(view, downscale);
   RgbaImage image = read_photograph(view.image_path);
   if (image.width != view.file.width || image.height != view.file.height) {

@@ -8,11 +8,11 @@ namespace sgs {
 
 // The view's camera for an image `downscale` times smaller, each side rounded, at least 1 px.
 // Throws InputError unless downscale is finite and from 1.
-Camera downscaled_camera(const View& view, double downscale);
+Camera downscaled_camera(const DatasetView& view, double downscale);
 
 // The view's image as that camera sees it, each pixel the mean over its area. Throws InputError as
 // read_photograph() and downscaled_camera() do, and when the file has changed its size since the
 // data set was opened.
-RgbaImage load_view(const View& view, double downscale = 1);
+RgbaImage load_view(const DatasetView& view, double downscale = 1);
 
 }  // namespace sgs

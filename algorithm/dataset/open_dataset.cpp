@@ -64,7 +64,7 @@ void refuse_equal_names(const std::vector<StatedView>& by_name) {
 
 std::vector<int> views_of(const Dataset& dataset, Split split) {
   std::vector<int> numbers;
-  for (const View& view : dataset.views) {
+  for (const DatasetView& view : dataset.views) {
     if (view.split == split) numbers.push_back(view.camera.id);
   }
   return numbers;
@@ -88,7 +88,7 @@ Dataset open_dataset(const std::string& folder) {
   for (const StatedView& view : stated.views) {
     const int number = static_cast<int>(dataset.views.size());
     dataset.views.push_back(complete_view(view));
-    View& added = dataset.views.back();
+    DatasetView& added = dataset.views.back();
     added.camera.id = number;
     if (stated.split_by == SplitBy::kEveryEighth) {
       added.split = number % kTestEvery == 0 ? Split::kTest : Split::kTrain;

@@ -25,7 +25,7 @@ glm::ivec2 pixel_of(const Camera& camera, const glm::dvec3& point) {
 
 void check_pictures(const Dataset& dataset, const MadeScene& scene, double downscale,
                     double tolerance) {
-  for (const View& view : dataset.views) {
+  for (const DatasetView& view : dataset.views) {
     const Camera camera = downscaled_camera(view, downscale);
     const RgbaImage image = load_view(view, downscale);
     REQUIRE(image.width == camera.width);
@@ -110,7 +110,7 @@ TEST_CASE("dataset: each layout gives the cameras, pictures and split that were 
     std::vector<MadeCamera> expected;
     for (const int i : row.cameras) expected.push_back(scene.cameras[static_cast<std::size_t>(i)]);
     check_cameras(dataset, expected);
-    for (const View& view : dataset.views) {
+    for (const DatasetView& view : dataset.views) {
       CHECK(view.file.has_alpha == row.has_alpha);
       CHECK(view.camera.width == 64);
       CHECK(view.camera.height == 48);
@@ -160,7 +160,7 @@ TEST_CASE("dataset: a principal point beside the middle is brought there by a cr
       const ScratchFolder scratch;
       row.write(scratch.path(""), scene);
       const Dataset dataset = open_dataset(scratch.path(""));
-      for (const View& view : dataset.views) {
+      for (const DatasetView& view : dataset.views) {
         CHECK(std::abs(principal.x - view.crop_px.x - 0.5 * view.camera.width) <= 0.5);
         CHECK(std::abs(principal.y - view.crop_px.y - 0.5 * view.camera.height) <= 0.5);
         CHECK(view.crop_px.x + view.camera.width <= 70);
@@ -198,7 +198,7 @@ TEST_CASE("dataset: images of another size than their camera's, by one factor") 
     std::filesystem::rename(kept / folder, images / folder);
     std::filesystem::remove(kept);
     const Dataset dataset = open_dataset(scratch.path(""));
-    for (const View& view : dataset.views) {
+    for (const DatasetView& view : dataset.views) {
       CHECK(view.camera.width == 64);
       CHECK(view.camera.height == 48);
       CHECK(view.camera.focal_x == Approx(60).epsilon(0.02));
@@ -206,6 +206,19 @@ TEST_CASE("dataset: images of another size than their camera's, by one factor") 
     }
     check_pictures(dataset, scene, 1, row.colour_tolerance);
   }
+}
+
+TEST_CASE("dataset: images may be named by their whole path") {
+  const ScratchFolder scratch, elsewhere;
+  write_cameras_json(scratch.path(""), made_scene());
+  std::string text = bytes_of(scratch.path("cameras.json"));
+  const std::string name = "shot_00";
+  std::filesystem::rename(scratch.path("images/shot_00.png"), elsewhere.path("a.png"));
+  scratch.write("cameras.json",
+                text.replace(text.find(name), name.size(), elsewhere.path("a.png")));
+  const Dataset dataset = open_dataset(scratch.path(""));
+  REQUIRE(dataset.views.size() == 10);
+  CHECK(dataset.views[0].image_path == elsewhere.path("a.png"));
 }
 
 TEST_CASE("dataset: scaled intrinsics keep the field of view") {

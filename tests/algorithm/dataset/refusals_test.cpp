@@ -359,7 +359,7 @@ TEST_CASE("dataset refuses: an image that changed or was cut since, factors belo
   const std::string folder = scratch.path("set");
   write_cameras_json(folder, made_scene());
   const Dataset dataset = open_dataset(folder);
-  const View& view = dataset.views[2];
+  const DatasetView& view = dataset.views[2];
   for (const double downscale : {0.0, 0.99, -2.0, kNan, kInfinity}) {
     CHECK_THAT(input_error_of([&] { load_view(view, downscale); }),
                Contains("view 'shot_02': downscale "));

@@ -106,7 +106,7 @@ TEST_CASE("shared data sets: desk is what COLMAP says of it") {
   CHECK(desk.layout == "COLMAP");
   CHECK(desk.views.size() == 29);
   CHECK(views_of(desk, Split::kTest) == std::vector<int>{0, 8, 16, 24});
-  for (const View& view : desk.views) {
+  for (const DatasetView& view : desk.views) {
     CHECK(view.camera.width == 635);
     CHECK(view.camera.height == 356);
     // The file's focal lengths, at 1906x1070 px.
@@ -119,7 +119,7 @@ TEST_CASE("shared data sets: desk is what COLMAP says of it") {
 TEST_CASE("shared data sets: desk's points have the colours of the pixels where they are seen") {
   const Dataset desk = open_dataset(test::shared_path("data/desk"));
   std::vector<RgbaImage> images;
-  for (const View& view : desk.views) images.push_back(load_view(view));
+  for (const DatasetView& view : desk.views) images.push_back(load_view(view));
   REQUIRE(desk.points.size() > 1000);
   const double right = share_of_equal_colours(desk, images, {1, 1, 1});
   CHECK(right > 0.3);  // the rest is hidden, or finer than a pixel of these pictures
@@ -136,7 +136,7 @@ TEST_CASE("shared data sets: what all of lego's training views hold fills its te
   CHECK(views_of(lego, Split::kTest).size() == 50);
   CHECK(lego.points.empty());
   std::vector<RgbaImage> images;
-  for (const View& view : lego.views) {
+  for (const DatasetView& view : lego.views) {
     CHECK(view.file.has_alpha);
     images.push_back(load_view(view, kShrink));
     // The object stands at the origin.

@@ -83,4 +83,15 @@ TEST_CASE("splits: transforms.json that lists names") {
   const Dataset tested = open_dataset(scratch.path(""));
   CHECK(test_names(tested) == std::vector<std::string>{"images/shot_00", "images/shot_08"});
   CHECK(tested.left_out == 6);
+  // Whatever is in both lists tests; without a list of its own the rest trains.
+  const std::string text_alone = bytes_of(scratch.path("transforms.json"));
+  std::string both = text_alone;
+  both.replace(both.find("shot_08"), 7, "shot_01");
+  scratch.write("transforms.json", both);
+  CHECK(test_names(open_dataset(scratch.path(""))) ==
+        std::vector<std::string>{"images/shot_00", "images/shot_01"});
+  std::string rest = text_alone;
+  rest.replace(rest.find("train_filenames"), 15, "other_filenames");
+  scratch.write("transforms.json", rest);
+  CHECK(views_of(open_dataset(scratch.path("")), Split::kTrain).size() == 8);
 }

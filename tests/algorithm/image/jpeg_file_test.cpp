@@ -73,6 +73,27 @@ TEST_CASE("jpeg: cut anywhere it is refused by name") {
   }
 }
 
+TEST_CASE("jpeg: with any byte changed it is read or refused by name") {
+  const test::ScratchFolder scratch;
+  for (const bool progressive : {false, true}) {
+    const std::string whole = test::jpeg_bytes(40, 32, 3, ramp(40, 32), progressive);
+    std::size_t refused = 0;
+    for (std::size_t at = 2; at < whole.size(); ++at) {
+      std::string bytes = whole;
+      bytes[at] = static_cast<char>(bytes[at] ^ (at % 2 == 0 ? 0xff : 0x11));
+      const std::string path = scratch.write("a.jpg", bytes);
+      try {
+        const RgbaImage image = read_jpeg(path);
+        CHECK(image.pixels.size() > 0);
+      } catch (const InputError& error) {
+        ++refused;
+        CHECK_THAT(error.what(), Contains("a.jpg: "));
+      }
+    }
+    CHECK(refused > 10);
+  }
+}
+
 TEST_CASE("jpeg: a header longer than usual is read to its end") {
   const test::ScratchFolder scratch;
   const std::string whole = test::jpeg_bytes(40, 32, 3, ramp(40, 32));
