@@ -45,9 +45,9 @@ const Layout& layout_of(const std::string& folder) {
   }
   if (found.size() == 1) return *found[0];
   throw InputError(fmt::format(
-      "{}: {}, expected one data set: {}", folder,
+      "{}: {}, expected one of: {}", folder,
       found.empty() ? "holds no data set" : fmt::format("holds {}", joined(there, " and ")),
-      joined(looked_for, ", or ")));
+      joined(looked_for, ", ")));
 }
 
 void refuse_equal_names(const std::vector<StatedView>& by_name) {

@@ -88,7 +88,7 @@ TEST_CASE("dataset refuses: folders that are no data set, or two") {
              Contains("none: no such folder"));
   const std::string empty = input_error_of([&] { open_dataset(scratch.path("")); });
   for (const char* looked_for :
-       {"holds no data set, expected", "sparse/0/cameras.bin", "transforms_train.json",
+       {"holds no data set, expected one of: ", "sparse/0/cameras.bin", "transforms_train.json",
         "transforms.json", "cameras.json", "intrinsics.txt with pose and rgb"}) {
     CHECK_THAT(empty, Contains(looked_for));
   }
