@@ -35,6 +35,7 @@ RgbaImage load_view(const DatasetView& view, double downscale) {
   if (view.camera.width != image.width || view.camera.height != image.height) {
     image = cropped(image, view.crop_px.x, view.crop_px.y, view.camera.width, view.camera.height);
   }
+  if (image.width == camera.width && image.height == camera.height) return image;
   return area_averaged(image, camera.width, camera.height);
 }
 

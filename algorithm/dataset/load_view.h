@@ -12,7 +12,7 @@ Camera downscaled_camera(const DatasetView& view, double downscale);
 
 // The view's image as that camera sees it, each pixel the mean over its area. Throws InputError as
 // read_photograph() and downscaled_camera() do, and when the file has changed its size since the
-// data set was opened.
+// data set was opened. Several threads may load at once.
 RgbaImage load_view(const DatasetView& view, double downscale = 1);
 
 }  // namespace sgs

@@ -95,18 +95,18 @@ Image read_png(const std::string& path, const glm::vec3& background) {
 
 ImageHeader read_png_header(const std::string& path) {
   constexpr std::uint64_t kUsualHeaderBytes = 1 << 16;  // colour profiles may make it longer
+  constexpr std::uint64_t kMostHeaderBytes = 1 << 26;
   const InputFile file(path);
-  for (const std::uint64_t most : {kUsualHeaderBytes, file.size_bytes()}) {
-    const std::string head = file.text_from(0, most);
-    PngImage png;
-    if (png_image_begin_read_from_memory(&png, head.data(), head.size()) != 0) {
-      check_size(path, png, file.size_bytes());
-      return {static_cast<int>(png.width), static_cast<int>(png.height),
-              (png.format & PNG_FORMAT_FLAG_ALPHA) != 0};
-    }
-    if (head.size() == file.size_bytes()) refuse(path, png);
-  }
-  throw InputError(fmt::format("{}: changed while it was read", path));
+  std::string head;  // outlives png
+  PngImage png;
+  const auto begins = [&](std::uint64_t most_bytes) {
+    head = file.text_from(0, most_bytes);
+    return png_image_begin_read_from_memory(&png, head.data(), head.size()) != 0;
+  };
+  if (!begins(kUsualHeaderBytes) && !begins(kMostHeaderBytes)) refuse(path, png);
+  check_size(path, png, file.size_bytes());
+  return {static_cast<int>(png.width), static_cast<int>(png.height),
+          (png.format & PNG_FORMAT_FLAG_ALPHA) != 0};
 }
 
 }  // namespace sgs

@@ -108,6 +108,21 @@ TEST_CASE("png: alpha is kept beside colour times alpha, and the header tells of
   CHECK_FALSE(read_png_header(path).has_alpha);
 }
 
+TEST_CASE("png: a header longer than usual is read to its end") {
+  const test::ScratchFolder scratch;
+  write_raw_png(scratch.path("a.png"), 2, 1, 8, PNG_COLOR_TYPE_RGB, {1, 2, 3, 4, 5, 6});
+  const std::string whole = test::bytes_of(scratch.path("a.png"));
+  constexpr std::size_t kFirstChunkEnd = 33;
+  // An ancillary chunk that nobody knows, 200,000 bytes long; its checksum is not looked at.
+  const std::string chunk =
+      std::string("\0\x03\x0d\x40", 4) + "prVt" + std::string(200000, 'x') + std::string(4, '\0');
+  const std::string path = scratch.write(
+      "b.png", whole.substr(0, kFirstChunkEnd) + chunk + whole.substr(kFirstChunkEnd));
+  CHECK(read_png_header(path).width == 2);
+  CHECK_FALSE(read_png_header(path).has_alpha);
+  CHECK(read_png_rgba(path).at(1, 0).z * 255 == Approx(6));
+}
+
 TEST_CASE("png: cut anywhere before its last pixel it is refused by name") {
   const test::ScratchFolder scratch;
   std::vector<std::uint8_t> noise;
