@@ -144,11 +144,14 @@ TEST_CASE("dataset: points of COLMAP, bounds of NSVF, names without extension") 
   CHECK(bounded.bounds->min == glm::vec3(-1.5f, -1, -2));
   CHECK(bounded.bounds->max == glm::vec3(1.5f, 1, 2));
   CHECK(bounded.views[1].name == "0_0001");
+  write_file(nsvf.path(""), "intrinsics.txt", "61 0 32\n0 59 24\n0 0 1\n");
+  CHECK(open_dataset(nsvf.path("")).views[1].camera.focal_x == 61);
+  CHECK(open_dataset(nsvf.path("")).views[1].camera.focal_y == 59);
   write_nerf_synthetic(nerf.path(""), scene);
   CHECK(open_dataset(nerf.path("")).views[4].name == "train/shot_04");
 }
 
-TEST_CASE("dataset: a principal point beside the middle is brought there by a crop") {
+TEST_CASE("dataset: two focal lengths; a principal point beside the middle comes there by a crop") {
   MadeScene scene = made_scene();
   scene.width = 70;
   scene.height = 53;
@@ -157,6 +160,8 @@ TEST_CASE("dataset: a principal point beside the middle is brought there by a cr
     for (const Row& row : rows()) {
       if (!row.states_principal_point) continue;
       INFO(row.layout << " " << principal.x << " " << principal.y);
+      const bool one_focal = row.write == write_colmap_text || row.write == write_nsvf_focal;
+      scene.focal_y = one_focal ? scene.focal_x : 54;
       const ScratchFolder scratch;
       row.write(scratch.path(""), scene);
       const Dataset dataset = open_dataset(scratch.path(""));
@@ -165,6 +170,8 @@ TEST_CASE("dataset: a principal point beside the middle is brought there by a cr
         CHECK(std::abs(principal.y - view.crop_px.y - 0.5 * view.camera.height) <= 0.5);
         CHECK(view.crop_px.x + view.camera.width <= 70);
         CHECK(view.crop_px.y + view.camera.height <= 53);
+        CHECK(view.camera.focal_x == 60);
+        CHECK(view.camera.focal_y == scene.focal_y);
         CHECK(view.camera.width >= 64);
         CHECK(view.camera.height >= 47);
       }
@@ -191,8 +198,8 @@ TEST_CASE("dataset: images of another size than their camera's, by one factor") 
     stated.focal_y = 3 * 60 * stated.height / 144.0;
     stated.principal = glm::dvec2(stated.width, stated.height) / 2.0;
     // Two of the formats have one focal length for both axes.
-    if (row.write == write_colmap_text || row.write == write_nsvf_focal)
-      stated.focal_y = stated.focal_x;
+    const bool one_focal = row.write == write_colmap_text || row.write == write_nsvf_focal;
+    if (one_focal) stated.focal_y = stated.focal_x;
     row.write(scratch.path(""), stated);
     std::filesystem::remove_all(images / folder);
     std::filesystem::rename(kept / folder, images / folder);
