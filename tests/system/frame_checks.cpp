@@ -238,7 +238,8 @@ void check_flow(const Json& view) {
     CHECK(total(view, "coarse_passed") == sorted);
     CHECK(sorted == counter(view, "merge", "keys"));
     CHECK(counter(view, "merge", "keys") ==
-          counter(view, "merge", "released") + counter(view, "merge", "dropped_saturated"));
+          counter(view, "merge", "released") + counter(view, "merge", "dropped_hidden") +
+              counter(view, "merge", "dropped_saturated"));
     CHECK(counter(view, "merge", "released") == tested_or_dropped);
     // What went into the heap came out at one end or the other, or was dropped with its group.
     const std::uint64_t inserts = counter(view, "merge", "inserts"),
