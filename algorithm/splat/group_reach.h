@@ -40,7 +40,8 @@ T root_above(T x) {
   return T(x * T(inverse_root_above(value_of(x))));
 }
 
-// The column (or row) of a pixel column of the group, as hardware has it once the position is whole.
+// The column (or row) of a pixel column of the group, as hardware has it once the position is
+// whole.
 template <class T>
 std::uint8_t subtile_of(T px, int begin_px) {
   return static_cast<std::uint8_t>((static_cast<int>(value_of(px)) - begin_px) / kSubtilePx);

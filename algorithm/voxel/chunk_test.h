@@ -37,8 +37,8 @@ namespace sgs {
 
 template <class T>
 struct ChunkTestOf {
-  bool touches;  // false: no Gaussian of the chunk changes a pixel of the group
-  T nearest;     // no Gaussian of the chunk that is in front has a smaller computed v_z
+  bool touches;      // false: no Gaussian of the chunk changes a pixel of the group
+  T nearest;         // no Gaussian of the chunk that is in front has a smaller computed v_z
   GroupReach reach;  // where it touches: no Gaussian changes any other sub-tile of the group
 };
 using ChunkTest = ChunkTestOf<float>;
@@ -184,7 +184,8 @@ ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
     const T around = axis_focal * reach / z.low + padding_px;
     const T left = px(begin), right = px(end - 1);
     // What is not a number leaves the group's own edge.
-    const T first = max_of(left, min_of(T(ceil(T(middle + axis_focal * ratio.low - around))), right));
+    const T first =
+        max_of(left, min_of(T(ceil(T(middle + axis_focal * ratio.low - around))), right));
     const T last =
         min_of(right, max_of(T(floor(T(middle + axis_focal * ratio.high + around))), left));
     return std::array<std::uint8_t, 2>{subtile_of(first, begin), subtile_of(last, begin)};

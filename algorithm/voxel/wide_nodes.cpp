@@ -17,7 +17,7 @@ struct Share {
   double cost;
 };
 Share best_share(const BinaryNode& node, int children) {
-  Share best{0, std::numeric_limits<double>::infinity()};
+  Share best{1, std::numeric_limits<double>::infinity()};  // areas may overflow: any share then
   for (int left = 1; left < children; ++left) {
     const double cost = cost_as(*node.left, left) + cost_as(*node.right, children - left);
     if (cost < best.cost) best = {left, cost};

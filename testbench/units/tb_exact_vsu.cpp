@@ -57,9 +57,7 @@ struct Expected {
 
 std::uint64_t macs_of_a_test() { return folded_macs(chunk_work(longest_chunk_case())); }
 
-bool hidden(const Plan& plan, const GroupReach& reach) {
-  return reach.x1 < plan.finished_columns;
-}
+bool hidden(const Plan& plan, const GroupReach& reach) { return reach.x1 < plan.finished_columns; }
 
 // All below one node that touches: its chunks, and the cost of opening it.
 void expect_node(const Plan& plan, const PixelRect& group, const WalkEntry& entry, Expected& out) {
@@ -175,15 +173,15 @@ void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected
   checks.that(bench.bytes_read() <= table_bytes + aside_bytes, "bytes read of what was put aside");
   bench.check_operations("vsu", "fp32_lane", bench.counter("tests") * macs_of_a_test());
   checks.equal(bench.counter("nodes"),
-                bench.counter("upper_nodes_opened") + bench.counter("nodes_read") -
-                    bench.counter("nodes_dropped"),
-                "nodes opened");
+               bench.counter("upper_nodes_opened") + bench.counter("nodes_read") -
+                   bench.counter("nodes_dropped"),
+               "nodes opened");
   // Four accesses of 32 B a node.
   bench.check_accesses("upper nodes", 4 * bench.counter("upper_nodes_opened"), 4 * upper);
   bench.check_accesses("nodes in flight", 4 * bench.counter("nodes_read"),
                        4 * bench.counter("nodes_read"));
   checks.equal(bench.busy_cycles("visits"), bench.counter("visits") + plan.job.groups.size(),
-                "cycles of handing out visits and ends of groups");
+               "cycles of handing out visits and ends of groups");
   if (any_finished) return;
   bench.check_counter("visits", expected.visits);
   bench.check_counter("nodes", expected.nodes);

@@ -288,8 +288,8 @@ void final_keys_do_not_wait(Case& test) {
   run.bench.run();
 }
 
-// Sub-tiles (0, 0) to (1, 2) of 4 x 4 are finished in cycle 5000, and seen 7 later: what reaches them
-// alone is dropped from then on, whatever else is released.
+// Sub-tiles (0, 0) to (1, 2) of 4 x 4 are finished in cycle 5000, and seen 7 later: what reaches
+// them alone is dropped from then on, whatever else is released.
 void keys_behind_finished_subtiles(Case& test) {
   MergePlan plan;
   plan.slots = 8;

@@ -170,7 +170,7 @@ void check_bytes(const Json& view) {
           kLine * (counter(view, "vsu", "record_cache_misses") +
                    counter(view, "vsu", "cut_cache_misses")));
   } else {
-    constexpr std::uint64_t kKey = 28, kWalkEntry = 12;
+    constexpr std::uint64_t kKey = 32, kWalkEntry = 16;
     CHECK(asked_bytes(view, "spill", "merge", "write") ==
           kKey * counter(view, "merge", "keys_spilled"));
     CHECK(asked_bytes(view, "spill", "vsu", "write") ==

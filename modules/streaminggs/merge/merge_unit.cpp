@@ -18,8 +18,7 @@ std::uint32_t heap_entries(const MergeConfig& config, const BuiltFor& built_for)
 }
 
 constexpr std::uint32_t kKeyWords = 2;  // that are compared: depth and slot
-constexpr HeapLedger kHeap{"waiting keys", "counts of the heap", "merge",
-                           kKeyBytes, kKeyWords};
+constexpr HeapLedger kHeap{"waiting keys", "counts of the heap", "merge", kKeyBytes, kKeyWords};
 
 }  // namespace
 
@@ -249,15 +248,15 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
   uses.push_back(mask_use(built_for.group_px));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
   const SramUse block =
-      sram_use("spill blocks", kSharedSram, {{config.spill_block_entries, "keys"}, {kKeyBytes, "B"}},
-               {8 * kKeyBytes});
+      sram_use("spill blocks", kSharedSram,
+               {{config.spill_block_entries, "keys"}, {kKeyBytes, "B"}}, {8 * kKeyBytes});
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
   uses.push_back(sram_use("spilled runs", kSharedSram,
                           {{config.spill_runs, "runs"},
                            {2, "blocks"},
                            {config.spill_block_entries, "keys"},
-                            {kKeyBytes, "B"}},
-                           {8 * kKeyBytes}));
+                           {kKeyBytes, "B"}},
+                          {8 * kKeyBytes}));
   uses.push_back(block);
   uses.push_back(unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes));
   return uses;

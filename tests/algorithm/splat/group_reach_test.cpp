@@ -44,8 +44,7 @@ TEST_CASE("group reach by hand") {
       {none, none, 0, 4, 4, {0, 0, 64, 64}, 0, 0, 15, 15},
   };
   for (const Row& row : rows) {
-    const ExtentBound bound{true,         1,             row.x,        row.y,
-                            row.slack_px, row.squared_x, row.squared_y};
+    const ExtentBound bound{true, 1, row.x, row.y, row.slack_px, row.squared_x, row.squared_y};
     const GroupReach found = group_reach(bound, row.group);
     CAPTURE(row.x, row.y);
     CHECK(int{found.x0} == row.x0);

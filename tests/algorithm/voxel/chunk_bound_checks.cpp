@@ -49,8 +49,7 @@ void find_subtiles(const View<float>& view, const Gaussian<float>& g, const Pixe
   if (!make_geometry(view, g, splat)) return;
   for (int y = group.y0; y < group.y1; y += kSubtilePx) {
     for (int x = group.x0; x < group.x1; x += kSubtilePx) {
-      const PixelRect subtile =
-          intersection({x, y, x + kSubtilePx, y + kSubtilePx}, group);
+      const PixelRect subtile = intersection({x, y, x + kSubtilePx, y + kSubtilePx}, group);
       if (!reaches_group(splat, subtile)) continue;
       const int column = (x - group.x0) / kSubtilePx, row = (y - group.y0) / kSubtilePx;
       found.x0 = std::min(found.x0, column);

@@ -20,7 +20,7 @@ TEST_CASE("finished sub-tiles: a reach is open until the last of its sub-tiles i
   };
   // Sub-tile 1 is seen from cycle 8 on, sub-tile 4, below it, from 20 on.
   constexpr std::uint64_t kEver = 1000;
-  const Row rows[] = {{{1, 0, 1, 0}, 8}, {{1, 1, 1, 1}, 20}, {{1, 0, 1, 1}, 20},
+  const Row rows[] = {{{1, 0, 1, 0}, 8},     {{1, 1, 1, 1}, 20},    {{1, 0, 1, 1}, 20},
                       {{0, 0, 1, 0}, kEver}, {{1, 0, 2, 0}, kEver}, {{}, kEver}};
   Threads threads({[&] {
                      mask.finish(0, 1, 3);
