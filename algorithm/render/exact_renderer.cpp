@@ -131,7 +131,8 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
   GroupStream stream(view, cloud, known, pixels, config, contributing, stats);
   std::optional<WalkEntry> chunk = walk.next();
   while (chunk && !stream.saturated()) {
-    if (stream.any_unfinished(chunk->reach)) {
+    // With blend_early what waits decides what is forced out: no key may be missing.
+    if (config.on_overflow == OnOverflow::kBlendEarly || stream.any_unfinished(chunk->reach)) {
       stream.visit(*chunk);
       visited.set(chunk->at);
     }

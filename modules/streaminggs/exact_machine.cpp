@@ -22,7 +22,8 @@ ExactMachine::ExactMachine(const sc_core::sc_module_name& name, const ExactConfi
       config_(config),
       sorters_(config.sorting_units),
       finished_subtiles_("finished_subtiles", clock(), job.groups,
-                         config.rendering.feedback_latency_cycles) {
+                         config.rendering.feedback_latency_cycles),
+      untold_("untold_subtiles", clock(), job.groups, config.rendering.feedback_latency_cycles) {
   add_fifos();
   const std::uint64_t aside = aside_bytes(job.layout.chunk_table());
   Construction units;
@@ -64,7 +65,8 @@ void ExactMachine::add_fifos() {
 void ExactMachine::bind() {
   vsu_->finished(*finished_groups_[0]);
   merge_->finished(*finished_groups_[0]);
-  vsu_->mask(finished_subtiles_);
+  const bool spills = config_.merge.on_overflow == OnOverflow::kSpill;
+  vsu_->mask(spills ? finished_subtiles_ : untold_);
   merge_->mask(finished_subtiles_);
   rendering_[0]->finish_subtile(finished_subtiles_);
   for (std::uint32_t h = 0; h < config_.hfus; ++h) {
