@@ -272,7 +272,7 @@ TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and say
 }
 
 TEST_CASE("exact frames: blend_early without the coarse filter, whose keys are others") {
-  for (const char* entries : {"16", "64", "300"}) {
+  for (const char* entries : {"16", "64", "150"}) {
     INFO(entries);
     const Arguments arguments = {"builtin:outdoor?n=4000",
                                  "--size",
