@@ -22,6 +22,16 @@ GroupState::GroupState(const PixelRect& pixels, int width_px, int height_px,
   unfinished_ = static_cast<std::uint32_t>(states_.size());
 }
 
+bool GroupState::any_unfinished(const GroupReach& reach) const {
+  const int columns = subtiles_.x1 - subtiles_.x0, rows = subtiles_.y1 - subtiles_.y0;
+  for (int y = reach.y0; y <= std::min<int>(reach.y1, rows - 1); ++y) {
+    const auto row = finished_.begin() + static_cast<std::ptrdiff_t>(y) * columns;
+    const int end = std::min<int>(reach.x1 + 1, columns);
+    if (std::find(row + std::min<int>(reach.x0, end), row + end, 0) != row + end) return true;
+  }
+  return false;
+}
+
 const SubtileState& GroupState::subtile_of(int x, int y, int& lane) const {
   lane = (y % kSubtilePx) * kSubtilePx + x % kSubtilePx;
   const int columns = subtiles_.x1 - subtiles_.x0;

@@ -6,7 +6,7 @@
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
-#include "algorithm/splat/extent_bound.h"
+#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/half_scalar.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/row_span.h"
@@ -83,7 +83,9 @@ OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
     run(coarse_bound(view, mean, input(flow, known.scale_max)));
   } else {
     const auto extent = input(flow, known.extent);
-    run(extent_bound(view, mean, extent, input(flow, known.scale_max)));
+    const auto bound = extent_bound(view, mean, extent, input(flow, known.scale_max));
+    run(bound);
+    if (bound.in_front) static_cast<void>(group_reach(bound, tested.group));
   }
   return flow.counts(0, flow.size());
 }

@@ -170,7 +170,7 @@ void check_bytes(const Json& view) {
           kLine * (counter(view, "vsu", "record_cache_misses") +
                    counter(view, "vsu", "cut_cache_misses")));
   } else {
-    constexpr std::uint64_t kKey = 28, kWalkEntry = 12;
+    constexpr std::uint64_t kKey = 32, kWalkEntry = 16;
     CHECK(asked_bytes(view, "spill", "merge", "write") ==
           kKey * counter(view, "merge", "keys_spilled"));
     CHECK(asked_bytes(view, "spill", "vsu", "write") ==
@@ -239,7 +239,8 @@ void check_flow(const Json& view) {
     CHECK(total(view, "coarse_passed") == sorted);
     CHECK(sorted == counter(view, "merge", "keys"));
     CHECK(counter(view, "merge", "keys") ==
-          counter(view, "merge", "released") + counter(view, "merge", "dropped_saturated"));
+          counter(view, "merge", "released") + counter(view, "merge", "dropped_hidden") +
+              counter(view, "merge", "dropped_saturated"));
     CHECK(counter(view, "merge", "released") == tested_or_dropped);
     // What went into the heap came out at one end or the other, or was dropped with its group.
     const std::uint64_t inserts = counter(view, "merge", "inserts"),

@@ -118,6 +118,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     candidate.mean_y = first.mean.y;
     candidate.mean_z = first.mean.z;
     candidate.carried = first.carried;
+    candidate.reach = reach(bound, slice.share.group);
     in_turn(survivors, candidate.visit).push(candidate, filter_);
   }
   filter_.work(pending_cycles);
@@ -137,6 +138,13 @@ std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t grou
     if (tested && !pixels.empty() && touches(bound, pixels)) parts |= 1U << p;
   }
   return parts;
+}
+
+// What a key of exact order says; nothing else looks at it.
+GroupReach CoarseFilter::reach(const FirstHalfBound& bound, std::uint32_t group) const {
+  const auto* by_extents = std::get_if<ExtentBound>(&bound);
+  const bool known = by_extents != nullptr && by_extents->in_front && config_.coarse_filter;
+  return known ? group_reach(*by_extents, job_.groups[group]) : GroupReach{};
 }
 
 SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {

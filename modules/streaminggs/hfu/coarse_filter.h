@@ -59,6 +59,7 @@ class CoarseFilter : public sc_core::sc_module {
   void run_filter();  // thread: CFUs
   void filter_slice(const Slice& slice);
   std::uint32_t test(const FirstHalfBound& bound, std::uint32_t group, std::uint32_t open);
+  GroupReach reach(const FirstHalfBound& bound, std::uint32_t group) const;
   std::uint32_t part_count() const { return static_cast<std::uint32_t>(job_.parts.size()); }
 
   std::byte* first_half(std::uint32_t slot, std::uint32_t at);  // in the input buffer

@@ -70,8 +70,10 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
   }
   ++counters_.splats_taken;
   schedule_.begin_splat(now);
-  const BlendWork work = state.blend_scheduled(
-      splat, [&](const SubtileReach& subtile) { schedule_.reach(subtile); });
+  const BlendWork work = state.blend_scheduled(splat, [&](const SubtileReach& subtile) {
+    schedule_.reach(subtile);
+    if (subtile.finishes) tell_finished(group, subtile.at, now);
+  });
   counters_.spans += work.spans;
   counters_.splats_spanned += work.spans > 0 ? 1 : 0;
   counters_.splats += work.blended > 0 ? 1 : 0;
@@ -80,6 +82,12 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
     finish->finish(group, static_cast<std::uint32_t>(schedule_.group_finished_from() - now));
   }
   work_until(schedule_.end_splat(work.spans));
+}
+
+void RenderingUnit::tell_finished(std::uint32_t group, std::size_t at, std::uint64_t now) {
+  if (finish_subtile.size() == 0 || !config_.saturation_feedback) return;
+  const std::uint64_t known = schedule_.subtile_finished_from(at);
+  finish_subtile->finish(group, at, static_cast<std::uint32_t>(known - now));
 }
 
 void RenderingUnit::run_drain() {
