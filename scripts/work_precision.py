@@ -30,7 +30,7 @@ from simulations import (
 MERGE_ENTRIES = (128, 256, 512, 1024, 2048, 4096)
 ON_OVERFLOW = ("spill", "blend_early")
 GROUP_PX = (16, 32, 64, 128)
-CHUNK_GAUSSIANS = (16, 32, 64, 128, 256)
+CHUNK_GAUSSIANS = (8, 16, 32, 64, 128, 256)
 
 HEAD = (
     "scene",

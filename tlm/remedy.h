@@ -14,8 +14,8 @@ enum class Turn : std::uint8_t {
 
 struct Remedy {
   Remedy() = default;
-  Remedy(const char* key, Turn turn = Turn::kUp) : key(key), turn(turn) {}
-  Remedy(std::string key, Turn turn = Turn::kUp) : key(std::move(key)), turn(turn) {}
+  Remedy(const char* of, Turn way = Turn::kUp) : key(of), turn(way) {}
+  Remedy(std::string of, Turn way = Turn::kUp) : key(std::move(of)), turn(way) {}
 
   bool known() const { return !key.empty(); }
 

@@ -12,10 +12,10 @@ namespace sgs {
 struct StorageConfig {
   StorageOrder order = StorageOrder::kChunks;
   SecondHalfEncoding encoding = SecondHalfEncoding::kRaw;
-  double voxel_size = 0;               // by voxels: world units; 0: to be chosen
-  std::uint32_t chunk_gaussians = 16;  // by chunks: most Gaussians in one; 0: to be chosen
-  bool store_invisible = false;        // also Gaussians that no view can show
-  VqConfig vq;                         // how codebooks are made, where the encoding has any
+  double voxel_size = 0;              // by voxels: world units; 0: to be chosen
+  std::uint32_t chunk_gaussians = 8;  // by chunks: most Gaussians in one; 0: to be chosen
+  bool store_invisible = false;       // also Gaussians that no view can show
+  VqConfig vq;                        // how codebooks are made, where the encoding has any
 
   // The format of second halves with every codebook as large as it may become.
   SecondHalfFormat widest_format(int sh_degree) const;

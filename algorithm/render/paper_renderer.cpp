@@ -144,7 +144,7 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
         continue;
       }
       visited.set(voxel);
-      const auto plane = [&](std::uint32_t index) { return grid.cuts[index]; };
+      const auto plane = [&](std::uint32_t at) { return grid.cuts[at]; };
       const auto visit = [&](const VoxelRecord& piece) {
         ++s.visits;
         filter_and_sort(view, cloud, piece, config.coarse_filter, parts, s);

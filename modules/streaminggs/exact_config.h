@@ -20,8 +20,8 @@ struct ExactConfig : StreamingConfig {
   // The paper's 355 KB, divided as exact order needs them: shallow input, large groups.
   ExactConfig() {
     group_px = 128;
-    sram = {8192, 0, 355328};
-    hfu.slice_gaussians = 16;
+    sram = {3840, 0, 359680};
+    hfu.slice_gaussians = 8;
     hfu.input_slots = 5;
     hfu.second_half_slots = 16;
     rendering.pixel_buffers = 1;

@@ -15,8 +15,8 @@ double saved(double before, double after) { return before > 0 ? 1 - after / befo
 
 }  // namespace
 
-Doubling::Doubling(const Remedy& remedy, double from)
-    : key(remedy.key), from(from), to(remedy.turn == Turn::kUp ? 2 * from : from / 2) {}
+Doubling::Doubling(const Remedy& remedy, double value)
+    : key(remedy.key), from(value), to(remedy.turn == Turn::kUp ? 2 * value : value / 2) {}
 
 std::vector<Remedy> remedies_of(const FrameResult& frame) {
   std::vector<Remedy> all;

@@ -20,7 +20,7 @@ struct Outcome {
 };
 
 struct Doubling {
-  Doubling(const Remedy& remedy, double from);
+  Doubling(const Remedy& remedy, double value);
 
   std::string key;
   double from = 0, to = 0;  // twice, or half where the remedy turns down

@@ -49,7 +49,7 @@ class WithTheCommand(InFolder):
             ),
             (smallest_machine, ("--sizes", "64x36", "--fps", "100000"), {"| truck 0 |": 1}),
             (smallest_machine, ("--sizes", "64x36", "--fps", "1e9"), {"| none: truck has": 1}),
-            (work_precision, (), {"| truck | 0 |": 20, "| 4,096 |": 2}),
+            (work_precision, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
         ):
             with self.subTest(script.__name__, arguments=arguments):
                 made = self.made(script, *arguments)

@@ -19,7 +19,7 @@ using namespace sgs;
 namespace {
 
 struct TreeSource : TreeInMemory {
-  explicit TreeSource(const ChunkTree& tree) : TreeInMemory{tree, {}} {}
+  explicit TreeSource(const ChunkTree& walked) : TreeInMemory{walked, {}} {}
   std::uint64_t nodes_read = 0;
 
   const ChunkNode& node(std::uint32_t index) {

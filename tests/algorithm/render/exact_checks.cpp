@@ -54,7 +54,7 @@ void fuzz_exact_order(unsigned first_seed, unsigned scenes) {
     ExactOrderConfig config;
     config.group_px = 4 * (1 + hard.pick(50));
     config.merge_entries = static_cast<std::uint32_t>(2 + hard.pick(100));
-    config.walk_room = {9 + hard.pick(60), 9 + hard.pick(60)};
+    config.walk_room = {std::size_t(9 + hard.pick(60)), std::size_t(9 + hard.pick(60))};
     config.background = {0.25F, 0.5F, 1};
     const View<float> view = make_view<float>(scene.camera);
     const StreamingResult exact = render_exact_order(view, cloud, tree, config);
