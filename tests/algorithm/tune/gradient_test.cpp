@@ -1,0 +1,142 @@
+// The derivatives of algorithm/tune against dual numbers and against differences.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/algorithm/tune/dual.h"
+#include "tests/algorithm/tune/hard_gaussians.h"
+
+namespace sgs::test {
+namespace {
+
+struct Order {
+  const char* name;
+  Sequence sequence;
+};
+std::vector<Order> orders() { return {{"by depth", by_depth}, {"by visits", by_visits}}; }
+
+std::vector<double> parameters(SceneOf<double> scene, std::size_t i) {
+  std::vector<double> out;
+  for_parameters(
+      i, [&](double& p) { out.push_back(p); }, scene);
+  return out;
+}
+
+// `scene` with parameter p of Gaussian i changed by change(its value).
+template <class T, class Change>
+SceneOf<T> changed(const SceneOf<double>& scene, std::size_t i, std::size_t p,
+                   const Change& change) {
+  auto out = converted<T>(scene);
+  std::size_t at = 0;
+  for_parameters(
+      i,
+      [&](T& value) {
+        if (at++ == p) value = change(value);
+      },
+      out);
+  return out;
+}
+
+double largest(const std::vector<double>& values) {
+  double out = 0;
+  for (const double v : values) out = std::max(out, std::abs(v));
+  return out;
+}
+
+TEST_CASE("gradients are those that dual numbers carry, for every parameter") {
+  const Camera camera = small_camera();
+  const auto view = make_view<double>(camera);
+  const auto dual_view = make_view<Dual>(camera);
+  std::size_t compared = 0;
+  for (const HardScene& hard : hard_scenes()) {
+    for (const Order& order : orders()) {
+      const auto gradient = gradient_of(view, hard.scene, hard.loss, order.sequence);
+      double of_scene = 0;
+      for (std::size_t i = 0; i < hard.scene.raw.size(); ++i) {
+        const std::vector<double> ours = parameters(gradient, i);
+        const double scale = largest(ours);
+        of_scene = std::max(of_scene, scale);
+        for (std::size_t p = 0; p < ours.size(); ++p) {
+          const auto scene =
+              changed<Dual>(hard.scene, i, p, [](Dual v) { return Dual(v.value, 1); });
+          const double dual = loss_of(dual_view, scene, hard.loss, order.sequence).value.slope;
+          INFO(hard.name << ", " << order.name << ", Gaussian " << i << ", parameter " << p);
+          REQUIRE(std::abs(ours[p] - dual) <= 1e-5 * std::abs(dual) + 1e-11 * scale);
+          compared += dual != 0 ? 1 : 0;
+        }
+      }
+      INFO(hard.name);
+      REQUIRE(of_scene > 0.001);
+    }
+  }
+  REQUIRE(compared > 20000);
+}
+
+// Five points: off by h^4. Where what is blended, capped or clamped changes on the way the loss has
+// a jump or a bend, and there is nothing to compare.
+TEST_CASE("gradients are those of central differences, for every parameter") {
+  const auto view = make_view<double>(small_camera());
+  std::size_t compared = 0, jumps = 0;
+  for (const HardScene& hard : hard_scenes()) {
+    if (hard.scene.sh_degree % 3 != 0) continue;
+    for (const Order& order : orders()) {
+      const auto gradient = gradient_of(view, hard.scene, hard.loss, order.sequence);
+      const auto here = loss_of(view, hard.scene, hard.loss, order.sequence);
+      for (std::size_t i = 0; i < hard.scene.raw.size(); ++i) {
+        const std::vector<double> ours = parameters(gradient, i), at = parameters(hard.scene, i);
+        for (std::size_t p = 0; p < ours.size(); ++p) {
+          // Quaternions in units of their length.
+          const double unit = p >= 6 && p < 10 ? largest({at.begin() + 6, at.begin() + 10}) : 1;
+          const double h = 2e-4 * unit;
+          bool jumped = false;
+          const auto loss = [&](double steps) {
+            const auto moved =
+                changed<double>(hard.scene, i, p, [&](double v) { return v + steps * h; });
+            const auto there = loss_of(view, moved, hard.loss, order.sequence);
+            jumped |= there.decisions != here.decisions;
+            return there.value;
+          };
+          const double slope = (8 * (loss(1) - loss(-1)) - (loss(2) - loss(-2))) / (12 * h);
+          if (jumped) {
+            ++jumps;
+            continue;
+          }
+          INFO(hard.name << ", " << order.name << ", Gaussian " << i << ", parameter " << p);
+          REQUIRE(std::abs(ours[p] - slope) <=
+                  1e-5 * std::abs(slope) + 1e-14 * std::abs(here.value) / h + 1e-9 / unit);
+          compared += std::abs(slope) * unit > 1e-3 ? 1 : 0;
+        }
+      }
+    }
+  }
+  CAPTURE(compared, jumps);
+  REQUIRE(compared > 4000);
+}
+
+// The original hands the gradient on through the cap, and holds u where it is clamped: away from
+// both the two rules are one.
+TEST_CASE("the original's gradients differ where alpha is capped and where u or w is clamped") {
+  const auto view = make_view<double>(small_camera());
+  for (const HardScene& hard : hard_scenes()) {
+    const auto right = gradient_of(view, hard.scene, hard.loss, by_depth);
+    const auto original =
+        gradient_of<GradientRule::kOriginal>(view, hard.scene, hard.loss, by_depth);
+    double difference = 0, scale = 0;
+    for (std::size_t i = 0; i < hard.scene.raw.size(); ++i) {
+      const auto a = parameters(right, i), b = parameters(original, i);
+      for (std::size_t p = 0; p < a.size(); ++p) {
+        difference = std::max(difference, std::abs(a[p] - b[p]));
+        scale = std::max(scale, std::abs(a[p]));
+      }
+    }
+    const auto is = [&](const char* kind) { return hard.name.rfind(kind, 0) == 0; };
+    INFO(hard.name);
+    if (is("capped") || is("clamped")) {
+      CHECK(difference > 1e-3 * scale);
+    } else if (is("hardly visible") || is("as they come")) {
+      CHECK(difference <= 1e-12 * scale);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test
