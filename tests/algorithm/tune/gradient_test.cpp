@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/algorithm/tune/dual.h"
+#include "tests/algorithm/splat/dual.h"
 #include "tests/algorithm/tune/hard_gaussians.h"
 
 namespace sgs::test {
