@@ -27,12 +27,6 @@ SubtileAdjoint make_adjoint(const DrawnScene& scene, const PixelGradient& by_pix
   return out;
 }
 
-bool any_blended(const LaneShares& shares) {
-  float sum = 0;
-  for (const float alpha : shares.alpha) sum += alpha;
-  return sum > 0;
-}
-
 std::vector<SubtileAdjoint> make_adjoints(const DrawnScene& scene, const PixelRect& group,
                                           const PixelGradient& by_pixel) {
   std::vector<SubtileAdjoint> out;
@@ -53,15 +47,15 @@ GroupPartials group_gradient(const DrawnScene& scene, std::size_t group,
   std::vector<SubtileAdjoint> adjoints = make_adjoints(scene, sequences.groups[group], by_pixel);
   GroupState state(sequences.groups[group], sequences.width, sequences.height, scene.precision);
   GroupPartials out;
+  out.splats.reserve(sequences.first[group + 1] - sequences.first[group]);
+  out.gradients.reserve(out.splats.capacity());
   for (std::size_t i = sequences.first[group]; i != sequences.first[group + 1]; ++i) {
     if (state.saturated()) break;
-    const Splat& splat = sequences.splats[sequences.entries[i]];
+    const Splat& splat = sequences.splat_of(i);
     LaneMoments moments;
     bool seen = false;
     state.blend(splat, [&](const SubtileBlend& blend) {
-      if (!any_blended(blend.shares)) return;
-      add(blend.shares, blend.x, blend.y, splat, adjoints[blend.at], moments);
-      seen = true;
+      seen |= add(blend.shares, blend.x, blend.y, splat, adjoints[blend.at], moments);
     });
     if (!seen) continue;
     out.splats.push_back(sequences.entries[i]);

@@ -35,7 +35,7 @@ RenderResult draw(const GroupSequences& sequences, const glm::vec3& background,
     GroupState state(sequences.groups[group], sequences.width, sequences.height, precision);
     for (std::size_t i = sequences.first[group]; i != sequences.first[group + 1]; ++i) {
       if (state.saturated()) break;
-      state.blend(sequences.splats[sequences.entries[i]]);
+      state.blend(sequences.splat_of(i));
     }
     state.store(background, result);
   });

@@ -3,6 +3,7 @@
 // differentiated.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,16 @@ struct GroupSequences {
   std::vector<PixelRect> groups;       // of the frame, which they cover; corners on multiples of 4
   std::vector<std::size_t> first;      // [groups + 1] where each group's sequence begins
   std::vector<std::uint32_t> entries;  // positions in splats, in the order of blending
+
+  // The splat of an entry. Those of the next entries are fetched ahead: a group's splats lie all
+  // over the frame's, and without it half of the time is waiting.
+  const Splat& splat_of(std::size_t entry) const {
+    constexpr std::size_t kAhead = 8;
+    const Splat& ahead = splats[entries[std::min(entry + kAhead, entries.size() - 1)]];
+    __builtin_prefetch(&ahead);
+    __builtin_prefetch(&ahead.footprint);
+    return splats[entries[entry]];
+  }
 };
 
 // The reference renderer's: tiles of 16 x 16 px, front to back, equal depths by index. 60 B a

@@ -21,11 +21,12 @@ struct alignas(64) LaneMoments {
 };
 
 // Adds what the splat did to the sub-tile (subtile_x, subtile_y) of the frame, and takes it from
-// what is left of its pixels. shares: as the blend pass tells them.
-void add_gradient(const LaneShares& shares, int subtile_x, int subtile_y, const Splat& splat,
+// what is left of its pixels. Whether it was blended into any. shares: as the blend pass tells
+// them.
+bool add_gradient(const LaneShares& shares, int subtile_x, int subtile_y, const Splat& splat,
                   SubtileAdjoint& adjoint, LaneMoments& moments);
 // The same by GradientRule::kOriginal.
-void add_original_gradient(const LaneShares& shares, int subtile_x, int subtile_y,
+bool add_original_gradient(const LaneShares& shares, int subtile_x, int subtile_y,
                            const Splat& splat, SubtileAdjoint& adjoint, LaneMoments& moments);
 
 // Sums over the lanes, in one order on every machine.

@@ -98,7 +98,15 @@ void scene_gradient(const DrawnScene& scene, const PixelGradient& by_pixel, Grad
     if (positions[i] != kUnseen) out.indices[rank++] = static_cast<std::uint32_t>(i);
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rank, 256), [&](const auto& range) {
+    // Splats lie in the order of depth. Written out here because gcc takes a function of nothing
+    // but prefetches for one without effect.
+    constexpr std::size_t kAhead = 8;
     for (std::size_t r = range.begin(); r != range.end(); ++r) {
+      const std::uint32_t ahead = positions[out.indices[std::min(r + kAhead, rank - 1)]];
+      __builtin_prefetch(&scene.sequences.splats[ahead].x);
+      __builtin_prefetch(&scene.sequences.splats[ahead].footprint);
+      __builtin_prefetch(&sums.gradients[ahead].x);
+      __builtin_prefetch(&sums.gradients[ahead].rgb.z);
       const std::uint32_t position = positions[out.indices[r]];
       write_gradient(scene, scene.sequences.splats[position], sums.gradients[position], rule, r,
                      out);
