@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "algorithm/render/reference_renderer.h"
+#include "tests/algorithm/tune/float_scenes.h"
 #include "tests/algorithm/tune/hard_gaussians.h"
 
 namespace sgs::test {
@@ -25,55 +26,6 @@ bool same_bits(const CloudGradient& a, const CloudGradient& b) {
          same_bytes(p.means, q.means) && same_bytes(p.log_scales, q.log_scales) &&
          same_bytes(p.quats, q.quats) && same_bytes(p.opacity_logits, q.opacity_logits) &&
          same_bytes(p.sh_coeffs, q.sh_coeffs);
-}
-
-SceneOf<float> scene_of(const GaussianCloud& cloud) {
-  SceneOf<float> out;
-  out.sh_degree = cloud.sh_degree;
-  for (std::size_t i = 0; i < cloud.size(); ++i) out.raw.push_back(raw_gaussian(cloud, i));
-  out.sh = cloud.sh_coeffs;
-  return out;
-}
-
-GaussianCloud cloud_of(const SceneOf<float>& scene) {
-  GaussianCloud out;
-  out.resize(scene.raw.size(), scene.sh_degree);
-  for (std::size_t i = 0; i < scene.raw.size(); ++i) {
-    out.means[i] = scene.raw[i].mean;
-    out.log_scales[i] = scene.raw[i].log_scale;
-    out.quats[i] = scene.raw[i].quat;
-    out.opacity_logits[i] = scene.raw[i].opacity_logit;
-  }
-  out.sh_coeffs = scene.sh;
-  return out;
-}
-
-// With zeros for what is not seen.
-SceneOf<float> dense(const CloudGradient& gradient, std::size_t count) {
-  GaussianCloud out;
-  out.resize(count, gradient.parameters.sh_degree);
-  const auto coeffs = static_cast<std::size_t>(sh_coeff_count(out.sh_degree));
-  for (std::size_t r = 0; r < gradient.size(); ++r) {
-    const std::size_t i = gradient.indices[r];
-    out.means[i] = gradient.parameters.means[r];
-    out.log_scales[i] = gradient.parameters.log_scales[r];
-    out.quats[i] = gradient.parameters.quats[r];
-    out.opacity_logits[i] = gradient.parameters.opacity_logits[r];
-    for (std::size_t c = 0; c < coeffs; ++c) {
-      out.sh_coeffs[i * coeffs + c] = gradient.parameters.sh_coeffs[r * coeffs + c];
-    }
-  }
-  return scene_of(out);
-}
-
-PixelGradient in_float(const LinearLoss& loss, const Camera& camera) {
-  PixelGradient out;
-  out.colour = Image(camera.width, camera.height);
-  for (std::size_t i = 0; i < loss.colour.size(); ++i) {
-    out.colour.pixels[i] = glm::vec3(loss.colour[i]);
-    out.transmittance.push_back(static_cast<float>(loss.transmittance[i]));
-  }
-  return out;
 }
 
 CloudGradient gradient_in_float(const Camera& camera, const GaussianCloud& parameters,
@@ -118,22 +70,10 @@ TEST_CASE("gradients in float are those in double to four digits") {
     const auto compare = [&](GradientRule rule, const SceneOf<double>& exact) {
       const CloudGradient gradient = gradient_in_float(
           camera, cloud_of(scene), in_float(loss, camera), glm::vec3(loss.background), rule);
-      const SceneOf<double> ours = converted<double>(dense(gradient, scene.raw.size()));
-      double error[12] = {}, size[12] = {};
-      for (std::size_t i = 0; i < scene.raw.size(); ++i) {
-        std::size_t p = 0;
-        for_parameters(
-            i,
-            [&](double a, double b) {
-              error[std::min<std::size_t>(p, 11)] += (a - b) * (a - b);
-              size[std::min<std::size_t>(p++, 11)] += b * b;
-            },
-            ours, exact);
-      }
+      const Deviation found = deviation(dense(gradient, scene.raw.size()), exact);
       for (int p = 0; p < 12; ++p) {
-        INFO(name << ", parameter " << p << ": error " << std::sqrt(error[p]) << " of "
-                  << std::sqrt(size[p]));
-        CHECK(std::sqrt(error[p]) <= 1e-4 * std::sqrt(size[p]) + 1e-12);
+        INFO(name << ", parameter " << p);
+        CHECK(found.relative(p) <= 1e-4);
       }
     };
     compare(GradientRule::kDerivative,
