@@ -1,12 +1,12 @@
-// Blending of one splat into one pixel, differentiated. Front to back, in the order of the picture:
-// no pixel's history is kept, and what was blended is what the blend pass says it blends.
+// Blending of one splat into one pixel, differentiated: back to front, with alpha and T as the
+// blend pass told them.
 //
 // A pixel is C = sum_i c_i alpha_i T_i + T_end B with T_i = prod_{j<i} (1 - alpha_j). With g =
 // dL/dC,
 //   dL/dalpha_i = T_i (g . c_i) - (sum_{j>i} alpha_j T_j (g . c_j) + T_end (g . B)) / (1 -
 //   alpha_i).
-// The sum is what is left of g . C when the splats up to i are taken away from it: `rest`. A loss
-// that looks at T_end, too, adds T_end dL/dT_end to it.
+// The sum, `behind`, grows from one splat to the next. A loss that looks at T_end, too, begins it
+// with T_end (g . B + dL/dT_end).
 #pragma once
 
 #include "algorithm/splat/constants.h"
@@ -21,17 +21,16 @@ template <class T>
 struct ShareGradient {
   T weight;   // dC/dc = alpha T
   T falloff;  // dL/dpower, power = -d^T conic d / 2; over opacity, it is dL/dopacity
-  T rest;     // behind this splat
+  T behind;   // of the splat in front of this one
 };
 
-// alpha: as blended, capped at 0.99, or 0. before: T in front of the splat. rest: in front of it.
-// toward: g . c. slope: dalpha/dpower.
+// alpha: as blended, capped at 0.99, or 0. before: T in front of the splat. toward: g . c. slope:
+// dalpha/dpower.
 template <class T>
-inline ShareGradient<T> share_gradient(T alpha, T before, T toward, T rest, T slope) {
+inline ShareGradient<T> share_gradient(T alpha, T before, T toward, T behind, T slope) {
   const T weight = T(alpha * before);
-  const T behind = T(rest - weight * toward);
   const T by_alpha = T(before * toward - behind / T(T(1.0F) - alpha));
-  return {weight, T(slope * by_alpha), behind};
+  return {weight, T(slope * by_alpha), T(behind + weight * toward)};
 }
 
 // dalpha/dpower of alpha = min(0.99, opacity exp(power)). uncapped() is opacity exp(power), called

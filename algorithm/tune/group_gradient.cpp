@@ -1,5 +1,7 @@
-// An observer of the blend pass.
+// An observer of the blend pass notes what each splat took; then the notes are read backward.
 #include "algorithm/tune/group_gradient.h"
+
+#include <glm/geometric.hpp>
 
 #include "algorithm/render/group_state.h"
 #include "algorithm/tune/lane_gradient.h"
@@ -16,13 +18,13 @@ SubtileAdjoint make_adjoint(const DrawnScene& scene, const PixelGradient& by_pix
     const int x = left_px + lane % kSubtilePx, y = top_px + lane / kSubtilePx;
     if (x >= picture.width || y >= picture.height) continue;
     const auto at = static_cast<std::size_t>(y) * picture.width + x;
-    const glm::vec3 &by = by_pixel.colour.pixels[at], &colour = picture.pixels[at];
+    const glm::vec3& by = by_pixel.colour.pixels[at];
     out.red[lane] = by.x;
     out.green[lane] = by.y;
     out.blue[lane] = by.z;
-    out.rest[lane] = by.x * colour.x + by.y * colour.y + by.z * colour.z;
-    if (by_pixel.transmittance.empty()) continue;
-    out.rest[lane] += by_pixel.transmittance[at] * scene.picture.transmittance[at];
+    float by_end = glm::dot(by, scene.background);
+    if (!by_pixel.transmittance.empty()) by_end += by_pixel.transmittance[at];
+    out.behind[lane] = scene.picture.transmittance[at] * by_end;
   }
   return out;
 }
@@ -38,27 +40,50 @@ std::vector<SubtileAdjoint> make_adjoints(const DrawnScene& scene, const PixelRe
   return out;
 }
 
+bool any_blended(const LaneShares& shares) {
+  std::uint32_t bits = 0;  // no alpha is negative
+  for (const float alpha : shares.alpha) bits |= __builtin_bit_cast(std::uint32_t, alpha);
+  return bits != 0;
+}
+
 }  // namespace
 
-GroupPartials group_gradient(const DrawnScene& scene, std::size_t group,
-                             const PixelGradient& by_pixel, GradientRule rule) {
+void GroupGradient::blend(const DrawnScene& scene, std::size_t group) {
+  const GroupSequences& sequences = scene.sequences;
+  GroupState state(sequences.groups[group], sequences.width, sequences.height, scene.precision);
+  blends_.clear();
+  shares_.clear();
+  for (std::size_t i = sequences.first[group]; i != sequences.first[group + 1]; ++i) {
+    if (state.saturated()) break;
+    state.blend(sequences.splat_of(i), [&](const SubtileBlend& blend) {
+      if (!any_blended(blend.shares)) return;
+      blends_.push_back({static_cast<std::uint32_t>(i - sequences.first[group]),
+                         static_cast<std::uint32_t>(blend.at), static_cast<std::uint16_t>(blend.x),
+                         static_cast<std::uint16_t>(blend.y)});
+      shares_.push_back(blend.shares);
+    });
+  }
+}
+
+GroupPartials GroupGradient::differentiate(const DrawnScene& scene, std::size_t group,
+                                           const PixelGradient& by_pixel, GradientRule rule) {
   const GroupSequences& sequences = scene.sequences;
   const auto add = rule == GradientRule::kOriginal ? add_original_gradient : add_gradient;
   std::vector<SubtileAdjoint> adjoints = make_adjoints(scene, sequences.groups[group], by_pixel);
-  GroupState state(sequences.groups[group], sequences.width, sequences.height, scene.precision);
+  blend(scene, group);
   GroupPartials out;
   out.splats.reserve(sequences.first[group + 1] - sequences.first[group]);
   out.gradients.reserve(out.splats.capacity());
-  for (std::size_t i = sequences.first[group]; i != sequences.first[group + 1]; ++i) {
-    if (state.saturated()) break;
-    const Splat& splat = sequences.splat_of(i);
+  for (std::size_t i = blends_.size(); i > 0;) {
+    const std::uint32_t entry = blends_[i - 1].entry;
+    const std::uint32_t position = sequences.entries[sequences.first[group] + entry];
+    const Splat& splat = sequences.splats[position];
     LaneMoments moments;
-    bool seen = false;
-    state.blend(splat, [&](const SubtileBlend& blend) {
-      seen |= add(blend.shares, blend.x, blend.y, splat, adjoints[blend.at], moments);
-    });
-    if (!seen) continue;
-    out.splats.push_back(sequences.entries[i]);
+    for (; i > 0 && blends_[i - 1].entry == entry; --i) {
+      const Blend& at = blends_[i - 1];
+      add(shares_[i - 1], at.x, at.y, splat, adjoints[at.at], moments);
+    }
+    out.splats.push_back(position);
     out.gradients.push_back(splat_gradient(total(moments), splat.opacity));
   }
   return out;

@@ -7,25 +7,23 @@ namespace sgs {
 namespace {
 
 template <GradientRule kRule>
-[[gnu::always_inline]] inline bool add_lanes(const LaneShares& shares, int subtile_x, int subtile_y,
+[[gnu::always_inline]] inline void add_lanes(const LaneShares& shares, int subtile_x, int subtile_y,
                                              const Splat& s, SubtileAdjoint& adjoint,
                                              LaneMoments& sums) {
   const float left = s.x - static_cast<float>(subtile_x * kSubtilePx);
   const float top = s.y - static_cast<float>(subtile_y * kSubtilePx);
-  std::int32_t any = 0;
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
     const float dx = left - static_cast<float>(lane % kSubtilePx);
     const float dy = top - static_cast<float>(lane / kSubtilePx);
     const ConicArm<float> arm = conic_arm(s.conic_a, s.conic_b, s.conic_c, dx, dy);
     const float alpha = shares.alpha[lane];
-    any |= alpha > 0.0F ? 1 : 0;
     const float slope = slope_of_alpha<kRule>(
         alpha, [&] { return alpha > 0.0F ? s.opacity * falloff_at(arm, dx, dy) : 0.0F; });
     const float red = adjoint.red[lane], green = adjoint.green[lane], blue = adjoint.blue[lane];
     const float toward = red * s.rgb.x + green * s.rgb.y + blue * s.rgb.z;
     const ShareGradient<float> gradient =
-        share_gradient(alpha, shares.before[lane], toward, adjoint.rest[lane], slope);
-    adjoint.rest[lane] = gradient.rest;
+        share_gradient(alpha, shares.before[lane], toward, adjoint.behind[lane], slope);
+    adjoint.behind[lane] = gradient.behind;
     const float f = gradient.falloff, fx = f * arm.x, fy = f * arm.y;
     sums.one[lane] += f;
     sums.x[lane] += fx;
@@ -37,7 +35,6 @@ template <GradientRule kRule>
     sums.green[lane] += gradient.weight * green;
     sums.blue[lane] += gradient.weight * blue;
   }
-  return any != 0;
 }
 
 [[gnu::always_inline]] inline float sum_of(const float (&lanes)[kSubtilePixels]) {
@@ -51,16 +48,15 @@ template <GradientRule kRule>
 }  // namespace
 
 SGS_WIDEST_LANES
-bool add_gradient(const LaneShares& shares, int subtile_x, int subtile_y, const Splat& splat,
+void add_gradient(const LaneShares& shares, int subtile_x, int subtile_y, const Splat& splat,
                   SubtileAdjoint& adjoint, LaneMoments& moments) {
-  return add_lanes<GradientRule::kDerivative>(shares, subtile_x, subtile_y, splat, adjoint,
-                                              moments);
+  add_lanes<GradientRule::kDerivative>(shares, subtile_x, subtile_y, splat, adjoint, moments);
 }
 
 SGS_WIDEST_LANES
-bool add_original_gradient(const LaneShares& shares, int subtile_x, int subtile_y,
+void add_original_gradient(const LaneShares& shares, int subtile_x, int subtile_y,
                            const Splat& splat, SubtileAdjoint& adjoint, LaneMoments& moments) {
-  return add_lanes<GradientRule::kOriginal>(shares, subtile_x, subtile_y, splat, adjoint, moments);
+  add_lanes<GradientRule::kOriginal>(shares, subtile_x, subtile_y, splat, adjoint, moments);
 }
 
 SGS_WIDEST_LANES

@@ -10,7 +10,7 @@ namespace sgs {
 // The pixels of a sub-tile while their blending is differentiated.
 struct SubtileAdjoint {
   float red[kSubtilePixels], green[kSubtilePixels], blue[kSubtilePixels];  // dL/dC
-  float rest[kSubtilePixels];  // in front of the next splat: at first dL/dC . C + T_end dL/dT_end
+  float behind[kSubtilePixels];                                            // of the next splat
 };
 
 // FalloffMoments of one splat, each lane by itself; over any number of sub-tiles.
@@ -20,13 +20,12 @@ struct alignas(64) LaneMoments {
   float red[kSubtilePixels] = {}, green[kSubtilePixels] = {}, blue[kSubtilePixels] = {};
 };
 
-// Adds what the splat did to the sub-tile (subtile_x, subtile_y) of the frame, and takes it from
-// what is left of its pixels. Whether it was blended into any. shares: as the blend pass tells
-// them.
-bool add_gradient(const LaneShares& shares, int subtile_x, int subtile_y, const Splat& splat,
+// Adds what the splat did to the sub-tile (subtile_x, subtile_y) of the frame, and puts it behind
+// the splats in front of it. shares: as the blend pass tells them.
+void add_gradient(const LaneShares& shares, int subtile_x, int subtile_y, const Splat& splat,
                   SubtileAdjoint& adjoint, LaneMoments& moments);
 // The same by GradientRule::kOriginal.
-bool add_original_gradient(const LaneShares& shares, int subtile_x, int subtile_y,
+void add_original_gradient(const LaneShares& shares, int subtile_x, int subtile_y,
                            const Splat& splat, SubtileAdjoint& adjoint, LaneMoments& moments);
 
 // Sums over the lanes, in one order on every machine.

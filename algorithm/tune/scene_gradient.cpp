@@ -2,6 +2,7 @@
 #include "algorithm/tune/scene_gradient.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -45,8 +46,9 @@ SplatSums splat_gradients(const DrawnScene& scene, const PixelGradient& by_pixel
                           GradientRule rule) {
   const std::size_t groups = scene.sequences.groups.size();
   std::vector<GroupPartials> partials(groups);
+  tbb::enumerable_thread_specific<GroupGradient> gradients;
   tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t group) {
-    partials[group] = group_gradient(scene, group, by_pixel, rule);
+    partials[group] = gradients.local().differentiate(scene, group, by_pixel, rule);
   });
   SplatSums sums;
   sums.gradients.resize(scene.sequences.splats.size());

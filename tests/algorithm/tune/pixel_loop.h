@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <numeric>
 #include <vector>
 
@@ -204,17 +205,18 @@ SceneOf<T> gradient_of(const View<T>& view, const SceneOf<T>& scene, const Linea
       const auto at = static_cast<std::size_t>(y * view.width + x);
       const auto pixel = blend_pixel(projected, sequence, loss.background, x, y);
       const auto by = glm::vec<3, T>(loss.colour[at]);
-      T rest = T(by.x * pixel.colour.x + by.y * pixel.colour.y + by.z * pixel.colour.z +
-                 T(loss.transmittance[at]) * pixel.transmittance);
-      for (const auto& share : pixel.shares) {
+      const double by_end = glm::dot(loss.colour[at], loss.background) + loss.transmittance[at];
+      T behind = T(T(by_end) * pixel.transmittance);
+      for (std::size_t k = pixel.shares.size(); k-- > 0;) {
+        const PixelShare<T>& share = pixel.shares[k];
         const SplatOf<T>& s = projected.splats[share.splat];
         FalloffMoments<T>& sum = sums[share.splat];
         const auto arm = conic_arm(s.conic_a, s.conic_b, s.conic_c, share.dx, share.dy);
         const T slope = slope_of_alpha<kRule>(
             share.alpha, [&] { return T(s.opacity * falloff_at(arm, share.dx, share.dy)); });
         const T toward = T(by.x * s.rgb.x + by.y * s.rgb.y + by.z * s.rgb.z);
-        const auto gradient = share_gradient(share.alpha, share.before, toward, rest, slope);
-        rest = gradient.rest;
+        const auto gradient = share_gradient(share.alpha, share.before, toward, behind, slope);
+        behind = gradient.behind;
         const T f = gradient.falloff;
         sum.one += f;
         sum.x += f * arm.x;

@@ -36,7 +36,7 @@ CloudGradient gradient_in_float(const Camera& camera, const GaussianCloud& param
   const GroupSequences sequences = reference_sequences(view, cloud);
   const RenderResult picture = draw(sequences, background);
   CloudGradient out;
-  scene_gradient({view, parameters, cloud, sequences, picture}, by_pixel, rule, out);
+  scene_gradient({view, parameters, cloud, sequences, picture, background}, by_pixel, rule, out);
   return out;
 }
 

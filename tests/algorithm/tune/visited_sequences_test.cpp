@@ -96,7 +96,8 @@ TEST_CASE("gradients of paper order are those of its sequences, to four digits")
   for (const std::size_t threads : {1, 2, 3}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     gradients.emplace_back();
-    scene_gradient({make_view<float>(camera), s.parameters, s.cloud, sequences, s.result.frame},
+    scene_gradient({make_view<float>(camera), s.parameters, s.cloud, sequences, s.result.frame,
+                    config.background},
                    in_float(loss, camera), GradientRule::kDerivative, gradients.back());
   }
   REQUIRE(gradients[0].size() > 100);
