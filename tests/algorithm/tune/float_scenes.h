@@ -57,7 +57,7 @@ inline PixelGradient in_float(const LinearLoss& loss, const Camera& camera) {
   return out;
 }
 
-// Root of the summed squares of a and of its difference from b, of each kind of parameter: the
+// Summed squares of the exact gradients and of what ours are off by, of each kind of parameter: the
 // first eleven of a Gaussian one by one, then all colour.
 struct Deviation {
   double error[12] = {}, size[12] = {};
