@@ -57,9 +57,12 @@ void GroupGradient::blend(const DrawnScene& scene, std::size_t group) {
     if (state.saturated()) break;
     state.blend(sequences.splat_of(i), [&](const SubtileBlend& blend) {
       if (!any_blended(blend.shares)) return;
-      blends_.push_back({static_cast<std::uint32_t>(i - sequences.first[group]),
-                         static_cast<std::uint32_t>(blend.at), static_cast<std::uint16_t>(blend.x),
-                         static_cast<std::uint16_t>(blend.y)});
+      // Field by field: a copy would wait for its halves to reach memory.
+      Blend& noted = blends_.emplace_back();
+      noted.entry = static_cast<std::uint32_t>(i - sequences.first[group]);
+      noted.at = static_cast<std::uint32_t>(blend.at);
+      noted.x = static_cast<std::uint16_t>(blend.x);
+      noted.y = static_cast<std::uint16_t>(blend.y);
       shares_.push_back(blend.shares);
     });
   }

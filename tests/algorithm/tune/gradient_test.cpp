@@ -138,5 +138,66 @@ TEST_CASE("the original's gradients differ where alpha is capped and where u or 
   }
 }
 
+// dL/dmean by way of the covariance as the released code writes it (computeCov2DCUDA of its
+// backward pass), the camera's axes being the world's.
+glm::dvec3 original_mean_gradient(const View<double>& view, const Gaussian<double>& g,
+                                  const SplatGradient<double>& by) {
+  const double ratio_x = g.mean.x / g.mean.z, ratio_y = g.mean.y / g.mean.z;
+  const double clamped_x = std::min(view.limit_x, std::max(-view.limit_x, ratio_x));
+  const double clamped_y = std::min(view.limit_y, std::max(-view.limit_y, ratio_y));
+  const glm::dvec3 t{clamped_x * g.mean.z, clamped_y * g.mean.z, g.mean.z};
+  const double hx = view.focal_x, hy = view.focal_y;
+  const double tz = 1 / t.z, tz2 = tz * tz, tz3 = tz2 * tz;
+  const double j[2][3] = {{hx * tz, 0, -hx * t.x * tz2}, {0, hy * tz, -hy * t.y * tz2}};
+  double rows[3][3], sigma[3][3] = {};
+  rotation_rows(g.quat, rows);
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      for (int k = 0; k < 3; ++k) {
+        sigma[r][c] += rows[r][k] * rows[c][k] * g.scale[k] * g.scale[k];
+      }
+    }
+  }
+  const double by_cov[2][2] = {{by.cov_a, by.cov_b / 2}, {by.cov_b / 2, by.cov_c}};
+  double by_j[2][3] = {};
+  for (int r = 0; r < 2; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      for (int k = 0; k < 2; ++k) {
+        for (int l = 0; l < 3; ++l) by_j[r][c] += 2 * by_cov[r][k] * j[k][l] * sigma[l][c];
+      }
+    }
+  }
+  return {clamped_x == ratio_x ? -hx * tz2 * by_j[0][2] : 0,
+          clamped_y == ratio_y ? -hy * tz2 * by_j[1][2] : 0,
+          -hx * tz2 * by_j[0][0] - hy * tz2 * by_j[1][1] + 2 * hx * t.x * tz3 * by_j[0][2] +
+              2 * hy * t.y * tz3 * by_j[1][2]};
+}
+
+TEST_CASE("the original's gradient of a covariance is what its code computes") {
+  const auto view = make_view<double>(small_camera());
+  HardGaussians random(77, 0);
+  std::size_t clamped = 0;
+  for (int i = 0; i < 200; ++i) {
+    RawGaussian<double>& raw = random.add();
+    raw.mean.x *= random.uniform(0.5, 3);
+    raw.mean.y *= random.uniform(0.5, 3);
+    const Gaussian<double> g = activate(raw);
+    SplatGradient<double> by;
+    by.cov_a = random.normal();
+    by.cov_b = random.normal();
+    by.cov_c = random.normal();
+    clamped +=
+        std::abs(g.mean.x / g.mean.z) > view.limit_x || std::abs(g.mean.y / g.mean.z) > view.limit_y
+            ? 1
+            : 0;
+    const auto ours = projection_gradient(view, g, g.mean, by, GradientRule::kOriginal).mean;
+    const glm::dvec3 theirs = original_mean_gradient(view, g, by);
+    for (int k = 0; k < 3; ++k) {
+      REQUIRE(std::abs(ours[k] - theirs[k]) <= 1e-10 * glm::length(theirs));
+    }
+  }
+  REQUIRE(clamped > 50);
+}
+
 }  // namespace
 }  // namespace sgs::test
