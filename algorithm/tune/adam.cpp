@@ -97,7 +97,7 @@ void Adam::step(const CloudGradient& gradient, const LearningRates& rates, Gauss
   tbb::parallel_for(ranks, [&](const auto& range) {
     alignas(64) float p[kMostValues] = {}, g[kMostValues] = {};
     for (std::size_t r = range.begin(); r != range.end(); ++r) {
-      const std::uint32_t i = gradient.indices[r];
+      const std::size_t i = gradient.indices[r];
       gather(gradient.parameters, r, g);
       gather(cloud, i, p);
       const Correction correction = corrections_[++moments_.updates[i]];
@@ -118,7 +118,8 @@ void Adam::rearrange(const std::vector<std::uint32_t>& from) {
   out.updates.resize(from.size());
   for (std::size_t i = 0; i != from.size(); ++i) {
     if (from[i] == kNew) continue;
-    std::copy_n(&moments_.values[from[i] * 2 * out.row], 2 * out.row, &out.values[i * 2 * out.row]);
+    const std::size_t before = from[i];
+    std::copy_n(&moments_.values[before * 2 * out.row], 2 * out.row, &out.values[i * 2 * out.row]);
     out.updates[i] = moments_.updates[from[i]];
   }
   moments_ = std::move(out);

@@ -13,7 +13,7 @@ template <class T>
 using SsimWindow = std::array<T, kSsimTaps>;
 
 // Values beside a row that a filter across it reads.
-constexpr std::size_t kRowMargin = 3 * kSsimRadiusPx;
+constexpr std::size_t kRowMargin = std::size_t{3} * kSsimRadiusPx;
 
 // out[i] = sum_t window[t] in[i + 3 t]; in: count + 2 kRowMargin values.
 void filter_across(const float* in, std::size_t count, const SsimWindow<float>& window, float* out);
