@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "algorithm/splat/widest_lanes.h"
 
@@ -63,6 +64,13 @@ void put_back(const float* row, std::size_t i, GaussianCloud& cloud) {
   });
 }
 
+// Values of a row for coefficients to this degree.
+std::size_t row_of(int sh_degree) {
+  const std::size_t values =
+      kFirstCoefficient + 3 * static_cast<std::size_t>(sh_coeff_count(sh_degree));
+  return (values + kVector - 1) / kVector * kVector;
+}
+
 void fill_rates(const LearningRates& rates, float* row) {
   const double firsts[] = {rates.mean,      rates.mean,      rates.mean,         rates.log_scale,
                            rates.log_scale, rates.log_scale, rates.quat,         rates.quat,
@@ -75,9 +83,7 @@ void fill_rates(const LearningRates& rates, float* row) {
 }  // namespace
 
 Adam::Adam(const GaussianCloud& cloud, const AdamConfig& config) : config_(config) {
-  const auto values =
-      kFirstCoefficient + 3 * static_cast<std::size_t>(sh_coeff_count(cloud.sh_degree));
-  moments_.row = (values + kVector - 1) / kVector * kVector;
+  moments_.row = row_of(cloud.sh_degree);
   moments_.values.resize(cloud.size() * 2 * moments_.row);
   moments_.updates.resize(cloud.size());
 }
@@ -123,6 +129,16 @@ void Adam::rearrange(const std::vector<std::uint32_t>& from) {
     out.updates[i] = moments_.updates[from[i]];
   }
   moments_ = std::move(out);
+}
+
+void Adam::raise_degree(int sh_degree) {
+  const std::size_t before = moments_.row, row = row_of(sh_degree);
+  std::vector<float> values(moments_.updates.size() * 2 * row);
+  for (std::size_t i = 0; i != 2 * moments_.updates.size(); ++i) {
+    std::copy_n(&moments_.values[i * before], before, &values[i * row]);
+  }
+  moments_.row = row;
+  moments_.values = std::move(values);
 }
 
 }  // namespace sgs

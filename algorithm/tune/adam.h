@@ -40,6 +40,9 @@ class Adam {
   static constexpr std::uint32_t kNew = 0xffffffff;
   void rearrange(const std::vector<std::uint32_t>& from);
 
+  // After the cloud's coefficients were filled up with zeros to a higher degree.
+  void raise_degree(int sh_degree);
+
   // All that there is to save.
   const AdamMoments& moments() const { return moments_; }
   void restore(AdamMoments moments) { moments_ = std::move(moments); }

@@ -156,6 +156,42 @@ TEST_CASE("Adam's moments follow their Gaussians") {
   }
 }
 
+GaussianCloud of_degree(const GaussianCloud& cloud, int degree) {
+  GaussianCloud out = cloud;
+  const auto from = static_cast<std::size_t>(sh_coeff_count(cloud.sh_degree));
+  const auto to = static_cast<std::size_t>(sh_coeff_count(degree));
+  out.sh_degree = degree;
+  out.sh_coeffs.assign(cloud.size() * to, glm::vec3(0));
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    for (std::size_t c = 0; c < from; ++c) {
+      out.sh_coeffs[i * to + c] = cloud.sh_coeffs[i * from + c];
+    }
+  }
+  return out;
+}
+
+TEST_CASE("Adam of a raised degree is that of the degree with coefficients of no gradient") {
+  GaussianCloud raised = start(1);
+  GaussianCloud whole = of_degree(raised, 3);
+  Adam of_raised(raised), of_whole(whole);
+  for (unsigned step = 0; step < 4; ++step) {
+    CloudGradient gradient = gradient_of_step(step, 1);
+    of_raised.step(gradient, kRates, raised);
+    gradient.parameters = of_degree(gradient.parameters, 3);
+    of_whole.step(gradient, kRates, whole);
+  }
+  raised = of_degree(raised, 3);
+  of_raised.raise_degree(3);
+  for (unsigned step = 4; step < 8; ++step) {
+    of_raised.step(gradient_of_step(step, 3), kRates, raised);
+    of_whole.step(gradient_of_step(step, 3), kRates, whole);
+  }
+  for (std::size_t i = 0; i < kGaussians; ++i) {
+    REQUIRE(values_of(raised, i) == values_of(whole, i));
+  }
+  CHECK(of_raised.moments().values == of_whole.moments().values);
+}
+
 TEST_CASE("Adam gives the same bits for 1, 2 and 3 threads") {
   std::vector<GaussianCloud> clouds;
   for (const std::size_t threads : {1, 2, 3}) {

@@ -123,6 +123,11 @@ TEST_CASE("gradients are finite on needles, giants and at both ends of opacity")
       cloud.means[i] *= 0.2001F / std::abs(cloud.means[i].z);
       scale -= 3.0F;
     }
+    if (i % 89 == 0) {  // at the limits of what is drawn
+      cloud.means[i] *= 1e17F;
+      scale = glm::vec3(16);
+      cloud.opacity_logits[i] = -4;
+    }
     const float length = i % 4 == 0 ? 1e-18F : i % 4 == 1 ? 1e18F : 1.0F;
     for (float& component : cloud.quats[i]) component *= length;
   }
