@@ -10,6 +10,13 @@
 #include "algorithm/render/splat_sequence.h"
 
 namespace sgs {
+namespace {
+
+// Any multiple of 4 gives the same picture. Next to the renderer's tiles of 16 px a splat falls on
+// fewer groups, which spares a twelfth of the time; with 64 px too few are left for many threads.
+constexpr int kGroupPx = 32;
+
+}  // namespace
 
 GroupSequences reference_sequences(const View<float>& view, const ActivatedCloud& cloud) {
   GroupSequences out;
@@ -17,9 +24,9 @@ GroupSequences reference_sequences(const View<float>& view, const ActivatedCloud
   out.height = view.height;
   SplatSequence sequence(view, cloud);
   sequence.next(sequence.keys().size(), out.splats);
-  out.groups = pixel_groups(view.width, view.height, kTilePx);
-  SplatBins bins =
-      bin_splats(cell_grid(view.width, view.height, kTilePx), out.splats.data(), out.splats.size());
+  out.groups = pixel_groups(view.width, view.height, kGroupPx);
+  SplatBins bins = bin_splats(cell_grid(view.width, view.height, kGroupPx), out.splats.data(),
+                              out.splats.size());
   out.first = std::move(bins.first);
   out.entries = std::move(bins.entries);
   return out;

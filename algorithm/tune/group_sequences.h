@@ -35,8 +35,8 @@ struct GroupSequences {
   }
 };
 
-// The reference renderer's: tiles of 16 x 16 px, front to back, equal depths by index. 60 B a
-// splat and 4 B for each tile that it falls on, which nothing bounds.
+// The reference renderer's: front to back, equal depths by index. 60 B a splat and 4 B for each
+// group of 32 x 32 px that it falls on, which nothing bounds.
 GroupSequences reference_sequences(const View<float>& view, const ActivatedCloud& cloud);
 
 // The picture: that of the order's renderer, bit for bit, whatever the number of threads.
