@@ -1,12 +1,11 @@
 // Blending of one splat into one pixel, differentiated: back to front, with alpha and T as the
 // blend pass told them.
 //
-// A pixel is C = sum_i c_i alpha_i T_i + T_end B with T_i = prod_{j<i} (1 - alpha_j). With g =
-// dL/dC,
-//   dL/dalpha_i = T_i (g . c_i) - (sum_{j>i} alpha_j T_j (g . c_j) + T_end (g . B)) / (1 -
-//   alpha_i).
-// The sum, `behind`, grows from one splat to the next. A loss that looks at T_end, too, begins it
-// with T_end (g . B + dL/dT_end).
+// A pixel is C = sum_i c_i alpha_i T_i + T_end B with T_i = prod_{j<i} (1 - alpha_j).
+// With g = dL/dC,
+//   dL/dalpha_i = T_i (g . c_i) - behind_i / (1 - alpha_i),
+//   behind_i = sum_{j>i} alpha_j T_j (g . c_j) + T_end (g . B + dL/dT_end),
+// the last for a loss that looks at T_end, too.
 #pragma once
 
 #include "algorithm/splat/constants.h"

@@ -17,6 +17,9 @@
 
 namespace sgs {
 
+// In place of a position in GroupSequences::splats: of a Gaussian that has none.
+constexpr std::uint32_t kNoSplat = 0xffffffff;
+
 struct GroupSequences {
   int width = 0, height = 0;           // px, of the frame
   std::vector<Splat> splats;           // each Gaussian that may be seen, once

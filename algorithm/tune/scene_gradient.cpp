@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 
 #include "algorithm/tune/activation_gradient.h"
 #include "algorithm/tune/gaussian_gradient.h"
@@ -16,8 +15,6 @@
 
 namespace sgs {
 namespace {
-
-constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
 
 struct SplatSums {
   std::vector<SplatGradient<float>> gradients;  // [splats]
@@ -57,10 +54,10 @@ SplatSums splat_gradients(const DrawnScene& scene, const PixelGradient& by_pixel
   return sums;
 }
 
-// [Gaussian] position of its splat, or kUnseen.
+// [Gaussian] position of its splat, or kNoSplat.
 std::vector<std::uint32_t> seen_positions(const GroupSequences& sequences, const SplatSums& sums,
                                           std::size_t gaussians) {
-  std::vector<std::uint32_t> positions(gaussians, kUnseen);
+  std::vector<std::uint32_t> positions(gaussians, kNoSplat);
   tbb::parallel_for(std::size_t{0}, sums.seen.size(), [&](std::size_t i) {
     if (sums.seen[i] != 0) positions[sequences.splats[i].index] = static_cast<std::uint32_t>(i);
   });
@@ -97,7 +94,7 @@ void scene_gradient(const DrawnScene& scene, const PixelGradient& by_pixel, Grad
              scene.cloud.sh_degree);
   std::size_t rank = 0;
   for (std::size_t i = 0; i != positions.size(); ++i) {
-    if (positions[i] != kUnseen) out.indices[rank++] = static_cast<std::uint32_t>(i);
+    if (positions[i] != kNoSplat) out.indices[rank++] = static_cast<std::uint32_t>(i);
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rank, 256), [&](const auto& range) {
     // Splats lie in the order of depth. Written out here because gcc takes a function of nothing

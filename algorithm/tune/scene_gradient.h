@@ -31,9 +31,9 @@ struct DrawnScene {
 };
 
 // dL/d of every Gaussian that is seen. The same bits whatever the number of threads: each group
-// sums by itself, groups are added in their order. Working memory: 40 B for each group and splat
-// blended into it, 37 B a splat; 136 B for each splat and sub-tile of the one group that each
-// thread is at. `out` keeps its memory from call to call.
+// sums by itself, groups are added in their order. Working memory: 40 B an entry of the sequences,
+// 37 B a splat; 140 B for each splat and sub-tile of the one group that each thread is at. `out`
+// keeps its memory from call to call.
 void scene_gradient(const DrawnScene& scene, const PixelGradient& by_pixel, GradientRule rule,
                     CloudGradient& out);
 

@@ -4,7 +4,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/splat_sequence.h"
@@ -14,11 +13,9 @@
 namespace sgs {
 namespace {
 
-constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
-
-// [slot] position among the splats, or kUnseen.
+// [slot] position among the splats, or kNoSplat.
 std::vector<std::uint32_t> positions_of(const std::vector<Splat>& splats, std::size_t slots) {
-  std::vector<std::uint32_t> positions(slots, kUnseen);
+  std::vector<std::uint32_t> positions(slots, kNoSplat);
   for (std::size_t i = 0; i != splats.size(); ++i) {
     positions[splats[i].index] = static_cast<std::uint32_t>(i);
   }
@@ -47,7 +44,7 @@ GroupSequences visited_sequences(const View<float>& view, const ActivatedCloud& 
       const auto visited = static_cast<std::ptrdiff_t>(sequence.size());
       for (std::uint32_t slot = piece.first; slot != piece.first + piece.count; ++slot) {
         const std::uint32_t position = positions[slot];
-        if (position == kUnseen) continue;
+        if (position == kNoSplat) continue;
         if (reaches_group(out.splats[position], out.groups[group])) sequence.push_back(position);
       }
       std::sort(sequence.begin() + visited, sequence.end());
