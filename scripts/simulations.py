@@ -60,22 +60,27 @@ class Outcome:
     run: Run
     views: tuple[dict, ...] = ()
     refused: str = ""  # what the command said about the arguments or the configuration
+    failure: Failure | None = None  # the simulation ended badly, and `refused` says how
 
     def accepted(self) -> tuple[dict, ...]:
-        """The views. Raises ValueError when the run was refused."""
+        """The views. Raises ValueError when the run was refused, Failure when it failed."""
+        if self.failure:
+            raise self.failure
         if self.refused:
             raise ValueError(f"{self.run.label()}: {self.refused}")
         return self.views
 
 
-def call(binary: pathlib.Path, arguments: Sequence[str]) -> subprocess.CompletedProcess[str]:
+def call(
+    binary: pathlib.Path, arguments: Sequence[str], command: str = "simulate"
+) -> subprocess.CompletedProcess[str]:
     """Raises ValueError when the program cannot be run."""
     if not binary.exists():
         raise ValueError(f"{binary}: not there; scripts/setup.sh builds it")
-    command = [str(binary.absolute()), "simulate", *arguments]
+    words = [str(binary.absolute()), command, *arguments]
     try:
         return subprocess.run(
-            command, capture_output=True, text=True, errors="replace", check=False
+            words, capture_output=True, text=True, errors="replace", check=False
         )
     except OSError as error:
         raise ValueError(f"{binary}: cannot be run: {error.strerror}") from error
@@ -86,6 +91,11 @@ def said(done: subprocess.CompletedProcess[str]) -> str:
     stands below the table of views."""
     verdict = done.stderr or done.stdout.rstrip().rpartition("\n")[2]
     return " ".join(verdict.split()) or f"exit status {done.returncode}"
+
+
+def program_version(binary: pathlib.Path) -> str:
+    """The commit that the program was made of. Raises ValueError."""
+    return said(call(binary, [], "--version")).rpartition("(")[2].rstrip(")")
 
 
 def resolved_config(binary: pathlib.Path, run: Run) -> dict:

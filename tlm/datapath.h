@@ -1,5 +1,6 @@
-// A datapath: lanes of one precision that stand in a unit, and what one item takes of them. Time,
-// area and energy of the unit's arithmetic all follow from this one struct.
+// A datapath: lanes of one precision that stand in a unit with what they need beside them, and what
+// one item takes of each. Time, area and energy of the unit's arithmetic all follow from this one
+// struct.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,12 @@
 #include <vector>
 
 namespace sgs {
+
+// Operations of an item that no lane does: comparisons, look-ups.
+struct BesideLanes {
+  std::string kind;  // of the part that does them: a row of the technology table
+  std::uint32_t operations = 0;
+};
 
 struct Datapath {
   std::string name;       // of what it does to an item: "coarse", "chunk_test"
@@ -20,11 +27,19 @@ struct Datapath {
   // published by the paper (0: not).
   std::uint32_t used_macs = 0, counted_macs = 0, published_macs = 0;
   std::vector<std::pair<std::string, std::uint64_t>> counts;  // by class of operation
+  std::vector<BesideLanes> beside;
 
   std::uint64_t all_lanes() const { return std::uint64_t{lanes} * copies; }
 
   // Cycles that the lanes of one copy are busy with an item: the next can start so much later.
   std::uint64_t interval_cycles() const { return (used_macs + std::uint64_t{lanes} - 1) / lanes; }
+
+  // Parts of this kind that stand in all copies: each does an operation a cycle, together they keep
+  // pace with the lanes.
+  std::uint64_t parts(const BesideLanes& of) const {
+    const std::uint64_t at_full_rate = std::uint64_t{of.operations} * lanes;
+    return copies * ((at_full_rate + used_macs - 1) / used_macs);
+  }
 
   // Fewest cycles of so many items in all copies.
   std::uint64_t cycles(std::uint64_t items) const {

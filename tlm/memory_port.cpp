@@ -21,10 +21,12 @@ SramUse unanswered_writes(const char* name, const char* memory, const MemoryPort
                   {8 * std::min({kPortBytes, config.max_transaction_bytes, longest_bytes})});
 }
 
-MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config)
+MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config,
+                       const sc_core::sc_time& cycle)
     : sc_module(name),
       socket("socket"),
       config_(config),
+      cycle_(cycle),
       delayed_(this, &MemoryPort::on_phase),
       slots_(kFirstSlots) {
   if (config.max_transaction_bytes == 0 || config.max_outstanding == 0 || config.max_writes == 0)
@@ -32,6 +34,14 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConf
         "{}: max_transaction_bytes {}, max_outstanding {} and max_writes {} must be at least 1",
         this->name(), config.max_transaction_bytes, config.max_outstanding, config.max_writes));
   socket.register_nb_transport_bw(this, &MemoryPort::nb_transport_bw);
+}
+
+SramUse MemoryPort::outstanding_table() const {
+  // Where its bytes go on chip, how many they are, and whose they are.
+  constexpr std::uint32_t kEntryBytes = 8;
+  return sram_use("outstanding transactions", "ports",
+                  {{config_.max_outstanding, "transactions"}, {kEntryBytes, "B"}},
+                  {8 * kEntryBytes});
 }
 
 MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint32_t bytes,
@@ -108,11 +118,15 @@ MemoryPort::Ticket MemoryPort::new_ticket(std::uint32_t transactions) {
 }
 
 void MemoryPort::send(PooledPayload& payload) {
+  if (const sc_core::sc_time& now = sc_core::sc_time_stamp(); now < next_leaves_) {
+    sc_core::wait(next_leaves_ - now);
+  }
   while (!has_room(payload.is_write())) {
     ++waiting_for_room_;
     sc_core::wait(room_);
     --waiting_for_room_;
   }
+  next_leaves_ = sc_core::sc_time_stamp() + cycle_;
   ++outstanding_;
   writes_outstanding_ += payload.is_write() ? 1 : 0;
   ++transactions_;

@@ -37,14 +37,16 @@ class MemoryPort : public sc_core::sc_module {
  public:
   tlm_utils::simple_initiator_socket<MemoryPort> socket;
 
-  // std::invalid_argument when a number of the configuration is 0.
-  MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config);
+  // cycle: from one transaction to the next at the least; 0: any number may leave at once, for an
+  // initiator that is no hardware. std::invalid_argument when a number of the configuration is 0.
+  MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config,
+             const sc_core::sc_time& cycle = sc_core::SC_ZERO_TIME);
 
   using Ticket = std::uint64_t;
 
   // Starts reading [address, address + bytes) into `into`, which must stay valid until the ticket
-  // is done. Splits at multiples of max_transaction_bytes. Blocks the calling thread while
-  // max_outstanding transactions are in flight or the target holds back END_REQ.
+  // is done. Splits at multiples of max_transaction_bytes, one a cycle. Blocks the calling thread
+  // until the last of them leaves, while max_outstanding transactions are in flight or the target holds back END_REQ.
   Ticket read(std::uint64_t address, void* into, std::uint32_t bytes, std::uint8_t region);
 
   // Starts writing; the bytes are copied before it returns. Blocks as read() does, and while
@@ -67,6 +69,9 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t bytes_written() const { return bytes_written_; }
   // Accesses of the buffer that keeps unanswered writes, kPortBytes each.
   std::uint64_t words_written() const { return words_written_; }
+
+  // What it keeps of each transaction that is on its way.
+  SramUse outstanding_table() const;
 
   // Those of its transactions; when it is idle, none is in use.
   const PayloadPool& payloads() const { return pool_; }
@@ -95,6 +100,8 @@ class MemoryPort : public sc_core::sc_module {
                                      sc_core::sc_time& delay);
 
   const MemoryPortConfig config_;
+  const sc_core::sc_time cycle_;
+  sc_core::sc_time next_leaves_;  // not earlier
   PayloadPool pool_;
   tlm_utils::peq_with_cb_and_phase<MemoryPort> delayed_;  // answers with an annotated delay
 

@@ -35,6 +35,18 @@ struct PngImage : png_image {
   throw InputError(fmt::format("{}: {}, expected a PNG image", path, png.message));
 }
 
+void check_size(const std::string& path, const PngImage& png, std::uint64_t file_bytes) {
+  // Deflate packs at most 1032 bytes into one, so a longer promise is a damaged header.
+  constexpr std::uint64_t kMaxExpansion = 1032;
+  const std::uint64_t pixel_count = std::uint64_t{png.width} * png.height;
+  // The smallest pixel takes one bit.
+  if (pixel_count / 8 > kMaxExpansion * file_bytes || png.width > INT32_MAX ||
+      png.height > INT32_MAX) {
+    throw InputError(fmt::format("{}: got {} bytes, expected {}x{} pixels", path, file_bytes,
+                                 png.width, png.height));
+  }
+}
+
 }  // namespace
 
 std::string encode_png(const Image& image) {
@@ -57,33 +69,44 @@ std::string encode_png(const Image& image) {
   return bytes;
 }
 
-Image read_png(const std::string& path, const glm::vec3& background) {
-  // Deflate packs at most 1032 bytes into one, so a longer promise is a damaged header.
-  constexpr std::uint64_t kMaxExpansion = 1032;
+RgbaImage read_png_rgba(const std::string& path) {
   const InputFile file(path);
   const std::string packed = file.text_from(0, file.size_bytes());
   PngImage png;
   if (png_image_begin_read_from_memory(&png, packed.data(), packed.size()) == 0) refuse(path, png);
-  const std::uint64_t pixel_count = std::uint64_t{png.width} * png.height;
-  // The smallest pixel takes one bit.
-  if (pixel_count / 8 > kMaxExpansion * packed.size() || png.width > INT32_MAX ||
-      png.height > INT32_MAX) {
-    throw InputError(fmt::format("{}: got {} bytes, expected {}x{} pixels", path, packed.size(),
-                                 png.width, png.height));
-  }
+  check_size(path, png, packed.size());
   png.format = PNG_FORMAT_RGBA;
   png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;  // 16-bit files too hold display-referred values
   std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(png));
   if (png_image_finish_read(&png, nullptr, rgba.data(), 0, nullptr) == 0) refuse(path, png);
 
-  Image image(static_cast<int>(png.width), static_cast<int>(png.height));
+  RgbaImage image(static_cast<int>(png.width), static_cast<int>(png.height));
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const std::uint8_t* p = &rgba[4 * i];
-    const glm::vec3 colour = glm::vec3(p[0], p[1], p[2]) / 255.0f;
     const float alpha = static_cast<float>(p[3]) / 255.0f;
-    image.pixels[i] = p[3] == 255 ? colour : colour * alpha + background * (1.0f - alpha);
+    image.pixels[i] = glm::vec4(glm::vec3(p[0], p[1], p[2]) / 255.0f * alpha, alpha);
   }
   return image;
+}
+
+Image read_png(const std::string& path, const glm::vec3& background) {
+  return over(read_png_rgba(path), background);
+}
+
+ImageHeader read_png_header(const std::string& path) {
+  constexpr std::uint64_t kUsualHeaderBytes = 1 << 16;  // colour profiles may make it longer
+  constexpr std::uint64_t kMostHeaderBytes = 1 << 26;
+  const InputFile file(path);
+  std::string head;  // outlives png
+  PngImage png;
+  const auto begins = [&](std::uint64_t most_bytes) {
+    head = file.text_from(0, most_bytes);
+    return png_image_begin_read_from_memory(&png, head.data(), head.size()) != 0;
+  };
+  if (!begins(kUsualHeaderBytes) && !begins(kMostHeaderBytes)) refuse(path, png);
+  check_size(path, png, file.size_bytes());
+  return {static_cast<int>(png.width), static_cast<int>(png.height),
+          (png.format & PNG_FORMAT_FLAG_ALPHA) != 0};
 }
 
 }  // namespace sgs

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "algorithm/image/image.h"
+#include "algorithm/image/image_header.h"
+#include "algorithm/image/rgba_image.h"
 
 namespace sgs {
 
@@ -13,8 +15,15 @@ namespace sgs {
 std::string encode_png(const Image& image);
 
 // Reads a PNG of any kind as 8 bits a channel to values in [0, 1] as stored (converted to sRGB only
-// where the file states another gamma), transparent pixels blended over `background`. Throws
-// InputError: not a PNG, damaged, or shorter than its size in pixels can be packed into.
+// where the file states another gamma). Throws InputError: not a PNG, damaged, or shorter than its
+// size in pixels can be packed into.
+RgbaImage read_png_rgba(const std::string& path);
+
+// The same, transparent pixels blended over `background`.
 Image read_png(const std::string& path, const glm::vec3& background = glm::vec3(0));
+
+// has_alpha: also of a palette with transparent entries. Throws InputError as read_png_rgba does,
+// but looks at no pixel.
+ImageHeader read_png_header(const std::string& path);
 
 }  // namespace sgs

@@ -8,18 +8,29 @@
 #include <cstring>
 
 #include "algorithm/input_error.h"
+#include "algorithm/splat/counting.h"
+#include "algorithm/splat/finished_pixel.h"
 
 namespace sgs {
 
 void encode_pixel(FrameFormat format, const glm::vec3& colour, std::byte* out) {
   for (int channel = 0; channel < 3; ++channel) {
     if (format == FrameFormat::kRgb8) {
-      const float level = std::round(255.0F * std::clamp(colour[channel], 0.0F, 1.0F));
-      out[channel] = static_cast<std::byte>(static_cast<std::uint8_t>(level));
+      out[channel] = static_cast<std::byte>(static_cast<std::uint8_t>(level_of(colour[channel])));
     } else {
       std::memcpy(out + 4 * channel, &colour[channel], 4);
     }
   }
+}
+
+OperationCounts pixel_work(FrameFormat format) {
+  DataFlow flow;
+  const Counting transmittance = input(flow, 0.25F);
+  for (const float background : {0.5F, 0.25F, 0.125F}) {
+    const Counting channel = over_background(input(flow, 0.5F), transmittance, Counting(background));
+    if (format == FrameFormat::kRgb8) static_cast<void>(level_of(channel));
+  }
+  return flow.counts(0, flow.size());
 }
 
 std::vector<std::byte> encode_frame(FrameFormat format, const Image& image) {

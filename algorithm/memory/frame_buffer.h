@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algorithm/image/image.h"
+#include "algorithm/splat/operation_counts.h"
 
 namespace sgs {
 
@@ -21,6 +22,9 @@ constexpr std::uint32_t pixel_bytes(FrameFormat format) {
 
 // Writes one pixel (pixel_bytes) to out.
 void encode_pixel(FrameFormat format, const glm::vec3& colour, std::byte* out);
+
+// Of a finished pixel on its way there: the background through what light is left, then its bytes.
+OperationCounts pixel_work(FrameFormat format);
 
 // A whole frame as bytes, and back. decode throws InputError when the size does not fit.
 std::vector<std::byte> encode_frame(FrameFormat format, const Image& image);

@@ -107,6 +107,15 @@ class ChunkWalk {
   // All nodes of the walks that have begun are open or being read: another may begin.
   bool has_read_ahead() const { return begun_ < kWalks && nodes_.empty() && !aside_; }
 
+  // A node that was taken is not wanted: as if nothing below touched its group.
+  void leave_out(const WalkEntry& entry) {
+    opening_.erase(std::find_if(opening_.begin(), opening_.end(), [&](const WalkEntry& e) {
+      return e.at == entry.at && e.walk == entry.walk;
+    }));
+  }
+  // Whether an entry is of the walk that began first.
+  bool of_first(const WalkEntry& entry) const { return entry.walk == first_; }
+
   // entry: as take_node() gave it. Its walk may have ended meanwhile.
   void open(const WalkEntry& entry, const ChunkNode& node) {
     const auto same = std::find_if(opening_.begin(), opening_.end(), [&](const WalkEntry& e) {
@@ -136,8 +145,6 @@ class ChunkWalk {
   }
 
  private:
-  bool of_first(const WalkEntry& entry) const { return entry.walk == first_; }
-
   void drop(WalkQueue& queue) {
     while (!queue.empty() && of_first(queue.nearest())) queue.take_nearest();
   }
@@ -173,7 +180,9 @@ class ChunkWalk {
       ++counters_.tests;
       const ChunkTest test = frustum.test(child_bound(node, c));
       // A child's own box may be quantised to begin a little before its parent's.
-      if (test.touches) push({std::max(test.nearest, parent.nearest), at, count, parent.walk});
+      if (test.touches) {
+        push({std::max(test.nearest, parent.nearest), at, count, parent.walk, test.reach});
+      }
     }
   }
 

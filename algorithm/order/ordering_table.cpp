@@ -8,7 +8,8 @@
 
 namespace sgs {
 
-OrderingTable::OrderingTable(std::size_t voxel_count) : local_of_(voxel_count, -1) {}
+OrderingTable::OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes)
+    : local_of_(voxel_count, -1), capacity_bytes_(capacity_bytes) {}
 
 void OrderingTable::clear() {
   for (const std::uint32_t voxel : voxels_) local_of_[voxel] = -1;
@@ -29,9 +30,9 @@ std::uint32_t OrderingTable::rename(std::uint32_t voxel) {
   return static_cast<std::uint32_t>(local);
 }
 
-void OrderingTable::add_chain(const std::vector<std::uint32_t>& voxels) {
+bool OrderingTable::add_chain(const std::vector<std::uint32_t>& voxels) {
   if (!voxels.empty()) edges_offered_ += voxels.size() - 1;
-  if (voxels == last_chain_) return;  // neighbouring rays mostly agree: nothing new
+  if (voxels == last_chain_) return true;  // neighbouring rays mostly agree: nothing new
   std::uint32_t before = 0;
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     const std::uint32_t id = rename(voxels[i]);
@@ -42,9 +43,11 @@ void OrderingTable::add_chain(const std::vector<std::uint32_t>& voxels) {
         ++edge_count_;
       }
     }
+    if (!fits()) return false;
     before = id;
   }
   last_chain_ = voxels;
+  return true;
 }
 
 std::vector<std::uint32_t> OrderingTable::order() const {

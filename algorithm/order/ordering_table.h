@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace sgs {
@@ -17,15 +18,19 @@ constexpr std::uint32_t kOrderingBytesPerEdge = 4;
 
 class OrderingTable {
  public:
-  // voxel_count: how many voxels exist; ids below it may appear in chains.
-  explicit OrderingTable(std::size_t voxel_count);
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+  // voxel_count: how many voxels exist; ids below it may appear in chains. capacity_bytes: SRAM
+  // that is there for one group, at least that of a voxel.
+  explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited);
 
   // Forgets the group before.
   void clear();
 
   // Adds the voxels that one ray meets, nearest first. Voxels are renamed 0, 1, 2, ... as they
-  // first appear; each consecutive pair gives an edge.
-  void add_chain(const std::vector<std::uint32_t>& voxels);
+  // first appear; each consecutive pair gives an edge. Returns false where a voxel or an edge finds
+  // no room: the table is to be cleared then.
+  bool add_chain(const std::vector<std::uint32_t>& voxels);
 
   // Voxels in visiting order; among those that are ready the lowest renamed id goes first. Throws
   // std::logic_error on a cycle, which monotonic rays from one centre cannot make.
@@ -41,11 +46,13 @@ class OrderingTable {
 
  private:
   std::uint32_t rename(std::uint32_t voxel);
+  bool fits() const { return sram_bytes() <= capacity_bytes_; }
 
   std::vector<std::int32_t> local_of_;                  // [voxels that exist] renamed id, or -1
   std::vector<std::uint32_t> voxels_;                   // [renamed id] global id
   std::vector<std::vector<std::uint32_t>> successors_;  // [renamed id]
   std::vector<std::uint32_t> last_chain_;
+  const std::uint64_t capacity_bytes_;
   std::uint32_t edge_count_ = 0;
   std::uint64_t edges_offered_ = 0;
 };

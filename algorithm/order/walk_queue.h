@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "algorithm/order/interval_heap.h"
+#include "algorithm/splat/group_reach.h"
 
 namespace sgs {
 
@@ -16,6 +17,7 @@ struct WalkEntry {
   std::uint32_t at = 0;     // node, or first storage slot of a chunk
   std::uint16_t count = 0;  // Gaussians of a chunk; 0: a node
   std::uint16_t walk = 0;   // that it belongs to, numbered modulo 65,536
+  GroupReach reach{};       // nothing below changes any other sub-tile
 };
 
 // By walk, then nearest first. Nodes before chunks of the same depth: a chunk is handed out only

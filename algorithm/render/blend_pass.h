@@ -20,7 +20,7 @@ namespace sgs {
 struct PixelBlend {
   int x, y;             // px
   float alpha;          // after cap and threshold, never 0
-  float before, after;  // T in front of the splat and behind it: after = before (1 - alpha)
+  float before, after;  // T in front of the splat and behind it: after = before - alpha before
 };
 
 // An observer of GroupState::blend that shows `observe` each pixel that is blended, as PixelBlend.

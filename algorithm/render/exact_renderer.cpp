@@ -11,7 +11,7 @@
 #include "algorithm/order/tree_in_memory.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/splat/extent_bound.h"
+#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
 
@@ -21,6 +21,7 @@ namespace {
 struct Key {
   float depth;
   std::uint32_t slot;  // breaks ties of depth
+  GroupReach reach;
 };
 struct Behind {
   bool operator()(const Key& a, const Key& b) const {
@@ -51,7 +52,9 @@ class GroupStream {
       const VisibleExtents& known = known_[slot];
       const ExtentBound bound = extent_bound(view_, g.mean, known.extent, known.scale_max);
       if (config_.coarse_filter && (!bound.in_front || !touches(bound, state_.pixels()))) continue;
-      pending_.push({bound.depth, slot});
+      const bool tested = config_.coarse_filter;
+      pending_.push(
+          {bound.depth, slot, tested ? group_reach(bound, state_.pixels()) : GroupReach{}});
       ++stats_.coarse_passed;
     }
   }
@@ -69,6 +72,7 @@ class GroupStream {
   }
 
   bool saturated() const { return state_.saturated(); }
+  bool any_unfinished(const GroupReach& reach) const { return state_.any_unfinished(reach); }
 
   void finish(RenderResult& frame) {
     stats_.contributors = state_.contributors();
@@ -78,8 +82,10 @@ class GroupStream {
 
  private:
   void release() {
-    const std::uint32_t slot = pending_.top().slot;
+    const Key key = pending_.top();
+    const std::uint32_t slot = key.slot;
     pending_.pop();
+    if (!state_.any_unfinished(key.reach)) return;
     ++stats_.second_halves;
     ++stats_.fine_tests;
     const Gaussian<float>& g = cloud_.gaussians[slot];
@@ -125,8 +131,11 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
   GroupStream stream(view, cloud, known, pixels, config, contributing, stats);
   std::optional<WalkEntry> chunk = walk.next();
   while (chunk && !stream.saturated()) {
-    stream.visit(*chunk);
-    visited.set(chunk->at);
+    // With blend_early what waits decides what is forced out: no key may be missing.
+    if (config.on_overflow == OnOverflow::kBlendEarly || stream.any_unfinished(chunk->reach)) {
+      stream.visit(*chunk);
+      visited.set(chunk->at);
+    }
     chunk = walk.next();
     stream.release_below(chunk ? chunk->nearest : std::numeric_limits<float>::infinity());
   }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "algorithm/splat/finished_pixel.h"
+
 namespace sgs {
 
 GroupState::GroupState(const PixelRect& pixels, int width_px, int height_px,
@@ -20,6 +22,16 @@ GroupState::GroupState(const PixelRect& pixels, int width_px, int height_px,
   unfinished_ = static_cast<std::uint32_t>(states_.size());
 }
 
+bool GroupState::any_unfinished(const GroupReach& reach) const {
+  const int columns = subtiles_.x1 - subtiles_.x0, rows = subtiles_.y1 - subtiles_.y0;
+  for (int y = reach.y0; y <= std::min<int>(reach.y1, rows - 1); ++y) {
+    const auto row = finished_.begin() + static_cast<std::ptrdiff_t>(y) * columns;
+    const int end = std::min<int>(reach.x1 + 1, columns);
+    if (std::find(row + std::min<int>(reach.x0, end), row + end, 0) != row + end) return true;
+  }
+  return false;
+}
+
 const SubtileState& GroupState::subtile_of(int x, int y, int& lane) const {
   lane = (y % kSubtilePx) * kSubtilePx + x % kSubtilePx;
   const int columns = subtiles_.x1 - subtiles_.x0;
@@ -31,8 +43,9 @@ glm::vec3 GroupState::colour(int x, int y, const glm::vec3& background) const {
   int lane = 0;
   const SubtileState& s = subtile_of(x, y, lane);
   const float t = s.transmittance[lane];
-  return {s.red[lane] + t * background.x, s.green[lane] + t * background.y,
-          s.blue[lane] + t * background.z};
+  return {over_background(s.red[lane], t, background.x),
+          over_background(s.green[lane], t, background.y),
+          over_background(s.blue[lane], t, background.z)};
 }
 
 std::uint64_t GroupState::contributors() const {

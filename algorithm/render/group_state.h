@@ -9,6 +9,7 @@
 #include "algorithm/render/render_result.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/footprint.h"
+#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/splat/row_span.h"
 
@@ -84,6 +85,8 @@ class GroupState {
 
   // All pixels finished (T would fall below 1e-4): nothing can change any more.
   bool saturated() const { return unfinished_ == 0; }
+  // Some sub-tile of the reach is not.
+  bool any_unfinished(const GroupReach& reach) const;
   const PixelRect& pixels() const { return pixels_; }
   glm::vec3 colour(int x, int y, const glm::vec3& background) const;  // C + T background
   std::uint64_t contributors() const;

@@ -24,6 +24,12 @@ struct GridTable {
   const VoxelNode& node(std::uint32_t index) const { return grid.nodes[index]; }
 };
 
+struct NobodyWatches {
+  void ray(std::uint32_t, std::size_t) const {}
+  void full() const {}
+  void ordered(const std::vector<std::uint32_t>&, bool) const {}
+};
+
 // A part of a group while it is being rendered.
 struct Part {
   PixelRect pixels;
@@ -91,16 +97,15 @@ void blend_run(Part& part, StreamingStats& stats, const Seen& seen) {
 }  // namespace
 
 GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const VoxelGrid& grid,
-                         float sample_step_voxels, OrderingTable& table) {
-  const auto nothing = [](std::uint32_t, std::size_t) {};
+                         const RayPattern& rays, OrderingTable& table) {
   if (grid.nodes.empty()) return {};
   const GridTable nodes{grid};
-  if (sample_step_voxels > 0) {
-    RaySampling sampling(grid.frame, nodes, sample_step_voxels);
-    return group_visits(view, group, sampling, table, nothing);
+  if (rays.sample_step_voxels > 0) {
+    RaySampling sampling(grid.frame, nodes, rays.sample_step_voxels);
+    return group_visits(view, group, rays.step_px, sampling, table, NobodyWatches{});
   }
   RayWalk walk(grid.frame, nodes);
-  return group_visits(view, group, walk, table, nothing);
+  return group_visits(view, group, rays.step_px, walk, table, NobodyWatches{});
 }
 
 StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud& cloud,
@@ -118,11 +123,11 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
   std::vector<StreamingStats> stats(groups.size());
   out.group_voxels.resize(groups.size());
   Flags contributing(cloud.size()), visited(grid.voxels.size());
-  tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size());
+  tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(), config.table_bytes);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t index) {
     const PixelRect& group = groups[index];
     StreamingStats& s = stats[index];
-    GroupVisits visits = paper_visits(view, group, grid, config.sample_step_voxels, tables.local());
+    GroupVisits visits = paper_visits(view, group, grid, config.rays, tables.local());
     s.groups = 1;
     s.ray_steps = visits.steps;
     s.edges_offered = visits.edges_offered;

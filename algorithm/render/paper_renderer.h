@@ -13,9 +13,11 @@
 namespace sgs {
 
 struct PaperOrderConfig {
-  int group_px = 64;             // side of a pixel group, a multiple of 4
-  bool coarse_filter = true;     // off: every Gaussian of a voxel goes to the fine filter
-  float sample_step_voxels = 0;  // 0: exact traversal of every cell; else the distance of samples
+  int group_px = 64;          // side of a pixel group, a multiple of 4
+  bool coarse_filter = true;  // off: every Gaussian of a voxel goes to the fine filter
+  RayPattern rays;
+  // Ordering table of one group: where it is full the group is ordered in passes.
+  std::uint64_t table_bytes = OrderingTable::kUnlimited;
   // Voxels with more Gaussians are cut (voxel_cuts.h), each piece a visit of its own; 0: never.
   std::uint32_t visit_gaussians = 0;
   // Parts of a group, each filtered and blended by itself (group_parts.h): a square number. In
@@ -33,6 +35,6 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
 
 // Visits of one group from a grid in memory, the same that VSU derives from its table in DRAM.
 GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const VoxelGrid& grid,
-                         float sample_step_voxels, OrderingTable& table);
+                         const RayPattern& rays, OrderingTable& table);
 
 }  // namespace sgs

@@ -4,6 +4,7 @@
 #include "algorithm/splat/blend.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "algorithm/splat/half_scalar.h"
@@ -15,14 +16,21 @@ namespace {
 // A splat as the arithmetic T takes it, beside a sub-tile's first pixel.
 template <class T>
 struct LaneInput {
-  T a, b, c, opacity, red, green, blue;
+  Log2Conic<T> conic;
+  T opacity, red, green, blue;
   T left, top;     // splat centre minus the sub-tile's first pixel
   float pixel_px;  // distance of neighbours, in the same unit
 };
 
 LaneInput<float> lane_input(const Splat& s, float left, float top, float) {
-  return {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x,
-          s.rgb.y,   s.rgb.z,   left,      top,       1.0F};
+  return {log2_conic(s.conic_a, s.conic_b, s.conic_c),
+          s.opacity,
+          s.rgb.x,
+          s.rgb.y,
+          s.rgb.z,
+          left,
+          top,
+          1.0F};
 }
 
 // 4^e in [1/4, 1) of the larger of A and C: lengths are in units of 2^e px.
@@ -31,10 +39,9 @@ LaneInput<HalfScalar> lane_input(const Splat& s, float left, float top, HalfScal
   std::frexp(std::max(s.conic_a, s.conic_c), &exponent);
   const int e = (exponent + (exponent & 1)) / 2;
   const float unit = std::ldexp(1.0F, e), per_area = std::ldexp(1.0F, -2 * e);
+  const Log2Conic<float> conic = log2_conic(s.conic_a, s.conic_b, s.conic_c);
   using H = HalfScalar;
-  return {H(s.conic_a * per_area),
-          H(s.conic_b * per_area),
-          H(s.conic_c * per_area),
+  return {{H(conic.a * per_area), H(conic.b * per_area), H(conic.c * per_area)},
           H(s.opacity),
           H(s.rgb.x),
           H(s.rgb.y),
@@ -44,10 +51,57 @@ LaneInput<HalfScalar> lane_input(const Splat& s, float left, float top, HalfScal
           unit};
 }
 
+// of_lane[lane] = column[steps[lane] mod 64], all aligned to 64 B. Permutations of registers: 16
+// loads one by one take twice as long as all else of a blend.
+[[gnu::always_inline]] inline void look_up_lanes(const float* column, const std::int32_t* steps,
+                                                 float* of_lane) {
+#if defined(__GNUC__) && !defined(__clang__)
+  static_assert(kExp2Rows == 4 * kSubtilePixels);
+  using Floats [[gnu::vector_size(64), gnu::may_alias]] = float;
+  using Integers [[gnu::vector_size(64), gnu::may_alias]] = std::int32_t;
+  const auto* const quarter = reinterpret_cast<const Floats*>(column);
+  const Integers at = *reinterpret_cast<const Integers*>(steps);
+  const Floats low = __builtin_shuffle(quarter[0], quarter[1], at);
+  const Floats high = __builtin_shuffle(quarter[2], quarter[3], at);
+  *reinterpret_cast<Floats*>(of_lane) = (at & (kExp2Rows / 2)) != 0 ? high : low;
+#else
+  for (int lane = 0; lane < kSubtilePixels; ++lane) of_lane[lane] = column[exp2_row(steps[lane])];
+#endif
+}
+
 float in_float(float x) { return x; }
 float in_float(HalfScalar x) { return x.value(); }
 void set(float& to, float x) { to = x; }
 void set(HalfScalar& to, float x) { to = HalfScalar::exactly(x); }
+
+// exp2_by_table() of every lane, in three steps: the middle one has no vector code that compilers
+// find by themselves.
+template <class T>
+class Exp2Lanes {
+ public:
+  void put(int lane, T exponent) {
+    const Exp2Parts<T> parts = exp2_parts(max_of(exponent, T(kLeastExp2Argument)));
+    rest_[lane] = parts.rest;
+    steps_[lane] = parts.steps;
+  }
+  [[gnu::always_inline]] void look_up() {
+    for (std::size_t k = 0; k < kCoefficients; ++k) {
+      look_up_lanes(Exp2TableOf<T>::kTable.column[k], steps_, coefficient_[k]);
+    }
+  }
+  T result(int lane) const {
+    std::array<T, kCoefficients> coefficient;
+    for (std::size_t k = 0; k < kCoefficients; ++k) set(coefficient[k], coefficient_[k][lane]);
+    return scaled_by_steps(exp2_polynomial(rest_[lane], coefficient), steps_[lane]);
+  }
+
+ private:
+  static constexpr std::size_t kCoefficients = Exp2TableOf<T>::kCoefficients;
+
+  T rest_[kSubtilePixels];
+  alignas(64) std::int32_t steps_[kSubtilePixels];
+  alignas(64) float coefficient_[kCoefficients][kSubtilePixels];
+};
 
 // note(lane, alpha, T before) is told of each lane, with alpha 0 where nothing is blended. Inlined,
 // so that it is compiled for the same machine as its caller.
@@ -58,11 +112,17 @@ template <class T, class Note>
       lane_input(splat, splat.x - static_cast<float>(subtile_x * kSubtilePx),
                  splat.y - static_cast<float>(subtile_y * kSubtilePx), T{});
   const T finish = constant<T>(kTransmittanceMin);
-  T alpha[kSubtilePixels];
+  T exponent[kSubtilePixels], alpha[kSubtilePixels];
+  Exp2Lanes<T> exp2;
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
     const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_px);
     const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_px);
-    alpha[lane] = alpha_at(in.a, in.b, in.c, in.opacity, dx, dy);
+    exponent[lane] = log2_falloff(in.conic, dx, dy);
+    exp2.put(lane, exponent[lane]);
+  }
+  exp2.look_up();
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    alpha[lane] = alpha_of(exponent[lane], exp2.result(lane), in.opacity);
   }
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
     T before, red, green, blue;

@@ -4,21 +4,43 @@
 #include <cstdint>
 
 #include "algorithm/splat/constants.h"
+#include "algorithm/splat/exp2.h"
 #include "algorithm/splat/scalar.h"
 #include "algorithm/splat/splat.h"
 
 namespace sgs {
 
+// The conic with log2(e) in it, once a splat: a dx^2 + c dy^2 + b dx dy is the exponent of 2.
+template <class T>
+struct Log2Conic {
+  T a, b, c;
+};
+template <class T>
+inline Log2Conic<T> log2_conic(T conic_a, T conic_b, T conic_c) {
+  return {T(conic_a * constant<T>(-0.5 * kLog2E)), T(conic_b * constant<T>(-kLog2E)),
+          T(conic_c * constant<T>(-0.5 * kLog2E))};
+}
+
+// log2 of exp(power), power = -(A dx^2 + C dy^2)/2 - B dx dy. dx, dy: splat centre minus pixel, px.
+template <class T>
+inline T log2_falloff(const Log2Conic<T>& conic, T dx, T dy) {
+  return T(T(conic.a * dx * dx + conic.c * dy * dy) + conic.b * dx * dy);
+}
+
 // alpha = min(0.99, opacity exp(power)); where power > 0 or alpha < 1/255 the splat is skipped (0),
 // also where power is not a number (inf - inf, for splats wider than 10^18 px).
-// dx, dy: splat centre minus pixel, px.
+template <class T>
+inline T alpha_of(T log2_falloff, T falloff, T opacity) {
+  const T alpha = min_of(T(opacity * falloff), constant<T>(kAlphaMax));
+  // Two selections rather than one of two conditions: compilers vectorise these.
+  const T falling = log2_falloff > T(0.0F) ? T(0.0F) : alpha;
+  return falling >= constant<T>(kAlphaMin) ? falling : T(0.0F);
+}
+
 template <class T>
 inline T alpha_at(T conic_a, T conic_b, T conic_c, T opacity, T dx, T dy) {
-  const T power = T(T(-0.5F) * T(conic_a * dx * dx + conic_c * dy * dy) - conic_b * dx * dy);
-  const T alpha = min_of(T(opacity * exp_of(power)), constant<T>(kAlphaMax));
-  // Two selections rather than one of two conditions: compilers vectorise these.
-  const T falling = power > T(0.0F) ? T(0.0F) : alpha;
-  return falling >= constant<T>(kAlphaMin) ? falling : T(0.0F);
+  const T exponent = log2_falloff(log2_conic(conic_a, conic_b, conic_c), dx, dy);
+  return alpha_of(exponent, exp2_of(exponent), opacity);
 }
 
 // State of a 4x4 block of pixels; lane = 4 y + x.
@@ -30,8 +52,8 @@ struct SubtileState {
 };
 
 // In which arithmetic pixels are blended and kept. kHalf: each operation rounded to 16 bits
-// (half_scalar.h), the conic and distances of a splat scaled by a power of two of its own, so that
-// wide splats do not vanish among the subnormal.
+// (half_scalar.h), the conic (once log2(e) is in it) and distances of a splat scaled by a power of
+// two of its own, so that wide splats do not vanish among the subnormal.
 enum class BlendPrecision : std::uint8_t { kSingle, kHalf };
 
 // Fresh state; lanes whose pixel lies outside the frame (width x height px) begin finished.
@@ -50,7 +72,8 @@ struct LightShare {
 };
 template <class T>
 inline LightShare<T> take_light(T alpha, T before) {
-  return {T(alpha * before), T(before * T(T(1.0F) - alpha))};
+  const T weight = T(alpha * before);
+  return {weight, T(before - weight)};
 }
 
 // Blends `splat` into the sub-tile (subtile_x, subtile_y) of the frame.

@@ -17,6 +17,8 @@ constexpr int kSubtilePixels = kSubtilePx * kSubtilePx;
 constexpr int kSubtilesPerTile = kTilePx / kSubtilePx;
 constexpr int kMaxFramePx = 131'072;  // a side; what the slack in footprint.h is counted for
 
+constexpr double kLog2E = 1.4426950408889634;
+
 // sqrt(2 ln 255): beyond so many sigmas even an opaque splat is below kAlphaMin.
 constexpr double kVisibleSigmas = 3.3290429691304455;
 

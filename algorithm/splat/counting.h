@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "algorithm/splat/data_flow.h"
+#include "algorithm/splat/exp2.h"
 #include "algorithm/splat/scalar.h"
 
 namespace sgs {
@@ -65,6 +66,7 @@ inline Counting exp(Counting a) { return recorded(exp_of(a.value), Operation::kE
 inline Counting abs(Counting a) { return recorded(std::abs(a.value), Operation::kAbsolute, a); }
 inline Counting ceil(Counting a) { return recorded(std::ceil(a.value), Operation::kCeil, a); }
 inline Counting floor(Counting a) { return recorded(std::floor(a.value), Operation::kFloor, a); }
+inline Counting round(Counting a) { return recorded(std::round(a.value), Operation::kRound, a); }
 inline Counting::operator int() const {
   recorded(value, Operation::kTruncate, *this);
   return static_cast<int>(value);
@@ -93,6 +95,27 @@ inline Counting max_of<Counting>(Counting a, Counting b) {
 template <>
 inline Counting min_of<Counting>(Counting a, Counting b) {
   return recorded(min_of(a.value, b.value), Operation::kMinimum, a, b);
+}
+
+// The steps of exp2_by_table(). A look-up gives the whole row: the first column asks for it.
+inline Exp2Parts<Counting> exp2_parts(Counting t) {
+  const Exp2Parts<float> parts = exp2_parts(t.value);
+  return {recorded(parts.rest, Operation::kSplit, t), parts.steps};
+}
+template <>
+inline Counting exp2_coefficient(const Exp2Parts<Counting>& parts, std::size_t column) {
+  const float value = exp2_coefficient(Exp2Parts<float>{parts.rest.value, parts.steps}, column);
+  if (parts.rest.flow == nullptr) return Counting(value);
+  if (column > 0) return input(*parts.rest.flow, value);
+  return recorded(value, Operation::kLookUp, parts.rest);
+}
+inline Counting scaled_by_steps(Counting x, std::int32_t steps) {
+  return recorded(scaled_by_steps(x.value, steps), Operation::kScale, x,
+                  Counting(static_cast<float>(steps)));
+}
+template <>
+inline Counting exp2_of<Counting>(Counting t) {
+  return exp2_by_table(t);
 }
 
 }  // namespace sgs

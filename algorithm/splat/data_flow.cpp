@@ -16,6 +16,7 @@ bool is_unary(Operation operation) {
     case Operation::kCompare:
     case Operation::kMinimum:
     case Operation::kMaximum:
+    case Operation::kScale:
       return false;
     default:
       return true;
@@ -92,6 +93,15 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
       case Operation::kExponential:
         ++c.exponentials;
         break;
+      case Operation::kLookUp:
+        ++c.look_ups;
+        break;
+      case Operation::kSplit:
+        ++c.splits;
+        break;
+      case Operation::kScale:
+        ++c.scalings;
+        break;
       case Operation::kCompare:
       case Operation::kMinimum:
       case Operation::kMaximum:
@@ -101,6 +111,7 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
       case Operation::kCeil:
       case Operation::kFloor:
       case Operation::kTruncate:
+      case Operation::kRound:
         ++c.roundings;
         break;
     }

@@ -24,13 +24,17 @@ enum class Operation : std::uint8_t {
   kSquareRoot,
   kLogarithm,
   kExponential,
+  kLookUp,  // a row of a table
+  kSplit,   // into whole steps and a rest
+  kScale,   // by a power of two that is computed
   kCompare,
   kMinimum,
   kMaximum,
   kIsFinite,
   kCeil,
   kFloor,
-  kTruncate
+  kTruncate,
+  kRound
 };
 
 class DataFlow {

@@ -4,10 +4,10 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
-#include "algorithm/splat/extent_bound.h"
+#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/half_scalar.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/row_span.h"
 #include "algorithm/splat/visible_extents.h"
@@ -26,6 +26,20 @@ Gaussian<Counting> input(DataFlow& flow, const Gaussian<float>& g) {
   for (std::size_t k = 0; k < g.quat.size(); ++k) out.quat[k] = input(flow, g.quat[k]);
   out.opacity = input(flow, g.opacity);
   return out;
+}
+
+// In half a line for each step of 2^t stands in place of a parabola, and the conic and the centre of
+// a splat are scaled by powers of two, which are looked for in A and C.
+OperationCounts in_half(OperationCounts c) {
+  const auto saved = static_cast<std::uint32_t>(Exp2TableOf<Counting>::kCoefficients -
+                                                Exp2TableOf<HalfScalar>::kCoefficients) *
+                     kSubtilePixels;
+  c.multiplies -= saved;
+  c.adds -= saved;
+  c.fused -= saved;
+  c.comparisons += 1;
+  c.scalings += 3 + 2;
+  return c;
 }
 
 }  // namespace
@@ -48,20 +62,30 @@ FilterCase longest_case() {
   return out;
 }
 
-OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested) {
+OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
+                            std::uint32_t across) {
   DataFlow flow;
   const auto view = make_view<Counting>(tested.camera);
   const auto mean = input(flow, tested.gaussian.mean);
   const VisibleExtents known = visible_extents(tested.gaussian);
   // Counted whatever it says.
   const auto run = [&](const auto& bound) {
-    if (bound.in_front) static_cast<void>(touches(bound, tested.group));
+    if (!bound.in_front) return;
+    const PixelRect& group = tested.group;
+    const int parts = static_cast<int>(across);
+    const int width = (group.x1 - group.x0) / parts, height = (group.y1 - group.y0) / parts;
+    for (int part = 0; part < parts * parts; ++part) {
+      const int x = group.x0 + part % parts * width, y = group.y0 + part / parts * height;
+      static_cast<void>(touches(bound, PixelRect{x, y, x + width, y + height}));
+    }
   };
   if (bound_by == CoarseBoundBy::kLargestScale) {
     run(coarse_bound(view, mean, input(flow, known.scale_max)));
   } else {
     const auto extent = input(flow, known.extent);
-    run(extent_bound(view, mean, extent, input(flow, known.scale_max)));
+    const auto bound = extent_bound(view, mean, extent, input(flow, known.scale_max));
+    run(bound);
+    if (bound.in_front) static_cast<void>(group_reach(bound, tested.group));
   }
   return flow.counts(0, flow.size());
 }
@@ -83,7 +107,7 @@ FineWork fine_work(const FilterCase& tested, int sh_degree) {
           flow.counts(test_end, flow.size())};
 }
 
-RenderingWork rendering_work() {
+RenderingWork rendering_work(BlendPrecision precision) {
   DataFlow flow;
   SplatOf<Counting> splat{};
   // An ellipse that leans, some 20 px wide, and a row through its middle: every step is taken.
@@ -100,11 +124,14 @@ RenderingWork rendering_work() {
   const std::size_t begun = flow.size();
   static_cast<void>(spans.next(56));
   const std::size_t spanned = flow.size();
+  const auto conic = log2_conic(splat.conic_a, splat.conic_b, splat.conic_c);
+  const std::size_t in_base_2 = flow.size();
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
     const Counting dx = left - Counting(static_cast<float>(lane % kSubtilePx));
     const Counting dy = top - Counting(static_cast<float>(lane / kSubtilePx));
-    const Counting alpha = alpha_at(splat.conic_a, splat.conic_b, splat.conic_c, splat.opacity, dx, dy);
+    const Counting exponent = log2_falloff(conic, dx, dy);
+    const Counting alpha = alpha_of(exponent, exp2_of(exponent), splat.opacity);
     const LightShare<Counting> light = take_light(alpha, input(flow, 0.5F));
     static_cast<void>(light.after < constant<Counting>(kTransmittanceMin));
     for (int channel = 0; channel < 3; ++channel) {
@@ -113,7 +140,9 @@ RenderingWork rendering_work() {
   }
   work.spans_begin = flow.counts(0, begun);
   work.span = flow.counts(begun, spanned);
-  work.subtile_blend = flow.counts(spanned, flow.size());
+  work.conic = flow.counts(spanned, in_base_2);
+  work.subtile_blend = flow.counts(in_base_2, flow.size());
+  if (precision == BlendPrecision::kHalf) work.subtile_blend = in_half(work.subtile_blend);
   return work;
 }
 

@@ -4,7 +4,10 @@
 // a frame or a group and kept. The decoding of records is not included.
 #pragma once
 
+#include <cstdint>
+
 #include "algorithm/scene/camera.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound_by.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/operation_counts.h"
@@ -24,8 +27,10 @@ struct FilterCase {
 // intervals has to be built for this.
 FilterCase longest_case();
 
-// Of the coarse test, up to where it fails or to its end.
-OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested);
+// Of the coarse test, up to where it fails or to its end: a bound, and whether it touches the
+// group, or each of across x across parts of it.
+OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
+                            std::uint32_t across = 1);
 
 // Of the fine test, up to where it fails or to its end. An operation that two parts need counts
 // with the first.
@@ -38,10 +43,11 @@ struct FineWork {
 FineWork fine_work(const FilterCase& tested, int sh_degree);
 
 // Of rendering: a splat's spans are begun once; each row of sub-tiles adds one; each sub-tile is
-// blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once.
+// blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once. Ahead of all
+// log2(e) goes into the splat's conic, in single precision.
 struct RenderingWork {
-  OperationCounts spans_begin, span, subtile_blend;
+  OperationCounts conic, spans_begin, span, subtile_blend;
 };
-RenderingWork rendering_work();
+RenderingWork rendering_work(BlendPrecision precision);
 
 }  // namespace sgs

@@ -9,10 +9,10 @@
 //     more: q is off by at most 9 eps S from the form Q of the exact u1, u2 over the computed
 //     determinant, which is positive definite. The determinant, a sum of squares, is off by
 //     (6 + 4 sqrt(kappa)) eps.
-//   pixel: products and sums of power lose 4 eps S, the differences x - X 4 eps S (and 1e-5
-//     absolute, for which visible_cutoff has room).
-// So the computed q >= Q - 17 eps S, where 17 eps S <= 24 eps (A dx^2 + C dy^2) <= 24 eps kappa Q
-// with kappa = tr^2/det of the matrix. Since 1 / (1 - 24 t) <= 1 + 32 t for t <= 1/128, an ellipse
+//   pixel: log2(e) in the conic loses 1.3 eps S, products and sums of the exponent 4 eps S, the
+//     differences x - X 4 eps S (and 1e-5 absolute, for which visible_cutoff has room).
+// So the computed q >= Q - 19 eps S, where 19 eps S <= 27 eps (A dx^2 + C dy^2) <= 27 eps kappa Q
+// with kappa = tr^2/det of the matrix. Since 1 / (1 - 27 t) <= 1 + 35 t for t <= 1/128, an ellipse
 // wider by 64 eps kappa holds every visible pixel while that is below 1/2; beyond, only the tiles
 // cut.
 #pragma once
@@ -37,7 +37,7 @@ T ellipse_widening(T condition) {
 constexpr float kMaxWidening = 0.5F;
 
 // Largest q = d^T conic d with alpha = opacity exp(-q/2) >= 1/255, with room for the rounding of
-// exp and of the product (relative 1e-6 in alpha is 2e-6 in q). Negative: never visible.
+// 2^t and of the product (relative 1e-6 in alpha is 2e-6 in q). Negative: never visible.
 template <class T>
 T visible_cutoff(T opacity) {
   return T(T(2.0F) * log_of(T(T(255.0F) * opacity)) + T(1e-4F));
@@ -112,7 +112,7 @@ T least_q(T x, T y, T a, T b, T c, const PixelRect& pixels) {
 }
 
 // Whether some pixel of the rectangle can have a computed alpha of 1/255 or more. Conservative:
-// what rounding can do is given away at the farthest corner, where S is largest: 17 eps S between Q
+// what rounding can do is given away at the farthest corner, where S is largest: 19 eps S between Q
 // and the pixel's q as above, 9 eps S between Q and the conic here, 6 eps S in evaluating it here,
 // the rest for S itself.
 template <class T>

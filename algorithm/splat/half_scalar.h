@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "algorithm/splat/exp2.h"
 #include "algorithm/splat/scalar.h"
 
 namespace sgs {
@@ -55,9 +56,23 @@ class HalfScalar {
   float value_;
 };
 
+// In half a line for each step is as good as a parabola.
 template <>
-inline HalfScalar exp_of<HalfScalar>(HalfScalar x) {
-  return HalfScalar(exp_of(x.value()));
+struct Exp2TableOf<HalfScalar> {
+  static constexpr std::size_t kCoefficients = 2;
+  static constexpr const Exp2Table<kCoefficients>& kTable = kExp2Lines;
+};
+// The rest has the last place of t, or none: a half too.
+inline Exp2Parts<HalfScalar> exp2_parts(HalfScalar t) {
+  const Exp2Parts<float> parts = exp2_parts(t.value());
+  return {HalfScalar::exactly(parts.rest), parts.steps};
+}
+inline HalfScalar scaled_by_steps(HalfScalar x, std::int32_t steps) {
+  return HalfScalar(scaled_by_steps(x.value(), steps));
+}
+template <>
+inline HalfScalar exp2_of<HalfScalar>(HalfScalar t) {
+  return exp2_by_table(t);
 }
 
 }  // namespace sgs

@@ -1,4 +1,5 @@
-// How many multiply-accumulates a computation is on the lanes of a filter unit.
+// How many multiply-accumulates a computation is on the lanes of a unit, and how many operations of
+// the comparators beside them.
 // A lane is one multiplier followed by one adder, fully pipelined: it starts one multiply-add a
 // cycle.
 #pragma once
@@ -20,11 +21,8 @@ constexpr std::uint32_t kSquareRootMacs = 9;  // g = x y; 2 (r = 1/2 - g h, g +=
 // The routine of the C library (16 intervals): exponent to float, z / c - 1 by table, log c + k
 // ln2, r^2, and a cubic in r of 4.
 constexpr std::uint32_t kLogarithmMacs = 8;
-// exp_of in scalar.h: clamp 2, n = round(x / ln2) 2, x - n ln2 2, polynomial 7, scaling by 2^n 1.
-constexpr std::uint32_t kExponentialMacs = 14;
-// The adder of a lane: the sign of a difference; adding 1.5 x 2^23 leaves a whole number.
-constexpr std::uint32_t kComparisonMacs = 1;
-constexpr std::uint32_t kRoundingMacs = 1;
+// exp_of in scalar.h: x / ln2 1, x - n ln2 2, polynomial 7.
+constexpr std::uint32_t kExponentialMacs = 10;
 
 // Lane cycles of a computation. An add is free where it takes a product that nothing else takes:
 // the lane that makes the product adds as well. Every other multiply or add takes a lane's cycle of
@@ -32,8 +30,21 @@ constexpr std::uint32_t kRoundingMacs = 1;
 constexpr std::uint32_t folded_macs(const OperationCounts& c) {
   return c.multiplies + c.adds - c.fused + c.divisors * kReciprocalMacs +
          c.divisions * kQuotientMacs + c.square_roots * kSquareRootMacs +
-         c.logarithms * kLogarithmMacs + c.exponentials * kExponentialMacs +
-         c.comparisons * kComparisonMacs + c.roundings * kRoundingMacs;
+         c.logarithms * kLogarithmMacs + c.exponentials * kExponentialMacs;
+}
+
+// What comparators do beside the lanes: each compares or adds two integers of 32 bits a cycle, or
+// shifts one (five rows of selections: as many gates as a fast adder). A number's bits compare as
+// its magnitude does.
+constexpr std::uint32_t kRoundingComparisons = 3;  // shifted to its last place, rounded, back
+constexpr std::uint32_t kSplitComparisons = 4;  // shifted, rounded; leading zeros of the rest, back
+constexpr std::uint32_t kScalingComparisons = 1;  // an addition to the exponent
+// Two for the ends of its range; its whole number of ln2; the power of two.
+constexpr std::uint32_t kExponentialComparisons = 2 + kRoundingComparisons + kScalingComparisons;
+
+constexpr std::uint32_t comparisons(const OperationCounts& c) {
+  return c.comparisons + c.roundings * kRoundingComparisons + c.splits * kSplitComparisons +
+         c.scalings * kScalingComparisons + c.exponentials * kExponentialComparisons;
 }
 
 }  // namespace sgs

@@ -17,6 +17,9 @@ struct OperationCounts {
   std::uint32_t exponentials = 0;
   std::uint32_t comparisons = 0;  // also minimum, maximum, test for infinity
   std::uint32_t roundings = 0;    // to a whole number
+  std::uint32_t splits = 0;       // into whole steps and the rest
+  std::uint32_t scalings = 0;     // by a power of two that is computed: added to the exponent
+  std::uint32_t look_ups = 0;     // of a row of a table of coefficients
 };
 
 constexpr OperationCounts operator+(OperationCounts a, const OperationCounts& b) {
@@ -30,6 +33,9 @@ constexpr OperationCounts operator+(OperationCounts a, const OperationCounts& b)
   a.exponentials += b.exponentials;
   a.comparisons += b.comparisons;
   a.roundings += b.roundings;
+  a.splits += b.splits;
+  a.scalings += b.scalings;
+  a.look_ups += b.look_ups;
   return a;
 }
 

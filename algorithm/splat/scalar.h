@@ -44,13 +44,13 @@ inline T exp_of(T x) {
 // relative error (Remez exchange, coefficients rounded to float one after the other): 3.3e-9.
 template <>
 inline float exp_of<float>(float x) {
-  constexpr float kLog2E = 1.44269504F;
+  constexpr float kPerLn2 = 1.44269504F;
   constexpr float kLn2High = 0.693359375F;  // 9 bits: n * high is exact
   constexpr float kLn2Low = -2.12194440e-4F;
   constexpr float kRoundToInteger = 12582912.0F;  // 1.5 * 2^23: adding it leaves round(x)
   x = x < -87.0F ? -87.0F : x;
   x = x > 88.0F ? 88.0F : x;
-  const float shifted = x * kLog2E + kRoundToInteger;
+  const float shifted = x * kPerLn2 + kRoundToInteger;
   const float n = shifted - kRoundToInteger;
   const float r = (x - n * kLn2High) - n * kLn2Low;
   float p = 0x1.6ac37p-10F;

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "algorithm/splat/visible_extents.h"
+#include "algorithm/voxel/wide_nodes.h"
 
 namespace sgs {
 namespace {
@@ -24,27 +25,14 @@ struct Item {
   std::uint32_t index;
 };
 
-struct Binary {
-  ChunkBound bound;
-  std::uint32_t begin, end;  // items
-  std::unique_ptr<Binary> left, right;
-  bool leaf() const { return left == nullptr; }
-};
-
 constexpr int kBins = 32;
-
-float inflated_area(const ChunkBound& b) {
-  float size[3];
-  for (int a = 0; a < 3; ++a) size[a] = b.high[a] - b.low[a] + 2 * b.extent[a];
-  return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
-}
 
 class Builder {
  public:
   Builder(std::vector<Item>& items, std::uint32_t chunk) : items_(items), chunk_(chunk) {}
 
-  std::unique_ptr<Binary> build(std::uint32_t begin, std::uint32_t end) {
-    auto node = std::make_unique<Binary>();
+  std::unique_ptr<BinaryNode> build(std::uint32_t begin, std::uint32_t end) {
+    auto node = std::make_unique<BinaryNode>();
     node->begin = begin;
     node->end = end;
     if (end - begin <= chunk_) {
@@ -63,6 +51,7 @@ class Builder {
       node->right = build(middle, end);
     }
     node->bound = merged(node->left->bound, node->right->bound);
+    note_costs(*node);
     return node;
   }
 
@@ -155,16 +144,16 @@ class Widener {
   Widener(std::vector<Item>& items, Arrangement<ChunkTree>& out)
       : items_(items), tree_(out.table), storage_order_(out.storage_order) {}
 
-  void run(const Binary& root) {
+  void run(const BinaryNode& root) {
     tree_.nodes.emplace_back();
     fill(0, root, 1);
     number_by_level();
   }
 
  private:
-  void fill(std::uint32_t at, const Binary& from, std::uint32_t level) {
+  void fill(std::uint32_t at, const BinaryNode& from, std::uint32_t level) {
     tree_.depth = std::max(tree_.depth, level);
-    std::vector<const Binary*> children = open(from);
+    std::vector<const BinaryNode*> children = wide_children(from);
     std::vector<ChunkBound> bounds;
     ChunkNode node;
     node.children = static_cast<std::uint8_t>(children.size());
@@ -182,7 +171,7 @@ class Widener {
     quantise(bounds.data(), node);
     tree_.nodes[at] = node;
     std::uint32_t inner = node.first_node;
-    for (const Binary* child : children) {
+    for (const BinaryNode* child : children) {
       if (!child->leaf()) fill(inner++, *child, level + 1);
     }
   }
@@ -203,27 +192,7 @@ class Widener {
     tree_.nodes = std::move(numbered);
   }
 
-  // Up to eight descendants that together hold all of `from`: the largest is opened first.
-  static std::vector<const Binary*> open(const Binary& from) {
-    std::vector<const Binary*> set{&from};
-    while (set.size() < kChunkNodeWidth) {
-      auto largest = set.end();
-      for (auto it = set.begin(); it != set.end(); ++it) {
-        if ((*it)->leaf()) continue;
-        if (largest == set.end() ||
-            inflated_area((*it)->bound) > inflated_area((*largest)->bound)) {
-          largest = it;
-        }
-      }
-      if (largest == set.end()) break;
-      const Binary* opened = *largest;
-      *largest = opened->left.get();
-      set.insert(largest + 1, opened->right.get());
-    }
-    return set;
-  }
-
-  void store(const Binary& leaf) {
+  void store(const BinaryNode& leaf) {
     ++tree_.chunk_count;
     const auto first = storage_order_.size();
     for (std::uint32_t i = leaf.begin; i < leaf.end; ++i) {
@@ -238,6 +207,12 @@ class Widener {
 };
 
 }  // namespace
+
+float inflated_area(const ChunkBound& b) {
+  float size[3];
+  for (int a = 0; a < 3; ++a) size[a] = b.high[a] - b.low[a] + 2 * b.extent[a];
+  return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+}
 
 ChunkBound gaussian_bound(const Gaussian<float>& g) {
   const VisibleExtents extents = visible_extents(g);

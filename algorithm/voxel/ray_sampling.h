@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "algorithm/voxel/cells_from_eye.h"
 #include "algorithm/voxel/ray.h"
 #include "algorithm/voxel/voxel_grid.h"
 
@@ -21,13 +22,14 @@ class RaySampling {
   RaySampling(const VoxelFrame& frame, Table& table, float step_voxels)
       : frame_(frame), table_(table), step_(static_cast<double>(step_voxels) * frame.voxel_size) {}
 
-  // As RayWalk::walk; a step is a sample taken or a node looked into.
+  // As RayWalk::walk; a step is a sample taken.
   template <class Visit>
   std::uint32_t walk(const Ray& ray, Visit&& visit) {
     const double time_step = step_ / glm::length(ray.direction);
     std::uint32_t steps = 0;
     std::int64_t sample = first_inside(ray, time_step);
     std::int64_t last_voxel = -1;
+    const glm::ivec3 eye = eye_cell(ray.origin, frame_);
     while (sample >= 0) {
       ++steps;
       glm::ivec3 cell;
@@ -36,7 +38,6 @@ class RaySampling {
       std::uint32_t index = 0;
       bool found = true;
       while (found && block_level > 0) {
-        ++steps;
         const VoxelNode node = table_.node(index);
         const unsigned shift = static_cast<unsigned>(2 * --block_level);
         const unsigned bit = child_bit((static_cast<unsigned>(cell.x) >> shift) & 3U,
@@ -47,7 +48,7 @@ class RaySampling {
                                        node.occupied & ((std::uint64_t{1} << bit) - 1)));
       }
       if (found && index != last_voxel) {
-        visit(index);
+        if (!visit(index, cells_from_eye(eye, cell))) return steps;
         last_voxel = index;
       }
       const double past = exit_time(ray, cell, block_level) / time_step;

@@ -1,5 +1,6 @@
 // Traversal of the occupied voxels along a ray: Amanatides and Woo, "A Fast Voxel Traversal
-// Algorithm for Ray Tracing" (1987), with empty blocks of the sparse tree crossed in one step.
+// Algorithm for Ray Tracing" (1987), with empty blocks of the sparse tree crossed in one step, of
+// 1, 2 or 4 children a side.
 // Gives the very sequence of cells that stepping cell by cell through the dense grid would.
 #pragma once
 
@@ -9,6 +10,8 @@
 #include <glm/vec3.hpp>
 #include <type_traits>
 
+#include "algorithm/voxel/cells_from_eye.h"
+#include "algorithm/voxel/children_ahead.h"
 #include "algorithm/voxel/ray.h"
 #include "algorithm/voxel/voxel_grid.h"
 
@@ -24,22 +27,23 @@ class RayWalk {
   RayWalk(const VoxelFrame& frame, Table& table, T voxel_size)
       : frame_(frame), voxel_size_(voxel_size), table_(table) {}
 
-  // Calls visit(voxel index) for each occupied voxel that the ray meets, nearest first. Returns the
-  // number of steps taken: nodes looked into and blocks crossed.
+  // Calls visit(voxel index, cells_from_eye()) for each occupied voxel that the ray meets, nearest
+  // first, until it returns false. Returns the number of steps taken: into the root, and out of
+  // each block crossed.
   template <class Visit>
   std::uint32_t walk(const RayOf<T>& ray, Visit&& visit) {
     ray_ = &ray;
+    const glm::ivec3 eye =
+        eye_cell({value_of(ray.origin.x), value_of(ray.origin.y), value_of(ray.origin.z)}, frame_);
     std::uint32_t steps = 1;
     if (!enter()) return steps;
     int level = frame_.levels;  // of the node to look into: it spans 4^level cells
     node_at_[level] = table_.node(0);
     while (true) {
-      ++steps;
       const VoxelNode& node = node_at_[level];
       const unsigned shift = static_cast<unsigned>(2 * (level - 1));
-      const unsigned bit = child_bit((static_cast<unsigned>(cell_.x) >> shift) & 3U,
-                                     (static_cast<unsigned>(cell_.y) >> shift) & 3U,
-                                     (static_cast<unsigned>(cell_.z) >> shift) & 3U);
+      const glm::uvec3 at = glm::uvec3(cell_) >> shift & 3U;
+      const unsigned bit = child_bit(at.x, at.y, at.z);
       const std::uint64_t below = (std::uint64_t{1} << bit) - 1;
       if ((node.occupied >> bit & 1U) != 0) {
         const std::uint32_t child =
@@ -49,10 +53,11 @@ class RayWalk {
           node_at_[--level] = table_.node(child);
           continue;
         }
-        visit(child);
+        if (!visit(child, cells_from_eye(eye, cell_))) return steps;
       }
       const glm::ivec3 from = cell_;
-      leave_block(level - 1);
+      ++steps;
+      leave_block(empty_block(node, at, ray.step, level));
       if (outside()) return steps;
       // Climb to the smallest node that holds the old cell and the new one.
       const auto differs =
@@ -103,9 +108,10 @@ class RayWalk {
     return cell;
   }
 
-  // Moves to the first cell beyond the block of 4^level cells a side that holds the current one.
-  void leave_block(int level) {
-    const int size = 1 << (2 * level);
+  // Moves to the first cell beyond the block of 2^log2_size cells a side that holds the current
+  // one.
+  void leave_block(int log2_size) {
+    const int size = 1 << log2_size;
     int exit_axis = 0;
     T exit_time = T(std::numeric_limits<float>::infinity());
     glm::ivec3 last;

@@ -7,7 +7,7 @@
 namespace sgs {
 namespace {
 
-// A tree whose root has no occupied child: each step crosses a block of 4 cells a side.
+// A tree whose root has no occupied child: one step crosses it, 16 cells a side.
 struct EmptyTree {
   VoxelNode node(std::uint32_t) { return {}; }
 };
@@ -21,7 +21,7 @@ OperationCounts ray_step_work() {
   frame.levels = 2;
   const Counting voxel_size = input(flow, frame.voxel_size);
   RayOf<Counting> ray{};
-  // In the block at the root's far corner: the first step leaves the root.
+  // Near the root's far corner.
   const glm::vec3 origin{8.6F, 8.8F, 9.1F}, direction{0.61F, 0.53F, 0.59F};
   for (int axis = 0; axis < 3; ++axis) {
     ray.origin[axis] = input(flow, origin[axis]);
@@ -33,7 +33,7 @@ OperationCounts ray_step_work() {
   const std::size_t before = flow.size();
   EmptyTree tree;
   RayWalk<EmptyTree, Counting> walk(frame, tree, voxel_size);
-  walk.walk(ray, [](std::uint32_t) {});
+  walk.walk(ray, [](std::uint32_t, std::uint32_t) { return true; });
   return flow.counts(before, flow.size());
 }
 

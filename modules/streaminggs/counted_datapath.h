@@ -23,7 +23,11 @@ inline Datapath counted_datapath(const char* name, const char* component,
                  {"logarithms", c.logarithms},
                  {"exponentials", c.exponentials},
                  {"comparisons", c.comparisons},
-                 {"roundings", c.roundings}};
+                 {"roundings", c.roundings},
+                 {"splits", c.splits},
+                 {"scalings", c.scalings},
+                 {"look_ups", c.look_ups}};
+  if (comparisons(c) > 0) path.beside.push_back({"comparator", comparisons(c)});
   return path;
 }
 

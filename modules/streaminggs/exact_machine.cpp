@@ -12,7 +12,7 @@ std::uint64_t aside_bytes(const ChunkTableLayout& table) {
 
 std::uint64_t exact_spill_bytes(const SceneLayout& layout) {
   return aside_bytes(layout.chunk_table()) +
-         2 * std::uint64_t{layout.gaussian_count()} * FineCandidate::kSramBytes;
+         2 * std::uint64_t{layout.gaussian_count()} * kKeyBytes;
 }
 
 ExactMachine::ExactMachine(const sc_core::sc_module_name& name, const ExactConfig& config,
@@ -20,7 +20,10 @@ ExactMachine::ExactMachine(const sc_core::sc_module_name& name, const ExactConfi
                            const BuildOptions& options)
     : StreamingMachine(name, config, job, built_for, options),
       config_(config),
-      sorters_(config.sorting_units) {
+      sorters_(config.sorting_units),
+      finished_subtiles_("finished_subtiles", clock(), job.groups,
+                         config.rendering.feedback_latency_cycles),
+      untold_("untold_subtiles", clock(), job.groups, config.rendering.feedback_latency_cycles) {
   add_fifos();
   const std::uint64_t aside = aside_bytes(job.layout.chunk_table());
   Construction units;
@@ -62,6 +65,10 @@ void ExactMachine::add_fifos() {
 void ExactMachine::bind() {
   vsu_->finished(*finished_groups_[0]);
   merge_->finished(*finished_groups_[0]);
+  const bool spills = config_.merge.on_overflow == OnOverflow::kSpill;
+  vsu_->mask(spills ? finished_subtiles_ : untold_);
+  merge_->mask(finished_subtiles_);
+  rendering_[0]->finish_subtile(finished_subtiles_);
   for (std::uint32_t h = 0; h < config_.hfus; ++h) {
     vsu_->visits(*visits_[h]);
     for (std::uint32_t s = 0; s < config_.sorting_units; ++s) {

@@ -28,6 +28,8 @@ class ExactMachine : public StreamingMachine {
   std::unique_ptr<ExactVsu> vsu_;
   std::vector<std::unique_ptr<ExactSorter>> sorters_;
   std::unique_ptr<MergeUnit> merge_;
+  FinishedSubtiles finished_subtiles_;
+  FinishedSubtiles untold_;  // for VSU with blend_early: there what waits decides the picture
 };
 
 // Bytes that the spill region must have: two runs of all keys, and what VSU's queue puts aside.

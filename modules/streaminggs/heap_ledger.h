@@ -19,10 +19,13 @@ struct HeapLedger {
   std::uint32_t key_bytes;
   std::uint32_t key_words;  // that are compared
 
+  // Left and right children, so that those of one node are read at once.
+  static constexpr std::uint32_t kBanksOfLevel = 2;
+
   SramUses sram_uses(std::uint32_t entries) const {
     const std::uint32_t levels = heap_levels(entries);
     return {sram_use(keys, kSharedSram, {{entries, "keys"}, {key_bytes, "B"}},
-                     {8 * 2 * key_bytes, SramPorts::kReadAndWrite, levels}),
+                     {8 * 2 * key_bytes, SramPorts::kReadAndWrite, kBanksOfLevel * levels}),
             sram_use(counts, kSharedSram, {{(heap_count_bits(entries) + 7) / 8, "B"}},
                      {32, SramPorts::kReadAndWrite, levels})};
   }

@@ -6,6 +6,7 @@
 
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
+#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/splat.h"
 
 namespace sgs {
@@ -39,8 +40,13 @@ struct FineCandidate {
   std::uint64_t ticket = 0;  // of the second half's read
   std::uint32_t buffer = 0;  // where it lands
   std::uint32_t parts = 1;   // of the group that it may touch, a bit each
+  GroupReach reach{};        // in exact order, while it is a key (kKeyBytes)
   Mark mark = Mark::kNone;   // with a mark there is no Gaussian
 };
+
+// A candidate that is sorted and merged as a key of exact order: with the sub-tiles that it may
+// reach.
+constexpr std::uint32_t kKeyBytes = FineCandidate::kSramBytes + sizeof(GroupReach);
 
 // HFU -> sorting -> rendering.
 struct SplatToken {

@@ -20,9 +20,8 @@ struct PaperConfig : StreamingConfig {
   // The paper's memories, and the multiply-accumulates that it states.
   PaperConfig() {
     sram = {16 * 1024, 250 * 1024, 89 * 1024};
-    fetch = Fetch::kShared;
     hfu.cost = FilterCost::kPaper;
-    hfu.slice_gaussians = 512;  // 8 KB, twice
+    hfu.slice_gaussians = 128;  // 2 KB, twice in each HFU
     group_px = 64;              // with pixels of 8 B: 32 KB of the paper's 89
     rendering.precision = BlendPrecision::kHalf;
     rendering.pixel_buffers = 1;

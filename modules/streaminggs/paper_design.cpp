@@ -49,7 +49,8 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
   PaperOrderConfig order;
   order.group_px = static_cast<int>(config_.group_px);
   order.coarse_filter = config_.hfu.coarse_filter;
-  order.sample_step_voxels = static_cast<float>(config_.vsu.sample_step_voxels);
+  order.rays = config_.vsu.rays();
+  order.table_bytes = config_.vsu.table_bytes;
   order.visit_gaussians = config_.vsu.visit_gaussians;
   order.parts = config_.parts();
   order.precision = config_.rendering.precision;

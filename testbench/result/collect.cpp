@@ -46,6 +46,11 @@ class Collector : public LeftOutCollector {
     part(path.component.c_str(), path.lane.c_str(), static_cast<double>(path.all_lanes()), 1);
     operations(path.component.c_str(), path.lane.c_str(),
                static_cast<double>(items) * path.used_macs);
+    for (const BesideLanes& beside : path.beside) {
+      part(path.component.c_str(), beside.kind.c_str(), static_cast<double>(path.parts(beside)), 1);
+      operations(path.component.c_str(), beside.kind.c_str(),
+                 static_cast<double>(items) * beside.operations);
+    }
     const auto same =
         std::find_if(into_.datapaths.begin(), into_.datapaths.end(),
                      [&](const DatapathResult& d) { return d.datapath.name == path.name; });
@@ -85,6 +90,9 @@ class Collector : public LeftOutCollector {
     }
   }
   void port(MemoryPort& port, const char* writes) override {
+    const SramUse table = port.outstanding_table();
+    sram(table);
+    accesses(table.name.c_str(), port.transactions(), port.transactions());
     if (*writes != '\0') accesses(writes, port.words_written(), port.words_written());
   }
   void sram_available(const char* memory, std::uint64_t bytes) override {

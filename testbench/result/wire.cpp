@@ -54,9 +54,13 @@ void serialize(Archive& a, SramAccesses& r) {
   a(r.use, r.reads, r.writes);
 }
 template <class Archive>
+void serialize(Archive& a, BesideLanes& r) {
+  a(r.kind, r.operations);
+}
+template <class Archive>
 void serialize(Archive& a, Datapath& r) {
   a(r.name, r.component, r.lane, r.lanes, r.copies, r.used_macs, r.counted_macs, r.published_macs,
-    r.counts);
+    r.counts, r.beside);
 }
 template <class Archive>
 void serialize(Archive& a, DatapathResult& r) {

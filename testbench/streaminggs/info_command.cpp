@@ -1,15 +1,19 @@
-// streaminggs info SCENE
+// streaminggs info SCENE|DATASET
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
+#include "algorithm/dataset/open_dataset.h"
 #include "algorithm/input_error.h"
 #include "algorithm/scene/describe.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/storage_choices.h"
 #include "algorithm/voxel/voxel_grid.h"
+#include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/describe_dataset.h"
 #include "testbench/streaminggs/describe_packed.h"
 #include "testbench/streaminggs/numbers.h"
 #include "testbench/streaminggs/run_config.h"
@@ -36,12 +40,28 @@ void print_voxels(const ActivatedCloud& cloud) {
   }
 }
 
+void print_dataset_in(const SceneArguments& arguments) {
+  const std::string& folder = arguments.scene;
+  if (arguments.drop_invalid) {
+    throw InputError(
+        fmt::format("--drop-invalid: {} is a folder of photographs, expected a scene", folder));
+  }
+  print_dataset(while_doing("reading " + folder, [&] { return open_dataset(folder); }));
+}
+
 }  // namespace
 
 SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<SceneArguments>();
-  arguments->add_scene_to(line);
+  arguments->add_scene_to(line,
+                          "a .ply file, builtin:NAME?n=COUNT, a .sgs file made by pack, or the "
+                          "folder of a data set");
   return [arguments, &kinds] {
+    std::error_code unknown;
+    if (std::filesystem::is_directory(arguments->scene, unknown)) {
+      print_dataset_in(*arguments);
+      return 0;
+    }
     if (const auto packed = arguments->load_packed()) {
       fmt::print("{:<26}{}\n{:<26}{:08x} (CRC-32)\n", "memory image, version", kImageFileVersion,
                  "checksum", packed->checksum);

@@ -219,6 +219,9 @@ Json datapaths_of(const std::vector<DatapathResult>& datapaths) {
             {"counted", cost(d.counted_macs)}};
     if (d.published_macs > 0) line["paper"] = cost(d.published_macs);
     line["used"] = cost(d.used_macs);
+    for (const BesideLanes& beside : d.beside) {
+      line["beside"][beside.kind] = {{"operations", beside.operations}, {"parts", d.parts(beside)}};
+    }
   }
   return out;
 }

@@ -103,7 +103,7 @@ Json to_json(const Outcome& outcome) {
           {"energy_j", outcome.joules},
           {"area_mm2", outcome.mm2},
           {"holds", outcome.binding.holds},
-          {"key", outcome.binding.remedy.key}};
+          {"holds_key", outcome.binding.remedy.key}};
 }
 
 Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings) {

@@ -145,7 +145,9 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
   std::vector<TimedShare> timed;
   for (const VisitShare& share : plan.shares) {
     expected.push_back(expect(plan, share));
-    timed.push_back({expected.back().passes, expected.back().lines});
+    const auto& layout = plan.scene.job.layout;
+    timed.push_back({expected.back().passes, expected.back().lines, layout.first_halves,
+                     layout.second_halves, share.first});
     if (free_running && !plan.finish_cycles.empty()) {
       timed.back().finished_from = plan.finish_cycles[share.group] + plan.feedback_cycles;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "modules/streaminggs/hfu/codebook_config.h"
+#include "tlm/memory_port.h"
 
 namespace sgs::tb {
 namespace {
@@ -14,6 +15,13 @@ using Cycle = std::uint64_t;
 // Time of the entry `places` before the next one, 0 while there is none.
 Cycle before(const std::vector<Cycle>& times, std::size_t places) {
   return times.size() < places ? 0 : times[times.size() - places];
+}
+
+// Cycles from the first to the last transaction of so many records.
+Cycle port_cycles(const RecordArray& records, std::uint64_t first, std::size_t count) {
+  const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
+  const std::uint64_t begin = records.address(first), end = records.address(first + count);
+  return (end - 1) / longest - begin / longest;
 }
 
 class Pipeline {
@@ -33,7 +41,7 @@ class Pipeline {
     std::size_t at = 0;
     do {
       const std::size_t count = std::min<std::size_t>(end - at, config_.slice_gaussians);
-      const Cycle data = load(count);
+      const Cycle data = load(at, count);
       coarse_ = std::max(coarse_, loaded_ + 1);  // FIFO of slices
       slice_taken_.push_back(coarse_);
       if (count > 0) filter(at, count, data);
@@ -50,11 +58,11 @@ class Pipeline {
   bool finished(Cycle now) const { return share_->finished_from <= now; }
 
   // Returns when the slice's bytes are there.
-  Cycle load(std::size_t count) {
+  Cycle load(std::size_t at, std::size_t count) {
     loaded_ = std::max(loaded_, before(half_free_, config_.input_slots));
     Cycle data = 0;
     if (count > 0) {
-      loaded_ += 1;
+      loaded_ += 1 + port_cycles(share_->first_halves, share_->first + at, count);
       data = loaded_ + latency_;
       times_.first_halves += count;
     }
@@ -101,6 +109,7 @@ class Pipeline {
     Cycle data = 0;
     if (gaussian != nullptr) {
       fetch_ = std::max(fetch_, before(slot_free_, config_.second_half_slots)) + 1;
+      fetch_ += port_cycles(share_->second_halves, share_->first + *gaussian, 1);
       data = fetch_ + latency_;
       ++times_.second_halves;
     }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "algorithm/memory/regions.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
 
 namespace sgs::tb {
@@ -15,6 +16,8 @@ namespace sgs::tb {
 struct TimedShare {
   std::vector<bool> passes;          // [Gaussian] the coarse filter
   std::vector<std::uint32_t> lines;  // [Gaussian] of the codebook buffer, where there is one
+  RecordArray first_halves, second_halves;  // in the memory
+  std::uint32_t first = 0;                  // slot of Gaussian 0
   // Cycle from which on the filters see that the share's group is finished.
   std::uint64_t finished_from = std::numeric_limits<std::uint64_t>::max();
 };
@@ -28,7 +31,8 @@ struct HfuTimes {
   std::uint64_t dropped = 0;  // their group was finished
 };
 
-// All shares wait at the input with a latency of one cycle; memory answers after latency_cycles.
+// All shares wait at the input with a latency of one cycle; memory answers after latency_cycles, a
+// transaction leaves a port every cycle.
 // decode_latency_cycles: of the stage that quantised second halves pass before the FFU; the
 // codebook buffer is full from the start and has no other reader. None where they are not
 // quantised.

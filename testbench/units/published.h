@@ -24,6 +24,10 @@ class Published : public DataSheet {
     items_[path.name] += items;
     operations(path.component.c_str(), path.lane.c_str(),
                static_cast<double>(items) * path.used_macs);
+    for (const BesideLanes& beside : path.beside) {
+      operations(path.component.c_str(), beside.kind.c_str(),
+                 static_cast<double>(items) * beside.operations);
+    }
   }
   void accesses(const char* use, std::uint64_t reads, std::uint64_t writes) override {
     accesses_[use].first += reads;

@@ -33,6 +33,7 @@ struct Plan {
   bool finished_before = false;     // all groups are reported before the first visit
   std::uint64_t hfus_begin_at = 0;  // cycle before which they take nothing
   bool reads_overlap = false;       // most of their latency is hidden
+  int finished_columns = 0;         // of sub-tiles of each group, from the left, from the start on
 };
 
 Plan plan_of(const TestScene& scene, std::uint32_t chunk) {
@@ -56,6 +57,8 @@ struct Expected {
 
 std::uint64_t macs_of_a_test() { return folded_macs(chunk_work(longest_chunk_case())); }
 
+bool hidden(const Plan& plan, const GroupReach& reach) { return reach.x1 < plan.finished_columns; }
+
 // All below one node that touches: its chunks, and the cost of opening it.
 void expect_node(const Plan& plan, const PixelRect& group, const WalkEntry& entry, Expected& out) {
   const ExactVsuConfig& c = plan.config;
@@ -65,10 +68,10 @@ void expect_node(const Plan& plan, const PixelRect& group, const WalkEntry& entr
   for (int k = 0; k < node.children; ++k) {
     const std::uint16_t count = node.count[k];
     const ChunkTest test = GroupFrustum(plan.job.view, group).test(child_bound(node, k));
-    const WalkEntry child{std::max(test.nearest, entry.nearest), count > 0 ? slot : inner, count,
-                          0};
+    const WalkEntry child{std::max(test.nearest, entry.nearest), count > 0 ? slot : inner, count, 0,
+                          test.reach};
     (count > 0 ? slot : inner) += count > 0 ? count : 1;
-    if (!test.touches) continue;
+    if (!test.touches || hidden(plan, test.reach)) continue;
     ++touching;
     if (count > 0) {
       out.groups.back().push_back(child);
@@ -170,15 +173,15 @@ void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected
   checks.that(bench.bytes_read() <= table_bytes + aside_bytes, "bytes read of what was put aside");
   bench.check_operations("vsu", "fp32_lane", bench.counter("tests") * macs_of_a_test());
   checks.equal(bench.counter("nodes"),
-                bench.counter("upper_nodes_opened") + bench.counter("nodes_read") -
-                    bench.counter("nodes_dropped"),
-                "nodes opened");
+               bench.counter("upper_nodes_opened") + bench.counter("nodes_read") -
+                   bench.counter("nodes_dropped"),
+               "nodes opened");
   // Four accesses of 32 B a node.
   bench.check_accesses("upper nodes", 4 * bench.counter("upper_nodes_opened"), 4 * upper);
   bench.check_accesses("nodes in flight", 4 * bench.counter("nodes_read"),
                        4 * bench.counter("nodes_read"));
   checks.equal(bench.busy_cycles("visits"), bench.counter("visits") + plan.job.groups.size(),
-                "cycles of handing out visits and ends of groups");
+               "cycles of handing out visits and ends of groups");
   if (any_finished) return;
   bench.check_counter("visits", expected.visits);
   bench.check_counter("nodes", expected.nodes);
@@ -206,10 +209,21 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   for (std::uint32_t g = 0; plan.finished_before && g < plan.job.groups.size(); ++g) {
     finished.finish(g);
   }
+  FinishedSubtiles mask("mask", bench.clock(), plan.job.groups, 1);
+  for (std::uint32_t g = 0; g < plan.job.groups.size(); ++g) {
+    const PixelRect& group = plan.job.groups[g];
+    const int columns = (group.width() + kSubtilePx - 1) / kSubtilePx;
+    const int rows = (group.height() + kSubtilePx - 1) / kSubtilePx;
+    const int finished_here = std::min(columns, plan.finished_columns);
+    for (int k = 0; k < rows * finished_here; ++k) {
+      mask.finish(g, static_cast<std::size_t>(k / finished_here * columns + k % finished_here), 0);
+    }
+  }
   const auto visits = bench.add_fifos<VisitShare>("to_hfu", plan.hfus, plan.fifo_entries, 1);
   ExactVsu unit("vsu", plan.config, bench.context(plan.job), plan.job.spill);
   for (TimedFifo<VisitShare>* fifo : visits) unit.visits(*fifo);
   unit.finished(finished.channel);
+  unit.mask(mask);
   bench.add_unit(unit);
   std::vector<VisitShare> received;
   std::vector<std::uint64_t> cycles;  // in which they came
@@ -257,7 +271,11 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   }
   bench.check_counter("visits", visits_seen);
   if (plan.finished_before) bench.checks().equal(visits_seen, std::uint64_t{0}, "visits");
-  check_counters(bench, plan, expected, any_finished);
+  check_counters(bench, plan, expected, any_finished || plan.finished_columns > 0);
+  const std::uint64_t left_out = bench.counter("nodes_hidden") + bench.counter("chunks_hidden");
+  bench.checks().that(plan.finished_columns > 0 ? left_out > 0 : left_out == 0,
+                      "what is behind finished sub-tiles");
+  bench.check_accesses("finished sub-tiles", bench.counter("looked_up"), mask.news());
 }
 
 BenchConfig still_bench(const Plan& plan) {
@@ -316,6 +334,13 @@ int sc_main(int argc, char* argv[]) {
   whole.group_px = 64;
   runner.add_directed("group larger than the frame",
                       [=](Case& test) { directed(test, whole, 16, 512); });
+  runner.add_directed("groups whose left half is finished", [=](Case& test) {
+    SceneShape wide = shape;
+    wide.group_px = 64;
+    Plan plan = plan_of(random_scene(test.random, wide), 2);
+    plan.finished_columns = 6;
+    run_plan(test, still_bench(plan), plan);
+  });
   runner.add_directed("groups finished before they begin", [=](Case& test) {
     Plan plan = plan_of(random_scene(test.random, shape), 8);
     plan.finished_before = true;

@@ -14,7 +14,7 @@ namespace sgs::tb {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::uint64_t kKeyBytes = 28;  // depth, slot, centre, largest scale
+constexpr std::uint64_t kBytesOfKey = 32;  // depth, slot, centre, two carried words, reach
 
 bool same_payload(const FineCandidate& a, const FineCandidate& b) {
   return a.slot == b.slot && a.depth == b.depth && a.mean_x == b.mean_x && a.mean_y == b.mean_y &&
@@ -25,6 +25,7 @@ bool same_payload(const FineCandidate& a, const FineCandidate& b) {
 UnitContext merge_context(const UnitBench& bench, const StreamingJob& job, const MergePlan& plan) {
   UnitContext context = bench.context(job);
   context.built_for.chunk_gaussians = longest_visit(plan);
+  context.built_for.group_px = 16;
   return context;
 }
 
@@ -32,6 +33,7 @@ struct Run {
   UnitBench bench;
   StreamingJob job;
   ReportedGroups finished;
+  FinishedSubtiles mask;
   Fifos<FineCandidate> inputs, outputs;
   MergeUnit unit;
 
@@ -39,12 +41,14 @@ struct Run {
       : bench(test, config),
         job(merge_job(plan)),
         finished(bench.clock(), plan.groups.size(), plan.feedback_cycles),
+        mask("mask", bench.clock(), job.groups, plan.feedback_cycles),
         inputs(bench.add_fifos<FineCandidate>("sorted_by", plan.sorters, plan.input_entries, 1)),
         outputs(bench.add_fifos<FineCandidate>("to_hfu", plan.hfus, plan.output_entries, 1)),
         unit("merge", plan.config, job.spill, merge_context(bench, job, plan)) {
     for (TimedFifo<FineCandidate>* input : inputs) unit.sorted(*input);
     for (TimedFifo<FineCandidate>* output : outputs) unit.released(*output);
     unit.finished(finished.channel);
+    unit.mask(mask);
     bench.add_unit(unit);
   }
 };
@@ -133,7 +137,7 @@ void check_counters(Run& run, const MergePlan& plan) {
   for (const MergeGroup& group : plan.groups) tied += tied_keys(plan, group);
   if (!saturating) run.bench.check_counter("ties", tied);
   checks.that(c.ties <= tied, "more ties than keys of one depth");
-  checks.equal(c.released + c.dropped_saturated, keys, "keys accounted for");
+  checks.equal(c.released + c.dropped_hidden + c.dropped_saturated, keys, "keys accounted for");
   if (!saturating) run.bench.check_counter("released", keys);
   // What the heap takes and gives at its own pace; a cycle for a key that is dropped on arrival,
   // read from a run or moved to another, and for a mark.
@@ -143,17 +147,17 @@ void check_counters(Run& run, const MergePlan& plan) {
   run.bench.check_counter("delete_maxs", heap.delete_maxs);
   checks.equal(run.bench.busy_cycles("merge"),
                plan.config.cycles_per_operation * heap.operations() + (c.keys - heap.inserts) +
-                   (c.released - heap.delete_mins) + (c.keys_spilled - heap.delete_maxs) +
+                   (c.due - heap.delete_mins) + (c.keys_spilled - heap.delete_maxs) +
                    plan.groups.size(),
                "busy cycles");
   if (!saturating) {
     checks.equal(heap.inserts, keys, "inserts");
     checks.equal(heap.delete_mins + heap.delete_maxs, keys, "deletes");
   }
-  checks.equal(run.bench.bytes_written(), run.bench.counter("keys_spilled") * kKeyBytes,
+  checks.equal(run.bench.bytes_written(), run.bench.counter("keys_spilled") * kBytesOfKey,
                "bytes written");
   if (!saturating) {
-    checks.equal(run.bench.bytes_read(), c.keys_spilled * kKeyBytes, "bytes read back");
+    checks.equal(run.bench.bytes_read(), c.keys_spilled * kBytesOfKey, "bytes read back");
   }
   if (plan.config.on_overflow == OnOverflow::kSpill) {
     checks.that(run.bench.counter("pending_keys_max") <= plan.config.entries,
@@ -166,6 +170,8 @@ void check_counters(Run& run, const MergePlan& plan) {
   const std::uint64_t words = run.bench.counter("heap_words_read");
   run.bench.check_accesses("waiting keys", 2 * words, run.bench.counter("heap_nodes_written"));
   std::uint64_t comparisons = 2 * run.bench.counter("heap_comparisons");
+  comparisons += 4 * c.due;  // 4 rows of 4 sub-tiles, of 16 px
+  run.bench.check_accesses("finished sub-tiles", c.due, run.mask.news());
   if (plan.config.on_overflow == OnOverflow::kSpill) {
     comparisons += 2 * (plan.config.spill_runs - 1) * run.bench.counter("keys_spilled");
   }
@@ -282,6 +288,62 @@ void final_keys_do_not_wait(Case& test) {
   run.bench.run();
 }
 
+// Sub-tiles (0, 0) to (1, 2) of 4 x 4 are finished in cycle 5000, and seen 7 later: what reaches
+// them alone is dropped from then on, whatever else is released.
+void keys_behind_finished_subtiles(Case& test) {
+  MergePlan plan;
+  plan.slots = 8;
+  plan.sorters = plan.hfus = 1;
+  plan.feedback_cycles = 7;
+  plan.groups.resize(2);
+  plan.config.entries = 4;  // some come back from a run
+  Run run(test, still_bench(plan), plan);
+  run.bench.add_thread("rendering", [&](Activity&) {
+    run.bench.clock().wait_cycles(5000);
+    for (const std::size_t at : {0U, 1U, 4U, 5U, 8U, 9U}) run.mask.finish(0, at, 0);
+  });
+  const auto group = [&](Activity& activity, std::uint32_t g, std::uint32_t visit) {
+    // Inside; inside to the edges; one column, one row too many; all.
+    const GroupReach reaches[] = {{1, 1, 1, 1}, {0, 0, 1, 2}, {0, 0, 2, 2}, {0, 0, 1, 3}, {}};
+    float depth = 1;
+    for (const GroupReach& reach : reaches) {
+      FineCandidate key = candidate(g, visit, {depth, static_cast<std::uint32_t>(depth)});
+      key.reach = reach;
+      depth += 1;
+      run.inputs[0]->push(key, activity);
+    }
+    FineCandidate end;
+    end.group = g;
+    end.visit = visit;
+    end.mark = Mark::kEndOfVisit;
+    end.release_below = kInfinity;
+    run.inputs[0]->push(end, activity);
+  };
+  run.bench.add_thread("sorter", [&](Activity& activity) {
+    group(activity, 0, 0);
+    run.bench.clock().wait_cycles(10000);
+    group(activity, 0, 1);
+    FineCandidate end;
+    end.visit = 2;
+    end.mark = Mark::kEndOfGroup;
+    run.inputs[0]->push(end, activity);
+    group(activity, 1, 3);
+    end.group = 1;
+    end.visit = 4;
+    run.inputs[0]->push(end, activity);
+  });
+  run.bench.add_thread("reader", [&](Activity& activity) {
+    // Before the news all; behind it three; nothing is known of the next group.
+    for (const std::uint32_t slot : {1U, 2U, 3U, 4U, 5U, 3U, 4U, 5U, 0U, 1U, 2U, 3U, 4U, 5U, 0U}) {
+      const FineCandidate key = run.outputs[0]->pop(activity);
+      run.bench.checks().equal(key.mark == Mark::kNone ? key.slot : 0U, slot, "the next key");
+    }
+  });
+  run.bench.run();
+  run.bench.check_counter("dropped_hidden", 2);
+  run.bench.check_counter("due", 15);
+}
+
 void one_group(Case& test, std::uint32_t n, std::uint32_t entries, bool tied,
                const std::function<void(Checks&, const MergeUnit::Counters&)>& also) {
   MergePlan plan;
@@ -308,6 +370,7 @@ int sc_main(int argc, char* argv[]) {
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("final keys do not wait, tied ones do", final_keys_do_not_wait);
+  runner.add_directed("keys behind finished sub-tiles are dropped", keys_behind_finished_subtiles);
   const auto spills = [](Checks& checks, const MergeUnit::Counters& c) {
     checks.that(c.runs_spilled > 0, "nothing was spilled");
   };
@@ -364,8 +427,8 @@ int sc_main(int argc, char* argv[]) {
     run.bench.run();
     // 64 wait: an eighth goes, 8 keys, and the other 6 fit.
     test.checks.equal(run.unit.counters().keys_spilled, std::uint64_t{8}, "keys spilled");
-    test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * kKeyBytes}, "bytes written");
-    test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kKeyBytes}, "bytes read");
+    test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * kBytesOfKey}, "bytes written");
+    test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kBytesOfKey}, "bytes read");
   });
   for (const std::uint32_t n : {0U, 1U, 2U, 16U, 100U}) {
     for (const std::uint32_t cycles : {1U, 2U, 3U}) {

@@ -3,6 +3,8 @@
 #include <optional>
 
 #include "algorithm/render/group_state.h"
+#include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/lane_macs.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
@@ -82,12 +84,29 @@ struct Times {
   std::uint64_t end = 0;                    // of the frame
 };
 
+// When a group that begins to drain at `at` has given its last row to the port, from which a
+// transaction leaves a cycle; free_from: of the port.
+std::uint64_t drained_at(const Plan& plan, const PixelRect& pixels, std::uint64_t at,
+                         std::uint64_t& free_from) {
+  const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
+  const auto width = static_cast<std::uint64_t>(pixels.width());
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    at += ceil_div(width, plan.config.drain_pixels_per_cycle);
+    const std::uint64_t begin = plan.job.pixel_address(pixels.x0, y);
+    const std::uint64_t last = begin + width * pixel_bytes(plan.job.frame_format) - 1;
+    at = std::max(at, free_from) + last / longest - begin / longest;
+    free_from = at + 1;
+  }
+  return at;
+}
+
 // When splats are always there: a group is blended when the one before it is and a buffer is free;
 // drained when the one before it is, depth_cycles after its last blend.
 Times expected_times(const Plan& plan, const Expected& expected,
                      std::uint64_t write_latency_cycles) {
   Times times;
   std::vector<std::uint64_t> drained;
+  std::uint64_t port_free_from = 0;
   std::uint64_t blend_end = 1;  // input latency
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
     const std::size_t buffers = plan.config.pixel_buffers;
@@ -96,7 +115,7 @@ Times expected_times(const Plan& plan, const Expected& expected,
     blend_end += expected.times[g].cycles;
     std::uint64_t drain = blend_end + plan.config.depth_cycles;
     if (g > 0) drain = std::max(drain, drained[g - 1]);
-    drained.push_back(drain + expected.drain_cycles[g]);
+    drained.push_back(drained_at(plan, plan.job.groups[g], drain, port_free_from));
   }
   times.end = drained.back() + write_latency_cycles;
   return times;
@@ -210,10 +229,23 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("subtile_blends_late", sum.late_blends);
   bench.check_counter("hazard_cycles", sum.hazard_cycles);
   bench.check_counter("queue_cycles", sum.queue_cycles);
-  const RenderingMacs& macs = rendering_macs();
-  const std::uint64_t blend_macs = sum.blends * macs.subtile_blend;
-  const std::uint64_t span_macs = sum.spans * macs.span + sum.splats_spanned * macs.spans_begin;
+  const RenderingWork work = rendering_work(plan.config.precision);
+  const std::uint64_t blend_macs = sum.blends * folded_macs(work.subtile_blend);
+  std::uint64_t pixels = 0;
+  for (const PixelRect& px : plan.job.groups) {
+    pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
+  }
+  const OperationCounts drained = pixel_work(plan.job.frame_format);
+  const std::uint64_t span_macs =
+      pixels * folded_macs(drained) + bench.counter("splats_taken") * folded_macs(work.conic) +
+      sum.spans * folded_macs(work.span) + sum.splats_spanned * folded_macs(work.spans_begin);
+  bench.check_operations("rendering", "comparator",
+                         pixels * comparisons(drained) +
+                             sum.blends * comparisons(work.subtile_blend) +
+                             sum.spans * comparisons(work.span) +
+                             sum.splats_spanned * comparisons(work.spans_begin));
   const bool in_half = plan.config.precision == BlendPrecision::kHalf;
+  bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", sum.blends * 16);
   bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
   if (in_half) bench.check_operations("rendering", "fp16_lane", blend_macs);
   // A sub-tile at once: blended, cleared before and drained behind.

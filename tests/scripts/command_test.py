@@ -4,13 +4,15 @@ import pathlib
 import unittest
 
 from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
-import compare_orders
+import binding_check
 import compare_variants
+import energy_tables
 import explore
+import fair_fight
 import paper_claims
 import simulations
+import smallest_machine
 import timing
-import tuned_orders
 import work_precision
 from scenes import find_scene
 
@@ -27,8 +29,9 @@ class WithTheCommand(InFolder):
 
     def test_every_script_makes_its_tables(self):
         for script, arguments, lines in (
-            (compare_orders, ("--sizes", "64x36"), {"| truck | 0 |": 2, "| 0 | exact |": 1}),
-            (compare_variants, ("--size", "64x36"), {"| truck |": 8 + 1 + 2, "| StreamingGS |": 2}),
+            (binding_check, ("--size", "64x36"), {"| truck | 0 |": 1, "of 1 views": 1}),
+            (compare_variants, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
+            (energy_tables, ("--groups", "16", "32"), {"| exact | all |": 1, "| paper | 32 |": 1}),
             (
                 explore,
                 ("--axis", "hfus=2,4", "--axis", "group_px=16,32"),
@@ -37,7 +40,15 @@ class WithTheCommand(InFolder):
             (explore, ("--config", "paper", "--axis", "hfus=1"), {"| 1 | 64 |": 1}),
             (timing, ("--repeats", "1", "--configs", "exact", "paper"), {"| truck | 64 |": 2}),
             (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1}),
-            (tuned_orders, (), {"| truck |": 1}),
+            (
+                fair_fight,
+                ("--most-runs", "4", "--objectives", "cycles", "--budgets", "1")
+                + ("--view-sizes", "64x36"),
+                {"| exact | 1 x paper | cycles |": 1, "| paper | 1 x paper | cycles |": 1}
+                | {"| truck | preset paper |": 1, "| truck | exact, best cycles |": 1},
+            ),
+            (smallest_machine, ("--sizes", "64x36", "--fps", "100000"), {"| truck 0 |": 1}),
+            (smallest_machine, ("--sizes", "64x36", "--fps", "1e9"), {"| none: truck has": 1}),
             (work_precision, (), {"| truck | 0 |": 20, "| 4,096 |": 2}),
         ):
             with self.subTest(script.__name__, arguments=arguments):
@@ -65,7 +76,10 @@ class WithTheCommand(InFolder):
             (explore, ("--axis", "hfus=2", "--view", "99"), "--view: '99'"),
             (explore, ("--axis", "group_px=0"), "group_px: got 0 with sram.shared_bytes 0"),
             (explore, ("--axis", "hfu=2"), "--set hfu=2: "),
-            (compare_orders, ("--sizes", "3"), "--size: '3'"),
+            (binding_check, ("--view", "7"), "--view: '7'"),
+            (energy_tables, ("--size", "3"), "--size: '3'"),
+            (fair_fight, ("--size", "3"), "--size: '3'"),
+            (smallest_machine, ("--sizes", "3"), "--size: '3'"),
             (compare_variants, ("--view", "x"), "--view: 'x'"),
             (timing, ("--view", "7"), "--view: '7'"),
             (timing, ("--configs", "nope"), "streaminggs: .*nope"),

@@ -6,14 +6,15 @@ import unittest
 from unittest import mock
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
-import compare_orders
-import compare_variants
+import binding_check
+import energy_tables
 import explore
 import fill_readme
 import objectives
 import run_arguments
 import simulations
 import tables
+import view_numbers
 import work_precision
 from scenes import find_scene
 
@@ -135,20 +136,33 @@ class Reports(unittest.TestCase):
         self.assertEqual(simulations.work(self.VIEW, "keys"), 7)
         self.assertEqual(simulations.psnr_text(self.VIEW), "equal")
 
-    def test_value_at_path(self):
-        self.assertEqual(compare_orders.value_at({"a": {"b": 3}}, ("a", "b")), 3)
+    def test_the_worst_waiting_of_vsu(self):
+        def activity(reads):
+            return {"waited_cycles": {"reads": reads, "room": 90}}
 
+        vsu = {"activities": {"walk": activity(7), "hand_out": activity(3)}}
+        view = {"units": {"vsu": vsu}, "frame": {"cycles": 100}}
+        self.assertEqual(view_numbers.vsu_waits(view), 0.07)
 
-    def test_what_the_filters_remove(self):
-        def unit(**counters):
-            return {"activities": {}, "counters": counters}
-
-        units = {
-            "hfu0.coarse": unit(coarse_tests=100, coarse_passed=50),
-            "hfu0.fine": unit(fine_tests=50, splats=20),
-            "rendering": unit(splats=7),
+    def test_components_of_energy_hold_every_joule(self):
+        keys = ("vsu_j", "merge_j", "pixel_state_j", "input_j", "clock_j", "sram_leakage_j")
+        bands = {key: {"middle": 2.0**n} for n, key in enumerate((*keys, "dram_j"))}
+        view = {
+            "area_mm2": {"vsu": 1, "merge": 1, "sram": 1, "total": 3, "bands": {}},
+            "energy": {**{key: 0 for key in bands}, "bands": bands},
         }
-        self.assertEqual(compare_variants.removed([{"units": units}]), "50% / 60% / 80.0%")
+        rows = energy_tables.components(view)
+        self.assertEqual(rows["SRAM: pixels"], ("pixel_state_j",))
+        self.assertEqual(rows["SRAM: all else"], ("input_j",))
+        summed = [energy_tables.joules(view, of) for name, of in rows.items() if name != "all"]
+        self.assertEqual(sum(summed), 2.0**7 - 1)
+
+    def test_whether_the_named_resource_gains_most(self):
+        for gains, most in (((0.2, 0.1), True), ((0.1, 0.2), False), ((0.1999, 0.2), True)):
+            doubled = [{"key": k, "time_saved": g} for k, g in zip("ab", gains)]
+            answer = {"base": {"holds_key": "a"}, "doubled": doubled}
+            with self.subTest(gains):
+                self.assertEqual(binding_check.Answer("x", answer).named_gains_most(), most)
 
     def test_where_a_table_comes_from(self):
         words = ["explore.py", "truck", "--out", "x", "--side-by-side=1", "--streaminggs", "y"]

@@ -50,6 +50,19 @@ TEST_CASE("command line: options and their values") {
             {"gaussians                 1,200\n", "median opacity            0.7311\n"},
             ply_of(std::vector<std::string>(1200, "0 0 0"))},
            {"$SG info 'builtin:object?n=1200'", {"cameras                   5\n"}},
+           {"$SG info d",
+            {"data set                  cameras.json\n", "views                     2\n",
+             "to train from             1\n", "to test with              1 (every 8th by name)\n",
+             "size                      32x18 px\n", "with alpha                0\n",
+             "points                    0\n",
+             "cameras stand in          0 0 -5 .. 1 0 -5 (world units)\n"},
+            "mkdir -p d/images; $SG render $B --out d/images/v.png; cp d/images/v.png d/w.png; c() "
+            "{ "
+            "echo \"{\\\"id\\\": $1, \\\"img_name\\\": \\\"$2\\\", \\\"width\\\": 64, "
+            "\\\"height\\\": "
+            "36, \\\"position\\\": [$1, 0, -5], \\\"rotation\\\": [[1, 0, 0], [0, 1, 0], [0, 0, "
+            "1]], "
+            "\\\"fx\\\": 30, \\\"fy\\\": 30}\"; }; echo \"[$(c 0 v), $(c 1 w)]\" >d/cameras.json"},
            {"$SG pack a.ply --config paper --out a.sgs",
             {"codebooks                 not weighted: no cameras\n", "file                      "},
             ply_of({"0 0 0"})},

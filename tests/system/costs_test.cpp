@@ -6,9 +6,9 @@
 
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_writer.h"
-#include "testbench/cost/technology.h"
 #include "algorithm/splat/filter_work.h"
 #include "algorithm/splat/lane_macs.h"
+#include "testbench/cost/technology.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
@@ -31,11 +31,17 @@ Json use_of(const Json& view, const std::string& name) {
 void check_joules(const Json& view) {
   const Technology technology = load_technology(SGS_TECHNOLOGY);
   const auto pj = [&](const char* kind) { return technology.part(kind).pj.middle * 1e-12; };
-  const Json& hfu = view["config"]["hfu"];
+  // Of a test: multiply-accumulates as charged, comparisons and roundings as counted.
+  const auto test = [&](const char* filter) {
+    const Json& counts = view["datapath"][filter]["counts"];
+    return view["datapath"][filter]["used"]["macs"].get<double>() * pj("fp32_lane") +
+           (counts["comparisons"].get<double>() +
+            kRoundingComparisons * counts["roundings"].get<double>()) *
+               pj("comparator");
+  };
   std::map<std::string, double> expected;
-  expected["coarse"] =
-      sum_of(view, "coarse_tests") * hfu["cfu_macs"].get<double>() * pj("fp32_lane");
-  expected["fine"] = sum_of(view, "fine_tests") * hfu["ffu_macs"].get<double>() * pj("fp32_lane");
+  expected["coarse"] = sum_of(view, "coarse_tests") * test("coarse");
+  expected["fine"] = sum_of(view, "fine_tests") * test("fine");
   expected["sorting"] = sum_of(view, "compare_exchanges") * pj("compare_exchange");
   for (const auto& [component, joules] : expected) {
     INFO(component);

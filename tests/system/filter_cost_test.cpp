@@ -6,6 +6,7 @@
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_writer.h"
 #include "testbench/builtin/builtin_scene.h"
+#include "testbench/cost/technology.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
@@ -43,10 +44,15 @@ void check_charged(const Json& view, const char* whose) {
   CHECK(fine_busy(view) == tests * fine[whose]["interval_cycles"].get<std::uint64_t>());
 }
 
+// What comparators did beside the lanes is the same whatever the lanes are charged.
 double joules_a_mac(const Json& view, const char* filter, const char* counter) {
-  return view["energy"][std::string(filter) + "_j"].get<double>() /
-         static_cast<double>(total(view, counter)) /
-         view["datapath"][filter]["used"]["macs"].get<double>();
+  const Technology technology = load_technology(SGS_TECHNOLOGY);
+  const Json& path = view["datapath"][filter];
+  const double joules = view["energy"][std::string(filter) + "_j"].get<double>() /
+                        static_cast<double>(total(view, counter));
+  const double beside = path["beside"]["comparator"]["operations"].get<double>() *
+                        technology.part("comparator").pj.middle * 1e-12;
+  return (joules - beside) / path["used"]["macs"].get<double>();
 }
 
 TEST_CASE(

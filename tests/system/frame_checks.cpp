@@ -159,7 +159,7 @@ void check_bytes(const Json& view) {
           second_half * of(unit, "second_halves"));
   }
   if (view["config"]["machine"] == "paper") {
-    constexpr std::uint64_t kSplat = 48, kLine = 64;
+    constexpr std::uint64_t kSplat = 48, kLine = 32;
     CHECK(region_bytes(view, "spill", "write") == kSplat * total(view, "entries_spilled"));
     if (total(view, "splats_saturated") == 0) {
       CHECK(region_bytes(view, "spill", "read") == region_bytes(view, "spill", "write"));
@@ -170,7 +170,7 @@ void check_bytes(const Json& view) {
           kLine * (counter(view, "vsu", "record_cache_misses") +
                    counter(view, "vsu", "cut_cache_misses")));
   } else {
-    constexpr std::uint64_t kKey = 28, kWalkEntry = 12;
+    constexpr std::uint64_t kKey = 32, kWalkEntry = 16;
     CHECK(asked_bytes(view, "spill", "merge", "write") ==
           kKey * counter(view, "merge", "keys_spilled"));
     CHECK(asked_bytes(view, "spill", "vsu", "write") ==
@@ -183,7 +183,8 @@ void check_bounds(const Json& view) {
   const Json& config = view["config"];
   const std::uint64_t frame = frame_cycles(view);
   const Json& hfu = config["hfu"];
-  const std::uint64_t coarse_interval = ceil_div(count(hfu["cfu_macs"]), count(hfu["cfu_lanes"]));
+  const std::uint64_t coarse_interval =
+      ceil_div(count(view["datapath"]["coarse"]["used"]["macs"]), count(hfu["cfu_lanes"]));
   const std::uint64_t fine_interval = ceil_div(count(hfu["ffu_macs"]), count(hfu["ffu_lanes"]));
   const std::uint64_t parts = parts_of(config);
   const std::uint64_t clusters = count(config["rendering"]["clusters"]) / parts;
@@ -238,7 +239,8 @@ void check_flow(const Json& view) {
     CHECK(total(view, "coarse_passed") == sorted);
     CHECK(sorted == counter(view, "merge", "keys"));
     CHECK(counter(view, "merge", "keys") ==
-          counter(view, "merge", "released") + counter(view, "merge", "dropped_saturated"));
+          counter(view, "merge", "released") + counter(view, "merge", "dropped_hidden") +
+              counter(view, "merge", "dropped_saturated"));
     CHECK(counter(view, "merge", "released") == tested_or_dropped);
     // What went into the heap came out at one end or the other, or was dropped with its group.
     const std::uint64_t inserts = counter(view, "merge", "inserts"),

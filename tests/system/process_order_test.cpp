@@ -82,17 +82,20 @@ std::vector<Arguments> variants(const std::string& machine) {
   const Arguments narrow = settings({"memory_port.max_outstanding=1", "dram.channels=1"});
   const Arguments hasty = settings({"rendering.feedback_latency_cycles=1", "hfu.cfu_depth_cycles=1",
                                     "hfu.ffu_depth_cycles=1", "rendering.depth_cycles=1"});
-  return {{},
-          kStalls,
-          few_banks,
-          joined(few_banks, kStalls),
-          narrow,
-          joined(narrow, kStalls),
-          joined(hasty, settings({"clock_mhz=533.33"})),
-          machine == "exact"
-              ? settings({"hfus=3", "sorting_units=1", "dram.power_down_idle_cycles=10"})
-              : settings({"hfus=3", "sorting_units=1", "dram.power_down_idle_cycles=10",
-                          "fetch=split", "hfu.slice_gaussians=64"})};
+  std::vector<Arguments> out = {
+      {},
+      kStalls,
+      few_banks,
+      joined(few_banks, kStalls),
+      narrow,
+      joined(narrow, kStalls),
+      joined(hasty, settings({"clock_mhz=533.33"})),
+      settings({"hfus=3", "sorting_units=1", "dram.power_down_idle_cycles=10"})};
+  if (machine == "paper") {
+    const Arguments shared = settings({"fetch=shared", "sorting_units=1", "vsu.table_bytes=64"});
+    out.insert(out.end(), {shared, joined(few_banks, joined(shared, kStalls))});
+  }
+  return out;
 }
 
 // Groups so small that some saturate.

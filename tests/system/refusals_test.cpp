@@ -37,7 +37,7 @@ void check_set_refused(const std::string& order, const Arguments& settings,
 TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
   check_set_refused("paper", {"group_px=128"},
                     {"sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
-                     "4 x 1 groups x 64 px x 64 px x 8 B"});
+                     "1 groups x 128 px x 128 px x 8 B"});
   check_set_refused("paper", {"hfu.slice_gaussians=1024"},
                     {"sram.input_bytes: 16384 bytes are there", "2 slots x 1024 Gaussians"});
   check_set_refused("exact", {"group_px=128", "sram.shared_bytes=10000"},
@@ -65,10 +65,11 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
   check_set_refused("paper", {"machine=exact"}, {"preset paper is of machine paper"});
   check_set_refused("paper", {"sorting.buffer_entries=16", "sorting.spill_block_entries=8"},
                     {"sorting.buffer_entries: got 16", "at least 32"});
-  check_set_refused("paper", {"hfus=3"}, {"hfus: got 3 with fetch shared", "square number"});
-  check_set_refused("paper", {"rendering.clusters=2"},
+  check_set_refused("paper", {"fetch=shared", "hfus=3"},
+                    {"hfus: got 3 with fetch shared", "square number"});
+  check_set_refused("paper", {"fetch=shared", "rendering.clusters=2"},
                     {"rendering.clusters: got 2", "multiple of hfus 4"});
-  check_set_refused("paper", {"sorting_units=3"},
+  check_set_refused("paper", {"fetch=shared", "sorting_units=3"},
                     {"sorting_units: got 3", "divisor or a multiple of hfus 4"});
   check_set_refused("paper", {"dram.memspec=ddr9"},
                     {"dram.memspec: got 'ddr9'", "lpddr3_1600_4gb"});
@@ -77,16 +78,6 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
 
 TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
   check_set_refused("paper", {"storage.voxel_size=0.0000001"}, {"voxel_size", "2^20", "at least"});
-}
-
-TEST_CASE("refusals: an ordering table that a group outgrows ends the run by name") {
-  const ScratchFolder scratch;
-  const Outcome outcome =
-      run_streaminggs({"simulate", "builtin:object?n=3000", "--size", "64x64", "--config", "paper",
-                       "--set", "vsu.table_bytes=64", "--out", scratch.path("out")});
-  CHECK(outcome.status == 1);
-  CHECK(outcome.err.find("vsu.table_bytes is 64") != std::string::npos);
-  CHECK(outcome.err.find("raise it, or take larger voxels") != std::string::npos);
 }
 
 TEST_CASE("refusals: scenes, cameras and sizes that are not there") {

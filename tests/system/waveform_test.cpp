@@ -135,11 +135,10 @@ void check_waveform(const std::string& machine) {
   }
   CHECK(row_hits == run.views()[0]["dram"]["row_hits"]);
   // Bytes were on their way, FIFOs filled, rows were hit.
-  // (With a shared fetch a visit is one entry, not one for each HFU: there are few.)
-  const std::string filled = machine == "paper" ? "candidates_of_hfu0" : "visits_to_hfu0";
   for (const std::string& name :
        {std::string("accelerator.hfu0.coarse.memory.bytes_outstanding[63:0]"),
-        "accelerator." + filled + ".fill[31:0]", std::string("dram.channel0.row_hits[63:0]")}) {
+        std::string("accelerator.visits_to_hfu0.fill[31:0]"),
+        std::string("dram.channel0.row_hits[63:0]")}) {
     const std::string code = signals.at("SystemC." + name);
     INFO(name);
     std::size_t changes = 0;
@@ -155,20 +154,6 @@ void check_waveform(const std::string& machine) {
 TEST_CASE("waveform: exact order") { check_waveform("exact"); }
 TEST_CASE("waveform: paper order") { check_waveform("paper"); }
 
-// Where second halves are decoded: in exact order each HFU has its own fetch, in paper order all
-// share one.
-struct Decoder {
-  std::string unit, number;
-};
-std::vector<Decoder> decoders_of(const std::string& machine) {
-  std::vector<Decoder> decoders;
-  for (const std::string h : {"0", "1", "2", "3"}) {
-    decoders.push_back(machine == "exact" ? Decoder{"hfu" + h + ".fine", ""}
-                                          : Decoder{"hfu0.fine", h});
-  }
-  return decoders;
-}
-
 TEST_CASE("waveform: quantised scenes show the codebook buffer and what decodes") {
   for (const char* machine : {"exact", "paper"}) {
     const ScratchFolder scratch;
@@ -180,26 +165,22 @@ TEST_CASE("waveform: quantised scenes show the codebook buffer and what decodes"
     run.check();
     const auto signals = signals_of(vcd);
     const Json& view = run.views()[0];
-    const std::vector<Decoder> decoders = decoders_of(machine);
     check_activity(vcd, signals, kMachine + "codebooks.load",
                    view["units"]["codebooks"]["activities"]["load"]);
-    for (const Decoder& decoder : {decoders.front(), decoders.back()}) {
-      const std::string activity = "decode" + decoder.number;
-      check_activity(vcd, signals, kMachine + decoder.unit + "." + activity,
-                     view["units"][decoder.unit]["activities"][activity]);
+    for (const std::string unit : {"hfu0.fine", "hfu3.fine"}) {
+      check_activity(vcd, signals, kMachine + unit + ".decode",
+                     view["units"][unit]["activities"]["decode"]);
     }
-    for (const Decoder& decoder : decoders) {
-      CHECK(signals.count(kMachine + decoder.unit + ".decoded" + decoder.number + ".fill[31:0]") ==
-            1);
+    for (const std::string hfu : {"hfu0", "hfu1", "hfu2", "hfu3"}) {
+      CHECK(signals.count(kMachine + hfu + ".fine.decoded.fill[31:0]") == 1);
     }
     check_time(time_at(vcd, signals.at(kMachine + "codebooks.full")), 1,
                frame_cycles(view) - total(view, "loaded_at_cycle"));
     // What is not there is not shown.
     const Simulation raw(joined(scene, {"--set", "storage.encoding=raw"}));
     const auto without = signals_of(vcd);
-    const std::string fine = kMachine + decoders[0].unit, number = decoders[0].number;
-    CHECK(without.count(fine + ".filter" + number + ".busy") == 1);
-    CHECK(without.count(fine + ".decode" + number + ".busy") == 0);
+    CHECK(without.count(kMachine + "hfu0.fine.filter.busy") == 1);
+    CHECK(without.count(kMachine + "hfu0.fine.decode.busy") == 0);
     CHECK(without.count(kMachine + "codebooks.full") == 0);
   }
 }

@@ -122,6 +122,20 @@ TEST_CASE("whole frame: other numbers of units, ports and memory channels") {
   }
 }
 
+TEST_CASE("whole frame: groups that are ordered in passes, with and without stalls, paper order") {
+  const Arguments common = {
+      "builtin:outdoor?n=3000", "--view", "all", "--size", "96x54", "--config", "paper", "--set",
+      "vsu.table_bytes=64"};
+  const Simulation plain(common), stalled(joined(common, {"--stalls", "0.2", "--seed", "5"}));
+  plain.check();
+  stalled.check();
+  for (std::size_t v = 0; v < plain.views().size(); ++v) {
+    CHECK(counter(plain.views()[v], "vsu", "overflows") > 0);
+    CHECK(counter(plain.views()[v], "vsu", "ordering_table_bytes_max") <= 64);
+    CHECK(stalled.frame(v) == plain.frame(v));
+  }
+}
+
 TEST_CASE("whole frame: sampled rays, paper order") {
   Simulation({"builtin:object?n=3000", "--size", "64x36", "--config", "paper", "--set",
               "vsu.sample_step_voxels=0.5"})

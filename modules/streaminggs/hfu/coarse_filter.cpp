@@ -10,10 +10,11 @@ namespace sgs {
 CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
                            const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
-      tests_(side_by_side(coarse_datapath(config, context.job.layout.split.bound_by),
+      tests_(side_by_side(coarse_datapath(config, context.job.layout.split.bound_by,
+                                          static_cast<std::uint32_t>(context.job.parts.size())),
                           static_cast<std::uint32_t>(context.job.parts.size()))),
       job_(context.job),
       record_bytes_(job_.layout.first_halves.record_bytes),
@@ -83,14 +84,14 @@ std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
          (std::size_t{slot} * config_.slice_gaussians + at) * std::size_t{record_bytes_};
 }
 
-// The CFUs take `cfus` Gaussians at a time. Simulated time is only let pass where somebody could
+// The CFUs take a Gaussian each at a time. Simulated time is only let pass where somebody could
 // see it: before a candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
   const RecordSplit& split = job_.layout.split;
   std::uint64_t pending_cycles = 0;
   std::uint32_t open = 0;  // parts
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
-    if (i % config_.cfus == 0) {
+    if (i % tests_.copies == 0) {
       open = unfinished_parts(finished, slice.share.group);
       if (open == 0) {
         counters_.dropped_saturated += slice.share.count - i;
@@ -117,6 +118,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     candidate.mean_y = first.mean.y;
     candidate.mean_z = first.mean.z;
     candidate.carried = first.carried;
+    candidate.reach = reach(bound, slice.share.group);
     in_turn(survivors, candidate.visit).push(candidate, filter_);
   }
   filter_.work(pending_cycles);
@@ -127,7 +129,8 @@ void CoarseFilter::filter_slice(const Slice& slice) {
 std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t group,
                                  std::uint32_t open) {
   if (!config_.coarse_filter) return open;
-  counters_.tests += count_parts(open);
+  ++counters_.tests;
+  counters_.tests_of_parts += count_parts(open);
   std::uint32_t parts = 0;
   for (std::uint32_t p = 0; p < part_count(); ++p) {
     const bool tested = (open >> p & 1U) != 0;
@@ -135,6 +138,13 @@ std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t grou
     if (tested && !pixels.empty() && touches(bound, pixels)) parts |= 1U << p;
   }
   return parts;
+}
+
+// What a key of exact order says; nothing else looks at it.
+GroupReach CoarseFilter::reach(const FirstHalfBound& bound, std::uint32_t group) const {
+  const auto* by_extents = std::get_if<ExtentBound>(&bound);
+  const bool known = by_extents != nullptr && by_extents->in_front && config_.coarse_filter;
+  return known ? group_reach(*by_extents, job_.groups[group]) : GroupReach{};
 }
 
 SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
@@ -153,8 +163,9 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.counter("shares", "shares", "of visits, empty ones and ends of groups included",
                 counters_.shares);
   sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
-  sheet.counter("coarse_tests", "Gaussians", "tested, once for each part of the group",
-                counters_.tests);
+  sheet.counter("coarse_tests", "Gaussians", "tested", counters_.tests);
+  sheet.counter("coarse_tests_of_parts", "Gaussians", "tested, once for each part of the group",
+                counters_.tests_of_parts);
   sheet.counter("coarse_passed", "Gaussians", "of these, that may touch their part",
                 counters_.passed);
   sheet.counter("coarse_candidates", "Gaussians", "that may touch a part of the group",

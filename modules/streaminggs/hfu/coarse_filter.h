@@ -1,7 +1,7 @@
 // The coarse half of an HFU, or of all HFUs that share a fetch: streams shares of visits through
-// the CFUs, which know only what stands in a first half. With a shared fetch each first half is
-// read once and broadcast; the CFUs of every HFU test it against their own part of the group, in
-// lock step. Timing: `cfus` Gaussians every cfu_interval_cycles; the next slices are fetched while
+// the CFUs, which know only what stands in a first half. With a shared fetch the CFUs of all HFUs
+// divide the Gaussians among themselves; a CFU bounds one once and compares the bound with every
+// part of the group. Timing: a Gaussian in each CFU at a time; the next slices are fetched while
 // this one is filtered. Function: algorithm/memory/first_half_test.h.
 #pragma once
 
@@ -36,7 +36,8 @@ class CoarseFilter : public sc_core::sc_module {
     std::uint64_t shares = 0;             // of visits, empty ones and ends of groups included
     std::uint64_t first_halves = 0;       // fetched
     std::uint64_t read = 0;               // of these, from the input buffer
-    std::uint64_t tests = 0;              // of a Gaussian against a part
+    std::uint64_t tests = 0;              // of a Gaussian
+    std::uint64_t tests_of_parts = 0;     // of a Gaussian against a part
     std::uint64_t passed = 0;             // of these
     std::uint64_t candidates = 0;         // Gaussians that passed for one part or more
     std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
@@ -58,6 +59,7 @@ class CoarseFilter : public sc_core::sc_module {
   void run_filter();  // thread: CFUs
   void filter_slice(const Slice& slice);
   std::uint32_t test(const FirstHalfBound& bound, std::uint32_t group, std::uint32_t open);
+  GroupReach reach(const FirstHalfBound& bound, std::uint32_t group) const;
   std::uint32_t part_count() const { return static_cast<std::uint32_t>(job_.parts.size()); }
 
   std::byte* first_half(std::uint32_t slot, std::uint32_t at);  // in the input buffer

@@ -10,7 +10,7 @@ CodebookBuffer::CodebookBuffer(const sc_core::sc_module_name& name, const Codebo
                                const UnitContext& context, InstantEnd& instant_end,
                                std::uint32_t readers)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       job_(context.job),
       instant_end_(instant_end),

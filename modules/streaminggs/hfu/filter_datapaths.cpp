@@ -1,16 +1,22 @@
 // Counts of the filters, run once.
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
+#include <cmath>
+
 #include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/lane_macs.h"
 #include "modules/streaminggs/counted_datapath.h"
 
 namespace sgs {
 
-Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by) {
-  Datapath path = counted_datapath("coarse", "coarse", coarse_work(bound_by, longest_case()));
+Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts) {
+  const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(parts)));
+  const OperationCounts in_parts = coarse_work(bound_by, longest_case(), across);
+  const std::uint32_t whole = folded_macs(coarse_work(bound_by, longest_case()));
+  Datapath path = counted_datapath("coarse", "coarse", in_parts);
   path.lanes = config.cfu_lanes;
   path.copies = config.cfus;
-  path.used_macs = config.cfu_macs;
+  path.used_macs = config.cfu_macs + (path.counted_macs - whole);
   path.published_macs = kPaperCfuMacs;
   return path;
 }

@@ -7,7 +7,8 @@
 
 namespace sgs {
 
-Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by);
+// parts: of a group that one test tells apart, a square number. cfu_macs are of a group in one.
+Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts);
 Datapath fine_datapath(const HfuConfig& config, int sh_degree);
 
 // That of several HFUs.

@@ -20,7 +20,7 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
                        const CodebookConfig& codebook, const FineFilterPlace& place,
                        const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       place_(place),

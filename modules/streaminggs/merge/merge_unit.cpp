@@ -18,8 +18,7 @@ std::uint32_t heap_entries(const MergeConfig& config, const BuiltFor& built_for)
 }
 
 constexpr std::uint32_t kKeyWords = 2;  // that are compared: depth and slot
-constexpr HeapLedger kHeap{"waiting keys", "counts of the heap", "merge",
-                           FineCandidate::kSramBytes, kKeyWords};
+constexpr HeapLedger kHeap{"waiting keys", "counts of the heap", "merge", kKeyBytes, kKeyWords};
 
 }  // namespace
 
@@ -28,6 +27,7 @@ void MergeUnit::KeyCodec::encode(const FineCandidate& key, std::byte* out) const
   std::memcpy(out, words, sizeof words);
   std::memcpy(out + 16, key.carried.data(), sizeof key.carried);
   std::memcpy(out + 24, &key.slot, sizeof key.slot);
+  std::memcpy(out + 28, &key.reach, sizeof key.reach);
 }
 
 FineCandidate MergeUnit::KeyCodec::decode(const std::byte* bytes) const {
@@ -41,13 +41,14 @@ FineCandidate MergeUnit::KeyCodec::decode(const std::byte* bytes) const {
   key.mean_z = words[3];
   std::memcpy(key.carried.data(), bytes + 16, sizeof key.carried);
   std::memcpy(&key.slot, bytes + 24, sizeof key.slot);
+  std::memcpy(&key.reach, bytes + 28, sizeof key.reach);
   return key;
 }
 
 MergeUnit::MergeUnit(const sc_core::sc_module_name& name, const MergeConfig& config,
                      const RegionSpan& spill, const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       spill_(spill),
@@ -124,7 +125,13 @@ FineCandidate MergeUnit::take_nearest() {
   return key;
 }
 
+// Looked up beside the heap's work, which takes as long.
 void MergeUnit::emit(const FineCandidate& key) {
+  ++counters_.due;
+  if (!mask->any_unfinished(key.group, key.reach)) {
+    ++counters_.dropped_hidden;
+    return;
+  }
   counters_.ties += key.depth == last_depth_ ? 1 : 0;
   last_depth_ = key.depth;
   in_turn(released, sequence_).push(key, merge_);
@@ -237,19 +244,19 @@ void MergeUnit::drop_all() {
 }
 
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
-  constexpr std::uint32_t kKeyBytes = KeyCodec::kBytes;
   SramUses uses = kHeap.sram_uses(heap_entries(config, built_for));
+  uses.push_back(mask_use(built_for.group_px));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
   const SramUse block =
-      sram_use("spill blocks", kSharedSram, {{config.spill_block_entries, "keys"}, {kKeyBytes, "B"}},
-               {8 * kKeyBytes});
+      sram_use("spill blocks", kSharedSram,
+               {{config.spill_block_entries, "keys"}, {kKeyBytes, "B"}}, {8 * kKeyBytes});
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
   uses.push_back(sram_use("spilled runs", kSharedSram,
                           {{config.spill_runs, "runs"},
                            {2, "blocks"},
                            {config.spill_block_entries, "keys"},
-                            {kKeyBytes, "B"}},
-                           {8 * kKeyBytes}));
+                           {kKeyBytes, "B"}},
+                          {8 * kKeyBytes}));
   uses.push_back(block);
   uses.push_back(unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes));
   return uses;
@@ -257,6 +264,10 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
 
 void MergeUnit::publish_ledger(DataSheet& sheet) {
   kHeap.publish(sheet, heap_entries(config_, built_for_), heap_work());
+  const double of_mask = mask_comparators(built_for_.group_px);
+  sheet.part("merge", "comparator", of_mask, 1);
+  sheet.operations("merge", "comparator", of_mask * static_cast<double>(counters_.due));
+  sheet.accesses("finished sub-tiles", counters_.due, mask->news());
   if (config_.on_overflow != OnOverflow::kSpill) {
     sheet.port(memory);
     return;
@@ -280,6 +291,10 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.counter("ties", "keys", "of these at the depth of the key before: ordered by slot",
                 counters_.ties);
   sheet.counter("forced_early", "keys", "of these before they were final", counters_.forced_early);
+  sheet.counter("due", "keys", "looked up in the mask of finished sub-tiles", counters_.due);
+  sheet.counter("dropped_hidden", "keys",
+                "dropped when they were due: all sub-tiles that they reach were finished",
+                counters_.dropped_hidden);
   sheet.counter("dropped_saturated", "keys", "dropped: their group was finished",
                 counters_.dropped_saturated);
   sheet.counter("pending_keys_max", "keys", "most that waited on chip", counters_.pending_max);
@@ -292,6 +307,8 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
   sheet.counter("keys_spilled", "keys", "written to DRAM, over all passes", counters_.keys_spilled);
   publish_ledger(sheet);
+  sheet.left_out("hidden_gaussians", "all sub-tiles that they reach were finished",
+                 counters_.dropped_hidden, "second halves and fine filtering");
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.sram(sram_uses(config_, built_for_));

@@ -1,6 +1,7 @@
 // Merge unit, exact order: keys (depth, slot) of sorted chunks wait here until nothing nearer can
 // come, and are released to the fine filters in final order. When the buffer is full, the farthest
-// keys go to DRAM as a sorted run and are merged back; the order stays exact.
+// keys go to DRAM as a sorted run and are merged back; the order stays exact. A key that is due and
+// reaches finished sub-tiles only is dropped: its second half is never fetched.
 // Keys wait in an interval heap, which gives its nearest and its farthest key.
 // Timing: the heap begins an insert or delete every `cycles_per_operation` cycles; a key that is
 // dropped, taken from a run or moved from run to run takes one cycle, and so does a mark.
@@ -12,6 +13,7 @@
 
 #include "algorithm/order/interval_heap.h"
 #include "modules/streaminggs/finished_groups.h"
+#include "modules/streaminggs/finished_subtiles.h"
 #include "modules/streaminggs/merge/merge_config.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/spill_runs.h"
@@ -33,6 +35,7 @@ class MergeUnit : public sc_core::sc_module {
   FifoIns<FineCandidate> sorted{"sorted"};       // visit v comes from v modulo their number
   FifoOuts<FineCandidate> released{"released"};  // the keys go to them in turn
   FinishedGroupsIn finished{"finished"};
+  FinishedSubtilesIn mask{"mask"};
   MemoryPort memory;
 
   SC_HAS_PROCESS(MergeUnit);
@@ -46,6 +49,8 @@ class MergeUnit : public sc_core::sc_module {
     std::uint64_t ties = 0;          // of these, at the depth of the key before
     std::uint64_t forced_early = 0;  // of these, before they were final (blend_early)
     std::uint64_t dropped_saturated = 0;
+    std::uint64_t due = 0;             // looked up in the mask of finished sub-tiles
+    std::uint64_t dropped_hidden = 0;  // of these, behind finished sub-tiles only
     std::uint64_t pending_max = 0;  // keys on chip
     std::uint64_t runs_spilled = 0;
     std::uint64_t keys_spilled = 0;  // written to DRAM, over all passes
@@ -58,7 +63,7 @@ class MergeUnit : public sc_core::sc_module {
  private:
   struct KeyCodec {
     using Entry = FineCandidate;
-    static constexpr std::uint32_t kBytes = FineCandidate::kSramBytes;
+    static constexpr std::uint32_t kBytes = kKeyBytes;
     std::uint32_t group = 0;
     void encode(const FineCandidate& key, std::byte* out) const;
     FineCandidate decode(const std::byte* bytes) const;

@@ -77,6 +77,8 @@ class ClusterSchedule {
 
   // The cycle in which every cluster is free again.
   std::uint64_t all_done() const { return done_; }
+  // From which cycle on it is known that this one is.
+  std::uint64_t subtile_finished_from(std::size_t at) const { return finished_from_[at]; }
   // From which cycle on it is known that every sub-tile of the group is finished; 0 for none.
   std::uint64_t group_finished_from() const {
     const auto last = std::max_element(finished_from_.begin(), finished_from_.end());

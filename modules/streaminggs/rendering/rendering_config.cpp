@@ -9,42 +9,66 @@ namespace sgs {
 
 namespace {
 
-const RenderingWork& counted() {
-  static const RenderingWork work = rendering_work();
-  return work;
+struct Counted {
+  explicit Counted(BlendPrecision precision)
+      : work(rendering_work(precision)),
+        blend_macs(folded_macs(work.subtile_blend)),
+        span_macs(folded_macs(work.span)),
+        begin{folded_macs(work.spans_begin), comparisons(work.spans_begin)} {}
+  RenderingWork work;
+  std::uint32_t blend_macs, span_macs;
+  SpansBegin begin;
+};
+
+const Counted& counted(BlendPrecision precision) {
+  static const Counted single(BlendPrecision::kSingle), half(BlendPrecision::kHalf);
+  return precision == BlendPrecision::kHalf ? half : single;
 }
 
 }  // namespace
 
-const RenderingMacs& rendering_macs() {
-  static const RenderingMacs macs{folded_macs(counted().spans_begin), folded_macs(counted().span),
-                                  folded_macs(counted().subtile_blend)};
-  return macs;
+Datapath conic_datapath() {
+  Datapath path =
+      counted_datapath("conic", "rendering", counted(BlendPrecision::kSingle).work.conic);
+  path.lanes = path.used_macs;
+  return path;
 }
 
 Datapath blend_datapath(const RenderingConfig& config) {
-  Datapath path = counted_datapath("subtile_blend", "rendering", counted().subtile_blend);
-  if (config.precision == BlendPrecision::kHalf) path.lane = "fp16_lane";
+  const OperationCounts& work = counted(config.precision).work.subtile_blend;
+  const bool in_half = config.precision == BlendPrecision::kHalf;
+  Datapath path = counted_datapath("subtile_blend", "rendering", work);
+  if (in_half) path.lane = "fp16_lane";
   path.lanes = config.cluster_lanes;
   path.copies = config.clusters;
+  path.beside.push_back({in_half ? "exp2_table_half" : "exp2_table", work.look_ups});
   return path;
 }
 
 Datapath span_datapath(const RenderingConfig& config) {
-  Datapath path = counted_datapath("row_span", "rendering", counted().span);
+  Datapath path = counted_datapath("row_span", "rendering", counted(config.precision).work.span);
   path.lanes = config.span_lanes;
   return path;
 }
 
+Datapath drain_datapath(const RenderingConfig& config, FrameFormat format) {
+  Datapath path = counted_datapath("drain", "rendering", pixel_work(format));
+  path.lanes = path.used_macs;
+  path.copies = config.drain_pixels_per_cycle;
+  return path;
+}
+
+const SpansBegin& spans_begin() { return counted(BlendPrecision::kSingle).begin; }
+
 std::uint32_t RenderingConfig::cluster_interval_cycles() const {
-  return static_cast<std::uint32_t>(cycles_for(rendering_macs().subtile_blend, cluster_lanes));
+  return static_cast<std::uint32_t>(cycles_for(counted(precision).blend_macs, cluster_lanes));
 }
 
 std::uint32_t RenderingConfig::span_cycles(std::uint32_t spans) const {
   if (spans == 0) return 0;
-  const RenderingMacs& macs = rendering_macs();
+  const Counted& work = counted(precision);
   return static_cast<std::uint32_t>(
-      cycles_for(macs.spans_begin + std::uint64_t{spans} * macs.span, span_lanes));
+      cycles_for(work.begin.macs + std::uint64_t{spans} * work.span_macs, span_lanes));
 }
 
 void visit(ConfigVisitor& v, RenderingConfig& c) {

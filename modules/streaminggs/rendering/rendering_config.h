@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "algorithm/memory/frame_buffer.h"
 #include "algorithm/splat/blend.h"
 #include "modules/config/config_visitor.h"
 #include "tlm/datapath.h"
@@ -11,7 +12,7 @@ namespace sgs {
 
 struct RenderingConfig {
   std::uint32_t clusters = 4;        // each holds the pixels of its sub-tiles in a bank of its own
-  std::uint32_t cluster_lanes = 480;  // multiply-accumulates of one cluster
+  std::uint32_t cluster_lanes = 190;  // multiply-accumulates of one cluster: a sub-tile a cycle
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels on chip
   std::uint32_t cluster_queue_entries = 8;             // sub-tiles waiting for each cluster
   // Some two dozen operations that wait for each other, from a pixel's distance to its colour.
@@ -37,16 +38,20 @@ struct RenderingConfig {
   std::uint32_t pixel_state_bytes() const { return precision == BlendPrecision::kHalf ? 8 : 16; }
 };
 
-// Multiply-accumulates of a splat's spans, of each row of them and of blending a sub-tile, counted
-// by running the code (algorithm/splat/filter_work.h).
-struct RenderingMacs {
-  std::uint32_t spans_begin, span, subtile_blend;
-};
-const RenderingMacs& rendering_macs();
-
-// The lanes of all clusters, an item a sub-tile; those of the spans, an item a row.
+// Counted by running the code (algorithm/splat/filter_work.h): the lanes that every splat passes
+// ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile; those of
+// the spans, an item a row.
+Datapath conic_datapath();
 Datapath blend_datapath(const RenderingConfig& config);
 Datapath span_datapath(const RenderingConfig& config);
+// An item a finished pixel: as many lanes as drain_pixels_per_cycle of them take.
+Datapath drain_datapath(const RenderingConfig& config, FrameFormat format);
+
+// What a splat takes of the spans' lanes and comparators beside its rows.
+struct SpansBegin {
+  std::uint32_t macs, comparisons;
+};
+const SpansBegin& spans_begin();
 
 void visit(ConfigVisitor& v, RenderingConfig& config);
 

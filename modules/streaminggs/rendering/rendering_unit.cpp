@@ -12,7 +12,7 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
                              Arrival arrival, const UnitContext& context,
                              std::function<void()> on_done)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       job_(context.job),
@@ -68,9 +68,12 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
     blend_.work(1);
     return;
   }
+  ++counters_.splats_taken;
   schedule_.begin_splat(now);
-  const BlendWork work = state.blend_scheduled(
-      splat, [&](const SubtileReach& subtile) { schedule_.reach(subtile); });
+  const BlendWork work = state.blend_scheduled(splat, [&](const SubtileReach& subtile) {
+    schedule_.reach(subtile);
+    if (subtile.finishes) tell_finished(group, subtile.at, now);
+  });
   counters_.spans += work.spans;
   counters_.splats_spanned += work.spans > 0 ? 1 : 0;
   counters_.splats += work.blended > 0 ? 1 : 0;
@@ -79,6 +82,12 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
     finish->finish(group, static_cast<std::uint32_t>(schedule_.group_finished_from() - now));
   }
   work_until(schedule_.end_splat(work.spans));
+}
+
+void RenderingUnit::tell_finished(std::uint32_t group, std::size_t at, std::uint64_t now) {
+  if (finish_subtile.size() == 0 || !config_.saturation_feedback) return;
+  const std::uint64_t known = schedule_.subtile_finished_from(at);
+  finish_subtile->finish(group, at, static_cast<std::uint32_t>(known - now));
 }
 
 void RenderingUnit::run_drain() {
@@ -133,19 +142,23 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
 
 void RenderingUnit::publish_ledger(DataSheet& sheet) {
   const ClusterSchedule::Counters& clusters = schedule_.counters();
+  sheet.datapath(conic_datapath(), counters_.splats_taken);
   sheet.datapath(blend_datapath(config_), clusters.blends);
   const Datapath spans = span_datapath(config_);
   sheet.datapath(spans, counters_.spans);
-  sheet.operations(spans.component.c_str(), spans.lane.c_str(),
-                   static_cast<double>(counters_.splats_spanned) * rendering_macs().spans_begin);
+  const auto spanned = static_cast<double>(counters_.splats_spanned);
+  sheet.operations("rendering", spans.lane.c_str(), spanned * spans_begin().macs);
+  sheet.operations("rendering", "comparator", spanned * spans_begin().comparisons);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
   // Each blend reads and writes a sub-tile; so do clearing and draining a group.
-  std::uint64_t subtiles = clusters.blends;
+  std::uint64_t subtiles = clusters.blends, pixels = 0;
   for (std::uint64_t group = 0; group < counters_.groups; ++group) {
     const PixelRect& px = job_.groups[group];
     subtiles += cycles_for(static_cast<std::uint64_t>(px.width()), kSubtilePx) *
                 cycles_for(static_cast<std::uint64_t>(px.height()), kSubtilePx);
+    pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
   }
+  sheet.datapath(drain_datapath(config_, job_.frame_format), pixels);
   sheet.accesses("pixel state", subtiles, subtiles);
   sheet.port(memory, "pixel writes");
 }
@@ -158,6 +171,8 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.counter("groups_saturated", "groups", "of these with every pixel finished early",
                 counters_.groups_saturated);
   sheet.counter("splats", "splats", "blended into at least one sub-tile", counters_.splats);
+  sheet.counter("splats_taken", "splats", "sent on to the clusters, whether they reach any or not",
+                counters_.splats_taken);
   sheet.counter("splats_saturated", "splats", "that came when their group was finished",
                 counters_.splats_saturated);
   sheet.counter("splats_spanned", "splats", "on more sub-tiles than a few: rows got spans",

@@ -11,6 +11,7 @@
 
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/finished_groups.h"
+#include "modules/streaminggs/finished_subtiles.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/rendering/cluster_schedule.h"
 #include "modules/streaminggs/rendering/rendering_config.h"
@@ -29,6 +30,7 @@ class RenderingUnit : public sc_core::sc_module {
  public:
   FifoIns<SplatToken> splats{"splats"};  // read in turn
   FinishGroupOut finish{"finish"};
+  FinishSubtileOut finish_subtile{"finish_subtile"};
   MemoryPort memory;  // pixels
 
   SC_HAS_PROCESS(RenderingUnit);
@@ -39,6 +41,7 @@ class RenderingUnit : public sc_core::sc_module {
   struct Counters {
     std::uint64_t groups = 0;
     std::uint64_t splats = 0;            // blended into at least one sub-tile
+    std::uint64_t splats_taken = 0;      // that found their group unfinished
     std::uint64_t splats_saturated = 0;  // arrived when their group was finished
     std::uint64_t splats_spanned = 0;    // on more sub-tiles than a few
     std::uint64_t spans = 0;             // of rows of sub-tiles
@@ -54,6 +57,7 @@ class RenderingUnit : public sc_core::sc_module {
   void run_blend();  // thread
   void run_drain();  // thread
   void blend_splat(const Splat& splat, std::uint32_t group, GroupState& state);
+  void tell_finished(std::uint32_t group, std::size_t at, std::uint64_t now);
   void work_until(std::uint64_t cycle);
   void publish_ledger(DataSheet& sheet);
   void write_group(const GroupState& state);

@@ -51,8 +51,8 @@ void ExactSorter::run() {
 
 SramUses ExactSorter::sram_uses(const BuiltFor& built_for) {
   return {sram_use("key sorters", kSharedSram,
-                   {{built_for.chunk_gaussians, "keys"}, {FineCandidate::kSramBytes, "B"}},
-                   {8 * FineCandidate::kSramBytes, SramPorts::kReadAndWrite, kNetworkWidth})};
+                   {{built_for.chunk_gaussians, "keys"}, {kKeyBytes, "B"}},
+                   {8 * kKeyBytes, SramPorts::kReadAndWrite, kNetworkWidth})};
 }
 
 void ExactSorter::publish(DataSheet& sheet) {

@@ -27,7 +27,7 @@ struct SplatCodec {
 PaperSorter::PaperSorter(const sc_core::sc_module_name& name, const PaperSorterConfig& config,
                          const PaperSorterPlace& place, const UnitContext& context)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       place_(place),

@@ -16,7 +16,7 @@ struct SortingNetworkConfig {
 };
 
 struct PaperSorterConfig : SortingNetworkConfig {
-  std::uint32_t buffer_entries = 128;     // splats on chip; longer lists spill sorted runs to DRAM
+  std::uint32_t buffer_entries = 256;     // splats on chip; longer lists spill sorted runs to DRAM
   std::uint32_t input_fifo_entries = 4;   // from each HFU
   std::uint32_t spill_block_entries = 4;  // read and written at once: 192 B
 };

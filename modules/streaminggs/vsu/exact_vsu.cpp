@@ -27,7 +27,7 @@ Datapath chunk_test(const ExactVsuConfig& config) {
 ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& config,
                    const UnitContext& context, const RegionSpan& aside)
     : sc_module(name),
-      memory("memory", context.built_for.memory_port),
+      memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
       job_(context.job),
@@ -89,7 +89,11 @@ bool ExactVsu::read_node() {
   // One that is on chip takes no slot, but which it is comes out with the queue's head.
   if (nodes_.full()) return false;
   const WalkEntry entry = chunk_walk_.take_node();
-  if (entry.at < upper_.size()) {
+  if (hidden(entry)) {
+    ++counters_.nodes_hidden;
+    chunk_walk_.leave_out(entry);
+    work_on_queues(1);
+  } else if (entry.at < upper_.size()) {
     ++counters_.upper_reads;
     const std::uint64_t tests = chunk_walk_.counters().tests;
     chunk_walk_.open(entry, upper_[entry.at]);
@@ -100,6 +104,12 @@ bool ExactVsu::read_node() {
     nodes_.ask(entry, memory, walk_);
   }
   return true;
+}
+
+// Of the next group nothing is finished yet.
+bool ExactVsu::hidden(const WalkEntry& entry) {
+  ++counters_.looked_up;
+  return chunk_walk_.of_first(entry) && !mask->any_unfinished(group_, entry.reach);
 }
 
 bool ExactVsu::open_node() {
@@ -121,6 +131,11 @@ bool ExactVsu::give_chunk() {
   }
   if (const std::optional<WalkEntry> next = chunk_walk_.take_chunk()) {
     any_chunk_ = true;
+    if (hidden(*next)) {
+      ++counters_.chunks_hidden;
+      work_on_queues(1);
+      return true;
+    }
     if (held_) give(*held_, next->nearest);
     held_ = next;
     work_on_queues(1);
@@ -220,6 +235,7 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
                kOfPort)};
   add(uses, kChunkQueue.sram_uses(config.queue_entries));
   add(uses, kNodeQueue.sram_uses(config.node_queue_entries));
+  uses.push_back(mask_use(built_for.group_px));
   uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
   uses.push_back(
       unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes));
@@ -236,6 +252,11 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.counter("nodes_read", "nodes", "read from DRAM", counters_.nodes_read);
   sheet.counter("nodes_dropped", "nodes", "of these not opened: their group had finished",
                 counters_.nodes_dropped);
+  sheet.counter("looked_up", "entries", "of the queues, in the mask of finished sub-tiles",
+                counters_.looked_up);
+  sheet.counter("nodes_hidden", "nodes", "not opened: all sub-tiles that they reach were finished",
+                counters_.nodes_hidden);
+  sheet.counter("chunks_hidden", "chunks", "not handed out, likewise", counters_.chunks_hidden);
   sheet.counter("tests", "children", "tested against a group", walk.tests);
   sheet.counter("visits", "chunks", "handed out, once for each group", counters_.visits);
   sheet.counter("groups_saturated", "groups", "finished before their walk ended",
@@ -254,9 +275,17 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.datapath(tests_, walk.tests);
   sheet.left_out("saturated_groups", "every pixel was finished before the walk ended",
                  counters_.groups_saturated, "the rest of the tree is not walked");
+  sheet.left_out("hidden_nodes", "all sub-tiles that they reach were finished",
+                 counters_.nodes_hidden, "the part of the tree below them");
+  sheet.left_out("hidden_chunks", "all sub-tiles that they reach were finished",
+                 counters_.chunks_hidden, "a visit each");
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
                  "no visit, no blending");
   sheet.sram(sram_uses(config_, built_for_));
+  const double of_mask = mask_comparators(built_for_.group_px);
+  sheet.part("vsu", "comparator", of_mask, 1);
+  sheet.operations("vsu", "comparator", of_mask * static_cast<double>(counters_.looked_up));
+  sheet.accesses("finished sub-tiles", counters_.looked_up, mask->news());
   // A node comes in and goes out whole, eight children and their common numbers.
   constexpr std::uint64_t kWords = sizeof(ChunkNode) / kPortBytes;
   sheet.accesses("upper nodes", kWords * counters_.upper_reads, kWords * upper_.size());

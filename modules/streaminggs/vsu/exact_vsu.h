@@ -1,7 +1,8 @@
 // Voxel sorting unit (VSU), exact order: for each pixel group it walks the chunk tree front to back
 // and hands out the chunks that can touch the group, each with the depth below which nothing
 // follows. Nodes are read ahead, several at a time, as long as their children are sure to fit the
-// queues; when a group's nodes have all been read the next group's walk begins.
+// queues; when a group's nodes have all been read the next group's walk begins. A node or chunk that
+// reaches finished sub-tiles only is left out when it is taken from its queue.
 // Timing: of a node the longer of its tests, on test_lanes, and its insertions into the queues; each
 // operation of a queue takes cycles_per_queue_operation; a visit leaves a cycle.
 // Function: algorithm/order/chunk_walk.h.
@@ -14,6 +15,7 @@
 
 #include "algorithm/order/chunk_walk.h"
 #include "modules/streaminggs/finished_groups.h"
+#include "modules/streaminggs/finished_subtiles.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
@@ -28,6 +30,7 @@ class ExactVsu : public sc_core::sc_module {
  public:
   FifoOuts<VisitShare> visits{"visits"};  // one a HFU; visit v goes to v modulo their number
   FinishedGroupsIn finished{"finished"};
+  FinishedSubtilesIn mask{"mask"};
   MemoryPort memory;
 
   SC_HAS_PROCESS(ExactVsu);
@@ -39,6 +42,9 @@ class ExactVsu : public sc_core::sc_module {
     std::uint64_t upper_reads = 0;       // nodes opened that were on chip
     std::uint64_t nodes_read = 0;        // from DRAM, opened or not
     std::uint64_t nodes_dropped = 0;     // of these: their group had ended when they came
+    std::uint64_t looked_up = 0;         // chunks and nodes, in the mask of finished sub-tiles
+    std::uint64_t nodes_hidden = 0;      // not read: all sub-tiles that they reach were finished
+    std::uint64_t chunks_hidden = 0;     // not handed out, likewise
     std::uint64_t visits = 0;            // handed out
     std::uint64_t groups_saturated = 0;  // whose walk ended before the tree did
     std::uint64_t groups_empty = 0;      // no chunk touches
@@ -71,6 +77,7 @@ class ExactVsu : public sc_core::sc_module {
   bool begin_group();
   bool read_node();
   bool give_chunk();
+  bool hidden(const WalkEntry& entry);
   bool open_node();
   void give(const WalkEntry& chunk, float release_below);
   void end_group(bool saturated);

@@ -23,9 +23,9 @@ struct ExactVsuConfig {
 
 void visit(ConfigVisitor& v, ExactVsuConfig& config);
 
-// An entry of the queue of chunks, and of either queue in DRAM: depth, place, count, walk.
-constexpr std::uint32_t kWalkEntryBytes = 12;
-// Of the queue of nodes: depth, node, and in its top bit which of two walks.
-constexpr std::uint32_t kNodeEntryBytes = 8;
+// An entry of the queue of chunks, and of either queue in DRAM: depth, place, count, walk, reach.
+constexpr std::uint32_t kWalkEntryBytes = 16;
+// Of the queue of nodes: depth, node, and in its top bit which of two walks; reach.
+constexpr std::uint32_t kNodeEntryBytes = 12;
 
 }  // namespace sgs

@@ -1,8 +1,6 @@
 // The two threads of VSU.
 #include "modules/streaminggs/vsu/paper_vsu.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "algorithm/voxel/ray_sampling.h"
@@ -44,8 +42,8 @@ Datapath ray_steps(const PaperVsuConfig& config) {
 PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
                    const UnitContext& context)
     : sc_module(name),
-      node_memory("node_memory", context.built_for.memory_port),
-      record_memory("record_memory", context.built_for.memory_port),
+      node_memory("node_memory", context.built_for.memory_port, context.clock.period()),
+      record_memory("record_memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       job_(context.job),
       traverse_("traverse", context.clock),
@@ -54,64 +52,79 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       nodes_(config.node_cache_bytes, job_.layout.voxel_table().nodes),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
-      table_(static_cast<std::uint32_t>(job_.layout.voxel_table().voxels.count)),
+      table_(job_.layout.voxel_table().voxels.count, config.table_bytes),
       ordered_("ordered", context.clock, config.groups_ahead) {
   SC_THREAD(run_traverse);
   SC_THREAD(run_emit);
 }
 
+// The cache gives a node a cycle; steps, look-ups and insertions of a ray go on side by side.
+class PaperVsu::Watch {
+ public:
+  explicit Watch(PaperVsu& vsu) : vsu_(vsu), looked_up_(vsu.nodes_.lookups()) {}
+
+  void ray(std::uint32_t steps, std::size_t edges) {
+    const std::uint64_t lookups = vsu_.nodes_.lookups() - looked_up_;
+    looked_up_ = vsu_.nodes_.lookups();
+    vsu_.traverse_.work(std::max(
+        {vsu_.ray_steps_.cycles(steps), lookups, cycles_for(edges, vsu_.config_.edges_per_cycle)}));
+  }
+  void full() {
+    ++vsu_.counters_.overflows;
+    vsu_.counters_.entered += entries();
+  }
+  // Kahn's algorithm: one cycle for each voxel taken and each edge removed.
+  void ordered(const std::vector<std::uint32_t>& voxels, bool last) {
+    vsu_.traverse_.work(entries());
+    vsu_.counters_.entered += entries();
+    vsu_.counters_.table_entries += entries();
+    vsu_.hand_over(voxels, last);
+  }
+
+ private:
+  std::uint64_t entries() const { return vsu_.table_.voxel_count() + vsu_.table_.edge_count(); }
+
+  PaperVsu& vsu_;
+  std::uint64_t looked_up_;
+};
+
 void PaperVsu::run_traverse() {
-  for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
-    current_group_ = group;
-    auto ordered = std::make_shared<OrderedGroup>();
-    ordered->group = group;
-    ordered->voxels = order_group(job_.groups[group]).voxels;
-    if (ordered->voxels.empty()) ++counters_.groups_empty;
-    ordered_.push(std::move(ordered), traverse_);
+  for (current_group_ = 0; current_group_ < job_.groups.size(); ++current_group_) {
+    const GroupVisits visits = order_group(job_.groups[current_group_]);
+    if (visits.voxels.empty()) ++counters_.groups_empty;
+    counters_.rays += visits.rays;
+    counters_.steps += visits.steps;
+    counters_.edges += visits.edges_offered;
+    counters_.table_bytes_max = std::max(counters_.table_bytes_max, visits.table_bytes);
   }
   traverse_.idles();
 }
 
 GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
   const VoxelTableLayout& voxels = job_.layout.voxel_table();
-  if (voxels.nodes.count == 0) return {};
+  if (voxels.nodes.count == 0) {
+    hand_over({}, true);
+    return {};
+  }
   CachedTree tree(nodes_, node_memory, traverse_);
-  // The cache gives a node a cycle.
-  std::uint64_t looked_up = nodes_.lookups();
-  const auto on_ray = [&](std::uint32_t steps, std::size_t edges) {
-    const std::uint64_t lookups = nodes_.lookups() - looked_up;
-    looked_up = nodes_.lookups();
-    traverse_.work(
-        std::max({ray_steps_.cycles(steps), lookups, cycles_for(edges, config_.edges_per_cycle)}));
-  };
-  GroupVisits visits;
-  if (config_.sample_step_voxels > 0) {
-    RaySampling sampling(voxels.frame, tree, static_cast<float>(config_.sample_step_voxels));
-    visits = group_visits(job_.view, pixels, sampling, table_, on_ray);
-  } else {
-    RayWalk walk(voxels.frame, tree);
-    visits = group_visits(job_.view, pixels, walk, table_, on_ray);
+  const RayPattern rays = config_.rays();
+  if (rays.sample_step_voxels > 0) {
+    RaySampling sampling(voxels.frame, tree, rays.sample_step_voxels);
+    return group_visits(job_.view, pixels, rays.step_px, sampling, table_, Watch(*this));
   }
-  // Kahn's algorithm: one cycle for each voxel taken and each edge removed.
-  traverse_.work(table_.voxel_count() + table_.edge_count());
-  counters_.rays += visits.rays;
-  counters_.steps += visits.steps;
-  counters_.edges += visits.edges_offered;
-  counters_.table_entries += table_.voxel_count() + table_.edge_count();
-  counters_.table_bytes_max = std::max(counters_.table_bytes_max, visits.table_bytes);
-  if (visits.table_bytes > config_.table_bytes) {
-    SC_REPORT_ERROR("/sgs/vsu",
-                    fmt::format("the ordering table of the group at pixel ({}, {}) takes {} bytes; "
-                                "vsu.table_bytes is {}: raise it, or take larger voxels",
-                                pixels.x0, pixels.y0, visits.table_bytes, config_.table_bytes)
-                        .c_str());
-  }
-  return visits;
+  RayWalk walk(voxels.frame, tree);
+  return group_visits(job_.view, pixels, rays.step_px, walk, table_, Watch(*this));
+}
+
+void PaperVsu::hand_over(const std::vector<std::uint32_t>& voxels, bool last) {
+  ++counters_.passes;
+  ordered_.push(std::make_shared<OrderedPass>(OrderedPass{current_group_, last, voxels}),
+                traverse_);
 }
 
 void PaperVsu::run_emit() {
-  for (std::size_t done = 0; done < job_.groups.size(); ++done) {
-    const std::shared_ptr<OrderedGroup> ordered = ordered_.pop(emit_);
+  for (std::size_t done = 0; done < job_.groups.size();) {
+    const std::shared_ptr<OrderedPass> ordered = ordered_.pop(emit_);
     for (const std::uint32_t voxel : ordered->voxels) {
       if (all_finished(finished, ordered->group)) {
         ++counters_.visits_saturated;
@@ -119,7 +132,9 @@ void PaperVsu::run_emit() {
       }
       visit_voxel(ordered->group, voxel);
     }
+    if (!ordered->last) continue;
     mark_end(ordered->group);
+    ++done;
   }
   emit_.idles();
 }
@@ -199,6 +214,10 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.counter("groups_empty", "groups", "with no voxel on any ray", counters_.groups_empty);
   sheet.counter("ordering_table_bytes_max", "bytes", "ordering table of the worst group",
                 counters_.table_bytes_max);
+  sheet.counter("passes", "passes", "of a group's rays that were ordered, one or more a group",
+                counters_.passes);
+  sheet.counter("overflows", "passes", "of rays begun again because the ordering table was full",
+                counters_.overflows);
   sheet.counter("node_cache_misses", "nodes", "read from DRAM", nodes_.misses());
   sheet.counter("cut_cache_misses", "planes", "of cut voxels read from DRAM", cuts_.misses());
   sheet.counter("record_cache_misses", "voxel records", "read from DRAM", records_.misses());
@@ -210,11 +229,13 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.accesses("open pieces", counters_.visits + counters_.cuts,
                  counters_.voxels + 2 * counters_.cuts);
   // An edge is looked for and found or entered; each voxel and edge is taken once more, in order;
-  // the eye lies before or behind a cut.
-  sheet.part("vsu", "comparator", 2.0 * config_.edges_per_cycle + 1, 1);
+  // the eye lies before or behind a cut. A voxel lies in the pass's window: two bounds.
+  sheet.part("vsu", "comparator", 2.0 * config_.edges_per_cycle + 3, 1);
   const std::uint64_t lookups = counters_.edges + counters_.table_entries;
-  sheet.operations("vsu", "comparator", static_cast<double>(lookups + counters_.cuts));
-  sheet.accesses("ordering table", lookups, 2 * counters_.table_entries);
+  const std::uint64_t compared = lookups + counters_.cuts + 2 * (counters_.edges + counters_.rays);
+  const std::uint64_t written = counters_.entered + counters_.table_entries;
+  sheet.operations("vsu", "comparator", static_cast<double>(compared));
+  sheet.accesses("ordering table", lookups, written);
   const std::uint64_t ordered = counters_.voxels + counters_.visits_saturated;
   sheet.accesses("ordered voxels", ordered, ordered);
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,

@@ -36,7 +36,10 @@ class PaperVsu : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t rays = 0, steps = 0, edges = 0;
-    std::uint64_t table_entries = 0;     // voxels and distinct edges, over all groups
+    std::uint64_t entered = 0;           // voxels and distinct edges into the table
+    std::uint64_t table_entries = 0;     // of these, ordered: in no pass that overflowed
+    std::uint64_t passes = 0;            // of rays that were ordered, one or more a group
+    std::uint64_t overflows = 0;         // passes begun again because the table was full
     std::uint64_t voxels = 0;            // handed out, whole or in pieces
     std::uint64_t visits = 0;            // handed out
     std::uint64_t cuts = 0;              // of voxels into pieces
@@ -49,13 +52,17 @@ class PaperVsu : public sc_core::sc_module {
   void publish(DataSheet& sheet);
 
  private:
-  struct OrderedGroup {
+  // What one pass of a group's rays has ordered; most groups take one.
+  struct OrderedPass {
     std::uint32_t group = 0;
+    bool last = true;  // of its group
     std::vector<std::uint32_t> voxels;
   };
-  void run_traverse();  // thread: rays to ordered voxels, some groups ahead
+  class Watch;          // lets time pass while a group is ordered, and hands over its passes
+  void run_traverse();  // thread: rays to ordered voxels, some passes ahead
   void run_emit();      // thread: ordered voxels to visits
   GroupVisits order_group(const PixelRect& pixels);
+  void hand_over(const std::vector<std::uint32_t>& voxels, bool last);
   void visit_voxel(std::uint32_t group, std::uint32_t voxel);
   void hand_out(std::uint32_t group, const VoxelRecord& piece);
   void mark_end(std::uint32_t group);
@@ -68,7 +75,7 @@ class PaperVsu : public sc_core::sc_module {
   TableCache<VoxelRecord> records_;
   TableCache<float> cuts_;
   OrderingTable table_;
-  TimedFifo<std::shared_ptr<OrderedGroup>> ordered_;
+  TimedFifo<std::shared_ptr<OrderedPass>> ordered_;
   Counters counters_;
   std::uint32_t next_visit_ = 0;
   std::uint32_t current_group_ = 0, current_voxel_ = 0;  // for the waveform

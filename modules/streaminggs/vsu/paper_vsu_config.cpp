@@ -6,10 +6,13 @@ namespace sgs {
 void visit(ConfigVisitor& v, PaperVsuConfig& c) {
   v("step_lanes", c.step_lanes, in_range(1, 10000), "MAC lanes of the rays' steps");
   v("edges_per_cycle", c.edges_per_cycle, in_range(1, 64), "insertions into the ordering table");
+  v("ray_step_px", c.ray_step_px, in_range(1, 1024),
+    "rays of every so-many-th pixel of a group are followed, and of its last row and column");
   v("sample_step_voxels", c.sample_step_voxels, in_range(0, 10),
     "distance of samples on a ray; 0: every cell is visited");
   v("groups_ahead", c.groups_ahead, in_range(1, 64), "ordered groups waiting for the HFUs");
-  v("table_bytes", c.table_bytes, in_range(8, 1 << 30), "ordering table of one group");
+  v("table_bytes", c.table_bytes, in_range(8, 1 << 30),
+    "ordering table of one group; one that needs more is ordered in passes");
   v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");
   v("record_cache_bytes", c.record_cache_bytes, in_range(64, 1 << 30), "cache of voxel records");
   v("cut_cache_bytes", c.cut_cache_bytes, in_range(64, 1 << 30), "cache of cut voxels' planes");

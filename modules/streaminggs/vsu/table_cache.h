@@ -22,7 +22,8 @@ constexpr std::uint32_t kCacheTagBytes = 4;  // upper bits of the address, age w
 template <class Record>
 class TableCache {
  public:
-  static constexpr std::uint32_t kCacheLineBytes = std::max<std::uint32_t>(64, sizeof(Record));
+  // A burst of the memory: which records will be wanted next is not known well enough for more.
+  static constexpr std::uint32_t kCacheLineBytes = std::max<std::uint32_t>(32, sizeof(Record));
   static_assert(kCacheLineBytes % sizeof(Record) == 0);
 
   // Capacity is rounded down to whole lines, at least one.

@@ -82,6 +82,64 @@ TEST_CASE("png: transparent pixels lie over the background") {
   check_colour(white.at(2, 0), 1, 0.8, 0.84);
 }
 
+TEST_CASE("png: alpha is kept beside colour times alpha, and the header tells of it") {
+  const test::ScratchFolder scratch;
+  const std::string path = scratch.path("a.png");
+  write_raw_png(path, 3, 1, 8, PNG_COLOR_TYPE_RGBA,
+                {255, 0, 51, 255, 255, 9, 51, 0, 255, 0, 51, 51});
+  const RgbaImage image = read_png_rgba(path);
+  CHECK(image.at(0, 0) == glm::vec4(1, 0, 0.2f, 1));
+  CHECK(image.at(1, 0) == glm::vec4(0));
+  CHECK(image.at(2, 0).x == Approx(0.2));
+  CHECK(image.at(2, 0).z == Approx(0.04));
+  CHECK(image.at(2, 0).w == Approx(0.2));
+  CHECK(read_png_header(path).has_alpha);
+  CHECK(read_png_header(path).width == 3);
+  CHECK(read_png_header(path).height == 1);
+  write_raw_png(path, 1, 1, 16, PNG_COLOR_TYPE_RGBA, {0xff, 0xff, 0x33, 0x33, 0, 0, 0x33, 0x33});
+  CHECK(read_png_rgba(path).at(0, 0).x == Approx(0.2));
+  CHECK(read_png_rgba(path).at(0, 0).y == Approx(0.04));
+  CHECK(read_png_rgba(path).at(0, 0).w == Approx(0.2));
+  write_raw_png(path, 2, 1, 8, PNG_COLOR_TYPE_GRAY_ALPHA, {51, 255, 51, 0});
+  CHECK(read_png_rgba(path).at(0, 0) == glm::vec4(0.2f, 0.2f, 0.2f, 1));
+  CHECK(read_png_rgba(path).at(1, 0) == glm::vec4(0));
+  CHECK(read_png_header(path).has_alpha);
+  write_raw_png(path, 2, 1, 8, PNG_COLOR_TYPE_GRAY, {51, 204});
+  CHECK_FALSE(read_png_header(path).has_alpha);
+}
+
+TEST_CASE("png: a header longer than usual is read to its end") {
+  const test::ScratchFolder scratch;
+  write_raw_png(scratch.path("a.png"), 2, 1, 8, PNG_COLOR_TYPE_RGB, {1, 2, 3, 4, 5, 6});
+  const std::string whole = test::bytes_of(scratch.path("a.png"));
+  constexpr std::size_t kFirstChunkEnd = 33;
+  // An ancillary chunk that nobody knows, 200,000 bytes long; its checksum is not looked at.
+  const std::string chunk =
+      std::string("\0\x03\x0d\x40", 4) + "prVt" + std::string(200000, 'x') + std::string(4, '\0');
+  const std::string path = scratch.write(
+      "b.png", whole.substr(0, kFirstChunkEnd) + chunk + whole.substr(kFirstChunkEnd));
+  CHECK(read_png_header(path).width == 2);
+  CHECK_FALSE(read_png_header(path).has_alpha);
+  CHECK(read_png_rgba(path).at(1, 0).z * 255 == Approx(6));
+}
+
+TEST_CASE("png: cut anywhere before its last pixel it is refused by name") {
+  const test::ScratchFolder scratch;
+  std::vector<std::uint8_t> noise;
+  for (unsigned i = 0; i < 16 * 16 * 4; ++i) {
+    noise.push_back(static_cast<std::uint8_t>(i * 2654435761u >> 24));
+  }
+  write_raw_png(scratch.path("a.png"), 16, 16, 8, PNG_COLOR_TYPE_RGBA, noise);
+  const std::string whole = test::bytes_of(scratch.path("a.png"));
+  constexpr std::size_t kEndBytes = 12;      // the chunk IEND
+  constexpr std::size_t kChecksumBytes = 8;  // of the chunk and of the packed pixels
+  for (std::size_t size = 0; size < whole.size() - kEndBytes - kChecksumBytes; ++size) {
+    const std::string path = scratch.write("cut.png", whole.substr(0, size));
+    INFO(size);
+    CHECK_THAT(test::input_error_of([&] { read_png_rgba(path); }), Contains("cut.png: "));
+  }
+}
+
 TEST_CASE("png: grey, palette, 16 bits, interlaced") {
   const test::ScratchFolder scratch;
   const std::string path = scratch.path("a.png");

@@ -1,8 +1,12 @@
 // Orders of small scenes.
 #include "algorithm/order/group_visits.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <map>
 
+#include "algorithm/render/paper_renderer.h"
+#include "algorithm/scene/cameras.h"
 #include "algorithm/splat/activate.h"
 #include "testbench/builtin/open_scene.h"
 #include "tests/algorithm/order/order_checks.h"
@@ -32,6 +36,88 @@ TEST_CASE("paper order: a camera that looks along an axis from a cell's corner")
     camera.position = {0, -0.5, z};
     check_order(cloud, grid, camera, 32);
   }
+}
+
+struct GridTable {
+  const VoxelGrid& grid;
+  VoxelNode node(std::uint32_t index) const { return grid.nodes[index]; }
+};
+
+// Chains of all rays of a group, one after another.
+struct Chains {
+  std::vector<std::vector<std::uint32_t>> of_ray;
+  Chains(const View<float>& view, const PixelRect& group, const VoxelGrid& grid) {
+    const GridTable nodes{grid};
+    RayWalk walk(grid.frame, nodes);
+    for (int y = group.y0; y < group.y1; ++y) {
+      for (int x = group.x0; x < group.x1; ++x) {
+        std::vector<std::uint32_t>& chain = of_ray.emplace_back();
+        walk.walk(pixel_ray(view, x, y), [&](std::uint32_t voxel, std::uint32_t) {
+          chain.push_back(voxel);
+          return true;
+        });
+      }
+    }
+  }
+};
+
+TEST_CASE("paper order: a table that is too small orders the same voxels in passes") {
+  const Scene scene = open_scene("builtin:object?n=4000");
+  const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), 0.1F);
+  const View<float> view = make_view<float>(scaled_to(scene.cameras.front(), 96, 54));
+  for (const PixelRect& group : {PixelRect{40, 20, 56, 36}, PixelRect{48, 16, 72, 28}}) {
+    OrderingTable roomy(grid.voxels.size());
+    const GroupVisits whole = paper_visits(view, group, grid, {}, roomy);
+    REQUIRE(whole.voxels.size() > 20);
+    CHECK(whole.overflows == 0);
+    const Chains chains(view, group, grid);
+    for (const std::uint64_t bytes : {8, 20, 100, 300}) {
+      INFO(bytes << " bytes");
+      OrderingTable table(grid.voxels.size(), bytes);
+      const GroupVisits passes = paper_visits(view, group, grid, {}, table);
+      CHECK(passes.overflows > 0);
+      CHECK(passes.table_bytes <= bytes);
+      CHECK(passes.rays > whole.rays);
+      std::vector<std::uint32_t> sorted = passes.voxels, expected = whole.voxels;
+      std::sort(sorted.begin(), sorted.end());
+      std::sort(expected.begin(), expected.end());
+      CHECK(sorted == expected);  // each once
+      std::map<std::uint32_t, std::size_t> place;
+      for (std::size_t i = 0; i < passes.voxels.size(); ++i) place[passes.voxels[i]] = i;
+      std::size_t out_of_order = 0;
+      for (const auto& chain : chains.of_ray) {
+        for (std::size_t i = 1; i < chain.size(); ++i) {
+          out_of_order += place[chain[i - 1]] >= place[chain[i]] ? 1 : 0;
+        }
+      }
+      CHECK(out_of_order == 0);
+    }
+  }
+}
+
+TEST_CASE("paper order: rays of every so-many-th pixel, and of a group's last ones") {
+  for (const std::uint32_t step : {1U, 2U, 3U, 5U, 100U}) {
+    std::vector<int> at;
+    for (int x = 4; x < 12; x = next_ray(x, 12, step)) at.push_back(x);
+    INFO(step);
+    CHECK(at.front() == 4);
+    CHECK(at.back() == 11);
+    CHECK(at.size() == 1 + (7 + step - 1) / step);
+    for (std::size_t i = 1; i + 1 < at.size(); ++i) {
+      CHECK(at[i] - at[i - 1] == static_cast<int>(step));
+    }
+  }
+  const Scene scene = open_scene("builtin:object?n=4000");
+  const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), 0.1F);
+  const View<float> view = make_view<float>(scaled_to(scene.cameras.front(), 96, 54));
+  const PixelRect group{32, 0, 96, 54};
+  OrderingTable table(grid.voxels.size());
+  const GroupVisits all = paper_visits(view, group, grid, {}, table);
+  const GroupVisits fewer = paper_visits(view, group, grid, {2, 0}, table);
+  CHECK(all.rays == 64 * 54);
+  CHECK(fewer.rays == 33 * 28);
+  CHECK(fewer.voxels.size() <= all.voxels.size());
+  CHECK(fewer.voxels.size() > all.voxels.size() / 2);
 }
 
 }  // namespace

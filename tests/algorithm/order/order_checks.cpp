@@ -42,7 +42,7 @@ struct Violations {
 Violations check_group(const View<float>& view, const PixelRect& group, const VoxelGrid& grid,
                        const std::vector<glm::ivec3>& cells, OrderingTable& table) {
   Violations found;
-  const GroupVisits visits = paper_visits(view, group, grid, 0, table);
+  const GroupVisits visits = paper_visits(view, group, grid, {}, table);
   std::vector<std::int32_t> place(grid.voxels.size(), -1);
   for (std::size_t i = 0; i < visits.voxels.size(); ++i) {
     found.chains += place[visits.voxels[i]] >= 0 ? 1 : 0;
@@ -63,7 +63,7 @@ Violations check_group(const View<float>& view, const PixelRect& group, const Vo
   for (int y = group.y0; y < group.y1; ++y) {
     for (int x = group.x0; x < group.x1; ++x) {
       std::int64_t last = -1;
-      walk.walk(pixel_ray(view, x, y), [&](std::uint32_t voxel) {
+      walk.walk(pixel_ray(view, x, y), [&](std::uint32_t voxel, std::uint32_t) {
         found.missing += place[voxel] < 0 ? 1 : 0;
         if (last >= 0) {
           const auto before = static_cast<std::uint32_t>(last);
@@ -72,6 +72,7 @@ Violations check_group(const View<float>& view, const PixelRect& group, const Vo
           found.distances += distance(before) >= distance(voxel) ? 1 : 0;
         }
         last = voxel;
+        return true;
       });
     }
   }

@@ -76,6 +76,17 @@ TEST_CASE("ordering table: clear forgets voxels, edges and the chain before") {
   CHECK(table.sram_bytes() == 2 * 8 + 4);
 }
 
+TEST_CASE("ordering table: a chain that does not fit is told, whatever it lacks room for") {
+  OrderingTable voxels(10, 8), edges(10, 2 * 8 + 4 + 3);
+  CHECK(voxels.add_chain({1}));
+  CHECK_FALSE(voxels.add_chain({2}));
+  voxels.clear();
+  CHECK(voxels.add_chain({2}));
+  CHECK(edges.add_chain({1, 2}));
+  CHECK(edges.add_chain({1}));
+  CHECK_FALSE(edges.add_chain({2, 1}));  // an edge of 4 B where 3 are left
+}
+
 TEST_CASE("ordering table: chains that contradict each other are found out") {
   OrderingTable table(10);
   table.add_chain({1, 2});

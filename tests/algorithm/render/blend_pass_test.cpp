@@ -37,7 +37,7 @@ std::vector<Shown> blend_again(const View<float>& view, const ActivatedCloud& cl
                  if (pixel.contributors > 0 && !behind) failure = "out of order";
                  if (seen.alpha < 1.0F / 255 || seen.alpha > 0.99F) failure = "alpha out of range";
                  if (seen.before != pixel.transmittance) failure = "T in front";
-                 if (seen.after != seen.before * (1 - seen.alpha)) failure = "T behind";
+                 if (seen.after != seen.before - seen.alpha * seen.before) failure = "T behind";
                  pixel.colour += splat.rgb * (seen.alpha * seen.before);
                  pixel.transmittance = seen.after;
                  ++pixel.contributors;

@@ -47,7 +47,10 @@ std::vector<std::uint32_t> order(const View<float>& view, const PixelRect& group
   for (int y = group.y0; y < group.y1; ++y) {
     for (int x = group.x0; x < group.x1; ++x) {
       chain.clear();
-      walk.walk(pixel_ray(view, x, y), [&](std::uint32_t voxel) { chain.push_back(voxel); });
+      walk.walk(pixel_ray(view, x, y), [&](std::uint32_t voxel, std::uint32_t) {
+        chain.push_back(voxel);
+        return true;
+      });
       if (chain == chain_before) continue;
       for (std::size_t i = 0; i < chain.size(); ++i) {
         in_degree.emplace(chain[i], 0);

@@ -40,9 +40,9 @@ Pixel render_pixel(int x, int y, const std::vector<Splat>& splats) {
     const float dy = s.y - static_cast<float>(y / 4 * 4) - static_cast<float>(y % 4);
     const float alpha = alpha_at(s.conic_a, s.conic_b, s.conic_c, s.opacity, dx, dy);
     if (alpha == 0) continue;
-    const float after = pixel.transmittance * (1 - alpha);
-    if (after < static_cast<float>(kTransmittanceMin)) break;
     const float weight = alpha * pixel.transmittance;
+    const float after = pixel.transmittance - weight;
+    if (after < static_cast<float>(kTransmittanceMin)) break;
     for (int c = 0; c < 3; ++c) pixel.colour[c] += s.rgb[c] * weight;
     pixel.transmittance = after;
     ++pixel.blended;
@@ -69,7 +69,7 @@ Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const
   }
   OrderingTable table(grid.voxels.size());
   for (const PixelRect& group : pixel_groups(view.width, view.height, group_px)) {
-    const GroupVisits visits = paper_visits(view, group, grid, 0, table);
+    const GroupVisits visits = paper_visits(view, group, grid, {}, table);
     std::vector<std::vector<Splat>> of_voxel(grid.voxels.size());
     for (std::uint32_t i = 0; i < cloud.size(); ++i) {
       Splat splat{};

@@ -26,16 +26,19 @@ Splat flat(float alpha, glm::vec3 rgb) {
 // One pixel, one splat, straight from section 3, in the arithmetic of the kernel.
 void blend_pixel(SubtileState& state, int lane, float dx, float dy, const Splat& s) {
   if (state.active[lane] == 0) return;
-  const float power = -0.5F * (s.conic_a * dx * dx + s.conic_c * dy * dy) - s.conic_b * dx * dy;
-  if (power > 0) return;
-  const float alpha = std::min(0.99F, s.opacity * exp_of(power));
+  // log2(e) in the conic.
+  const float a = s.conic_a * -0.721347520F, b = s.conic_b * -1.44269504F;
+  const float c = s.conic_c * -0.721347520F;
+  const float exponent = (a * dx * dx + c * dy * dy) + b * dx * dy;
+  if (exponent > 0) return;
+  const float alpha = std::min(0.99F, s.opacity * exp2_of(exponent));
   if (alpha < 1.0F / 255) return;
-  const float after = state.transmittance[lane] * (1 - alpha);
+  const float before = state.transmittance[lane], weight = alpha * before;
+  const float after = before - weight;
   if (after < 0.0001F) {
     state.active[lane] = 0;
     return;
   }
-  const float weight = alpha * state.transmittance[lane];
   state.red[lane] += s.rgb.x * weight;
   state.green[lane] += s.rgb.y * weight;
   state.blue[lane] += s.rgb.z * weight;
@@ -50,7 +53,7 @@ bool explains(const LaneShares& shares, const SubtileState& before, const Subtil
     const float alpha = shares.alpha[lane], t = shares.before[lane];
     const bool blended = after.contributors[lane] != before.contributors[lane];
     if (blended != (alpha > 0) || t != before.transmittance[lane]) return false;
-    if (after.transmittance[lane] != t * (1 - alpha)) return false;
+    if (after.transmittance[lane] != t - alpha * t) return false;
     if (after.red[lane] != before.red[lane] + s.rgb.x * (alpha * t)) return false;
   }
   return true;
@@ -139,7 +142,7 @@ TEST_CASE("exactly 1e-4 is not below: T' equal to the threshold is blended") {
   SubtileState state = make_subtile(0, 0, 4, 4);
   state.transmittance[0] = 0.0002F;
   const float alpha = 0.5F;
-  REQUIRE(0.0002F * (1 - alpha) == 0.0001F);
+  REQUIRE(0.0002F - 0.0002F * alpha == 0.0001F);
   blend(state, 0, 0, flat(alpha, {1, 1, 1}));
   CHECK(state.contributors[0] == 1);
   CHECK(state.active[0] == -1);

@@ -7,6 +7,7 @@
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/extent_bound.h"
+#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/row_span.h"
 #include "algorithm/splat/visible_extents.h"
@@ -73,6 +74,14 @@ void fail(const char* bound, const Projected<float>& p, float opacity, int x, in
   FAIL("a visible pixel is removed by " << bound);
 }
 
+bool reached(const ExtentBound& bound, const PixelRect& block, int x, int y) {
+  const PixelRect group{block.x0 / kSubtilePx * kSubtilePx, block.y0 / kSubtilePx * kSubtilePx,
+                        block.x1, block.y1};
+  const GroupReach reach = group_reach(bound, group);
+  const int column = (x - group.x0) / kSubtilePx, row = (y - group.y0) / kSubtilePx;
+  return column >= reach.x0 && column <= reach.x1 && row >= reach.y0 && row <= reach.y1;
+}
+
 void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& counts) {
   const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
   const CoarseBound bound = coarse_bound(view, g.mean, scale_max);
@@ -115,6 +124,7 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
         }
         if (!touches(bound, block)) fail("the coarse bound", p, g.opacity, x, y);
         if (!touches(by_extents, block)) fail("the extents", p, g.opacity, x, y);
+        if (!reached(by_extents, block, x, y)) fail("the group's reach", p, g.opacity, x, y);
       }
     }
   }

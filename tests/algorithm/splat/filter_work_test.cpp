@@ -73,7 +73,7 @@ bool none_exceeds(const OperationCounts& a, const OperationCounts& most) {
          a.divisors <= most.divisors && a.square_roots <= most.square_roots &&
          a.logarithms <= most.logarithms && a.exponentials <= most.exponentials &&
          a.comparisons <= most.comparisons && a.roundings <= most.roundings &&
-         folded_macs(a) <= folded_macs(most);
+         folded_macs(a) <= folded_macs(most) && comparisons(a) <= comparisons(most);
 }
 
 // Gaussians of every kind, each against a group of 32 px.
@@ -138,22 +138,35 @@ TEST_CASE("filter work: a test that fails early has executed less") {
     CHECK(coarse.multiplies == 9);
     CHECK(coarse.adds == 12);
     CHECK(coarse.fused == 6);
-    CHECK(folded_macs(coarse) == 16);
+    CHECK(folded_macs(coarse) == 15);
   }
-  CHECK(folded_macs(fine_work(behind, 3).total()) == 16);
+  CHECK(folded_macs(fine_work(behind, 3).total()) == 15);
+  CHECK(comparisons(fine_work(behind, 3).total()) == 1);
 }
 
 TEST_CASE("work of rendering a splat, counted") {
-  const RenderingWork work = rendering_work();
-  // By hand, a sub-tile: its corner from the centre, 4 columns of dx, A dx^2 (2) and B dx, 4 rows of dy and C dy^2 (2); 16
-  // pixels of a sum, -1/2 of it, a product and a difference, exp, opacity, the cap and two
-  // selections, weight, 1 - alpha, T behind, its end, and three products and sums of colour.
-  CHECK(work.subtile_blend.multiplies == 4 * 3 + 4 * 2 + 16 * (2 + 1 + 2 + 3));
-  CHECK(work.subtile_blend.exponentials == 16);
-  CHECK(work.subtile_blend.comparisons == 16 * 4);
+  const RenderingWork work = rendering_work(BlendPrecision::kSingle);
+  // By hand, a sub-tile: its corner from the centre, 4 columns of dx, A dx^2
+  // (2) and B dx, 4 rows of dy and C dy^2 (2). 16 pixels of two sums and a product of the exponent,
+  // a parabola, opacity, weight, T behind, and three products and sums of colour; the end of the
+  // table, the cap, two selections, the end of T.
+  CHECK(work.subtile_blend.multiplies == 4 * 3 + 4 * 2 + 16 * (1 + 2 + 1 + 1 + 3));
+  CHECK(work.subtile_blend.adds == 2 + 4 + 4 + 16 * (2 + 2 + 1 + 3));
+  CHECK(work.subtile_blend.fused == 16 * (1 + 2 + 3));
+  CHECK(folded_macs(work.subtile_blend) == 30 + 16 * 10);
+  CHECK(folded_macs(work.conic) == 3);
+  CHECK(work.subtile_blend.look_ups == 16);
+  CHECK(work.subtile_blend.splits == 16);
+  CHECK(work.subtile_blend.scalings == 16);
+  CHECK(work.subtile_blend.exponentials == 0);
+  CHECK(work.subtile_blend.comparisons == 16 * 5);
+  // In half: a line for a parabola; the larger of A and C, five numbers scaled by a power of two.
+  const OperationCounts half = rendering_work(BlendPrecision::kHalf).subtile_blend;
+  CHECK(folded_macs(half) == 30 + 16 * 9);
+  CHECK(half.comparisons == 16 * 5 + 1);
+  CHECK(half.scalings == 16 + 5);
   CHECK(work.span.square_roots == 1);
   CHECK(work.spans_begin.square_roots == 2);
-  CHECK(work.subtile_blend.adds == 2 + 4 + 4 + 16 * (1 + 1 + 1 + 3));
 }
 
 }  // namespace sgs::test

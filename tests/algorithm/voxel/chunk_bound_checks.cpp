@@ -9,7 +9,7 @@
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/coarse_bound.h"
-#include "algorithm/splat/extent_bound.h"
+#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
 #include "algorithm/voxel/chunk_test.h"
@@ -23,15 +23,41 @@ namespace {
 struct Found {
   bool blended = false;                                    // one of them could change a pixel
   float nearest = std::numeric_limits<float>::infinity();  // depth, of those in front
+  int x0 = 1 << 20, y0 = 1 << 20, x1 = -1, y1 = -1;        // sub-tiles of the group that may change
   void add(const Found& other) {
     blended = blended || other.blended;
     nearest = std::min(nearest, other.nearest);
+    x0 = std::min(x0, other.x0);
+    y0 = std::min(y0, other.y0);
+    x1 = std::max(x1, other.x1);
+    y1 = std::max(y1, other.y1);
+  }
+  bool within(const GroupReach& reach) const {
+    return !blended || (x0 >= reach.x0 && y0 >= reach.y0 && x1 <= reach.x1 && y1 <= reach.y1);
   }
 };
 
 bool could_blend(const View<float>& view, const Gaussian<float>& g, const PixelRect& group) {
   Splat splat{};
   return make_geometry(view, g, splat) && reaches_group(splat, group);
+}
+
+// Notes the sub-tiles of the group in which the Gaussian could change a pixel.
+void find_subtiles(const View<float>& view, const Gaussian<float>& g, const PixelRect& group,
+                   Found& found) {
+  Splat splat{};
+  if (!make_geometry(view, g, splat)) return;
+  for (int y = group.y0; y < group.y1; y += kSubtilePx) {
+    for (int x = group.x0; x < group.x1; x += kSubtilePx) {
+      const PixelRect subtile = intersection({x, y, x + kSubtilePx, y + kSubtilePx}, group);
+      if (!reaches_group(splat, subtile)) continue;
+      const int column = (x - group.x0) / kSubtilePx, row = (y - group.y0) / kSubtilePx;
+      found.x0 = std::min(found.x0, column);
+      found.y0 = std::min(found.y0, row);
+      found.x1 = std::max(found.x1, column);
+      found.y1 = std::max(found.y1, row);
+    }
+  }
 }
 
 // The bound of an HFU that streams chunks.
@@ -80,6 +106,11 @@ class Checker {
     if (found.blended && !touches(stored_bound(view_, g), group)) {
       tally_.failure = "coarse filter by extents";
     }
+    if (!found.blended) return found;
+    find_subtiles(view_, g, group, found);
+    if (!found.within(group_reach(stored_bound(view_, g), group))) {
+      tally_.failure = "a Gaussian's reach";
+    }
     return found;
   }
 
@@ -90,6 +121,7 @@ class Checker {
       tally_.in_vain += test.touches && !found.blended ? 1 : 0;
     }
     if (found.blended && !test.touches) tally_.failure = "a splat was missed";
+    if (test.touches && !found.within(test.reach)) tally_.failure = "a chunk's reach";
     // Also false for a depth that is not a number.
     if (test.touches && !(test.nearest <= found.nearest)) {
       tally_.failure = fmt::format("nearest {}, but one is at {}", test.nearest, found.nearest);

@@ -44,7 +44,13 @@ Ray ray_from(const glm::vec3& origin, const glm::vec3& direction) {
 template <class Tracer>
 std::vector<std::uint32_t> traced(Tracer& tracer, const Ray& ray) {
   std::vector<std::uint32_t> met;
-  tracer.walk(ray, [&](std::uint32_t voxel) { met.push_back(voxel); });
+  std::uint32_t last = 0;
+  tracer.walk(ray, [&](std::uint32_t voxel, std::uint32_t cells) {
+    CHECK((met.empty() || cells > last));
+    last = cells;
+    met.push_back(voxel);
+    return true;
+  });
   return met;
 }
 
@@ -170,6 +176,40 @@ TEST_CASE("ray walk: a ray along an edge of cells stays in the cells on one side
   CHECK(met == cells.walk(ray));
 }
 
+TEST_CASE("ray walk: children ahead, one by one") {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int step : {-1, 0, 1}) {
+      for (unsigned place = 0; place < 4; ++place) {
+        std::uint64_t expected = 0;
+        for (unsigned child = 0; child < 64; ++child) {
+          const unsigned xyz[3] = {child % 4, child / 4 % 4, child / 16};
+          const int beyond = static_cast<int>(xyz[axis]) - static_cast<int>(place);
+          if (step == 0 ? beyond == 0 : beyond * step >= 0) {
+            expected |= std::uint64_t{1} << child_bit(xyz[0], xyz[1], xyz[2]);
+          }
+        }
+        CHECK(children_from(axis, step, place) == expected);
+      }
+    }
+  }
+}
+
+TEST_CASE("ray walk: the block that is left is the largest with nothing ahead") {
+  VoxelNode node;
+  const auto block = [&](const glm::ivec3& step) { return empty_block(node, {1, 1, 1}, step, 2); };
+  CHECK(block({1, 1, 1}) == 4);
+  node.occupied = std::uint64_t{1} << child_bit(1, 1, 1);  // itself: it has been looked at
+  CHECK(block({1, 1, 1}) == 4);
+  node.occupied |= std::uint64_t{1} << child_bit(3, 2, 1);  // ahead, in another octant
+  CHECK(block({1, 1, 1}) == 3);
+  CHECK(block({1, 1, 0}) == 3);
+  CHECK(block({-1, 1, 1}) == 4);
+  CHECK(block({1, 0, 1}) == 4);
+  node.occupied |= std::uint64_t{1} << child_bit(0, 1, 1);  // its neighbour in the octant
+  CHECK(block({1, 1, 1}) == 3);
+  CHECK(block({-1, 1, 1}) == 2);
+}
+
 TEST_CASE("ray walk: empty space is crossed in few steps") {
   // Two voxels a hundred thousand cells apart.
   const ActivatedCloud cloud = cloud_of({{0.5F, 0.5F, 0.5F}, {100000.5F, 0.5F, 0.5F}});
@@ -177,8 +217,11 @@ TEST_CASE("ray walk: empty space is crossed in few steps") {
   const GridTable table{grid};
   RayWalk walk(grid.frame, table);
   std::vector<std::uint32_t> met;
-  const std::uint32_t steps = walk.walk(ray_from({-1, 0.5F, 0.5F}, {1, 0, 0}),
-                                        [&](std::uint32_t voxel) { met.push_back(voxel); });
+  const std::uint32_t steps =
+      walk.walk(ray_from({-1, 0.5F, 0.5F}, {1, 0, 0}), [&](std::uint32_t voxel, std::uint32_t) {
+        met.push_back(voxel);
+        return true;
+      });
   CHECK(met == std::vector<std::uint32_t>{0, 1});
   // At most three empty siblings on each of the levels on the way up and on the way down.
   CHECK(steps <= static_cast<std::uint32_t>(10 * grid.frame.levels));

@@ -51,8 +51,8 @@ TEST_CASE("chunk work: the longest case takes all sides, and what the formulas s
   const ChunkCase tested = longest_chunk_case();
   CHECK(GroupFrustum(make_view<float>(tested.camera), tested.group).test(tested.bound).touches);
   const OperationCounts work = chunk_work(tested);
-  // One quotient for each end of two ranges and one of the spread, by near and far.
-  CHECK(work.divisions == 5);
+  // One quotient for each end of two ranges, one of the spread and two of the reach, by near and far.
+  CHECK(work.divisions == 7);
   CHECK(work.divisors <= 2);
   CHECK(work.square_roots == 2);
   // Four sides: three products with the middle, three with the half-size, three for n each; three

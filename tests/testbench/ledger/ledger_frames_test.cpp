@@ -17,6 +17,7 @@
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/paper_renderer.h"
 #include "modules/machines.h"
+#include "modules/streaminggs/vsu/paper_vsu_config.h"
 #include "testbench/builtin/open_scene.h"
 #include "testbench/result/ledger.h"
 #include "testbench/streaminggs/frame_run.h"
@@ -88,11 +89,12 @@ const Settings kPlain = {"storage.encoding=raw", fmt::format("group_px={}", kGro
 // Nothing in it is finished early: what reaches a group late is still needed.
 constexpr const char* kSparse = "builtin:object?n=300";
 
-// The parts that both orders share, against a golden renderer's counts. hfus: that test one fetched
-// Gaussian.
+// The parts that both orders share, against a golden renderer's counts. hfus: that share
+// a fetch.
 void check_shared(const Frame& frame, const StreamingStats& golden, std::uint64_t hfus) {
   REQUIRE(counter(frame, "groups_saturated") == 0);
-  CHECK(items(frame, "coarse") == hfus * golden.first_halves);
+  CHECK(items(frame, "coarse") == golden.first_halves);
+  CHECK(counter(frame, "coarse_tests_of_parts") == hfus * golden.first_halves);
   CHECK(accesses(frame, "input").reads == golden.first_halves);
   CHECK(items(frame, "fine") == golden.fine_tests);
   const std::uint64_t words = (frame.job.layout.second_halves.record_bytes + 31) / 32;
@@ -140,7 +142,9 @@ TEST_CASE("ledger: exact order is charged with what the golden renderer counts")
 
 TEST_CASE("ledger: paper order is charged with what the golden renderer counts") {
   Settings settings = kPlain;
-  settings.push_back("vsu.visit_gaussians=0");  // a visit is a voxel
+  settings.insert(settings.end(),
+                  {"vsu.visit_gaussians=0",  // a visit is a voxel
+                   "fetch=shared", "hfu.slice_gaussians=512", "sorting.buffer_entries=128"});
   const Frame frame = simulated("paper_no_vq", settings, kSparse);
   check_paid(frame);
   constexpr std::uint32_t kHfus = 4;
@@ -148,6 +152,7 @@ TEST_CASE("ledger: paper order is charged with what the golden renderer counts")
   order.group_px = kGroupPx;
   order.parts = kHfus;
   order.precision = BlendPrecision::kHalf;
+  order.rays = PaperVsuConfig().rays();
   const StreamingStats golden = render_paper_order(frame.job.view, frame.scene->stored.decoded,
                                                    frame.scene->stored.grid(), order)
                                     .stats;
@@ -210,7 +215,7 @@ const Choices kExact = {{"vsu.test_lanes", {"8", "128", "600"}},
                         {"merge.on_overflow", {"spill", "blend_early"}}};
 const Choices kPaper = {
     {"vsu.step_lanes", {"8", "128", "600"}}, {"vsu.edges_per_cycle", {"1", "4"}},
-    {"vsu.groups_ahead", {"1", "3"}},        {"vsu.table_bytes", {"32768"}},
+    {"vsu.groups_ahead", {"1", "3"}},        {"vsu.table_bytes", {"64", "32768"}},
     {"vsu.visit_gaussians", {"0", "128"}},   {"sorting.buffer_entries", {"16", "256"}}};
 
 Choices with(Choices choices, const Choices& instead) {

@@ -8,7 +8,7 @@ namespace sgs::toy {
 FetchUnit::FetchUnit(const sc_core::sc_module_name& name, const ToyConfig& config,
                      const ClockDomain& clock, const FrameJob& job)
     : sc_module(name),
-      memory("memory", config.memory_port),
+      memory("memory", config.memory_port, clock.period()),
       config_(config),
       job_(job),
       ask_("ask", clock),

@@ -8,7 +8,7 @@ namespace sgs::toy {
 WriteUnit::WriteUnit(const sc_core::sc_module_name& name, const ToyConfig& config,
                      const ClockDomain& clock, const FrameJob& job, std::function<void()> on_done)
     : sc_module(name),
-      memory("memory", config.memory_port),
+      memory("memory", config.memory_port, clock.period()),
       config_(config),
       job_(job),
       on_done_(std::move(on_done)),

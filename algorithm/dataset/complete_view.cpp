@@ -1,0 +1,105 @@
+// Sizes, limits and crops of complete_view.h.
+#include "algorithm/dataset/complete_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "algorithm/input_error.h"
+#include "algorithm/scene/gaussian_limits.h"
+
+namespace sgs {
+namespace {
+
+constexpr int kMostSidePx = 65536;  // sub-tile bounds are 16-bit numbers
+
+// Whether one factor brings both stated sides to within a pixel of the image's.
+bool sizes_match(const Intrinsics& stated, const ImageHeader& image) {
+  const auto factor = [](int image_px, int stated_px, int off_px) {
+    return static_cast<double>(image_px + off_px) / stated_px;
+  };
+  return std::max(factor(image.width, stated.width, -1), factor(image.height, stated.height, -1)) <
+         std::min(factor(image.width, stated.width, 1), factor(image.height, stated.height, 1));
+}
+
+void check_sizes(const StatedView& view) {
+  const Intrinsics& stated = view.intrinsics;
+  if (!sizes_match(stated, view.image)) {
+    throw InputError(fmt::format(
+        "{}: {} is {}x{} px, expected {}x{} px as its camera, or both sides by one factor",
+        view.where, view.image_path, view.image.width, view.image.height, stated.width,
+        stated.height));
+  }
+  if (std::max(view.image.width, view.image.height) > kMostSidePx) {
+    throw InputError(fmt::format("{}: {} is {}x{} px, expected at most {} a side", view.where,
+                                 view.image_path, view.image.width, view.image.height,
+                                 kMostSidePx));
+  }
+}
+
+void check_numbers(const StatedView& view) {
+  const Intrinsics& stated = view.intrinsics;
+  for (const double focal_px : {stated.focal_x, stated.focal_y}) {
+    if (!(focal_px > 0 && focal_px <= kMaxFocalPx)) {
+      throw InputError(fmt::format("{}: focal length: got {}, expected px above 0, at most {}",
+                                   view.where, focal_px, kMaxFocalPx));
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(view.pose.position[axis]) <= kMaxCoordinate)) {
+      const glm::dvec3& at = view.pose.position;
+      throw InputError(
+          fmt::format("{}: position: got ({}, {}, {}), expected finite numbers of at most {}",
+                      view.where, at.x, at.y, at.z, kMaxCoordinate));
+    }
+  }
+}
+
+struct Cut {
+  int first = 0, size = 0;  // px
+};
+
+// Along one axis: what to use of `size` px so that `principal` is in the middle.
+Cut cut_around(const StatedView& view, const char* axis, double principal, int size) {
+  const double off_px = principal - 0.5 * size;
+  if (!(std::abs(off_px) < 0.25 * size)) {
+    throw InputError(
+        fmt::format("{}: principal point: got {} at {} px of {}, expected it in the middle half",
+                    view.where, axis, principal, size));
+  }
+  if (std::abs(off_px) <= 0.5) return {0, size};
+  const int less = static_cast<int>(std::lround(2 * std::abs(off_px)));
+  return {off_px > 0 ? less : 0, size - less};
+}
+
+}  // namespace
+
+DatasetView complete_view(const StatedView& view) {
+  check_sizes(view);
+  check_numbers(view);
+  const Intrinsics& stated = view.intrinsics;
+  const glm::dvec2 scale(static_cast<double>(view.image.width) / stated.width,
+                         static_cast<double>(view.image.height) / stated.height);
+  const glm::dvec2 principal =
+      scale * stated.principal_point.value_or(glm::dvec2(stated.width, stated.height) * 0.5);
+  const Cut x = cut_around(view, "x", principal.x, view.image.width);
+  const Cut y = cut_around(view, "y", principal.y, view.image.height);
+
+  DatasetView out;
+  out.name = view.name;
+  out.image_path = view.image_path;
+  out.file = view.image;
+  out.crop_px = {x.first, y.first};
+  out.split = view.split;
+  out.camera.name = view.name;
+  out.camera.width = x.size;
+  out.camera.height = y.size;
+  out.camera.focal_x = stated.focal_x * scale.x;
+  out.camera.focal_y = stated.focal_y * scale.y;
+  out.camera.position = view.pose.position;
+  out.camera.world_from_camera = view.pose.world_from_camera;
+  return out;
+}
+
+}  // namespace sgs

@@ -1,0 +1,33 @@
+// The readers of each layout: what they look for, and what they give. Conventions: README.md.
+#pragma once
+
+#include <string>
+
+#include "algorithm/dataset/stated_view.h"
+
+namespace sgs {
+
+// All readers throw InputError with file, entry, what was found and what was expected: a file that
+// is missing or damaged, a value that is not finite or means nothing, a view without an image.
+
+// A sparse model, binary before text, in sparse/0 or sparse; images in images.
+bool holds_colmap(const std::string& folder);
+StatedDataset read_colmap(const std::string& folder);
+
+// transforms_train.json, and transforms_test.json where there is one: NeRF's synthetic scenes.
+bool holds_split_transforms(const std::string& folder);
+StatedDataset read_split_transforms(const std::string& folder);
+
+// transforms.json, as instant-ngp and nerfstudio write it.
+bool holds_transforms(const std::string& folder);
+StatedDataset read_transforms(const std::string& folder);
+
+// cameras.json, as the original writes it; images beside it or in images.
+bool holds_cameras_json(const std::string& folder);
+StatedDataset read_cameras_json(const std::string& folder);
+
+// intrinsics.txt with pose and rgb.
+bool holds_nsvf(const std::string& folder);
+StatedDataset read_nsvf(const std::string& folder);
+
+}  // namespace sgs

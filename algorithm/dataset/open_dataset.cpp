@@ -1,0 +1,105 @@
+// The choice of the layout for open_dataset.h, and what all layouts have in common.
+#include "algorithm/dataset/open_dataset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "algorithm/dataset/complete_view.h"
+#include "algorithm/dataset/joined.h"
+#include "algorithm/dataset/layouts.h"
+#include "algorithm/input_error.h"
+
+namespace sgs {
+namespace {
+
+struct Layout {
+  const char* name;
+  const char* looked_for;
+  bool (*holds)(const std::string& folder);
+  StatedDataset (*read)(const std::string& folder);
+};
+
+constexpr std::array<Layout, 5> kLayouts = {{
+    {"COLMAP", "sparse/0/cameras.bin or .txt", holds_colmap, read_colmap},
+    {"NeRF synthetic", "transforms_train.json", holds_split_transforms, read_split_transforms},
+    {"transforms.json", "transforms.json", holds_transforms, read_transforms},
+    {"cameras.json", "cameras.json", holds_cameras_json, read_cameras_json},
+    {"NSVF", "intrinsics.txt with pose and rgb", holds_nsvf, read_nsvf},
+}};
+
+const Layout& layout_of(const std::string& folder) {
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(folder, unknown)) {
+    throw InputError(fmt::format("{}: no such folder, expected one with a data set", folder));
+  }
+  std::vector<const Layout*> found;
+  std::vector<std::string> looked_for, there;
+  for (const Layout& layout : kLayouts) {
+    looked_for.emplace_back(layout.looked_for);
+    if (!layout.holds(folder)) continue;
+    found.push_back(&layout);
+    there.push_back(looked_for.back());
+  }
+  if (found.size() == 1) return *found[0];
+  throw InputError(fmt::format(
+      "{}: {}, expected one of: {}", folder,
+      found.empty() ? "holds no data set" : fmt::format("holds {}", joined(there, " and ")),
+      joined(looked_for, ", ")));
+}
+
+void refuse_equal_names(const std::vector<StatedView>& by_name) {
+  const auto twice =
+      std::adjacent_find(by_name.begin(), by_name.end(),
+                         [](const StatedView& a, const StatedView& b) { return a.name == b.name; });
+  if (twice != by_name.end()) {
+    throw InputError(fmt::format("{}: name '{}' a second time, after {}, expected each once",
+                                 (twice + 1)->where, twice->name, twice->where));
+  }
+}
+
+}  // namespace
+
+std::vector<int> views_of(const Dataset& dataset, Split split) {
+  std::vector<int> numbers;
+  for (const DatasetView& view : dataset.views) {
+    if (view.split == split) numbers.push_back(view.camera.id);
+  }
+  return numbers;
+}
+
+Dataset open_dataset(const std::string& folder) {
+  constexpr int kTestEvery = 8;
+  const Layout& layout = layout_of(folder);
+  StatedDataset stated = layout.read(folder);
+  std::stable_sort(stated.views.begin(), stated.views.end(),
+                   [](const StatedView& a, const StatedView& b) { return a.name < b.name; });
+  refuse_equal_names(stated.views);
+
+  Dataset dataset;
+  dataset.folder = folder;
+  dataset.layout = layout.name;
+  dataset.split_by = stated.split_by;
+  dataset.left_out = stated.left_out;
+  dataset.points = std::move(stated.points);
+  dataset.bounds = stated.bounds;
+  for (const StatedView& view : stated.views) {
+    const int number = static_cast<int>(dataset.views.size());
+    dataset.views.push_back(complete_view(view));
+    DatasetView& added = dataset.views.back();
+    added.camera.id = number;
+    if (stated.split_by == SplitBy::kEveryEighth) {
+      added.split = number % kTestEvery == 0 ? Split::kTest : Split::kTrain;
+    }
+  }
+  if (views_of(dataset, Split::kTrain).empty()) {
+    throw InputError(
+        fmt::format("{}: holds {} views ({}), none to train from, expected one or more", folder,
+                    dataset.views.size(), layout.name));
+  }
+  return dataset;
+}
+
+}  // namespace sgs

@@ -1,0 +1,124 @@
+// transforms.json and its kin (layouts.h).
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "algorithm/dataset/find_image.h"
+#include "algorithm/dataset/layouts.h"
+#include "algorithm/dataset/pose.h"
+#include "algorithm/dataset/transforms_frame.h"
+#include "algorithm/input_error.h"
+#include "algorithm/input_json.h"
+
+namespace sgs {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+fs::path file_in(const std::string& folder, const char* name) { return fs::path(folder) / name; }
+
+bool is_in(const std::string& folder, const char* name) {
+  std::error_code unknown;
+  return fs::exists(file_in(folder, name), unknown);
+}
+
+class TransformsFile {
+ public:
+  TransformsFile(const std::string& folder, const char* name)
+      : folder_(folder), path_(file_in(folder, name).string()), json_(read_json(path_)) {
+    if (!json_.is_object() || !json_.contains("frames") || !json_["frames"].is_array()) {
+      throw InputError(
+          fmt::format("{}: got no frames, expected an object with an array of that name", path_));
+    }
+  }
+
+  // Calls use(path of the image as written, view) for each frame.
+  template <class Use>
+  void for_frames(const Use& use) const {
+    const Json& frames = json_["frames"];
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const TransformsFrame frame(json_, frames[i], fmt::format("{}: frame {}", path_, i));
+      const auto file = frame.text("file_path");
+      if (!file) frame.fail("file_path", "nothing", "the path of an image");
+      use(*file, [&](Split split) { return view_of(frame, *file, split); });
+    }
+  }
+
+  // The paths of images under `key`, if it is there.
+  std::optional<std::set<std::string>> paths(const char* key) const {
+    const auto found = json_.find(key);
+    if (found == json_.end()) return {};
+    std::set<std::string> paths;
+    for (const Json& path : *found) {
+      if (!path.is_string()) {
+        throw InputError(
+            fmt::format("{}: {}: got {}, expected paths of images", path_, key, shown(path)));
+      }
+      paths.insert(view_name(path.get<std::string>()));
+    }
+    return paths;
+  }
+
+ private:
+  StatedView view_of(const TransformsFrame& frame, const std::string& file, Split split) const {
+    const FoundImage found = find_image({folder_}, file, frame.where());
+    return {frame.where(),
+            view_name(file),
+            found.path,
+            found.header,
+            transforms_intrinsics(frame, found.header),
+            opengl_pose(frame.matrix("transform_matrix"), frame.where()),
+            split};
+  }
+
+  std::string folder_, path_;
+  Json json_;
+};
+
+}  // namespace
+
+bool holds_split_transforms(const std::string& folder) {
+  return is_in(folder, "transforms_train.json");
+}
+
+StatedDataset read_split_transforms(const std::string& folder) {
+  StatedDataset dataset;
+  const auto add = [&](const char* name, Split split) {
+    TransformsFile(folder, name).for_frames([&](const std::string&, const auto& view) {
+      dataset.views.push_back(view(split));
+    });
+  };
+  add("transforms_train.json", Split::kTrain);
+  if (is_in(folder, "transforms_test.json")) {
+    add("transforms_test.json", Split::kTest);
+    dataset.split_by = SplitBy::kDataset;
+  }
+  return dataset;
+}
+
+bool holds_transforms(const std::string& folder) { return is_in(folder, "transforms.json"); }
+
+StatedDataset read_transforms(const std::string& folder) {
+  const TransformsFile file(folder, "transforms.json");
+  const auto train = file.paths("train_filenames");
+  auto test = file.paths("test_filenames");
+  if (!test) test = file.paths("val_filenames");
+  StatedDataset dataset;
+  if (train || test) dataset.split_by = SplitBy::kDataset;
+  file.for_frames([&](const std::string& path, const auto& view) {
+    const std::string name = view_name(path);
+    if (test && test->count(name) > 0) {
+      dataset.views.push_back(view(Split::kTest));
+    } else if (!train || train->count(name) > 0) {
+      dataset.views.push_back(view(Split::kTrain));
+    } else {
+      ++dataset.left_out;
+    }
+  });
+  return dataset;
+}
+
+}  // namespace sgs

@@ -1,0 +1,108 @@
+// Rendering's mask of finished sub-tiles: nothing changes them any more. The news of each travels
+// as that of finished groups does (finished_groups.h) and may be late: then something is fetched
+// that changes nothing.
+// Hardware keeps one mask, of the group that is being blended: rendering takes the groups in turn,
+// and of a later one nothing is finished yet.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "algorithm/splat/constants.h"
+#include "algorithm/splat/group_reach.h"
+#include "modules/streaminggs/built_for.h"
+#include "tlm/clock_domain.h"
+#include "tlm/sram_use.h"
+
+namespace sgs {
+
+class FinishedSubtilesIf : public virtual sc_core::sc_interface {
+ public:
+  // Whether any sub-tile of `reach` is not known to be finished.
+  virtual bool any_unfinished(std::uint32_t group, const GroupReach& reach) const = 0;
+  // Sub-tiles of which the news was sent.
+  virtual std::uint64_t news() const = 0;
+};
+
+class FinishSubtileIf : public virtual sc_core::sc_interface {
+ public:
+  // at: the sub-tile's place in the group, row by row; known_in_cycles: as with finished groups.
+  virtual void finish(std::uint32_t group, std::size_t at, std::uint32_t known_in_cycles) = 0;
+};
+
+class FinishedSubtiles : public sc_core::sc_prim_channel,
+                         public FinishedSubtilesIf,
+                         public FinishSubtileIf {
+ public:
+  // latency_cycles: at least 1, so that what units see does not depend on which of them the kernel
+  // runs first.
+  FinishedSubtiles(const char* name, const ClockDomain& clock, const std::vector<PixelRect>& groups,
+                   std::uint32_t latency_cycles)
+      : sc_prim_channel(name),
+        period_(clock.period()),
+        latency_cycles_(latency_cycles),
+        masks_(groups.size()) {
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      masks_[g].columns = (groups[g].width() + kSubtilePx - 1) / kSubtilePx;
+      masks_[g].rows = (groups[g].height() + kSubtilePx - 1) / kSubtilePx;
+    }
+  }
+
+  void finish(std::uint32_t group, std::size_t at, std::uint32_t known_in_cycles) override {
+    Mask& mask = masks_[group];
+    if (mask.seen_from.empty()) {
+      mask.seen_from.assign(static_cast<std::size_t>(mask.columns) * mask.rows,
+                            sc_core::sc_max_time());
+    }
+    const double cycles = static_cast<double>(known_in_cycles) + latency_cycles_;
+    mask.seen_from[at] = sc_core::sc_time_stamp() + cycles * period_;
+    ++news_;
+  }
+  bool any_unfinished(std::uint32_t group, const GroupReach& reach) const override {
+    const Mask& mask = masks_[group];
+    if (mask.seen_from.empty()) return true;
+    const sc_core::sc_time now = sc_core::sc_time_stamp();
+    for (int y = reach.y0; y <= std::min<int>(reach.y1, mask.rows - 1); ++y) {
+      for (int x = reach.x0; x <= std::min<int>(reach.x1, mask.columns - 1); ++x) {
+        if (mask.seen_from[static_cast<std::size_t>(y) * mask.columns + x] > now) return true;
+      }
+    }
+    return false;
+  }
+  std::uint64_t news() const override { return news_; }
+
+  const char* kind() const override { return "sgs::FinishedSubtiles"; }
+
+ private:
+  struct Mask {
+    int columns = 0, rows = 0;
+    std::vector<sc_core::sc_time> seen_from;  // [row, column]; empty: nothing is finished
+  };
+
+  const sc_core::sc_time period_;
+  const std::uint32_t latency_cycles_;
+  std::vector<Mask> masks_;  // [group]
+  std::uint64_t news_ = 0;
+};
+
+using FinishedSubtilesIn = sc_core::sc_port<FinishedSubtilesIf>;
+// Not bound where nobody asks.
+using FinishSubtileOut = sc_core::sc_port<FinishSubtileIf, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
+
+// A bit a sub-tile, all of them read at once: each unit that asks keeps its own.
+inline SramUse mask_use(std::uint32_t group_px) {
+  const std::uint32_t side = (group_px + kSubtilePx - 1) / kSubtilePx;
+  const std::uint32_t row_bytes = (side + 7) / 8;
+  return sram_use("finished sub-tiles", kSharedSram, {{side, "rows"}, {row_bytes, "B"}},
+                  {8 * side * row_bytes, SramPorts::kReadAndWrite, 1});
+}
+// What asks it: of each row the columns of a reach, and whether one of them is unfinished. About
+// what a comparator of 32 bits does.
+inline std::uint32_t mask_comparators(std::uint32_t group_px) {
+  const std::uint32_t side = (group_px + kSubtilePx - 1) / kSubtilePx;
+  return side * ((side + 31) / 32);
+}
+
+}  // namespace sgs

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""Where the energy of a frame goes in both orders, and what the size of the pixel group does to it.
+
+Writes energy_components.md: energy by component with the band that the sources leave, a column for
+each scene; and energy_groups.md and .csv: energy, bytes, cycles and area against the group's size,
+means over the scenes. On-chip memory is as large as each group needs; the ordering table of paper
+order, which grows with the group, is the smallest of a few sizes that every scene can be drawn
+with. What was simulated is kept in energy_runs.jsonl.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import sys
+from collections.abc import Callable, Iterable, Sequence
+
+import run_arguments
+import tables
+from kept_runs import KeptRuns
+from scenes import Scene, find_scenes, shared_names
+from simulations import SRAM_AS_NEEDED, Run
+
+RUNS_FILE = "energy_runs.jsonl"
+# Second halves raw in both: codebooks are compare_variants.py's business.
+PRESETS = {"exact": "exact", "paper": "paper_no_vq"}
+# What is tried in turn where a scene refuses what there is.
+RELIEF = {
+    "exact": ((),),
+    "paper": tuple((f"vsu.table_bytes={n}",) for n in (7680, 16384, 32768, 65536, 131072)),
+}
+GROUPS_PX = (16, 32, 48, 64, 96, 128, 192)
+MJ = 1e-3
+
+# Components of energy that are neither logic nor on-chip memory.
+OTHER = {
+    "clock": ("clock_j",),
+    "leakage": ("logic_leakage_j", "sram_leakage_j"),
+    "DRAM": ("dram_j",),
+    "all": ("total_j",),
+}
+
+
+def components(view: dict) -> dict[str, tuple[str, ...]]:
+    """Name of a row: the keys of the report's energy that it sums."""
+    logic = [name for name in view["area_mm2"] if name not in ("sram", "total", "bands")]
+    rows = {name: (f"{name}_j",) for name in logic if f"{name}_j" in view["energy"]}
+    elsewhere = {key for keys in [*rows.values(), *OTHER.values()] for key in keys}
+    memories = sorted(key for key in view["energy"]["bands"] if key not in elsewhere)
+    pixels = tuple(key for key in memories if key == "pixel_state_j")
+    rest = tuple(key for key in memories if key != "pixel_state_j")
+    return {**rows, "SRAM: pixels": pixels, "SRAM: all else": rest, **OTHER}
+
+
+def joules(view: dict, keys: Iterable[str], end: str = "middle") -> float:
+    return sum(view["energy"]["bands"][key][end] for key in keys if key in view["energy"]["bands"])
+
+
+def with_band(view: dict, keys: Sequence[str]) -> str:
+    """The memory's band is that of the published sets of currents; the total's has none of it."""
+    ends = [joules(view, keys, end) for end in ("low", "middle", "high")]
+    if keys == OTHER["DRAM"]:
+        sets = [*view["energy"]["dram_by_current_set_j"].values(), ends[1]]
+        ends = [min(sets), ends[1], max(sets)]
+    low, middle, high = (end / MJ for end in ends)
+    return f"{middle:.3f} ({low:.3f} .. {high:.3f})"
+
+
+def component_rows(by_order: dict[str, Sequence[dict]]) -> list[tuple]:
+    rows = []
+    for order, views in by_order.items():
+        for name, keys in components(views[0]).items():
+            rows.append((order, name, *(with_band(view, keys) for view in views)))
+    return rows
+
+
+GROUP_HEAD = (
+    "order",
+    "group px",
+    "DRAM mJ",
+    "SRAM mJ",
+    "logic mJ",
+    "clock and leakage mJ",
+    "all mJ",
+    "bus MB",
+    "asked MB",
+    "M cycles",
+    "mm2",
+    "SRAM KiB",
+)
+
+
+def group_row(order: str, group_px: int, views: Sequence[dict]) -> tuple:
+    """Means over the scenes; area and memory of the scene that needs most."""
+
+    def mean(value: Callable[[dict], float]) -> float:
+        return statistics.fmean(value(view) for view in views)
+
+    def of(view: dict, wanted: Callable[[str], bool]) -> float:
+        keys = [key for name, some in components(view).items() if wanted(name) for key in some]
+        return joules(view, keys) / MJ
+
+    memories = ("SRAM: pixels", "SRAM: all else")
+    logic = [name for name in components(views[0]) if name not in (*memories, *OTHER)]
+    sram = max(sum(v["sram"][f"{m}_bytes"] for m in ("input", "codebook", "shared")) for v in views)
+    return (
+        order,
+        group_px,
+        f"{mean(lambda v: of(v, lambda name: name == 'DRAM')):.3f}",
+        f"{mean(lambda v: of(v, memories.__contains__)):.3f}",
+        f"{mean(lambda v: of(v, logic.__contains__)):.3f}",
+        f"{mean(lambda v: of(v, ('clock', 'leakage').__contains__)):.3f}",
+        f"{mean(lambda v: of(v, lambda name: name == 'all')):.3f}",
+        f"{mean(lambda v: v['dram']['bus_bytes']) / 1e6:.2f}",
+        f"{mean(lambda v: v['dram']['bytes']) / 1e6:.2f}",
+        f"{mean(lambda v: v['frame']['cycles']) / 1e6:.3f}",
+        f"{max(v['area_mm2']['total'] for v in views):.2f}",
+        f"{sram / 1024:.0f}",
+    )
+
+
+class Measuring:
+    def __init__(self, arguments: argparse.Namespace, scenes: Sequence[Scene]):
+        path = arguments.out / RUNS_FILE
+        self.kept = KeptRuns(arguments.streaminggs, path, arguments.side_by_side)
+        self.arguments, self.scenes = arguments, scenes
+
+    def views(self, order: str, overrides: tuple[str, ...]) -> list[dict]:
+        """Of all scenes. Raises ValueError where one is refused whatever relief there is."""
+        for relief in RELIEF[order]:
+            outcomes = self.kept.outcomes(
+                [
+                    Run(
+                        scene,
+                        self.arguments.view,
+                        self.arguments.size,
+                        PRESETS[order],
+                        (*overrides, *relief, *self.arguments.set),
+                    )
+                    for scene in self.scenes
+                ]
+            )
+            if not any(outcome.refused for outcome in outcomes):
+                break
+        return [outcome.accepted()[0] for outcome in outcomes]
+
+
+def make_tables(arguments: argparse.Namespace) -> None:
+    scenes = find_scenes(arguments.scenes or shared_names())
+    measuring = Measuring(arguments, scenes)
+    shipped = {order: measuring.views(order, SRAM_AS_NEEDED) for order in PRESETS}
+    made = run_arguments.how_made(view for views in shipped.values() for view in views)
+    head = ("order", "mJ of", *(scene.name for scene in scenes))
+    write(arguments, "energy_components", made, head, component_rows(shipped))
+    rows = [
+        group_row(order, px, measuring.views(order, (*SRAM_AS_NEEDED, f"group_px={px}")))
+        for order in PRESETS
+        for px in arguments.groups
+    ]
+    write(arguments, "energy_groups", made, GROUP_HEAD, rows)
+    measuring.kept.end()
+
+
+def write(
+    arguments: argparse.Namespace, name: str, made: str, head: Sequence[str], rows: list[tuple]
+) -> None:
+    text = made + tables.markdown(head, rows)
+    tables.write_text(arguments.out / f"{name}.md", text)
+    tables.write_text(arguments.out / f"{name}.csv", tables.csv_text(head, rows))
+    print(f"{text}\n", flush=True)
+
+
+def main() -> int:
+    parser = run_arguments.parser(__doc__)
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    run_arguments.add_side_by_side(parser)
+    parser.add_argument("--view", default="0", help="number of a camera")
+    parser.add_argument("--size", default="640x360", metavar="WxH", help="in px")
+    parser.add_argument("--groups", nargs="+", type=int, default=list(GROUPS_PX), metavar="PX")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE", help="over both presets"
+    )
+    return run_arguments.main_of_tables(make_tables, parser.parse_args())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+"""Exact order against paper order, each with the machine that does best for it in the same area.
+
+Of each order a machine is searched, one for all scenes, within the area of the shipped preset
+`paper` (--budgets 1) and larger ones; what belongs to a scene's storage, chunk or voxel size, may
+be chosen for each scene. A machine does best when the geometric mean over the scenes, view 0, is
+smallest: of cycles; in the first area also one for bytes on the bus and one for joules. Second
+halves are raw, memory channels are the preset's, on-chip memory is as large as the rest needs and
+counts by its area.
+
+Then the presets and the machines found for cycles draw every view.
+
+Writes fair_fight_front.csv and .md: the points of both orders that no other one beats in picture,
+bytes, time, energy and area; fair_fight_machines.md: what was chosen, and as a configuration each
+in fair_fight_ORDER_BUDGET_OBJECTIVE.json; fair_fight_views.csv and .md, and their summary. What was
+simulated is kept in fair_fight_runs.jsonl, as long as program, presets and technology are the same:
+started again, the script goes on where it ended.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+
+import run_arguments
+import tables
+from fair_fight_tables import FRONT_HEAD, assigned_document, found_table, front_rows, near_front
+from kept_runs import KeptRuns
+from machine_areas import Areas, area_mm2, start_of
+from machine_axes import ORDERS, Order
+from machine_search import OBJECTIVES, Point, Search
+from machine_views import Contender, views_tables
+from scenes import Scene, find_scenes, shared_names
+from simulations import Run
+
+BUDGET_PRESET = "paper"
+RUNS_FILE = "fair_fight_runs.jsonl"
+# Scenes that differ stand together, so that a machine that is bad for one kind is given up early.
+SCENES_IN_TURN = ("yard", "platform", "truck", "garden", "playbot", "park")
+
+
+def scenes_in_turn(texts: Sequence[str]) -> list[Scene]:
+    names = list(texts) or [n for n in SCENES_IN_TURN if n in shared_names()]
+    if not names:
+        raise ValueError("no SCENE given, and no real ones are there")
+    return find_scenes(names)
+
+
+def storage_at_start(order: Order, kept: KeptRuns, scenes: Sequence[Scene], size: str) -> list[int]:
+    """As the preset stores each scene, or nearest to that."""
+    kind = order.storage.name.partition(".")[2]
+    found = []
+    for outcome in kept.outcomes([Run(s, "0", size, order.preset) for s in scenes]):
+        view = outcome.accepted()[0]
+        stored = view["scene"].get(kind) or view["config"]["storage"][kind]
+        distances = [
+            abs(float(setting[0].partition("=")[2]) - stored) for setting in order.storage.settings
+        ]
+        found.append(distances.index(min(distances)))
+    return found
+
+
+class Fight:
+    """Searches of all orders, areas and objectives that are asked for."""
+
+    def __init__(self, arguments: argparse.Namespace, kept: KeptRuns, scenes: Sequence[Scene]):
+        self.arguments, self.kept, self.scenes = arguments, kept, scenes
+        self.points: list[Point] = []
+        self.best: dict[tuple[str, float, str], Point] = {}
+
+    def paper_area(self) -> float:
+        """Of the preset, with codebooks as the scene with the largest needs them."""
+        if self.arguments.area:
+            return self.arguments.area
+        runs = [Run(s, "0", self.arguments.size, BUDGET_PRESET) for s in self.scenes]
+        outcomes = self.kept.outcomes(runs)
+        return max(area_mm2(outcome.accepted()[0]) for outcome in outcomes)
+
+    def search_all(self) -> None:
+        area = self.paper_area()
+        areas = Areas(self.kept)
+        for name in self.arguments.orders:
+            order = ORDERS[name]
+            machine, harm = start_of(order, self.kept), {}
+            storage = storage_at_start(order, self.kept, self.scenes, self.arguments.size)
+            first, *others = self.arguments.objectives
+            smallest, *larger = self.arguments.budgets
+            for budget, objective, share in (
+                (smallest, first, 1.0),
+                # These begin where the first one ended, and have less to find.
+                *((smallest, other, 0.4) for other in others),
+                *((budget, first, 0.4) for budget in larger),
+            ):
+                search = Search(
+                    areas,
+                    self.scenes,
+                    self.arguments.size,
+                    budget * area,
+                    objective,
+                    round(share * self.arguments.most_runs),
+                    harm,
+                )
+                point = search.best_from(machine, storage)
+                harm = harm or search.harm
+                self.points += search.points
+                if point:
+                    self.best[name, budget, objective] = point
+                    if objective == first:
+                        machine, storage = point.machine, point.storage
+                self.write()
+
+    def write(self) -> None:
+        """What has been found so far."""
+        out = self.arguments.out
+        front = near_front(self.points)
+        made = run_arguments.how_made(view for p in self.points for view in p.views)
+        rows = front_rows(self.points, front)
+        text = made + tables.markdown(FRONT_HEAD[:-1], [row[:-1] for row in rows if row[-1]])
+        tables.write_text(out / "fair_fight_front.csv", tables.csv_text(FRONT_HEAD, rows))
+        tables.write_text(out / "fair_fight_front.md", text)
+        found = made + found_table(self.best)
+        tables.write_text(out / "fair_fight_machines.md", found)
+        for (order, budget, objective), point in self.best.items():
+            name = f"fair_fight_{order}_{budget:g}_{objective}.json".replace(" ", "_")
+            document = assigned_document(point.overrides(0), point.views)
+            tables.write_text(out / name, json.dumps(document, indent=2) + "\n")
+
+    def contenders(self) -> list[Contender]:
+        """The presets, and what was found for the first objective in the first area."""
+        presets = [Contender(f"preset {name}", name, ()) for name in ("exact", BUDGET_PRESET)]
+        wanted = (self.arguments.budgets[0], self.arguments.objectives[0])
+        found = [
+            Contender(
+                f"{order}, best {objective}",
+                point.machine.order.preset,
+                tuple(point.overrides(n) for n in range(len(self.scenes))),
+            )
+            for (order, budget, objective), point in self.best.items()
+            if (budget, objective) == wanted
+        ]
+        return presets + found
+
+
+def fight(arguments: argparse.Namespace) -> None:
+    for what, given in (("budgets", arguments.budgets), ("area", [arguments.area or 1])):
+        if bad := [n for n in given if n <= 0]:
+            raise ValueError(f"--{what}: {bad[0]:g}, expected more than 0")
+    scenes = scenes_in_turn(arguments.scenes)
+    kept = KeptRuns(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.side_by_side)
+    made = Fight(arguments, kept, scenes)
+    made.search_all()
+    for name in ("fair_fight_machines", "fair_fight_front"):
+        print((arguments.out / f"{name}.md").read_text())
+    if arguments.view != "none":
+        sizes = arguments.view_sizes
+        drawn = views_tables(kept, made.contenders(), scenes, arguments.view, sizes)
+        tables.write_text(arguments.out / "fair_fight_views.md", drawn.views)
+        tables.write_text(arguments.out / "fair_fight_views.csv", drawn.csv)
+        tables.write_text(arguments.out / "fair_fight_summary.md", drawn.summary)
+        print(f"{drawn.views}\n{drawn.summary}")
+    kept.end()
+
+
+def main() -> int:
+    parser = run_arguments.parser(__doc__)
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    run_arguments.add_side_by_side(parser)
+    parser.add_argument("--orders", nargs="+", choices=ORDERS, default=["exact", "paper"])
+    parser.add_argument(
+        "--budgets", nargs="+", type=float, default=[1.0, 2.0], metavar="X", help="of paper's area"
+    )
+    parser.add_argument(
+        "--area", type=float, metavar="MM2", help="of budget 1; default: the preset paper's"
+    )
+    parser.add_argument(
+        "--objectives", nargs="+", choices=OBJECTIVES, default=list(OBJECTIVES), metavar="NAME"
+    )
+    parser.add_argument(
+        "--most-runs",
+        type=int,
+        default=120,
+        help="simulations in the first search of an order; the others get 0.4 times as many",
+    )
+    parser.add_argument("--size", default="640x360", metavar="WxH", help="of the search")
+    parser.add_argument("--view", default="all", help="that all machines draw in the end, or none")
+    parser.add_argument(
+        "--view-sizes", nargs="+", default=["640x360", "1280x720"], metavar="WxH", help="of these"
+    )
+    return run_arguments.main_of_tables(fight, parser.parse_args())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,163 @@
+"""What a search may change in the machine of each order, and a machine as a point of it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+
+from simulations import SRAM_AS_NEEDED
+
+Assignments = tuple[str, ...]
+
+
+@dataclasses.dataclass(frozen=True)
+class Axis:
+    """Settings from little to much hardware, each of them one assignment or several that go
+    together."""
+
+    name: str
+    settings: tuple[Assignments, ...]
+
+
+def axis(key: str, *values: object) -> Axis:
+    return Axis(key, tuple((f"{key}={value}",) for value in values))
+
+
+@dataclasses.dataclass(frozen=True)
+class Order:
+    """A preset with the axes of its machine; storage: what may be chosen for each scene."""
+
+    name: str
+    preset: str
+    fixed: Assignments
+    axes: tuple[Axis, ...]
+    storage: Axis
+
+    def with_blend(self, macs: int) -> Order:
+        """With as many lanes in a cluster as blend a sub-tile in 8, 6, ... 1 cycles; what lies
+        between would be idle."""
+        lanes = axis("rendering.cluster_lanes", *(-(-macs // n) for n in (8, 6, 4, 3, 2, 1)))
+        return dataclasses.replace(
+            self, axes=tuple(lanes if a.name == lanes.name else a for a in self.axes)
+        )
+
+    def start(self, config: dict) -> Machine:
+        """The machine nearest to a resolved configuration."""
+        return Machine(self, tuple(nearest(a, config) for a in self.axes))
+
+
+@dataclasses.dataclass(frozen=True)
+class Machine:
+    order: Order
+    at: tuple[int, ...]  # for each axis the number of its setting
+
+    def overrides(self) -> Assignments:
+        """Memory follows from what else is configured, and is paid for."""
+        chosen = (a.settings[i] for a, i in zip(self.order.axes, self.at))
+        return (*SRAM_AS_NEEDED, *self.order.fixed, *(s for setting in chosen for s in setting))
+
+    def moved(self, which: int, step: int) -> Machine | None:
+        """One step along an axis; None beyond its end."""
+        to = self.at[which] + step
+        if not 0 <= to < len(self.order.axes[which].settings):
+            return None
+        return Machine(self.order, (*self.at[:which], to, *self.at[which + 1 :]))
+
+    def settings(self) -> Iterator[str]:
+        """The axes' assignments, without those that follow from others."""
+        for a, i in zip(self.order.axes, self.at):
+            yield a.settings[i][0]
+
+
+def number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def distance(assignment: str, config: dict) -> float:
+    """0: the configuration has this value; of numbers their ratio, less 1."""
+    key, _, wanted = assignment.partition("=")
+    value: object = config
+    for part in key.split("."):
+        value = value.get(part) if isinstance(value, dict) else None
+    if isinstance(value, str) or number(wanted) is None:
+        return 0 if value == wanted else 1000
+    a, b = float(value or 0) + 1, number(wanted) + 1
+    return max(a, b) / min(a, b) - 1
+
+
+def nearest(a: Axis, config: dict) -> int:
+    distances = [sum(distance(s, config) for s in setting) for setting in a.settings]
+    return distances.index(min(distances))
+
+
+COMMON = (
+    axis("hfu.ffu_lanes", 4, 8, 12, 16, 20, 24, 32, 48, 64),
+    axis("hfu.cfu_lanes", 1, 2, 3, 4, 6, 8, 12),
+    axis("hfu.second_half_slots", 4, 6, 8, 16, 24, 32),
+    axis("sorting_units", 1, 2, 4),
+)
+# Second halves raw in both orders: what codebooks cost and gain is a matter of its own.
+RAW = ("storage.encoding=raw", "sram.codebook_bytes=0")
+
+EXACT = Order(
+    "exact",
+    "exact",
+    RAW,
+    (
+        axis("group_px", 32, 48, 64, 80, 96, 112, 128, 144, 160, 192),
+        axis("hfus", 1, 2, 3, 4, 6, 8),
+        axis("rendering.clusters", 1, 2, 4, 8),
+        axis("rendering.cluster_lanes", 480),
+        axis("rendering.span_lanes", 16, 32, 64),
+        axis("merge.entries", 128, 256, 512, 1024, 1848, 3072),
+        axis("vsu.test_lanes", 16, 32, 64, 128),
+        axis("vsu.nodes_in_flight", 2, 4, 8),
+        axis("vsu.queue_entries", 128, 256, 384, 768),
+        axis("hfu.input_slots", 3, 5, 8),
+        *COMMON,
+    ),
+    axis("storage.chunk_gaussians", 8, 16, 32, 64),
+)
+# Half precision in blending and pixels: lanes a quarter as large, and not the reference's picture.
+EXACT_FP16 = dataclasses.replace(
+    EXACT, name="exact fp16", fixed=(*RAW, "rendering.precision=fp16")
+)
+
+
+def lists(gaussians: int, entries: int) -> Assignments:
+    return (f"sorting.buffer_entries={entries}", f"vsu.visit_gaussians={gaussians}")
+
+
+PAPER = Order(
+    "paper",
+    "paper_no_vq",
+    RAW,
+    (
+        axis("group_px", 32, 48, 64, 80, 96, 112, 128, 160, 192),
+        axis("hfus", 1, 2, 4, 6, 8, 9),
+        Axis(
+            "fetch",
+            (
+                ("fetch=split", "hfu.slice_gaussians=128"),
+                ("fetch=shared", "hfu.slice_gaussians=512"),
+            ),
+        ),
+        axis("rendering.clusters", 1, 2, 4, 8),
+        axis("rendering.cluster_lanes", 480),
+        Axis(
+            "lists",
+            (lists(64, 64), lists(128, 128), lists(256, 256), lists(512, 512), lists(0, 1024)),
+        ),
+        axis("vsu.step_lanes", 16, 32, 64, 128, 256, 512),
+        axis("vsu.ray_step_px", 4, 2, 1),
+        axis("vsu.edges_per_cycle", 1, 2, 4),
+        axis("vsu.table_bytes", 7680, 16384, 32768),
+        axis("vsu.node_cache_bytes", 2112, 4224, 8448, 16896, 33792),
+        *COMMON,
+    ),
+    axis("storage.voxel_size", 0.05, 0.1, 0.2, 0.4, 0.5, 1, 2, 4),
+)
+ORDERS = {order.name: order for order in (EXACT, EXACT_FP16, PAPER)}

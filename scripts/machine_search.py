@@ -1,0 +1,218 @@
+"""The search for the machine of an order that does best on several scenes within an area."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import statistics
+from collections.abc import Callable, Iterator, Sequence
+
+from machine_areas import Areas, area_mm2
+from machine_axes import Machine
+from scenes import Scene
+from simulations import Run
+
+OBJECTIVES: dict[str, Callable[[dict], float]] = {
+    "cycles": lambda view: view["frame"]["cycles"],
+    "bus bytes": lambda view: view["dram"]["bus_bytes"],
+    "energy": lambda view: view["energy"]["total_j"],
+}
+BETTER = 0.001  # of the logarithm of the mean, to be taken for a gain
+FREED = 0.003  # of the area allowed, to be taken where nothing is lost
+UNKNOWN_HARM = 0.02
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """A machine on every scene, storage chosen for each."""
+
+    machine: Machine
+    storage: tuple[int, ...]
+    scenes: tuple[Scene, ...]
+    views: tuple[dict, ...]
+
+    def mean(self, value: Callable[[dict], float]) -> float:
+        return statistics.geometric_mean(max(value(view), 1e-30) for view in self.views)
+
+    def area_mm2(self) -> float:
+        return max(map(area_mm2, self.views))
+
+    def stored(self, scene: int) -> str:
+        return self.machine.order.storage.settings[self.storage[scene]][0]
+
+    def overrides(self, scene: int) -> tuple[str, ...]:
+        return (*self.machine.overrides(), self.stored(scene))
+
+
+class Search:
+    """Moves along one axis at a time, from a machine that fits. What takes too much area is paid
+    for by steps back on other axes, those first that were seen to harm least for the area they
+    free. Scenes are simulated two at a time, and a move is given up once it is clearly worse.
+    points: every machine that was simulated on all scenes. harm: of a step back on each axis, as an
+    earlier search has seen it."""
+
+    def __init__(
+        self,
+        areas: Areas,
+        scenes: Sequence[Scene],
+        size: str,
+        budget_mm2: float,
+        objective: str,
+        most_runs: int,
+        harm: dict[int, float] | None = None,
+    ):
+        self.areas, self.kept = areas, areas.kept
+        self.scenes, self.size = tuple(scenes), size
+        self.budget_mm2, self.value = budget_mm2, OBJECTIVES[objective]
+        self.runs_left = most_runs
+        self.points: list[Point] = []
+        self.harm = dict(harm or {})
+        self.seen: set[tuple] = set()
+
+    def fitted(self, machine: Machine, raised: int = -1) -> Machine | None:
+        """The machine with steps back until it fits; None where that is not enough."""
+        area = self.areas.of(machine)
+        while area is not None and area > self.budget_mm2:
+            # More than what is needed is worth nothing.
+            too_much = area - self.budget_mm2
+            prices: list[tuple[float, int, Machine]] = []
+            for which in range(len(machine.at)):
+                back = self.areas.step_back(machine, which) if which != raised else None
+                if back and back[1] > 0:
+                    harm = max(self.harm.get(which, UNKNOWN_HARM), BETTER)
+                    prices.append((harm / min(back[1], too_much), which, back[0]))
+            if not prices:
+                return None
+            machine = min(prices, key=lambda price: price[:2])[2]
+            area = self.areas.of(machine)
+        return None if area is None else machine
+
+    def run(self, machine: Machine, storage: Sequence[int], scene: int) -> Run:
+        stored = machine.order.storage.settings[storage[scene]]
+        overrides = (*machine.overrides(), *stored)
+        return Run(self.scenes[scene], "0", self.size, machine.order.preset, overrides)
+
+    def measure(
+        self, machine: Machine, storage: Sequence[int], against: Point | None
+    ) -> tuple[float, Point | None]:
+        """How much worse it is than another point: the mean logarithm of the ratio, over the scenes
+        simulated before it was given up; and the point, if it was not. Infinite where a scene
+        is refused or the machine is larger on a scene than it may be."""
+        views: list[dict] = []
+        worse = 0.0
+        for first in range(0, len(self.scenes), 2):
+            numbers = range(first, min(first + 2, len(self.scenes)))
+            self.runs_left -= len(numbers)
+            for outcome in self.kept.outcomes([self.run(machine, storage, n) for n in numbers]):
+                if outcome.refused or area_mm2(outcome.views[0]) > self.budget_mm2 * 1.0001:
+                    return math.inf, None
+                views.append(outcome.views[0])
+            if against:
+                pairs = zip(views, against.views)
+                worse = statistics.fmean(math.log(self.value(a) / self.value(b)) for a, b in pairs)
+                # Of the first scenes some may still make up for others.
+                early = len(views) < 4 or self.frees(machine, against)
+                if worse > (0.06 / len(views) if early else -BETTER / 2):
+                    return worse, None
+        point = Point(machine, tuple(storage), self.scenes, tuple(views))
+        self.points.append(point)
+        return worse, point
+
+    def frees(self, machine: Machine, best: Point) -> bool:
+        area = self.areas.of(machine)
+        return area is not None and best.area_mm2() - area > FREED * self.budget_mm2
+
+    def taken(self, machine: Machine, best: Point) -> tuple[float, Point | None]:
+        """A machine that is better, or as good and smaller; it is not looked at twice."""
+        key = (machine.at, best.storage)
+        if key in self.seen or self.runs_left <= 0:
+            return math.inf, None
+        self.seen.add(key)
+        worse, point = self.measure(machine, best.storage, best)
+        if point is None:
+            return worse, None
+        if worse < -BETTER or (worse < BETTER and self.frees(machine, best)):
+            return worse, point
+        return worse, None
+
+    def moves(self, point: Point) -> Iterator[tuple[int, int]]:
+        """Axes and steps: back where that was seen to gain; on, what holds most scenes first; then
+        back."""
+        axes = range(len(point.machine.at))
+        gains = [which for which in axes if self.harm.get(which, 0) < -BETTER]
+        yield from ((which, -1) for which in sorted(gains, key=lambda w: self.harm[w]))
+        held_by = [view["binding"]["key"] for view in point.views]
+        named = {which: held_by.count(point.machine.order.axes[which].name) for which in axes}
+        yield from ((which, 1) for which in sorted(axes, key=lambda w: -named[w]))
+        yield from ((which, -1) for which in axes)
+
+    def look_back(self, machine: Machine, storage: Sequence[int]) -> None:
+        """What a step back on each axis harms, on the first two scenes."""
+        few = range(min(2, len(self.scenes)))
+
+        def costs(of: Machine) -> list[float]:
+            self.runs_left -= len(few)
+            outcomes = self.kept.outcomes([self.run(of, storage, n) for n in few])
+            return [self.value(o.views[0]) if o.views else math.inf for o in outcomes]
+
+        now = costs(machine)
+        for which in range(len(machine.at)):
+            if back := self.areas.step_back(machine, which):
+                ratios = [math.log(a / b) for a, b in zip(costs(back[0]), now)]
+                self.harm[which] = statistics.fmean(ratios)
+
+    def descend(self, best: Point) -> Point:
+        """The point from which no move is better, or where the runs end."""
+        improved = True
+        while improved and self.runs_left > 0:
+            improved = False
+            for which, step in self.moves(best):
+                while moved := self.areas.neighbour(best.machine, which, step):
+                    fits = self.fitted(moved, which)
+                    worse, point = self.taken(fits, best) if fits else (math.inf, None)
+                    if step < 0 and math.isfinite(worse):
+                        self.harm[which] = worse
+                    if point is None:
+                        break
+                    best, improved = point, True
+            chosen = self.stored_better(best)
+            improved = improved or chosen is not best
+            best = chosen
+        return best
+
+    def stored_better(self, best: Point) -> Point:
+        """Each scene stored as it does best on this machine."""
+        settings = best.machine.order.storage.settings
+        storage, views = list(best.storage), list(best.views)
+        for step in (-1, 1):
+            moving = list(range(len(self.scenes)))
+            while moving and self.runs_left > 0:
+                moving = [n for n in moving if 0 <= storage[n] + step < len(settings)]
+                trial = [s + step if n in moving else s for n, s in enumerate(storage)]
+                self.runs_left -= len(moving)
+                outcomes = self.kept.outcomes([self.run(best.machine, trial, n) for n in moving])
+                found = {n: o.views[0] for n, o in zip(moving, outcomes) if o.views}
+                moving = [
+                    n
+                    for n, view in found.items()
+                    if self.value(view) < self.value(views[n]) * (1 - BETTER)
+                    and area_mm2(view) <= self.budget_mm2 * 1.0001
+                ]
+                for n in moving:
+                    storage[n], views[n] = trial[n], found[n]
+        if tuple(storage) == best.storage:
+            return best
+        point = Point(best.machine, tuple(storage), self.scenes, tuple(views))
+        self.points.append(point)
+        return point
+
+    def best_from(self, machine: Machine, storage: Sequence[int]) -> Point | None:
+        """The best point found from a start; None where nothing on the way to the area draws all
+        scenes."""
+        if not self.harm:
+            self.look_back(machine, storage)
+        start = self.fitted(machine)
+        if start is None:
+            return None
+        _, point = self.measure(start, storage, None)
+        return self.descend(self.stored_better(point)) if point else None

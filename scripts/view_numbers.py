@@ -1,0 +1,51 @@
+"""Numbers of views that tables of machines show."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable, Sequence
+
+
+def vsu_waits(view: dict) -> float:
+    """The share of the frame in which the activity of VSU that waits most for its own reads does."""
+    activities = view["units"]["vsu"]["activities"].values()
+    waits = max(activity["waited_cycles"]["reads"] for activity in activities)
+    return waits / view["frame"]["cycles"]
+
+
+def binders(views: Sequence[dict]) -> str:
+    units = sorted({view["binding"]["holds"] or view["binding"]["unit"] for view in views})
+    shares = [view["binding"]["utilisation"] for view in views]
+    low, high = f"{min(shares):.0%}", f"{max(shares):.0%}"
+    return f"{', '.join(units)} {low if low == high else f'{low} .. {high}'}"
+
+
+def decibels(view: dict) -> float:
+    """Infinite where the frame equals the reference picture."""
+    psnr_db = view["image"]["psnr_db"]
+    return float("inf") if psnr_db is None else psnr_db
+
+
+def psnr_span(views: Sequence[dict]) -> str:
+    ends = [min(map(decibels, views)), max(map(decibels, views))]
+    texts = ["equal" if end == float("inf") else f"{end:.1f}" for end in ends]
+    return texts[0] if texts[0] == texts[1] else " .. ".join(texts)
+
+
+def numbers(views: Sequence[dict]) -> tuple[float, ...]:
+    """Bytes on the bus, asked over once, bus over asked, cycles, frames a second, joules, mm2, and
+    waiting: means over the views, but for the slowest view's frames and the worst waiting."""
+
+    def mean(value: Callable[[dict], float]) -> float:
+        return statistics.fmean(value(view) for view in views)
+
+    return (
+        mean(lambda v: v["dram"]["bus_bytes"]),
+        mean(lambda v: v["limit"]["ratio"]),
+        mean(lambda v: v["dram"]["bus_bytes"] / v["dram"]["bytes"]),
+        mean(lambda v: v["frame"]["cycles"]),
+        min(v["frame"]["fps"] for v in views),
+        mean(lambda v: v["energy"]["total_j"]),
+        max(v["area_mm2"]["total"] for v in views),
+        max(map(vsu_waits, views)),
+    )

@@ -1,0 +1,12 @@
+// What a data set of photographs holds, for `info`.
+#pragma once
+
+#include "algorithm/dataset/dataset.h"
+
+namespace sgs {
+
+// Prints a line each: layout, views and their split, sizes, alpha, points, bounds, where the
+// cameras stand.
+void print_dataset(const Dataset& dataset);
+
+}  // namespace sgs

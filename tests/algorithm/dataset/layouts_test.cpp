@@ -1,0 +1,243 @@
+// Each layout: the same cameras, pictures, splits and points, whatever the axes of the format.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numeric>
+
+#include "algorithm/dataset/load_view.h"
+#include "algorithm/dataset/open_dataset.h"
+#include "tests/algorithm/dataset/made_datasets.h"
+#include "tests/support/scratch_folder.h"
+
+using namespace sgs;
+using namespace sgs::test;
+
+namespace {
+
+// The pixel where the renderers have `point` (tests/algorithm/render: the centre of the first pixel
+// is 0).
+glm::ivec2 pixel_of(const Camera& camera, const glm::dvec3& point) {
+  const glm::dvec3 v = glm::transpose(camera.world_from_camera) * (point - camera.position);
+  return {static_cast<int>(std::lround(camera.focal_x * v.x / v.z + 0.5 * camera.width - 0.5)),
+          static_cast<int>(std::lround(camera.focal_y * v.y / v.z + 0.5 * camera.height - 0.5))};
+}
+
+void check_pictures(const Dataset& dataset, const MadeScene& scene, double downscale,
+                    double tolerance) {
+  for (const DatasetView& view : dataset.views) {
+    const Camera camera = downscaled_camera(view, downscale);
+    const RgbaImage image = load_view(view, downscale);
+    REQUIRE(image.width == camera.width);
+    REQUIRE(image.height == camera.height);
+    for (const MadePoint& point : scene.points) {
+      const glm::ivec2 at = pixel_of(camera, point.position);
+      INFO(view.name << " " << at.x << " " << at.y);
+      for (int c = 0; c < 3; ++c) {
+        CHECK(255 * image.at(at.x, at.y)[c] == Approx(point.colour[c]).margin(tolerance));
+      }
+      CHECK(image.at(at.x, at.y).w == 1.0f);
+    }
+  }
+}
+
+void check_cameras(const Dataset& dataset, const std::vector<MadeCamera>& expected) {
+  REQUIRE(dataset.views.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Camera& camera = dataset.views[i].camera;
+    INFO(dataset.views[i].name);
+    CHECK(camera.id == static_cast<int>(i));
+    CHECK(camera.name == dataset.views[i].name);
+    CHECK(glm::length(camera.position - expected[i].position) < 1e-9);
+    CHECK(glm::length(camera.world_from_camera[0] - expected[i].right) < 1e-9);
+    CHECK(glm::length(camera.world_from_camera[1] - expected[i].down) < 1e-9);
+    CHECK(glm::length(camera.world_from_camera[2] - expected[i].forward) < 1e-9);
+  }
+}
+
+struct Row {
+  const char* layout;
+  void (*write)(const std::string& folder, const MadeScene& scene);
+  std::vector<int> test;  // numbers of the views for testing
+  SplitBy split_by;
+  bool has_alpha;
+  double colour_tolerance;  // of 255
+  std::vector<int> cameras = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  bool states_principal_point = true;
+};
+
+const std::vector<Row>& rows() {
+  constexpr double kJpeg = 60;  // colour is stored at half the resolution
+  static const std::vector<Row> kRows = {
+      {"COLMAP", write_colmap_binary, {0, 8}, SplitBy::kEveryEighth, false, kJpeg},
+      {"COLMAP", write_colmap_text, {0, 8}, SplitBy::kEveryEighth, false, 1},
+      {"NeRF synthetic",
+       write_nerf_synthetic,
+       {0, 1, 2},
+       SplitBy::kDataset,
+       true,
+       0.01,
+       {0, 1, 2, 3, 4, 5, 6, 7, 8, 9},
+       false},
+      {"transforms.json", write_transforms, {0, 8}, SplitBy::kEveryEighth, false, kJpeg},
+      {"cameras.json",
+       write_cameras_json,
+       {0, 8},
+       SplitBy::kEveryEighth,
+       false,
+       1,
+       {0, 1, 2, 3, 4, 5, 6, 7, 8, 9},
+       false},
+      {"NSVF", write_nsvf_matrix, {6, 7}, SplitBy::kDataset, true, 0.01, {0, 1, 2, 3, 4, 5, 8, 9}},
+      {"NSVF", write_nsvf_focal, {6, 7}, SplitBy::kDataset, true, 0.01, {0, 1, 2, 3, 4, 5, 8, 9}}};
+  return kRows;
+}
+
+}  // namespace
+
+TEST_CASE("dataset: each layout gives the cameras, pictures and split that were written") {
+  const MadeScene scene = made_scene();
+  for (const Row& row : rows()) {
+    INFO(row.layout);
+    const ScratchFolder scratch;
+    row.write(scratch.path(""), scene);
+    const Dataset dataset = open_dataset(scratch.path(""));
+    CHECK(dataset.layout == row.layout);
+    CHECK(dataset.split_by == row.split_by);
+    CHECK(views_of(dataset, Split::kTest) == row.test);
+    CHECK(views_of(dataset, Split::kTrain).size() + row.test.size() == row.cameras.size());
+    CHECK(dataset.left_out == static_cast<int>(scene.cameras.size() - row.cameras.size()));
+    std::vector<MadeCamera> expected;
+    for (const int i : row.cameras) expected.push_back(scene.cameras[static_cast<std::size_t>(i)]);
+    check_cameras(dataset, expected);
+    for (const DatasetView& view : dataset.views) {
+      CHECK(view.file.has_alpha == row.has_alpha);
+      CHECK(view.camera.width == 64);
+      CHECK(view.camera.height == 48);
+      CHECK(view.camera.focal_x == Approx(60).epsilon(1e-12));
+      CHECK(view.camera.focal_y == Approx(60).epsilon(1e-12));
+      CHECK(view.crop_px == glm::ivec2(0));
+    }
+    check_pictures(dataset, scene, 1, row.colour_tolerance);
+    check_pictures(dataset, scene, 2, row.colour_tolerance + 1);
+  }
+}
+
+TEST_CASE("dataset: points of COLMAP, bounds of NSVF, names without extension") {
+  const MadeScene scene = made_scene();
+  for (const auto& write : {write_colmap_binary, write_colmap_text}) {
+    const ScratchFolder scratch;
+    write(scratch.path(""), scene);
+    const Dataset dataset = open_dataset(scratch.path(""));
+    REQUIRE(dataset.points.size() == scene.points.size());
+    for (std::size_t i = 0; i < scene.points.size(); ++i) {
+      CHECK(dataset.points[i].position == glm::vec3(scene.points[i].position));
+      CHECK(dataset.points[i].colour == glm::vec3(scene.points[i].colour) / 255.0f);
+    }
+    CHECK_FALSE(dataset.bounds.has_value());
+    CHECK(dataset.views[3].name == "shot_03");
+  }
+  const ScratchFolder nsvf, nerf;
+  write_nsvf_matrix(nsvf.path(""), scene);
+  const Dataset bounded = open_dataset(nsvf.path(""));
+  REQUIRE(bounded.bounds.has_value());
+  CHECK(bounded.bounds->min == glm::vec3(-1.5f, -1, -2));
+  CHECK(bounded.bounds->max == glm::vec3(1.5f, 1, 2));
+  CHECK(bounded.views[1].name == "0_0001");
+  write_file(nsvf.path(""), "intrinsics.txt", "61 0 32\n0 59 24\n0 0 1\n");
+  CHECK(open_dataset(nsvf.path("")).views[1].camera.focal_x == 61);
+  CHECK(open_dataset(nsvf.path("")).views[1].camera.focal_y == 59);
+  write_nerf_synthetic(nerf.path(""), scene);
+  CHECK(open_dataset(nerf.path("")).views[4].name == "train/shot_04");
+}
+
+TEST_CASE("dataset: two focal lengths; a principal point beside the middle comes there by a crop") {
+  MadeScene scene = made_scene();
+  scene.width = 70;
+  scene.height = 53;
+  for (const glm::dvec2 principal : {glm::dvec2(38, 24.5), {32.3, 29}, {35.4, 26.1}, {35, 26.5}}) {
+    scene.principal = principal;
+    for (const Row& row : rows()) {
+      if (!row.states_principal_point) continue;
+      INFO(row.layout << " " << principal.x << " " << principal.y);
+      const bool one_focal = row.write == write_colmap_text || row.write == write_nsvf_focal;
+      scene.focal_y = one_focal ? scene.focal_x : 54;
+      const ScratchFolder scratch;
+      row.write(scratch.path(""), scene);
+      const Dataset dataset = open_dataset(scratch.path(""));
+      for (const DatasetView& view : dataset.views) {
+        CHECK(std::abs(principal.x - view.crop_px.x - 0.5 * view.camera.width) <= 0.5);
+        CHECK(std::abs(principal.y - view.crop_px.y - 0.5 * view.camera.height) <= 0.5);
+        CHECK(view.crop_px.x + view.camera.width <= 70);
+        CHECK(view.crop_px.y + view.camera.height <= 53);
+        CHECK(view.camera.focal_x == 60);
+        CHECK(view.camera.focal_y == scene.focal_y);
+        CHECK(view.camera.width >= 64);
+        CHECK(view.camera.height >= 47);
+      }
+      check_pictures(dataset, scene, 1, row.colour_tolerance);
+    }
+  }
+}
+
+TEST_CASE("dataset: images of another size than their camera's, by one factor") {
+  const MadeScene scene = made_scene();
+  for (const Row& row : rows()) {
+    if (row.layout == std::string("NeRF synthetic") || row.write == write_nsvf_matrix) continue;
+    INFO(row.layout);
+    const ScratchFolder scratch;
+    MadeScene stated = scene;  // thrice the images, but for what rounding lost
+    row.write(scratch.path(""), scene);
+    const std::filesystem::path images = scratch.path(""), kept = scratch.path("kept");
+    std::filesystem::create_directory(kept);
+    const char* folder = row.layout == std::string("NSVF") ? "rgb" : "images";
+    std::filesystem::rename(images / folder, kept / folder);
+    stated.width = 3 * 64 + 1;
+    stated.height = 3 * 48 - 1;
+    stated.focal_x = 3 * 60 * stated.width / 192.0;
+    stated.focal_y = 3 * 60 * stated.height / 144.0;
+    stated.principal = glm::dvec2(stated.width, stated.height) / 2.0;
+    // Two of the formats have one focal length for both axes.
+    const bool one_focal = row.write == write_colmap_text || row.write == write_nsvf_focal;
+    if (one_focal) stated.focal_y = stated.focal_x;
+    row.write(scratch.path(""), stated);
+    std::filesystem::remove_all(images / folder);
+    std::filesystem::rename(kept / folder, images / folder);
+    std::filesystem::remove(kept);
+    const Dataset dataset = open_dataset(scratch.path(""));
+    for (const DatasetView& view : dataset.views) {
+      CHECK(view.camera.width == 64);
+      CHECK(view.camera.height == 48);
+      CHECK(view.camera.focal_x == Approx(60).epsilon(0.02));
+      CHECK(view.camera.focal_y == Approx(60).epsilon(0.02));
+    }
+    check_pictures(dataset, scene, 1, row.colour_tolerance);
+  }
+}
+
+TEST_CASE("dataset: images may be named by their whole path") {
+  const ScratchFolder scratch, elsewhere;
+  write_cameras_json(scratch.path(""), made_scene());
+  std::string text = bytes_of(scratch.path("cameras.json"));
+  const std::string name = "shot_00";
+  std::filesystem::rename(scratch.path("images/shot_00.png"), elsewhere.path("a.png"));
+  scratch.write("cameras.json",
+                text.replace(text.find(name), name.size(), elsewhere.path("a.png")));
+  const Dataset dataset = open_dataset(scratch.path(""));
+  REQUIRE(dataset.views.size() == 10);
+  CHECK(dataset.views[0].image_path == elsewhere.path("a.png"));
+}
+
+TEST_CASE("dataset: scaled intrinsics keep the field of view") {
+  const ScratchFolder scratch;
+  write_cameras_json(scratch.path(""), made_scene());
+  const Dataset dataset = open_dataset(scratch.path(""));
+  for (const double downscale : {1.0, 1.5, 2.0, 4.0, 8.0, 7.0, 1e6}) {
+    const Camera camera = downscaled_camera(dataset.views[0], downscale);
+    CHECK(camera.width == std::max(1, static_cast<int>(std::lround(64 / downscale))));
+    CHECK(camera.height == std::max(1, static_cast<int>(std::lround(48 / downscale))));
+    CHECK(camera.focal_x / camera.width == Approx(60.0 / 64));
+    CHECK(camera.focal_y / camera.height == Approx(60.0 / 48));
+    CHECK(load_view(dataset.views[0], downscale).width == camera.width);
+  }
+}

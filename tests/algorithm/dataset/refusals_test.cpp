@@ -1,0 +1,373 @@
+// Data sets that cannot be used: one line with file, place, what is there, what was expected.
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+
+#include "algorithm/dataset/colmap_model.h"
+#include "algorithm/dataset/load_view.h"
+#include "algorithm/dataset/open_dataset.h"
+#include "tests/algorithm/dataset/made_datasets.h"
+#include "tests/support/scratch_folder.h"
+
+using namespace sgs;
+using namespace sgs::test;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Write = void (*)(const std::string& folder, const MadeScene& scene);
+using Damage = std::function<void(const std::string& folder)>;
+
+// Puts `to` where `from` first is in folder/name.
+Damage replace(const std::string& name, const std::string& from, const std::string& to) {
+  return [=](const std::string& folder) {
+    std::string text = bytes_of(folder + "/" + name);
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    write_file(folder, name, text.replace(at, from.size(), to));
+  };
+}
+
+// Overwrites the bytes of folder/name from `at` on.
+template <class Value>
+Damage overwrite(const std::string& name, std::size_t at, Value value) {
+  return [=](const std::string& folder) {
+    std::string bytes = bytes_of(folder + "/" + name);
+    REQUIRE(at + sizeof(Value) <= bytes.size());
+    std::memcpy(&bytes[at], &value, sizeof(Value));
+    write_file(folder, name, bytes);
+  };
+}
+
+Damage with(const std::string& name, const std::string& bytes) {
+  return [=](const std::string& folder) { write_file(folder, name, bytes); };
+}
+
+Damage without(const std::string& name) {
+  return [=](const std::string& folder) { REQUIRE(fs::remove_all(folder + "/" + name) > 0); };
+}
+
+// The picture in folder/name as it would be with other sides.
+Damage resize(const std::string& name, int width, int height) {
+  return with(name, rgba_png(RgbaImage(width, height)));
+}
+
+// A matrix with `number` on its diagonal in place of the first view's for testing.
+Damage first_matrix(const std::string& number) {
+  return replace("transforms_test.json", "[[",
+                 "[[" + number + ",0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], \"was\": [[");
+}
+
+struct Row {
+  Write write;
+  Damage damage;
+  std::vector<std::string> words;
+};
+
+void check(const std::vector<Row>& rows) {
+  for (const Row& row : rows) {
+    const ScratchFolder scratch;
+    const std::string folder = scratch.path("set");
+    row.write(folder, made_scene());
+    row.damage(folder);
+    const std::string message = input_error_of([&] { open_dataset(folder); });
+    for (const std::string& word : row.words) CHECK_THAT(message, Contains(word));
+  }
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("dataset refuses: folders that are no data set, or two") {
+  const ScratchFolder scratch;
+  CHECK_THAT(input_error_of([&] { open_dataset(scratch.path("none")); }),
+             Contains("none: no such folder"));
+  const std::string empty = input_error_of([&] { open_dataset(scratch.path("")); });
+  for (const char* looked_for :
+       {"holds no data set, expected one of: ", "sparse/0/cameras.bin", "transforms_train.json",
+        "transforms.json", "cameras.json", "intrinsics.txt with pose and rgb"}) {
+    CHECK_THAT(empty, Contains(looked_for));
+  }
+  check({{write_colmap_text,
+          with("cameras.json", "[]"),
+          {"set: holds sparse/0/cameras.bin or .txt and cameras.json, expected one"}},
+         {write_transforms,
+          with("transforms_train.json", "{}"),
+          {"holds transforms_train.json and transforms.json, expected one"}}});
+}
+
+TEST_CASE("dataset refuses: cameras without images, images of another shape, damaged images") {
+  check({
+      {write_colmap_binary,
+       without("images/shot_03.jpg"),
+       {"images.bin: image 6: no image 'shot_03.jpg' in ", "/set/images, expected it there"}},
+      {write_colmap_text,
+       without("images/shot_03.png"),
+       {"images.txt: line 8: no image 'shot_03.png'"}},
+      {write_nerf_synthetic,
+       without("train/shot_05.png"),
+       {"transforms_train.json: frame 2: no image './train/shot_05'"}},
+      {write_transforms, without("images"), {"transforms.json: frame 0: no image"}},
+      {write_cameras_json,
+       without("images/shot_09.png"),
+       {"cameras.json: camera 9: no image 'shot_09' in ", "/set/images or ", ".jpg"}},
+      {write_nsvf_matrix, without("rgb/0_0002.png"), {"pose/0_0002.txt: no image '0_0002'"}},
+      {write_cameras_json,
+       with("shot_09.jpg", "x"),
+       {"camera 9: image 'shot_09': got ", "images/shot_09.png and ", "shot_09.jpg, expected one"}},
+      {write_cameras_json,
+       resize("images/shot_09.png", 64, 50),
+       {"camera 9: ", "shot_09.png is 64x50 px, expected 64x48"}},
+      {write_cameras_json, resize("images/shot_09.png", 48, 64), {"is 48x64 px, expected 64x48"}},
+      {write_colmap_text, resize("images/shot_09.png", 31, 12), {"is 31x12 px, expected 64x48"}},
+      {write_nsvf_focal, resize("rgb/0_0001.png", 64, 40), {"is 64x40 px, expected 64x48"}},
+      {write_transforms, resize("images/shot_01.jpg", 64, 40), {"is 64x40 px, expected 64x48"}},
+      {write_cameras_json, with("images/shot_01.png", ""), {"shot_01.png: neither begins as"}},
+      {write_cameras_json,
+       with("images/shot_01.png", "\x89PNG\r\n\x1a\n1234"),
+       {"shot_01.png: ", "expected a PNG image"}},
+      {write_transforms,
+       with("images/shot_01.jpg", "\xff\xd8\xff"),
+       {"shot_01.jpg: ", "expected a JPEG image"}},
+  });
+}
+
+TEST_CASE("dataset refuses: cameras that see nothing, poses that are none") {
+  check({
+      {write_nerf_synthetic,
+       replace("transforms_train.json", "\"camera_angle_x\": ", "\"camera_angle_x\": 9"),
+       {"transforms_train.json: frame 0: camera_angle_x: got 9", "between 0 and pi"}},
+      {write_nerf_synthetic,
+       replace("transforms_train.json", "camera_angle_x", "angle"),
+       {"frame 0: fl_x: got nothing, expected it, or camera_angle_x"}},
+      {write_nerf_synthetic,
+       first_matrix("null"),
+       {"transforms_test.json: frame 0: transform_matrix[0][0]: got null, expected a finite"}},
+      {write_nerf_synthetic,
+       replace("transforms_test.json", "[0,0,0,1]", "[0,0,1,1]"),
+       {"frame 0: pose: got 1 as number 2 of the last row, expected 0 0 0 1"}},
+      {write_nerf_synthetic,
+       replace("transforms_test.json", "[0,0,0,1]", "[0,0,0]"),
+       {"frame 0: transform_matrix[3]: got [0,0,0], expected 4 numbers"}},
+      {write_nerf_synthetic,
+       replace("transforms_test.json", "[0,0,0,1]", "[0,0,0,\"x\"]"),
+       {"frame 0: transform_matrix[3][3]: got \"x\""}},
+      {write_nerf_synthetic,
+       first_matrix("0.5"),
+       {"frame 0: pose: got axes that are off by ", "orthonormal"}},
+      {write_transforms,
+       replace("transforms.json", "\"fl_x\": 60", "\"fl_x\": 0"),
+       {"transforms.json: frame 0: focal length: got 0, expected px above 0"}},
+      {write_transforms,
+       replace("transforms.json", "\"fl_x\": 60", "\"fl_x\": -60"),
+       {"focal length: got -60"}},
+      {write_transforms,
+       replace("transforms.json", "\"fl_x\": 60", "\"fl_x\": 1e300"),
+       {"focal length: got 1e+300"}},
+      {write_transforms,
+       replace("transforms.json", "\"cx\": 32", "\"cx\": 63"),
+       {"frame 0: principal point: got x at 63 px of 64, expected it in the middle half"}},
+      {write_transforms,
+       replace("transforms.json", "\"w\": 64", "\"w\": 0.5"),
+       {"frame 0: w: got 0.5, expected a whole number of px"}},
+      {write_transforms,
+       replace("transforms.json", "\"k1\": 0.0", "\"k1\": 0.1"),
+       {"frame 0: k1: got 0.1, expected 0: images without distortion"}},
+      {write_transforms,
+       replace("transforms.json", "\"OPENCV\"", "\"OPENCV_FISHEYE\""),
+       {"camera_model: got OPENCV_FISHEYE, expected a pinhole"}},
+      {write_transforms,
+       replace("transforms.json", "file_path", "file"),
+       {"frame 0: file_path: got nothing"}},
+      {write_cameras_json,
+       replace("cameras.json", "\"fx\": 60", "\"fx\": 0"),
+       {"cameras.json: camera 0: fx: got 0"}},
+      {write_nsvf_matrix,
+       with("pose/0_0000.txt", "1 0 0 0 0 1 0 0 0 0 1 nan 0 0 0 1"),
+       {"pose/0_0000.txt: number: got 'nan', expected a finite number"}},
+      {write_nsvf_matrix,
+       with("pose/0_0000.txt", "1 0 0 0 0 1 0 0 0 0 1 0"),
+       {"pose/0_0000.txt: got 12 numbers, expected 4x4"}},
+      {write_nsvf_matrix,
+       with("pose/0_0000.txt", "-1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"),
+       {"pose/0_0000.txt: pose: got a mirrored frame"}},
+      {write_nsvf_matrix,
+       with("pose/0_0000.txt", "1 0 0 1e19 0 1 0 0 0 0 1 0 0 0 0 1"),
+       {"position: got (1e+19, 0, 0), expected finite numbers of at most 1e+18"}},
+      {write_nsvf_matrix,
+       with("pose/0_0000.txt", std::string(70000, ' ')),
+       {"got 70000 bytes, expected a matrix"}},
+      {write_nsvf_matrix,
+       with("intrinsics.txt", "60 0 32 0 60"),
+       {"intrinsics.txt: got 5 numbers, expected 9 or 16 (a matrix) or 11"}},
+      {write_nsvf_matrix, with("intrinsics.txt", "0 0 32 0 60 24 0 0 1"), {"focal length: got 0"}},
+      {write_nsvf_matrix,
+       with("intrinsics.txt", "60 3 32 0 60 24 0 0 1"),
+       {"intrinsics.txt: got a skew of 3"}},
+      {write_nsvf_focal,
+       replace("intrinsics.txt", "48 64", "48 0"),
+       {"a height of 48 and a width of 0"}},
+      {write_nsvf_matrix, with("bbox.txt", "1 1 1 0 0 0"), {"bbox.txt: got 6 numbers"}},
+  });
+}
+
+TEST_CASE("dataset refuses: empty sets, names twice, splits that are half there") {
+  check({
+      {write_cameras_json,
+       with("cameras.json", "[]"),
+       {"set: holds 0 views (cameras.json), none to train from"}},
+      {write_nerf_synthetic,
+       with("transforms_train.json", "{\"frames\": []}"),
+       {"holds 3 views (NeRF synthetic), none to train from"}},
+      {write_nerf_synthetic,
+       with("transforms_train.json", "{\"frames\": 3}"),
+       {"transforms_train.json: got no frames"}},
+      {write_nsvf_matrix,
+       [](const std::string& folder) {
+         fs::remove_all(folder + "/pose");
+         fs::create_directory(folder + "/pose");
+       },
+       {"holds 0 views (NSVF)"}},
+      {write_colmap_text, with("sparse/0/images.txt", "# nothing\n"), {"holds 0 views (COLMAP)"}},
+      {write_colmap_text,
+       replace("sparse/0/images.txt", "shot_04", "shot_03"),
+       {"images.txt: line 10: name 'shot_03' a second time, after ", "images.txt: line 8"}},
+      {write_cameras_json,
+       replace("cameras.json", "shot_04", "shot_03"),
+       {"cameras.json: camera 4: name 'shot_03' a second time, after ", "camera 3"}},
+      {write_nerf_synthetic,
+       replace("transforms_train.json", "./train/shot_04", "./train/../train/shot_05"),
+       {"frame 2: name 'train/shot_05' a second time, after ", "frame 1"}},
+      {write_nsvf_matrix,
+       with("pose/plain.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"),
+       {"set/pose: got names with and without 0_, 1_ or 2_"}},
+  });
+}
+
+TEST_CASE("dataset refuses: COLMAP's models with distortion, ids, text that is none") {
+  const std::size_t kModel = 8 + 4, kWidth = kModel + 4, kFocal = kWidth + 16;
+  const std::size_t kQuaternion = 8 + 4, kTranslation = kQuaternion + 32;
+  const std::size_t kCameraId = kTranslation + 24;
+  check({
+      {write_colmap_binary,
+       overwrite("sparse/0/cameras.bin", kModel, std::int32_t{4}),
+       {"cameras.bin: camera 0: got the camera model OPENCV, expected PINHOLE or SIMPLE_PINHOLE"}},
+      {write_colmap_binary,
+       overwrite("sparse/0/cameras.bin", kModel, std::int32_t{-5}),
+       {"got the camera model number -5"}},
+      {write_colmap_binary,
+       overwrite("sparse/0/cameras.bin", kModel, std::int32_t{0}),
+       {"cameras.bin: byte ", "got 8 bytes after the last record"}},
+      {write_colmap_binary,
+       overwrite("sparse/0/cameras.bin", kWidth, std::uint64_t{1} << 40),
+       {"camera 0: size: got 1099511627776x48"}},
+      {write_colmap_binary,
+       overwrite("sparse/0/cameras.bin", kFocal, 0.0),
+       {"images.bin: image 9: focal length: got 0"}},
+      {write_colmap_binary,
+       overwrite("sparse/0/cameras.bin", kFocal, kNan),
+       {"cameras.bin: camera 0: parameter: got nan"}},
+      {write_colmap_binary,
+       overwrite("sparse/0/images.bin", kCameraId, std::uint32_t{8}),
+       {"images.bin: image 0: camera id 8: no such camera"}},
+      {write_colmap_binary,
+       overwrite("sparse/0/images.bin", kQuaternion, kInfinity),
+       {"images.bin: image 0: pose: got inf, expected finite numbers"}},
+      {write_colmap_binary,
+       overwrite("sparse/0/images.bin", kTranslation, kNan),
+       {"images.bin: image 0: pose: got nan"}},
+      {write_colmap_binary,
+       overwrite("sparse/0/points3D.bin", 16, kNan),
+       {"points3D.bin: point 0: position: got nan"}},
+      {write_colmap_binary, without("sparse/0/points3D.bin"), {"points3D.bin: cannot be opened"}},
+      {write_colmap_text,
+       replace("sparse/0/cameras.txt", "SIMPLE_PINHOLE", "SIMPLE_RADIAL"),
+       {"cameras.txt: line 2: got the camera model SIMPLE_RADIAL"}},
+      {write_colmap_text,
+       replace("sparse/0/cameras.txt", "3 SIMPLE", "3 SIMPLE_PINHOLE 64 48 60 32 24\n3 SIMPLE"),
+       {"cameras.txt: line 3: camera id 3 a second time"}},
+      {write_colmap_text,
+       replace("sparse/0/cameras.txt", "PINHOLE 64", "PINHOLE -64"),
+       {"cameras.txt: line 2: a width: got '-64'"}},
+      {write_colmap_text,
+       replace("sparse/0/cameras.txt", "PINHOLE 64", "PINHOLE 0"),
+       {"cameras.txt: line 2: size: got 0x48"}},
+      {write_colmap_text,
+       replace("sparse/0/cameras.txt", "24\n", "24 0.1\n"),
+       {"cameras.txt: line 2: got '0.1', expected the end"}},
+      {write_colmap_text,
+       replace("sparse/0/cameras.txt", " 24\n", "\n"),
+       {"cameras.txt: line 2: ends, expected a camera's parameter"}},
+      {write_colmap_text,
+       with("sparse/0/images.txt", "1 0 0 0 0 1 2 3 3 shot_00.png\n\n"),
+       {"images.txt: line 1: pose: got a quaternion of length 0"}},
+      {write_colmap_text,
+       with("sparse/0/images.txt", "1 1 0 0 0 1 2 3 3\n\n"),
+       {"images.txt: line 1: ends, expected an image's name"}},
+      {write_colmap_text,
+       with("sparse/0/images.txt", "1 1 0 0 0 1 2 x 3 a.png\n\n"),
+       {"images.txt: line 1: a pose: got 'x'"}},
+      {write_colmap_text,
+       with("sparse/0/points3D.txt", "1 0 0 0 255 256 0 1\n"),
+       {"points3D.txt: line 1: a colour: got '256', expected a whole number from 0 to 255"}},
+  });
+}
+
+TEST_CASE("dataset refuses: COLMAP's binary files cut at every byte, and counts beyond them") {
+  const ScratchFolder scratch;
+  write_colmap_binary(scratch.path("set"), made_scene());
+  const std::string folder = scratch.path("set/sparse/0");
+  CHECK(read_colmap_binary(folder).images.size() == 10);
+  for (const char* name : {"cameras.bin", "images.bin", "points3D.bin"}) {
+    const std::string path = folder + "/" + name;
+    const std::string whole = bytes_of(path);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      INFO(name << " " << size);
+      write_file(folder, name, whole.substr(0, size));
+      CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }), Contains(path + ": byte "));
+    }
+    for (const std::uint64_t count :
+         {std::uint64_t{11}, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
+      std::string bytes = whole;
+      std::memcpy(bytes.data(), &count, sizeof(count));
+      write_file(folder, name, bytes);
+      CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }), Contains(path + ": byte "));
+    }
+    write_file(folder, name, whole + "x");
+    CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }),
+               Contains("got 1 bytes after the last record"));
+    write_file(folder, name, whole);
+  }
+  // The counts inside of records: points of an image, images of a point.
+  const std::size_t kPoints2d = 8 + 4 + 56 + 4 + std::strlen("shot_09.jpg") + 1;
+  const std::size_t kTrack = 8 + 8 + 24 + 3 + 8;
+  for (const auto& [name, at] : {std::pair("images.bin", kPoints2d), {"points3D.bin", kTrack}}) {
+    const std::string whole = bytes_of(folder + "/" + name);
+    overwrite(name, at, ~std::uint64_t{0} / 16)(folder);
+    CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }),
+               Contains("expected as many as "));
+    write_file(folder, name, whole);
+  }
+}
+
+TEST_CASE("dataset refuses: an image that changed or was cut since, factors below 1") {
+  const ScratchFolder scratch;
+  const std::string folder = scratch.path("set");
+  write_cameras_json(folder, made_scene());
+  const Dataset dataset = open_dataset(folder);
+  const DatasetView& view = dataset.views[2];
+  for (const double downscale : {0.0, 0.99, -2.0, kNan, kInfinity}) {
+    CHECK_THAT(input_error_of([&] { load_view(view, downscale); }),
+               Contains("view 'shot_02': downscale "));
+  }
+  const std::string whole = bytes_of(view.image_path);
+  write_file(folder, "images/shot_02.png", whole.substr(0, whole.size() / 2));
+  CHECK_THAT(input_error_of([&] { load_view(view); }), Contains("shot_02.png: "));
+  write_file(folder, "images/shot_02.png", rgba_png(RgbaImage(32, 24)));
+  CHECK_THAT(input_error_of([&] { load_view(view); }),
+             Contains("shot_02.png: got 32x24 px, expected 64x48 as when"));
+}
