@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "algorithm/splat/widest_lanes.h"
@@ -89,6 +90,10 @@ Adam::Adam(const GaussianCloud& cloud, const AdamConfig& config) : config_(confi
 }
 
 void Adam::step(const CloudGradient& gradient, const LearningRates& rates, GaussianCloud& cloud) {
+  if (gradient.parameters.sh_degree != cloud.sh_degree || row_of(cloud.sh_degree) != moments_.row ||
+      cloud.size() != moments_.updates.size()) {
+    throw std::logic_error("Adam: the cloud was changed, its moments were not");
+  }
   std::uint32_t most = 0;
   for (const std::uint32_t i : gradient.indices) most = std::max(most, moments_.updates[i] + 1);
   for (std::size_t n = corrections_.size(); n <= most; ++n) {

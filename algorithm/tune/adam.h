@@ -33,7 +33,8 @@ class Adam {
   // p -= rate (m / (1 - beta1^n)) / (sqrt(v / (1 - beta2^n)) + epsilon),
   // for the Gaussians that gradient holds. What is not seen rests: its moments too, and n is the
   // number of its own updates, so that one that is rarely seen, or new, is corrected as it must be.
-  // The same bits whatever the number of threads.
+  // The same bits whatever the number of threads. Throws std::logic_error where gradient, cloud and
+  // moments are not of one degree, or cloud and moments not of one size.
   void step(const CloudGradient& gradient, const LearningRates& rates, GaussianCloud& cloud);
 
   // After the cloud was changed: from[i] is where Gaussian i stood before, or kNew.

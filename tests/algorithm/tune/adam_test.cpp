@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <stdexcept>
 
 #include "tests/algorithm/render/test_clouds.h"
 
@@ -190,6 +191,17 @@ TEST_CASE("Adam of a raised degree is that of the degree with coefficients of no
     REQUIRE(values_of(raised, i) == values_of(whole, i));
   }
   CHECK(of_raised.moments().values == of_whole.moments().values);
+}
+
+TEST_CASE("Adam refuses a cloud that changed without its moments") {
+  GaussianCloud cloud = start(1);
+  Adam adam(cloud);
+  CloudGradient gradient = gradient_of_step(0, 1);
+  CHECK_THROWS_AS(adam.step(gradient_of_step(0, 2), kRates, cloud), std::logic_error);
+  GaussianCloud other = of_degree(cloud, 2);
+  CHECK_THROWS_AS(adam.step(gradient_of_step(0, 2), kRates, other), std::logic_error);
+  cloud.resize(kGaussians + 1, 1);
+  CHECK_THROWS_AS(adam.step(gradient, kRates, cloud), std::logic_error);
 }
 
 TEST_CASE("Adam gives the same bits for 1, 2 and 3 threads") {
