@@ -1,6 +1,7 @@
 // An observer of the blend pass notes what each splat took; then the notes are read backward.
 #include "algorithm/tune/group_gradient.h"
 
+#include <cstring>
 #include <glm/geometric.hpp>
 
 #include "algorithm/render/group_state.h"
@@ -40,9 +41,11 @@ std::vector<SubtileAdjoint> make_adjoints(const DrawnScene& scene, const PixelRe
   return out;
 }
 
+// No alpha is negative: any bit will do, two lanes at a time.
 bool any_blended(const LaneShares& shares) {
-  std::uint32_t bits = 0;  // no alpha is negative
-  for (const float alpha : shares.alpha) bits |= __builtin_bit_cast(std::uint32_t, alpha);
+  std::uint64_t pairs[kSubtilePixels / 2], bits = 0;
+  std::memcpy(pairs, shares.alpha, sizeof pairs);
+  for (const std::uint64_t pair : pairs) bits |= pair;
   return bits != 0;
 }
 
