@@ -10,30 +10,15 @@
 
 #include "algorithm/image/image_pair.h"
 #include "algorithm/image/quality.h"
+#include "algorithm/image/ssim_window.h"
 
 namespace sgs {
 namespace {
 
-constexpr int kRadiusPx = 5;  // 11x11 window
-constexpr int kTaps = 2 * kRadiusPx + 1;
-constexpr double kSigmaPx = 1.5;
-constexpr double kC1 = 0.01 * 0.01;  // (0.01 L)^2 with L = 1, the range of the values
-constexpr double kC2 = 0.03 * 0.03;
 constexpr int kBandRows = 32;  // ten more are filtered twice; larger bands leave cores idle
 
 // Window sums at one pixel of one channel: a, b, a^2, b^2, a b.
 using Moments = std::array<double, 5>;
-
-std::array<double, kTaps> gaussian_window() {
-  std::array<double, kTaps> window{};
-  for (int i = 0; i < kTaps; ++i) {
-    const double offset = i - kRadiusPx;
-    window[i] = std::exp(-offset * offset / (2.0 * kSigmaPx * kSigmaPx));
-  }
-  const double sum = std::accumulate(window.begin(), window.end(), 0.0);
-  for (double& weight : window) weight /= sum;
-  return window;
-}
 
 Moments moments_of(float a_value, float b_value) {
   const double a = clamp_to_unit(a_value), b = clamp_to_unit(b_value);
@@ -45,22 +30,22 @@ double ssim_of(const Moments& m) {
   const double mean_squares = m[0] * m[0] + m[1] * m[1];
   const double variances = m[2] + m[3] - mean_squares;
   const double covariance = m[4] - mean_product;
-  return (2.0 * mean_product + kC1) * (2.0 * covariance + kC2) /
-         ((mean_squares + kC1) * (variances + kC2));
+  return (2.0 * mean_product + kSsimC1) * (2.0 * covariance + kSsimC2) /
+         ((mean_squares + kSsimC1) * (variances + kSsimC2));
 }
 
 // The filter across one row: out[3 x + channel].
-void filter_row(const Image& a, const Image& b, int y, const std::array<double, kTaps>& window,
+void filter_row(const Image& a, const Image& b, int y, const std::array<double, kSsimTaps>& window,
                 std::vector<Moments>& raw, Moments* out) {
-  raw.assign(3 * (static_cast<std::size_t>(a.width) + 2 * kRadiusPx), Moments{});
+  raw.assign(3 * (static_cast<std::size_t>(a.width) + 2 * kSsimRadiusPx), Moments{});
   for (int x = 0; x < a.width; ++x) {
     for (int channel = 0; channel < 3; ++channel) {
-      raw[3 * (x + kRadiusPx) + channel] = moments_of(a.at(x, y)[channel], b.at(x, y)[channel]);
+      raw[3 * (x + kSsimRadiusPx) + channel] = moments_of(a.at(x, y)[channel], b.at(x, y)[channel]);
     }
   }
   for (int i = 0; i < 3 * a.width; ++i) {
     Moments sum{};
-    for (int tap = 0; tap < kTaps; ++tap) {
+    for (int tap = 0; tap < kSsimTaps; ++tap) {
       for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += window[tap] * raw[i + 3 * tap][k];
     }
     out[i] = sum;
@@ -71,13 +56,14 @@ void filter_row(const Image& a, const Image& b, int y, const std::array<double, 
 
 double ssim(const Image& a, const Image& b) {
   check_same_size(a, b);
-  const std::array<double, kTaps> window = gaussian_window();
+  const std::array<double, kSsimTaps> window = ssim_window();
   const std::size_t row_size = 3 * static_cast<std::size_t>(a.width);
   std::vector<double> row_sums(a.height, 0.0);
   const int bands = (a.height + kBandRows - 1) / kBandRows;
   tbb::parallel_for(0, bands, [&](int band) {
     const int begin = band * kBandRows, end = std::min(a.height, begin + kBandRows);
-    const int first = std::max(0, begin - kRadiusPx), last = std::min(a.height, end + kRadiusPx);
+    const int first = std::max(0, begin - kSsimRadiusPx),
+              last = std::min(a.height, end + kSsimRadiusPx);
     std::vector<Moments> filtered(row_size * (last - first)), raw;
     for (int y = first; y < last; ++y) {
       filter_row(a, b, y, window, raw, &filtered[row_size * (y - first)]);
@@ -85,8 +71,8 @@ double ssim(const Image& a, const Image& b) {
     for (int y = begin; y < end; ++y) {
       for (std::size_t i = 0; i < row_size; ++i) {
         Moments sum{};
-        for (int tap = 0; tap < kTaps; ++tap) {
-          const int row = y + tap - kRadiusPx;
+        for (int tap = 0; tap < kSsimTaps; ++tap) {
+          const int row = y + tap - kSsimRadiusPx;
           if (row < 0 || row >= a.height) continue;  // zero padding
           const Moments& m = filtered[row_size * (row - first) + i];
           for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += window[tap] * m[k];

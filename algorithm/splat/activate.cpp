@@ -4,6 +4,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cstddef>
+
 namespace sgs {
 
 ActivatedCloud activate(const GaussianCloud& cloud) {
@@ -17,6 +20,19 @@ ActivatedCloud activate(const GaussianCloud& cloud) {
     }
   });
   return out;
+}
+
+void reactivate(const GaussianCloud& cloud, const std::vector<std::uint32_t>& indices,
+                ActivatedCloud& activated) {
+  const auto coeffs = static_cast<std::size_t>(sh_coeff_count(cloud.sh_degree));
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, indices.size(), 512), [&](const auto& range) {
+        for (std::size_t r = range.begin(); r != range.end(); ++r) {
+          const std::size_t i = indices[r];
+          activated.gaussians[i] = activate(raw_gaussian(cloud, i));
+          std::copy_n(&cloud.sh_coeffs[i * coeffs], coeffs, &activated.sh_coeffs[i * coeffs]);
+        }
+      });
 }
 
 }  // namespace sgs

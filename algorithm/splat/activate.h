@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/gaussian.h"
@@ -54,5 +56,10 @@ Gaussian<T> activate(const RawGaussian<T>& raw) {
 // A whole cloud, in parallel. The reader has refused zero quaternions and values that are not
 // finite.
 ActivatedCloud activate(const GaussianCloud& cloud);
+
+// The same for the Gaussians of the given indices only: makes `activated` what the whole cloud's
+// activation is where nothing but those changed since.
+void reactivate(const GaussianCloud& cloud, const std::vector<std::uint32_t>& indices,
+                ActivatedCloud& activated);
 
 }  // namespace sgs

@@ -8,13 +8,7 @@
 #include <cmath>
 
 #include "algorithm/splat/half_scalar.h"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define SGS_WIDEST_LANES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
-#else
-#define SGS_WIDEST_LANES
-#endif
+#include "algorithm/splat/widest_lanes.h"
 
 namespace sgs {
 namespace {

@@ -54,6 +54,42 @@ void rotation_rows(const std::array<T, 4>& q, T (&rows)[3][3]) {
   rows[2][2] = T(one - two * T(x * x + y * y));
 }
 
+// R^T R(q): the axes of a Gaussian (columns) in the camera frame, unit length.
+template <class T>
+void axes_in_camera(const View<T>& view, const std::array<T, 4>& quat, T (&axes)[3][3]) {
+  T rotation[3][3];
+  rotation_rows(quat, rotation);
+  for (int row = 0; row < 3; ++row) {
+    const auto& axis = view.cam_from_world[row];
+    for (int col = 0; col < 3; ++col) {
+      axes[row][col] =
+          T(axis.x * rotation[0][col] + axis.y * rotation[1][col] + axis.z * rotation[2][col]);
+    }
+  }
+}
+
+// J R^T M, and the parts of J.
+template <class T>
+struct AxesOnScreen {
+  T u1[3], u2[3];  // px, its rows: x and y of each scaled axis
+  T jx, jy;        // px a world unit: f / v_z
+  ClampedRatio<T> ratio;
+};
+
+// m: R^T M, the scaled axes (columns) in the camera frame.
+template <class T>
+AxesOnScreen<T> axes_on_screen(const View<T>& view, const glm::vec<3, T>& v, const T (&m)[3][3]) {
+  AxesOnScreen<T> out;
+  out.ratio = clamped_ratio(view, v);
+  out.jx = T(view.focal_x / v.z);
+  out.jy = T(view.focal_y / v.z);
+  for (int k = 0; k < 3; ++k) {
+    out.u1[k] = T(out.jx * T(m[0][k] - out.ratio.u * m[2][k]));
+    out.u2[k] = T(out.jy * T(m[1][k] - out.ratio.w * m[2][k]));
+  }
+  return out;
+}
+
 // Projects g, whose centre is v in the camera frame with v_z > 0.2.
 // Sigma = M M^T with M = R(q) diag(scale), Cov2D = (J R^T M)(J R^T M)^T + 0.3 I. With u1, u2 the
 // rows of J R^T M, det = 0.09 + 0.3 (|u1|^2 + |u2|^2) + |u1 x u2|^2: the sum of the minors, which
@@ -66,24 +102,13 @@ Projected<T> project(const View<T>& view, const Gaussian<T>& g, const glm::vec<3
   out.y = pixel.y;
   out.depth = v.z;
 
-  T rotation[3][3];
-  rotation_rows(g.quat, rotation);
-  T m[3][3];  // R^T M: the scaled axes (columns) in the camera frame
-  for (int row = 0; row < 3; ++row) {
-    const auto& axis = view.cam_from_world[row];
-    for (int col = 0; col < 3; ++col) {
-      m[row][col] =
-          T(T(axis.x * rotation[0][col] + axis.y * rotation[1][col] + axis.z * rotation[2][col]) *
-            g.scale[col]);
-    }
+  T m[3][3];
+  axes_in_camera(view, g.quat, m);
+  for (auto& row : m) {
+    for (int col = 0; col < 3; ++col) row[col] = T(row[col] * g.scale[col]);
   }
-  const auto [u, w] = clamped_ratio(view, v);
-  const T jx = T(view.focal_x / v.z), jy = T(view.focal_y / v.z);
-  T u1[3], u2[3];
-  for (int k = 0; k < 3; ++k) {
-    u1[k] = T(jx * T(m[0][k] - u * m[2][k]));
-    u2[k] = T(jy * T(m[1][k] - w * m[2][k]));
-  }
+  const AxesOnScreen<T> axes = axes_on_screen(view, v, m);
+  const T(&u1)[3] = axes.u1, (&u2)[3] = axes.u2;
   const T uu = T(u1[0] * u1[0] + u1[1] * u1[1] + u1[2] * u1[2]);
   const T ww = T(u2[0] * u2[0] + u2[1] * u2[1] + u2[2] * u2[2]);
   const T uw = T(u1[0] * u2[0] + u1[1] * u2[1] + u1[2] * u2[2]);

@@ -80,10 +80,10 @@ class Configurations(unittest.TestCase):
         merge = {"entries": 2048, "on_overflow": "spill"}
         preset = {"group_px": 128, "storage": {"chunk_gaussians": 16}, "merge": merge}
         points = work_precision.combinations(preset, cross=False)
-        # 6 sizes x 2 policies, and 3 groups and 4 chunks that are not the preset's.
-        self.assertEqual(len(points), 12 + 3 + 4)
+        # 6 sizes x 2 policies, and 3 groups and 5 chunks that are not the preset's.
+        self.assertEqual(len(points), 12 + 3 + 5)
         self.assertEqual(len(set(points)), len(points))
-        self.assertEqual(len(work_precision.combinations(preset, cross=True)), 4 * 5 * 6 * 2)
+        self.assertEqual(len(work_precision.combinations(preset, cross=True)), 4 * 6 * 6 * 2)
 
     def test_unknown_scene_is_refused_with_what_there_is(self):
         with self.assertRaisesRegex(ValueError, "nowhere: no scene; expected .*builtin:object"):

@@ -6,28 +6,13 @@
 #include <random>
 
 #include "algorithm/splat/counting.h"
+#include "tests/algorithm/render/test_clouds.h"
+#include "tests/algorithm/splat/dual.h"
 
 using namespace sgs;
+using test::Dual;
 
 namespace {
-
-// A number and its derivative along one direction.
-struct Dual {
-  double value, slope;
-  Dual() = default;
-  explicit Dual(float constant) : value(constant), slope(0) {}
-  Dual(double v, double s) : value(v), slope(s) {}
-};
-Dual operator-(Dual a) { return {-a.value, -a.slope}; }
-Dual operator+(Dual a, Dual b) { return {a.value + b.value, a.slope + b.slope}; }
-Dual operator*(Dual a, Dual b) {
-  return {a.value * b.value, a.slope * b.value + a.value * b.slope};
-}
-Dual operator/(Dual a, Dual b) {
-  return {a.value / b.value, (a.slope - a.value / b.value * b.slope) / b.value};
-}
-Dual sqrt(Dual a) { return {std::sqrt(a.value), a.slope / (2 * std::sqrt(a.value))}; }
-Dual exp(Dual a) { return {std::exp(a.value), a.slope * std::exp(a.value)}; }
 
 // The 11 parameters in the order of a record, in any scalar.
 template <class T, class Make>
@@ -131,4 +116,27 @@ TEST_CASE("activation counted: four exponentials, a length and five quotients") 
   CHECK(counts.adds == 4);  // three of the length, one of the sigmoid
   CHECK(counts.divisions == 5);
   CHECK(counts.divisors == 2);
+}
+
+TEST_CASE("activating again what has changed is activating all") {
+  for (const int degree : {0, 3}) {
+    GaussianCloud cloud = test::random_cloud(1, 50, degree, {0, 0, 0}, 1, 0.01F, 0.5F);
+    ActivatedCloud activated = activate(cloud);
+    const std::vector<std::uint32_t> indices{0, 3, 17, 49};
+    const auto coeffs = static_cast<std::size_t>(sh_coeff_count(degree));
+    for (const std::uint32_t i : indices) {
+      cloud.means[i] += 1.0F;
+      cloud.log_scales[i] += 0.5F;
+      cloud.quats[i][1] += 2.0F;
+      cloud.opacity_logits[i] -= 1.0F;
+      cloud.sh_coeffs[(i + 1) * coeffs - 1] += 1.0F;
+    }
+    reactivate(cloud, indices, activated);
+    const ActivatedCloud all = activate(cloud);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Gaussian<float>&a = activated.gaussians[i], &b = all.gaussians[i];
+      CHECK((a.mean == b.mean && a.scale == b.scale && a.quat == b.quat && a.opacity == b.opacity));
+    }
+    CHECK(activated.sh_coeffs == all.sh_coeffs);
+  }
 }

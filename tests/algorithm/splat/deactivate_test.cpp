@@ -18,7 +18,10 @@ TEST_CASE("deactivate: activation gives the values back, to the last bits") {
     g.mean = {component(random), component(random), component(random)};
     for (int axis = 0; axis < 3; ++axis) g.scale[axis] = std::exp(exponent(random));
     float squared = 0;
-    for (float& q : g.quat) squared += (q = component(random)) * q;
+    for (float& q : g.quat) {
+      q = component(random);
+      squared += q * q;
+    }
     for (float& q : g.quat) q /= std::sqrt(squared);
     g.opacity = i % 3 == 0 ? static_cast<float>(random() % 256) / 255 : opacity(random);
     cloud.gaussians.push_back(g);
