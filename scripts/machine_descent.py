@@ -65,7 +65,7 @@ class Descent:
         """With more of what binds the slowest view, until that is fast enough. Raises TooSlow where
         no axis has more of it."""
         while (drawn := self.draw_all(machine, view))[0].fps() < self.wanted_fps:
-            key = drawn[0].view["binding"]["key"]
+            key = drawn[0].view["binding"].get("key", "")
             names = [a.name for a in machine.order.axes]
             more = machine.moved(names.index(key), 1) if key in names else None
             if more is None:

@@ -141,7 +141,7 @@ class Search:
         axes = range(len(point.machine.at))
         gains = [which for which in axes if self.harm.get(which, 0) < -BETTER]
         yield from ((which, -1) for which in sorted(gains, key=lambda w: self.harm[w]))
-        held_by = [view["binding"]["key"] for view in point.views]
+        held_by = [view["binding"].get("key", "") for view in point.views]
         named = {which: held_by.count(point.machine.order.axes[which].name) for which in axes}
         yield from ((which, 1) for which in sorted(axes, key=lambda w: -named[w]))
         yield from ((which, -1) for which in axes)

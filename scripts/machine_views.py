@@ -108,7 +108,7 @@ def csv_row(size: str, scene: str, name: str, view: dict) -> tuple:
         view["area_mm2"]["total"],
         decibels(view),
         view["binding"]["holds"],
-        view["binding"]["key"],
+        view["binding"].get("key", ""),
         vsu_waits(view),
     )
 
