@@ -101,10 +101,7 @@ def make_table(arguments: argparse.Namespace) -> None:
     version = {"provenance": {"commit": program_version(arguments.streaminggs)}}
     text = run_arguments.how_made([version])
     text += f"The resource named gains most on {right} of {len(answers)} views.\n\n"
-    text += tables.markdown(HEAD, rows)
-    tables.write_text(arguments.out / "binding_check.md", text)
-    tables.write_text(arguments.out / "binding_check.csv", tables.csv_text(HEAD, rows))
-    print(text)
+    tables.write(arguments.out, "binding_check", text, HEAD, rows)
 
 
 def main() -> int:

@@ -143,17 +143,8 @@ def make_tables(arguments: argparse.Namespace) -> None:
         by_scene.setdefault(scene.name, {})[variant] = views
     effects = [effect_row(name, of) for name, of in by_scene.items()] + [PAPER_EFFECTS]
     made = run_arguments.how_made(v for views in results for v in views)
-    write(arguments, "compare_variants", made, VARIANT_HEAD, rows)
-    write(arguments, "compare_variants_effects", made, EFFECT_HEAD, effects)
-
-
-def write(
-    arguments: argparse.Namespace, name: str, made: str, head: Sequence[str], rows: list[tuple]
-) -> None:
-    text = made + tables.markdown(head, rows)
-    tables.write_text(arguments.out / f"{name}.md", text)
-    tables.write_text(arguments.out / f"{name}.csv", tables.csv_text(head, rows))
-    print(f"{text}\n", flush=True)
+    tables.write(arguments.out, "compare_variants", made, VARIANT_HEAD, rows)
+    tables.write(arguments.out, "compare_variants_effects", made, EFFECT_HEAD, effects)
 
 
 def main() -> int:

@@ -151,23 +151,14 @@ def make_tables(arguments: argparse.Namespace) -> None:
     shipped = {order: measuring.views(order, SRAM_AS_NEEDED) for order in PRESETS}
     made = run_arguments.how_made(view for views in shipped.values() for view in views)
     head = ("order", "mJ of", *(scene.name for scene in scenes))
-    write(arguments, "energy_components", made, head, component_rows(shipped))
+    tables.write(arguments.out, "energy_components", made, head, component_rows(shipped))
     rows = [
         group_row(order, px, measuring.views(order, (*SRAM_AS_NEEDED, f"group_px={px}")))
         for order in PRESETS
         for px in arguments.groups
     ]
-    write(arguments, "energy_groups", made, GROUP_HEAD, rows)
+    tables.write(arguments.out, "energy_groups", made, GROUP_HEAD, rows)
     measuring.kept.end()
-
-
-def write(
-    arguments: argparse.Namespace, name: str, made: str, head: Sequence[str], rows: list[tuple]
-) -> None:
-    text = made + tables.markdown(head, rows)
-    tables.write_text(arguments.out / f"{name}.md", text)
-    tables.write_text(arguments.out / f"{name}.csv", tables.csv_text(head, rows))
-    print(f"{text}\n", flush=True)
 
 
 def main() -> int:

@@ -50,3 +50,13 @@ def write_text(path: pathlib.Path, text: str) -> None:
     part = path.with_name(path.name + ".part")
     part.write_text(text)
     os.replace(part, path)
+
+
+def write(
+    folder: pathlib.Path, name: str, made: str, head: Sequence[str], rows: Sequence[Row]
+) -> None:
+    """A table as NAME.md, with what stands above it, and as NAME.csv; and on the terminal."""
+    text = made + markdown(head, rows)
+    write_text(folder / f"{name}.md", text)
+    write_text(folder / f"{name}.csv", csv_text(head, rows))
+    print(f"{text}\n", flush=True)

@@ -8,9 +8,9 @@
 #include <cctype>
 #include <filesystem>
 
-#include "algorithm/dataset/joined.h"
 #include "algorithm/image/photograph.h"
 #include "algorithm/input_error.h"
+#include "algorithm/join.h"
 
 namespace sgs {
 namespace {
@@ -51,11 +51,11 @@ FoundImage find_image(const std::vector<std::string>& folders, const std::string
   if (found.empty()) {
     throw InputError(fmt::format(
         "{}: no image '{}' in {}, expected it there, or with .png, .jpg or .jpeg behind", where,
-        name, joined(folders, " or ")));
+        name, join(folders, " or ")));
   }
   if (found.size() > 1) {
     throw InputError(fmt::format("{}: image '{}': got {}, expected one of them", where, name,
-                                 joined(found, " and ")));
+                                 join(found, " and ")));
   }
   return {found[0], read_photograph_header(found[0])};
 }

@@ -8,9 +8,9 @@
 #include <filesystem>
 
 #include "algorithm/dataset/complete_view.h"
-#include "algorithm/dataset/joined.h"
 #include "algorithm/dataset/layouts.h"
 #include "algorithm/input_error.h"
+#include "algorithm/join.h"
 
 namespace sgs {
 namespace {
@@ -46,8 +46,8 @@ const Layout& layout_of(const std::string& folder) {
   if (found.size() == 1) return *found[0];
   throw InputError(fmt::format(
       "{}: {}, expected one of: {}", folder,
-      found.empty() ? "holds no data set" : fmt::format("holds {}", joined(there, " and ")),
-      joined(looked_for, ", ")));
+      found.empty() ? "holds no data set" : fmt::format("holds {}", join(there, " and ")),
+      join(looked_for, ", ")));
 }
 
 void refuse_equal_names(const std::vector<StatedView>& by_name) {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "modules/config/join.h"
+#include "algorithm/join.h"
 #include "modules/config/strict_json.h"
 
 namespace sgs {

@@ -10,7 +10,7 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/input_json.h"
-#include "modules/config/join.h"
+#include "algorithm/join.h"
 
 namespace sgs {
 

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "algorithm/input_error.h"
-#include "modules/config/join.h"
+#include "algorithm/join.h"
 
 namespace sgs {
 

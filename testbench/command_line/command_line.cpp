@@ -8,7 +8,7 @@
 #include <charconv>
 
 #include "algorithm/input_error.h"
-#include "modules/config/join.h"
+#include "algorithm/join.h"
 #include "testbench/command_line/version.h"
 
 namespace sgs {

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "algorithm/input_error.h"
-#include "modules/config/join.h"
+#include "algorithm/join.h"
 #include "testbench/command_line/presets.h"
 
 namespace sgs {

@@ -8,7 +8,7 @@
 
 #include "algorithm/data_files.h"
 #include "algorithm/input_error.h"
-#include "modules/config/join.h"
+#include "algorithm/join.h"
 
 namespace sgs {
 namespace {

@@ -1,204 +1,10 @@
 // Merge unit alone: sorted keys of the visits of several groups in, keys in final order out.
-// Checked against std::sort by (depth, slot); cycles, bytes and conservation.
-#include <algorithm>
-#include <limits>
+#include <fmt/format.h>
 
-#include "modules/streaminggs/merge/merge_unit.h"
-#include "testbench/units/case_runner.h"
-#include "testbench/units/job_memory.h"
-#include "testbench/units/merge_plan.h"
-#include "testbench/units/reported_groups.h"
-#include "testbench/units/unit_bench.h"
+#include "testbench/units/merge_run.h"
 
 namespace sgs::tb {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::uint64_t kBytesOfKey = 32;  // depth, slot, centre, two carried words, reach
-
-bool same_payload(const FineCandidate& a, const FineCandidate& b) {
-  return a.slot == b.slot && a.depth == b.depth && a.mean_x == b.mean_x && a.mean_y == b.mean_y &&
-         a.mean_z == b.mean_z && a.carried == b.carried;
-}
-
-// For visits as long as the plan's.
-UnitContext merge_context(const UnitBench& bench, const StreamingJob& job, const MergePlan& plan) {
-  UnitContext context = bench.context(job);
-  context.built_for.chunk_gaussians = longest_visit(plan);
-  context.built_for.group_px = 16;
-  return context;
-}
-
-struct Run {
-  UnitBench bench;
-  StreamingJob job;
-  ReportedGroups finished;
-  FinishedSubtiles mask;
-  Fifos<FineCandidate> inputs, outputs;
-  MergeUnit unit;
-
-  Run(Case& test, const BenchConfig& config, const MergePlan& plan)
-      : bench(test, config),
-        job(merge_job(plan)),
-        finished(bench.clock(), plan.groups.size(), plan.feedback_cycles),
-        mask("mask", bench.clock(), job.groups, plan.feedback_cycles),
-        inputs(bench.add_fifos<FineCandidate>("sorted_by", plan.sorters, plan.input_entries, 1)),
-        outputs(bench.add_fifos<FineCandidate>("to_hfu", plan.hfus, plan.output_entries, 1)),
-        unit("merge", plan.config, job.spill, merge_context(bench, job, plan)) {
-    for (TimedFifo<FineCandidate>* input : inputs) unit.sorted(*input);
-    for (TimedFifo<FineCandidate>* output : outputs) unit.released(*output);
-    unit.finished(finished.channel);
-    unit.mask(mask);
-    bench.add_unit(unit);
-  }
-};
-
-// One thread a sorting unit: its visits, each with its mark; a group's end is a visit of its own.
-void add_sorters(Run& run, const MergePlan& plan) {
-  for (std::uint32_t s = 0; s < plan.sorters; ++s) {
-    run.bench.add_thread(fmt::format("sorter{}", s), [&, s](Activity& activity) {
-      std::uint32_t number = 0;
-      for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-        const std::vector<MergeVisit>& visits = plan.groups[g].visits;
-        for (std::size_t v = 0; v <= visits.size(); ++v, ++number) {
-          if (number % plan.sorters != s) continue;
-          FineCandidate end;
-          end.group = g;
-          end.visit = number;
-          end.mark = v < visits.size() ? Mark::kEndOfVisit : Mark::kEndOfGroup;
-          end.release_below = v < visits.size() ? visits[v].release_below : kInfinity;
-          if (v < visits.size()) {
-            for (const MergeKey& key : visits[v].keys) {
-              run.inputs[s]->push(candidate(g, number, key), activity);
-            }
-          }
-          run.inputs[s]->push(end, activity);
-        }
-      }
-    });
-  }
-}
-
-// Takes the keys in turn, as rendering takes their splats.
-void add_reader(Run& run, const MergePlan& plan) {
-  run.bench.add_thread("reader", [&](Activity& activity) {
-    Checks& checks = run.bench.checks();
-    std::size_t turn = 0;
-    const auto next = [&] { return run.outputs[turn++ % plan.hfus]->pop(activity); };
-    for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-      const MergeGroup& group = plan.groups[g];
-      const std::vector<MergeKey> expected = expected_order(plan, group);
-      std::size_t got = 0;
-      FineCandidate key = next();
-      for (; key.mark == Mark::kNone; key = next(), ++got) {
-        const bool there = got < expected.size();
-        checks.that(there, fmt::format("group {}: too many keys", g));
-        if (there) {
-          checks.that(
-              key.group == g && same_payload(key, candidate(g, 0, expected[got])),
-              fmt::format("group {}, key {}: slot {} at depth {}, expected {} at {}", g, got,
-                          key.slot, key.depth, expected[got].slot, expected[got].depth));
-        }
-        // Decided on before the heap was at work, then it went through the FIFO.
-        if (run.bench.without_stalls()) {
-          const std::uint64_t cycles = plan.config.cycles_per_operation + 1;
-          checks.that(run.bench.clock().now_cycles() - cycles < run.finished.seen_from(g),
-                      fmt::format("group {}: key {} although the group is finished", g, got));
-        }
-        if (got + 1 >= group.saturates_after) run.finished.finish(g);
-      }
-      checks.that(key.mark == Mark::kEndOfGroup && key.group == g, fmt::format("group {}: end", g));
-      if (!run.finished.finished(g)) {
-        checks.equal(got, expected.size(), fmt::format("group {}: keys", g));
-      }
-    }
-  });
-}
-
-// Keys released behind one of the same depth.
-std::uint64_t tied_keys(const MergePlan& plan, const MergeGroup& group) {
-  const std::vector<MergeKey> keys = expected_order(plan, group);
-  std::uint64_t tied = 0;
-  for (std::size_t k = 1; k < keys.size(); ++k) tied += keys[k].depth == keys[k - 1].depth ? 1 : 0;
-  return tied;
-}
-
-void check_counters(Run& run, const MergePlan& plan) {
-  Checks& checks = run.bench.checks();
-  const MergeUnit::Counters& c = run.unit.counters();
-  std::uint64_t keys = 0;
-  bool saturating = false;
-  for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-    saturating = saturating || run.finished.finished(g);
-    for (const MergeVisit& visit : plan.groups[g].visits) keys += visit.keys.size();
-  }
-  run.bench.check_counter("keys", keys);
-  std::uint64_t tied = 0;
-  for (const MergeGroup& group : plan.groups) tied += tied_keys(plan, group);
-  if (!saturating) run.bench.check_counter("ties", tied);
-  checks.that(c.ties <= tied, "more ties than keys of one depth");
-  checks.equal(c.released + c.dropped_hidden + c.dropped_saturated, keys, "keys accounted for");
-  if (!saturating) run.bench.check_counter("released", keys);
-  // What the heap takes and gives at its own pace; a cycle for a key that is dropped on arrival,
-  // read from a run or moved to another, and for a mark.
-  const HeapWork& heap = run.unit.heap_work();
-  run.bench.check_counter("inserts", heap.inserts);
-  run.bench.check_counter("delete_mins", heap.delete_mins);
-  run.bench.check_counter("delete_maxs", heap.delete_maxs);
-  checks.equal(run.bench.busy_cycles("merge"),
-               plan.config.cycles_per_operation * heap.operations() + (c.keys - heap.inserts) +
-                   (c.due - heap.delete_mins) + (c.keys_spilled - heap.delete_maxs) +
-                   plan.groups.size(),
-               "busy cycles");
-  if (!saturating) {
-    checks.equal(heap.inserts, keys, "inserts");
-    checks.equal(heap.delete_mins + heap.delete_maxs, keys, "deletes");
-  }
-  checks.equal(run.bench.bytes_written(), run.bench.counter("keys_spilled") * kBytesOfKey,
-               "bytes written");
-  if (!saturating) {
-    checks.equal(run.bench.bytes_read(), c.keys_spilled * kBytesOfKey, "bytes read back");
-  }
-  if (plan.config.on_overflow == OnOverflow::kSpill) {
-    checks.that(run.bench.counter("pending_keys_max") <= plan.config.entries,
-                "more keys wait than fit");
-    run.bench.check_counter("forced_early", 0);
-  } else {
-    run.bench.check_counter("runs_spilled", 0);
-  }
-  // Two nodes a word read, one written; a key is depth and slot.
-  const std::uint64_t words = run.bench.counter("heap_words_read");
-  run.bench.check_accesses("waiting keys", 2 * words, run.bench.counter("heap_nodes_written"));
-  std::uint64_t comparisons = 2 * run.bench.counter("heap_comparisons");
-  comparisons += 4 * c.due;  // 4 rows of 4 sub-tiles, of 16 px
-  run.bench.check_accesses("finished sub-tiles", c.due, run.mask.news());
-  if (plan.config.on_overflow == OnOverflow::kSpill) {
-    comparisons += 2 * (plan.config.spill_runs - 1) * run.bench.counter("keys_spilled");
-  }
-  run.bench.check_operations("merge", "comparator", comparisons);
-  // Nothing went past the spill area.
-  const RegionSpan& spill = run.job.spill;
-  const std::vector<std::byte> behind =
-      run.bench.read_back(spill.end(), run.job.frame_buffer.end() - spill.end());
-  checks.that(
-      std::all_of(behind.begin(), behind.end(), [](std::byte b) { return b == std::byte{}; }),
-      "written past the spill area");
-}
-
-MergeUnit::Counters run_plan(Case& test, const BenchConfig& config, const MergePlan& plan) {
-  Run run(test, config, plan);
-  add_sorters(run, plan);
-  add_reader(run, plan);
-  run.bench.run();
-  check_counters(run, plan);
-  return run.unit.counters();
-}
-
-BenchConfig still_bench(const MergePlan& plan) {
-  BenchConfig config;
-  config.memory_bytes = memory_bytes(merge_job(plan));
-  return config;
-}
 
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
@@ -233,7 +39,7 @@ void exact_time(Case& test, std::uint32_t n, std::uint32_t cycles_per_operation)
   plan.output_entries = n + 1;
   plan.groups.push_back(one_visit(n, false));
   plan.groups[0].visits[0].release_below = kInfinity;
-  Run run(test, still_bench(plan), plan);
+  MergeRun run(test, still_bench(plan), plan);
   add_sorters(run, plan);
   run.bench.add_thread("reader", [&](Activity& activity) {
     // FIFO in, n in, the first out (the mark, where there is none), FIFO out.
@@ -255,7 +61,7 @@ void final_keys_do_not_wait(Case& test) {
   plan.slots = 4;
   plan.sorters = plan.hfus = 1;
   plan.groups.emplace_back();
-  Run run(test, still_bench(plan), plan);
+  MergeRun run(test, still_bench(plan), plan);
   std::uint64_t last_in = 0;
   run.bench.add_thread("sorter", [&](Activity& activity) {
     const MergeKey keys[] = {{1, 0}, {2, 3}, {3, 2}};
@@ -297,7 +103,7 @@ void keys_behind_finished_subtiles(Case& test) {
   plan.feedback_cycles = 7;
   plan.groups.resize(2);
   plan.config.entries = 4;  // some come back from a run
-  Run run(test, still_bench(plan), plan);
+  MergeRun run(test, still_bench(plan), plan);
   run.bench.add_thread("rendering", [&](Activity&) {
     run.bench.clock().wait_cycles(5000);
     for (const std::size_t at : {0U, 1U, 4U, 5U, 8U, 9U}) run.mask.finish(0, at, 0);
@@ -421,7 +227,7 @@ int sc_main(int argc, char* argv[]) {
     plan.slots = 70;
     plan.config.entries = 64;
     plan.groups.push_back(one_visit(70, false));
-    Run run(test, still_bench(plan), plan);
+    MergeRun run(test, still_bench(plan), plan);
     add_sorters(run, plan);
     add_reader(run, plan);
     run.bench.run();
