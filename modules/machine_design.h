@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <systemc>
 #include <vector>
 
 #include "algorithm/scene/cameras.h"
+#include "algorithm/splat/rects.h"
 #include "algorithm/storage/stored_scene.h"
 #include "modules/auto_choice.h"
 #include "modules/config/config_visitor.h"
@@ -39,12 +41,17 @@ class MachineDesign {
   // How scenes must be stored for it.
   virtual StorageOrder storage_order() const = 0;
 
+  // frames(): sizes of the pictures that are going to be drawn, to be called once and only where
+  // something follows from them. Before resolve(); not at all where there is no picture.
+  virtual void fit_frames(const std::function<std::vector<PixelSize>()>& frames) { (void)frames; }
+
   // Fills in what the configuration left to the model, and adds it to `chosen`. Buffers are built
   // for any scene that is stored so. Throws InputError for what cannot be built; the message shows
   // the arithmetic.
   virtual void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) = 0;
 
-  // Leaves the sizes of on-chip memories to what the other parameters need, for resolve() to fill in.
+  // Leaves the sizes of on-chip memories to what the other parameters need, for resolve() to fill
+  // in.
   virtual void fit_memories() {}
 
   // The same once the scene is known. Throws InputError when the scene does not fit.

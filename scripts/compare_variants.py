@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 
 import run_arguments
 import tables
+from group_shapes import shape_of
 from scenes import Scene, find_scenes
 from simulations import Run, region_bytes, simulate_all
 from view_numbers import binders
@@ -74,7 +75,7 @@ def variant_row(scene: str, variant: str, views: Views) -> tuple:
     return (
         scene,
         variant,
-        views[0]["config"]["group_px"],
+        shape_of(views[0]["config"]),
         megabytes("first_halves"),
         megabytes("second_halves"),
         f"{mean(views, lambda v: v['dram']['bytes']) / MB:.2f}",

@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 import run_arguments
 import tables
+from group_shapes import assignments
 from kept_runs import KeptRuns
 from scenes import Scene, find_scenes, shared_names
 from simulations import SRAM_AS_NEEDED, Run
@@ -29,7 +30,7 @@ RELIEF = {
     "exact": ((),),
     "paper": tuple((f"vsu.table_bytes={n}",) for n in (7680, 16384, 32768, 65536, 131072)),
 }
-GROUPS_PX = (16, 32, 48, 64, 96, 128, 192)
+GROUPS = ["16", "32", "48", "64", "96", "128", "160x120", "160x180"]
 MJ = 1e-3
 
 # Components of energy that are neither logic nor on-chip memory.
@@ -90,7 +91,7 @@ GROUP_HEAD = (
 )
 
 
-def group_row(order: str, group_px: int, views: Sequence[dict]) -> tuple:
+def group_row(order: str, shape: str, views: Sequence[dict]) -> tuple:
     """Means over the scenes; area and memory of the scene that needs most."""
 
     def mean(value: Callable[[dict], float]) -> float:
@@ -105,7 +106,7 @@ def group_row(order: str, group_px: int, views: Sequence[dict]) -> tuple:
     sram = max(sum(v["sram"][f"{m}_bytes"] for m in ("input", "codebook", "shared")) for v in views)
     return (
         order,
-        group_px,
+        shape,
         f"{mean(lambda v: of(v, lambda name: name == 'DRAM')):.3f}",
         f"{mean(lambda v: of(v, memories.__contains__)):.3f}",
         f"{mean(lambda v: of(v, logic.__contains__)):.3f}",
@@ -153,9 +154,9 @@ def make_tables(arguments: argparse.Namespace) -> None:
     head = ("order", "mJ of", *(scene.name for scene in scenes))
     tables.write(arguments.out, "energy_components", made, head, component_rows(shipped))
     rows = [
-        group_row(order, px, measuring.views(order, (*SRAM_AS_NEEDED, f"group_px={px}")))
+        group_row(order, shape, measuring.views(order, (*SRAM_AS_NEEDED, *assignments(shape))))
         for order in PRESETS
-        for px in arguments.groups
+        for shape in arguments.groups
     ]
     tables.write(arguments.out, "energy_groups", made, GROUP_HEAD, rows)
     measuring.kept.end()
@@ -167,7 +168,7 @@ def main() -> int:
     run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="0", help="number of a camera")
     parser.add_argument("--size", default="640x360", metavar="WxH", help="in px")
-    parser.add_argument("--groups", nargs="+", type=int, default=list(GROUPS_PX), metavar="PX")
+    parser.add_argument("--groups", nargs="+", default=GROUPS, metavar="SHAPE")
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="over both presets"
     )

@@ -2,13 +2,14 @@
 """Architecture exploration: simulates a grid or a list of configurations over scenes and views and
 shows those that no other one beats in everything (the Pareto front).
 
-  explore.py builtin:object --axis hfus=2,4,8 --axis hfu.ffu_lanes=8,16,32 --axis group_px=64,128
+  explore.py builtin:object --axis hfus=2,4,8 --axis hfu.ffu_lanes=8,16,32 --axis group=64,160x120
 
 --axis KEY=V1,V2,... spans a grid; --points FILE takes a list instead, one configuration a line:
 KEY=VALUE KEY=VALUE ... Every configuration gets as much input and shared on-chip memory as it
 needs, unless --set, --axis or the list say how much: memory is what it costs, not what stops it,
 and no other size follows from it. What the command refuses is printed at the end. The tables show
-what was simulated: values as the resolved configuration has them, group_px always among them.
+what was simulated: values as the resolved configuration has them, the size of the
+pixel group always among them: `group=SHAPE` stands for both of its sides.
 
 Objectives, all to be as small as possible:
   cycles      frame cycles, sum over the views simulated
@@ -33,6 +34,7 @@ from collections.abc import Iterator, Sequence
 
 import run_arguments
 import tables
+from group_shapes import NAME, expanded, shape_of
 from objectives import objective, pareto_front, value_at
 from scenes import Scene, find_scenes
 from simulations import SRAM_AS_NEEDED, Failure, Outcome, Run, simulate_all
@@ -79,6 +81,8 @@ class Point:
 
     def setting(self, key: str) -> object:
         """The value that was simulated; empty where its machine has no such key."""
+        if key == NAME:
+            return shape_of(self.views[0]["config"])
         value = value_at(self.views[0]["config"], key)
         if isinstance(value, bool):
             return str(value).lower()
@@ -104,7 +108,7 @@ class Exploration:
 
     def head(self) -> tuple[str, ...]:
         keys = [a.partition("=")[0] for point in self.points for a in point.assignments]
-        return (*dict.fromkeys([*keys, "group_px"]), *self.objectives, "binding", "pareto")
+        return (*dict.fromkeys([*keys, NAME]), *self.objectives, "binding", "pareto")
 
     def rows(self) -> list[tuple]:
         keys = self.head()[: -len(self.objectives) - 2]
@@ -132,7 +136,7 @@ class Exploration:
 
 
 def run_of(arguments: argparse.Namespace, scene: Scene, point: Assignments) -> Run:
-    overrides = (*SRAM_AS_NEEDED, *arguments.set, *point)
+    overrides = expanded((*SRAM_AS_NEEDED, *arguments.set, *point))
     return Run(scene, arguments.view, arguments.size, arguments.config, overrides)
 
 

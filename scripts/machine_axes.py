@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator
 
+from group_shapes import NAME, assignments, setting_text
 from simulations import SRAM_AS_NEEDED
 
 Assignments = tuple[str, ...]
@@ -66,7 +67,7 @@ class Machine:
     def settings(self) -> Iterator[str]:
         """The axes' assignments, without those that follow from others."""
         for a, i in zip(self.order.axes, self.at):
-            yield a.settings[i][0]
+            yield setting_text(a.settings[i])
 
 
 def number(text: str) -> float | None:
@@ -93,6 +94,13 @@ def nearest(a: Axis, config: dict) -> int:
     return distances.index(min(distances))
 
 
+def groups(*shapes: object) -> Axis:
+    return Axis(NAME, tuple(assignments(shape) for shape in shapes))
+
+
+# Beside them shapes that cut a frame of 640 x 360 evenly.
+SQUARES = (32, 48, 64, 80, 96, 112, 128)
+
 COMMON = (
     axis("hfu.ffu_lanes", 4, 8, 12, 16, 20, 24, 32, 48, 64),
     axis("hfu.cfu_lanes", 1, 2, 3, 4, 6, 8, 12),
@@ -107,7 +115,7 @@ EXACT = Order(
     "exact",
     RAW,
     (
-        axis("group_px", 32, 48, 64, 80, 96, 112, 128, 144, 160, 192),
+        groups(*SQUARES, "160x120", "216x120", "160x180", "320x180"),
         axis("hfus", 1, 2, 3, 4, 6, 8),
         axis("rendering.clusters", 1, 2, 4, 8),
         axis("rendering.cluster_lanes", 480),
@@ -136,7 +144,7 @@ PAPER = Order(
     "paper_no_vq",
     RAW,
     (
-        axis("group_px", 32, 48, 64, 80, 96, 112, 128, 160, 192),
+        groups(*SQUARES, "160x120", "160x180"),
         axis("hfus", 1, 2, 4, 6, 8, 9),
         Axis(
             "fetch",

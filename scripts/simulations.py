@@ -20,7 +20,7 @@ MOST_SIDE_BY_SIDE = 2
 # Exit status of the command for arguments, a configuration or an input that it does not take.
 REFUSED = 2
 # On-chip memory as large as the rest of the configuration needs, neither more nor less; the
-# report's config says what that came to. Beside it group_px has to be a number of pixels.
+# report's config says what that came to. Beside it a group has to have a size.
 SRAM_AS_NEEDED = ("sram.input_bytes=0", "sram.shared_bytes=0")
 
 

@@ -15,6 +15,7 @@ import sys
 
 import run_arguments
 import tables
+from group_shapes import assignments, shape_of
 from scenes import find_scenes
 from simulations import (
     SRAM_AS_NEEDED,
@@ -29,7 +30,7 @@ from simulations import (
 
 MERGE_ENTRIES = (128, 256, 512, 1024, 2048, 4096)
 ON_OVERFLOW = ("spill", "blend_early")
-GROUP_PX = (16, 32, 64, 128)
+GROUPS = ("16", "32", "64", "128")
 CHUNK_GAUSSIANS = (8, 16, 32, 64, 128, 256)
 
 HEAD = (
@@ -49,7 +50,7 @@ HEAD = (
 CSV_HEAD = (
     "scene",
     "view",
-    "group_px",
+    "group",
     "chunk_gaussians",
     "merge_entries",
     "on_overflow",
@@ -67,21 +68,21 @@ def combinations(preset: dict, cross: bool) -> list[tuple]:
     """(group, chunk, entries, on_overflow). Without `cross` one axis is moved at a time, around
     the preset, but for the merge buffer, whose size and overflow policy go together."""
     if cross:
-        return list(itertools.product(GROUP_PX, CHUNK_GAUSSIANS, MERGE_ENTRIES, ON_OVERFLOW))
-    group_px, chunk = preset["group_px"], preset["storage"]["chunk_gaussians"]
+        return list(itertools.product(GROUPS, CHUNK_GAUSSIANS, MERGE_ENTRIES, ON_OVERFLOW))
+    shape, chunk = shape_of(preset), preset["storage"]["chunk_gaussians"]
     entries, on_overflow = preset["merge"]["entries"], preset["merge"]["on_overflow"]
     points = [
-        (group_px, chunk, n, policy) for policy, n in itertools.product(ON_OVERFLOW, MERGE_ENTRIES)
+        (shape, chunk, n, policy) for policy, n in itertools.product(ON_OVERFLOW, MERGE_ENTRIES)
     ]
-    points += [(group, chunk, entries, on_overflow) for group in GROUP_PX]
-    points += [(group_px, c, entries, on_overflow) for c in CHUNK_GAUSSIANS]
+    points += [(group, chunk, entries, on_overflow) for group in GROUPS]
+    points += [(shape, c, entries, on_overflow) for c in CHUNK_GAUSSIANS]
     return list(dict.fromkeys(points))
 
 
 def overrides(point: tuple) -> tuple[str, ...]:
-    group_px, chunk, entries, on_overflow = point
+    shape, chunk, entries, on_overflow = point
     return (
-        f"group_px={group_px}",
+        *assignments(shape),
         f"storage.chunk_gaussians={chunk}",
         f"merge.entries={entries}",
         f"merge.on_overflow={on_overflow}",
@@ -97,7 +98,7 @@ def rows_of(outcome: Outcome) -> tuple[list[tuple], list[tuple]]:
         point = (
             outcome.run.scene.name,
             view["view"],
-            config["group_px"],
+            shape_of(config),
             config["storage"]["chunk_gaussians"],
             config["merge"]["entries"],
             config["merge"]["on_overflow"],

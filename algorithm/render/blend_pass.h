@@ -36,33 +36,34 @@ auto each_pixel(Observe observe) {
   };
 }
 
-// Calls blend_into(tile, splat) for each tile of tile_px (a multiple of 4) a side and splat of the
+// Calls blend_into(tile, splat) for each tile of such a size (multiples of 4) and splat of the
 // frame that falls on it, until the tile is finished; returns the tiles, row by row. blend_into is
 // to call tile.blend(splat), with an observer or without, or to leave the splat out. A tile gets
 // its splats one after the other, by (depth, index); different tiles are blended at the same time,
 // so what blend_into adds up across tiles must bear that (fixed_point_sums.h).
 template <class BlendInto>
 std::vector<GroupState> blend_scene(const View<float>& view, const ActivatedCloud& cloud,
-                                    const BlendInto& blend_into, int tile_px = kTilePx) {
+                                    const BlendInto& blend_into,
+                                    const PixelSize& tile = square_of(kTilePx)) {
   // Batches bound the memory of splats and bins, keep them in the cache and end the frame early
   // when every tile is finished.
   constexpr std::size_t kBatchSplats = 32768;
-  const CellGrid grid = cell_grid(view.width, view.height, tile_px);
+  const CellGrid grid = cell_grid(view.width, view.height, tile);
   std::vector<GroupState> tiles;
   tiles.reserve(grid.size());
-  for (const PixelRect& pixels : pixel_groups(view.width, view.height, tile_px)) {
+  for (const PixelRect& pixels : pixel_groups(view.width, view.height, tile)) {
     tiles.emplace_back(pixels, view.width, view.height);
   }
   const auto blend_run = [&](const Splat* splats, std::size_t count) {
     const SplatBins bins = bin_splats(grid, splats, count);
-    tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t tile) {
-      for (std::size_t i = bins.first[tile]; i != bins.first[tile + 1]; ++i) {
-        if (tiles[tile].saturated()) return;
-        blend_into(tiles[tile], splats[bins.entries[i]]);
+    tbb::parallel_for(std::size_t{0}, grid.size(), [&](std::size_t at) {
+      for (std::size_t i = bins.first[at]; i != bins.first[at + 1]; ++i) {
+        if (tiles[at].saturated()) return;
+        blend_into(tiles[at], splats[bins.entries[i]]);
       }
     });
   };
-  const auto unfinished = [](const GroupState& tile) { return !tile.saturated(); };
+  const auto unfinished = [](const GroupState& state) { return !state.saturated(); };
   SplatSequence sequence(view, cloud);
   std::vector<Splat> batch;
   while (!sequence.at_end() && std::any_of(tiles.begin(), tiles.end(), unfinished)) {

@@ -152,7 +152,7 @@ StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud
   out.frame.image = Image(view.width, view.height);
   out.frame.transmittance.resize(pixels);
   out.frame.contributors.resize(pixels);
-  const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group_px);
+  const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group);
   std::vector<StreamingStats> stats(groups.size());
   const std::vector<VisibleExtents> known = stored_extents(cloud);
   Flags contributing(cloud.size()), visited(cloud.size());

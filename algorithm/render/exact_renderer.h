@@ -11,13 +11,14 @@
 #include "algorithm/render/streaming_result.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/rects.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
 
 struct ExactOrderConfig {
-  int group_px = 64;                   // side of a pixel group, a multiple of 4
+  PixelSize group = square_of(64);     // of pixels rendered together, multiples of 4
   bool coarse_filter = true;           // off: keys of whole chunks wait
   std::uint32_t merge_entries = 4096;  // keys that wait at most, between two visits
   OnOverflow on_overflow = OnOverflow::kSpill;

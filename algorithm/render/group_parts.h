@@ -1,5 +1,5 @@
-// A pixel group cut into parts, each filtered and blended by itself: a square grid of them, of
-// whole 4x4 sub-tiles.
+// A pixel group cut into parts, each filtered and blended by itself: as many columns as rows of
+// them, all of one size.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,15 @@ namespace sgs {
 // Whole square root of a number of parts, or 0 where it has none.
 std::uint32_t parts_across(std::uint32_t parts);
 
-// Side in px of the widest part of a group of group_px.
-std::uint32_t part_px(std::uint32_t group_px, std::uint32_t parts);
+// Of which both sides of a group are to be multiples: then parts are whole 4x4 sub-tiles.
+std::uint32_t group_step_px(std::uint32_t parts);
 
-// [part][group] pixels, cut to the group; empty where nothing of the part lies in the frame, or
-// where the group has fewer sub-tiles than parts. parts: a square number.
+// Size of a part of such a group.
+PixelSize part_size(const PixelSize& group, std::uint32_t parts);
+
+// [part][group] pixels, cut to the group; empty where nothing of the part lies in the frame.
+// parts: a square number; group: multiples of group_step_px().
 std::vector<std::vector<PixelRect>> group_parts(const std::vector<PixelRect>& groups,
-                                                std::uint32_t group_px, std::uint32_t parts);
+                                                const PixelSize& group, std::uint32_t parts);
 
 }  // namespace sgs

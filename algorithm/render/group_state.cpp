@@ -69,11 +69,12 @@ void GroupState::store(const glm::vec3& background, RenderResult& frame) const {
   }
 }
 
-std::vector<PixelRect> pixel_groups(int width_px, int height_px, int group_px) {
+std::vector<PixelRect> pixel_groups(int width_px, int height_px, const PixelSize& group) {
   std::vector<PixelRect> groups;
-  for (int y = 0; y < height_px; y += group_px) {
-    for (int x = 0; x < width_px; x += group_px) {
-      groups.push_back({x, y, std::min(x + group_px, width_px), std::min(y + group_px, height_px)});
+  for (int y = 0; y < height_px; y += group.height) {
+    for (int x = 0; x < width_px; x += group.width) {
+      groups.push_back(
+          {x, y, std::min(x + group.width, width_px), std::min(y + group.height, height_px)});
     }
   }
   return groups;

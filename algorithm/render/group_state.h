@@ -61,8 +61,7 @@ class GroupState {
   // The same, observed: observer(SubtileBlend) is called behind each.
   template <class Observer>
   BlendWork blend(const Splat& splat, Observer&& observer) {
-    const auto into =
-        precision_ == BlendPrecision::kHalf ? blend_in_half_and_tell : blend_and_tell;
+    const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half_and_tell : blend_and_tell;
     return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t) {
       if (finished_[at] != 0) return false;
       const LaneShares shares = into(states_[at], x, y, splat);
@@ -98,8 +97,8 @@ class GroupState {
   // A splat on so few sub-tiles is blended in one cycle anyway.
   static constexpr int kUntestedSubtiles = 4;
 
-  // blend_into(place in the group, x, y, spans so far) for each sub-tile that the splat reaches, row
-  // by row; it says whether it has blended.
+  // blend_into(place in the group, x, y, spans so far) for each sub-tile that the splat reaches,
+  // row by row; it says whether it has blended.
   template <class BlendInto>
   BlendWork for_reached(const Splat& splat, const BlendInto& blend_into) {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
@@ -150,6 +149,6 @@ class GroupState {
 };
 
 // Groups of a frame, row by row; the last column and row are cut to the frame.
-std::vector<PixelRect> pixel_groups(int width_px, int height_px, int group_px);
+std::vector<PixelRect> pixel_groups(int width_px, int height_px, const PixelSize& group);
 
 }  // namespace sgs

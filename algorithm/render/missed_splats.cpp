@@ -13,13 +13,13 @@
 namespace sgs {
 
 MissedSplats::MissedSplats(const View<float>& view, const ActivatedCloud& cloud,
-                           const VoxelGrid& grid, int group_px)
+                           const VoxelGrid& grid, const PixelSize& group_size)
     : voxel_count_(grid.voxels.size()) {
-  const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, group_px);
-  const int columns = (view.width + group_px - 1) / group_px;
+  const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, group_size);
+  const int columns = (view.width + group_size.width - 1) / group_size.width;
   using Lists = std::vector<std::vector<std::uint32_t>>;
   tbb::enumerable_thread_specific<Lists> local([&] { return Lists(groups.size()); });
-  const int subtiles = group_px / kSubtilePx;
+  const int across = group_size.width / kSubtilePx, down = group_size.height / kSubtilePx;
 
   const auto note_voxel = [&](std::uint32_t voxel, Lists& lists) {
     const VoxelRecord& record = grid.voxels[voxel];
@@ -27,8 +27,8 @@ MissedSplats::MissedSplats(const View<float>& view, const ActivatedCloud& cloud,
       Splat splat;
       if (!make_geometry(view, cloud.gaussians[slot], splat)) continue;
       const SubtileRect& f = splat.footprint;
-      for (int y = f.y0 / subtiles; y <= (f.y1 - 1) / subtiles; ++y) {
-        for (int x = f.x0 / subtiles; x <= (f.x1 - 1) / subtiles; ++x) {
+      for (int y = f.y0 / down; y <= (f.y1 - 1) / down; ++y) {
+        for (int x = f.x0 / across; x <= (f.x1 - 1) / across; ++x) {
           const auto group = static_cast<std::size_t>(y * columns + x);
           if (reaches_group(splat, groups[group])) lists[group].push_back(voxel);
         }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/rects.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/voxel_grid.h"
 
@@ -16,7 +17,7 @@ class MissedSplats {
  public:
   // Projects the whole cloud and notes for each group the voxels of the splats that touch it.
   MissedSplats(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
-               int group_px);
+               const PixelSize& group);
 
   // Splats touching the group (index in pixel_groups order) whose voxel is not among those visited.
   std::uint64_t count(std::size_t group, const std::vector<std::uint32_t>& visited_voxels) const;

@@ -116,10 +116,10 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
   out.frame.transmittance.resize(pixels);
   out.frame.contributors.resize(pixels);
 
-  const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group_px);
+  const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group);
   const std::vector<std::vector<PixelRect>> parts_of_groups =
-      group_parts(groups, static_cast<std::uint32_t>(config.group_px), config.parts);
-  const MissedSplats missed(view, cloud, grid, config.group_px);
+      group_parts(groups, config.group, config.parts);
+  const MissedSplats missed(view, cloud, grid, config.group);
   std::vector<StreamingStats> stats(groups.size());
   out.group_voxels.resize(groups.size());
   Flags contributing(cloud.size()), visited(grid.voxels.size());

@@ -7,20 +7,22 @@
 #include "algorithm/render/streaming_result.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/rects.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 
 struct PaperOrderConfig {
-  int group_px = 64;          // side of a pixel group, a multiple of 4
-  bool coarse_filter = true;  // off: every Gaussian of a voxel goes to the fine filter
+  PixelSize group = square_of(64);  // of pixels rendered together, multiples of 4
+  bool coarse_filter = true;        // off: every Gaussian of a voxel goes to the fine filter
   RayPattern rays;
   // Ordering table of one group: where it is full the group is ordered in passes.
   std::uint64_t table_bytes = OrderingTable::kUnlimited;
   // Voxels with more Gaussians are cut (voxel_cuts.h), each piece a visit of its own; 0: never.
   std::uint32_t visit_gaussians = 0;
-  // Parts of a group, each filtered and blended by itself (group_parts.h): a square number. In
+  // Parts of a group, each filtered and blended by itself (group_parts.h): a square number, and
+  // the group's sides multiples of 4 times its root. In
   // single precision the pixels are the same for any. In half they are not: rounded, alpha passes
   // 1/255 some hundredths of a pixel beyond the ellipse, and a splat that reaches a part only so is
   // dropped by that part's fine filter, where the filter of the whole group lets it through.

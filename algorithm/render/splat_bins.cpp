@@ -25,15 +25,15 @@ void for_cells(const CellGrid& grid, const SubtileRect& footprint, const Body& b
 
 }  // namespace
 
-CellGrid cell_grid(int width_px, int height_px, int cell_px) {
-  return {(width_px + cell_px - 1) / cell_px, (height_px + cell_px - 1) / cell_px,
-          cell_px / kSubtilePx};
+CellGrid cell_grid(int width_px, int height_px, const PixelSize& cell) {
+  return {(width_px + cell.width - 1) / cell.width, (height_px + cell.height - 1) / cell.height,
+          cell.width / kSubtilePx, cell.height / kSubtilePx};
 }
 
 CellRect cells_of(const CellGrid& grid, const SubtileRect& footprint) {
-  const int side = grid.cell_subtiles;
-  return {footprint.x0 / side, footprint.y0 / side, (footprint.x1 + side - 1) / side,
-          (footprint.y1 + side - 1) / side};
+  const int across = grid.cell_columns, down = grid.cell_rows;
+  return {footprint.x0 / across, footprint.y0 / down, (footprint.x1 + across - 1) / across,
+          (footprint.y1 + down - 1) / down};
 }
 
 std::size_t binnable(const CellGrid& grid, const std::vector<Splat>& splats, std::size_t begin) {

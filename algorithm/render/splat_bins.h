@@ -6,19 +6,20 @@
 #include <vector>
 
 #include "algorithm/splat/constants.h"
+#include "algorithm/splat/rects.h"
 #include "algorithm/splat/splat.h"
 
 namespace sgs {
 
-// A grid of square cells over the frame, row by row from the top left.
+// A grid of equal cells over the frame, row by row from the top left.
 struct CellGrid {
   int columns = 0, rows = 0;
-  int cell_subtiles = 0;  // side of a cell in sub-tiles of 4 px
+  int cell_columns = 0, cell_rows = 0;  // of a cell: sub-tiles of 4 px
   std::size_t size() const { return static_cast<std::size_t>(columns) * rows; }
 };
 
-// cell_px: a multiple of 4.
-CellGrid cell_grid(int width_px, int height_px, int cell_px);
+// cell: multiples of 4.
+CellGrid cell_grid(int width_px, int height_px, const PixelSize& cell);
 
 // Cells [x0, x1) x [y0, y1) that a non-empty footprint overlaps.
 struct CellRect {

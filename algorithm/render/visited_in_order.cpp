@@ -23,26 +23,27 @@ std::vector<std::uint32_t> voxels_of(const VoxelGrid& grid, std::size_t slots) {
 }  // namespace
 
 Image render_visited_in_order(const View<float>& view, const ActivatedCloud& cloud,
-                              const VoxelGrid& grid, int group_px,
+                              const VoxelGrid& grid, const PixelSize& group,
                               const std::vector<std::vector<std::uint32_t>>& group_voxels,
                               const glm::vec3& background) {
   const std::vector<std::uint32_t> voxel_of = voxels_of(grid, cloud.size());
   std::vector<std::vector<std::uint32_t>> visited = group_voxels;
   for (std::vector<std::uint32_t>& voxels : visited) std::sort(voxels.begin(), voxels.end());
-  const int columns = (view.width + group_px - 1) / group_px;
-  const auto blend_visited = [&](GroupState& group, const Splat& splat) {
-    const PixelRect& pixels = group.pixels();
-    const auto at = static_cast<std::size_t>(pixels.y0 / group_px * columns + pixels.x0 / group_px);
+  const int columns = (view.width + group.width - 1) / group.width;
+  const auto blend_visited = [&](GroupState& state, const Splat& splat) {
+    const PixelRect& pixels = state.pixels();
+    const auto at =
+        static_cast<std::size_t>(pixels.y0 / group.height * columns + pixels.x0 / group.width);
     if (std::binary_search(visited[at].begin(), visited[at].end(), voxel_of[splat.index])) {
-      group.blend(splat);
+      state.blend(splat);
     }
   };
   RenderResult result;
   result.image = Image(view.width, view.height);
   result.transmittance.resize(result.image.pixels.size());
   result.contributors.resize(result.image.pixels.size());
-  for (const GroupState& group : blend_scene(view, cloud, blend_visited, group_px)) {
-    group.store(background, result);
+  for (const GroupState& state : blend_scene(view, cloud, blend_visited, group)) {
+    state.store(background, result);
   }
   return std::move(result.image);
 }

@@ -20,7 +20,7 @@ namespace sgs {
 // grid: of this cloud, which is in storage order. group_voxels: as in StreamingResult. The same
 // bits whatever the number of threads.
 Image render_visited_in_order(const View<float>& view, const ActivatedCloud& cloud,
-                              const VoxelGrid& grid, int group_px,
+                              const VoxelGrid& grid, const PixelSize& group,
                               const std::vector<std::vector<std::uint32_t>>& group_voxels,
                               const glm::vec3& background);
 

@@ -1,10 +1,20 @@
-// Rectangles on the screen: pixels, and the 4x4 sub-tiles that footprints are counted in.
+// Rectangles on the screen and their sizes: pixels, and the 4x4 sub-tiles that footprints are
+// counted in.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 
 namespace sgs {
+
+// Width and height in px.
+struct PixelSize {
+  int width = 0, height = 0;
+};
+constexpr PixelSize square_of(int side_px) { return {side_px, side_px}; }
+inline bool operator==(const PixelSize& a, const PixelSize& b) {
+  return a.width == b.width && a.height == b.height;
+}
 
 // Pixels [x0, x1) x [y0, y1).
 struct PixelRect {

@@ -25,8 +25,8 @@ GroupSequences reference_sequences(const View<float>& view, const ActivatedCloud
   SplatSequence sequence(view, cloud);
   sequence.next(sequence.keys().size(), out.splats);
   out.groups = pixel_groups(view.width, view.height, kGroupPx);
-  SplatBins bins = bin_splats(cell_grid(view.width, view.height, kGroupPx), out.splats.data(),
-                              out.splats.size());
+  SplatBins bins = bin_splats(cell_grid(view.width, view.height, square_of(kGroupPx)),
+                              out.splats.data(), out.splats.size());
   out.first = std::move(bins.first);
   out.entries = std::move(bins.entries);
   return out;

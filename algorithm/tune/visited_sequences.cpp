@@ -27,11 +27,11 @@ std::vector<std::uint32_t> positions_of(const std::vector<Splat>& splats, std::s
 GroupSequences visited_sequences(const View<float>& view, const ActivatedCloud& cloud,
                                  const VoxelGrid& grid,
                                  const std::vector<std::vector<std::uint32_t>>& group_voxels,
-                                 int group_px, std::uint32_t visit_gaussians) {
+                                 const PixelSize& group_size, std::uint32_t visit_gaussians) {
   GroupSequences out;
   out.width = view.width;
   out.height = view.height;
-  out.groups = pixel_groups(view.width, view.height, group_px);
+  out.groups = pixel_groups(view.width, view.height, group_size);
   SplatSequence frame(view, cloud);
   frame.next(frame.keys().size(), out.splats);
   const std::vector<std::uint32_t> positions = positions_of(out.splats, cloud.size());

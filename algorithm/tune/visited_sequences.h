@@ -12,11 +12,11 @@ namespace sgs {
 
 // The sequences of render_paper_order(). grid: of this cloud, which is in storage order.
 // group_voxels: as in StreamingResult; they follow from the centres alone, so that whoever leaves
-// those where they are has them made once for each view. group_px, visit_gaussians: as in
+// those where they are has them made once for each view. group, visit_gaussians: as in
 // PaperOrderConfig.
 GroupSequences visited_sequences(const View<float>& view, const ActivatedCloud& cloud,
                                  const VoxelGrid& grid,
                                  const std::vector<std::vector<std::uint32_t>>& group_voxels,
-                                 int group_px, std::uint32_t visit_gaussians = 0);
+                                 const PixelSize& group, std::uint32_t visit_gaussians = 0);
 
 }  // namespace sgs

@@ -5,12 +5,13 @@
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/second_half.h"
+#include "algorithm/splat/rects.h"
 #include "tlm/memory_port.h"
 
 namespace sgs {
 
 struct BuiltFor {
-  std::uint32_t group_px = 0;
+  PixelSize group;
   FrameFormat frame_format = FrameFormat::kRgb8;
   SecondHalfFormat second_half;                               // the widest
   std::uint32_t first_half_bytes = 0, second_half_bytes = 0;  // the largest of any degree

@@ -19,7 +19,7 @@ struct ExactConfig : StreamingConfig {
 
   // The paper's 355 KB, divided as exact order needs them: shallow input, large groups.
   ExactConfig() {
-    group_px = 128;
+    group_width_px = group_height_px = 128;
     sram = {3840, 0, 359680};
     hfu.slice_gaussians = 8;
     hfu.input_slots = 5;

@@ -11,7 +11,7 @@ namespace sgs {
 void ExactDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   storage_ = storage;
   resolve_sram(
-      config_, storage_, [&] { return sram_uses(config_, storage_); }, chosen);
+      config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);
 }
 
 void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
@@ -25,7 +25,7 @@ FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const 
 GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
                                 DataSheet& sheet) const {
   ExactOrderConfig order;
-  order.group_px = static_cast<int>(config_.group_px);
+  order.group = config_.group();
   order.coarse_filter = config_.hfu.coarse_filter;
   order.merge_entries = config_.merge.entries;
   order.on_overflow = config_.merge.on_overflow;

@@ -12,6 +12,9 @@ class ExactDesign : public MachineDesign {
   void visit(ConfigVisitor& v) override { sgs::visit(v, config_); }
   StorageOrder storage_order() const override { return StorageOrder::kChunks; }
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
+  void fit_frames(const std::function<std::vector<PixelSize>()>& frames) override {
+    frames_ = frames_for(config_, frames);
+  }
   void fit_memories() override { sgs::fit_memories(config_); }
   void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) override;
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
@@ -22,6 +25,7 @@ class ExactDesign : public MachineDesign {
 
  private:
   ExactConfig config_;
+  std::vector<PixelSize> frames_;
   StorageConfig storage_;  // of the scenes that it is built for
 };
 

@@ -12,6 +12,7 @@
 
 #include "algorithm/splat/constants.h"
 #include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/rects.h"
 #include "modules/streaminggs/built_for.h"
 #include "tlm/clock_domain.h"
 #include "tlm/sram_use.h"
@@ -92,17 +93,19 @@ using FinishedSubtilesIn = sc_core::sc_port<FinishedSubtilesIf>;
 using FinishSubtileOut = sc_core::sc_port<FinishSubtileIf, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
 
 // A bit a sub-tile, all of them read at once: each unit that asks keeps its own.
-inline SramUse mask_use(std::uint32_t group_px) {
-  const std::uint32_t side = (group_px + kSubtilePx - 1) / kSubtilePx;
-  const std::uint32_t row_bytes = (side + 7) / 8;
-  return sram_use("finished sub-tiles", kSharedSram, {{side, "rows"}, {row_bytes, "B"}},
-                  {8 * side * row_bytes, SramPorts::kReadAndWrite, 1});
+inline SramUse mask_use(const PixelSize& group) {
+  const auto columns = static_cast<std::uint32_t>(group.width / kSubtilePx);
+  const auto rows = static_cast<std::uint32_t>(group.height / kSubtilePx);
+  const std::uint32_t row_bytes = (columns + 7) / 8;
+  return sram_use("finished sub-tiles", kSharedSram, {{rows, "rows"}, {row_bytes, "B"}},
+                  {8 * rows * row_bytes, SramPorts::kReadAndWrite, 1});
 }
 // What asks it: of each row the columns of a reach, and whether one of them is unfinished. About
 // what a comparator of 32 bits does.
-inline std::uint32_t mask_comparators(std::uint32_t group_px) {
-  const std::uint32_t side = (group_px + kSubtilePx - 1) / kSubtilePx;
-  return side * ((side + 31) / 32);
+inline std::uint32_t mask_comparators(const PixelSize& group) {
+  const auto columns = static_cast<std::uint32_t>(group.width / kSubtilePx);
+  const auto rows = static_cast<std::uint32_t>(group.height / kSubtilePx);
+  return rows * ((columns + 31) / 32);
 }
 
 }  // namespace sgs

@@ -21,8 +21,8 @@ struct PaperConfig : StreamingConfig {
   PaperConfig() {
     sram = {16 * 1024, 250 * 1024, 89 * 1024};
     hfu.cost = FilterCost::kPaper;
-    hfu.slice_gaussians = 128;  // 2 KB, twice in each HFU
-    group_px = 64;              // with pixels of 8 B: 32 KB of the paper's 89
+    hfu.slice_gaussians = 128;              // 2 KB, twice in each HFU
+    group_width_px = group_height_px = 64;  // with pixels of 8 B: 32 KB of the paper's 89
     rendering.precision = BlendPrecision::kHalf;
     rendering.pixel_buffers = 1;
   }

@@ -33,7 +33,7 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   storage_ = storage;
   check(config_);
   resolve_sram(
-      config_, storage_, [&] { return sram_uses(config_, storage_); }, chosen);
+      config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);
 }
 
 void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
@@ -47,7 +47,7 @@ FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const 
 GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
                                 DataSheet& sheet) const {
   PaperOrderConfig order;
-  order.group_px = static_cast<int>(config_.group_px);
+  order.group = config_.group();
   order.coarse_filter = config_.hfu.coarse_filter;
   order.rays = config_.vsu.rays();
   order.table_bytes = config_.vsu.table_bytes;
@@ -58,9 +58,9 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
   StreamingResult result = render_paper_order(job.view, scene.decoded, scene.grid(), order);
   publish_left_out(scene, result.stats.blocks_visited, sheet);
   GoldenFrame golden = golden_frame(std::move(result.frame.image), result.stats);
-  golden.in_order = [&scene, view = job.view, background = job.background,
-                     group_px = order.group_px, voxels = std::move(result.group_voxels)] {
-    return render_visited_in_order(view, scene.decoded, scene.grid(), group_px, voxels, background);
+  golden.in_order = [&scene, view = job.view, background = job.background, group = order.group,
+                     voxels = std::move(result.group_voxels)] {
+    return render_visited_in_order(view, scene.decoded, scene.grid(), group, voxels, background);
   };
   return golden;
 }

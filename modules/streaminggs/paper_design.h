@@ -12,6 +12,9 @@ class PaperDesign : public MachineDesign {
   void visit(ConfigVisitor& v) override { sgs::visit(v, config_); }
   StorageOrder storage_order() const override { return StorageOrder::kVoxels; }
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
+  void fit_frames(const std::function<std::vector<PixelSize>()>& frames) override {
+    frames_ = frames_for(config_, frames);
+  }
   void fit_memories() override { sgs::fit_memories(config_); }
   void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) override;
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
@@ -25,6 +28,7 @@ class PaperDesign : public MachineDesign {
                         DataSheet& sheet) const;
 
   PaperConfig config_;
+  std::vector<PixelSize> frames_;
   StorageConfig storage_;  // of the scenes that it is built for
 };
 

@@ -23,8 +23,10 @@ void visit(ConfigVisitor& v, SramConfig& c) {
 
 void visit_head(ConfigVisitor& v, StreamingConfig& c) {
   v("clock_mhz", c.clock_mhz, in_range(1, 10000), "clock of all units");
-  v("group_px", c.group_px, in_range(0, kMaxGroupPx),
-    "side of a pixel group, a multiple of 4; 0: the largest that fits the SRAM");
+  v("group_width_px", c.group_width_px, in_range(0, kMaxGroupPx),
+    "of a pixel group, a multiple of 4; 0, and the height too: of the shapes that fit the SRAM the "
+    "one that cuts the frame with the shortest borders");
+  v("group_height_px", c.group_height_px, in_range(0, kMaxGroupPx), "of a pixel group, likewise");
   v("framebuffer", c.framebuffer,
     names<FrameFormat>({{"rgb8", FrameFormat::kRgb8}, {"rgb32f", FrameFormat::kRgb32f}}),
     "pixels in DRAM");
@@ -46,7 +48,7 @@ void check_parts(const StreamingConfig& c) {
   if (parts_across(parts) == 0 || parts > kMostParts) {
     throw InputError(
         fmt::format("hfus: got {} with fetch shared, expected a square number up to {}: each has "
-                    "its part of a square group",
+                    "its part of a group",
                     parts, kMostParts));
   }
   for (const auto& [key, value] :
@@ -63,7 +65,7 @@ void check_parts(const StreamingConfig& c) {
 BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) {
   constexpr int kMostDegree = 3;
   BuiltFor out;
-  out.group_px = config.group_px;
+  out.group = config.group();
   out.frame_format = config.framebuffer;
   out.second_half = storage.widest_format(kMostDegree);
   for (int degree = 0; degree <= kMostDegree; ++degree) {
@@ -85,14 +87,18 @@ RenderingConfig rendering_of_part(const StreamingConfig& c) {
 }
 
 BuiltFor built_for_part(const StreamingConfig& c, BuiltFor built_for) {
-  built_for.group_px = part_px(built_for.group_px, c.parts());
+  built_for.group = part_size(built_for.group, c.parts());
   return built_for;
 }
 
 void check(const StreamingConfig& c, const StorageConfig& storage) {
-  if (c.group_px == 0 || c.group_px % kSubtilePx != 0) {
-    throw InputError(
-        fmt::format("group_px: got {}, expected a multiple of {}", c.group_px, kSubtilePx));
+  for (const auto& [key, px] :
+       {std::pair{"group_width_px", c.group_width_px}, {"group_height_px", c.group_height_px}}) {
+    const std::uint32_t step = group_step_px(c.parts());
+    if (px > 0 && px % step == 0) continue;
+    throw InputError(fmt::format(
+        "{}: got {}, expected a multiple of {}{}", key, px, step,
+        c.parts() == 1 ? "" : fmt::format(": each of {} HFUs has its part of a group", c.parts())));
   }
   const std::uint32_t record_bytes = built_for(c, storage).first_half_bytes;
   if (c.hfu.slice_gaussians * record_bytes % 32 != 0) {

@@ -29,7 +29,8 @@ enum class Fetch {
 
 struct StreamingConfig {
   double clock_mhz = 1000;
-  std::uint32_t group_px = 32;  // 0: as large as the SRAM allows
+  // Both 0: chosen for the frame, of what the SRAM allows.
+  std::uint32_t group_width_px = 32, group_height_px = 32;
   FrameFormat framebuffer = FrameFormat::kRgb8;
   std::uint32_t hfus = 4;
   Fetch fetch = Fetch::kSplit;  // a key of paper order
@@ -40,6 +41,14 @@ struct StreamingConfig {
   RenderingConfig rendering;
   MemoryPortConfig memory_port;  // of each unit's port
 
+  bool group_open() const { return group_width_px == 0 && group_height_px == 0; }
+  PixelSize group() const {
+    return {static_cast<int>(group_width_px), static_cast<int>(group_height_px)};
+  }
+  void set_group(const PixelSize& group) {
+    group_width_px = static_cast<std::uint32_t>(group.width);
+    group_height_px = static_cast<std::uint32_t>(group.height);
+  }
   // HFUs behind one fetch, each with its part of a group; and how many fetches there are.
   std::uint32_t parts() const { return fetch == Fetch::kShared ? hfus : 1; }
   std::uint32_t fetches() const { return hfus / parts(); }

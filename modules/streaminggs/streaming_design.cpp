@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "algorithm/render/group_parts.h"
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/filter_cost.h"
-#include "algorithm/render/group_parts.h"
 #include "modules/streaminggs/hfu/codebook_buffer.h"
 #include "modules/streaminggs/streaming_sram.h"
 
@@ -29,8 +29,8 @@ void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& 
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {
   StreamingJob out;
   static_cast<FrameJob&>(out) = job;
-  out.groups = pixel_groups(job.view.width, job.view.height, static_cast<int>(config.group_px));
-  out.parts = group_parts(out.groups, config.group_px, config.parts());
+  out.groups = pixel_groups(job.view.width, job.view.height, config.group());
+  out.parts = group_parts(out.groups, config.group(), config.parts());
   return out;
 }
 

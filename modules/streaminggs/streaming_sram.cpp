@@ -1,9 +1,12 @@
-// Arithmetic of the on-chip memory, and the largest group that it holds.
+// Arithmetic of the on-chip memory, and the group that it holds.
 #include "modules/streaminggs/streaming_sram.h"
 
 #include <fmt/format.h>
 
 #include "algorithm/input_error.h"
+#include "algorithm/memory/splat_record.h"
+#include "algorithm/render/group_for_frame.h"
+#include "algorithm/render/group_parts.h"
 #include "modules/streaminggs/hfu/hfu.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 
@@ -11,26 +14,31 @@ namespace sgs {
 
 namespace {
 
-// Every Gaussian that crosses a border between groups is fetched for both: the larger the group the
-// fewer bytes, as long as its pixels fit beside what waits.
-AutoChoice choose_group(StreamingConfig& config, const std::function<SramUses()>& uses) {
-  constexpr std::uint32_t kStepPx = 16, kMostPx = 512;
-  std::uint32_t largest = 0;
-  std::uint64_t bytes = 0;
-  for (config.group_px = kStepPx; config.group_px <= kMostPx; config.group_px += kStepPx) {
-    const std::uint64_t needed = sram_bytes(uses(), kSharedSram);
-    if (needed > config.sram.shared_bytes) break;
-    largest = config.group_px;
-    bytes = needed;
+// Every Gaussian that lies on a border between groups is fetched for both: the shorter the borders
+// the fewer bytes, as long as a group's pixels fit beside what waits.
+void choose_group(StreamingConfig& config, std::vector<PixelSize> frames,
+                  const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen) {
+  constexpr PixelSize kAnyFrame = square_of(65536);  // so wide that groups need not divide it
+  if (frames.empty()) frames.push_back(kAnyFrame);
+  const auto step = static_cast<int>(group_step_px(config.parts()));
+  const auto needed = [&](const PixelSize& group) {
+    config.set_group(group);
+    return sram_bytes(uses(), kSharedSram);
+  };
+  const PixelSize best = group_for_frame(frames, step, kMaxGroupPx, [&](const PixelSize& group) {
+    return needed(group) <= config.sram.shared_bytes;
+  });
+  if (best == PixelSize{}) {
+    throw InputError(
+        fmt::format("group_width_px: not even a group of {} px x {} px fits sram.shared_bytes {}",
+                    step, step, config.sram.shared_bytes));
   }
-  if (largest == 0) {
-    throw InputError(fmt::format("group_px: not even a group of {} px fits sram.shared_bytes {}",
-                                 kStepPx, config.sram.shared_bytes));
-  }
-  config.group_px = largest;
-  return {"group_px", static_cast<double>(largest),
-          fmt::format("the largest group, in steps of {} px, whose pixels fit: {} of {} B are used",
-                      kStepPx, bytes, config.sram.shared_bytes)};
+  const std::string why = fmt::format(
+      "{} px x {} px have the shortest borders of those groups whose pixels fit: {} of {} B are "
+      "used",
+      best.width, best.height, needed(best), config.sram.shared_bytes);
+  chosen.push_back({"group_width_px", static_cast<double>(best.width), why});
+  chosen.push_back({"group_height_px", static_cast<double>(best.height), why});
 }
 
 // One memory: sized where it is left open, checked where it is given.
@@ -67,13 +75,22 @@ void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
 }
 
 void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
-                  const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen) {
-  if (config.group_px == 0 && config.sram.shared_bytes == 0) {
-    throw InputError(
-        "group_px: got 0 with sram.shared_bytes 0, expected one of them: each is chosen "
-        "by the other");
+                  const std::vector<PixelSize>& frames, const std::function<SramUses()>& uses,
+                  std::vector<AutoChoice>& chosen) {
+  if ((config.group_width_px == 0) != (config.group_height_px == 0)) {
+    throw InputError(fmt::format(
+        "group_width_px: got {} with group_height_px {}, expected both 0 or neither: a group is "
+        "chosen as a whole",
+        config.group_width_px, config.group_height_px));
   }
-  if (config.group_px == 0) chosen.push_back(choose_group(config, uses));
+  if (config.group_open()) {
+    if (config.sram.shared_bytes == 0) {
+      throw InputError(
+          "group_width_px: got 0 with sram.shared_bytes 0, expected one of them: each is chosen "
+          "by the other");
+    }
+    choose_group(config, frames, uses, chosen);
+  }
   check(config, storage);
   const SramUses all = uses();
   size("sram.input_bytes", config.sram.input_bytes, all, kInputSram, chosen);

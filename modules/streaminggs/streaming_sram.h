@@ -19,12 +19,19 @@ FifoKind<VisitShare> visit_fifos(const StreamingConfig& config);
 // Of the units that both orders have, and the FIFOs between VSU and the HFUs.
 SramUses streaming_sram_uses(const StreamingConfig& config, const BuiltFor& built_for);
 
-// Sizes and checks that depend on each other: a group left to the model takes what the SRAM leaves,
-// SRAM left to the model (0 bytes) is what is used. uses(): of `config` as it is then. Adds to
-// `chosen`. Throws InputError when both are left open, and when more is used than there is; the
-// message shows the sum.
+// Sizes and checks that depend on each other: a group left to the model (0 px x 0 px) takes what
+// the SRAM leaves, in the shape that suits `frames` best; SRAM left to the model (0 bytes) is what
+// is used. uses(): of `config` as it is then. Adds to `chosen`. Throws InputError when both are
+// left open, and when more is used than there is; the message shows the sum.
 void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
-                  const std::function<SramUses()>& uses, std::vector<AutoChoice>& chosen);
+                  const std::vector<PixelSize>& frames, const std::function<SramUses()>& uses,
+                  std::vector<AutoChoice>& chosen);
+
+// What resolve_sram() needs to know of the frames: nothing where the group is given.
+inline std::vector<PixelSize> frames_for(const StreamingConfig& config,
+                                         const std::function<std::vector<PixelSize>()>& frames) {
+  return config.group_open() ? frames() : std::vector<PixelSize>{};
+}
 
 // Leaves the memories that the other parameters fill to what they need; codebooks are of the scene.
 inline void fit_memories(StreamingConfig& config) {

@@ -39,10 +39,10 @@ ViewCounts count(const View<float>& view, const ActivatedCloud& cloud) {
   ViewCounts counts;
   SplatSequence sequence(view, cloud);
   std::vector<GroupState> tiles;
-  for (const PixelRect& pixels : pixel_groups(view.width, view.height, kTilePx)) {
+  for (const PixelRect& pixels : pixel_groups(view.width, view.height, square_of(kTilePx))) {
     tiles.emplace_back(pixels, view.width, view.height);
   }
-  const CellGrid grid = cell_grid(view.width, view.height, kTilePx);
+  const CellGrid grid = cell_grid(view.width, view.height, square_of(kTilePx));
   std::vector<std::uint64_t> blends(tiles.size(), 0);
   std::vector<Splat> batch;
   while (!sequence.at_end()) {

@@ -159,11 +159,11 @@ double bench_scene(const std::string& spec) {
   const auto group_voxels =
       render_paper_order(make_view<float>(camera), activate(stored), arranged.table, config)
           .group_voxels;
-  const double paper = bench_order(scene.name + ", paper", stored, camera,
-                                   [&](const View<float>& view, const ActivatedCloud& now) {
-                                     return visited_sequences(view, now, arranged.table,
-                                                              group_voxels, config.group_px);
-                                   });
+  const double paper =
+      bench_order(scene.name + ", paper", stored, camera,
+                  [&](const View<float>& view, const ActivatedCloud& now) {
+                    return visited_sequences(view, now, arranged.table, group_voxels, config.group);
+                  });
   return std::max(reference, paper);
 }
 

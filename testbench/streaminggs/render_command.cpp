@@ -65,6 +65,7 @@ void render_golden_picture(const RenderArguments& arguments, const Kinds& kinds)
                     "of machine {}",
                     arguments.ordering, config.machine(), arguments.ordering));
   }
+  config.design->fit_frames([&] { return arguments.frame_sizes(); });
   Scene scene;
   PreparedScene prepared;
   if (auto packed = arguments.load_packed()) {

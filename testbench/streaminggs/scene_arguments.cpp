@@ -64,9 +64,10 @@ std::vector<int> chosen_numbers(const std::string& view, int count) {
 void SceneArguments::add_scene_to(CommandLine& line, const char* forms) {
   scene_forms = forms;
   line.text("SCENE", scene, forms, Given::kAlways);
-  line.flag("--drop-invalid", drop_invalid,
-            "leave out Gaussians with values that are not finite or too large to be drawn, and count "
-            "them");
+  line.flag(
+      "--drop-invalid", drop_invalid,
+      "leave out Gaussians with values that are not finite or too large to be drawn, and count "
+      "them");
 }
 
 void SceneArguments::add_views_to(CommandLine& line) {
@@ -149,6 +150,21 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Ca
     }
   }
   return chosen;
+}
+
+std::vector<PixelSize> SceneArguments::frame_sizes() const {
+  if (!size.empty()) {
+    const auto [width, height] = parse_size(size);
+    return {{width, height}};
+  }
+  std::vector<Camera> own;
+  if (cameras_path.empty()) {
+    if (!is_builtin_scene(scene)) return {};
+    own = load().cameras;
+  }
+  std::vector<PixelSize> sizes;
+  for (const auto& [number, camera] : cameras(own)) sizes.push_back({camera.width, camera.height});
+  return sizes;
 }
 
 std::vector<Camera> SceneArguments::weighing_cameras(const std::vector<Camera>& own) const {

@@ -8,6 +8,7 @@
 
 #include "algorithm/output_plan.h"
 #include "algorithm/scene/load_scene.h"
+#include "algorithm/splat/rects.h"
 #include "algorithm/storage/image_file.h"
 #include "testbench/command_line/command_line.h"
 
@@ -45,6 +46,9 @@ struct SceneArguments {
   // Cameras of the chosen views with their numbers, scaled to `size`. own: those that the scene
   // brings. Throws InputError.
   std::vector<std::pair<int, Camera>> cameras(const std::vector<Camera>& own) const;
+  // Sizes of their pictures, before the scene is loaded: none where nothing but the scene says
+  // them. Throws InputError.
+  std::vector<PixelSize> frame_sizes() const;
   // Those that weigh the Gaussians of a scene for vector quantisation, in their own size; none
   // where there are none. Throws InputError.
   std::vector<Camera> weighing_cameras(const std::vector<Camera>& own) const;

@@ -65,8 +65,8 @@ void write_view(const fs::path& folder, const ViewResult& view, const std::strin
 }
 
 // Refuses outputs that have no place, or would take that of an input, before the work begins.
-void check_places(const SimulateArguments& arguments, const RunConfig& config, const ResultFolder& out,
-                  const std::vector<std::pair<int, Camera>>& views) {
+void check_places(const SimulateArguments& arguments, const RunConfig& config,
+                  const ResultFolder& out, const std::vector<std::pair<int, Camera>>& views) {
   OutputPlan plan;
   arguments.add_inputs_to(plan);
   plan.add_input(arguments.config.path());
@@ -142,6 +142,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   RunConfig& config = setting.config;
   config = read_run_config(arguments.config.document(), kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
+  config.design->fit_frames([&] { return arguments.frame_sizes(); });
   if (packed) {
     resolve(config, *packed, arguments.scene, arguments.config.preset_path());
   } else {

@@ -39,7 +39,8 @@ struct Base {
   Technology technology;
   const Kinds* kinds = nullptr;
 
-  // The configuration with one value changed; empty: as it is. Throws InputError where it cannot be.
+  // The configuration with one value changed; empty: as it is. Throws InputError where it cannot
+  // be.
   RunConfig variant(const std::string& assignment) const {
     ConfigDocument changed;
     changed.add_text(document, "the configuration");
@@ -126,8 +127,8 @@ Json run_view(const Base& base, int number, const Camera& camera) {
   const RunConfig config = base.variant("");
   const FrameJob job = config.design->job(base.scene.stored, camera);
   NothingLeftOut sheet;
-  const std::vector<std::byte> golden = encode_frame(
-      job.frame_format, config.design->golden(base.scene.stored, job, sheet).image);
+  const std::vector<std::byte> golden =
+      encode_frame(job.frame_format, config.design->golden(base.scene.stored, job, sheet).image);
   const FrameResult frame = run(base, config, camera, golden);
   const Outcome outcome = outcome_of(frame, base.technology);
   const Json document = Json::parse(base.document);
@@ -155,6 +156,7 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   base.kinds = &kinds;
   RunConfig config = read_run_config(arguments.config.document(), kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
+  config.design->fit_frames([&] { return arguments.frame_sizes(); });
   if (packed) {
     resolve(config, *packed, arguments.scene, arguments.config.preset_path());
   } else {

@@ -9,7 +9,7 @@ namespace sgs::tb {
 
 StreamingJob merge_job(const MergePlan& plan) {
   const std::uint64_t spill_bytes = 2ULL * plan.slots * kKeyBytes;
-  return frame_job(16 * static_cast<int>(plan.groups.size()), 16, 16, FrameFormat::kRgb8,
+  return frame_job(16 * static_cast<int>(plan.groups.size()), 16, square_of(16), FrameFormat::kRgb8,
                    spill_bytes);
 }
 

@@ -19,7 +19,7 @@ bool same_payload(const FineCandidate& a, const FineCandidate& b) {
 UnitContext merge_context(const UnitBench& bench, const StreamingJob& job, const MergePlan& plan) {
   UnitContext context = bench.context(job);
   context.built_for.chunk_gaussians = longest_visit(plan);
-  context.built_for.group_px = 16;
+  context.built_for.group = square_of(16);
   return context;
 }
 

@@ -86,7 +86,7 @@ TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   const Camera camera = random_camera(random, shape);
   StreamingJob& job = scene.job;
   job.view = make_view<float>(camera);
-  job.groups = pixel_groups(camera.width, camera.height, shape.group_px);
+  job.groups = pixel_groups(camera.width, camera.height, shape.group);
   job.parts = {job.groups};
   // Records as the order has them, in the order of the grid; the tree's nodes are not read.
   constexpr std::uint32_t kChunkGaussians = 16;
@@ -107,7 +107,8 @@ SceneShape random_shape(std::mt19937_64& random) {
   shape.voxel_size = std::exp2(uniform(random, -3, 4));
   shape.width_px = 1 + static_cast<int>(random() % 60);
   shape.height_px = 1 + static_cast<int>(random() % 40);
-  shape.group_px = 4 * (1 + static_cast<int>(random() % 16));
+  shape.group = {4 * (1 + static_cast<int>(random() % 16)),
+                 4 * (1 + static_cast<int>(random() % 16))};
   return shape;
 }
 

@@ -19,7 +19,8 @@ struct SceneShape {
   StorageOrder order = StorageOrder::kVoxels;  // of the image; there is a grid all the same
   float extent = 4;  // world units, half the side of the cube that holds the centres
   float voxel_size = 1;
-  int width_px = 48, height_px = 40, group_px = 16;
+  int width_px = 48, height_px = 40;
+  PixelSize group = square_of(16);
 };
 
 struct TestScene {

@@ -29,14 +29,14 @@ SubtileRect subtiles_of(const PixelRect& pixels) {
           down(pixels.y1 + kSubtilePx - 1)};
 }
 
-StreamingJob frame_job(int width_px, int height_px, int group_px, FrameFormat format,
+StreamingJob frame_job(int width_px, int height_px, const PixelSize& group, FrameFormat format,
                        std::uint64_t spill_bytes, const SceneLayout& layout) {
   StreamingJob job;
   job.view.width = width_px;
   job.view.height = height_px;
   job.background = {0.25F, 0.5F, 0.75F};
   job.frame_format = format;
-  job.groups = pixel_groups(width_px, height_px, group_px);
+  job.groups = pixel_groups(width_px, height_px, group);
   job.parts = {job.groups};
   place(layout, spill_bytes, job);
   return job;

@@ -12,7 +12,7 @@ namespace sgs::tb {
 
 // A frame of width x height px with its groups and, behind the layout's regions, a spill region and
 // a frame buffer.
-StreamingJob frame_job(int width_px, int height_px, int group_px, FrameFormat format,
+StreamingJob frame_job(int width_px, int height_px, const PixelSize& group, FrameFormat format,
                        std::uint64_t spill_bytes, const SceneLayout& layout = {});
 
 // A splat whose footprint overlaps the group. Depths are few, so that many are equal. opacity: at

@@ -331,12 +331,12 @@ int sc_main(int argc, char* argv[]) {
   pixel.width_px = pixel.height_px = 1;
   runner.add_directed("1x1 frame", [=](Case& test) { directed(test, pixel, 16, 512); });
   SceneShape whole = shape;
-  whole.group_px = 64;
+  whole.group = square_of(64);
   runner.add_directed("group larger than the frame",
                       [=](Case& test) { directed(test, whole, 16, 512); });
   runner.add_directed("groups whose left half is finished", [=](Case& test) {
     SceneShape wide = shape;
-    wide.group_px = 64;
+    wide.group = {64, 24};
     Plan plan = plan_of(random_scene(test.random, wide), 2);
     plan.finished_columns = 6;
     run_plan(test, still_bench(plan), plan);
@@ -350,7 +350,7 @@ int sc_main(int argc, char* argv[]) {
   runner.add_directed("groups that finish while entries are put aside", [=](Case& test) {
     SceneShape crowded = shape;
     crowded.gaussians = 1000;
-    crowded.group_px = 8;
+    crowded.group = square_of(8);
     Plan plan = plan_of(random_scene(test.random, crowded), 1);
     plan.config.queue_entries = plan.config.node_queue_entries = kChunkNodeWidth + 1;
     plan.saturate_one_in = 12;

@@ -182,9 +182,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
 // The longest list that a plan's spill area holds.
 constexpr std::uint64_t kLongestList = 2000;
 
-Plan small_plan(int width_px = 64, int height_px = 48, int group_px = 32) {
+Plan small_plan(int width_px = 64, int height_px = 48, int side_px = 32) {
   Plan plan;
-  plan.job = frame_job(width_px, height_px, group_px, FrameFormat::kRgb8,
+  plan.job = frame_job(width_px, height_px, square_of(side_px), FrameFormat::kRgb8,
                        2 * kLongestList * kSplatEntryBytes);
   return plan;
 }

@@ -342,7 +342,7 @@ int sc_main(int argc, char* argv[]) {
   pixel.width_px = pixel.height_px = 1;
   runner.add_directed("1x1 frame", [=](Case& test) { directed(test, pixel); });
   SceneShape whole = shape;
-  whole.group_px = 64;
+  whole.group = square_of(64);
   runner.add_directed("group larger than the frame", [=](Case& test) { directed(test, whole); });
   runner.add_directed("a group that is finished at once", [=](Case& test) {
     Plan plan = plan_of(random_scene(test.random, whole));

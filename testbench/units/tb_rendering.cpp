@@ -30,10 +30,10 @@ std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / 
 struct Expected {
   std::vector<std::byte> frame;
   RenderingUnit::Counters counters;
-  std::uint64_t functional_blends = 0;       // into unfinished sub-tiles
-  std::vector<RenderingTimes> times;         // [group]
-  std::vector<std::uint64_t> drain_cycles;   // [group]
-  std::vector<bool> saturated;               // [group]
+  std::uint64_t functional_blends = 0;      // into unfinished sub-tiles
+  std::vector<RenderingTimes> times;        // [group]
+  std::vector<std::uint64_t> drain_cycles;  // [group]
+  std::vector<bool> saturated;              // [group]
 };
 
 // Blends a splat and says what of the group it reaches.
@@ -239,11 +239,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   const std::uint64_t span_macs =
       pixels * folded_macs(drained) + bench.counter("splats_taken") * folded_macs(work.conic) +
       sum.spans * folded_macs(work.span) + sum.splats_spanned * folded_macs(work.spans_begin);
-  bench.check_operations("rendering", "comparator",
-                         pixels * comparisons(drained) +
-                             sum.blends * comparisons(work.subtile_blend) +
-                             sum.spans * comparisons(work.span) +
-                             sum.splats_spanned * comparisons(work.spans_begin));
+  bench.check_operations(
+      "rendering", "comparator",
+      pixels * comparisons(drained) + sum.blends * comparisons(work.subtile_blend) +
+          sum.spans * comparisons(work.span) + sum.splats_spanned * comparisons(work.spans_begin));
   const bool in_half = plan.config.precision == BlendPrecision::kHalf;
   bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", sum.blends * 16);
   bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
@@ -254,14 +253,14 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     subtiles += ceil_div(static_cast<std::uint64_t>(px.width()), 4) *
                 ceil_div(static_cast<std::uint64_t>(px.height()), 4);
   }
-  bench.check_accesses("pixel state", subtiles, subtiles);
+  bench.check_accesses("pixel state", 16 * subtiles, 16 * subtiles);
   bench.check_accesses("cluster queues", sum.blends, sum.blends);
   checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");
 }
 
-Plan make_plan(int width_px, int height_px, int group_px, FrameFormat format) {
+Plan make_plan(int width_px, int height_px, const PixelSize& group, FrameFormat format) {
   Plan plan;
-  plan.job = frame_job(width_px, height_px, group_px, format, 0);
+  plan.job = frame_job(width_px, height_px, group, format, 0);
   plan.groups.resize(plan.job.groups.size());
   plan.input_entries = 4096;
   return plan;
@@ -296,9 +295,10 @@ Splat curtain(const Plan& plan) {
 
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
-  Plan plan = make_plan(1 + static_cast<int>(random() % 150), 1 + static_cast<int>(random() % 90),
-                        4 * (1 + static_cast<int>(random() % 24)),
-                        random() % 2 == 0 ? FrameFormat::kRgb8 : FrameFormat::kRgb32f);
+  Plan plan = make_plan(
+      1 + static_cast<int>(random() % 150), 1 + static_cast<int>(random() % 90),
+      {4 * (1 + static_cast<int>(random() % 24)), 4 * (1 + static_cast<int>(random() % 24))},
+      random() % 2 == 0 ? FrameFormat::kRgb8 : FrameFormat::kRgb32f);
   plan.inputs = 1 + static_cast<std::uint32_t>(random() % 3);
   plan.config.clusters = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.config.pixel_buffers = 1 + static_cast<std::uint32_t>(random() % 2);
@@ -342,33 +342,35 @@ int sc_main(int argc, char* argv[]) {
   CaseRunner runner("tb_rendering", "Rendering unit alone, against the blending of one group");
   const auto format = FrameFormat::kRgb32f;
   runner.add_directed("end-of-group marks only", [](Case& test) {
-    const Plan plan = make_plan(64, 48, 16, format);
+    const Plan plan = make_plan(64, 48, square_of(16), format);
     run_plan(test, still_bench(plan), plan);
   });
-  runner.add_directed("empty visits",
-                      [](Case& test) { directed(test, make_plan(64, 48, 32, format), 0); });
-  runner.add_directed("one splat",
-                      [](Case& test) { directed(test, make_plan(16, 16, 16, format), 1); });
-  runner.add_directed("1x1 frame",
-                      [](Case& test) { directed(test, make_plan(1, 1, 64, format), 5); });
-  runner.add_directed("groups cut by the frame's edge",
-                      [](Case& test) { directed(test, make_plan(70, 33, 32, format), 20); });
+  runner.add_directed("empty visits", [](Case& test) {
+    directed(test, make_plan(64, 48, square_of(32), format), 0);
+  });
+  runner.add_directed(
+      "one splat", [](Case& test) { directed(test, make_plan(16, 16, square_of(16), format), 1); });
+  runner.add_directed(
+      "1x1 frame", [](Case& test) { directed(test, make_plan(1, 1, square_of(64), format), 5); });
+  runner.add_directed("groups cut by the frame's edge", [](Case& test) {
+    directed(test, make_plan(70, 33, square_of(32), format), 20);
+  });
   runner.add_directed("8-bit pixels", [](Case& test) {
-    directed(test, make_plan(70, 33, 32, FrameFormat::kRgb8), 20);
+    directed(test, make_plan(70, 33, square_of(32), FrameFormat::kRgb8), 20);
   });
   runner.add_directed("two pixel buffers", [](Case& test) {
-    Plan plan = make_plan(128, 64, 32, format);
+    Plan plan = make_plan(128, 64, square_of(32), format);
     plan.config.pixel_buffers = 2;
     directed(test, plan, 50);
   });
   runner.add_directed("every token from another FIFO", [](Case& test) {
-    Plan plan = make_plan(64, 48, 32, format);
+    Plan plan = make_plan(64, 48, square_of(32), format);
     plan.arrival = Arrival::kByToken;
     plan.inputs = 4;
     directed(test, plan, 30);
   });
   runner.add_directed("saturated group", [](Case& test) {
-    Plan plan = make_plan(64, 32, 32, format);
+    Plan plan = make_plan(64, 32, square_of(32), format);
     // T falls to 0.01 and 0.0001; the next would bring it below: three splats finish every pixel.
     plan.groups[0].push_back(std::vector<Splat>(10, curtain(plan)));
     plan.groups[0].push_back(random_visit(test.random, plan, 0, 10, 1.0F));
@@ -376,14 +378,14 @@ int sc_main(int argc, char* argv[]) {
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("splats behind finished sub-tiles of an unfinished group", [](Case& test) {
-    Plan plan = make_plan(32, 32, 32, format);
+    Plan plan = make_plan(32, 32, square_of(32), format);
     Splat left = curtain(plan);
     left.footprint.x1 = 4;
     plan.groups[0].push_back(std::vector<Splat>(10, left));  // the last take a cycle for nothing
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("splats too faint to be blended", [](Case& test) {
-    Plan plan = make_plan(32, 32, 32, format);
+    Plan plan = make_plan(32, 32, square_of(32), format);
     plan.groups[0].push_back(random_visit(test.random, plan, 0, 10, 0.001F));
     run_plan(test, still_bench(plan), plan);
   });

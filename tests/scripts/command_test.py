@@ -31,10 +31,14 @@ class WithTheCommand(InFolder):
         for script, arguments, lines in (
             (binding_check, ("--size", "64x36"), {"| truck | 0 |": 1, "of 1 views": 1}),
             (compare_variants, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
-            (energy_tables, ("--groups", "16", "32"), {"| exact | all |": 1, "| paper | 32 |": 1}),
+            (
+                energy_tables,
+                ("--groups", "16", "64x32"),
+                {"| exact | all |": 1, "| paper | 64x32 |": 1},
+            ),
             (
                 explore,
-                ("--axis", "hfus=2,4", "--axis", "group_px=16,32"),
+                ("--axis", "hfus=2,4", "--axis", "group=16,64x32"),
                 {"of 4 configurations": 1, "Refused": 0},
             ),
             (explore, ("--config", "paper", "--axis", "hfus=1"), {"| 1 | 64 |": 1}),
@@ -61,7 +65,7 @@ class WithTheCommand(InFolder):
         scene = find_scene(str(self.scene))
         for config in ("exact", "paper_no_vq"):
             with self.subTest(config):
-                overrides = (*simulations.SRAM_AS_NEEDED, "hfus=1", "group_px=48")
+                overrides = (*simulations.SRAM_AS_NEEDED, "hfus=1", "group_width_px=48")
                 run = simulations.Run(scene, config=config, overrides=overrides)
                 (view,) = simulations.simulate(pathlib.Path(COMMAND), run).accepted()
                 for memory in ("input", "shared"):
@@ -74,7 +78,9 @@ class WithTheCommand(InFolder):
         for script, arguments, line in (
             (explore, ("--axis", "hfus=2", "--config", "nope"), "streaminggs: .*nope"),
             (explore, ("--axis", "hfus=2", "--view", "99"), "--view: '99'"),
-            (explore, ("--axis", "group_px=0"), "group_px: got 0 with sram.shared_bytes 0"),
+            (explore, ("--axis", "group=0"), "group_width_px: got 0 with sram.shared_bytes 0"),
+            (explore, ("--axis", "group=1x2x3"), "group: '1x2x3', expected"),
+            (energy_tables, ("--groups", "wide"), "group: 'wide', expected"),
             (explore, ("--axis", "hfu=2"), "--set hfu=2: "),
             (binding_check, ("--view", "7"), "--view: '7'"),
             (energy_tables, ("--size", "3"), "--size: '3'"),

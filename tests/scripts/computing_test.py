@@ -10,6 +10,7 @@ import binding_check
 import energy_tables
 import explore
 import fill_readme
+import group_shapes
 import objectives
 import run_arguments
 import simulations
@@ -67,8 +68,8 @@ class Configurations(unittest.TestCase):
     def test_points_of_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "points"
-            path.write_text("hfus=2 group_px=64 # small\n\n# none\nhfus=4\n")
-            self.assertEqual(explore.read_points(path), [("hfus=2", "group_px=64"), ("hfus=4",)])
+            path.write_text("hfus=2 group=64 # small\n\n# none\nhfus=4\n")
+            self.assertEqual(explore.read_points(path), [("hfus=2", "group=64"), ("hfus=4",)])
             path.write_text("hfus=2\nhfus 4\n")
             with self.assertRaisesRegex(ValueError, ":2: 'hfus'"):
                 explore.read_points(path)
@@ -76,9 +77,22 @@ class Configurations(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "points: no configurations"):
                 explore.read_points(path)
 
+    def test_shapes_of_groups(self):
+        for shape, width, height in (("64", 64, 64), ("160x120", 160, 120), ("4x64", 4, 64)):
+            both = (f"group_width_px={width}", f"group_height_px={height}")
+            self.assertEqual(group_shapes.assignments(shape), both)
+            self.assertEqual(group_shapes.expanded(("hfus=2", f"group={shape}")), ("hfus=2", *both))
+            self.assertEqual(group_shapes.setting_text(both), f"group={shape}")
+            config = {"group_width_px": width, "group_height_px": height}
+            self.assertEqual(group_shapes.shape_of(config), shape)
+        self.assertEqual(group_shapes.setting_text(("hfus=2", "fetch=split")), "hfus=2")
+        for bad in ("", "x", "64x", "1x2x3", "-4", "big"):
+            with self.assertRaises(ValueError):
+                group_shapes.assignments(bad)
+
     def test_one_axis_at_a_time_around_the_preset(self):
         merge = {"entries": 2048, "on_overflow": "spill"}
-        preset = {"group_px": 128, "storage": {"chunk_gaussians": 16}, "merge": merge}
+        preset = {"group_width_px": 128, "group_height_px": 128, "storage": {"chunk_gaussians": 16}, "merge": merge}
         points = work_precision.combinations(preset, cross=False)
         # 6 sizes x 2 policies, and 3 groups and 5 chunks that are not the preset's.
         self.assertEqual(len(points), 12 + 3 + 5)

@@ -24,8 +24,8 @@ class Simulator(InFolder):
             ("views", "finish()", ([8], "")),
             (
                 "a refusal",
-                "print('group_px: 6 is\\nodd', file=sys.stderr); sys.exit(2)",
-                ([], "group_px: 6 is odd"),
+                "print('group_width_px: 6 is\\nodd', file=sys.stderr); sys.exit(2)",
+                ([], "group_width_px: 6 is odd"),
             ),
         ):
             with self.subTest(what):

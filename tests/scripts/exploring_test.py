@@ -27,12 +27,12 @@ class Exploring(InFolder):
     def rows(self, name: str) -> list[list[str]]:
         return list(csv.reader((self.folder / name).read_text().splitlines()))
 
-    HEAD = ["hfus", "group_px", "cycles", "binding", "pareto"]
+    HEAD = ["hfus", "group", "cycles", "binding", "pareto"]
 
     def test_tables_show_what_was_simulated(self):
         done = self.explore("finish()", "--axis", "hfus=2,4")
         self.assertEqual((done.returncode, done.stderr.count("Traceback")), (0, 0))
-        rows = [["2", "112", "4", "dram", ""], ["4", "112", "2", "dram", "yes"]]
+        rows = [["2", "112x80", "4", "dram", ""], ["4", "112x80", "2", "dram", "yes"]]
         self.assertEqual(self.rows("explore.csv"), [self.HEAD, *rows])
         self.assertIn("1 of 2 configurations are on the Pareto front", done.stdout)
 
@@ -56,7 +56,7 @@ class Exploring(InFolder):
             """
         done = self.explore(body, "--axis", "hfus=2,3")
         self.assertEqual(done.returncode, 0)
-        self.assertEqual(self.rows("explore.csv"), [self.HEAD, ["2", "112", "4", "dram", "yes"]])
+        self.assertEqual(self.rows("explore.csv"), [self.HEAD, ["2", "112x80", "4", "dram", "yes"]])
         self.assertRegex(done.stdout, "Refused: truck .* hfus=3: hfus: 3 is odd")
 
     def test_what_was_simulated_is_kept(self):
@@ -80,7 +80,7 @@ class Exploring(InFolder):
                 self.assertNotIn("Traceback", done.stderr)
                 self.assertRegex(done.stderr.splitlines()[-1], line)
                 kept = self.rows("explore_partial.csv")
-                self.assertEqual(kept, [self.HEAD, ["2", "112", "4", "dram", "yes"]])
+                self.assertEqual(kept, [self.HEAD, ["2", "112x80", "4", "dram", "yes"]])
                 text = (self.folder / "explore_partial.md").read_text()
                 self.assertTrue(text.startswith("Not complete: 1 of 3 configurations.\n"))
                 self.assertFalse((self.folder / "explore.csv").exists())

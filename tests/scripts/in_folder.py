@@ -59,7 +59,8 @@ class InFolder(unittest.TestCase):
             def finish():
                 hfus = int(SET.get("hfus", 1))
                 view = {{"frame": {{"cycles": 8 // hfus}}, "binding": {{"unit": "dram"}},
-                        "config": {{"hfus": hfus, "group_px": 112}}, "provenance": {{}}}}
+                        "config": {{"hfus": hfus, "group_width_px": 112, "group_height_px": 80}},
+                        "provenance": {{}}}}
                 out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
                 (out / "report.json").write_text(json.dumps({{"views": [view]}}))
             """

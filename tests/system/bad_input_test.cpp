@@ -203,14 +203,14 @@ TEST_CASE("bad input: messages are short, clean and begin with the program") {
   check({"$SG simulate", 2, {"SCENE"}});
   check({"$SG simulate $B --no-such-option", 2, {"--no-such-option"}});
   check({"$SG render $B --out a.png --ordering soon", 2, {"soon", "reference", "exact"}});
-  check({"$SG simulate $B --out o --set group_px=$(head -c 100000 /dev/zero | tr '\\0' x)",
+  check({"$SG simulate $B --out o --set group_width_px=$(head -c 100000 /dev/zero | tr '\\0' x)",
          2,
-         {"group_px: got \"xxx", "bytes left out", "an integer"}});
-  check(
-      {"$SG simulate $B --out o --config c.json",
-       2,
-       {"c.json: group_px: got \"xxx", "left out"},
-       "(printf '{\"group_px\": \"'; head -c 1000000 /dev/zero | tr '\\0' x; echo '\"}') >c.json"});
+         {"group_width_px: got \"xxx", "bytes left out", "an integer"}});
+  check({"$SG simulate $B --out o --config c.json",
+         2,
+         {"c.json: group_width_px: got \"xxx", "left out"},
+         "(printf '{\"group_width_px\": \"'; head -c 1000000 /dev/zero | tr '\\0' x; echo '\"}') "
+         ">c.json"});
   check({"$SG simulate $B --out o --config c.json",
          2,
          {"\\x1b[31m", "\\n"},

@@ -34,8 +34,11 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate --help", {"exact_vq_packed", "paper_no_cgf"}},
            {"$SG pack --help", {"exact_vq_packed", "paper_no_cgf"}},
            {"$TB --help", {"exact_vq_packed", "paper_no_cgf"}},
-           {"$SG simulate --set group_px=32 $S --size 32x18 --out o && ls -R o", {"view_0"}},
-           {"$SG simulate --set group_px=32 --weigh-by 0,1 --set hfus=2 $S --size 32x18 --out o "
+           {"$SG simulate --set group_width_px=32 --set group_height_px=32 $S --size 32x18 --out o "
+            "&& ls -R o",
+            {"view_0"}},
+           {"$SG simulate --set group_width_px=32 --set group_height_px=32 --weigh-by 0,1 --set "
+            "hfus=2 $S --size 32x18 --out o "
             "&& ls o",
             {"view_0"}},
            {"$SG simulate $B --view 2,0 --out o && ls o", {"view_0\nview_2\n"}},
@@ -68,7 +71,7 @@ TEST_CASE("command line: options and their values") {
             ply_of({"0 0 0"})},
            {"$SG pack a.ply --out a.sgs > t && ! grep weighted t", {}, ply_of({"0 0 0"})},
            {"$SG describe > t && ! grep -q '```' t && cat t",
-            {"group_px = 128", "\n| unit | activity | resource | what it does |\n"}},
+            {"group_width_px = 128", "\n| unit | activity | resource | what it does |\n"}},
            {"$TB --config exact --print-config", {"\"dram\": {", "\"channels\": 4"}},
            {"$TB --config c.json --set dram.ranks=2 --print-config",
             {"\"channels\": 2", "\"ranks\": 2"},

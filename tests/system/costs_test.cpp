@@ -82,8 +82,9 @@ TEST_CASE("costs: joules are counters times prices") {
       INFO(machine << " " << encoding);
       const Simulation simulation({"builtin:object?n=3000", "--size", "96x54", "--config", machine,
                                    "--set", std::string("storage.encoding=") + encoding, "--set",
-                                   "group_px=32", "--set", "sram.codebook_bytes=256000", "--set",
-                                   "storage.vq.iterations=2", "--weigh-by", "0"});
+                                   "group_width_px=32", "--set", "group_height_px=32", "--set",
+                                   "sram.codebook_bytes=256000", "--set", "storage.vq.iterations=2",
+                                   "--weigh-by", "0"});
       simulation.check();
       check_joules(simulation.views()[0]);
     }
@@ -160,7 +161,9 @@ struct HalfEmpty {
             "--config",
             machine,
             "--set",
-            "group_px=16",
+            "group_width_px=16",
+            "--set",
+            "group_height_px=16",
             "--set",
             "storage.encoding=raw",
             "--set",

@@ -22,7 +22,7 @@ Arguments encoded(const std::string& order, const std::string& encoding,
                   const std::string& scene = "builtin:object?n=2000") {
   Arguments arguments = {scene, "--size", "96x54", "--weigh-by", "0", "--config", order};
   for (const std::string& setting :
-       {std::string("group_px=32"), "storage.encoding=" + encoding,
+       {std::string("group_width_px=32", "group_height_px=32"), "storage.encoding=" + encoding,
         std::string("sram.codebook_bytes=256000"), std::string("storage.vq.scale_entries=64"),
         std::string("storage.vq.rotation_entries=100"), std::string("storage.vq.dc_entries=200"),
         std::string("storage.vq.sh_entries=32"), std::string("storage.vq.iterations=3")}) {
@@ -146,16 +146,18 @@ TEST_CASE("encodings: fewer and narrower banks cost cycles, no pixel") {
 
 TEST_CASE("encodings: all views, groups of other sizes, other numbers of units") {
   for (const char* order : {"exact", "paper"}) {
-    Arguments six = {"--set", "hfus=6", "--set", "sram.input_bytes=32768", "--set",
-                     "hfu.second_half_slots=1", "--set", "codebook.latency_cycles=50"};
+    Arguments six = {"--set", "hfus=6",
+                     "--set", "sram.input_bytes=32768",
+                     "--set", "hfu.second_half_slots=1",
+                     "--set", "codebook.latency_cycles=50"};
     // Six parts of a square group there are not.
     if (order == std::string("paper")) {
       six.insert(six.end(), {"--set", "fetch=split", "--set", "hfu.slice_gaussians=128"});
     }
     for (const Arguments& variant :
-         {Arguments{"--view", "all"}, Arguments{"--set", "hfus=1", "--set", "sorting_units=1"},
-          six,
-          Arguments{"--set", "group_px=16", "--set", "hfu.coarse_filter=false"},
+         {Arguments{"--view", "all"}, Arguments{"--set", "hfus=1", "--set", "sorting_units=1"}, six,
+          Arguments{"--set", "group_width_px=16", "--set", "group_height_px=16", "--set",
+                    "hfu.coarse_filter=false"},
           Arguments{"--set", "storage.store_invisible=true", "--set", "clock_mhz=733"}}) {
       INFO(order << " " << variant[1]);
       Simulation(joined(encoded(order, "vq_packed", "builtin:outdoor?n=2000"), variant)).check();

@@ -24,7 +24,8 @@ std::vector<std::string> random_exact_options(std::mt19937_64& random) {
   };
   set("sram.shared_bytes", 1U << 30U);
   set("sram.input_bytes", 1U << 30U);
-  set("group_px", 4 * between(1, random() % 2 == 0 ? 8 : 50));
+  set("group_width_px", 4 * between(1, random() % 2 == 0 ? 8 : 50));
+  set("group_height_px", 4 * between(1, random() % 2 == 0 ? 8 : 50));
   set("storage.chunk_gaussians", between(1, random() % 2 == 0 ? 16 : 256));
   set("merge.entries", between(2, random() % 2 == 0 ? 32 : 4096));
   set("merge.cycles_per_operation", between(1, 4));
@@ -82,11 +83,11 @@ void fuzz_exact_frames(unsigned first_seed, unsigned scenes) {
 }
 
 void check_exact_under_pressure(const std::string& name) {
-  const Simulation simulation({shared_scene(name), "--cameras",
-                               shared_path("cameras/" + name + ".json"), "--view", "all",
-                               "--config", "exact", "--stalls", "0.02", "--set", "group_px=64",
-                               "--set", "merge.entries=128", "--set", "vsu.queue_entries=48",
-                               "--set", "sram.shared_bytes=1073741824"});
+  const Simulation simulation(
+      {shared_scene(name), "--cameras", shared_path("cameras/" + name + ".json"), "--view", "all",
+       "--config", "exact", "--stalls", "0.02", "--set", "group_width_px=64", "--set",
+       "group_height_px=64", "--set", "merge.entries=128", "--set", "vsu.queue_entries=48", "--set",
+       "sram.shared_bytes=1073741824"});
   simulation.check();
   for (const auto& view : simulation.views()) {
     CHECK(counter(view, "merge", "keys_spilled") > 0);

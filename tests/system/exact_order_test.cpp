@@ -55,10 +55,10 @@ void count_below(const View<float>& view, const ActivatedCloud& cloud, const Chu
 }
 
 Counts count_frame(const Camera& camera, const ActivatedCloud& cloud, const ChunkTree& tree,
-                   int group_px) {
+                   const PixelSize& group_size) {
   const View<float> view = make_view<float>(camera);
   Counts counts;
-  for (const PixelRect& group : pixel_groups(camera.width, camera.height, group_px)) {
+  for (const PixelRect& group : pixel_groups(camera.width, camera.height, group_size)) {
     count_below(view, cloud, tree, group, 0, counts);
   }
   return counts;
@@ -82,8 +82,8 @@ TEST_CASE("exact frames: bytes are counts times sizes, counted without the accel
   const Camera camera = scaled_to(scene.cameras[2], 150, 90);
   constexpr std::uint64_t kSecondHalf = 224, kNode = 128;
   for (const std::uint32_t chunk : {1U, 16U, 100U}) {
-    for (const int group : {16, 64}) {
-      INFO("chunk " << chunk << ", group " << group);
+    for (const PixelSize group : {PixelSize{16, 16}, {64, 64}, {80, 20}}) {
+      INFO("chunk " << chunk << ", group " << group.width << " x " << group.height);
       const auto [cloud, tree] = by_chunks(in_file, chunk);
       const Counts counts = count_frame(camera, cloud, tree, group);
       const Arguments arguments = {"builtin:outdoor?n=6000",
@@ -96,7 +96,9 @@ TEST_CASE("exact frames: bytes are counts times sizes, counted without the accel
                                    "--set",
                                    "storage.chunk_gaussians=" + std::to_string(chunk),
                                    "--set",
-                                   "group_px=" + std::to_string(group),
+                                   "group_width_px=" + std::to_string(group.width),
+                                   "--set",
+                                   "group_height_px=" + std::to_string(group.height),
                                    "--set",
                                    "sram.shared_bytes=1073741824",
                                    "--set",
@@ -253,9 +255,15 @@ TEST_CASE("exact frames: 20,000 Gaussians at one point, the buffer holds 64 keys
 }
 
 TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and says so") {
-  const Arguments arguments = {
-      "builtin:outdoor?n=8000",       "--size", "160x90", "--set", "group_px=64", "--set",
-      "merge.on_overflow=blend_early"};
+  const Arguments arguments = {"builtin:outdoor?n=8000",
+                               "--size",
+                               "160x90",
+                               "--set",
+                               "group_width_px=64",
+                               "--set",
+                               "group_height_px=64",
+                               "--set",
+                               "merge.on_overflow=blend_early"};
   const Simulation early(joined(arguments, {"--set", "merge.entries=16"}));
   const Json& view = early.views()[0];
   CHECK(view["image"]["equals_streaming_renderer"] == true);
@@ -278,7 +286,9 @@ TEST_CASE("exact frames: blend_early without the coarse filter, whose keys are o
                                  "--size",
                                  "160x90",
                                  "--set",
-                                 "group_px=64",
+                                 "group_width_px=64",
+                                 "--set",
+                                 "group_height_px=64",
                                  "--set",
                                  "merge.on_overflow=blend_early",
                                  "--set",
@@ -306,9 +316,9 @@ TEST_CASE("exact frames: what the report holds") {
   CHECK(view["image"]["missed"] == 0);
   CHECK(view["image"]["misordered"] == 0);
   for (const char* name :
-       {"keys", "released", "forced_early", "due", "dropped_hidden", "dropped_saturated", "pending_keys_max", "ties",
-        "inserts", "delete_mins", "delete_maxs", "heap_words_read", "heap_nodes_written",
-        "heap_comparisons", "runs_spilled", "keys_spilled"}) {
+       {"keys", "released", "forced_early", "due", "dropped_hidden", "dropped_saturated",
+        "pending_keys_max", "ties", "inserts", "delete_mins", "delete_maxs", "heap_words_read",
+        "heap_nodes_written", "heap_comparisons", "runs_spilled", "keys_spilled"}) {
     INFO(name);
     CHECK(view["units"]["merge"]["counters"].contains(name));
   }

@@ -153,7 +153,9 @@ TEST_CASE("extreme input: the camera in a voxel, on a face, on an edge, in a cor
     cameras.push_back(camera_at(position));  // odd sizes: the middle ray is parallel to z
   }
   // Groups whose ordering tables hold that many voxels.
-  check_scene(cloud, cameras, {"--set", "storage.voxel_size=0.5", "--set", "group_px=32"});
+  check_scene(cloud, cameras,
+              {"--set", "storage.voxel_size=0.5", "--set", "group_width_px=32", "--set",
+               "group_height_px=32"});
 }
 
 TEST_CASE("extreme input: many layers too faint for one splat to show much") {

@@ -16,7 +16,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-const Arguments kObject = {"builtin:object?n=3000", "--size", "96x54", "--set", "group_px=32"};
+const Arguments kObject = {
+    "builtin:object?n=3000", "--size", "96x54", "--set", "group_width_px=32", "--set",
+    "group_height_px=32"};
 
 Arguments with(Arguments arguments, const std::string& setting) {
   arguments.insert(arguments.end(), {"--set", setting});

@@ -44,10 +44,10 @@ TEST_CASE("install: a moved prefix simulates with a preset and a memspec of its 
 
 TEST_CASE("install: the prefix's files are the ones that are read") {
   const Prefix prefix;
-  contains(
-      prefix.run("echo '{\"machine\": \"paper\", \"group_px\": 16}' >$DATA/presets/mine.json && "
-                 "$IN/streaminggs simulate $B --config mine --print-config"),
-      0, "\"group_px\": 16");
+  contains(prefix.run("echo '{\"machine\": \"paper\", \"group_width_px\": 16, \"group_height_px\": "
+                      "16}' >$DATA/presets/mine.json && "
+                      "$IN/streaminggs simulate $B --config mine --print-config"),
+           0, "\"group_width_px\": 16");
   contains(prefix.run("rm $DATA/presets/paper.json; $IN/streaminggs simulate $B --config paper"), 2,
            "mine");
   contains(prefix.run("echo '{' >$DATA/memspecs/lpddr3_1600_4gb.json; $IN/tb_dram"), 2,

@@ -35,12 +35,13 @@ void check_set_refused(const std::string& order, const Arguments& settings,
 }
 
 TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
-  check_set_refused("paper", {"group_px=128"},
+  check_set_refused("paper", {"group_width_px=128", "group_height_px=128"},
                     {"sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
                      "1 groups x 128 px x 128 px x 8 B"});
   check_set_refused("paper", {"hfu.slice_gaussians=1024"},
                     {"sram.input_bytes: 16384 bytes are there", "2 slots x 1024 Gaussians"});
-  check_set_refused("exact", {"group_px=128", "sram.shared_bytes=10000"},
+  check_set_refused("exact",
+                    {"group_width_px=128", "group_height_px=128", "sram.shared_bytes=10000"},
                     {"sram.shared_bytes: 10000", "pixel state"});
 }
 
@@ -55,8 +56,21 @@ TEST_CASE("refusals: none of a unit") {
 
 TEST_CASE("refusals: keys, types, ranges and combinations") {
   check_set_refused("paper", {"grop_px=32"}, {"grop_px"});
-  check_set_refused("paper", {"group_px=big"}, {"group_px"});
-  check_set_refused("paper", {"group_px=30"}, {"group_px: got 30, expected a multiple of 4"});
+  check_set_refused("paper", {"group_width_px=big"}, {"group_width_px"});
+  check_set_refused("paper", {"group_height_px=30", "fetch=split"},
+                    {"group_height_px: got 30, expected a multiple of 4"});
+  // Of four HFUs each has a quarter of the group.
+  check_set_refused("paper", {"group_width_px=60", "fetch=shared"},
+                    {"group_width_px: got 60, expected a multiple of 8", "4 HFUs"});
+  for (const char* order : {"paper", "exact"}) {
+    check_set_refused(order, {"group_width_px=0"},
+                      {"group_width_px: got 0 with group_height_px", "both 0 or neither"});
+    check_set_refused(order, {"group_height_px=0"}, {"both 0 or neither"});
+    check_set_refused(order, {"group_width_px=0", "group_height_px=0", "sram.shared_bytes=0"},
+                      {"group_width_px: got 0 with sram.shared_bytes 0"});
+    check_set_refused(order, {"group_width_px=0", "group_height_px=0", "sram.shared_bytes=100"},
+                      {"not even a group of", "fits sram.shared_bytes 100"});
+  }
   check_set_refused("paper", {"clock_mhz=0"}, {"clock_mhz"});
   check_set_refused("paper", {"machine=random"}, {"machine", "random", "paper"});
   check_set_refused(

@@ -10,6 +10,10 @@
 namespace sgs::test {
 namespace {
 
+Arguments group_of(const std::string& width, const std::string& height) {
+  return {"--set", "group_width_px=" + width, "--set", "group_height_px=" + height};
+}
+
 // Room for groups of any size, and for ordering tables of any number of voxels.
 Arguments roomy(const std::string& order) {
   Arguments room = {"--set", "sram.shared_bytes=1073741824", "--set",
@@ -22,8 +26,17 @@ TEST_CASE("whole frame: the same pixels with and without stalls") {
   for (const char* order : {"paper", "exact"}) {
     for (const char* scene : {"builtin:object?n=3000", "builtin:outdoor?n=3000"}) {
       INFO(order << " " << scene);
-      const Arguments common = {scene,      "--view", "all",   "--size",     "96x54",
-                                "--config", order,    "--set", "group_px=32"};
+      const Arguments common = {scene,
+                                "--view",
+                                "all",
+                                "--size",
+                                "96x54",
+                                "--config",
+                                order,
+                                "--set",
+                                "group_width_px=32",
+                                "--set",
+                                "group_height_px=32"};
       const Simulation plain(common);
       plain.check();
       for (const Arguments& variant :
@@ -48,15 +61,40 @@ TEST_CASE("whole frame: equal seeds give equal cycles") {
         frame_cycles(Simulation(arguments).views()[0]));
 }
 
-TEST_CASE("whole frame: groups of 4 to 128 px, most of them no divisor of the frame") {
+TEST_CASE("whole frame: groups of 4 to 320 px, most of them no divisor of the frame") {
   for (const char* order : {"paper", "exact"}) {
-    for (const char* group : {"4", "12", "16", "28", "64", "128"}) {
-      INFO(order << " " << group);
-      Simulation(joined({"builtin:object?n=2000", "--size", "67x45", "--config", order, "--set",
-                         std::string("group_px=") + group},
+    for (const auto& [width, height] : {std::pair{"4", "4"},
+                                        {"4", "64"},
+                                        {"12", "28"},
+                                        {"28", "12"},
+                                        {"64", "64"},
+                                        {"160", "120"},
+                                        {"320", "180"}}) {
+      INFO(order << " " << width << " x " << height);
+      Simulation(joined(joined({"builtin:object?n=2000", "--size", "67x45", "--config", order},
+                               group_of(width, height)),
                         roomy(order)))
           .check();
     }
+  }
+}
+
+// What the shortest borders are is tested in group_for_frame_test.cpp.
+TEST_CASE("whole frame: groups that are left to the model cut the frame evenly") {
+  for (const char* order : {"paper", "exact"}) {
+    INFO(order);
+    const Simulation simulation(joined({"builtin:object?n=2000", "--size", "640x360", "--config",
+                                        order, "--set", "storage.encoding=raw"},
+                                       group_of("0", "0")));
+    simulation.check();
+    const Json& config = simulation.views()[0]["config"];
+    const int width = config["group_width_px"].get<int>(),
+              height = config["group_height_px"].get<int>();
+    CHECK(width > 32);
+    CHECK(height > 32);
+    // No column or row of the groups is much narrower than the others.
+    CHECK(640 % width + 4 * (640 / width + 1) > width * (640 % width != 0));
+    CHECK(360 % height + 8 * (360 / height + 1) > height * (360 % height != 0));
   }
 }
 
@@ -64,12 +102,12 @@ TEST_CASE("whole frame: groups of 4 to 128 px, most of them no divisor of the fr
 // that pixel's part has dropped it.
 TEST_CASE("whole frame: pixels in half where parts of a group meet") {
   for (const char* hfus : {"1", "4"}) {
-    for (const char* group : {"8", "28"}) {
-      INFO(hfus << " " << group);
+    for (const auto& [width, height] : {std::pair{"8", "8"}, {"24", "16"}}) {
+      INFO(hfus << " " << width << " x " << height);
       Simulation(joined({"builtin:object?n=20000", "--size", "160x96", "--config", "paper", "--set",
                          "storage.encoding=raw", "--set", "rendering.precision=fp16", "--set",
-                         std::string("hfus=") + hfus, "--set", std::string("group_px=") + group},
-                        roomy("paper")))
+                         "fetch=shared", "--set", std::string("hfus=") + hfus},
+                        joined(group_of(width, height), roomy("paper"))))
           .check();
     }
   }
@@ -157,13 +195,21 @@ TEST_CASE("whole frame: the golden image of `render` is the frame of `simulate`"
   for (const std::string order : {"paper", "exact"}) {
     const std::string preset = order == "paper" ? "paper_no_vq" : order;
     const Simulation simulated({"builtin:object?n=3000", "--size", "100x60", "--config", preset,
-                                "--set", "group_px=64", "--set", "sram.shared_bytes=1073741824"});
+                                "--set", "group_width_px=64", "--set", "group_height_px=64",
+                                "--set", "sram.shared_bytes=1073741824"});
     const ScratchFolder scratch;
     const std::string frame = simulated.folder() + "/out/view_0/frame.exr";
     const Arguments render = {"render", "builtin:object?n=3000", "--size",    "100x60",
                               "--out",  scratch.path("g.exr"),   "--ordering"};
-    const Arguments as_simulated = {
-        order, "--config", preset, "--set", "group_px=64", "--set", "sram.shared_bytes=1073741824"};
+    const Arguments as_simulated = {order,
+                                    "--config",
+                                    preset,
+                                    "--set",
+                                    "group_width_px=64",
+                                    "--set",
+                                    "group_height_px=64",
+                                    "--set",
+                                    "sram.shared_bytes=1073741824"};
     REQUIRE(run_streaminggs(joined(render, as_simulated)).status == 0);
     CHECK(run_streaminggs({"compare", "--exact", frame, scratch.path("g.exr")}).status == 0);
     // Exact order is the reference's, to the bit.

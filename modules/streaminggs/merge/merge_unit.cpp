@@ -245,7 +245,7 @@ void MergeUnit::drop_all() {
 
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
   SramUses uses = kHeap.sram_uses(heap_entries(config, built_for));
-  uses.push_back(mask_use(built_for.group_px));
+  uses.push_back(mask_use(built_for.group));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
   const SramUse block =
       sram_use("spill blocks", kSharedSram,
@@ -264,7 +264,7 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
 
 void MergeUnit::publish_ledger(DataSheet& sheet) {
   kHeap.publish(sheet, heap_entries(config_, built_for_), heap_work());
-  const double of_mask = mask_comparators(built_for_.group_px);
+  const double of_mask = mask_comparators(built_for_.group);
   sheet.part("merge", "comparator", of_mask, 1);
   sheet.operations("merge", "comparator", of_mask * static_cast<double>(counters_.due));
   sheet.accesses("finished sub-tiles", counters_.due, mask->news());

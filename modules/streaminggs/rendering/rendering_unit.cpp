@@ -120,24 +120,27 @@ void RenderingUnit::write_group(const GroupState& state) {
   }
 }
 
-// A row is converted as it leaves: until a write of it is made its pixels are in their buffer.
+// A memory for each place of a pixel in a sub-tile, in each cluster: a blend reads and writes all
+// 16 of a sub-tile at once, each its pixel. Whether a pixel is finished is known when it has been
+// read, so all of them are. A row is converted as it leaves: until a write of it is made its pixels
+// are in their buffer.
 SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor& built_for) {
-  const std::uint32_t px = built_for.group_px;
-  return {
-      sram_use("pixel state", kSharedSram,
-               {{config.pixel_buffers, "groups"},
-                {px, "px"},
-                {px, "px"},
-                {config.pixel_state_bytes(), "B"}},
-               {8 * kSubtilePixels * config.pixel_state_bytes(), SramPorts::kReadAndWrite,
-                config.clusters}),
-      sram_use("cluster queues", kSharedSram,
-               {{config.clusters, "clusters"},
-                {config.cluster_queue_entries, "splats"},
-                {kSplatEntryBytes, "B"}},
-               {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}),
-      unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
-                        px * pixel_bytes(built_for.frame_format))};
+  const auto width = static_cast<std::uint32_t>(built_for.group.width);
+  const auto height = static_cast<std::uint32_t>(built_for.group.height);
+  return {sram_use("pixel state", kSharedSram,
+                   {{config.pixel_buffers, "groups"},
+                    {width, "px"},
+                    {height, "px"},
+                    {config.pixel_state_bytes(), "B"}},
+                   {8 * config.pixel_state_bytes(), SramPorts::kReadAndWrite,
+                    kSubtilePixels * config.clusters}),
+          sram_use("cluster queues", kSharedSram,
+                   {{config.clusters, "clusters"},
+                    {config.cluster_queue_entries, "splats"},
+                    {kSplatEntryBytes, "B"}},
+                   {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}),
+          unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
+                            width * pixel_bytes(built_for.frame_format))};
 }
 
 void RenderingUnit::publish_ledger(DataSheet& sheet) {
@@ -159,7 +162,7 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
     pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
   }
   sheet.datapath(drain_datapath(config_, job_.frame_format), pixels);
-  sheet.accesses("pixel state", subtiles, subtiles);
+  sheet.accesses("pixel state", kSubtilePixels * subtiles, kSubtilePixels * subtiles);
   sheet.port(memory, "pixel writes");
 }
 

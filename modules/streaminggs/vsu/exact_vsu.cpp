@@ -235,7 +235,7 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
                kOfPort)};
   add(uses, kChunkQueue.sram_uses(config.queue_entries));
   add(uses, kNodeQueue.sram_uses(config.node_queue_entries));
-  uses.push_back(mask_use(built_for.group_px));
+  uses.push_back(mask_use(built_for.group));
   uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
   uses.push_back(
       unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes));
@@ -282,7 +282,7 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
                  "no visit, no blending");
   sheet.sram(sram_uses(config_, built_for_));
-  const double of_mask = mask_comparators(built_for_.group_px);
+  const double of_mask = mask_comparators(built_for_.group);
   sheet.part("vsu", "comparator", of_mask, 1);
   sheet.operations("vsu", "comparator", of_mask * static_cast<double>(counters_.looked_up));
   sheet.accesses("finished sub-tiles", counters_.looked_up, mask->news());

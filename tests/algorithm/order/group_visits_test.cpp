@@ -34,7 +34,7 @@ TEST_CASE("paper order: a camera that looks along an axis from a cell's corner")
   camera.focal_x = camera.focal_y = 40;
   for (const double z : {-6.0, 0.0, 0.25}) {
     camera.position = {0, -0.5, z};
-    check_order(cloud, grid, camera, 32);
+    check_order(cloud, grid, camera, square_of(32));
   }
 }
 

@@ -83,7 +83,7 @@ Violations check_group(const View<float>& view, const PixelRect& group, const Vo
 }  // namespace
 
 void check_order(const ActivatedCloud& cloud, const VoxelGrid& grid, const Camera& camera,
-                 int group_px) {
+                 const PixelSize& group_size) {
   std::vector<glm::ivec3> cells;
   for (const VoxelRecord& record : grid.voxels) {
     const glm::vec3& mean = cloud.gaussians[record.first].mean;
@@ -92,7 +92,7 @@ void check_order(const ActivatedCloud& cloud, const VoxelGrid& grid, const Camer
                        cell_of(mean.z, grid.frame.voxel_size));
   }
   const View<float> view = make_view<float>(camera);
-  const auto groups = pixel_groups(view.width, view.height, group_px);
+  const auto groups = pixel_groups(view.width, view.height, group_size);
   std::vector<Violations> of_group(groups.size());
   tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size());
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t i) {
@@ -101,8 +101,8 @@ void check_order(const ActivatedCloud& cloud, const VoxelGrid& grid, const Camer
   });
   Violations found;
   for (const Violations& v : of_group) found += v;
-  INFO("camera " << camera.id << ", groups of " << group_px << " px, " << found.edges
-                 << " pairs on rays");
+  INFO("camera " << camera.id << ", groups of " << group_size.width << " x " << group_size.height
+                 << " px, " << found.edges << " pairs on rays");
   CHECK(found.groups == groups.size());
   CHECK(found.edges > 0);
   CHECK(found.missing == 0);
@@ -116,7 +116,9 @@ void check_order(const std::string& spec, const std::vector<Camera>& cameras, fl
   if (voxel_size == 0) voxel_size = static_cast<float>(paper_voxel_size(inner_extent(in_file)));
   const auto [cloud, grid] = by_voxels(in_file, voxel_size);
   for (const Camera& camera : cameras.empty() ? scene.cameras : cameras) {
-    for (const int group_px : {16, 64}) check_order(cloud, grid, camera, group_px);
+    for (const PixelSize group : {PixelSize{16, 16}, {64, 64}, {48, 12}}) {
+      check_order(cloud, grid, camera, group);
+    }
   }
 }
 

@@ -11,9 +11,9 @@
 
 namespace sgs::test {
 
-// One view in groups of group_px. cloud: in storage order.
+// One view in groups of group_size. cloud: in storage order.
 void check_order(const ActivatedCloud& cloud, const VoxelGrid& grid, const Camera& camera,
-                 int group_px);
+                 const PixelSize& group_size);
 
 // Every view of a scene in groups of 16 and of 64 px. cameras: empty for the scene's own.
 // voxel_size: 0 for the paper's.

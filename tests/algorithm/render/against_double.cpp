@@ -38,9 +38,9 @@ Image blend_in_float(const Camera& camera, const std::vector<Splat>& splats) {
   frame.image = Image(camera.width, camera.height);
   frame.transmittance.resize(frame.image.pixels.size());
   frame.contributors.resize(frame.image.pixels.size());
-  const auto tiles = pixel_groups(camera.width, camera.height, kTilePx);
-  const SplatBins bins =
-      bin_splats(cell_grid(camera.width, camera.height, kTilePx), splats.data(), splats.size());
+  const auto tiles = pixel_groups(camera.width, camera.height, square_of(kTilePx));
+  const SplatBins bins = bin_splats(cell_grid(camera.width, camera.height, square_of(kTilePx)),
+                                    splats.data(), splats.size());
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
     GroupState tile(tiles[i], camera.width, camera.height);
     for (std::size_t k = bins.first[i]; k != bins.first[i + 1] && !tile.saturated(); ++k) {

@@ -52,7 +52,7 @@ void fuzz_exact_order(unsigned first_seed, unsigned scenes) {
     const auto [cloud, tree] = by_chunks(activate(scene.cloud), chunk,
                                          hard.pick(2) == 0 ? Stored::kVisible : Stored::kAll);
     ExactOrderConfig config;
-    config.group_px = 4 * (1 + hard.pick(50));
+    config.group = {4 * (1 + hard.pick(50)), 4 * (1 + hard.pick(50))};
     config.merge_entries = static_cast<std::uint32_t>(2 + hard.pick(100));
     config.walk_room = {std::size_t(9 + hard.pick(60)), std::size_t(9 + hard.pick(60))};
     config.background = {0.25F, 0.5F, 1};
@@ -74,9 +74,9 @@ void check_exact_on_shared(const std::string& name) {
   const auto cameras = read_cameras(shared_path("cameras/" + name + ".json"));
   const ActivatedCloud cloud = activate(read_ply(shared_scene(name)).cloud);
   ExactOrderConfig shipped;
-  shipped.group_px = 128;
+  shipped.group = square_of(128);
   ExactOrderConfig small;
-  small.group_px = 32;
+  small.group = square_of(32);
   small.merge_entries = 64;
   small.walk_room = {24, 24};
   const auto of_16 = by_chunks(cloud, 16), of_100 = by_chunks(cloud, 100);

@@ -30,9 +30,9 @@ Ready cloud_before_camera(const GaussianCloud& cloud, int width_px, int height_p
   return {activate(cloud), make_view<float>(test::forward_camera(width_px, height_px, 120))};
 }
 
-ExactOrderConfig with_group(int group_px) {
+ExactOrderConfig with_group(const PixelSize& group) {
   ExactOrderConfig config;
-  config.group_px = group_px;
+  config.group = group;
   return config;
 }
 
@@ -54,8 +54,9 @@ TEST_CASE("exact order equals the reference: SH degrees 0 to 3, odd frames, ever
     for (const auto& [width, height] : {std::pair{1, 1}, {17, 1}, {1, 33}, {101, 47}}) {
       const Ready ready = cloud_before_camera(cloud, width, height);
       const auto stored = test::by_chunks(ready.cloud, 16);
-      for (const int group : {4, 12, 16, 100, 200}) {
-        CAPTURE(degree, width, height, group);
+      for (const PixelSize group :
+           {PixelSize{4, 4}, {12, 4}, {4, 64}, {16, 16}, {160, 120}, {320, 180}}) {
+        CAPTURE(degree, width, height, group.width, group.height);
         CHECK(difference_from_reference(ready.view, stored.cloud, stored.table,
                                         with_group(group)) == "");
       }
@@ -75,7 +76,8 @@ TEST_CASE("exact order equals the reference: equal depths across many chunks") {
   const Ready ready = cloud_before_camera(cloud, 120, 90);
   for (const std::uint32_t chunk : {1U, 16U, 256U}) {
     const auto stored = test::by_chunks(ready.cloud, chunk);
-    CHECK(difference_from_reference(ready.view, stored.cloud, stored.table, with_group(32)) == "");
+    CHECK(difference_from_reference(ready.view, stored.cloud, stored.table,
+                                    with_group(square_of(32))) == "");
   }
 }
 
@@ -107,7 +109,8 @@ TEST_CASE("exact order equals the reference: extreme clouds") {
     CAPTURE(i);
     const Ready ready = cloud_before_camera(clouds[i], 70, 50);
     const auto stored = test::by_chunks(ready.cloud, 16);
-    CHECK(difference_from_reference(ready.view, stored.cloud, stored.table, with_group(32)) == "");
+    CHECK(difference_from_reference(ready.view, stored.cloud, stored.table,
+                                    with_group(square_of(32))) == "");
   }
 }
 
@@ -119,7 +122,7 @@ TEST_CASE("exact order equals the reference: coordinates of 10^6") {
       test::by_chunks(activate(test::random_cloud(11, 3000, 2, centre, 1, 1e-3F, 0.05F)), 16);
   const View<float> view = make_view<float>(camera);
 
-  CHECK(difference_from_reference(view, cloud, tree, with_group(16)) == "");
+  CHECK(difference_from_reference(view, cloud, tree, with_group(square_of(16))) == "");
 }
 
 TEST_CASE("exact order equals the reference: chunks that only the slack of their test keeps") {
@@ -168,8 +171,8 @@ TEST_CASE("exact order equals the reference: chunks that only the slack of their
     }
     const auto [points, tree] = test::by_chunks(activate(cloud), 2);
     REQUIRE(tree.chunk_count == 1);
-    CHECK(difference_from_reference(view, points, tree, with_group(4)) == "");
-    CHECK(render_exact_order(view, points, tree, with_group(4)).stats.contributors > 5);
+    CHECK(difference_from_reference(view, points, tree, with_group(square_of(4))) == "");
+    CHECK(render_exact_order(view, points, tree, with_group(square_of(4))).stats.contributors > 5);
   }
 }
 
@@ -179,8 +182,8 @@ TEST_CASE("exact order equals the reference: built-in scenes, all views") {
     const auto [cloud, tree] = test::by_chunks(activate(scene.cloud), 16);
     for (const Camera& camera : scene.cameras) {
       CAPTURE(spec, camera.id);
-      CHECK(difference_from_reference(make_view<float>(camera), cloud, tree, with_group(128)) ==
-            "");
+      CHECK(difference_from_reference(make_view<float>(camera), cloud, tree,
+                                      with_group(square_of(128))) == "");
     }
   }
 }
@@ -190,7 +193,7 @@ TEST_CASE("blend_early: a small buffer costs quality, one that suffices costs no
   const auto [cloud, tree] = test::by_chunks(activate(scene.cloud), 64);
   const View<float> view = make_view<float>(scene.cameras[0]);
 
-  ExactOrderConfig config = with_group(64);
+  ExactOrderConfig config = with_group(square_of(64));
   const StreamingResult exact = render_exact_order(view, cloud, tree, config);
 
   config.on_overflow = OnOverflow::kBlendEarly;
@@ -219,7 +222,7 @@ TEST_CASE("exact order: counts add up, the same with one thread and with many") 
   const auto [cloud, tree] = test::by_chunks(activate(scene.cloud), 16);
   const View<float> view = make_view<float>(scene.cameras[1]);
 
-  const StreamingResult many = render_exact_order(view, cloud, tree, with_group(64));
+  const StreamingResult many = render_exact_order(view, cloud, tree, with_group(square_of(64)));
   const StreamingStats& s = many.stats;
   CHECK(s.groups == 60);
   CHECK(s.first_halves <= 16 * s.visits);
@@ -234,7 +237,7 @@ TEST_CASE("exact order: counts add up, the same with one thread and with many") 
   CHECK(s.contributors == contributors);
 
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const StreamingResult alone = render_exact_order(view, cloud, tree, with_group(64));
+  const StreamingResult alone = render_exact_order(view, cloud, tree, with_group(square_of(64)));
   CHECK(same_picture(many, alone));
   CHECK(alone.stats.visits == s.visits);
   CHECK(alone.stats.nodes_read == s.nodes_read);

@@ -11,6 +11,6 @@
 namespace sgs::test {
 
 Image render_with_nearest_ties(const View<float>& view, const ActivatedCloud& cloud,
-                               const VoxelGrid& grid, int group_px);
+                               const VoxelGrid& grid, const PixelSize& group);
 
 }  // namespace sgs::test

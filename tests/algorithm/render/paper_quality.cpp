@@ -50,11 +50,12 @@ void check_paper_quality(const PaperScene& scene) {
     const View<float> view = make_view<float>(camera);
     const Image reference = render_reference(view, cloud).image;
     PaperOrderConfig config;
-    config.group_px = kGroupPx;
+    config.group = square_of(kGroupPx);
     const StreamingResult result = render_paper_order(view, cloud, grid, config);
     sum += result.stats;
     first_met.add(psnr_db(result.frame.image, reference));
-    nearest.add(psnr_db(render_with_nearest_ties(view, cloud, grid, kGroupPx), reference));
+    nearest.add(
+        psnr_db(render_with_nearest_ties(view, cloud, grid, square_of(kGroupPx)), reference));
   }
   const auto mean_k = [&](std::uint64_t count) {
     return static_cast<double>(count) / (1000.0 * static_cast<double>(cameras.size()));

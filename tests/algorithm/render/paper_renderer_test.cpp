@@ -59,7 +59,7 @@ struct Counts {
 // Every Gaussian tested against every group; no coarse filter, no early end of a group. in_order:
 // the same splats by depth.
 Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
-                     int group_px, Image& image, Image& in_order) {
+                     const PixelSize& group_size, Image& image, Image& in_order) {
   Counts counts;
   std::vector<std::uint32_t> voxel_of(cloud.size(), ~0U);
   for (std::uint32_t v = 0; v < grid.voxels.size(); ++v) {
@@ -68,7 +68,7 @@ Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const
     }
   }
   OrderingTable table(grid.voxels.size());
-  for (const PixelRect& group : pixel_groups(view.width, view.height, group_px)) {
+  for (const PixelRect& group : pixel_groups(view.width, view.height, group_size)) {
     const GroupVisits visits = paper_visits(view, group, grid, {}, table);
     std::vector<std::vector<Splat>> of_voxel(grid.voxels.size());
     for (std::uint32_t i = 0; i < cloud.size(); ++i) {
@@ -103,7 +103,7 @@ Counts render_slowly(const View<float>& view, const ActivatedCloud& cloud, const
   return counts;
 }
 
-void check_against_slow(const char* spec, float voxel_size, int group_px, int width_px,
+void check_against_slow(const char* spec, float voxel_size, const PixelSize& group, int width_px,
                         int height_px) {
   const Scene scene = open_scene(spec);
   const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), voxel_size);
@@ -111,15 +111,16 @@ void check_against_slow(const char* spec, float voxel_size, int group_px, int wi
   for (const Camera& camera : scene.cameras) {
     const View<float> view = make_view<float>(scaled_to(camera, width_px, height_px));
     Image slow(width_px, height_px), slow_in_order = slow;
-    const Counts counts = render_slowly(view, cloud, grid, group_px, slow, slow_in_order);
+    const Counts counts = render_slowly(view, cloud, grid, group, slow, slow_in_order);
     PaperOrderConfig config;
-    config.group_px = group_px;
+    config.group = group;
     const StreamingResult result = render_paper_order(view, cloud, grid, config);
-    INFO(spec << " voxel " << voxel_size << " group " << group_px << " camera " << camera.id);
+    INFO(spec << " voxel " << voxel_size << " group " << group.width << " x " << group.height
+              << " camera " << camera.id);
     CHECK(std::memcmp(result.frame.image.pixels.data(), slow.pixels.data(),
                       slow.pixels.size() * sizeof(glm::vec3)) == 0);
-    const Image in_order = render_visited_in_order(view, cloud, grid, group_px, result.group_voxels,
-                                                   config.background);
+    const Image in_order =
+        render_visited_in_order(view, cloud, grid, group, result.group_voxels, config.background);
     CHECK(std::memcmp(in_order.pixels.data(), slow_in_order.pixels.data(),
                       slow_in_order.pixels.size() * sizeof(glm::vec3)) == 0);
     CHECK(result.stats.missed == counts.missed);
@@ -133,13 +134,13 @@ void check_against_slow(const char* spec, float voxel_size, int group_px, int wi
 }
 
 TEST_CASE("paper renderer: picture, missed and misordered as counted pixel by pixel, object") {
-  check_against_slow("builtin:object?n=3000", 0.4F, 16, 96, 54);
-  check_against_slow("builtin:object?n=3000", 0.4F, 64, 96, 54);
-  check_against_slow("builtin:object?n=3000", 0.1F, 32, 50, 37);
+  check_against_slow("builtin:object?n=3000", 0.4F, {16, 16}, 96, 54);
+  check_against_slow("builtin:object?n=3000", 0.4F, {64, 64}, 96, 54);
+  check_against_slow("builtin:object?n=3000", 0.1F, {4, 64}, 50, 37);
 }
 
 TEST_CASE("paper renderer: picture, missed and misordered as counted pixel by pixel, outdoor") {
-  check_against_slow("builtin:outdoor?n=3000", 2.0F, 32, 96, 54);
+  check_against_slow("builtin:outdoor?n=3000", 2.0F, {40, 24}, 96, 54);
 }
 
 TEST_CASE("paper renderer: one voxel that holds all is the reference image") {
@@ -156,8 +157,9 @@ TEST_CASE("paper renderer: one voxel that holds all is the reference image") {
     const RenderResult reference = render_reference(view, cloud);
     const StreamingResult result = render_paper_order(view, cloud, grid, {});
     CHECK(result.frame.image.pixels == reference.image.pixels);
-    CHECK(render_visited_in_order(view, cloud, grid, 64, result.group_voxels, {}).pixels ==
-          reference.image.pixels);
+    CHECK(
+        render_visited_in_order(view, cloud, grid, square_of(64), result.group_voxels, {}).pixels ==
+        reference.image.pixels);
     CHECK(result.stats.misordered == 0);
     CHECK(result.stats.contributors > 1000);
   }
@@ -168,7 +170,7 @@ TEST_CASE("paper renderer: parts of a group change no pixel in single precision"
   const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), 0.4F);
   const View<float> view = make_view<float>(scaled_to(scene.cameras.front(), 97, 53));
   PaperOrderConfig config;
-  config.group_px = 40;  // ten sub-tiles: not even in three or four
+  config.group = {48, 96};  // sub-tiles that two, three and four parts divide
   const StreamingResult whole = render_paper_order(view, cloud, grid, config);
   CHECK(whole.stats.fine_tests == whole.stats.second_halves);
   for (const std::uint32_t parts : {4U, 9U, 16U}) {

@@ -34,12 +34,12 @@ struct Golden {
 
   StreamingResult operator()(const ChunkTree& tree) const {
     ExactOrderConfig config;
-    config.group_px = 32;
+    config.group = square_of(32);
     return render_exact_order(view, decoded, tree, config);
   }
   StreamingResult operator()(const VoxelGrid& grid) const {
     PaperOrderConfig config;
-    config.group_px = 32;
+    config.group = square_of(32);
     return render_paper_order(view, decoded, grid, config);
   }
   // Without a table: the reference picture, which sorts by itself.

@@ -85,10 +85,10 @@ TEST_CASE("paper order comes nearer to the reference picture, the centres left w
   const ActivatedCloud cloud = activate(scene);
   const Image target = draw(reference_sequences(view, cloud)).image;
   PaperOrderConfig config;
-  config.group_px = 32;
+  config.group = square_of(32);
   const StreamingResult before = render_paper_order(view, cloud, arranged.table, config);
   const Order visited = [&](const View<float>& v, const ActivatedCloud& c) {
-    return visited_sequences(v, c, arranged.table, before.group_voxels, config.group_px);
+    return visited_sequences(v, c, arranged.table, before.group_voxels, config.group);
   };
   LearningRates rates = kRates;
   rates.mean = 0;

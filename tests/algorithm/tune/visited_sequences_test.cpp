@@ -34,7 +34,7 @@ Stored stored(const GaussianCloud& scene, const Camera& camera, float voxel_size
   out.cloud = activate(out.parameters);
   out.result = render_paper_order(view, out.cloud, out.grid, config);
   out.sequences = visited_sequences(view, out.cloud, out.grid, out.result.group_voxels,
-                                    config.group_px, config.visit_gaussians);
+                                    config.group, config.visit_gaussians);
   return out;
 }
 
@@ -47,18 +47,18 @@ TEST_CASE("the drawn picture is that of paper order, bit for bit") {
   const Camera camera = forward_camera(150, 90, 110);
   const GaussianCloud scene = random_cloud(1, 3000, 2, {0, 0, 3}, 1, 0.01F, 0.3F);
   for (const float voxel_size : {0.1F, 0.5F, 3.0F}) {
-    for (const int group_px : {16, 64}) {
+    for (const PixelSize group : {PixelSize{16, 16}, {64, 64}, {40, 20}}) {
       for (const std::uint32_t visit_gaussians : {0U, 100U}) {
         for (const auto precision : {BlendPrecision::kSingle, BlendPrecision::kHalf}) {
           PaperOrderConfig config;
-          config.group_px = group_px;
+          config.group = group;
           config.visit_gaussians = visit_gaussians;
           config.precision = precision;
           config.background = {0.25F, 0.5F, 1};
           const Stored s = stored(scene, camera, voxel_size, config);
           const RenderResult ours = draw(s.sequences, config.background, precision);
-          INFO("voxels of " << voxel_size << ", groups of " << group_px << ", visits of "
-                            << visit_gaussians);
+          INFO("voxels of " << voxel_size << ", groups of " << group.width << " x " << group.height
+                            << ", visits of " << visit_gaussians);
           CHECK(same_bytes(ours.image.pixels, s.result.frame.image.pixels));
           CHECK(same_bytes(ours.transmittance, s.result.frame.transmittance));
           CHECK(same_bytes(ours.contributors, s.result.frame.contributors));
@@ -73,7 +73,7 @@ TEST_CASE("gradients of paper order are those of its sequences, to four digits")
   const Camera camera = forward_camera(75, 46, 60);
   const GaussianCloud scene = random_cloud(2, 300, 3, {0, 0, 3}, 1, 0.02F, 0.4F);
   PaperOrderConfig config;
-  config.group_px = 32;
+  config.group = {32, 20};
   const LinearLoss loss = HardGaussians(3, 0).loss(camera);
   config.background = glm::vec3(loss.background);
   const Stored s = stored(scene, camera, 0.3F, config);
@@ -81,9 +81,9 @@ TEST_CASE("gradients of paper order are those of its sequences, to four digits")
 
   const GroupSequences& sequences = s.sequences;
   const auto as_visited = [&](const std::vector<float>&, int x, int y) {
-    const int columns = (camera.width + config.group_px - 1) / config.group_px;
-    const auto group =
-        static_cast<std::size_t>(4 * y / config.group_px * columns + 4 * x / config.group_px);
+    const int columns = (camera.width + config.group.width - 1) / config.group.width;
+    const auto group = static_cast<std::size_t>(4 * y / config.group.height * columns +
+                                                4 * x / config.group.width);
     std::vector<std::uint32_t> order;
     for (std::size_t i = sequences.first[group]; i != sequences.first[group + 1]; ++i) {
       order.push_back(sequences.splat_of(i).index);

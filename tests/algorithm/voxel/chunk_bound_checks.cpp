@@ -136,12 +136,12 @@ class Checker {
 
 }  // namespace
 
-void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, int group_px,
+void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, const PixelSize& group_size,
                         BoundTally& tally) {
   const auto [cloud, tree] = by_chunks(activate(scene.cloud), chunk, Stored::kAll);
   const View<float> view = make_view<float>(scene.camera);
   Checker checker(view, cloud, tree, tally);
-  for (const PixelRect& group : pixel_groups(view.width, view.height, group_px)) {
+  for (const PixelRect& group : pixel_groups(view.width, view.height, group_size)) {
     checker.check(group);
   }
 }
@@ -153,7 +153,11 @@ void fuzz_chunk_bounds(unsigned first_seed, unsigned scenes) {
     const int longest_px = hard.pick(50) == 0 ? 4000 : 100;
     const HardScene scene = hard.next(1 + static_cast<std::size_t>(hard.pick(100)), longest_px);
     const auto chunk = static_cast<std::uint32_t>(1 + hard.pick(16));
-    check_chunk_bounds(scene, chunk, longest_px > 100 ? 512 : 4 * (1 + hard.pick(16)), tally);
+    check_chunk_bounds(scene, chunk,
+                       longest_px > 100
+                           ? square_of(512)
+                           : PixelSize{4 * (1 + hard.pick(16)), 4 * (1 + hard.pick(16))},
+                       tally);
     if (!tally.failure.empty()) FAIL("seed " << seed << ": " << tally.failure);
   }
   fmt::print("{} tests of chunks, {} splats; {:.1f} % accepted, {:.1f} % of these in vain\n",

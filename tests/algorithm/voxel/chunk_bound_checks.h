@@ -16,7 +16,7 @@ struct BoundTally {
 };
 
 // All chunks and inner nodes of the scene's tree against all groups of its frame.
-void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, int group_px,
+void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, const PixelSize& group_size,
                         BoundTally& tally);
 
 // Random hard scenes; prints how tight the test is.

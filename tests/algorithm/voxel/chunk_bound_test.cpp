@@ -91,7 +91,7 @@ TEST_CASE("chunk test misses nothing: coordinates near the end of float") {
       for (auto& scale : scene.cloud.log_scales) {
         if (hard.pick(5) == 0) scale = glm::vec3(std::log(far * 0.1F));
       }
-      test::check_chunk_bounds(scene, 1 + seed % 16, 16, tally);
+      test::check_chunk_bounds(scene, 1 + seed % 16, square_of(16), tally);
       if (!tally.failure.empty()) FAIL("seed " << seed << ": " << tally.failure);
     }
     CHECK(tally.chunks > 1000);

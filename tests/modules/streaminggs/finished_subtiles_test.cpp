@@ -58,11 +58,22 @@ TEST_CASE("finished sub-tiles: a reach beyond the group's edge is cut to the gro
 }
 
 TEST_CASE("finished sub-tiles: a bit each, all at once") {
-  CHECK(mask_use(128).total_bytes() == 32 * 32 / 8);
-  CHECK(mask_use(128).shape.width_bits == 32 * 32);
-  CHECK(mask_use(100).total_bytes() == 25 * 4);
-  CHECK(mask_comparators(128) == 32);
-  CHECK(mask_comparators(192) == 48 * 2);
+  struct Row {
+    PixelSize group;
+    std::uint32_t bytes, comparators;
+  };
+  for (const Row& row : {Row{{128, 128}, 32 * 32 / 8, 32},
+                         {{100, 100}, 25 * 4, 25},
+                         {{192, 192}, 48 * 6, 48 * 2},
+                         {{160, 120}, 30 * 5, 30 * 2},
+                         {{120, 160}, 40 * 4, 40},
+                         {{4, 64}, 16, 16},
+                         {{320, 180}, 45 * 10, 45 * 3}}) {
+    INFO(row.group.width << " x " << row.group.height);
+    CHECK(mask_use(row.group).total_bytes() == row.bytes);
+    CHECK(mask_use(row.group).shape.width_bits == 8 * row.bytes);
+    CHECK(mask_comparators(row.group) == row.comparators);
+  }
 }
 
 }  // namespace

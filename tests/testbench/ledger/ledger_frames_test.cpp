@@ -83,8 +83,9 @@ std::uint64_t counter(const Frame& frame, const std::string& name) {
   return sum;
 }
 
-constexpr int kGroupPx = 24;
-const Settings kPlain = {"storage.encoding=raw", fmt::format("group_px={}", kGroupPx),
+constexpr PixelSize kGroup = {24, 16};
+const Settings kPlain = {"storage.encoding=raw", fmt::format("group_width_px={}", kGroup.width),
+                         fmt::format("group_height_px={}", kGroup.height),
                          "rendering.saturation_feedback=false"};
 // Nothing in it is finished early: what reaches a group late is still needed.
 constexpr const char* kSparse = "builtin:object?n=300";
@@ -103,15 +104,15 @@ void check_shared(const Frame& frame, const StreamingStats& golden, std::uint64_
   // Every sub-tile is cleared and drained once beside its blends; and what comes before it is known
   // that a sub-tile is finished is blended, and paid, for nothing.
   const std::uint64_t subtiles = 72 / 4 * 48 / 4 + counter(frame, "subtile_blends_late");
-  CHECK(accesses(frame, "pixel state").reads == golden.subtile_blends + subtiles);
-  CHECK(accesses(frame, "pixel state").writes == golden.subtile_blends + subtiles);
+  CHECK(accesses(frame, "pixel state").reads == 16 * (golden.subtile_blends + subtiles));
+  CHECK(accesses(frame, "pixel state").writes == 16 * (golden.subtile_blends + subtiles));
 }
 
 TEST_CASE("ledger: exact order is charged with what the golden renderer counts") {
   const Frame frame = simulated("exact", kPlain, kSparse);
   check_paid(frame);
   ExactOrderConfig order;
-  order.group_px = kGroupPx;
+  order.group = kGroup;
   const ChunkTree& tree = frame.scene->stored.tree();
   const StreamingStats golden =
       render_exact_order(frame.job.view, frame.scene->stored.decoded, tree, order).stats;
@@ -119,7 +120,7 @@ TEST_CASE("ledger: exact order is charged with what the golden renderer counts")
   // Children of the nodes that the walk opens, one by one.
   TreeInMemory source{tree, {}};
   ChunkWalk<TreeInMemory> walk(frame.job.view, source, {256, 384});
-  for (const PixelRect& group : pixel_groups(72, 48, kGroupPx)) {
+  for (const PixelRect& group : pixel_groups(72, 48, kGroup)) {
     walk.begin(group, false);
     while (walk.next()) {
     }
@@ -149,7 +150,7 @@ TEST_CASE("ledger: paper order is charged with what the golden renderer counts")
   check_paid(frame);
   constexpr std::uint32_t kHfus = 4;
   PaperOrderConfig order;
-  order.group_px = kGroupPx;
+  order.group = kGroup;
   order.parts = kHfus;
   order.precision = BlendPrecision::kHalf;
   order.rays = PaperVsuConfig().rays();
@@ -166,7 +167,7 @@ TEST_CASE("ledger: paper order is charged with what the golden renderer counts")
 TEST_CASE("ledger: of a real frame, no line can be left out unseen") {
   for (const char* preset : {"exact_vq", "paper"}) {
     INFO(preset);
-    const Frame frame = simulated(preset, {"group_px=24"}, kSparse);
+    const Frame frame = simulated(preset, {"group_width_px=24", "group_height_px=24"}, kSparse);
     check_paid(frame);
     const MachineResult& machine = frame.result.machine;
     for (std::size_t i = 0; i < machine.sram_accesses.size(); ++i) {
@@ -194,7 +195,8 @@ using Choices = std::map<std::string, std::vector<std::string>>;
 
 const Choices kShared = {{"hfus", {"1", "2", "4", "6"}},
                          {"sorting_units", {"1", "2", "3"}},
-                         {"group_px", {"8", "16", "24", "48"}},
+                         {"group_width_px", {"8", "16", "24", "48"}},
+                         {"group_height_px", {"8", "16", "24", "48"}},
                          {"hfu.cfus", {"1", "4"}},
                          {"hfu.cfu_lanes", {"1", "4", "60"}},
                          {"hfu.ffu_lanes", {"4", "16", "430"}},

@@ -84,14 +84,16 @@ std::string run_on_prompt(const Frame& frame, double latency_ns) {
 }
 
 TEST_CASE("other memory: both machines render their picture on targets that know nothing of them") {
-  const std::vector<std::string> plain = {"group_px=32", "framebuffer=rgb32f"};
-  const std::vector<std::string> quantised = {"group_px=32", "storage.encoding=vq_packed",
-                                              "storage.vq.iterations=2",
-                                              "sram.codebook_bytes=256000"};
+  const std::vector<std::string> plain = {"group_width_px=32", "group_height_px=32",
+                                          "framebuffer=rgb32f"};
+  const std::vector<std::string> quantised = {
+      "group_width_px=32", "group_height_px=32", "storage.encoding=vq_packed",
+      "storage.vq.iterations=2", "sram.codebook_bytes=256000"};
   const std::vector<std::string> preloaded = {
-      "group_px=32", "storage.encoding=vq", "storage.vq.iterations=2", "sram.codebook_bytes=256000",
-      "codebook.preloaded=true"};
-  const std::vector<std::string> narrow = {"group_px=32", "memory_port.max_outstanding=1",
+      "group_width_px=32",       "group_height_px=32",         "storage.encoding=vq",
+      "storage.vq.iterations=2", "sram.codebook_bytes=256000", "codebook.preloaded=true"};
+  const std::vector<std::string> narrow = {"group_width_px=32", "group_height_px=32",
+                                           "memory_port.max_outstanding=1",
                                            "memory_port.max_transaction_bytes=32"};
   for (const char* machine : {"exact", "paper"}) {
     for (std::vector<std::string> settings : {plain, quantised, preloaded, narrow}) {
@@ -109,7 +111,7 @@ TEST_CASE("other memory: both machines render their picture on targets that know
 }
 
 TEST_CASE("other memory: an address beyond it ends the run by name") {
-  const Frame frame({"machine=exact", "group_px=32"});
+  const Frame frame({"machine=exact", "group_width_px=32", "group_height_px=32"});
   const auto run = [&] {
     return in_child([&] {
       use_femtosecond_resolution();

@@ -74,11 +74,14 @@ TEST_CASE("sram budget: units publish what the configuration was checked with, q
 }
 
 TEST_CASE("sram budget: the same for machines that are no preset") {
-  check_sums("exact", {"hfus=3", "sorting_units=3", "group_px=60"});
-  check_sums("exact_vq", {"hfus=3", "sorting_units=3", "group_px=60"});
-  check_sums("paper", {"hfus=3", "sorting_units=3", "group_px=60", "fetch=split"});
-  check_sums("paper_no_vq", {"hfus=1", "sorting_units=3", "group_px=60"});
-  check_sums("paper_no_vq", {"hfus=4", "sorting_units=8", "group_px=60"});
+  check_sums("exact", {"hfus=3", "sorting_units=3", "group_width_px=72", "group_height_px=48"});
+  check_sums("exact_vq", {"hfus=3", "sorting_units=3", "group_width_px=72", "group_height_px=48"});
+  check_sums("paper", {"hfus=3", "sorting_units=3", "group_width_px=72", "group_height_px=48",
+                       "fetch=split"});
+  check_sums("paper_no_vq",
+             {"hfus=1", "sorting_units=3", "group_width_px=72", "group_height_px=48"});
+  check_sums("paper_no_vq",
+             {"hfus=4", "sorting_units=8", "group_width_px=72", "group_height_px=48"});
   for (const char* preset : {"exact", "exact_vq", "paper", "paper_no_vq"}) {
     check_sums(preset, {"hfu.second_half_slots=5", "hfu.input_slots=3", "framebuffer=rgb32f",
                         "rendering.pixel_buffers=1"});

@@ -58,7 +58,8 @@ double squares(const Image& a, const Image& b) {
 
 TEST_CASE("order loss: paper order, parts add up to the whole") {
   for (const char* encoding : {"storage.encoding=raw", "storage.encoding=half"}) {
-    const GoldenView view({"machine=paper", "group_px=32", "storage.voxel_size=0.4", encoding});
+    const GoldenView view({"machine=paper", "group_width_px=32", "group_height_px=32",
+                           "storage.voxel_size=0.4", encoding});
     REQUIRE(view.golden.missed > 0);
     REQUIRE(view.golden.misordered > 0);
     const OrderLoss loss = view.loss();
@@ -77,8 +78,8 @@ TEST_CASE("order loss: paper order, parts add up to the whole") {
 
 TEST_CASE(
     "order loss: without the original there is no part of the encoding, and the rest is all") {
-  GoldenView view(
-      {"machine=paper", "group_px=32", "storage.voxel_size=0.4", "storage.encoding=half"});
+  GoldenView view({"machine=paper", "group_width_px=32", "group_height_px=32",
+                   "storage.voxel_size=0.4", "storage.encoding=half"});
   view.scene.stored.original.reset();
   view.reference = view.decoded_reference;
   const OrderLoss loss = view.loss();
