@@ -7,6 +7,7 @@
 
 #include "algorithm/scene/camera.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/rects.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs::test {

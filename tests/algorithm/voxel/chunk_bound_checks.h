@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "algorithm/splat/rects.h"
 #include "tests/algorithm/voxel/hard_scenes.h"
 
 namespace sgs::test {
