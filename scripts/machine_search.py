@@ -209,10 +209,25 @@ class Search:
     def best_from(self, machine: Machine, storage: Sequence[int]) -> Point | None:
         """The best point found from a start; None where nothing on the way to the area draws all
         scenes."""
+        point = None
         if not self.harm:
             self.look_back(machine, storage)
-        start = self.fitted(machine)
-        if start is None:
-            return None
-        _, point = self.measure(start, storage, None)
+            point = self.best_of_first_axis(machine, storage)
+        elif start := self.fitted(machine):
+            _, point = self.measure(start, storage, None)
         return self.descend(self.stored_better(point)) if point else None
+
+    def best_of_first_axis(self, machine: Machine, storage: Sequence[int]) -> Point | None:
+        """The machine within the area that does best, of one for each setting of the first axis:
+        the memory that a group takes decides what is left for all else, so that single steps do not
+        lead from one to another."""
+        best: Point | None = None
+        settings = range(len(machine.order.axes[0].settings))
+        # From the start's own outward, so that what is hopeless is given up early.
+        for to in sorted(settings, key=lambda at: abs(at - machine.at[0])):
+            moved = machine.moved(0, to - machine.at[0])
+            fits = moved and self.fitted(moved, 0)
+            if fits:
+                worse, point = self.measure(fits, storage, best)
+                best = point if point and (best is None or worse < 0) else best
+        return best
