@@ -24,7 +24,7 @@ GroupSequences reference_sequences(const View<float>& view, const ActivatedCloud
   out.height = view.height;
   SplatSequence sequence(view, cloud);
   sequence.next(sequence.keys().size(), out.splats);
-  out.groups = pixel_groups(view.width, view.height, kGroupPx);
+  out.groups = pixel_groups(view.width, view.height, square_of(kGroupPx));
   SplatBins bins = bin_splats(cell_grid(view.width, view.height, square_of(kGroupPx)),
                               out.splats.data(), out.splats.size());
   out.first = std::move(bins.first);

@@ -82,7 +82,8 @@ Scene make_scene(unsigned seed, std::size_t gaussians, std::uint32_t chunk) {
   test::HardScenes hard(seed);
   const test::HardScene scene = hard.next(gaussians, 100);
   return {arrange_by_chunks(activate(scene.cloud), chunk).table, make_view<float>(scene.camera),
-          pixel_groups(scene.camera.width, scene.camera.height, 4 * (1 + hard.pick(16)))};
+          pixel_groups(scene.camera.width, scene.camera.height,
+                       {4 * (1 + hard.pick(16)), 4 * (1 + hard.pick(16))})};
 }
 
 }  // namespace

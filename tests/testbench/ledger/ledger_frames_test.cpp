@@ -83,7 +83,7 @@ std::uint64_t counter(const Frame& frame, const std::string& name) {
   return sum;
 }
 
-constexpr PixelSize kGroup = {24, 16};
+constexpr PixelSize kGroup = {72, 24};
 const Settings kPlain = {"storage.encoding=raw", fmt::format("group_width_px={}", kGroup.width),
                          fmt::format("group_height_px={}", kGroup.height),
                          "rendering.saturation_feedback=false"};
