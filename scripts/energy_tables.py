@@ -147,6 +147,7 @@ class Measuring:
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
+    groups = {shape: assignments(shape) for shape in arguments.groups}
     scenes = find_scenes(arguments.scenes or shared_names())
     measuring = Measuring(arguments, scenes)
     shipped = {order: measuring.views(order, SRAM_AS_NEEDED) for order in PRESETS}
@@ -154,9 +155,9 @@ def make_tables(arguments: argparse.Namespace) -> None:
     head = ("order", "mJ of", *(scene.name for scene in scenes))
     tables.write(arguments.out, "energy_components", made, head, component_rows(shipped))
     rows = [
-        group_row(order, shape, measuring.views(order, (*SRAM_AS_NEEDED, *assignments(shape))))
+        group_row(order, shape, measuring.views(order, (*SRAM_AS_NEEDED, *keys)))
         for order in PRESETS
-        for shape in arguments.groups
+        for shape, keys in groups.items()
     ]
     tables.write(arguments.out, "energy_groups", made, GROUP_HEAD, rows)
     measuring.kept.end()

@@ -22,10 +22,11 @@ Arguments encoded(const std::string& order, const std::string& encoding,
                   const std::string& scene = "builtin:object?n=2000") {
   Arguments arguments = {scene, "--size", "96x54", "--weigh-by", "0", "--config", order};
   for (const std::string& setting :
-       {std::string("group_width_px=32", "group_height_px=32"), "storage.encoding=" + encoding,
-        std::string("sram.codebook_bytes=256000"), std::string("storage.vq.scale_entries=64"),
-        std::string("storage.vq.rotation_entries=100"), std::string("storage.vq.dc_entries=200"),
-        std::string("storage.vq.sh_entries=32"), std::string("storage.vq.iterations=3")}) {
+       {std::string("group_width_px=32"), std::string("group_height_px=32"),
+        "storage.encoding=" + encoding, std::string("sram.codebook_bytes=256000"),
+        std::string("storage.vq.scale_entries=64"), std::string("storage.vq.rotation_entries=100"),
+        std::string("storage.vq.dc_entries=200"), std::string("storage.vq.sh_entries=32"),
+        std::string("storage.vq.iterations=3")}) {
     arguments.insert(arguments.end(), {"--set", setting});
   }
   return arguments;

@@ -87,7 +87,7 @@ TEST_CASE("whole frame: groups that are left to the model cut the frame evenly")
                                         order, "--set", "storage.encoding=raw"},
                                        group_of("0", "0")));
     simulation.check();
-    const Json& config = simulation.views()[0]["config"];
+    const auto config = simulation.views()[0]["config"];
     const int width = config["group_width_px"].get<int>(),
               height = config["group_height_px"].get<int>();
     CHECK(width > 32);
