@@ -23,6 +23,9 @@ void visit(ConfigVisitor& v, SramConfig& c) {
 
 void visit_head(ConfigVisitor& v, StreamingConfig& c) {
   v("clock_mhz", c.clock_mhz, in_range(1, 10000), "clock of all units");
+  v("lane_latency_cycles", c.lane_latency_cycles, in_range(1, 64),
+    "of a multiply-add in single precision: depths of pipelines follow");
+  v("half_lane_latency_cycles", c.half_lane_latency_cycles, in_range(1, 64), "in half precision");
   v("group_px", c.group_px, in_range(0, kMaxGroupPx),
     "side of a pixel group, a multiple of 4; 0: the largest that fits the SRAM");
   v("framebuffer", c.framebuffer,
@@ -80,6 +83,7 @@ RenderingConfig rendering_of_part(const StreamingConfig& c) {
   RenderingConfig part = c.rendering;
   part.clusters /= c.parts();
   part.span_lanes /= c.parts();
+  part.span_slots = (part.span_slots + c.parts() - 1) / c.parts();
   part.drain_pixels_per_cycle /= c.parts();
   return part;
 }

@@ -6,6 +6,7 @@
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/storage_config.h"
+#include "algorithm/splat/longest_path.h"
 #include "modules/config/config_visitor.h"
 #include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/hfu/codebook_config.h"
@@ -29,6 +30,8 @@ enum class Fetch {
 
 struct StreamingConfig {
   double clock_mhz = 1000;
+  std::uint32_t lane_latency_cycles = 3;       // of a multiply-add in single precision
+  std::uint32_t half_lane_latency_cycles = 2;  // in half
   std::uint32_t group_px = 32;  // 0: as large as the SRAM allows
   FrameFormat framebuffer = FrameFormat::kRgb8;
   std::uint32_t hfus = 4;
@@ -39,6 +42,9 @@ struct StreamingConfig {
   CodebookConfig codebook;
   RenderingConfig rendering;
   MemoryPortConfig memory_port;  // of each unit's port
+
+  OperationLatencies single_latencies() const { return {lane_latency_cycles, 1, 1}; }
+  OperationLatencies half_latencies() const { return {half_lane_latency_cycles, 1, 1}; }
 
   // HFUs behind one fetch, each with its part of a group; and how many fetches there are.
   std::uint32_t parts() const { return fetch == Fetch::kShared ? hfus : 1; }
