@@ -93,17 +93,17 @@ class ChunkWalk {
     opening_.push_back(nodes_.take_nearest());
     return opening_.back();
   }
+  // What take_node() would give; only where there is one.
+  const WalkEntry& next_node() const { return nodes_.nearest(); }
   // The next node is of the first walk, and nothing is being read that could give a chunk.
   bool needs_node() const {
     return opening_.empty() && !nodes_.empty() && of_first(nodes_.nearest()) && !has_chunk();
   }
-  // The children of the nodes that are being read, and of one more, are sure to fit, and leave a
-  // quarter of each queue to those that must be read.
-  bool has_room_for_another() const {
-    const std::size_t children = (opening_.size() + 1) * kChunkNodeWidth;
-    return nodes_.room() >= children + nodes_.capacity() / 4 &&
-           chunks_.room() >= children + chunks_.capacity() / 4;
-  }
+  // The children of the nodes that are being read, and of one more, are sure to fit. A quarter of
+  // each queue is left to nodes of the first walk that are read while it can give no chunk.
+  bool has_room_for_another() const { return nodes_have_room() && chunks_have_room(); }
+  bool nodes_have_room() const { return has_room_for_another(nodes_); }
+  bool chunks_have_room() const { return has_room_for_another(chunks_); }
   // All nodes of the walks that have begun are open or being read: another may begin.
   bool has_read_ahead() const { return begun_ < kWalks && nodes_.empty() && !aside_; }
 
@@ -112,6 +112,10 @@ class ChunkWalk {
     opening_.erase(std::find_if(opening_.begin(), opening_.end(), [&](const WalkEntry& e) {
       return e.at == entry.at && e.walk == entry.walk;
     }));
+  }
+  // Whether the walk of an entry that was taken has ended.
+  bool has_ended(const WalkEntry& entry) const {
+    return static_cast<std::int16_t>(entry.walk - first_) < 0;
   }
   // Whether an entry is of the walk that began first.
   bool of_first(const WalkEntry& entry) const { return entry.walk == first_; }
@@ -145,6 +149,12 @@ class ChunkWalk {
   }
 
  private:
+  bool has_room_for_another(const WalkQueue& queue) const {
+    const std::size_t children = (opening_.size() + 1) * kChunkNodeWidth;
+    const bool starves = of_first(nodes_.nearest()) && !has_chunk();
+    return queue.room() >= children + (starves ? 0 : queue.capacity() / 4);
+  }
+
   void drop(WalkQueue& queue) {
     while (!queue.empty() && of_first(queue.nearest())) queue.take_nearest();
   }
@@ -209,7 +219,7 @@ class ChunkWalk {
     aside_.reset();
     for (const WalkEntry& entry : source_.take_back()) {
       // Of a walk that has ended there may be some.
-      if (static_cast<std::int16_t>(entry.walk - first_) >= 0) push(entry);
+      if (!has_ended(entry)) push(entry);
     }
   }
 

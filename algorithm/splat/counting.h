@@ -97,7 +97,7 @@ inline Counting min_of<Counting>(Counting a, Counting b) {
   return recorded(min_of(a.value, b.value), Operation::kMinimum, a, b);
 }
 
-// The steps of exp2_by_table(). A look-up gives the whole row: the first column asks for it.
+// The steps of exp2_by_table(). A look-up gives the whole row: all its columns are one node.
 inline Exp2Parts<Counting> exp2_parts(Counting t) {
   const Exp2Parts<float> parts = exp2_parts(t.value);
   return {recorded(parts.rest, Operation::kSplit, t), parts.steps};
@@ -106,7 +106,6 @@ template <>
 inline Counting exp2_coefficient(const Exp2Parts<Counting>& parts, std::size_t column) {
   const float value = exp2_coefficient(Exp2Parts<float>{parts.rest.value, parts.steps}, column);
   if (parts.rest.flow == nullptr) return Counting(value);
-  if (column > 0) return input(*parts.rest.flow, value);
   return recorded(value, Operation::kLookUp, parts.rest);
 }
 inline Counting scaled_by_steps(Counting x, std::int32_t steps) {

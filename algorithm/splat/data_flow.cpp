@@ -1,4 +1,4 @@
-// Numbering of values, and the tally of a range of them.
+// Numbering of values, the tally of a range of them, and the longest path through it.
 #include "algorithm/splat/data_flow.h"
 
 #include <algorithm>
@@ -27,6 +27,18 @@ bool is_unary(Operation operation) {
 bool commutes(Operation operation) {
   return operation == Operation::kMultiply || operation == Operation::kAdd ||
          operation == Operation::kCompare;
+}
+
+using Path = std::optional<LongestPath>;
+
+Path later(const Path& a, const Path& b, const OperationLatencies& latencies) {
+  if (!a || !b) return a ? a : b;
+  return a->cycles(latencies) < b->cycles(latencies) ? b : a;
+}
+
+Path behind(const Path& path, const LongestPath& operations) {
+  if (!path) return path;
+  return *path + operations;
 }
 
 }  // namespace
@@ -117,6 +129,61 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
     }
   }
   return c;
+}
+
+LongestPath DataFlow::longest_path(std::size_t first, std::size_t last,
+                                   const OperationLatencies& latencies) const {
+  Paths paths(nodes_.size());
+  for (std::size_t i = 0; i < last; ++i) {
+    if (i < first || nodes_[i].operation == Operation::kInput) paths[i] = LongestPath{};
+  }
+  return extend(std::move(paths), last, latencies);
+}
+
+LongestPath DataFlow::longest_path_from(const std::vector<std::uint32_t>& sources,
+                                        const OperationLatencies& latencies) const {
+  Paths paths(nodes_.size());
+  for (const std::uint32_t source : sources) paths[source] = LongestPath{};
+  return extend(std::move(paths), nodes_.size(), latencies);
+}
+
+// Every value is numbered behind those that it is made of.
+LongestPath DataFlow::extend(Paths paths, std::size_t last,
+                             const OperationLatencies& latencies) const {
+  Path longest = LongestPath{};
+  for (std::size_t i = 0; i < last; ++i) {
+    if (!paths[i]) paths[i] = path_through(nodes_[i], paths, latencies);
+    longest = later(longest, paths[i], latencies);
+  }
+  return *longest;
+}
+
+// Of the products that a sum takes alone, the later one is made in the sum's own lane.
+std::optional<LongestPath> DataFlow::path_through(const Node& node, const Paths& paths,
+                                                  const OperationLatencies& latencies) const {
+  const auto of = [&](const Operand& operand) {
+    return operand.is_constant ? Path{} : paths[operand.of];
+  };
+  const auto join = [&](const Path& a, const Path& b) { return later(a, b, latencies); };
+  const Path a = of(node.a), b = is_unary(node.operation) ? Path{} : of(node.b);
+  const auto factors = [&](const Operand& product) {
+    return join(of(nodes_[product.of].a), of(nodes_[product.of].b));
+  };
+  switch (node.operation) {
+    case Operation::kAdd:
+    case Operation::kSubtract: {
+      const bool a_fuses = is_lone_product(node.a), b_fuses = is_lone_product(node.b);
+      const bool fuses_a = a_fuses && (!b_fuses || join(a, b) == a);
+      const Path from = fuses_a   ? join(factors(node.a), b)
+                        : b_fuses ? join(a, factors(node.b))
+                                  : join(a, b);
+      return behind(from, path_of(node.operation));
+    }
+    case Operation::kDivide:
+      return behind(join(a, behind(b, kReciprocalPath)), path_of(node.operation));
+    default:
+      return behind(join(a, b), path_of(node.operation));
+  }
 }
 
 }  // namespace sgs

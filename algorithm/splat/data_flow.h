@@ -6,36 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
+#include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/operation_counts.h"
 
 namespace sgs {
-
-enum class Operation : std::uint8_t {
-  kInput,
-  kNegate,
-  kAbsolute,
-  kMultiply,
-  kAdd,
-  kSubtract,
-  kDivide,
-  kSquareRoot,
-  kLogarithm,
-  kExponential,
-  kLookUp,  // a row of a table
-  kSplit,   // into whole steps and a rest
-  kScale,   // by a power of two that is computed
-  kCompare,
-  kMinimum,
-  kMaximum,
-  kIsFinite,
-  kCeil,
-  kFloor,
-  kTruncate,
-  kRound
-};
 
 class DataFlow {
  public:
@@ -57,6 +35,14 @@ class DataFlow {
   // graph takes the product a second time.
   OperationCounts counts(std::size_t first, std::size_t last) const;
 
+  // The operations that wait for each other among nodes [first, last), longest in cycles. What comes
+  // from outside or lies before `first` is there at the beginning.
+  LongestPath longest_path(std::size_t first, std::size_t last,
+                           const OperationLatencies& latencies) const;
+  // The same from one of these nodes on: everything that depends on none of them is there.
+  LongestPath longest_path_from(const std::vector<std::uint32_t>& sources,
+                                const OperationLatencies& latencies) const;
+
  private:
   struct Node {
     Operation operation;
@@ -66,7 +52,13 @@ class DataFlow {
   };
   using Key = std::tuple<Operation, bool, std::uint32_t, bool, std::uint32_t>;
 
+  // The path to each value, none to what is there at the beginning; null: it is on no path.
+  using Paths = std::vector<std::optional<LongestPath>>;
+
   bool is_lone_product(Operand operand) const;
+  std::optional<LongestPath> path_through(const Node& node, const Paths& paths,
+                                          const OperationLatencies& latencies) const;
+  LongestPath extend(Paths paths, std::size_t last, const OperationLatencies& latencies) const;
   bool is_new_divisor(Operand divisor) const;
 
   std::vector<Node> nodes_;

@@ -62,8 +62,9 @@ FilterCase longest_case() {
   return out;
 }
 
-OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
-                            std::uint32_t across) {
+namespace {
+
+DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across) {
   DataFlow flow;
   const auto view = make_view<Counting>(tested.camera);
   const auto mean = input(flow, tested.gaussian.mean);
@@ -87,11 +88,18 @@ OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
     run(bound);
     if (bound.in_front) static_cast<void>(group_reach(bound, tested.group));
   }
-  return flow.counts(0, flow.size());
+  return flow;
 }
 
-FineWork fine_work(const FilterCase& tested, int sh_degree) {
+// With where its first two parts end.
+struct FineFlow {
   DataFlow flow;
+  std::size_t geometry_end = 0, test_end = 0;
+};
+
+FineFlow fine_flow(const FilterCase& tested, int sh_degree) {
+  FineFlow out;
+  DataFlow& flow = out.flow;
   const auto view = make_view<Counting>(tested.camera);
   const Gaussian<Counting> gaussian = input(flow, tested.gaussian);
   std::array<glm::vec<3, Counting>, 16> sh;
@@ -99,16 +107,23 @@ FineWork fine_work(const FilterCase& tested, int sh_degree) {
 
   SplatOf<Counting> splat{};
   const bool on_screen = make_geometry(view, gaussian, splat);
-  const std::size_t geometry_end = flow.size();
+  out.geometry_end = flow.size();
   const bool kept = on_screen && reaches_group(splat, tested.group);
-  const std::size_t test_end = flow.size();
+  out.test_end = flow.size();
   if (kept) add_colour(view, sh_degree, gaussian.mean, sh.data(), splat);
-  return {flow.counts(0, geometry_end), flow.counts(geometry_end, test_end),
-          flow.counts(test_end, flow.size())};
+  return out;
 }
 
-RenderingWork rendering_work(BlendPrecision precision) {
+// With where its parts end, and the inputs that are pixel state.
+struct RenderingFlow {
   DataFlow flow;
+  std::size_t spans_begun = 0, spanned = 0, in_base_2 = 0;
+  std::vector<std::uint32_t> state;
+};
+
+RenderingFlow rendering_flow() {
+  RenderingFlow out;
+  DataFlow& flow = out.flow;
   SplatOf<Counting> splat{};
   // An ellipse that leans, some 20 px wide, and a row through its middle: every step is taken.
   splat.x = input(flow, 101.5F);
@@ -118,32 +133,91 @@ RenderingWork rendering_work(BlendPrecision precision) {
   splat.conic_c = input(flow, 0.05F);
   splat.opacity = input(flow, 0.9F);
   splat.rgb = input(flow, glm::vec3(0.1F, 0.2F, 0.3F));
-  RenderingWork work;
+  const auto state = [&](float value) {
+    const Counting of_pixel = input(flow, value);
+    out.state.push_back(of_pixel.node);
+    return of_pixel;
+  };
   RowSpans<Counting> spans(splat);
   spans.start(52);
-  const std::size_t begun = flow.size();
+  out.spans_begun = flow.size();
   static_cast<void>(spans.next(56));
-  const std::size_t spanned = flow.size();
+  out.spanned = flow.size();
   const auto conic = log2_conic(splat.conic_a, splat.conic_b, splat.conic_c);
-  const std::size_t in_base_2 = flow.size();
+  out.in_base_2 = flow.size();
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
     const Counting dx = left - Counting(static_cast<float>(lane % kSubtilePx));
     const Counting dy = top - Counting(static_cast<float>(lane / kSubtilePx));
     const Counting exponent = log2_falloff(conic, dx, dy);
     const Counting alpha = alpha_of(exponent, exp2_of(exponent), splat.opacity);
-    const LightShare<Counting> light = take_light(alpha, input(flow, 0.5F));
+    const LightShare<Counting> light = take_light(alpha, state(0.5F));
     static_cast<void>(light.after < constant<Counting>(kTransmittanceMin));
     for (int channel = 0; channel < 3; ++channel) {
-      static_cast<void>(input(flow, 0.25F) + splat.rgb[channel] * light.weight);
+      static_cast<void>(state(0.25F) + splat.rgb[channel] * light.weight);
     }
   }
-  work.spans_begin = flow.counts(0, begun);
-  work.span = flow.counts(begun, spanned);
-  work.conic = flow.counts(spanned, in_base_2);
-  work.subtile_blend = flow.counts(in_base_2, flow.size());
+  return out;
+}
+
+// In half: the parabola's step is saved; A and C are looked at, and the conic scaled.
+LongestPath in_half(LongestPath path) {
+  path.lane -= static_cast<std::uint32_t>(Exp2TableOf<Counting>::kCoefficients -
+                                          Exp2TableOf<HalfScalar>::kCoefficients);
+  path.comparator += 1 + 1;
+  return path;
+}
+
+}  // namespace
+
+OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
+                            std::uint32_t across) {
+  const DataFlow flow = coarse_flow(bound_by, tested, across);
+  return flow.counts(0, flow.size());
+}
+
+LongestPath coarse_path(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across,
+                        const OperationLatencies& latencies) {
+  const DataFlow flow = coarse_flow(bound_by, tested, across);
+  return flow.longest_path(0, flow.size(), latencies);
+}
+
+FineWork fine_work(const FilterCase& tested, int sh_degree) {
+  const FineFlow fine = fine_flow(tested, sh_degree);
+  return {fine.flow.counts(0, fine.geometry_end),
+          fine.flow.counts(fine.geometry_end, fine.test_end),
+          fine.flow.counts(fine.test_end, fine.flow.size())};
+}
+
+LongestPath fine_path(const FilterCase& tested, int sh_degree,
+                      const OperationLatencies& latencies) {
+  const FineFlow fine = fine_flow(tested, sh_degree);
+  return fine.flow.longest_path(0, fine.flow.size(), latencies);
+}
+
+RenderingWork rendering_work(BlendPrecision precision) {
+  const RenderingFlow of = rendering_flow();
+  RenderingWork work;
+  work.spans_begin = of.flow.counts(0, of.spans_begun);
+  work.span = of.flow.counts(of.spans_begun, of.spanned);
+  work.conic = of.flow.counts(of.spanned, of.in_base_2);
+  work.subtile_blend = of.flow.counts(of.in_base_2, of.flow.size());
   if (precision == BlendPrecision::kHalf) work.subtile_blend = in_half(work.subtile_blend);
   return work;
+}
+
+RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencies& single,
+                               const OperationLatencies& half) {
+  const RenderingFlow of = rendering_flow();
+  const bool is_half = precision == BlendPrecision::kHalf;
+  const OperationLatencies& blending = is_half ? half : single;
+  RenderingPaths paths;
+  paths.spans = of.flow.longest_path(0, of.spanned, single);
+  paths.conic = of.flow.longest_path(of.spanned, of.in_base_2, single);
+  paths.blend = of.flow.longest_path(of.in_base_2, of.flow.size(), blending);
+  if (is_half) paths.blend = in_half(paths.blend);
+  paths.state_loop = of.flow.longest_path_from(of.state, blending);
+  return paths;
 }
 
 OperationCounts FineWork::total() const { return geometry + group_test + colour; }

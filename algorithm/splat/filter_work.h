@@ -10,6 +10,7 @@
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound_by.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/operation_counts.h"
 #include "algorithm/splat/rects.h"
 
@@ -31,6 +32,8 @@ FilterCase longest_case();
 // group, or each of across x across parts of it.
 OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
                             std::uint32_t across = 1);
+LongestPath coarse_path(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across,
+                        const OperationLatencies& latencies);
 
 // Of the fine test, up to where it fails or to its end. An operation that two parts need counts
 // with the first.
@@ -41,6 +44,8 @@ struct FineWork {
   OperationCounts total() const;
 };
 FineWork fine_work(const FilterCase& tested, int sh_degree);
+LongestPath fine_path(const FilterCase& tested, int sh_degree,
+                      const OperationLatencies& latencies);
 
 // Of rendering: a splat's spans are begun once; each row of sub-tiles adds one; each sub-tile is
 // blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once. Ahead of all
@@ -49,5 +54,13 @@ struct RenderingWork {
   OperationCounts conic, spans_begin, span, subtile_blend;
 };
 RenderingWork rendering_work(BlendPrecision precision);
+
+// Of a splat's spans with the first row's, of its conic, of a pixel's blend, and from a pixel's state
+// to what is written back. Latencies of lanes in single and in half precision.
+struct RenderingPaths {
+  LongestPath spans, conic, blend, state_loop;
+};
+RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencies& single,
+                               const OperationLatencies& half);
 
 }  // namespace sgs

@@ -19,7 +19,9 @@ ChunkCase longest_chunk_case() {
   return out;
 }
 
-OperationCounts chunk_work(const ChunkCase& tested) {
+namespace {
+
+DataFlow chunk_flow(const ChunkCase& tested) {
   DataFlow flow;
   const auto view = make_view<Counting>(tested.camera);
   const auto vec = [&](const glm::vec3& v) {
@@ -43,7 +45,19 @@ OperationCounts chunk_work(const ChunkCase& tested) {
   const ChunkTestOf<Counting> test = GroupFrustumOf<Counting>(view, tested.group).test(bound);
   // A child is no nearer than its parent.
   if (test.touches) static_cast<void>(max_of(test.nearest, input(flow, 0.0F)));
+  return flow;
+}
+
+}  // namespace
+
+OperationCounts chunk_work(const ChunkCase& tested) {
+  const DataFlow flow = chunk_flow(tested);
   return flow.counts(0, flow.size());
+}
+
+LongestPath chunk_path(const ChunkCase& tested, const OperationLatencies& latencies) {
+  const DataFlow flow = chunk_flow(tested);
+  return flow.longest_path(0, flow.size(), latencies);
 }
 
 }  // namespace sgs

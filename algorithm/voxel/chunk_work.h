@@ -3,6 +3,7 @@
 #pragma once
 
 #include "algorithm/scene/camera.h"
+#include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/operation_counts.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/voxel/chunk_node.h"
@@ -23,5 +24,6 @@ ChunkCase longest_chunk_case();
 // Of one test, up to where it fails or to its end, with what the walk does to its result. The child
 // is decoded from its node: box bounds origin + q 2^e, extents by table.
 OperationCounts chunk_work(const ChunkCase& tested);
+LongestPath chunk_path(const ChunkCase& tested, const OperationLatencies& latencies);
 
 }  // namespace sgs

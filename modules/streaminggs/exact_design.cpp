@@ -2,7 +2,9 @@
 #include "modules/streaminggs/exact_design.h"
 
 #include "algorithm/render/exact_renderer.h"
+#include "algorithm/voxel/chunk_work.h"
 #include "modules/streaminggs/exact_machine.h"
+#include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
 #include "modules/streaminggs/streaming_sram.h"
 
@@ -16,6 +18,9 @@ void ExactDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
 
 void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {
   sgs::adapt(config_, storage_order(), format, chosen);
+  const OperationLatencies latencies = config_.single_latencies();
+  resolve_depth("vsu.test_depth_cycles", config_.vsu.test_depth_cycles,
+                chunk_path(longest_chunk_case(), latencies), latencies, 0, chosen);
 }
 
 FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const {

@@ -23,6 +23,9 @@ void visit(ConfigVisitor& v, SramConfig& c) {
 
 void visit_head(ConfigVisitor& v, StreamingConfig& c) {
   v("clock_mhz", c.clock_mhz, in_range(1, 10000), "clock of all units");
+  v("lane_latency_cycles", c.lane_latency_cycles, in_range(1, 64),
+    "of a multiply-add in single precision: depths of pipelines follow");
+  v("half_lane_latency_cycles", c.half_lane_latency_cycles, in_range(1, 64), "in half precision");
   v("group_width_px", c.group_width_px, in_range(0, kMaxGroupPx),
     "of a pixel group, a multiple of 4; 0, and the height too: of the shapes that fit the SRAM the "
     "one that cuts the frame with the shortest borders");
@@ -82,6 +85,7 @@ RenderingConfig rendering_of_part(const StreamingConfig& c) {
   RenderingConfig part = c.rendering;
   part.clusters /= c.parts();
   part.span_lanes /= c.parts();
+  part.span_slots = (part.span_slots + c.parts() - 1) / c.parts();
   part.drain_pixels_per_cycle /= c.parts();
   return part;
 }

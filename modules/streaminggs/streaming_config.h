@@ -6,6 +6,7 @@
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/storage_config.h"
+#include "algorithm/splat/longest_path.h"
 #include "modules/config/config_visitor.h"
 #include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/hfu/codebook_config.h"
@@ -29,6 +30,8 @@ enum class Fetch {
 
 struct StreamingConfig {
   double clock_mhz = 1000;
+  std::uint32_t lane_latency_cycles = 3;       // of a multiply-add in single precision
+  std::uint32_t half_lane_latency_cycles = 2;  // in half
   // Both 0: chosen for the frame, of what the SRAM allows.
   std::uint32_t group_width_px = 32, group_height_px = 32;
   FrameFormat framebuffer = FrameFormat::kRgb8;
@@ -41,6 +44,8 @@ struct StreamingConfig {
   RenderingConfig rendering;
   MemoryPortConfig memory_port;  // of each unit's port
 
+  OperationLatencies single_latencies() const { return {lane_latency_cycles, 1, 1}; }
+  OperationLatencies half_latencies() const { return {half_lane_latency_cycles, 1, 1}; }
   bool group_open() const { return group_width_px == 0 && group_height_px == 0; }
   PixelSize group() const {
     return {static_cast<int>(group_width_px), static_cast<int>(group_height_px)};

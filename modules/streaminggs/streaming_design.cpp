@@ -7,6 +7,7 @@
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/filter_cost.h"
 #include "modules/streaminggs/hfu/codebook_buffer.h"
+#include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_sram.h"
 
 namespace sgs {
@@ -22,6 +23,7 @@ void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& 
        resolve_filter_cost(config.hfu, split_of(order, format).bound_by, format.sh_degree)) {
     chosen.push_back(std::move(cost));
   }
+  resolve_depths(config, split_of(order, format).bound_by, format.sh_degree, chosen);
   check_sram("sram.codebook_bytes", config.sram.codebook_bytes,
              CodebookBuffer::sram_uses(config.codebook, format), kCodebookSram);
 }

@@ -12,8 +12,15 @@
 
 namespace sgs::tb {
 
+// Pipelines of some depth, which nobody has derived here.
+inline HfuConfig with_depths(HfuConfig config) {
+  config.cfu_depth_cycles = 12;
+  config.ffu_depth_cycles = 40;
+  return config;
+}
+
 struct HfuPlan {
-  HfuConfig config;
+  HfuConfig config = with_depths({});
   CodebookConfig codebook;
   TestScene scene;
   std::vector<VisitShare> shares;

@@ -1,4 +1,4 @@
-// Stepping of dispatcher and clusters.
+// Stepping of slots, dispatcher and clusters.
 #include "testbench/units/rendering_timing_model.h"
 
 #include <algorithm>
@@ -10,6 +10,13 @@ namespace {
 struct Job {
   SubtileReach subtile;
   std::uint64_t pushed;
+};
+
+// A splat in one of the slots, from when it is taken until it is dispatched.
+struct SlotModel {
+  const RenderingToken* token;
+  std::uint64_t taken;  // cycle
+  std::size_t next = 0;  // of its reaches
 };
 
 struct ClusterModel {
@@ -29,15 +36,16 @@ class GroupModel {
         known_(subtiles, std::numeric_limits<std::uint64_t>::max()) {}
 
   RenderingTimes run() {
-    while (next_ < tokens_.size() || waiting()) {
+    while (next_ < tokens_.size() || !slots_.empty() || waiting()) {
       for (ClusterModel& cluster : clusters_) {
         cluster.pushed_now = false;
         take(cluster);
       }
-      if (next_ < tokens_.size()) dispatch();
+      if (next_ < tokens_.size()) take_token();
+      if (!slots_.empty()) dispatch();
       ++now_;
     }
-    times_.cycles = tokens_end_;
+    times_.cycles = std::max(tokens_end_, dispatched_);
     for (const ClusterModel& c : clusters_) times_.cycles = std::max(times_.cycles, c.busy_until);
     const std::uint64_t all = *std::max_element(known_.begin(), known_.end());
     if (all != std::numeric_limits<std::uint64_t>::max()) times_.finished = all;
@@ -66,49 +74,59 @@ class GroupModel {
     times_.late_blends += subtile.blends ? 0 : 1;
   }
 
-  // What the dispatcher does in this cycle.
-  void dispatch() {
+  // What leaves the FIFO in this cycle: into a slot, or dropped, or it is a mark.
+  void take_token() {
+    if (now_ < lanes_busy_until_ || slots_.size() == config_.span_slots) return;
     const RenderingToken& token = tokens_[next_];
-    if (!begun_) {
-      begun_ = now_;
-      job_ = 0;
-      const bool over = std::all_of(known_.begin(), known_.end(),
-                                    [&](std::uint64_t from) { return from <= now_; });
-      dropping_ = token.is_splat && over;
-      times_.splats_dropped += dropping_ ? 1 : 0;
-      times_.spans += dropping_ ? 0 : token.spans;
-      times_.splats_spanned += !dropping_ && token.spans > 0 ? 1 : 0;
+    const bool over = std::all_of(known_.begin(), known_.end(),
+                                  [&](std::uint64_t from) { return from <= now_; });
+    if (token.is_splat && over) {
+      ++times_.splats_dropped;
+    } else if (token.is_splat) {
+      times_.spans += token.spans;
+      times_.splats_spanned += token.spans > 0 ? 1 : 0;
+      slots_.push_back({&token, now_});
+      lanes_busy_until_ = now_ + config_.span_cycles(token.spans);
     }
-    while (!dropping_ && job_ < token.reaches.size()) {
-      const SubtileReach& subtile = token.reaches[job_];
-      if (now_ < *begun_ + config_.span_cycles(subtile.spans)) return;
-      if (known_[subtile.at] > now_) {
-        ClusterModel& cluster = clusters_[static_cast<std::size_t>(subtile.x + 2 * subtile.y) %
-                                          clusters_.size()];
-        if (cluster.pushed_now) return;
-        if (cluster.queue.size() == config_.cluster_queue_entries) {
-          ++times_.queue_cycles;
-          return;
-        }
-        cluster.queue.push_back({subtile, now_});
-        cluster.pushed_now = true;
-      }
-      ++job_;
-    }
-    if (!dropping_ && now_ + 1 < *begun_ + config_.span_cycles(token.spans)) return;
-    begun_.reset();
     ++next_;
     tokens_end_ = now_ + 1;
+  }
+
+  // What the dispatcher does in this cycle with the oldest splat.
+  void dispatch() {
+    SlotModel& slot = slots_.front();
+    const RenderingToken& token = *slot.token;
+    const auto found_in = [&](std::uint32_t spans) {
+      return spans == 0 ? slot.taken
+                        : slot.taken + config_.span_cycles(spans) + config_.span_depth_cycles;
+    };
+    for (; slot.next < token.reaches.size(); ++slot.next) {
+      const SubtileReach& subtile = token.reaches[slot.next];
+      if (now_ < found_in(subtile.spans)) return;
+      if (known_[subtile.at] <= now_) continue;
+      ClusterModel& cluster = clusters_[static_cast<std::size_t>(subtile.x + 2 * subtile.y) %
+                                        clusters_.size()];
+      if (cluster.pushed_now) return;
+      if (cluster.queue.size() == config_.cluster_queue_entries) {
+        ++times_.queue_cycles;
+        return;
+      }
+      cluster.queue.push_back({subtile, now_});
+      cluster.pushed_now = true;
+    }
+    if (now_ < found_in(token.spans)) return;
+    slots_.pop_front();
+    dispatched_ = now_ + 1;
   }
 
   const RenderingConfig& config_;
   const std::vector<RenderingToken>& tokens_;
   std::vector<ClusterModel> clusters_;
   std::vector<std::uint64_t> loop_until_, known_;  // [sub-tile]
-  std::size_t next_ = 0, job_ = 0;
-  std::optional<std::uint64_t> begun_;
-  bool dropping_ = false;
-  std::uint64_t now_ = 0, tokens_end_ = 0;
+  std::size_t next_ = 0;
+  std::deque<SlotModel> slots_;
+  std::uint64_t lanes_busy_until_ = 0;
+  std::uint64_t now_ = 0, tokens_end_ = 0, dispatched_ = 0;
   RenderingTimes times_;
 };
 

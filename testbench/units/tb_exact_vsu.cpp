@@ -43,6 +43,7 @@ Plan plan_of(const TestScene& scene, std::uint32_t chunk) {
   const std::uint64_t aside_bytes =
       (plan.tree.chunk_count + plan.tree.nodes.size()) * kWalkEntryBytes;
   plan.job = scene.job;
+  plan.config.test_depth_cycles = 60;
   plan.image = build_memory_image(encode_raw(reordered(scene.cloud, order)), plan.tree);
   place(plan.image.layout, aside_bytes, plan.job);
   return plan;
@@ -52,7 +53,7 @@ struct Expected {
   std::vector<std::vector<WalkEntry>> groups;  // chunks in order
   std::vector<std::uint64_t> nodes_of;         // [group] opened
   std::uint64_t nodes = 0, upper = 0;          // opened; of these kept on chip
-  std::uint64_t tests = 0, cycles = 0, empty = 0, visits = 0, queue_operations = 0;
+  std::uint64_t tests = 0, testing_cycles = 0, cycles = 0, empty = 0, visits = 0, queue_operations = 0;
 };
 
 std::uint64_t macs_of_a_test() { return folded_macs(chunk_work(longest_chunk_case())); }
@@ -80,12 +81,11 @@ void expect_node(const Plan& plan, const PixelRect& group, const WalkEntry& entr
     }
   }
   const auto tests = static_cast<std::uint64_t>(node.children);
-  const std::uint64_t testing = (tests * macs_of_a_test() + c.test_lanes - 1) / c.test_lanes;
   const std::uint64_t a_operation = c.cycles_per_queue_operation;
   const bool upper = entry.at < c.upper_nodes;
-  // Taken from its queue and, where it is on chip, opened at once; else when it has come.
-  out.cycles += upper ? std::max((1 + touching) * a_operation, testing)
-                      : a_operation + std::max(touching * a_operation, testing);
+  // Taken from its queue; where it was not on chip, on to the test when it has come; its children.
+  out.cycles += a_operation + (upper ? 0 : 1) + std::max(touching * a_operation, std::uint64_t{1});
+  out.testing_cycles += (tests * macs_of_a_test() + c.test_lanes - 1) / c.test_lanes;
   out.queue_operations += 1 + touching;
   out.tests += tests;
   out.upper += upper ? 1 : 0;
@@ -188,12 +188,15 @@ void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected
   bench.check_counter("upper_nodes_opened", expected.upper);
   bench.check_counter("nodes_dropped", 0);
   bench.check_counter("tests", expected.tests);
+  // In as it was read, out as entries of the queues.
+  bench.check_accesses("nodes in test", 2 * 4 * expected.nodes, 2 * 4 * expected.nodes);
   bench.check_counter("groups_empty", expected.empty);
   bench.check_counter("groups_saturated", 0);
   const std::uint64_t operations =
       bench.counter("chunk_queue_operations") + bench.counter("node_queue_operations");
   if (put_aside == 0) {
     checks.equal(bench.busy_cycles("vsu"), expected.cycles, "busy cycles");
+    checks.equal(bench.busy_cycles("chunk_tests"), expected.testing_cycles, "cycles of tests");
     checks.equal(operations, expected.queue_operations, "operations of the queues");
   } else {
     checks.that(bench.busy_cycles("vsu") >= operations * plan.config.cycles_per_queue_operation,
@@ -304,6 +307,8 @@ void random_case(Case& test) {
       kChunkNodeWidth + 1 + static_cast<std::uint32_t>(random() % (random() % 2 == 0 ? 10 : 500));
   plan.config.upper_nodes = static_cast<std::uint32_t>(random() % 40);
   plan.config.nodes_in_flight = 1 + static_cast<std::uint32_t>(random() % 12);
+  plan.config.nodes_in_test = 1 + static_cast<std::uint32_t>(random() % 12);
+  plan.config.test_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 250);
   plan.config.cycles_per_queue_operation = 1 + static_cast<std::uint32_t>(random() % 4);
   plan.saturate_one_in = random() % 3 == 0 ? 10 : 0;
   plan.feedback_cycles = 1 + static_cast<std::uint32_t>(random() % 40);

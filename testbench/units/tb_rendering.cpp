@@ -101,7 +101,7 @@ std::uint64_t drained_at(const Plan& plan, const PixelRect& pixels, std::uint64_
 }
 
 // When splats are always there: a group is blended when the one before it is and a buffer is free;
-// drained when the one before it is, depth_cycles after its last blend.
+// drained when the one before it is, the depths of a blend and of a conversion after its last blend.
 Times expected_times(const Plan& plan, const Expected& expected,
                      std::uint64_t write_latency_cycles) {
   Times times;
@@ -113,7 +113,7 @@ Times expected_times(const Plan& plan, const Expected& expected,
     if (g >= buffers) blend_end = std::max(blend_end, drained[g - buffers]);
     times.blend_begins.push_back(blend_end);
     blend_end += expected.times[g].cycles;
-    std::uint64_t drain = blend_end + plan.config.depth_cycles;
+    std::uint64_t drain = blend_end + plan.config.depth_cycles + plan.config.drain_depth_cycles;
     if (g > 0) drain = std::max(drain, drained[g - 1]);
     drained.push_back(drained_at(plan, plan.job.groups[g], drain, port_free_from));
   }
@@ -255,6 +255,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   }
   bench.check_accesses("pixel state", 16 * subtiles, 16 * subtiles);
   bench.check_accesses("cluster queues", sum.blends, sum.blends);
+  bench.check_accesses("splats under way", bench.counter("splats_taken"),
+                       bench.counter("splats_taken"));
   checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");
 }
 
@@ -263,6 +265,10 @@ Plan make_plan(int width_px, int height_px, const PixelSize& group, FrameFormat 
   plan.job = frame_job(width_px, height_px, group, format, 0);
   plan.groups.resize(plan.job.groups.size());
   plan.input_entries = 4096;
+  plan.config.depth_cycles = 24;
+  plan.config.state_loop_cycles = 5;
+  plan.config.span_depth_cycles = 40;
+  plan.config.drain_depth_cycles = 7;
   return plan;
 }
 
@@ -310,6 +316,9 @@ void random_case(Case& test) {
   plan.config.cluster_lanes = 100 + static_cast<std::uint32_t>(random() % 500);
   plan.config.cluster_queue_entries = 1 + static_cast<std::uint32_t>(random() % 8);
   plan.config.state_loop_cycles = 1 + static_cast<std::uint32_t>(random() % 12);
+  plan.config.span_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 60);
+  plan.config.span_slots = 1 + static_cast<std::uint32_t>(random() % 12);
+  plan.config.drain_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 20);
   plan.config.precision = random() % 4 == 0 ? BlendPrecision::kHalf : BlendPrecision::kSingle;
   plan.arrival = random() % 2 == 0 ? Arrival::kByVisit : Arrival::kByToken;
   const BenchConfig bench = random_bench(random, memory_bytes(plan.job));

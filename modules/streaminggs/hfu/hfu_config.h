@@ -20,10 +20,10 @@ struct HfuConfig {
   std::uint32_t cfus = 4;  // coarse filters in one HFU
   std::uint32_t cfu_macs = kPaperCfuMacs;
   std::uint32_t cfu_lanes = 4;          // MAC lanes of one CFU
-  std::uint32_t cfu_depth_cycles = 12;  // latency, apart from the initiation interval
+  std::uint32_t cfu_depth_cycles = 0;   // latency beside the lanes' time; 0: the longest path
   std::uint32_t ffu_macs = kPaperFfuMacs;
   std::uint32_t ffu_lanes = 16;
-  std::uint32_t ffu_depth_cycles = 40;
+  std::uint32_t ffu_depth_cycles = 0;  // likewise
   bool coarse_filter = true;                  // off: every Gaussian goes to the fine filter
   std::uint32_t input_slots = 2;              // slices in the input buffer: fetched and filtered
   std::uint32_t slice_gaussians = 128;        // first halves in one half of the input buffer

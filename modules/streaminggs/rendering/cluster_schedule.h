@@ -1,8 +1,9 @@
 // When the clusters of the rendering unit blend which sub-tile.
 //
-// A splat's rows of sub-tiles get their spans on `span_lanes`; a dispatcher puts the sub-tiles of
-// each row, row by row, into the queues of the clusters, at most one a cycle and cluster, in the
-// order of the splats. Sub-tile (x, y) belongs to cluster (x + 2 y) mod clusters, whose bank holds
+// A splat's rows of sub-tiles get their spans on `span_lanes`, `span_depth_cycles` late; as many
+// splats as there are `span_slots` are under way or wait there for a dispatcher. It puts the
+// sub-tiles of each row, row by row, into the queues of the clusters, at most one a cycle and
+// cluster, a splat behind the other. Sub-tile (x, y) belongs to cluster (x + 2 y) mod clusters, whose bank holds
 // its pixels: neighbours lie in different banks. A cluster takes one sub-tile every
 // `cluster_interval_cycles()` out of its queue, in order, and not before the splat ahead of it on
 // the same sub-tile has left the loop through the pixel state. That a sub-tile is finished is known
@@ -31,8 +32,9 @@ class ClusterSchedule {
 
   explicit ClusterSchedule(const RenderingConfig& config)
       : config_(config),
-        clusters_(config.clusters, Cluster{0, 0, 0, std::vector<std::uint64_t>(config.cluster_queue_entries)}) {
-  }
+        clusters_(config.clusters,
+                  Cluster{0, 0, 0, std::vector<std::uint64_t>(config.cluster_queue_entries)}),
+        slot_free_(config.span_slots, 0) {}
 
   void begin_group(std::size_t subtiles) {
     free_from_.assign(subtiles, 0);
@@ -42,13 +44,13 @@ class ClusterSchedule {
   // A splat is there in cycle `now`.
   void begin_splat(std::uint64_t now) {
     begin_ = now;
-    dispatch_ = now;
+    dispatch_ = std::max(dispatched_, now);
   }
 
   // Sub-tiles that it reaches, in the order in which they are found.
   void reach(const SubtileReach& subtile) {
     Cluster& cluster = cluster_of(subtile.x, subtile.y);
-    const std::uint64_t found = std::max(dispatch_, begin_ + config_.span_cycles(subtile.spans));
+    const std::uint64_t found = std::max(dispatch_, begin_ + config_.spans_known_after(subtile.spans));
     const std::uint64_t in_turn = std::max(found, cluster.pushed_until);
     std::uint64_t& slot = cluster.taken[cluster.jobs % cluster.taken.size()];
     const std::uint64_t room = std::max(in_turn, slot);
@@ -70,13 +72,17 @@ class ClusterSchedule {
     counters_.late_blends += subtile.blends ? 0 : 1;
   }
 
-  // The cycle in which the next splat can be taken. spans: of this one.
-  std::uint64_t end_splat(std::uint32_t spans) const {
-    return std::max({begin_ + 1, begin_ + config_.span_cycles(spans), dispatch_ + 1});
+  // The cycle in which the next splat can be taken: the lanes are free, and a slot. spans: of this
+  // one, whose slot is free when its last sub-tile, or that no row has any more, is dispatched.
+  std::uint64_t end_splat(std::uint32_t spans) {
+    dispatched_ = std::max(dispatch_, begin_ + config_.spans_known_after(spans)) + 1;
+    slot_free_[splats_++ % slot_free_.size()] = dispatched_;
+    return std::max({begin_ + 1, begin_ + config_.span_cycles(spans),
+                     slot_free_[splats_ % slot_free_.size()]});
   }
 
-  // The cycle in which every cluster is free again.
-  std::uint64_t all_done() const { return done_; }
+  // The cycle in which every splat is dispatched and every cluster is free again.
+  std::uint64_t all_done() const { return std::max(done_, dispatched_); }
   // From which cycle on it is known that this one is.
   std::uint64_t subtile_finished_from(std::size_t at) const { return finished_from_[at]; }
   // From which cycle on it is known that every sub-tile of the group is finished; 0 for none.
@@ -100,7 +106,10 @@ class ClusterSchedule {
   std::vector<Cluster> clusters_;
   std::vector<std::uint64_t> free_from_;      // [sub-tile] its state can be read again
   std::vector<std::uint64_t> finished_from_;  // [sub-tile] it is known to be finished
-  std::uint64_t begin_ = 0, dispatch_ = 0, done_ = 0;
+  std::vector<std::uint64_t> slot_free_;      // ring: from when on, of the last splats
+  std::uint64_t splats_ = 0;
+  // Of this splat; dispatched_: from when on the dispatcher is free for the next.
+  std::uint64_t begin_ = 0, dispatch_ = 0, dispatched_ = 0, done_ = 0;
   Counters counters_;
 };
 

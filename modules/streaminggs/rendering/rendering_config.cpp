@@ -80,16 +80,22 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
     "of blending and of the pixels on chip");
   v("cluster_queue_entries", c.cluster_queue_entries, in_range(1, 1024),
     "sub-tiles waiting for each cluster");
-  v("state_loop_cycles", c.state_loop_cycles, in_range(1, 1000),
-    "until the next splat may be blended into the same sub-tile");
-  v("depth_cycles", c.depth_cycles, in_range(1, 1000),
-    "latency of a blend: drain and news of a finished group come so much later");
+  v("state_loop_cycles", c.state_loop_cycles, in_range(0, 1000),
+    "until the next splat may be blended into the same sub-tile; 0: the longest path");
+  v("depth_cycles", c.depth_cycles, in_range(0, 1000),
+    "latency of a blend, by which drain and news of a finished group come later; 0: longest path");
+  v("span_depth_cycles", c.span_depth_cycles, in_range(0, 1000),
+    "latency of a row's span; 0: the longest path");
+  v("drain_depth_cycles", c.drain_depth_cycles, in_range(0, 1000),
+    "latency of a finished pixel's conversion; 0: the longest path");
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "groups whose pixels are on chip");
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");
   v("ellipse_test", c.ellipse_test, "sub-tiles that a splat's ellipse cannot reach are skipped");
   v("span_lanes", c.span_lanes, in_range(1, 4096),
     "MAC lanes that find the sub-tiles of an ellipse, row by row");
+  v("span_slots", c.span_slots, in_range(1, 1024),
+    "splats whose spans are under way or wait for the dispatcher");
   v("feedback_latency_cycles", c.feedback_latency_cycles, in_range(1, 1000),
     "until VSU and HFUs see that a group is finished");
   v("saturation_feedback", c.saturation_feedback, "a finished group's visits are dropped upstream");

@@ -15,15 +15,18 @@ struct RenderingConfig {
   std::uint32_t cluster_lanes = 190;  // multiply-accumulates of one cluster: a sub-tile a cycle
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels on chip
   std::uint32_t cluster_queue_entries = 8;             // sub-tiles waiting for each cluster
-  // Some two dozen operations that wait for each other, from a pixel's distance to its colour.
-  std::uint32_t depth_cycles = 24;
+  // Of a blend, from a splat's conic to the pixel written. Depths of 0: the longest path.
+  std::uint32_t depth_cycles = 0;
   // Of these from reading a pixel to having it written: a splat behind another on the same sub-tile
-  // waits as long. Read, 1 - alpha and colour times weight are there; multiply or add; write.
-  std::uint32_t state_loop_cycles = 4;
+  // waits as long.
+  std::uint32_t state_loop_cycles = 0;
+  std::uint32_t span_depth_cycles = 0;   // of a row's span, beside the lanes' time
+  std::uint32_t drain_depth_cycles = 0;  // of a finished pixel's conversion
   std::uint32_t pixel_buffers = 2;  // groups whose pixels are on chip; 2: drain while blending
   std::uint32_t drain_pixels_per_cycle = 8;  // conversion to the frame's format
   bool ellipse_test = true;                  // skips sub-tiles that the ellipse cannot reach
   std::uint32_t span_lanes = 64;             // multiply-accumulates for the spans of rows
+  std::uint32_t span_slots = 16;             // splats that have begun and are not dispatched yet
   bool saturation_feedback = true;           // a finished group's visits are dropped upstream
   // A register where it leaves, a wire over at most the side of the die (2.3 mm, below a cycle at
   // 32 nm), a register where it arrives.
@@ -32,8 +35,12 @@ struct RenderingConfig {
 
   // A cluster starts a sub-tile every so many cycles.
   std::uint32_t cluster_interval_cycles() const;
-  // Until a splat's first `spans` rows have their spans; 0 for none.
+  // That the lanes are busy with a splat's first `spans` rows, and from its beginning until these
+  // have their spans; 0 for none.
   std::uint32_t span_cycles(std::uint32_t spans) const;
+  std::uint32_t spans_known_after(std::uint32_t spans) const {
+    return spans == 0 ? 0 : span_cycles(spans) + span_depth_cycles;
+  }
   // Bytes of state a pixel: R, G, B and transmittance.
   std::uint32_t pixel_state_bytes() const { return precision == BlendPrecision::kHalf ? 8 : 16; }
 };

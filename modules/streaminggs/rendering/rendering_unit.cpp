@@ -7,6 +7,18 @@
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
+namespace {
+
+// A splat, and of each row of sub-tiles the first and the last that it reaches, or none.
+std::uint32_t span_slot_bytes(const PixelSize& group) {
+  const auto rows = static_cast<std::uint32_t>((group.height + kSubtilePx - 1) / kSubtilePx);
+  const auto columns = static_cast<std::uint32_t>((group.width + kSubtilePx - 1) / kSubtilePx);
+  std::uint32_t bits = 1;
+  while ((1U << bits) < columns) ++bits;
+  return kSplatEntryBytes + (rows * 2 * bits + 7) / 8;
+}
+
+}  // namespace
 
 RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const RenderingConfig& config,
                              Arrival arrival, const UnitContext& context,
@@ -20,7 +32,8 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
       on_done_(std::move(on_done)),
       blend_("blend", context.clock),
       drain_("drain", context.clock),
-      finished_("finished", context.clock, config.pixel_buffers, config.depth_cycles),
+      finished_("finished", context.clock, config.pixel_buffers,
+                config.depth_cycles + config.drain_depth_cycles),
       free_buffers_("free_buffers", context.clock, config.pixel_buffers, 0),
       schedule_(config_) {
   SC_THREAD(run_blend);
@@ -134,6 +147,9 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                     {config.pixel_state_bytes(), "B"}},
                    {8 * config.pixel_state_bytes(), SramPorts::kReadAndWrite,
                     kSubtilePixels * config.clusters}),
+          sram_use("splats under way", kSharedSram,
+                   {{config.span_slots, "slots"}, {span_slot_bytes(built_for.group), "B"}},
+                   {8 * kSplatEntryBytes}),
           sram_use("cluster queues", kSharedSram,
                    {{config.clusters, "clusters"},
                     {config.cluster_queue_entries, "splats"},
@@ -152,6 +168,7 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
   const auto spanned = static_cast<double>(counters_.splats_spanned);
   sheet.operations("rendering", spans.lane.c_str(), spanned * spans_begin().macs);
   sheet.operations("rendering", "comparator", spanned * spans_begin().comparisons);
+  sheet.accesses("splats under way", counters_.splats_taken, counters_.splats_taken);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
   // Each blend reads and writes a sub-tile; so do clearing and draining a group.
   std::uint64_t subtiles = clusters.blends, pixels = 0;

@@ -1,4 +1,4 @@
-// The threads of VSU.
+// The threads of VSU, and what it says of itself.
 #include "modules/streaminggs/vsu/exact_vsu.h"
 
 #include <algorithm>
@@ -33,9 +33,9 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
       job_(context.job),
       walk_("walk", context.clock),
       hand_out_("hand_out", context.clock),
-      tests_(chunk_test(config)),
       upper_(std::min<std::uint64_t>(config.upper_nodes, job_.layout.chunk_table().nodes.count)),
       nodes_(config.nodes_in_flight, job_.layout.chunk_table().nodes),
+      tester_(context.clock, chunk_test(config), config.nodes_in_test, config.test_depth_cycles),
       aside_(*this, aside),
       chunk_walk_(job_.view, aside_, config.walk_room()),
       ready_("ready", context.clock, kReadyVisits),
@@ -43,8 +43,10 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
       room_(kReadyVisits),
       saturated_(job_.groups.size()) {
   taken_.announce_to(news_);
+  tester_.announce_to(news_);
   SC_THREAD(run_walk);
   SC_THREAD(run_arrivals);
+  SC_THREAD(run_tests);
   SC_THREAD(run_hand_out);
 }
 
@@ -57,7 +59,7 @@ void ExactVsu::run_walk() {
     }
     if (!step()) wait_for_news();
   }
-  counters_.nodes_dropped += nodes_.used();
+  drop(nodes_.used() + tester_.used());
   walk_.idles();
 }
 
@@ -71,7 +73,9 @@ void ExactVsu::load_upper_nodes() {
 
 // Reads first: the longest way. Nothing else is done in the same step, so that what comes meanwhile
 // is seen.
-bool ExactVsu::step() { return begin_group() || read_node() || give_chunk() || open_node(); }
+bool ExactVsu::step() {
+  return begin_group() || read_node() || give_chunk() || enter_children() || test_node();
+}
 
 bool ExactVsu::begin_group() {
   if (next_group_ == job_.groups.size()) return false;
@@ -86,18 +90,17 @@ bool ExactVsu::begin_group() {
 bool ExactVsu::read_node() {
   if (!chunk_walk_.has_node()) return false;
   if (!chunk_walk_.has_room_for_another() && !chunk_walk_.needs_node()) return false;
-  // One that is on chip takes no slot, but which it is comes out with the queue's head.
-  if (nodes_.full()) return false;
+  const bool on_chip = chunk_walk_.next_node().at < upper_.size();
+  if (on_chip ? tester_.full() : nodes_.full()) return false;
   const WalkEntry entry = chunk_walk_.take_node();
   if (hidden(entry)) {
     ++counters_.nodes_hidden;
     chunk_walk_.leave_out(entry);
     work_on_queues(1);
-  } else if (entry.at < upper_.size()) {
+  } else if (on_chip) {
     ++counters_.upper_reads;
-    const std::uint64_t tests = chunk_walk_.counters().tests;
-    chunk_walk_.open(entry, upper_[entry.at]);
-    work_on_queues(tests_.cycles(chunk_walk_.counters().tests - tests));
+    work_on_queues(1);
+    tester_.put({entry, upper_[entry.at]}, walk_);
   } else {
     work_on_queues(1);
     ++counters_.nodes_read;
@@ -112,13 +115,25 @@ bool ExactVsu::hidden(const WalkEntry& entry) {
   return chunk_walk_.of_first(entry) && !mask->any_unfinished(group_, entry.reach);
 }
 
-bool ExactVsu::open_node() {
-  if (!nodes_.can_take()) return false;
+bool ExactVsu::enter_children() {
+  if (!tester_.can_take()) return false;
+  const NodeInTest tested = tester_.take(walk_);
+  const std::uint64_t opened = chunk_walk_.counters().nodes;
+  chunk_walk_.open(tested.entry, tested.record);
+  if (chunk_walk_.counters().nodes == opened) drop(1);
+  work_on_queues(1);
+  return true;
+}
+
+bool ExactVsu::test_node() {
+  if (!nodes_.can_take() || tester_.full()) return false;
   const auto [entry, node] = nodes_.take();
-  const std::uint64_t opened = chunk_walk_.counters().nodes, tests = chunk_walk_.counters().tests;
-  chunk_walk_.open(entry, node);
-  counters_.nodes_dropped += chunk_walk_.counters().nodes == opened ? 1 : 0;
-  work_on_queues(tests_.cycles(chunk_walk_.counters().tests - tests));
+  work_on_queues(1);
+  if (chunk_walk_.has_ended(entry)) {
+    drop(1);
+  } else {
+    tester_.put({entry, node}, walk_);
+  }
   return true;
 }
 
@@ -188,24 +203,43 @@ bool ExactVsu::work_on_queues(std::uint64_t other_cycles) {
   return cycles > 0;
 }
 
-void ExactVsu::wait_for_news() {
+// A node that could be read ahead waits for room, whatever else is under way.
+void ExactVsu::say_what_is_missing() {
+  const bool could_read = chunk_walk_.has_node() && !nodes_.full();
   if (room_ == 0) {
     walk_.waits_for(WaitFor::kRoom, ready_);
-  } else {
+  } else if (could_read && !chunk_walk_.chunks_have_room()) {
+    walk_.waits_for(WaitFor::kRoom, chunk_room_);
+  } else if (could_read && !chunk_walk_.nodes_have_room()) {
+    walk_.waits_for(WaitFor::kRoom, node_room_);
+  } else if (tester_.full()) {
+    walk_.waits_for(WaitFor::kRoom, tester_.slots());
+  } else if (nodes_.used() > 0) {
     walk_.waits_for(WaitFor::kReads, memory);
+  } else {
+    walk_.waits_for(WaitFor::kInput, tester_.pipeline());
   }
-  const bool node = nodes_.any_arrived(), room = !taken_.empty();
-  if (node || room) {
-    // What comes meanwhile can be taken no sooner: all have the same latency.
-    sc_core::sc_time first = node ? nodes_.ready_at() : taken_.ready_at();
-    if (room) first = std::min(first, taken_.ready_at());
-    sc_core::wait(first - sc_core::sc_time_stamp());
+}
+
+void ExactVsu::wait_for_news() {
+  say_what_is_missing();
+  std::optional<sc_core::sc_time> first;
+  const auto may_come = [&](const sc_core::sc_time& at) {
+    if (!first || at < *first) first = at;
+  };
+  if (nodes_.any_arrived() && !tester_.full()) may_come(nodes_.ready_at());
+  if (!taken_.empty()) may_come(taken_.ready_at());
+  if (tester_.any_tested()) may_come(tester_.ready_at());
+  if (first) {
+    sc_core::wait(*first - sc_core::sc_time_stamp(), news_);
   } else {
     sc_core::wait(news_);
   }
   walk_.clock().jitter();
   walk_.works();
 }
+
+void ExactVsu::run_tests() { tester_.run(); }
 
 void ExactVsu::run_arrivals() { nodes_.run_arrivals(memory, walk_.clock(), news_); }
 
@@ -232,6 +266,9 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
                {{config.upper_nodes, "nodes"}, {sizeof(ChunkNode), "B"}}, kOfPort),
       sram_use("nodes in flight", kSharedSram,
                {{config.nodes_in_flight, "nodes"}, {sizeof(ChunkNode) + kNodeEntryBytes, "B"}},
+               kOfPort),
+      sram_use("nodes in test", kSharedSram,
+               {{config.nodes_in_test, "nodes"}, {sizeof(ChunkNode) + kNodeEntryBytes, "B"}},
                kOfPort)};
   add(uses, kChunkQueue.sram_uses(config.queue_entries));
   add(uses, kNodeQueue.sram_uses(config.node_queue_entries));
@@ -246,18 +283,19 @@ void ExactVsu::publish(DataSheet& sheet) {
   const WalkCounters& walk = chunk_walk_.counters();
   sheet.unit(*this);
   sheet.activity(walk_, "vsu", "walks the chunk tree, one group after the other");
+  sheet.activity(tester_.activity(), "chunk_tests", "tests the children of nodes");
   sheet.activity(hand_out_, "visits", "hands out what is final");
   sheet.counter("nodes", "nodes", "of the chunk tree opened", walk.nodes);
   sheet.counter("upper_nodes_opened", "nodes", "of these kept on chip", counters_.upper_reads);
   sheet.counter("nodes_read", "nodes", "read from DRAM", counters_.nodes_read);
-  sheet.counter("nodes_dropped", "nodes", "of these not opened: their group had finished",
+  sheet.counter("nodes_dropped", "nodes", "not opened: their group had finished",
                 counters_.nodes_dropped);
   sheet.counter("looked_up", "entries", "of the queues, in the mask of finished sub-tiles",
                 counters_.looked_up);
   sheet.counter("nodes_hidden", "nodes", "not opened: all sub-tiles that they reach were finished",
                 counters_.nodes_hidden);
   sheet.counter("chunks_hidden", "chunks", "not handed out, likewise", counters_.chunks_hidden);
-  sheet.counter("tests", "children", "tested against a group", walk.tests);
+  sheet.counter("tests", "children", "tested against a group", tester_.tests());
   sheet.counter("visits", "chunks", "handed out, once for each group", counters_.visits);
   sheet.counter("groups_saturated", "groups", "finished before their walk ended",
                 counters_.groups_saturated);
@@ -272,7 +310,7 @@ void ExactVsu::publish(DataSheet& sheet) {
                 chunk_walk_.node_queue().work().operations());
   sheet.counter("queue_entries_put_aside", "entries", "that went to DRAM: the queue was full",
                 walk.put_aside);
-  sheet.datapath(tests_, walk.tests);
+  sheet.datapath(tester_.lanes(), tester_.tests());
   sheet.left_out("saturated_groups", "every pixel was finished before the walk ended",
                  counters_.groups_saturated, "the rest of the tree is not walked");
   sheet.left_out("hidden_nodes", "all sub-tiles that they reach were finished",
@@ -290,11 +328,19 @@ void ExactVsu::publish(DataSheet& sheet) {
   constexpr std::uint64_t kWords = sizeof(ChunkNode) / kPortBytes;
   sheet.accesses("upper nodes", kWords * counters_.upper_reads, kWords * upper_.size());
   sheet.accesses("nodes in flight", kWords * counters_.nodes_read, kWords * counters_.nodes_read);
+  // A node goes in and its children come out as entries of the queues, in the same slot.
+  const std::uint64_t in_test = 2 * kWords * tester_.nodes();
+  sheet.accesses("nodes in test", in_test, in_test);
   kChunkQueue.publish(sheet, config_.queue_entries, chunk_walk_.chunk_queue().work());
   kNodeQueue.publish(sheet, config_.node_queue_entries, chunk_walk_.node_queue().work());
   sheet.port(memory, "entries put aside");
   sheet.queue(ready_, "final visits");
-  sheet.remedy(walk_, "vsu.test_lanes");
+  sheet.remedy(walk_, {"vsu.cycles_per_queue_operation", Turn::kDown});
+  sheet.remedy(tester_.activity(), "vsu.test_lanes");
+  sheet.remedy(chunk_room_, WaitFor::kRoom, "vsu.queue_entries");
+  sheet.remedy(node_room_, WaitFor::kRoom, "vsu.node_queue_entries");
+  sheet.remedy(tester_.slots(), WaitFor::kRoom, "vsu.nodes_in_test");
+  sheet.remedy(tester_.pipeline(), WaitFor::kRoom, {"lane_latency_cycles", Turn::kDown});
   sheet.remedy(memory, WaitFor::kReads, "vsu.nodes_in_flight");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);

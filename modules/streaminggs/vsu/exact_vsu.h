@@ -3,8 +3,9 @@
 // follows. Nodes are read ahead, several at a time, as long as their children are sure to fit the
 // queues; when a group's nodes have all been read the next group's walk begins. A node or chunk that
 // reaches finished sub-tiles only is left out when it is taken from its queue.
-// Timing: of a node the longer of its tests, on test_lanes, and its insertions into the queues; each
-// operation of a queue takes cycles_per_queue_operation; a visit leaves a cycle.
+// Timing: a node's children pass the tests' lanes and come out of their pipeline test_depth_cycles
+// later, nodes_in_test nodes at a time, while the walk goes on; each operation of a queue takes
+// cycles_per_queue_operation; a visit leaves a cycle.
 // Function: algorithm/order/chunk_walk.h.
 #pragma once
 
@@ -18,6 +19,7 @@
 #include "modules/streaminggs/finished_subtiles.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
+#include "modules/streaminggs/vsu/chunk_tester.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
 #include "modules/streaminggs/vsu/node_buffer.h"
 #include "tlm/data_sheet.h"
@@ -41,7 +43,7 @@ class ExactVsu : public sc_core::sc_module {
   struct Counters {
     std::uint64_t upper_reads = 0;       // nodes opened that were on chip
     std::uint64_t nodes_read = 0;        // from DRAM, opened or not
-    std::uint64_t nodes_dropped = 0;     // of these: their group had ended when they came
+    std::uint64_t nodes_dropped = 0;     // of all: their group had ended before they were open
     std::uint64_t looked_up = 0;         // chunks and nodes, in the mask of finished sub-tiles
     std::uint64_t nodes_hidden = 0;      // not read: all sub-tiles that they reach were finished
     std::uint64_t chunks_hidden = 0;     // not handed out, likewise
@@ -69,8 +71,15 @@ class ExactVsu : public sc_core::sc_module {
     std::uint32_t count_ = 0;
   };
 
-  void run_walk();      // thread: queues and tests
+  // Where the walk waits for room in one of its queues.
+  struct QueueRoom : sc_core::sc_object {
+    explicit QueueRoom(const char* name) : sc_object(name) {}
+    const char* kind() const override { return "sgs::QueueRoom"; }
+  };
+
+  void run_walk();      // thread: queues
   void run_arrivals();  // thread: nodes that come from memory
+  void run_tests();     // thread: lanes of the tests
   void run_hand_out();  // thread: visits to the HFUs
   void load_upper_nodes();
   bool step();
@@ -78,10 +87,13 @@ class ExactVsu : public sc_core::sc_module {
   bool read_node();
   bool give_chunk();
   bool hidden(const WalkEntry& entry);
-  bool open_node();
+  bool enter_children();
+  bool test_node();
+  void drop(std::size_t nodes) { counters_.nodes_dropped += nodes; }
   void give(const WalkEntry& chunk, float release_below);
   void end_group(bool saturated);
   void mark_saturated(std::uint32_t group);
+  void say_what_is_missing();
   void wait_for_news();
   bool work_on_queues(std::uint64_t other_cycles);
 
@@ -89,9 +101,10 @@ class ExactVsu : public sc_core::sc_module {
   const BuiltFor built_for_;
   const StreamingJob& job_;
   Activity walk_, hand_out_;
-  const Datapath tests_;
   std::vector<ChunkNode> upper_;  // the tree's first nodes
   NodeBuffer nodes_;
+  ChunkTester tester_;
+  const QueueRoom node_room_{"node_queue"}, chunk_room_{"chunk_queue"};
   Aside aside_;
   ChunkWalk<Aside> chunk_walk_;
   TimedFifo<VisitShare> ready_;         // final visits

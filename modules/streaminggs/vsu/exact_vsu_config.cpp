@@ -11,6 +11,10 @@ void visit(ConfigVisitor& v, ExactVsuConfig& c) {
   v("nodes_in_flight", c.nodes_in_flight, in_range(1, 1024),
     "nodes on their way from DRAM at a time");
   v("test_lanes", c.test_lanes, in_range(1, 10000), "MAC lanes of the chunk test");
+  v("nodes_in_test", c.nodes_in_test, in_range(1, 1024),
+    "nodes whose children are in the test's pipeline");
+  v("test_depth_cycles", c.test_depth_cycles, in_range(0, 10000),
+    "latency of a chunk test; 0: its longest path");
   v("queue_entries", c.queue_entries, in_range(kChunkNodeWidth + 1, 1 << 24),
     "chunks in the queue of the front-to-back walk");
   v("node_queue_entries", c.node_queue_entries, in_range(kChunkNodeWidth + 1, 1 << 24),

@@ -12,7 +12,9 @@ struct ExactVsuConfig {
   std::uint32_t upper_nodes = 24;          // of the chunk tree, kept on chip
   std::uint32_t nodes_in_flight = 4;       // others, on their way from DRAM
   std::uint32_t test_lanes = 64;           // multiply-accumulates a cycle of the chunk test
-  std::uint32_t queue_entries = 384;       // chunks in the queue of the front-to-back walk
+  std::uint32_t nodes_in_test = 8;         // nodes whose children are in the test's pipeline
+  std::uint32_t test_depth_cycles = 0;     // of it, beside the lanes' time; 0: the longest path
+  std::uint32_t queue_entries = 512;       // chunks in the queue of the front-to-back walk
   std::uint32_t node_queue_entries = 256;  // nodes in that of the nodes
   // A level of an interval heap reads both children in one cycle, compares and writes in the next;
   // behind that the next operation can enter the level.

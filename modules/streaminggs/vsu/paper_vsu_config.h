@@ -14,7 +14,7 @@ struct PaperVsuConfig {
   std::uint32_t ray_step_px = 2;            // rays of every so-many-th pixel, and of the last ones
   double sample_step_voxels = 0;            // 0: every cell of the ray; else distance of samples
   std::uint32_t groups_ahead = 1;           // ordered groups that wait for the HFUs
-  std::uint32_t table_bytes = 5888;         // ordering table of one group; fuller ones take passes
+  std::uint32_t table_bytes = 5312;         // ordering table of one group; fuller ones take passes
   std::uint32_t node_cache_bytes = 8192;    // in front of the tree in DRAM
   std::uint32_t record_cache_bytes = 1024;  // in front of the voxel records
   std::uint32_t cut_cache_bytes = 256;      // in front of the planes of cut voxels

@@ -127,4 +127,78 @@ TEST_CASE("counting: each degree of spherical harmonics takes more than the one 
   }
 }
 
+TEST_CASE("longest path: what waits for what, by hand") {
+  struct Row {
+    const char* what;
+    Counting (*of)(Counting a, Counting b, Counting c, Counting d);
+    LongestPath expected;  // on lanes, on comparators, look-ups
+  };
+  const Row rows[] = {
+      {"one product", [](Counting a, Counting b, Counting, Counting) { return a * b; }, {1, 0, 0}},
+      {"a sum right behind its product",
+       [](Counting a, Counting b, Counting c, Counting) { return a * b + c; }, {1, 0, 0}},
+      {"two products, one in the sum's lane",
+       [](Counting a, Counting b, Counting c, Counting d) { return a * b + c * d; }, {2, 0, 0}},
+      {"the later of two products is the one in the sum's lane",
+       [](Counting a, Counting b, Counting c, Counting d) { return a * b + c * d * d; },
+       {2, 0, 0}},
+      {"the same the other way round",
+       [](Counting a, Counting b, Counting c, Counting d) { return c * d * d - a * b; },
+       {2, 0, 0}},
+      {"a product that two take has left its lane",
+       [](Counting a, Counting b, Counting c, Counting) {
+         const Counting product = a * b;
+         return (product + c) * (product - c);
+       },
+       {3, 0, 0}},
+      {"signs are free, constants are there",
+       [](Counting a, Counting, Counting, Counting) { return -abs(a) * Counting(3.0F); },
+       {1, 0, 0}},
+      {"a quotient from its divisor", [](Counting a, Counting b, Counting, Counting) { return a / b; },
+       {7, 0, 1}},
+      {"a quotient from a late dividend: the reciprocal is made beside it",
+       [](Counting a, Counting b, Counting c, Counting d) {
+         return (a + b + c + d + a + b + c) / d;
+       },
+       {6 + 3, 0, 0}},
+      {"root, maximum, whole number",
+       [](Counting a, Counting b, Counting, Counting) { return ceil(max_of(sqrt(a), b)); },
+       {7, 1 + 3, 1}},
+      {"logarithm and power of two",
+       [](Counting a, Counting, Counting, Counting) { return exp2_by_table(log(a)); },
+       // end of the table, split, row, parabola of two steps, exponent
+       {4 + 2, 1 + 1 + 4 + 1, 1 + 1}},
+  };
+  for (const Row& row : rows) {
+    INFO(row.what);
+    DataFlow flow;
+    const Counting a = input(flow, 2), b = input(flow, 3), c = input(flow, 5), d = input(flow, 7);
+    static_cast<void>(row.of(a, b, c, d));
+    const LongestPath path = flow.longest_path(0, flow.size(), {3, 1, 1});
+    CHECK(path.lane == row.expected.lane);
+    CHECK(path.comparator == row.expected.comparator);
+    CHECK(path.look_ups == row.expected.look_ups);
+  }
+}
+
+TEST_CASE("longest path: by cycles, of a range, and from some values on") {
+  DataFlow flow;
+  const Counting a = input(flow, 2), b = input(flow, 3);
+  const Counting early = a + b;
+  const std::size_t first = flow.size();
+  const Counting state = input(flow, 5);
+  const Counting weight = early * state, after = state - weight;
+  CHECK_FALSE(after < Counting(-100.0F));
+  static_cast<void>(floor(floor(floor(b))));  // 9 cycles of comparators, apart from the state
+  const LongestPath on_comparators = flow.longest_path(0, flow.size(), {1, 1, 1});
+  CHECK(on_comparators == LongestPath{0, 9, 0});
+  CHECK(on_comparators.cycles({1, 1, 1}) == 9);
+  CHECK(flow.longest_path(0, flow.size(), {5, 1, 1}) == LongestPath{2, 1, 0});
+  CHECK(flow.longest_path(0, first, {4, 1, 1}) == LongestPath{1, 0, 0});
+  CHECK(flow.longest_path(first, flow.size(), {8, 1, 1}) == LongestPath{1, 1, 0});
+  CHECK(flow.longest_path_from({state.node}, {1, 1, 1}) == LongestPath{1, 1, 0});
+  CHECK(flow.longest_path_from({state.node}, {3, 1, 1}).cycles({3, 1, 1}) == 4);
+  CHECK(flow.longest_path_from({after.node}, {3, 1, 1}) == LongestPath{0, 1, 0});
+}
+
 }  // namespace sgs

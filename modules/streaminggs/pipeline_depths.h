@@ -1,0 +1,25 @@
+// How long a result takes through each pipeline: the longest path through what its unit computes
+// (algorithm/splat/longest_path.h), at the latency of the lanes that the machine is built of.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/splat/longest_path.h"
+#include "modules/auto_choice.h"
+#include "modules/streaminggs/streaming_config.h"
+
+namespace sgs {
+
+// A depth that is 0 becomes the path's cycles and `beside` more, and is said in `chosen`; one that
+// is given stays. beside: cycles of what is not on the path, as reading and writing.
+void resolve_depth(const char* key, std::uint32_t& depth_cycles, const LongestPath& path,
+                   const OperationLatencies& latencies, std::uint32_t beside,
+                   std::vector<AutoChoice>& chosen);
+
+// Of the filters and of rendering, on a scene of this SH degree.
+void resolve_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
+                    std::vector<AutoChoice>& chosen);
+
+}  // namespace sgs

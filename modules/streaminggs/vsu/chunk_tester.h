@@ -1,0 +1,79 @@
+// The chunk test as a pipeline: several nodes are in it at a time. A node's children pass the lanes
+// one behind the other; when the last has left the pipeline what became of them can go into the
+// queues. Nodes come out in the order in which they were put in.
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+
+#include "algorithm/order/walk_queue.h"
+#include "algorithm/voxel/chunk_node.h"
+#include "tlm/datapath.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs {
+
+struct NodeInTest {
+  WalkEntry entry;
+  ChunkNode record;
+};
+
+// One thread puts and takes; another is the lanes.
+class ChunkTester {
+ public:
+  // slots: nodes in it at a time; depth_cycles: behind the lanes.
+  ChunkTester(const ClockDomain& clock, const Datapath& lanes, std::uint32_t slots,
+              std::uint32_t depth_cycles)
+      : lanes_(lanes),
+        slots_(slots),
+        test_("test", clock),
+        waiting_("nodes_to_test", clock, slots),
+        tested_("nodes_tested", clock, slots, depth_cycles) {}
+
+  bool full() const { return used_ == slots_; }
+  std::uint32_t used() const { return used_; }
+  // Only where it is not full.
+  void put(const NodeInTest& node, Activity& activity) {
+    ++used_;
+    waiting_.push(node, activity);
+  }
+
+  bool can_take() const { return tested_.can_pop(); }
+  // One has left the lanes, and can be taken from then on; only where it has.
+  bool any_tested() const { return !tested_.empty(); }
+  const sc_core::sc_time& ready_at() const { return tested_.ready_at(); }
+  NodeInTest take(Activity& activity) {
+    --used_;
+    return tested_.pop(activity);
+  }
+
+  // Body of the lanes' thread.
+  void run() {
+    while (true) {
+      const NodeInTest node = waiting_.pop(test_);
+      test_.work(lanes_.cycles(node.record.children));
+      tests_ += node.record.children;
+      ++nodes_;
+      tested_.push(node, test_);
+    }
+  }
+
+  void announce_to(sc_core::sc_event& news) { tested_.announce_to(news); }
+  Activity& activity() { return test_; }
+  std::uint64_t tests() const { return tests_; }
+  std::uint64_t nodes() const { return nodes_; }
+  // Where one waits for a slot, and for what is in the slots.
+  const sc_core::sc_object& slots() const { return waiting_; }
+  const sc_core::sc_object& pipeline() const { return tested_; }
+  const Datapath& lanes() const { return lanes_; }
+
+ private:
+  const Datapath lanes_;
+  const std::uint32_t slots_;
+  Activity test_;
+  TimedFifo<NodeInTest> waiting_, tested_;
+  std::uint32_t used_ = 0;
+  std::uint64_t tests_ = 0, nodes_ = 0;  // so far; tests: of children
+};
+
+}  // namespace sgs
