@@ -15,7 +15,6 @@ struct Job {
 struct ClusterModel {
   std::deque<Job> queue;
   std::uint64_t busy_until = 0;
-  bool pushed_now = false;
 };
 
 class GroupModel {
@@ -30,10 +29,7 @@ class GroupModel {
 
   RenderingTimes run() {
     while (next_ < tokens_.size() || waiting()) {
-      for (ClusterModel& cluster : clusters_) {
-        cluster.pushed_now = false;
-        take(cluster);
-      }
+      for (ClusterModel& cluster : clusters_) take(cluster);
       if (next_ < tokens_.size()) dispatch();
       ++now_;
     }
@@ -61,7 +57,10 @@ class GroupModel {
     cluster.queue.pop_front();
     cluster.busy_until = now_ + config_.cluster_interval_cycles();
     loop_until_[subtile.at] = now_ + config_.state_loop_cycles;
-    if (subtile.finishes) known_[subtile.at] = now_ + config_.depth_cycles;
+    if (subtile.finishes) {
+      known_[subtile.at] = now_ + config_.depth_cycles;
+      ++times_.subtiles_finished;
+    }
     ++times_.blends;
     times_.late_blends += subtile.blends ? 0 : 1;
   }
@@ -69,33 +68,61 @@ class GroupModel {
   // What the dispatcher does in this cycle.
   void dispatch() {
     const RenderingToken& token = tokens_[next_];
-    if (!begun_) {
-      begun_ = now_;
-      job_ = 0;
+    if (!begun_) begin(token);
+    if (dropping_ || token.rows == 0) return end();
+    if (!row_) {
+      if (now_ < *begun_ + config_.span_cycles(token.spans > 0 ? rows_ + 1 : 0)) return;
+      ++rows_;
+      row_.emplace();
+      for (const SubtileReach& subtile : token.reaches) {
+        if (subtile.row + 1 == rows_) row_->push_back(subtile);
+      }
+    }
+    ++times_.row_cycles;
+    issue(*row_);
+    if (!row_->empty()) return;
+    row_.reset();
+    ++times_.rows;
+    if (rows_ == token.rows) end();
+  }
+
+  void begin(const RenderingToken& token) {
+    begun_ = now_;
+    rows_ = 0;
+    const auto is_known = [&](std::size_t at) { return known_[at] <= now_; };
+    dropping_ = token.is_splat &&
+                std::all_of(token.footprint.begin(), token.footprint.end(), is_known);
+    if (dropping_) {
       const bool over = std::all_of(known_.begin(), known_.end(),
                                     [&](std::uint64_t from) { return from <= now_; });
-      dropping_ = token.is_splat && over;
-      times_.splats_dropped += dropping_ ? 1 : 0;
-      times_.spans += dropping_ ? 0 : token.spans;
-      times_.splats_spanned += !dropping_ && token.spans > 0 ? 1 : 0;
+      ++(over ? times_.splats_dropped : times_.splats_hidden);
+    } else {
+      times_.spans += token.spans;
+      times_.splats_spanned += token.spans > 0 ? 1 : 0;
     }
-    while (!dropping_ && job_ < token.reaches.size()) {
-      const SubtileReach& subtile = token.reaches[job_];
-      if (now_ < *begun_ + config_.span_cycles(subtile.spans)) return;
-      if (known_[subtile.at] > now_) {
-        ClusterModel& cluster = clusters_[static_cast<std::size_t>(subtile.x + 2 * subtile.y) %
-                                          clusters_.size()];
-        if (cluster.pushed_now) return;
-        if (cluster.queue.size() == config_.cluster_queue_entries) {
-          ++times_.queue_cycles;
-          return;
-        }
+  }
+
+  // A cluster takes the first of its own in what is left of the row.
+  void issue(std::vector<SubtileReach>& row) {
+    std::vector<bool> asked(clusters_.size(), false);
+    std::vector<SubtileReach> left;
+    for (const SubtileReach& subtile : row) {
+      if (known_[subtile.at] <= now_) continue;
+      const auto owner = static_cast<std::size_t>(subtile.x + 2 * subtile.y) % clusters_.size();
+      ClusterModel& cluster = clusters_[owner];
+      const bool full = cluster.queue.size() == config_.cluster_queue_entries;
+      if (!asked[owner] && !full) {
         cluster.queue.push_back({subtile, now_});
-        cluster.pushed_now = true;
+      } else {
+        times_.queue_cycles += asked[owner] ? 0 : 1;
+        left.push_back(subtile);
       }
-      ++job_;
+      asked[owner] = true;
     }
-    if (!dropping_ && now_ + 1 < *begun_ + config_.span_cycles(token.spans)) return;
+    row = std::move(left);
+  }
+
+  void end() {
     begun_.reset();
     ++next_;
     tokens_end_ = now_ + 1;
@@ -105,7 +132,9 @@ class GroupModel {
   const std::vector<RenderingToken>& tokens_;
   std::vector<ClusterModel> clusters_;
   std::vector<std::uint64_t> loop_until_, known_;  // [sub-tile]
-  std::size_t next_ = 0, job_ = 0;
+  std::size_t next_ = 0;
+  std::uint32_t rows_ = 0;                       // of the splat, taken so far
+  std::optional<std::vector<SubtileReach>> row_;  // what is left of the one that is held
   std::optional<std::uint64_t> begun_;
   bool dropping_ = false;
   std::uint64_t now_ = 0, tokens_end_ = 0;

@@ -1,6 +1,8 @@
 // Keys of the rendering unit.
 #include "modules/streaminggs/rendering/rendering_config.h"
 
+#include <algorithm>
+
 #include "algorithm/splat/filter_work.h"
 #include "modules/streaminggs/counted_datapath.h"
 #include "modules/streaminggs/work_rates.h"
@@ -69,6 +71,16 @@ std::uint32_t RenderingConfig::span_cycles(std::uint32_t spans) const {
   const Counted& work = counted(precision);
   return static_cast<std::uint32_t>(
       cycles_for(work.begin.macs + std::uint64_t{spans} * work.span_macs, span_lanes));
+}
+
+std::uint32_t RenderingConfig::subtiles_in_loop() const {
+  return static_cast<std::uint32_t>(cycles_for(state_loop_cycles, cluster_interval_cycles()));
+}
+
+std::uint32_t RenderingConfig::drain_row_cycles(std::uint32_t px) const {
+  const std::uint64_t subtiles = cycles_for(px, kSubtilePx);
+  return static_cast<std::uint32_t>(
+      std::max(cycles_for(px, drain_pixels_per_cycle), cycles_for(subtiles, clusters)));
 }
 
 void visit(ConfigVisitor& v, RenderingConfig& c) {

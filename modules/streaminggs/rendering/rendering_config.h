@@ -34,6 +34,10 @@ struct RenderingConfig {
   std::uint32_t cluster_interval_cycles() const;
   // Until a splat's first `spans` rows have their spans; 0 for none.
   std::uint32_t span_cycles(std::uint32_t spans) const;
+  // Sub-tiles of one cluster that can be in the loop through the pixel state at once.
+  std::uint32_t subtiles_in_loop() const;
+  // From a row of pixels of so many sub-tiles to the next, in draining: a bank gives one word a cycle.
+  std::uint32_t drain_row_cycles(std::uint32_t px) const;
   // Bytes of state a pixel: R, G, B and transmittance.
   std::uint32_t pixel_state_bytes() const { return precision == BlendPrecision::kHalf ? 8 : 16; }
 };

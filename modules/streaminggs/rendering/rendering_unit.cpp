@@ -8,6 +8,22 @@
 
 namespace sgs {
 
+namespace {
+
+constexpr std::uint64_t kClearCycles = 1;
+constexpr std::uint32_t kSubtileNumberBytes = 2;
+
+// Of the dispatcher: whether a splat's footprint is finished, asked of all rows at once; and the
+// first sub-tile of each cluster in what is left of a row, x & -x of its bits.
+std::uint32_t look_up_comparators(std::uint32_t group_px) { return mask_comparators(group_px); }
+std::uint32_t row_comparators(std::uint32_t group_px, std::uint32_t clusters) {
+  constexpr std::uint64_t kComparatorBits = 32;
+  return clusters * static_cast<std::uint32_t>(
+                        cycles_for(cycles_for(group_px, kSubtilePx), kComparatorBits));
+}
+
+}  // namespace
+
 RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const RenderingConfig& config,
                              Arrival arrival, const UnitContext& context,
                              std::function<void()> on_done)
@@ -35,7 +51,7 @@ void RenderingUnit::run_blend() {
     auto state = std::make_shared<GroupState>(
         job_.groups[group], job_.view.width, job_.view.height, config_.precision,
         config_.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox);
-    schedule_.begin_group(state->subtile_count());
+    schedule_.begin_group(state->subtile_count(), state->subtile_columns());
     for (Mark mark = Mark::kNone; mark != Mark::kEndOfGroup;) {
       const SplatToken token = in_turn(splats, turn).pop(blend_);
       mark = token.mark;
@@ -63,13 +79,15 @@ void RenderingUnit::work_until(std::uint64_t cycle) {
 void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupState& state) {
   const std::uint64_t now = blend_.clock().now_cycles();
   const bool was_saturated = state.saturated();
-  if (was_saturated && now >= schedule_.group_finished_from()) {
-    ++counters_.splats_saturated;
+  const SplatBox box = state.box_of(splat);
+  if (!schedule_.any_unfinished(box.subtiles, now)) {
+    const bool all = was_saturated && now >= schedule_.group_finished_from();
+    ++(all ? counters_.splats_saturated : counters_.splats_hidden);
     blend_.work(1);
     return;
   }
   ++counters_.splats_taken;
-  schedule_.begin_splat(now);
+  schedule_.begin_splat(now, box.spanned);
   const BlendWork work = state.blend_scheduled(splat, [&](const SubtileReach& subtile) {
     schedule_.reach(subtile);
     if (subtile.finishes) tell_finished(group, subtile.at, now);
@@ -81,7 +99,7 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
   if (state.saturated() && !was_saturated && config_.saturation_feedback) {
     finish->finish(group, static_cast<std::uint32_t>(schedule_.group_finished_from() - now));
   }
-  work_until(schedule_.end_splat(work.spans));
+  work_until(schedule_.end_splat(work.rows));
 }
 
 void RenderingUnit::tell_finished(std::uint32_t group, std::size_t at, std::uint64_t now) {
@@ -114,10 +132,13 @@ void RenderingUnit::write_group(const GroupState& state) {
       encode_pixel(job_.frame_format, state.colour(x, y, job_.background),
                    row.data() + static_cast<std::size_t>(x - pixels.x0) * bytes);
     }
-    drain_.work(cycles_for(width, config_.drain_pixels_per_cycle));
+    drain_.work(config_.drain_row_cycles(width));
     start_write(memory, drain_, job_.pixel_address(pixels.x0, y), row.data(),
                 static_cast<std::uint32_t>(row.size()), job_.frame_buffer.region);
   }
+  // A sub-tile is cleared in the cycle after its last row was read: all but the last while others
+  // are drained.
+  if (!pixels.empty()) drain_.work(kClearCycles);
 }
 
 // A row is converted as it leaves: until a write of it is made its pixels are in their buffer.
@@ -136,6 +157,13 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                 {config.cluster_queue_entries, "splats"},
                 {kSplatEntryBytes, "B"}},
                {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}),
+      mask_use(px),
+      sram_use("sub-tiles in the loop", kSharedSram,
+               {{config.clusters, "clusters"},
+                {config.subtiles_in_loop(), "sub-tiles"},
+                {kSubtileNumberBytes, "B"}},
+               {8 * kSubtileNumberBytes * config.subtiles_in_loop(), SramPorts::kReadAndWrite,
+                config.clusters}),
       unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
                         px * pixel_bytes(built_for.frame_format))};
 }
@@ -150,17 +178,45 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
   sheet.operations("rendering", spans.lane.c_str(), spanned * spans_begin().macs);
   sheet.operations("rendering", "comparator", spanned * spans_begin().comparisons);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
-  // Each blend reads and writes a sub-tile; so do clearing and draining a group.
-  std::uint64_t subtiles = clusters.blends, pixels = 0;
+  publish_dispatcher(sheet);
+  publish_pixels(sheet);
+  sheet.port(memory, "pixel writes");
+}
+
+void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
+  const ClusterSchedule::Counters& clusters = schedule_.counters();
+  // A splat is looked up with its first row or, where it has spans to wait for, before it.
+  const std::uint64_t dropped = counters_.splats_hidden + counters_.splats_saturated;
+  const double of_splat = look_up_comparators(built_for_.group_px);
+  const double of_row = row_comparators(built_for_.group_px, config_.clusters);
+  // The head of a queue against all sub-tiles in the loop, in every cycle that it is looked at.
+  const double of_loop = config_.subtiles_in_loop();
+  const auto looks = clusters.blends + clusters.hazard_cycles;
+  sheet.part("rendering", "comparator", of_splat + of_row + config_.clusters * of_loop, 1);
+  sheet.operations("rendering", "comparator",
+                   of_splat * static_cast<double>(counters_.splats_taken + dropped) +
+                       of_row * static_cast<double>(clusters.row_cycles) +
+                       of_loop * static_cast<double>(looks));
+  sheet.accesses("finished sub-tiles", dropped + counters_.splats_spanned + clusters.row_cycles,
+                 clusters.finished + counters_.groups);
+  sheet.accesses("sub-tiles in the loop", looks, clusters.blends);
+}
+
+// Each blend reads and writes a sub-tile. Draining reads it once for each row of pixels, and clears
+// it.
+void RenderingUnit::publish_pixels(DataSheet& sheet) {
+  std::uint64_t drained = 0, cleared = 0, pixels = 0;
   for (std::uint64_t group = 0; group < counters_.groups; ++group) {
     const PixelRect& px = job_.groups[group];
-    subtiles += cycles_for(static_cast<std::uint64_t>(px.width()), kSubtilePx) *
-                cycles_for(static_cast<std::uint64_t>(px.height()), kSubtilePx);
-    pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
+    const auto width = static_cast<std::uint64_t>(px.width());
+    const auto height = static_cast<std::uint64_t>(px.height());
+    drained += height * cycles_for(width, kSubtilePx);
+    cleared += cycles_for(height, kSubtilePx) * cycles_for(width, kSubtilePx);
+    pixels += width * height;
   }
+  const std::uint64_t blends = schedule_.counters().blends;
   sheet.datapath(drain_datapath(config_, job_.frame_format), pixels);
-  sheet.accesses("pixel state", subtiles, subtiles);
-  sheet.port(memory, "pixel writes");
+  sheet.accesses("pixel state", blends + drained, blends + cleared);
 }
 
 void RenderingUnit::publish(DataSheet& sheet) {
@@ -175,6 +231,10 @@ void RenderingUnit::publish(DataSheet& sheet) {
                 counters_.splats_taken);
   sheet.counter("splats_saturated", "splats", "that came when their group was finished",
                 counters_.splats_saturated);
+  sheet.counter("splats_hidden", "splats",
+                "that came when all sub-tiles of their footprint were finished",
+                counters_.splats_hidden);
+  sheet.counter("rows", "rows", "of sub-tiles that the dispatcher took", schedule_.counters().rows);
   sheet.counter("splats_spanned", "splats", "on more sub-tiles than a few: rows got spans",
                 counters_.splats_spanned);
   sheet.counter("spans", "rows", "of sub-tiles whose span in the ellipse was computed",
