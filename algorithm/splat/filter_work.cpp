@@ -6,8 +6,9 @@
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
+#include "algorithm/splat/counting_half.h"
 #include "algorithm/splat/group_reach.h"
-#include "algorithm/splat/half_scalar.h"
+#include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/row_span.h"
 #include "algorithm/splat/visible_extents.h"
@@ -28,18 +29,20 @@ Gaussian<Counting> input(DataFlow& flow, const Gaussian<float>& g) {
   return out;
 }
 
-// In half a line for each step of 2^t stands in place of a parabola, and the conic and the centre of
-// a splat are scaled by powers of two, which are looked for in A and C.
-OperationCounts in_half(OperationCounts c) {
-  const auto saved = static_cast<std::uint32_t>(Exp2TableOf<Counting>::kCoefficients -
-                                                Exp2TableOf<HalfScalar>::kCoefficients) *
-                     kSubtilePixels;
-  c.multiplies -= saved;
-  c.adds -= saved;
-  c.fused -= saved;
-  c.comparisons += 1;
-  c.scalings += 3 + 2;
-  return c;
+// What blending does for 16 pixels, in the arithmetic T; state(value): of a pixel, from outside.
+template <class T, class State>
+void blend_work(const LaneInput<T>& in, const State& state) {
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_px);
+    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_px);
+    const T exponent = log2_falloff(in.conic, dx, dy);
+    const T alpha = alpha_of(exponent, exp2_of(exponent), in.opacity);
+    const LightShare<T> light = take_light(alpha, T(state(0.5F)));
+    static_cast<void>(light.after < constant<T>(kTransmittanceMin));
+    for (const T& colour : {in.red, in.green, in.blue}) {
+      static_cast<void>(T(state(0.25F)) + colour * light.weight);
+    }
+  }
 }
 
 }  // namespace
@@ -124,25 +127,19 @@ RenderingWork rendering_work(BlendPrecision precision) {
   const std::size_t begun = flow.size();
   static_cast<void>(spans.next(56));
   const std::size_t spanned = flow.size();
-  const auto conic = log2_conic(splat.conic_a, splat.conic_b, splat.conic_c);
+  static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
   const std::size_t in_base_2 = flow.size();
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
-  for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    const Counting dx = left - Counting(static_cast<float>(lane % kSubtilePx));
-    const Counting dy = top - Counting(static_cast<float>(lane / kSubtilePx));
-    const Counting exponent = log2_falloff(conic, dx, dy);
-    const Counting alpha = alpha_of(exponent, exp2_of(exponent), splat.opacity);
-    const LightShare<Counting> light = take_light(alpha, input(flow, 0.5F));
-    static_cast<void>(light.after < constant<Counting>(kTransmittanceMin));
-    for (int channel = 0; channel < 3; ++channel) {
-      static_cast<void>(input(flow, 0.25F) + splat.rgb[channel] * light.weight);
-    }
+  const auto state = [&](float value) { return input(flow, value); };
+  if (precision == BlendPrecision::kHalf) {
+    blend_work(lane_input_in_half<CountingHalf>(splat, left, top), state);
+  } else {
+    blend_work(lane_input(splat, left, top), state);
   }
   work.spans_begin = flow.counts(0, begun);
   work.span = flow.counts(begun, spanned);
   work.conic = flow.counts(spanned, in_base_2);
   work.subtile_blend = flow.counts(in_base_2, flow.size());
-  if (precision == BlendPrecision::kHalf) work.subtile_blend = in_half(work.subtile_blend);
   return work;
 }
 

@@ -90,9 +90,7 @@ class Collector : public LeftOutCollector {
     }
   }
   void port(MemoryPort& port, const char* writes) override {
-    const SramUse table = port.outstanding_table();
-    sram(table);
-    accesses(table.name.c_str(), port.transactions(), port.transactions());
+    accesses(kOutstandingTable, port.transactions(), port.transactions());
     if (*writes != '\0') accesses(writes, port.words_written(), port.words_written());
   }
   void sram_available(const char* memory, std::uint64_t bytes) override {

@@ -153,7 +153,8 @@ SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_
                     {config.slice_gaussians, "Gaussians"},
                     {built_for.first_half_bytes, "B"}},
                    {8 * built_for.first_half_bytes}),
-          fifo_use<Slice>("slices", kSharedSram, config.input_slots, "slices")};
+          fifo_use<Slice>("slices", kSharedSram, config.input_slots, "slices"),
+          outstanding_table(kSharedSram, built_for.memory_port)};
 }
 
 void CoarseFilter::publish(DataSheet& sheet) {

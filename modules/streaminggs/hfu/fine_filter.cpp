@@ -183,7 +183,8 @@ SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_fo
                                std::uint32_t parts) {
   SramUses uses = {sram_use(
       "second halves", kSharedSram,
-      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}}, {8 * kPortBytes})};
+      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}}, {8 * kPortBytes}),
+      outstanding_table(kSharedSram, built_for.memory_port)};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
                               "candidates"),

@@ -246,6 +246,7 @@ void MergeUnit::drop_all() {
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
   SramUses uses = kHeap.sram_uses(heap_entries(config, built_for));
   uses.push_back(mask_use(built_for.group_px));
+  uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
   const SramUse block =
       sram_use("spill blocks", kSharedSram,

@@ -16,7 +16,8 @@ struct Counted {
       : work(rendering_work(precision)),
         blend_macs(folded_macs(work.subtile_blend)),
         span_macs(folded_macs(work.span)),
-        begin{folded_macs(work.spans_begin), comparisons(work.spans_begin)} {}
+        begin{folded_macs(work.spans_begin), comparisons(work.spans_begin),
+              seeds(work.spans_begin)} {}
   RenderingWork work;
   std::uint32_t blend_macs, span_macs;
   SpansBegin begin;
@@ -39,11 +40,11 @@ Datapath conic_datapath() {
 Datapath blend_datapath(const RenderingConfig& config) {
   const OperationCounts& work = counted(config.precision).work.subtile_blend;
   const bool in_half = config.precision == BlendPrecision::kHalf;
-  Datapath path = counted_datapath("subtile_blend", "rendering", work);
+  Datapath path = counted_datapath("subtile_blend", "rendering", work,
+                                   in_half ? "exp2_table_half" : "exp2_table");
   if (in_half) path.lane = "fp16_lane";
   path.lanes = config.cluster_lanes;
   path.copies = config.clusters;
-  path.beside.push_back({in_half ? "exp2_table_half" : "exp2_table", work.look_ups});
   return path;
 }
 

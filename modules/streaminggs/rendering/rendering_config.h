@@ -51,9 +51,9 @@ Datapath span_datapath(const RenderingConfig& config);
 // An item a finished pixel: as many lanes as drain_pixels_per_cycle of them take.
 Datapath drain_datapath(const RenderingConfig& config, FrameFormat format);
 
-// What a splat takes of the spans' lanes and comparators beside its rows.
+// What a splat takes of the spans' lanes, comparators and tables beside its rows.
 struct SpansBegin {
-  std::uint32_t macs, comparisons;
+  std::uint32_t macs, comparisons, look_ups;
 };
 const SpansBegin& spans_begin();
 

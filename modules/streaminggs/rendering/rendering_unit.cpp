@@ -158,6 +158,7 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                 {kSplatEntryBytes, "B"}},
                {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}),
       mask_use(px),
+      outstanding_table(kSharedSram, built_for.memory_port),
       sram_use("sub-tiles in the loop", kSharedSram,
                {{config.clusters, "clusters"},
                 {config.subtiles_in_loop(), "sub-tiles"},
@@ -177,6 +178,7 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
   const auto spanned = static_cast<double>(counters_.splats_spanned);
   sheet.operations("rendering", spans.lane.c_str(), spanned * spans_begin().macs);
   sheet.operations("rendering", "comparator", spanned * spans_begin().comparisons);
+  sheet.operations("rendering", "small_table", spanned * spans_begin().look_ups);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
   publish_dispatcher(sheet);
   publish_pixels(sheet);

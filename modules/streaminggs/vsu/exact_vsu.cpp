@@ -237,6 +237,7 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
   add(uses, kNodeQueue.sram_uses(config.node_queue_entries));
   uses.push_back(mask_use(built_for.group_px));
   uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
+  uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   uses.push_back(
       unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes));
   return uses;
