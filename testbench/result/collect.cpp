@@ -57,8 +57,9 @@ class Collector : public LeftOutCollector {
     if (same != into_.datapaths.end()) {
       same->datapath.copies += path.copies;
       same->items += items;
+      same->busiest_cycles = std::max(same->busiest_cycles, path.cycles(items));
     } else {
-      into_.datapaths.push_back({path, items});
+      into_.datapaths.push_back({path, items, path.cycles(items)});
     }
   }
   void part(const char* component, const char* kind, double count, double per_cycle) override {

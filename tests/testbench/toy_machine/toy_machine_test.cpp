@@ -167,7 +167,7 @@ TEST_CASE("toy machine: more SRAM than it has is refused before time begins") {
                                    "--config", scratch.write("large.json", R"({"machine": "toy",
       "fetch": {"buffer_blocks": 64, "block_gaussians": 1024}})")});
   CHECK(refused.status == 2);
-  CHECK_THAT(refused.err, Contains("on-chip memory scratch: 4096 bytes are there, 1049472 are "
+  CHECK_THAT(refused.err, Contains("on-chip memory scratch: 4096 bytes are there, 1049728 are "
                                    "needed: blocks 1048576 (64 blocks x 1024 Gaussians x 16 B)"));
   CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
   CHECK(scratch.file_count() == 1);  // its configuration
