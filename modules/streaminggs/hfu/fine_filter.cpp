@@ -56,6 +56,7 @@ void FineFilter::run_fetch() {
     if (candidate.mark == Mark::kNone) {
       fetch(candidate);
     } else {
+      fetch_.work(1);
       for (const auto& part : parts_) part->fetched.push(candidate, fetch_);
     }
   }
@@ -66,6 +67,7 @@ void FineFilter::fetch(FineCandidate candidate) {
   const std::uint32_t all = candidate.parts;
   candidate.parts &= unfinished_parts(finished, candidate.group);
   if (candidate.parts == 0) {
+    fetch_.work(1);
     drop_saturated(candidate);
     counters_.dropped_saturated += count_parts(all);
     return;
@@ -132,6 +134,7 @@ void FineFilter::run_filter(Part& part) {
       test(part, next);
       continue;
     }
+    part.filter.work(1);
     SplatToken end;
     end.group = next.candidate.group;
     end.visit = next.candidate.visit;
@@ -145,6 +148,7 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
   if (finished[static_cast<int>(part.index)]->finished(candidate.group)) {
     ++counters_.dropped_saturated;
     ++counters_.dropped_fetched;
+    part.filter.work(1);
     reject(part, candidate);
     return;
   }

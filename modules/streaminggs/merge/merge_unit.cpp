@@ -62,11 +62,13 @@ void MergeUnit::run() {
     FifoReadIf<FineCandidate>& input = in_turn(sorted, visit);
     FineCandidate key = input.pop(merge_);
     group_ = key.group;
+    const bool alone = key.mark == Mark::kEndOfVisit;  // a mark that comes with no key
     while (key.mark == Mark::kNone) {
       take(key);
       key = input.pop(merge_);
     }
     group_ = key.group;
+    if (alone) merge_.work(1);
     if (finished->finished(group_)) drop_all();
     if (key.mark == Mark::kEndOfGroup) {
       end_group(key);
