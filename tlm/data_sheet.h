@@ -102,8 +102,8 @@ class DataSheet {
   // takes in and gives out. A queue whose entries take no bytes stands for them: the unit says the
   // accesses.
   virtual void queue(FifoChannel&, const char* use) { (void)use; }
-  // writes: the name of the unit's SramUse that keeps unanswered writes; none for a port that only
-  // reads.
+  // The unit says the SRAM of its outstanding transactions (outstanding_table). writes: the name of
+  // the unit's SramUse that keeps unanswered writes; none for a port that only reads.
   virtual void port(MemoryPort&, const char* writes) { (void)writes; }
   void port(MemoryPort& reads_only) { port(reads_only, ""); }
   // A value for the waveform, under the unit's name.

@@ -21,6 +21,13 @@ SramUse unanswered_writes(const char* name, const char* memory, const MemoryPort
                   {8 * std::min({kPortBytes, config.max_transaction_bytes, longest_bytes})});
 }
 
+SramUse outstanding_table(const char* memory, const MemoryPortConfig& config) {
+  constexpr std::uint32_t kEntryBytes = 8;
+  return sram_use(kOutstandingTable, memory,
+                  {{config.max_outstanding, "transactions"}, {kEntryBytes, "B"}},
+                  {8 * kEntryBytes});
+}
+
 MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config,
                        const sc_core::sc_time& cycle)
     : sc_module(name),
@@ -34,14 +41,6 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConf
         "{}: max_transaction_bytes {}, max_outstanding {} and max_writes {} must be at least 1",
         this->name(), config.max_transaction_bytes, config.max_outstanding, config.max_writes));
   socket.register_nb_transport_bw(this, &MemoryPort::nb_transport_bw);
-}
-
-SramUse MemoryPort::outstanding_table() const {
-  // Where its bytes go on chip, how many they are, and whose they are.
-  constexpr std::uint32_t kEntryBytes = 8;
-  return sram_use("outstanding transactions", "ports",
-                  {{config_.max_outstanding, "transactions"}, {kEntryBytes, "B"}},
-                  {8 * kEntryBytes});
 }
 
 MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint32_t bytes,

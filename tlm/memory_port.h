@@ -31,6 +31,11 @@ constexpr std::uint32_t kPortBytes = 32;
 SramUse unanswered_writes(const char* name, const char* memory, const MemoryPortConfig& config,
                           std::uint32_t longest_bytes);
 
+// What a port keeps of each transaction that is on its way: where its bytes go on chip, how many they
+// are, and whose they are. All ports of a machine have it under the one name.
+constexpr const char* kOutstandingTable = "outstanding transactions";
+SramUse outstanding_table(const char* memory, const MemoryPortConfig& config);
+
 // One thread asks; any thread of its unit may wait for what was asked for. (Two that asked at the
 // same time would be served in the order in which the kernel runs them.)
 class MemoryPort : public sc_core::sc_module {
@@ -69,9 +74,6 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t bytes_written() const { return bytes_written_; }
   // Accesses of the buffer that keeps unanswered writes, kPortBytes each.
   std::uint64_t words_written() const { return words_written_; }
-
-  // What it keeps of each transaction that is on its way.
-  SramUse outstanding_table() const;
 
   // Those of its transactions; when it is idle, none is in use.
   const PayloadPool& payloads() const { return pool_; }

@@ -21,7 +21,8 @@ namespace sgs {
 enum class SubtileTest { kBox, kEllipse };
 
 struct BlendWork {
-  std::uint32_t spans = 0;    // rows of sub-tiles of the footprint whose span was computed
+  std::uint32_t rows = 0;     // of sub-tiles of the footprint
+  std::uint32_t spans = 0;    // of these whose span was computed: all or none
   std::uint32_t blended = 0;  // sub-tiles blended
 };
 
@@ -39,7 +40,13 @@ struct SubtileReach {
   int x, y;             // the sub-tile, in the whole frame
   bool blends;          // it was unfinished; a finished one does not change
   bool finishes;        // with this splat
-  std::uint32_t spans;  // rows of this splat whose span was computed so far
+  std::uint32_t row;    // of the splat's rows, the first is 0
+};
+
+// What a splat may reach of a group, before its rows have spans.
+struct SplatBox {
+  SubtileRect subtiles;  // of its footprint, from the group's corner on
+  bool spanned;          // its rows get spans
 };
 
 class GroupState {
@@ -73,14 +80,25 @@ class GroupState {
   template <class Schedule>
   BlendWork blend_scheduled(const Splat& splat, Schedule&& schedule) {
     const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half : sgs::blend;
-    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t spans) {
+    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t row) {
       const bool blends = finished_[at] == 0;
       if (blends) into(states_[at], x, y, splat);
-      schedule(SubtileReach{at, x, y, blends, blends && finished(states_[at]), spans});
+      schedule(SubtileReach{at, x, y, blends, blends && finished(states_[at]), row});
       return blends;
     });
   }
+  SplatBox box_of(const Splat& splat) const {
+    const SubtileRect reach = intersection(splat.footprint, subtiles_);
+    if (reach.empty()) return {};
+    const auto from = [](int at, int corner) { return static_cast<std::uint16_t>(at - corner); };
+    return {{from(reach.x0, subtiles_.x0), from(reach.y0, subtiles_.y0),
+             from(reach.x1, subtiles_.x0), from(reach.y1, subtiles_.y0)},
+            spanned(reach)};
+  }
   std::size_t subtile_count() const { return states_.size(); }
+  std::size_t subtile_columns() const {
+    return static_cast<std::size_t>(subtiles_.x1 - subtiles_.x0);
+  }
 
   // All pixels finished (T would fall below 1e-4): nothing can change any more.
   bool saturated() const { return unfinished_ == 0; }
@@ -94,17 +112,22 @@ class GroupState {
   void store(const glm::vec3& background, RenderResult& frame) const;
 
  private:
-  // A splat on so few sub-tiles is blended in one cycle anyway.
+  // A splat on so few sub-tiles is blended in hardly more cycles than its rows anyway.
   static constexpr int kUntestedSubtiles = 4;
 
-  // blend_into(place in the group, x, y, spans so far) for each sub-tile that the splat reaches,
+  // Where row spans cost less than the sub-tiles that they spare.
+  bool spanned(const SubtileRect& reach) const {
+    return test_ == SubtileTest::kEllipse &&
+           (reach.x1 - reach.x0) * (reach.y1 - reach.y0) > kUntestedSubtiles;
+  }
+  // blend_into(place in the group, x, y, row of the splat) for each sub-tile that the splat reaches,
   // row by row; it says whether it has blended.
   template <class BlendInto>
   BlendWork for_reached(const Splat& splat, const BlendInto& blend_into) {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
-    const int count = (reach.x1 - reach.x0) * (reach.y1 - reach.y0);
     BlendWork work;
-    if (test_ == SubtileTest::kBox || count <= kUntestedSubtiles) {
+    if (reach.empty()) return work;
+    if (!spanned(reach)) {
       for (int y = reach.y0; y < reach.y1; ++y) blend_row(y, reach.x0, reach.x1, blend_into, work);
       return work;
     }
@@ -123,13 +146,14 @@ class GroupState {
     const int columns = subtiles_.x1 - subtiles_.x0;
     for (int x = x0; x < x1; ++x) {
       const auto at = static_cast<std::size_t>((y - subtiles_.y0) * columns + (x - subtiles_.x0));
-      if (!blend_into(at, x, y, work.spans)) continue;
+      if (!blend_into(at, x, y, work.rows)) continue;
       ++work.blended;
       if (finished(states_[at])) {
         finished_[at] = 1;
         --unfinished_;
       }
     }
+    ++work.rows;
   }
   // The sub-tile column of the last pixel centre at or before x_px; -1 left of the frame.
   static int subtile_at(float x_px) {

@@ -3,52 +3,23 @@
 // bits. Leaving early where no lane is hit costs more than it saves.
 #include "algorithm/splat/blend.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
+#include <type_traits>
 
 #include "algorithm/splat/half_scalar.h"
+#include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/widest_lanes.h"
 
 namespace sgs {
 namespace {
 
-// A splat as the arithmetic T takes it, beside a sub-tile's first pixel.
 template <class T>
-struct LaneInput {
-  Log2Conic<T> conic;
-  T opacity, red, green, blue;
-  T left, top;     // splat centre minus the sub-tile's first pixel
-  float pixel_px;  // distance of neighbours, in the same unit
-};
-
-LaneInput<float> lane_input(const Splat& s, float left, float top, float) {
-  return {log2_conic(s.conic_a, s.conic_b, s.conic_c),
-          s.opacity,
-          s.rgb.x,
-          s.rgb.y,
-          s.rgb.z,
-          left,
-          top,
-          1.0F};
-}
-
-// 4^e in [1/4, 1) of the larger of A and C: lengths are in units of 2^e px.
-LaneInput<HalfScalar> lane_input(const Splat& s, float left, float top, HalfScalar) {
-  int exponent = 0;
-  std::frexp(std::max(s.conic_a, s.conic_c), &exponent);
-  const int e = (exponent + (exponent & 1)) / 2;
-  const float unit = std::ldexp(1.0F, e), per_area = std::ldexp(1.0F, -2 * e);
-  const Log2Conic<float> conic = log2_conic(s.conic_a, s.conic_b, s.conic_c);
-  using H = HalfScalar;
-  return {{H(conic.a * per_area), H(conic.b * per_area), H(conic.c * per_area)},
-          H(s.opacity),
-          H(s.rgb.x),
-          H(s.rgb.y),
-          H(s.rgb.z),
-          H(left * unit),
-          H(top * unit),
-          unit};
+LaneInput<T> input_of(const Splat& s, float left, float top) {
+  if constexpr (std::is_same_v<T, HalfScalar>) {
+    return lane_input_in_half<T>(s, left, top);
+  } else {
+    return lane_input(s, left, top);
+  }
 }
 
 // of_lane[lane] = column[steps[lane] mod 64], all aligned to 64 B. Permutations of registers: 16
@@ -109,8 +80,8 @@ template <class T, class Note>
 [[gnu::always_inline]] inline void blend_lanes(SubtileState& state, int subtile_x, int subtile_y,
                                                const Splat& splat, const Note& note) {
   const LaneInput<T> in =
-      lane_input(splat, splat.x - static_cast<float>(subtile_x * kSubtilePx),
-                 splat.y - static_cast<float>(subtile_y * kSubtilePx), T{});
+      input_of<T>(splat, splat.x - static_cast<float>(subtile_x * kSubtilePx),
+                  splat.y - static_cast<float>(subtile_y * kSubtilePx));
   const T finish = constant<T>(kTransmittanceMin);
   T exponent[kSubtilePixels], alpha[kSubtilePixels];
   Exp2Lanes<T> exp2;

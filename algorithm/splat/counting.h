@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "algorithm/splat/data_flow.h"
 #include "algorithm/splat/exp2.h"
+#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/scalar.h"
 
 namespace sgs {
@@ -102,15 +104,24 @@ inline Exp2Parts<Counting> exp2_parts(Counting t) {
   const Exp2Parts<float> parts = exp2_parts(t.value);
   return {recorded(parts.rest, Operation::kSplit, t), parts.steps};
 }
+inline Counting row_entry(Counting rest, float value) {
+  if (rest.flow == nullptr) return Counting(value);
+  return recorded(value, Operation::kLookUp, rest);
+}
 template <>
 inline Counting exp2_coefficient(const Exp2Parts<Counting>& parts, std::size_t column) {
-  const float value = exp2_coefficient(Exp2Parts<float>{parts.rest.value, parts.steps}, column);
-  if (parts.rest.flow == nullptr) return Counting(value);
-  return recorded(value, Operation::kLookUp, parts.rest);
+  return row_entry(parts.rest,
+                   exp2_coefficient(Exp2Parts<float>{parts.rest.value, parts.steps}, column));
 }
 inline Counting scaled_by_steps(Counting x, std::int32_t steps) {
   return recorded(scaled_by_steps(x.value, steps), Operation::kScale, x,
                   Counting(static_cast<float>(steps)));
+}
+inline Counting scaled_by(Counting x, float power_of_two) {
+  return recorded(x.value * power_of_two, Operation::kScale, x, Counting(power_of_two));
+}
+inline Counting inverse_root_above(Counting x) {
+  return recorded(inverse_root_above(x.value), Operation::kLookUp, x);
 }
 template <>
 inline Counting exp2_of<Counting>(Counting t) {

@@ -6,8 +6,9 @@
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
+#include "algorithm/splat/counting_half.h"
 #include "algorithm/splat/group_reach.h"
-#include "algorithm/splat/half_scalar.h"
+#include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/row_span.h"
 #include "algorithm/splat/visible_extents.h"
@@ -28,18 +29,20 @@ Gaussian<Counting> input(DataFlow& flow, const Gaussian<float>& g) {
   return out;
 }
 
-// In half a line for each step of 2^t stands in place of a parabola, and the conic and the centre of
-// a splat are scaled by powers of two, which are looked for in A and C.
-OperationCounts in_half(OperationCounts c) {
-  const auto saved = static_cast<std::uint32_t>(Exp2TableOf<Counting>::kCoefficients -
-                                                Exp2TableOf<HalfScalar>::kCoefficients) *
-                     kSubtilePixels;
-  c.multiplies -= saved;
-  c.adds -= saved;
-  c.fused -= saved;
-  c.comparisons += 1;
-  c.scalings += 3 + 2;
-  return c;
+// What blending does for 16 pixels, in the arithmetic T; state(value): of a pixel, from outside.
+template <class T, class State>
+void blend_work(const LaneInput<T>& in, const State& state) {
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_px);
+    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_px);
+    const T exponent = log2_falloff(in.conic, dx, dy);
+    const T alpha = alpha_of(exponent, exp2_of(exponent), in.opacity);
+    const LightShare<T> light = take_light(alpha, T(state(0.5F)));
+    static_cast<void>(light.after < constant<T>(kTransmittanceMin));
+    for (const T& colour : {in.red, in.green, in.blue}) {
+      static_cast<void>(T(state(0.25F)) + colour * light.weight);
+    }
+  }
 }
 
 }  // namespace
@@ -121,7 +124,7 @@ struct RenderingFlow {
   std::vector<std::uint32_t> state;
 };
 
-RenderingFlow rendering_flow() {
+RenderingFlow rendering_flow(BlendPrecision precision) {
   RenderingFlow out;
   DataFlow& flow = out.flow;
   SplatOf<Counting> splat{};
@@ -143,29 +146,15 @@ RenderingFlow rendering_flow() {
   out.spans_begun = flow.size();
   static_cast<void>(spans.next(56));
   out.spanned = flow.size();
-  const auto conic = log2_conic(splat.conic_a, splat.conic_b, splat.conic_c);
+  static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
   out.in_base_2 = flow.size();
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
-  for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    const Counting dx = left - Counting(static_cast<float>(lane % kSubtilePx));
-    const Counting dy = top - Counting(static_cast<float>(lane / kSubtilePx));
-    const Counting exponent = log2_falloff(conic, dx, dy);
-    const Counting alpha = alpha_of(exponent, exp2_of(exponent), splat.opacity);
-    const LightShare<Counting> light = take_light(alpha, state(0.5F));
-    static_cast<void>(light.after < constant<Counting>(kTransmittanceMin));
-    for (int channel = 0; channel < 3; ++channel) {
-      static_cast<void>(state(0.25F) + splat.rgb[channel] * light.weight);
-    }
+  if (precision == BlendPrecision::kHalf) {
+    blend_work(lane_input_in_half<CountingHalf>(splat, left, top), state);
+  } else {
+    blend_work(lane_input(splat, left, top), state);
   }
   return out;
-}
-
-// In half: the parabola's step is saved; A and C are looked at, and the conic scaled.
-LongestPath in_half(LongestPath path) {
-  path.lane -= static_cast<std::uint32_t>(Exp2TableOf<Counting>::kCoefficients -
-                                          Exp2TableOf<HalfScalar>::kCoefficients);
-  path.comparator += 1 + 1;
-  return path;
 }
 
 }  // namespace
@@ -196,26 +185,23 @@ LongestPath fine_path(const FilterCase& tested, int sh_degree,
 }
 
 RenderingWork rendering_work(BlendPrecision precision) {
-  const RenderingFlow of = rendering_flow();
+  const RenderingFlow of = rendering_flow(precision);
   RenderingWork work;
   work.spans_begin = of.flow.counts(0, of.spans_begun);
   work.span = of.flow.counts(of.spans_begun, of.spanned);
   work.conic = of.flow.counts(of.spanned, of.in_base_2);
   work.subtile_blend = of.flow.counts(of.in_base_2, of.flow.size());
-  if (precision == BlendPrecision::kHalf) work.subtile_blend = in_half(work.subtile_blend);
   return work;
 }
 
 RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencies& single,
                                const OperationLatencies& half) {
-  const RenderingFlow of = rendering_flow();
-  const bool is_half = precision == BlendPrecision::kHalf;
-  const OperationLatencies& blending = is_half ? half : single;
+  const RenderingFlow of = rendering_flow(precision);
+  const OperationLatencies& blending = precision == BlendPrecision::kHalf ? half : single;
   RenderingPaths paths;
   paths.spans = of.flow.longest_path(0, of.spanned, single);
   paths.conic = of.flow.longest_path(of.spanned, of.in_base_2, single);
   paths.blend = of.flow.longest_path(of.in_base_2, of.flow.size(), blending);
-  if (is_half) paths.blend = in_half(paths.blend);
   paths.state_loop = of.flow.longest_path_from(of.state, blending);
   return paths;
 }

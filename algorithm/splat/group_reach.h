@@ -37,7 +37,7 @@ inline float inverse_root_above(float x) {
 template <class T>
 T root_above(T x) {
   if (!(value_of(x) < std::numeric_limits<float>::max())) return x;
-  return T(x * T(inverse_root_above(value_of(x))));
+  return T(x * inverse_root_above(x));
 }
 
 // The column (or row) of a pixel column of the group, as hardware has it once the position is

@@ -42,6 +42,12 @@ constexpr std::uint32_t kScalingComparisons = 1;  // an addition to the exponent
 // Two for the ends of its range; its whole number of ln2; the power of two.
 constexpr std::uint32_t kExponentialComparisons = 2 + kRoundingComparisons + kScalingComparisons;
 
+// Look-ups that such a computation starts from: of 8 bits for a reciprocal and a root, of an interval
+// for a logarithm.
+constexpr std::uint32_t seeds(const OperationCounts& c) {
+  return c.divisors + c.square_roots + c.logarithms;
+}
+
 constexpr std::uint32_t comparisons(const OperationCounts& c) {
   return c.comparisons + c.roundings * kRoundingComparisons + c.splits * kSplitComparisons +
          c.scalings * kScalingComparisons + c.exponentials * kExponentialComparisons;

@@ -34,5 +34,7 @@ static_assert(sizeof(ExtentCode) == 4);
 // k of the scale, as it is for a rotation).
 ExtentCode encode_extents(const VisibleExtents& extents);
 VisibleExtents decode_extents(const ExtentCode& code);
+// A level of the scale and of each axis.
+constexpr std::uint32_t kExtentLookUps = 4;
 
 }  // namespace sgs

@@ -1,14 +1,18 @@
 // A datapath from what was counted by running its code.
 #pragma once
 
+#include <string_view>
+
 #include "algorithm/splat/lane_macs.h"
 #include "tlm/datapath.h"
 
 namespace sgs {
 
-// Single precision, charged with what was counted, one lane until it is said otherwise.
-inline Datapath counted_datapath(const char* name, const char* component,
-                                 const OperationCounts& c) {
+// Single precision, charged with what was counted, one lane until it is said otherwise. Beside the
+// lanes stand comparators, and tables: for what reciprocals, roots and logarithms start from, and for
+// what the code looks up (rows: their kind).
+inline Datapath counted_datapath(const char* name, const char* component, const OperationCounts& c,
+                                 const char* rows = "small_table") {
   Datapath path;
   path.name = name;
   path.component = component;
@@ -28,6 +32,10 @@ inline Datapath counted_datapath(const char* name, const char* component,
                  {"scalings", c.scalings},
                  {"look_ups", c.look_ups}};
   if (comparisons(c) > 0) path.beside.push_back({"comparator", comparisons(c)});
+  const bool one_kind = std::string_view(rows) == "small_table";
+  const std::uint32_t small = seeds(c) + (one_kind ? c.look_ups : 0);
+  if (small > 0) path.beside.push_back({"small_table", small});
+  if (!one_kind && c.look_ups > 0) path.beside.push_back({rows, c.look_ups});
   return path;
 }
 

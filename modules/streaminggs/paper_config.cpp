@@ -51,7 +51,7 @@ PaperFifos::PaperFifos(const PaperConfig& c)
 SramUses sram_uses(const PaperConfig& c, const StorageConfig& storage) {
   const BuiltFor made = built_for(c, storage);
   SramUses uses = streaming_sram_uses(c, made);
-  add(uses, PaperVsu::sram_uses(c.vsu));
+  add(uses, PaperVsu::sram_uses(c.vsu, made));
   add(uses, PaperSorter::sram_uses(c.sorting, made), c.lists());
   const PaperFifos fifos(c);
   for (const SramUse& use : {fifos.candidates.all(), fifos.splats.all(), fifos.sorted.all()}) {

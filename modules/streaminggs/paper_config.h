@@ -25,7 +25,8 @@ struct PaperConfig : StreamingConfig {
     group_width_px = group_height_px = 64;  // with pixels of 8 B: 32 KB of the paper's 89
     rendering.precision = BlendPrecision::kHalf;
     rendering.pixel_buffers = 1;
-    hfu.candidate_fifo_entries = 10;  // what 89 KB leave
+    rendering.cluster_queue_entries = 4;
+    memory_port.max_outstanding = 8;
   }
 
   // Lists that are sorted side by side: those of one part of the groups, and of all. A network

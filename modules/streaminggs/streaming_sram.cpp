@@ -63,6 +63,10 @@ SramUses streaming_sram_uses(const StreamingConfig& c, const BuiltFor& built_for
       c.parts());
   add(uses, Hfu::sram_uses(c.hfu, built_for, c.parts()), c.fetches());
   add(uses, visit_fifos(c).all());
+  // The codebook buffer's: where there is one.
+  if (built_for.second_half.quantised()) {
+    add(uses, outstanding_table(kSharedSram, built_for.memory_port));
+  }
   return uses;
 }
 

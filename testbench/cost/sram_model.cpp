@@ -25,7 +25,7 @@ double SramModel::bare_read_pj(double bits, double width_bits) const {
 Band SramModel::mm2(const SramUse& use) const {
   constexpr double kMm2 = 1e-6;  // of a um2
   const double banks = static_cast<double>(use.count) * use.shape.banks;
-  return kMm2 * banks * bare_um2(bank_bits(use), use.shape.width_bits, ports(use)) * placed;
+  return kMm2 * banks * bare_um2(bank_bits(use), use.shape.width_bits, ports(use)) * macro * placed;
 }
 
 Band SramModel::leakage_mw(const SramUse& use) const {
@@ -34,7 +34,10 @@ Band SramModel::leakage_mw(const SramUse& use) const {
 }
 
 Band SramModel::read_pj(const SramUse& use) const {
-  return bare_read_pj(bank_bits(use), use.shape.width_bits) * access;
+  const std::uint32_t macros = (use.shape.width_bits + kMacroBits - 1) / kMacroBits;
+  return static_cast<double>(macros) *
+         bare_read_pj(bank_bits(use) / macros, use.shape.width_bits / static_cast<double>(macros)) *
+         access;
 }
 
 Band SramModel::write_pj(const SramUse& use) const { return read_pj(use) * write_of_read; }
@@ -59,6 +62,7 @@ void visit(ConfigVisitor& v, SramModel& m) {
   v("pj_width", m.pj_width, range, "energy of a bit accessed");
   v("pj_cell", m.pj_cell, range, "the same, times the root of the bits of a bank");
   v("pj_decode", m.pj_decode, range, "energy of an access, times the root of the bits of a bank");
+  v.section("macro", m.macro, "area of a macro over that of the formula");
   v.section("placed", m.placed, "area on a die over that of the macro");
   v.section("access", m.access, "energy over that of the formula");
   v.section("write_of_read", m.write_of_read, "energy of a write over that of a read");

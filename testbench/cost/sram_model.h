@@ -23,16 +23,20 @@ struct SramPoint {
 // Of one bank with C bits, W of them accessed at once, P ports:
 //   um2 = C (um2_bit + um2_bit_port (P - 1)) + W um2_width
 //   pJ of a read = W (pj_width + pj_cell sqrt(C)) + pj_decode sqrt(C)
-// sqrt(C) stands for the length of word lines, bit lines and the way there.
+// sqrt(C) stands for the length of word lines, bit lines and the way there. The points are at most
+// 256 bits wide; a wider bank is made of macros of at most so many, side by side.
 struct SramModel {
   double um2_bit = 0, um2_bit_port = 0, um2_width = 0;
   double pj_width = 0, pj_cell = 0, pj_decode = 0;
+  Band macro;          // area of a macro over that of the formula
   Band placed;         // area on a die over that of the bare macro
   Band access;         // energy over that of the formula
   Band write_of_read;  // energy of a write over that of a read
   Band leakage_mw_kib;
   std::string source;
   std::map<std::string, SramPoint> points;
+
+  static constexpr std::uint32_t kMacroBits = 256;
 
   double bare_um2(double bits, double width_bits, double ports) const;
   double bare_read_pj(double bits, double width_bits) const;

@@ -57,8 +57,9 @@ class Collector : public LeftOutCollector {
     if (same != into_.datapaths.end()) {
       same->datapath.copies += path.copies;
       same->items += items;
+      same->busiest_cycles = std::max(same->busiest_cycles, path.cycles(items));
     } else {
-      into_.datapaths.push_back({path, items});
+      into_.datapaths.push_back({path, items, path.cycles(items)});
     }
   }
   void part(const char* component, const char* kind, double count, double per_cycle) override {
@@ -90,9 +91,7 @@ class Collector : public LeftOutCollector {
     }
   }
   void port(MemoryPort& port, const char* writes) override {
-    const SramUse table = port.outstanding_table();
-    sram(table);
-    accesses(table.name.c_str(), port.transactions(), port.transactions());
+    accesses(kOutstandingTable, port.transactions(), port.transactions());
     if (*writes != '\0') accesses(writes, port.words_written(), port.words_written());
   }
   void sram_available(const char* memory, std::uint64_t bytes) override {

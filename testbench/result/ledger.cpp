@@ -25,6 +25,14 @@ void add_ports(const MachineResult& machine, std::vector<LedgerLine>& lines) {
   }
 }
 
+// Of each datapath the unit that has most to do: a busy one does not hide behind another that has
+// lanes of the same kind.
+void add_datapaths(const MachineResult& machine, std::vector<LedgerLine>& lines) {
+  for (const DatapathResult& d : machine.datapaths) {
+    lines.push_back({d.datapath.name + ": busiest", static_cast<double>(d.busiest_cycles), 1});
+  }
+}
+
 void find_unpaid_memories(const MachineResult& machine, std::vector<std::string>& faults) {
   std::set<std::string> uses, accessed;
   for (const SramAccesses& a : machine.sram_accesses) accessed.insert(a.use);
@@ -70,6 +78,7 @@ std::vector<LedgerLine> ledger_of(const MachineResult& machine) {
     }
     lines.push_back(line);
   }
+  add_datapaths(machine, lines);
   add_ports(machine, lines);
   return lines;
 }

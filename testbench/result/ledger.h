@@ -12,14 +12,14 @@ namespace sgs {
 
 // What one kind of part, or the memories of one use, did of what they could have done.
 struct LedgerLine {
-  std::string what;      // "vsu: comparator", "pixel state: reads"
-  double done = 0;       // operations or accesses
+  std::string what;      // "vsu: comparator", "chunk_test: busiest", "pixel state: reads"
+  double done = 0;       // operations, cycles of the busiest unit's lanes, or accesses
   double per_cycle = 0;  // that all of them can do
   // Of the frame, 0 to 1: a closed form that bounds its cycles from below.
   double utilisation(std::uint64_t cycles) const;
 };
 
-// Lanes, other parts, and ports of memories.
+// Lanes and other parts by component, each datapath by itself, and ports of memories.
 std::vector<LedgerLine> ledger_of(const MachineResult& machine);
 
 // What is wrong with it, in words; nothing in a machine that pays for all it does: a use of on-chip

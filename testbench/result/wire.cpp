@@ -64,7 +64,7 @@ void serialize(Archive& a, Datapath& r) {
 }
 template <class Archive>
 void serialize(Archive& a, DatapathResult& r) {
-  a(r.datapath, r.items);
+  a(r.datapath, r.items, r.busiest_cycles);
 }
 template <class Archive>
 void serialize(Archive& a, MachineResult& r) {

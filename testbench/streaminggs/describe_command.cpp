@@ -72,7 +72,7 @@ void print_sheets(const MachineResult& machine) {
                           part.per_cycle));
   }
   Table datapaths("| datapath | component | lanes | multiply-accumulates of an item | beside them |");
-  for (const auto& [d, items] : machine.datapaths) {
+  for (const auto& [d, items, busiest] : machine.datapaths) {
     std::string beside;
     for (const BesideLanes& part : d.beside) {
       beside += fmt::format("{}{} on {} {}", beside.empty() ? "" : ", ", part.operations,

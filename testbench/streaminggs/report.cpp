@@ -207,7 +207,7 @@ Json sram_of(const MachineResult& machine, const SramModel& model) {
 
 Json datapaths_of(const std::vector<DatapathResult>& datapaths) {
   Json out = Json::object();
-  for (const auto& [d, items] : datapaths) {
+  for (const auto& [d, items, busiest] : datapaths) {
     const auto cost = [&, lanes = d.lanes](std::uint32_t macs) -> Json {
       return {{"macs", macs}, {"interval_cycles", (macs + lanes - 1) / lanes}};
     };

@@ -90,7 +90,7 @@ void print_machine(const ViewResult& v, const std::vector<AutoChoice>& chosen,
   const Band& area = v.area_mm2.total;
   fmt::print("\narea {:.2f} ({:.2f} .. {:.2f}) mm2 at {}: {}\n", area.middle, area.low, area.high,
              technology, parts);
-  for (const auto& [d, items] : v.run.machine.datapaths) {
+  for (const auto& [d, items, busiest] : v.run.machine.datapaths) {
     const std::string published =
         d.published_macs > 0 ? fmt::format(" {} published,", d.published_macs) : "";
     fmt::print("{}: {} lanes ({}); multiply-accumulates each: {} counted,{} {} charged\n", d.name,

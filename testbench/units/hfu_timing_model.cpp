@@ -48,6 +48,8 @@ class Pipeline {
       half_free_.push_back(coarse_);
       at += count;
     } while (at < end);
+    ++coarse_;  // the mark
+    ++times_.coarse_busy;
     candidate(nullptr);
     times_.shares_done.push_back(fine_);
   }
@@ -61,8 +63,9 @@ class Pipeline {
   Cycle load(std::size_t at, std::size_t count) {
     loaded_ = std::max(loaded_, before(half_free_, config_.input_slots));
     Cycle data = 0;
+    ++loaded_;
     if (count > 0) {
-      loaded_ += 1 + port_cycles(share_->first_halves, share_->first + at, count);
+      loaded_ += port_cycles(share_->first_halves, share_->first + at, count);
       data = loaded_ + latency_;
       times_.first_halves += count;
     }
@@ -104,6 +107,7 @@ class Pipeline {
     candidate_taken_.push_back(fetch_);
     if (gaussian != nullptr && finished(fetch_)) {
       ++times_.dropped;
+      ++fetch_;
       return;
     }
     Cycle data = 0;
@@ -112,6 +116,8 @@ class Pipeline {
       fetch_ += port_cycles(share_->second_halves, share_->first + *gaussian, 1);
       data = fetch_ + latency_;
       ++times_.second_halves;
+    } else {
+      ++fetch_;
     }
     fetch_ = std::max(fetch_, before(fetched_taken_, config_.second_half_slots + 1));
     // The thread behind the fetches: the decode stage where there is one, else the FFU.
@@ -124,7 +130,12 @@ class Pipeline {
       slot_free_.push_back(taker);
     }
     if (decode_latency_) hand_on();
-    if (gaussian != nullptr) test(*gaussian);
+    if (gaussian != nullptr) {
+      test(*gaussian);
+    } else {
+      ++fine_;
+      ++times_.fine_busy;
+    }
   }
 
   void read_lines(Cycle lines) {
@@ -143,6 +154,8 @@ class Pipeline {
   void test(std::size_t gaussian) {
     if (finished(fine_)) {
       ++times_.dropped;
+      ++fine_;
+      ++times_.fine_busy;
       return;
     }
     fine_ += config_.ffu_interval_cycles();

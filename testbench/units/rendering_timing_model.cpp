@@ -16,13 +16,11 @@ struct Job {
 struct SlotModel {
   const RenderingToken* token;
   std::uint64_t taken;  // cycle
-  std::size_t next = 0;  // of its reaches
 };
 
 struct ClusterModel {
   std::deque<Job> queue;
   std::uint64_t busy_until = 0;
-  bool pushed_now = false;
 };
 
 class GroupModel {
@@ -37,10 +35,7 @@ class GroupModel {
 
   RenderingTimes run() {
     while (next_ < tokens_.size() || !slots_.empty() || waiting()) {
-      for (ClusterModel& cluster : clusters_) {
-        cluster.pushed_now = false;
-        take(cluster);
-      }
+      for (ClusterModel& cluster : clusters_) take(cluster);
       if (next_ < tokens_.size()) take_token();
       if (!slots_.empty()) dispatch();
       ++now_;
@@ -69,7 +64,10 @@ class GroupModel {
     cluster.queue.pop_front();
     cluster.busy_until = now_ + config_.cluster_interval_cycles();
     loop_until_[subtile.at] = now_ + config_.state_loop_cycles;
-    if (subtile.finishes) known_[subtile.at] = now_ + config_.depth_cycles;
+    if (subtile.finishes) {
+      known_[subtile.at] = now_ + config_.depth_cycles;
+      ++times_.subtiles_finished;
+    }
     ++times_.blends;
     times_.late_blends += subtile.blends ? 0 : 1;
   }
@@ -78,10 +76,12 @@ class GroupModel {
   void take_token() {
     if (now_ < lanes_busy_until_ || slots_.size() == config_.span_slots) return;
     const RenderingToken& token = tokens_[next_];
-    const bool over = std::all_of(known_.begin(), known_.end(),
-                                  [&](std::uint64_t from) { return from <= now_; });
-    if (token.is_splat && over) {
-      ++times_.splats_dropped;
+    const auto is_known = [&](std::size_t at) { return known_[at] <= now_; };
+    const bool dropped = std::all_of(token.footprint.begin(), token.footprint.end(), is_known);
+    if (token.is_splat && dropped) {
+      const bool over = std::all_of(known_.begin(), known_.end(),
+                                    [&](std::uint64_t from) { return from <= now_; });
+      ++(over ? times_.splats_dropped : times_.splats_hidden);
     } else if (token.is_splat) {
       times_.spans += token.spans;
       times_.splats_spanned += token.spans > 0 ? 1 : 0;
@@ -94,29 +94,47 @@ class GroupModel {
 
   // What the dispatcher does in this cycle with the oldest splat.
   void dispatch() {
-    SlotModel& slot = slots_.front();
+    const SlotModel& slot = slots_.front();
     const RenderingToken& token = *slot.token;
-    const auto found_in = [&](std::uint32_t spans) {
-      return spans == 0 ? slot.taken
-                        : slot.taken + config_.span_cycles(spans) + config_.span_depth_cycles;
-    };
-    for (; slot.next < token.reaches.size(); ++slot.next) {
-      const SubtileReach& subtile = token.reaches[slot.next];
-      if (now_ < found_in(subtile.spans)) return;
-      if (known_[subtile.at] <= now_) continue;
-      ClusterModel& cluster = clusters_[static_cast<std::size_t>(subtile.x + 2 * subtile.y) %
-                                        clusters_.size()];
-      if (cluster.pushed_now) return;
-      if (cluster.queue.size() == config_.cluster_queue_entries) {
-        ++times_.queue_cycles;
-        return;
+    if (!row_) {
+      const std::uint64_t spans_after =
+          token.spans == 0 ? 0 : config_.span_cycles(rows_ + 1) + config_.span_depth_cycles;
+      if (now_ < slot.taken + spans_after) return;
+      ++rows_;
+      row_.emplace();
+      for (const SubtileReach& subtile : token.reaches) {
+        if (subtile.row + 1 == rows_) row_->push_back(subtile);
       }
-      cluster.queue.push_back({subtile, now_});
-      cluster.pushed_now = true;
     }
-    if (now_ < found_in(token.spans)) return;
+    ++times_.row_cycles;
+    issue(*row_);
+    if (!row_->empty()) return;
+    row_.reset();
+    ++times_.rows;
+    if (rows_ < token.rows) return;
+    rows_ = 0;
     slots_.pop_front();
     dispatched_ = now_ + 1;
+  }
+
+  // A cluster takes the first of its own in what is left of the row.
+  void issue(std::vector<SubtileReach>& row) {
+    std::vector<bool> asked(clusters_.size(), false);
+    std::vector<SubtileReach> left;
+    for (const SubtileReach& subtile : row) {
+      if (known_[subtile.at] <= now_) continue;
+      const auto owner = static_cast<std::size_t>(subtile.x + 2 * subtile.y) % clusters_.size();
+      ClusterModel& cluster = clusters_[owner];
+      const bool full = cluster.queue.size() == config_.cluster_queue_entries;
+      if (!asked[owner] && !full) {
+        cluster.queue.push_back({subtile, now_});
+      } else {
+        times_.queue_cycles += asked[owner] ? 0 : 1;
+        left.push_back(subtile);
+      }
+      asked[owner] = true;
+    }
+    row = std::move(left);
   }
 
   const RenderingConfig& config_;
@@ -126,6 +144,8 @@ class GroupModel {
   std::size_t next_ = 0;
   std::deque<SlotModel> slots_;
   std::uint64_t lanes_busy_until_ = 0;
+  std::uint32_t rows_ = 0;                        // of the splat ahead, taken so far
+  std::optional<std::vector<SubtileReach>> row_;  // what is left of the one that is held
   std::uint64_t now_ = 0, tokens_end_ = 0, dispatched_ = 0;
   RenderingTimes times_;
 };

@@ -85,6 +85,7 @@ void run_plan(Case& test, const BenchConfig& config, const Plan& plan) {
     keys += n;
     trivial += n == 1 ? 1 : 0;
     busy += 2 * n + sort_cost(plan.config, n).cycles;  // in, sort, out
+    busy += n == 0 ? 1 : 0;                             // the mark by itself
     exchanges += sort_cost(plan.config, n).compare_exchanges;
     moves += sort_cost(plan.config, n).moves;
   }
@@ -136,7 +137,7 @@ void exact_time(Case& test, std::size_t n) {
   bench.add_thread("hfu", [&](Activity& activity) {
     for (const FineCandidate& key : plan.visits[0]) input.push(key, activity);
   });
-  const std::uint64_t first = 1 + n + sort_cost(plan.config, n).cycles + (n > 0 ? 1 : 0) + 1;
+  const std::uint64_t first = 1 + n + sort_cost(plan.config, n).cycles + 1 + 1;
   bench.add_thread("merge", [&](Activity& activity) {
     bench.wait_until_just_before(first);
     bench.checks().that(!output.can_pop(), "done a cycle too soon");

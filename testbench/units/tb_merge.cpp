@@ -43,7 +43,8 @@ void exact_time(Case& test, std::uint32_t n, std::uint32_t cycles_per_operation)
   add_sorters(run, plan);
   run.bench.add_thread("reader", [&](Activity& activity) {
     // FIFO in, n in, the first out (the mark, where there is none), FIFO out.
-    std::uint64_t due = 1 + n * cycles_per_operation + (n > 0 ? cycles_per_operation : 1) + 1;
+    // A visit's mark takes a cycle of its own where no key comes with it.
+    std::uint64_t due = 1 + n * cycles_per_operation + (n > 0 ? cycles_per_operation : 2) + 1;
     run.bench.wait_until_just_before(due);
     run.bench.checks().that(!run.outputs[0]->can_pop(), "released a cycle too soon");
     for (std::uint32_t i = 0; i <= n; ++i) {

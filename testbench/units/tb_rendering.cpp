@@ -18,6 +18,7 @@ namespace {
 struct Plan {
   RenderingConfig config;
   StreamingJob job;
+  PixelSize group;
   std::uint32_t inputs = 2;
   Arrival arrival = Arrival::kByVisit;
   std::uint32_t input_entries = 8;
@@ -25,6 +26,12 @@ struct Plan {
 };
 
 std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
+
+// Of draining a row of pixels: a bank gives one sub-tile a cycle, and what is converted is limited.
+std::uint64_t row_cycles(const Plan& plan, std::uint64_t width) {
+  return std::max(ceil_div(width, plan.config.drain_pixels_per_cycle),
+                  ceil_div(ceil_div(width, 4), plan.config.clusters));
+}
 
 // What must come out: pixels and counts from the algorithm layer, times from the stepped model.
 struct Expected {
@@ -42,7 +49,14 @@ RenderingToken blended(const Splat& splat, GroupState& state, Expected& out) {
   token.is_splat = true;
   const BlendWork work = state.blend_scheduled(
       splat, [&](const SubtileReach& subtile) { token.reaches.push_back(subtile); });
+  token.rows = work.rows;
   token.spans = work.spans;
+  const SubtileRect box = state.box_of(splat).subtiles;
+  for (std::size_t y = box.y0; y < box.y1; ++y) {
+    for (std::size_t x = box.x0; x < box.x1; ++x) {
+      token.footprint.push_back(y * state.subtile_columns() + x);
+    }
+  }
   out.functional_blends += work.blended;
   out.counters.splats += work.blended > 0 ? 1 : 0;
   return token;
@@ -70,9 +84,9 @@ Expected expect(const Plan& plan) {
     out.counters.splats_saturated += out.times.back().splats_dropped;
     out.counters.contributors += state.contributors();
     out.saturated.push_back(state.saturated());
-    out.drain_cycles.push_back(
-        static_cast<std::uint64_t>(pixels.height()) *
-        ceil_div(static_cast<std::uint64_t>(pixels.width()), plan.config.drain_pixels_per_cycle));
+    out.drain_cycles.push_back(static_cast<std::uint64_t>(pixels.height()) *
+                                   row_cycles(plan, static_cast<std::uint64_t>(pixels.width())) +
+                               1);
     state.store(plan.job.background, frame);
   }
   out.frame = encode_frame(plan.job.frame_format, frame.image);
@@ -91,17 +105,18 @@ std::uint64_t drained_at(const Plan& plan, const PixelRect& pixels, std::uint64_
   const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
   const auto width = static_cast<std::uint64_t>(pixels.width());
   for (int y = pixels.y0; y < pixels.y1; ++y) {
-    at += ceil_div(width, plan.config.drain_pixels_per_cycle);
+    at += row_cycles(plan, width);
     const std::uint64_t begin = plan.job.pixel_address(pixels.x0, y);
     const std::uint64_t last = begin + width * pixel_bytes(plan.job.frame_format) - 1;
     at = std::max(at, free_from) + last / longest - begin / longest;
     free_from = at + 1;
   }
-  return at;
+  return at + 1;  // the last sub-tile is cleared
 }
 
 // When splats are always there: a group is blended when the one before it is and a buffer is free;
-// drained when the one before it is, the depths of a blend and of a conversion after its last blend.
+// drained when the one before it is, the depths of a blend and of a conversion after its last
+// blend.
 Times expected_times(const Plan& plan, const Expected& expected,
                      std::uint64_t write_latency_cycles) {
   Times times;
@@ -117,7 +132,8 @@ Times expected_times(const Plan& plan, const Expected& expected,
     if (g > 0) drain = std::max(drain, drained[g - 1]);
     drained.push_back(drained_at(plan, plan.job.groups[g], drain, port_free_from));
   }
-  times.end = drained.back() + write_latency_cycles;
+  // The last row leaves while the last sub-tile is cleared.
+  times.end = drained.back() - 1 + std::max<std::uint64_t>(write_latency_cycles, 1);
   return times;
 }
 
@@ -164,8 +180,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   Feedback feedback("feedback", bench.clock(), plan.job.groups.size());
   const auto inputs = bench.add_fifos<SplatToken>("sorted", plan.inputs, plan.input_entries, 1);
   std::uint64_t ends = 0;
-  RenderingUnit unit("rendering", plan.config, plan.arrival, bench.context(plan.job),
-                     [&] { ++ends; });
+  UnitContext context = bench.context(plan.job);
+  context.built_for.group = plan.group;
+  RenderingUnit unit("rendering", plan.config, plan.arrival, context, [&] { ++ends; });
   for (TimedFifo<SplatToken>* input : inputs) unit.splats(*input);
   unit.finish(feedback);
   bench.add_unit(unit);
@@ -201,7 +218,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   checks.that(unit.schedule_counters().blends - unit.schedule_counters().late_blends ==
                   expected.functional_blends,
               "blends that change pixels");
-  std::uint64_t blend = 0, drain = 0;
+  std::uint64_t blend = 0, drain = 0, finishes = 0;
   RenderingTimes sum;
   for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
     const RenderingTimes& group = expected.times[g];
@@ -216,6 +233,11 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     drain += expected.drain_cycles[g];
     sum.blends += group.blends;
     sum.spans += group.spans;
+    sum.rows += group.rows;
+    sum.row_cycles += group.row_cycles;
+    sum.splats_hidden += group.splats_hidden;
+    sum.splats_dropped += group.splats_dropped;
+    finishes += group.subtiles_finished;
     sum.splats_spanned += group.splats_spanned;
     sum.late_blends += group.late_blends;
     sum.hazard_cycles += group.hazard_cycles;
@@ -225,6 +247,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   // With stalls it depends on when splats come what is known of sub-tiles.
   if (!bench_config.still()) return;
   bench.check_counter("splats_saturated", want.splats_saturated);
+  bench.check_counter("splats_hidden", sum.splats_hidden);
+  bench.check_counter("rows", sum.rows);
   bench.check_counter("subtile_blends", sum.blends);
   bench.check_counter("subtile_blends_late", sum.late_blends);
   bench.check_counter("hazard_cycles", sum.hazard_cycles);
@@ -239,21 +263,34 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   const std::uint64_t span_macs =
       pixels * folded_macs(drained) + bench.counter("splats_taken") * folded_macs(work.conic) +
       sum.spans * folded_macs(work.span) + sum.splats_spanned * folded_macs(work.spans_begin);
+  // The mask is asked of every row for a splat, and of the row that is held for each cluster.
+  const auto rows = static_cast<std::uint64_t>(plan.group.height / 4);
+  const auto words = ceil_div(static_cast<std::uint64_t>(plan.group.width / 4), 32);
+  const std::uint64_t dropped = sum.splats_hidden + sum.splats_dropped;
+  const std::uint64_t looks = sum.blends + sum.hazard_cycles;
+  const std::uint64_t in_loop =
+      ceil_div(plan.config.state_loop_cycles, plan.config.cluster_interval_cycles());
+  const std::uint64_t dispatched = (bench.counter("splats_taken") + dropped) * rows * words +
+                                   sum.row_cycles * plan.config.clusters * words + looks * in_loop;
   bench.check_operations(
       "rendering", "comparator",
-      pixels * comparisons(drained) + sum.blends * comparisons(work.subtile_blend) +
+      dispatched + pixels * comparisons(drained) + sum.blends * comparisons(work.subtile_blend) +
           sum.spans * comparisons(work.span) + sum.splats_spanned * comparisons(work.spans_begin));
   const bool in_half = plan.config.precision == BlendPrecision::kHalf;
   bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", sum.blends * 16);
   bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
   if (in_half) bench.check_operations("rendering", "fp16_lane", blend_macs);
-  // A sub-tile at once: blended, cleared before and drained behind.
-  std::uint64_t subtiles = sum.blends;
+  // The 16 pixels of a sub-tile at once: blended, cleared; read by rows in draining.
+  std::uint64_t reads = 16 * sum.blends, writes = 16 * sum.blends;
   for (const PixelRect& px : plan.job.groups) {
-    subtiles += ceil_div(static_cast<std::uint64_t>(px.width()), 4) *
-                ceil_div(static_cast<std::uint64_t>(px.height()), 4);
+    const std::uint64_t columns = ceil_div(static_cast<std::uint64_t>(px.width()), 4);
+    reads += 4 * columns * static_cast<std::uint64_t>(px.height());
+    writes += 16 * columns * ceil_div(static_cast<std::uint64_t>(px.height()), 4);
   }
-  bench.check_accesses("pixel state", 16 * subtiles, 16 * subtiles);
+  bench.check_accesses("pixel state", reads, writes);
+  bench.check_accesses("finished sub-tiles", dropped + sum.splats_spanned + sum.row_cycles,
+                       finishes + plan.groups.size());
+  bench.check_accesses("sub-tiles in the loop", looks, sum.blends);
   bench.check_accesses("cluster queues", sum.blends, sum.blends);
   bench.check_accesses("splats under way", bench.counter("splats_taken"),
                        bench.counter("splats_taken"));
@@ -262,6 +299,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
 
 Plan make_plan(int width_px, int height_px, const PixelSize& group, FrameFormat format) {
   Plan plan;
+  plan.group = group;
   plan.job = frame_job(width_px, height_px, group, format, 0);
   plan.groups.resize(plan.job.groups.size());
   plan.input_entries = 4096;

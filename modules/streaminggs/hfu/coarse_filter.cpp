@@ -43,8 +43,8 @@ void CoarseFilter::run_load() {
       slice.share = share;
       slice.share.count = std::min(end - share.first, config_.slice_gaussians);
       slice.slot = free_slots_.pop(load_, WaitFor::kRoom);
+      load_.work(1);
       if (slice.share.count > 0) {
-        load_.work(1);
         slice.ticket = start_read(memory, load_, job_.layout.first_halves.address(share.first),
                                   first_half(slice.slot, 0), slice.share.count * record_bytes_,
                                   job_.layout.first_halves.region);
@@ -69,6 +69,7 @@ void CoarseFilter::run_filter() {
     free_slots_.push(slice.slot, filter_);
     if (slice.share.mark != Mark::kNone) {
       ++counters_.shares;
+      filter_.work(1);
       FineCandidate end;
       end.group = slice.share.group;
       end.visit = slice.share.visit;
@@ -153,7 +154,8 @@ SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_
                     {config.slice_gaussians, "Gaussians"},
                     {built_for.first_half_bytes, "B"}},
                    {8 * built_for.first_half_bytes}),
-          fifo_use<Slice>("slices", kSharedSram, config.input_slots, "slices")};
+          fifo_use<Slice>("slices", kSharedSram, config.input_slots, "slices"),
+          outstanding_table(kSharedSram, built_for.memory_port)};
 }
 
 void CoarseFilter::publish(DataSheet& sheet) {

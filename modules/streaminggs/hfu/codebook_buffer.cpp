@@ -12,6 +12,7 @@ CodebookBuffer::CodebookBuffer(const sc_core::sc_module_name& name, const Codebo
     : sc_module(name),
       memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
+      built_for_(context.built_for),
       job_(context.job),
       instant_end_(instant_end),
       load_("load", context.clock),
@@ -134,6 +135,7 @@ void CodebookBuffer::publish(DataSheet& sheet) {
     sheet.accesses(use.name.c_str(), counters_.lines_of[id],
                    counters_.bytes_loaded > 0 ? sram_words(use.bytes, use.shape) : 0);
   }
+  sheet.sram(outstanding_table(kSharedSram, built_for_.memory_port));
   sheet.port(memory);
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("full", full_);

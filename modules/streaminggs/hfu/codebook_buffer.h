@@ -59,6 +59,7 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
   std::uint64_t take_lines(std::size_t codebook, const EntryRange& entry, std::uint64_t cycle);
 
   const CodebookConfig config_;
+  const BuiltFor built_for_;
   const StreamingJob& job_;
   InstantEnd& instant_end_;
   Activity load_;

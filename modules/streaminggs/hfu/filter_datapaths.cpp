@@ -5,13 +5,15 @@
 
 #include "algorithm/splat/filter_work.h"
 #include "algorithm/splat/lane_macs.h"
+#include "algorithm/splat/visible_extents.h"
 #include "modules/streaminggs/counted_datapath.h"
 
 namespace sgs {
 
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts) {
   const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(parts)));
-  const OperationCounts in_parts = coarse_work(bound_by, longest_case(), across);
+  OperationCounts in_parts = coarse_work(bound_by, longest_case(), across);
+  if (bound_by == CoarseBoundBy::kExtents) in_parts.look_ups += kExtentLookUps;
   const std::uint32_t whole = folded_macs(coarse_work(bound_by, longest_case()));
   Datapath path = counted_datapath("coarse", "coarse", in_parts);
   path.lanes = config.cfu_lanes;

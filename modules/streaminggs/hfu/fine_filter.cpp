@@ -56,6 +56,7 @@ void FineFilter::run_fetch() {
     if (candidate.mark == Mark::kNone) {
       fetch(candidate);
     } else {
+      fetch_.work(1);
       for (const auto& part : parts_) part->fetched.push(candidate, fetch_);
     }
   }
@@ -66,6 +67,7 @@ void FineFilter::fetch(FineCandidate candidate) {
   const std::uint32_t all = candidate.parts;
   candidate.parts &= unfinished_parts(finished, candidate.group);
   if (candidate.parts == 0) {
+    fetch_.work(1);
     drop_saturated(candidate);
     counters_.dropped_saturated += count_parts(all);
     return;
@@ -132,6 +134,7 @@ void FineFilter::run_filter(Part& part) {
       test(part, next);
       continue;
     }
+    part.filter.work(1);
     SplatToken end;
     end.group = next.candidate.group;
     end.visit = next.candidate.visit;
@@ -145,6 +148,7 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
   if (finished[static_cast<int>(part.index)]->finished(candidate.group)) {
     ++counters_.dropped_saturated;
     ++counters_.dropped_fetched;
+    part.filter.work(1);
     reject(part, candidate);
     return;
   }
@@ -183,7 +187,8 @@ SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_fo
                                std::uint32_t parts) {
   SramUses uses = {sram_use(
       "second halves", kSharedSram,
-      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}}, {8 * kPortBytes})};
+      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}}, {8 * kPortBytes}),
+      outstanding_table(kSharedSram, built_for.memory_port)};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
                               "candidates"),

@@ -62,11 +62,13 @@ void MergeUnit::run() {
     FifoReadIf<FineCandidate>& input = in_turn(sorted, visit);
     FineCandidate key = input.pop(merge_);
     group_ = key.group;
+    const bool alone = key.mark == Mark::kEndOfVisit;  // a mark that comes with no key
     while (key.mark == Mark::kNone) {
       take(key);
       key = input.pop(merge_);
     }
     group_ = key.group;
+    if (alone) merge_.work(1);
     if (finished->finished(group_)) drop_all();
     if (key.mark == Mark::kEndOfGroup) {
       end_group(key);
@@ -246,6 +248,7 @@ void MergeUnit::drop_all() {
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
   SramUses uses = kHeap.sram_uses(heap_entries(config, built_for));
   uses.push_back(mask_use(built_for.group));
+  uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
   const SramUse block =
       sram_use("spill blocks", kSharedSram,

@@ -1,14 +1,19 @@
 // When the clusters of the rendering unit blend which sub-tile.
 //
 // A splat's rows of sub-tiles get their spans on `span_lanes`, `span_depth_cycles` late; as many
-// splats as there are `span_slots` are under way or wait there for a dispatcher. It puts the
-// sub-tiles of each row, row by row, into the queues of the clusters, at most one a cycle and
-// cluster, a splat behind the other. Sub-tile (x, y) belongs to cluster (x + 2 y) mod clusters, whose bank holds
-// its pixels: neighbours lie in different banks. A cluster takes one sub-tile every
-// `cluster_interval_cycles()` out of its queue, in order, and not before the splat ahead of it on
-// the same sub-tile has left the loop through the pixel state. That a sub-tile is finished is known
-// when the blend that finished it has left the pipeline; until then splats go on being blended into
-// it, which changes nothing and costs the same.
+// splats as there are `span_slots` are under way or wait there for a dispatcher. It takes them in
+// order, one row a cycle at most, with or without sub-tiles in it. It ands the row's span with that
+// row of the mask of finished sub-tiles, and each cluster's queue takes at most one sub-tile a
+// cycle of what is left: the first of its own. The row stands, and is anded again, until nothing is
+// left of it. A splat whose whole footprint is finished when it comes, which the mask says at once,
+// takes one cycle of the lanes, no spans and no slot.
+//
+// Sub-tile (x, y) belongs to cluster (x + 2 y) mod clusters, whose bank holds its pixels:
+// neighbours lie in different banks. A cluster takes one sub-tile every `cluster_interval_cycles()`
+// out of its queue, in order, and not before the splat ahead of it on the same sub-tile has left
+// the loop through the pixel state: a scoreboard says which sub-tiles are in it. That a sub-tile is
+// finished is known when the blend that finished it has left the pipeline; until then splats go on
+// being blended into it, which changes nothing and costs the same.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +32,10 @@ class ClusterSchedule {
     std::uint64_t blends = 0;         // sub-tiles blended
     std::uint64_t late_blends = 0;    // of these into sub-tiles that were finished already
     std::uint64_t hazard_cycles = 0;  // that a cluster waited for the splat ahead
-    std::uint64_t queue_cycles = 0;   // that the dispatcher waited for room in a queue
+    std::uint64_t queue_cycles = 0;   // that a cluster's sub-tile of a row waited for room
+    std::uint64_t rows = 0;           // that the dispatcher took
+    std::uint64_t row_cycles = 0;     // that it held them
+    std::uint64_t finished = 0;       // sub-tiles
   };
 
   explicit ClusterSchedule(const RenderingConfig& config)
@@ -36,29 +44,45 @@ class ClusterSchedule {
                   Cluster{0, 0, 0, std::vector<std::uint64_t>(config.cluster_queue_entries)}),
         slot_free_(config.span_slots, 0) {}
 
-  void begin_group(std::size_t subtiles) {
+  void begin_group(std::size_t subtiles, std::size_t columns) {
     free_from_.assign(subtiles, 0);
     finished_from_.assign(subtiles, std::numeric_limits<std::uint64_t>::max());
+    columns_ = columns;
   }
 
-  // A splat is there in cycle `now`.
-  void begin_splat(std::uint64_t now) {
+  // Whether some sub-tile of the box is not known to be finished in cycle `now`.
+  bool any_unfinished(const SubtileRect& box, std::uint64_t now) const {
+    for (std::size_t y = box.y0; y < box.y1; ++y) {
+      for (std::size_t x = box.x0; x < box.x1; ++x) {
+        if (finished_from_[y * columns_ + x] > now) return true;
+      }
+    }
+    return false;
+  }
+
+  // A splat is there in cycle `now`. spanned: its rows get spans.
+  void begin_splat(std::uint64_t now, bool spanned) {
     begin_ = now;
-    dispatch_ = std::max(dispatched_, now);
+    spanned_ = spanned;
+    rows_ = 0;
   }
 
-  // Sub-tiles that it reaches, in the order in which they are found.
+  // Sub-tiles that it reaches, row by row.
   void reach(const SubtileReach& subtile) {
+    take_rows(subtile.row + 1);
     Cluster& cluster = cluster_of(subtile.x, subtile.y);
-    const std::uint64_t found = std::max(dispatch_, begin_ + config_.spans_known_after(subtile.spans));
-    const std::uint64_t in_turn = std::max(found, cluster.pushed_until);
+    const std::uint64_t in_turn = std::max(row_begin_, cluster.next_push);
     std::uint64_t& slot = cluster.taken[cluster.jobs % cluster.taken.size()];
     const std::uint64_t room = std::max(in_turn, slot);
     const std::uint64_t known = finished_from_[subtile.at];
-    dispatch_ = std::max(found, std::min(room, known));
-    counters_.queue_cycles += std::max(in_turn, dispatch_) - in_turn;
-    if (room >= known) return;
-    cluster.pushed_until = room + 1;
+    const std::uint64_t leaves = std::max(row_begin_, std::min(room, known));
+    counters_.queue_cycles += std::max(in_turn, leaves) - in_turn;
+    row_end_ = std::max(row_end_, leaves);
+    if (room >= known) {
+      cluster.next_push = std::max(cluster.next_push, leaves);
+      return;
+    }
+    cluster.next_push = room + 1;
     const std::uint64_t free = std::max(room + 1, cluster.free_from);
     const std::uint64_t taken = std::max(free, free_from_[subtile.at]);
     counters_.hazard_cycles += taken - free;
@@ -67,18 +91,23 @@ class ClusterSchedule {
     cluster.free_from = taken + config_.cluster_interval_cycles();
     free_from_[subtile.at] = taken + config_.state_loop_cycles;
     done_ = std::max(done_, cluster.free_from);
-    if (subtile.finishes) finished_from_[subtile.at] = taken + config_.depth_cycles;
+    if (subtile.finishes) {
+      finished_from_[subtile.at] = taken + config_.depth_cycles;
+      ++counters_.finished;
+    }
     ++counters_.blends;
     counters_.late_blends += subtile.blends ? 0 : 1;
   }
 
-  // The cycle in which the next splat can be taken: the lanes are free, and a slot. spans: of this
-  // one, whose slot is free when its last sub-tile, or that no row has any more, is dispatched.
-  std::uint64_t end_splat(std::uint32_t spans) {
-    dispatched_ = std::max(dispatch_, begin_ + config_.spans_known_after(spans)) + 1;
+  // The cycle in which the next splat can be taken: the lanes are free, and a slot. rows: of this
+  // one, 1 or more, whose slot is free when its last row is dispatched; spans: of them, or 0.
+  std::uint64_t end_splat(std::uint32_t rows, std::uint32_t spans) {
+    take_rows(rows);
+    end_row();
+    dispatched_ = row_end_ + 1;
     slot_free_[splats_++ % slot_free_.size()] = dispatched_;
-    return std::max({begin_ + 1, begin_ + config_.span_cycles(spans),
-                     slot_free_[splats_ % slot_free_.size()]});
+    return std::max(
+        {begin_ + 1, begin_ + config_.span_cycles(spans), slot_free_[splats_ % slot_free_.size()]});
   }
 
   // The cycle in which every splat is dispatched and every cluster is free again.
@@ -94,7 +123,7 @@ class ClusterSchedule {
 
  private:
   struct Cluster {
-    std::uint64_t pushed_until, free_from, jobs;
+    std::uint64_t next_push, free_from, jobs;
     std::vector<std::uint64_t> taken;  // ring: when the last entries of its queue were taken
   };
 
@@ -102,14 +131,32 @@ class ClusterSchedule {
     return clusters_[static_cast<std::size_t>(x + 2 * y) % clusters_.size()];
   }
 
+  // The dispatcher holds the last of so many rows.
+  void take_rows(std::uint32_t rows) {
+    for (; rows_ < rows; ++rows_) {
+      if (rows_ > 0) end_row();
+      const std::uint64_t free = rows_ > 0 ? row_end_ + 1 : dispatched_;
+      row_begin_ = std::max(free, begin_ + config_.spans_known_after(spanned_ ? rows_ + 1 : 0));
+      row_end_ = row_begin_;
+    }
+  }
+  void end_row() {
+    ++counters_.rows;
+    counters_.row_cycles += row_end_ + 1 - row_begin_;
+  }
+
   const RenderingConfig& config_;
   std::vector<Cluster> clusters_;
   std::vector<std::uint64_t> free_from_;      // [sub-tile] its state can be read again
   std::vector<std::uint64_t> finished_from_;  // [sub-tile] it is known to be finished
+  std::size_t columns_ = 0;                   // of the group's sub-tiles
   std::vector<std::uint64_t> slot_free_;      // ring: from when on, of the last splats
   std::uint64_t splats_ = 0;
-  // Of this splat; dispatched_: from when on the dispatcher is free for the next.
-  std::uint64_t begin_ = 0, dispatch_ = 0, dispatched_ = 0, done_ = 0;
+  // dispatched_: from when on the dispatcher is free for the next splat.
+  std::uint64_t begin_ = 0, dispatched_ = 0, done_ = 0;
+  std::uint64_t row_begin_ = 0, row_end_ = 0;  // first and last cycle of the row that is held
+  std::uint32_t rows_ = 0;                     // of the splat, taken so far
+  bool spanned_ = false;
   Counters counters_;
 };
 

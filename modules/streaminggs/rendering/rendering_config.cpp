@@ -1,6 +1,8 @@
 // Keys of the rendering unit.
 #include "modules/streaminggs/rendering/rendering_config.h"
 
+#include <algorithm>
+
 #include "algorithm/splat/filter_work.h"
 #include "modules/streaminggs/counted_datapath.h"
 #include "modules/streaminggs/work_rates.h"
@@ -14,7 +16,8 @@ struct Counted {
       : work(rendering_work(precision)),
         blend_macs(folded_macs(work.subtile_blend)),
         span_macs(folded_macs(work.span)),
-        begin{folded_macs(work.spans_begin), comparisons(work.spans_begin)} {}
+        begin{folded_macs(work.spans_begin), comparisons(work.spans_begin),
+              seeds(work.spans_begin)} {}
   RenderingWork work;
   std::uint32_t blend_macs, span_macs;
   SpansBegin begin;
@@ -37,11 +40,11 @@ Datapath conic_datapath() {
 Datapath blend_datapath(const RenderingConfig& config) {
   const OperationCounts& work = counted(config.precision).work.subtile_blend;
   const bool in_half = config.precision == BlendPrecision::kHalf;
-  Datapath path = counted_datapath("subtile_blend", "rendering", work);
+  Datapath path = counted_datapath("subtile_blend", "rendering", work,
+                                   in_half ? "exp2_table_half" : "exp2_table");
   if (in_half) path.lane = "fp16_lane";
   path.lanes = config.cluster_lanes;
   path.copies = config.clusters;
-  path.beside.push_back({in_half ? "exp2_table_half" : "exp2_table", work.look_ups});
   return path;
 }
 
@@ -69,6 +72,16 @@ std::uint32_t RenderingConfig::span_cycles(std::uint32_t spans) const {
   const Counted& work = counted(precision);
   return static_cast<std::uint32_t>(
       cycles_for(work.begin.macs + std::uint64_t{spans} * work.span_macs, span_lanes));
+}
+
+std::uint32_t RenderingConfig::subtiles_in_loop() const {
+  return static_cast<std::uint32_t>(cycles_for(state_loop_cycles, cluster_interval_cycles()));
+}
+
+std::uint32_t RenderingConfig::drain_row_cycles(std::uint32_t px) const {
+  const std::uint64_t subtiles = cycles_for(px, kSubtilePx);
+  return static_cast<std::uint32_t>(
+      std::max(cycles_for(px, drain_pixels_per_cycle), cycles_for(subtiles, clusters)));
 }
 
 void visit(ConfigVisitor& v, RenderingConfig& c) {

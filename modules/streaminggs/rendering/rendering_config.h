@@ -11,7 +11,7 @@
 namespace sgs {
 
 struct RenderingConfig {
-  std::uint32_t clusters = 4;        // each holds the pixels of its sub-tiles in a bank of its own
+  std::uint32_t clusters = 4;         // each holds the pixels of its sub-tiles in a bank of its own
   std::uint32_t cluster_lanes = 190;  // multiply-accumulates of one cluster: a sub-tile a cycle
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels on chip
   std::uint32_t cluster_queue_entries = 8;             // sub-tiles waiting for each cluster
@@ -22,7 +22,7 @@ struct RenderingConfig {
   std::uint32_t state_loop_cycles = 0;
   std::uint32_t span_depth_cycles = 0;   // of a row's span, beside the lanes' time
   std::uint32_t drain_depth_cycles = 0;  // of a finished pixel's conversion
-  std::uint32_t pixel_buffers = 2;  // groups whose pixels are on chip; 2: drain while blending
+  std::uint32_t pixel_buffers = 2;       // groups whose pixels are on chip; 2: drain while blending
   std::uint32_t drain_pixels_per_cycle = 8;  // conversion to the frame's format
   bool ellipse_test = true;                  // skips sub-tiles that the ellipse cannot reach
   std::uint32_t span_lanes = 64;             // multiply-accumulates for the spans of rows
@@ -41,22 +41,27 @@ struct RenderingConfig {
   std::uint32_t spans_known_after(std::uint32_t spans) const {
     return spans == 0 ? 0 : span_cycles(spans) + span_depth_cycles;
   }
+  // Sub-tiles of one cluster that can be in the loop through the pixel state at once.
+  std::uint32_t subtiles_in_loop() const;
+  // From a row of pixels of so many sub-tiles to the next, in draining: a bank gives one word a
+  // cycle.
+  std::uint32_t drain_row_cycles(std::uint32_t px) const;
   // Bytes of state a pixel: R, G, B and transmittance.
   std::uint32_t pixel_state_bytes() const { return precision == BlendPrecision::kHalf ? 8 : 16; }
 };
 
 // Counted by running the code (algorithm/splat/filter_work.h): the lanes that every splat passes
-// ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile; those of
-// the spans, an item a row.
+// ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile; those
+// of the spans, an item a row.
 Datapath conic_datapath();
 Datapath blend_datapath(const RenderingConfig& config);
 Datapath span_datapath(const RenderingConfig& config);
 // An item a finished pixel: as many lanes as drain_pixels_per_cycle of them take.
 Datapath drain_datapath(const RenderingConfig& config, FrameFormat format);
 
-// What a splat takes of the spans' lanes and comparators beside its rows.
+// What a splat takes of the spans' lanes, comparators and tables beside its rows.
 struct SpansBegin {
-  std::uint32_t macs, comparisons;
+  std::uint32_t macs, comparisons, look_ups;
 };
 const SpansBegin& spans_begin();
 

@@ -9,6 +9,9 @@
 namespace sgs {
 namespace {
 
+constexpr std::uint64_t kClearCycles = 1;
+constexpr std::uint32_t kSubtileNumberBytes = 2;
+
 // A splat, and of each row of sub-tiles the first and the last that it reaches, or none.
 std::uint32_t span_slot_bytes(const PixelSize& group) {
   const auto rows = static_cast<std::uint32_t>((group.height + kSubtilePx - 1) / kSubtilePx);
@@ -16,6 +19,14 @@ std::uint32_t span_slot_bytes(const PixelSize& group) {
   std::uint32_t bits = 1;
   while ((1U << bits) < columns) ++bits;
   return kSplatEntryBytes + (rows * 2 * bits + 7) / 8;
+}
+
+// Of the dispatcher, for the first sub-tile of each cluster in what is left of a row: x & -x of its
+// bits.
+std::uint32_t row_comparators(const PixelSize& group, std::uint32_t clusters) {
+  constexpr std::uint64_t kComparatorBits = 32;
+  const auto columns = cycles_for(static_cast<std::uint64_t>(group.width), kSubtilePx);
+  return clusters * static_cast<std::uint32_t>(cycles_for(columns, kComparatorBits));
 }
 
 }  // namespace
@@ -48,7 +59,7 @@ void RenderingUnit::run_blend() {
     auto state = std::make_shared<GroupState>(
         job_.groups[group], job_.view.width, job_.view.height, config_.precision,
         config_.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox);
-    schedule_.begin_group(state->subtile_count());
+    schedule_.begin_group(state->subtile_count(), state->subtile_columns());
     for (Mark mark = Mark::kNone; mark != Mark::kEndOfGroup;) {
       const SplatToken token = in_turn(splats, turn).pop(blend_);
       mark = token.mark;
@@ -76,13 +87,15 @@ void RenderingUnit::work_until(std::uint64_t cycle) {
 void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupState& state) {
   const std::uint64_t now = blend_.clock().now_cycles();
   const bool was_saturated = state.saturated();
-  if (was_saturated && now >= schedule_.group_finished_from()) {
-    ++counters_.splats_saturated;
+  const SplatBox box = state.box_of(splat);
+  if (!schedule_.any_unfinished(box.subtiles, now)) {
+    const bool all = was_saturated && now >= schedule_.group_finished_from();
+    ++(all ? counters_.splats_saturated : counters_.splats_hidden);
     blend_.work(1);
     return;
   }
   ++counters_.splats_taken;
-  schedule_.begin_splat(now);
+  schedule_.begin_splat(now, box.spanned);
   const BlendWork work = state.blend_scheduled(splat, [&](const SubtileReach& subtile) {
     schedule_.reach(subtile);
     if (subtile.finishes) tell_finished(group, subtile.at, now);
@@ -94,7 +107,7 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
   if (state.saturated() && !was_saturated && config_.saturation_feedback) {
     finish->finish(group, static_cast<std::uint32_t>(schedule_.group_finished_from() - now));
   }
-  work_until(schedule_.end_splat(work.spans));
+  work_until(schedule_.end_splat(work.rows, work.spans));
 }
 
 void RenderingUnit::tell_finished(std::uint32_t group, std::size_t at, std::uint64_t now) {
@@ -127,10 +140,13 @@ void RenderingUnit::write_group(const GroupState& state) {
       encode_pixel(job_.frame_format, state.colour(x, y, job_.background),
                    row.data() + static_cast<std::size_t>(x - pixels.x0) * bytes);
     }
-    drain_.work(cycles_for(width, config_.drain_pixels_per_cycle));
+    drain_.work(config_.drain_row_cycles(width));
     start_write(memory, drain_, job_.pixel_address(pixels.x0, y), row.data(),
                 static_cast<std::uint32_t>(row.size()), job_.frame_buffer.region);
   }
+  // A sub-tile is cleared in the cycle after its last row was read: all but the last while others
+  // are drained.
+  if (!pixels.empty()) drain_.work(kClearCycles);
 }
 
 // A memory for each place of a pixel in a sub-tile, in each cluster: a blend reads and writes all
@@ -155,6 +171,14 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                     {config.cluster_queue_entries, "splats"},
                     {kSplatEntryBytes, "B"}},
                    {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}),
+          mask_use(built_for.group),
+          outstanding_table(kSharedSram, built_for.memory_port),
+          sram_use("sub-tiles in the loop", kSharedSram,
+                   {{config.clusters, "clusters"},
+                    {config.subtiles_in_loop(), "sub-tiles"},
+                    {kSubtileNumberBytes, "B"}},
+                   {8 * kSubtileNumberBytes * config.subtiles_in_loop(), SramPorts::kReadAndWrite,
+                    config.clusters}),
           unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
                             width * pixel_bytes(built_for.frame_format))};
 }
@@ -169,18 +193,50 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
   sheet.operations("rendering", spans.lane.c_str(), spanned * spans_begin().macs);
   sheet.operations("rendering", "comparator", spanned * spans_begin().comparisons);
   sheet.accesses("splats under way", counters_.splats_taken, counters_.splats_taken);
+  sheet.operations("rendering", "small_table", spanned * spans_begin().look_ups);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
-  // Each blend reads and writes a sub-tile; so do clearing and draining a group.
-  std::uint64_t subtiles = clusters.blends, pixels = 0;
+  publish_dispatcher(sheet);
+  publish_pixels(sheet);
+  sheet.port(memory, "pixel writes");
+}
+
+void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
+  const ClusterSchedule::Counters& clusters = schedule_.counters();
+  // Whether a splat's footprint is finished is asked of all rows at once: with its first row or,
+  // where it has spans to wait for, before it.
+  const std::uint64_t dropped = counters_.splats_hidden + counters_.splats_saturated;
+  const double of_splat = mask_comparators(built_for_.group);
+  const double of_row = row_comparators(built_for_.group, config_.clusters);
+  // The head of a queue against all sub-tiles in the loop, in every cycle that it is looked at.
+  const double of_loop = config_.subtiles_in_loop();
+  const auto looks = clusters.blends + clusters.hazard_cycles;
+  sheet.part("rendering", "comparator", of_splat + of_row + config_.clusters * of_loop, 1);
+  sheet.operations("rendering", "comparator",
+                   of_splat * static_cast<double>(counters_.splats_taken + dropped) +
+                       of_row * static_cast<double>(clusters.row_cycles) +
+                       of_loop * static_cast<double>(looks));
+  sheet.accesses("finished sub-tiles", dropped + counters_.splats_spanned + clusters.row_cycles,
+                 clusters.finished + counters_.groups);
+  sheet.accesses("sub-tiles in the loop", looks, clusters.blends);
+}
+
+// Each blend reads and writes a sub-tile. Draining reads it once for each row of pixels, and clears
+// it.
+void RenderingUnit::publish_pixels(DataSheet& sheet) {
+  std::uint64_t drained = 0, cleared = 0, pixels = 0;
   for (std::uint64_t group = 0; group < counters_.groups; ++group) {
     const PixelRect& px = job_.groups[group];
-    subtiles += cycles_for(static_cast<std::uint64_t>(px.width()), kSubtilePx) *
-                cycles_for(static_cast<std::uint64_t>(px.height()), kSubtilePx);
-    pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
+    const auto width = static_cast<std::uint64_t>(px.width());
+    const auto height = static_cast<std::uint64_t>(px.height());
+    drained += height * cycles_for(width, kSubtilePx);
+    cleared += cycles_for(height, kSubtilePx) * cycles_for(width, kSubtilePx);
+    pixels += width * height;
   }
+  const std::uint64_t blends = schedule_.counters().blends;
   sheet.datapath(drain_datapath(config_, job_.frame_format), pixels);
-  sheet.accesses("pixel state", kSubtilePixels * subtiles, kSubtilePixels * subtiles);
-  sheet.port(memory, "pixel writes");
+  // A blend reads and writes all places of a sub-tile, draining those of a row, clearing all again.
+  sheet.accesses("pixel state", kSubtilePixels * blends + kSubtilePx * drained,
+                 kSubtilePixels * (blends + cleared));
 }
 
 void RenderingUnit::publish(DataSheet& sheet) {
@@ -195,6 +251,10 @@ void RenderingUnit::publish(DataSheet& sheet) {
                 counters_.splats_taken);
   sheet.counter("splats_saturated", "splats", "that came when their group was finished",
                 counters_.splats_saturated);
+  sheet.counter("splats_hidden", "splats",
+                "that came when all sub-tiles of their footprint were finished",
+                counters_.splats_hidden);
+  sheet.counter("rows", "rows", "of sub-tiles that the dispatcher took", schedule_.counters().rows);
   sheet.counter("splats_spanned", "splats", "on more sub-tiles than a few: rows got spans",
                 counters_.splats_spanned);
   sheet.counter("spans", "rows", "of sub-tiles whose span in the ellipse was computed",

@@ -1,6 +1,8 @@
 // Rendering unit: blends sorted splats into the pixels of the current group and writes finished
-// groups to the frame buffer. Timing: one splat covers `clusters` of its unfinished 4x4 sub-tiles a
-// cycle; a group drains at drain_pixels_per_cycle. Function: algorithm/render/group_state.h.
+// groups to the frame buffer. Timing: a row of a splat's unfinished 4x4 sub-tiles a cycle at most,
+// one of them for each cluster (cluster_schedule.h); a group drains at drain_pixels_per_cycle, row
+// by row of pixels, a word of each sub-tile in the row, and is cleared behind that. Function:
+// algorithm/render/group_state.h.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +45,7 @@ class RenderingUnit : public sc_core::sc_module {
     std::uint64_t splats = 0;            // blended into at least one sub-tile
     std::uint64_t splats_taken = 0;      // that found their group unfinished
     std::uint64_t splats_saturated = 0;  // arrived when their group was finished
+    std::uint64_t splats_hidden = 0;     // when all sub-tiles of their footprint were
     std::uint64_t splats_spanned = 0;    // on more sub-tiles than a few
     std::uint64_t spans = 0;             // of rows of sub-tiles
     std::uint64_t contributors = 0;      // (splat, pixel) blends
@@ -60,6 +63,8 @@ class RenderingUnit : public sc_core::sc_module {
   void tell_finished(std::uint32_t group, std::size_t at, std::uint64_t now);
   void work_until(std::uint64_t cycle);
   void publish_ledger(DataSheet& sheet);
+  void publish_dispatcher(DataSheet& sheet);
+  void publish_pixels(DataSheet& sheet);
   void write_group(const GroupState& state);
 
   const RenderingConfig config_;

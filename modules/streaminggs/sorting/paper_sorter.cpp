@@ -208,7 +208,8 @@ SramUses PaperSorter::sram_uses(const PaperSorterConfig& config, const BuiltFor&
   return {sram_use("sort buffers", kSharedSram,
                    {{config.buffer_entries, "splats"}, {kSplatEntryBytes, "B"}},
                    {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, kNetworkWidth}),
-          block, unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes)};
+          block, outstanding_table(kSharedSram, built_for.memory_port),
+          unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes)};
 }
 
 void PaperSorter::publish(DataSheet& sheet) {

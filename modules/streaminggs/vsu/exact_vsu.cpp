@@ -247,11 +247,13 @@ void ExactVsu::run_hand_out() {
   while (true) {
     VisitShare visit = ready_.pop(hand_out_);
     taken_.push(0, hand_out_);
-    if (visit.mark == Mark::kEndOfVisit && finished->finished(visit.group)) {
+    const bool dropped = visit.mark == Mark::kEndOfVisit && finished->finished(visit.group);
+    hand_out_.work(1);
+    if (dropped) {
+      ++counters_.visits_dropped;
       mark_saturated(visit.group);
       continue;
     }
-    hand_out_.work(1);
     visit.visit = next_visit_;
     in_turn(visits, next_visit_).push(visit, hand_out_);
     ++next_visit_;
@@ -274,6 +276,7 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
   add(uses, kNodeQueue.sram_uses(config.node_queue_entries));
   uses.push_back(mask_use(built_for.group));
   uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
+  uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   uses.push_back(
       unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes));
   return uses;
@@ -297,6 +300,8 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.counter("chunks_hidden", "chunks", "not handed out, likewise", counters_.chunks_hidden);
   sheet.counter("tests", "children", "tested against a group", tester_.tests());
   sheet.counter("visits", "chunks", "handed out, once for each group", counters_.visits);
+  sheet.counter("visits_dropped", "chunks", "that were final when their group had finished",
+                counters_.visits_dropped);
   sheet.counter("groups_saturated", "groups", "finished before their walk ended",
                 counters_.groups_saturated);
   sheet.counter("groups_empty", "groups", "that no chunk can touch", counters_.groups_empty);

@@ -48,6 +48,7 @@ class ExactVsu : public sc_core::sc_module {
     std::uint64_t nodes_hidden = 0;      // not read: all sub-tiles that they reach were finished
     std::uint64_t chunks_hidden = 0;     // not handed out, likewise
     std::uint64_t visits = 0;            // handed out
+    std::uint64_t visits_dropped = 0;  // final, and their group was finished by then
     std::uint64_t groups_saturated = 0;  // whose walk ended before the tree did
     std::uint64_t groups_empty = 0;      // no chunk touches
   };

@@ -45,6 +45,7 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       node_memory("node_memory", context.built_for.memory_port, context.clock.period()),
       record_memory("record_memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
+      built_for_(context.built_for),
       job_(context.job),
       traverse_("traverse", context.clock),
       emit_("emit", context.clock),
@@ -181,7 +182,7 @@ void PaperVsu::mark_end(std::uint32_t group) {
   ++next_visit_;
 }
 
-SramUses PaperVsu::sram_uses(const PaperVsuConfig& config) {
+SramUses PaperVsu::sram_uses(const PaperVsuConfig& config, const BuiltFor& built_for) {
   // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
   SramUses uses = TableCache<VoxelNode>::sram_uses("node cache", "node cache tags", kSharedSram,
                                                    config.node_cache_bytes);
@@ -195,6 +196,7 @@ SramUses PaperVsu::sram_uses(const PaperVsuConfig& config) {
                           {64, SramPorts::kReadAndWrite, 2 * config.edges_per_cycle}));
   uses.push_back(sram_use("ordered voxels", kSharedSram,
                           {{config.groups_ahead, "groups"}, {config.table_bytes / 2, "B"}}, {32}));
+  add(uses, outstanding_table(kSharedSram, built_for.memory_port), 2);  // of both ports
   return uses;
 }
 
@@ -247,7 +249,7 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.remedy(traverse_, "vsu.step_lanes");
   sheet.remedy(node_memory, WaitFor::kReads, "vsu.node_cache_bytes");
   sheet.remedy(record_memory, WaitFor::kReads, "vsu.record_cache_bytes");
-  sheet.sram(sram_uses(config_));
+  sheet.sram(sram_uses(config_, built_for_));
   sheet.queue(ordered_, "ordered voxels");
   sheet.remedy(ordered_, WaitFor::kRoom, "vsu.groups_ahead");
   sheet.signal("group", current_group_);

@@ -48,7 +48,7 @@ class PaperVsu : public sc_core::sc_module {
     std::uint64_t table_bytes_max = 0;   // ordering table of the worst group
   };
   const Counters& counters() const { return counters_; }
-  static SramUses sram_uses(const PaperVsuConfig& config);
+  static SramUses sram_uses(const PaperVsuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
  private:
@@ -68,6 +68,7 @@ class PaperVsu : public sc_core::sc_module {
   void mark_end(std::uint32_t group);
 
   const PaperVsuConfig config_;
+  const BuiltFor built_for_;
   const StreamingJob& job_;
   Activity traverse_, emit_;
   const Datapath ray_steps_;

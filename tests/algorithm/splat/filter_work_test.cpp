@@ -3,9 +3,11 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <random>
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
+#include "algorithm/splat/counting_half.h"
 #include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/make_splat.h"
@@ -142,6 +144,28 @@ TEST_CASE("filter work: a test that fails early has executed less") {
   }
   CHECK(folded_macs(fine_work(behind, 3).total()) == 15);
   CHECK(comparisons(fine_work(behind, 3).total()) == 1);
+}
+
+TEST_CASE("filter work: halves that are counted are the halves of blending") {
+  std::mt19937 random(5);
+  const auto draw = [&](float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(random);
+  };
+  for (int repeat = 0; repeat < 2000; ++repeat) {
+    const float exponent = draw(-20, 0.5F), opacity = draw(0, 1), before = draw(0, 1);
+    DataFlow flow;
+    const auto counted = [&](float x) { return CountingHalf(input(flow, x)); };
+    const HalfScalar t(exponent);
+    const HalfScalar alpha = alpha_of(t, exp2_of(t), HalfScalar(opacity));
+    const CountingHalf of_t = counted(exponent);
+    const CountingHalf of_count = alpha_of(of_t, exp2_of(of_t), counted(opacity));
+    CHECK(value_of(of_count) == alpha.value());
+    const LightShare<HalfScalar> light = take_light(alpha, HalfScalar(before));
+    const LightShare<CountingHalf> same = take_light(of_count, counted(before));
+    CHECK(value_of(same.weight) == light.weight.value());
+    CHECK(value_of(same.after) == light.after.value());
+    CHECK(flow.counts(0, flow.size()).look_ups == 1);
+  }
 }
 
 TEST_CASE("work of rendering a splat, counted") {

@@ -23,6 +23,10 @@ MachineResult paid() {
   machine.units = {unit};
   machine.parts = {{"adder", "fp32_lane", 2, 2}, {"heap", "comparator", 3, 3}};
   machine.operations = {{"adder", "fp32_lane", 200}, {"heap", "comparator", 300}};
+  Datapath sum;
+  sum.name = "sum";
+  sum.used_macs = 1;
+  machine.datapaths = {{sum, 100, 100}};
   const SramShape banks{32, SramPorts::kReadAndWrite, 2};
   add(machine.sram_uses, sram_use("rows", "scratch", {{64, "B"}}, banks), 2);
   add(machine.sram_uses, sram_use("table", "scratch", {{64, "B"}}, {32, SramPorts::kOne, 1}));
@@ -73,6 +77,9 @@ TEST_CASE("ledger: every kind of unpaid work is found by name") {
        "heap: fp32_lane: 1 done"},
       {"too many operations", [](MachineResult& m) { m.operations[1].count += 1; },
        "heap: comparator: 301 done, 3 a cycle"},
+      {"one datapath busier than the frame is long",
+       [](MachineResult& m) { m.datapaths[0].busiest_cycles += 1; },
+       "sum: busiest: 101 done, 1 a cycle"},
       {"too many reads", [](MachineResult& m) { m.sram_accesses[0].reads += 1; },
        "rows: reads: 401 done, 4 a cycle"},
       {"too many writes", [](MachineResult& m) { m.sram_accesses[0].writes += 1; },

@@ -61,7 +61,8 @@ SramUses FetchUnit::sram_uses(const ToyConfig& config) {
                     {config.fetch.block_gaussians, "Gaussians"},
                     {kFirstHalfBytes, "B"}},
                    {8 * kFirstHalfBytes}),
-          fifo_use<Fetched>("fetched", kScratch, config.fetch.buffer_blocks, "blocks")};
+          fifo_use<Fetched>("fetched", kScratch, config.fetch.buffer_blocks, "blocks"),
+          outstanding_table(kScratch, config.memory_port)};
 }
 
 void FetchUnit::publish(DataSheet& sheet) {

@@ -45,7 +45,8 @@ void WriteUnit::fill(const PixelRect& group, const glm::vec3& colour) {
 
 SramUses WriteUnit::sram_uses(const ToyConfig& config) {
   return {unanswered_writes("pixels", kScratch, config.memory_port,
-                            config.group_px * pixel_bytes(config.framebuffer))};
+                            config.group_px * pixel_bytes(config.framebuffer)),
+          outstanding_table(kScratch, config.memory_port)};
 }
 
 void WriteUnit::publish(DataSheet& sheet) {
