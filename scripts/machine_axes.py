@@ -107,6 +107,7 @@ COMMON = (
     axis("hfu.cfu_lanes", 1, 2, 3, 4, 6, 8, 12),
     axis("hfu.second_half_slots", 4, 6, 8, 16, 24, 32),
     axis("sorting_units", 1, 2, 4),
+    axis("rendering.span_slots", 8, 16, 32, 48),
 )
 # In both orders second halves are raw, since what codebooks cost and gain is a matter of its own,
 # and a filter's test takes what was counted on the code that runs it.
@@ -125,7 +126,7 @@ EXACT = Order(
         axis("merge.entries", 128, 256, 512, 1024, 1848, 3072),
         axis("vsu.test_lanes", 16, 32, 64, 128),
         axis("vsu.nodes_in_flight", 2, 4, 8),
-        axis("vsu.queue_entries", 128, 256, 384, 768),
+        axis("vsu.queue_entries", 128, 256, 512, 768),
         axis("hfu.input_slots", 3, 5, 8),
         *COMMON,
     ),
