@@ -37,7 +37,10 @@ void check_joules(const Json& view) {
     return view["datapath"][filter]["used"]["macs"].get<double>() * pj("fp32_lane") +
            (counts["comparisons"].get<double>() +
             kRoundingComparisons * counts["roundings"].get<double>()) *
-               pj("comparator");
+               pj("comparator") +
+           (counts["divisors"].get<double>() + counts["square_roots"].get<double>() +
+            counts["logarithms"].get<double>() + counts["look_ups"].get<double>()) *
+               pj("small_table");
   };
   std::map<std::string, double> expected;
   expected["coarse"] = sum_of(view, "coarse_tests") * test("coarse");

@@ -33,7 +33,8 @@ std::uint64_t fine_busy(const Json& view) {
   return sum;
 }
 
-// The fine filters are busy for as long as the report says that their tests take.
+// The fine filters are busy for as long as the report says that their tests take, and a cycle for
+// the mark of each group.
 void check_charged(const Json& view, const char* whose) {
   const Json& fine = view["datapath"]["fine"];
   const Json& coarse = view["datapath"]["coarse"];
@@ -43,7 +44,7 @@ void check_charged(const Json& view, const char* whose) {
   CHECK(hfu["ffu_macs"] == fine[whose]["macs"]);
   CHECK(hfu["cfu_macs"] == coarse[whose]["macs"]);
   const auto tests = total(view, "fine_tests");
-  CHECK(fine_busy(view) == tests * fine[whose]["interval_cycles"].get<std::uint64_t>());
+  CHECK(fine_busy(view) == tests * fine[whose]["interval_cycles"].get<std::uint64_t>() + total(view, "groups"));
 }
 
 // What comparators did beside the lanes is the same whatever the lanes are charged.
@@ -52,8 +53,10 @@ double joules_a_mac(const Json& view, const char* filter, const char* counter) {
   const Json& path = view["datapath"][filter];
   const double joules = view["energy"][std::string(filter) + "_j"].get<double>() /
                         static_cast<double>(total(view, counter));
-  const double beside = path["beside"]["comparator"]["operations"].get<double>() *
-                        technology.part("comparator").pj.middle * 1e-12;
+  double beside = 0;
+  for (const auto& [kind, part] : path["beside"].items()) {
+    beside += part["operations"].get<double>() * technology.part(kind).pj.middle * 1e-12;
+  }
   return (joules - beside) / path["used"]["macs"].get<double>();
 }
 
