@@ -164,7 +164,7 @@ PAPER = Order(
         ),
         axis("vsu.step_lanes", 16, 32, 64, 128, 256, 512),
         axis("vsu.ray_step_px", 4, 2, 1),
-        axis("vsu.edges_per_cycle", 1, 2, 4),
+        axis("vsu.table_banks", 1, 2, 4),
         axis("vsu.table_bytes", 7680, 16384, 32768),
         axis("vsu.node_cache_bytes", 2112, 4224, 8448, 16896, 33792),
         *COMMON,

@@ -2,71 +2,98 @@
 #include "algorithm/order/ordering_table.h"
 
 #include <algorithm>
-#include <functional>
-#include <queue>
 #include <stdexcept>
 
 namespace sgs {
+namespace {
+
+// A table for more voxels than exist has no use for the rest.
+std::uint64_t most_held(std::size_t voxel_count, std::uint64_t capacity_bytes) {
+  return std::max<std::uint64_t>(
+      1, std::min<std::uint64_t>(voxel_count, OrderingTable::most_voxels(capacity_bytes)));
+}
+
+}  // namespace
 
 OrderingTable::OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes)
-    : local_of_(voxel_count, -1), capacity_bytes_(capacity_bytes) {}
+    : capacity_bytes_(capacity_bytes),
+      names_(most_held(voxel_count, capacity_bytes)),
+      ready_(most_held(voxel_count, capacity_bytes)) {}
 
 void OrderingTable::clear() {
-  for (const std::uint32_t voxel : voxels_) local_of_[voxel] = -1;
-  for (std::size_t i = 0; i < voxels_.size(); ++i) successors_[i].clear();
+  names_.clear();
+  for (std::uint32_t id = 0; id < voxels_.size(); ++id) {
+    if (voxels_[id].in_degree == 0) ready_.clear(id);
+  }
   voxels_.clear();
-  last_chain_.clear();
-  edge_count_ = 0;
+  edges_.clear();
   edges_offered_ = 0;
 }
 
 std::uint32_t OrderingTable::rename(std::uint32_t voxel) {
-  std::int32_t& local = local_of_[voxel];
-  if (local < 0) {
-    local = static_cast<std::int32_t>(voxels_.size());
-    voxels_.push_back(voxel);
-    if (successors_.size() < voxels_.size()) successors_.emplace_back();
-  }
-  return static_cast<std::uint32_t>(local);
+  std::uint64_t slots = 0;
+  const auto is_of = [&](std::uint32_t number) {
+    ++accesses_.reads;
+    return voxels_[number].id == voxel;
+  };
+  const std::uint32_t slot = names_.find(voxel, is_of, slots);
+  accesses_.names_read += slots;
+  if (names_.taken(slot)) return names_.number(slot);
+  const std::uint32_t number = voxel_count();
+  voxels_.push_back({voxel, 0, kNone});
+  if (!fits()) return kNone;
+  names_.take(slot, number);
+  ++accesses_.names_written;
+  ++accesses_.writes;
+  const std::uint32_t words = ready_.set(number);
+  accesses_.ready_read += words;
+  accesses_.ready_written += words;
+  return number;
 }
 
-bool OrderingTable::add_chain(const std::vector<std::uint32_t>& voxels) {
-  if (!voxels.empty()) edges_offered_ += voxels.size() - 1;
-  if (voxels == last_chain_) return true;  // neighbouring rays mostly agree: nothing new
-  std::uint32_t before = 0;
-  for (std::size_t i = 0; i < voxels.size(); ++i) {
-    const std::uint32_t id = rename(voxels[i]);
-    if (i > 0) {
-      auto& known = successors_[before];
-      if (std::find(known.begin(), known.end(), id) == known.end()) {
-        known.push_back(id);
-        ++edge_count_;
-      }
-    }
-    if (!fits()) return false;
-    before = id;
+// The head of the list stands in the voxel's record; who is new goes in front.
+void OrderingTable::add_edge(std::uint32_t from, std::uint32_t to) {
+  ++accesses_.reads;
+  for (std::uint32_t at = voxels_[from].first_edge; at != kNone; at = edges_[at].next) {
+    ++accesses_.reads;
+    if (edges_[at].successor == to) return;
   }
-  last_chain_ = voxels;
-  return true;
+  edges_.push_back({to, voxels_[from].first_edge});
+  voxels_[from].first_edge = edge_count() - 1;
+  accesses_.writes += 3;  // the edge, the list's head, the in-degree
+  if (voxels_[to].in_degree++ > 0) return;
+  const std::uint32_t words = ready_.clear(to);
+  accesses_.ready_read += words;
+  accesses_.ready_written += words;
 }
 
-std::vector<std::uint32_t> OrderingTable::order() const {
-  std::vector<std::uint32_t> in_degree(voxels_.size(), 0);
-  for (std::size_t i = 0; i < voxels_.size(); ++i) {
-    for (const std::uint32_t next : successors_[i]) ++in_degree[next];
-  }
-  std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> ready;
-  for (std::uint32_t id = 0; id < voxels_.size(); ++id) {
-    if (in_degree[id] == 0) ready.push(id);
-  }
+bool OrderingTable::add(Chain& chain, std::uint32_t voxel) {
+  if (chain.before != kNone) ++edges_offered_;
+  const std::uint32_t number = rename(voxel);
+  if (number == kNone) return false;
+  if (chain.before != kNone) add_edge(chain.before, number);
+  chain.before = number;
+  return fits();
+}
+
+std::vector<std::uint32_t> OrderingTable::order() {
   std::vector<std::uint32_t> order;
   order.reserve(voxels_.size());
-  while (!ready.empty()) {
-    const std::uint32_t id = ready.top();
-    ready.pop();
-    order.push_back(voxels_[id]);
-    for (const std::uint32_t next : successors_[id]) {
-      if (--in_degree[next] == 0) ready.push(next);
+  while (!ready_.empty()) {
+    const std::uint32_t number = ready_.first();
+    accesses_.ready_read += ready_.levels();
+    accesses_.ready_written += ready_.clear(number);
+    ++accesses_.reads;
+    order.push_back(voxels_[number].id);
+    voxels_[number].in_degree = kNone;  // taken
+    for (std::uint32_t at = voxels_[number].first_edge; at != kNone; at = edges_[at].next) {
+      Voxel& next = voxels_[edges_[at].successor];
+      accesses_.reads += 2;
+      ++accesses_.writes;
+      if (--next.in_degree > 0) continue;
+      const std::uint32_t words = ready_.set(edges_[at].successor);
+      accesses_.ready_read += words;
+      accesses_.ready_written += words;
     }
   }
   if (order.size() != voxels_.size()) {

@@ -8,6 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include "algorithm/order/ready_voxels.h"
+#include "algorithm/order/renaming.h"
+
 namespace sgs {
 
 // SRAM that one group's table takes, by count of renamed voxels and of distinct edges: per voxel
@@ -16,7 +19,16 @@ namespace sgs {
 constexpr std::uint32_t kOrderingBytesPerVoxel = 8;
 constexpr std::uint32_t kOrderingBytesPerEdge = 4;
 
+// What has been read and written so far, a voxel's record or an edge at a time.
+struct OrderingAccesses {
+  std::uint64_t reads = 0, writes = 0;              // of the table
+  std::uint64_t names_read = 0, names_written = 0;  // of the renaming
+  std::uint64_t ready_read = 0, ready_written = 0;  // of the words of ready voxels
+};
+
 class OrderingTable {
+  static constexpr std::uint32_t kNone = ~0U;
+
  public:
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
@@ -24,37 +36,62 @@ class OrderingTable {
   // that is there for one group, at least that of a voxel.
   explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited);
 
+  // Voxels for which a table of so many bytes has room.
+  static std::uint64_t most_voxels(std::uint64_t capacity_bytes) {
+    return capacity_bytes / kOrderingBytesPerVoxel;
+  }
+
   // Forgets the group before.
   void clear();
 
-  // Adds the voxels that one ray meets, nearest first. Voxels are renamed 0, 1, 2, ... as they
-  // first appear; each consecutive pair gives an edge. Returns false where a voxel or an edge finds
-  // no room: the table is to be cleared then.
-  bool add_chain(const std::vector<std::uint32_t>& voxels);
+  // Of a ray: the number of the voxel that it met last, if any.
+  class Chain {
+    friend class OrderingTable;
+    std::uint32_t before = kNone;
+  };
 
-  // Voxels in visiting order; among those that are ready the lowest renamed id goes first. Throws
-  // std::logic_error on a cycle, which monotonic rays from one centre cannot make.
-  std::vector<std::uint32_t> order() const;
+  // The next voxel that a ray meets. Voxels are renamed 0, 1, 2, ... as they first appear; each
+  // consecutive pair of a ray gives an edge. Returns false where a voxel or an edge finds no room:
+  // the table is to be cleared then.
+  bool add(Chain& chain, std::uint32_t voxel);
+
+  // Voxels in visiting order; among those that are ready the lowest renamed id goes first. The
+  // in-degrees are used up: once, before the table is cleared. Throws std::logic_error on a cycle,
+  // which monotonic rays from one centre cannot make.
+  std::vector<std::uint32_t> order();
 
   std::uint32_t voxel_count() const { return static_cast<std::uint32_t>(voxels_.size()); }
-  std::uint32_t edge_count() const { return edge_count_; }        // distinct
+  std::uint32_t edge_count() const {
+    return static_cast<std::uint32_t>(edges_.size());
+  }                                                               // distinct
   std::uint64_t edges_offered() const { return edges_offered_; }  // by all rays
   std::uint64_t sram_bytes() const {
     return std::uint64_t{voxel_count()} * kOrderingBytesPerVoxel +
            std::uint64_t{edge_count()} * kOrderingBytesPerEdge;
   }
+  const OrderingAccesses& accesses() const { return accesses_; }
+  // Cycles that finding the first of the ready voxels takes: a level of words each.
+  std::uint32_t ready_levels() const { return ready_.levels(); }
 
  private:
+  struct Voxel {
+    std::uint32_t id, in_degree, first_edge;
+  };
+  struct Edge {
+    std::uint32_t successor, next;
+  };
+
   std::uint32_t rename(std::uint32_t voxel);
+  void add_edge(std::uint32_t from, std::uint32_t to);
   bool fits() const { return sram_bytes() <= capacity_bytes_; }
 
-  std::vector<std::int32_t> local_of_;                  // [voxels that exist] renamed id, or -1
-  std::vector<std::uint32_t> voxels_;                   // [renamed id] global id
-  std::vector<std::vector<std::uint32_t>> successors_;  // [renamed id]
-  std::vector<std::uint32_t> last_chain_;
   const std::uint64_t capacity_bytes_;
-  std::uint32_t edge_count_ = 0;
+  Renaming names_;
+  ReadyVoxels ready_;
+  std::vector<Voxel> voxels_;  // [renamed id]
+  std::vector<Edge> edges_;
   std::uint64_t edges_offered_ = 0;
+  OrderingAccesses accesses_;
 };
 
 }  // namespace sgs

@@ -24,12 +24,6 @@ struct GridTable {
   const VoxelNode& node(std::uint32_t index) const { return grid.nodes[index]; }
 };
 
-struct NobodyWatches {
-  void ray(std::uint32_t, std::size_t) const {}
-  void full() const {}
-  void ordered(const std::vector<std::uint32_t>&, bool) const {}
-};
-
 // A part of a group while it is being rendered.
 struct Part {
   PixelRect pixels;
@@ -101,11 +95,11 @@ GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const 
   if (grid.nodes.empty()) return {};
   const GridTable nodes{grid};
   if (rays.sample_step_voxels > 0) {
-    RaySampling sampling(grid.frame, nodes, rays.sample_step_voxels);
-    return group_visits(view, group, rays.step_px, sampling, table, NobodyWatches{});
+    RaysInRounds rounds(view, rays, SamplePath(grid.frame, rays.sample_step_voxels), nodes);
+    return group_visits(group, rounds, table);
   }
-  RayWalk walk(grid.frame, nodes);
-  return group_visits(view, group, rays.step_px, walk, table, NobodyWatches{});
+  RaysInRounds rounds(view, rays, RayPath<float>(grid.frame), nodes);
+  return group_visits(group, rounds, table);
 }
 
 StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud& cloud,

@@ -11,56 +11,76 @@
 
 #include "algorithm/voxel/cells_from_eye.h"
 #include "algorithm/voxel/ray.h"
+#include "algorithm/voxel/ray_event.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 
-template <class Table>
-class RaySampling {
+// The state of one ray; used as RayPath, a step is a sample taken.
+class SamplePath {
  public:
   // step_voxels: distance of samples in units of the voxel size.
-  RaySampling(const VoxelFrame& frame, Table& table, float step_voxels)
-      : frame_(frame), table_(table), step_(static_cast<double>(step_voxels) * frame.voxel_size) {}
+  SamplePath(const VoxelFrame& frame, float step_voxels)
+      : frame_(frame), step_(static_cast<double>(step_voxels) * frame.voxel_size) {}
 
-  // As RayWalk::walk; a step is a sample taken.
-  template <class Visit>
-  std::uint32_t walk(const Ray& ray, Visit&& visit) {
-    const double time_step = step_ / glm::length(ray.direction);
-    std::uint32_t steps = 0;
-    std::int64_t sample = first_inside(ray, time_step);
-    std::int64_t last_voxel = -1;
-    const glm::ivec3 eye = eye_cell(ray.origin, frame_);
-    while (sample >= 0) {
-      ++steps;
-      glm::ivec3 cell;
-      if (!cell_at(ray, static_cast<double>(sample) * time_step, cell)) return steps;
-      int block_level = frame_.levels;
-      std::uint32_t index = 0;
-      bool found = true;
-      while (found && block_level > 0) {
-        const VoxelNode node = table_.node(index);
-        const unsigned shift = static_cast<unsigned>(2 * --block_level);
-        const unsigned bit = child_bit((static_cast<unsigned>(cell.x) >> shift) & 3U,
-                                       (static_cast<unsigned>(cell.y) >> shift) & 3U,
-                                       (static_cast<unsigned>(cell.z) >> shift) & 3U);
-        found = (node.occupied >> bit & 1U) != 0;
-        index = node.first_child + static_cast<std::uint32_t>(__builtin_popcountll(
-                                       node.occupied & ((std::uint64_t{1} << bit) - 1)));
-      }
-      if (found && index != last_voxel) {
-        if (!visit(index, cells_from_eye(eye, cell))) return steps;
-        last_voxel = index;
-      }
-      const double past = exit_time(ray, cell, block_level) / time_step;
-      if (!(past < 1e15)) return steps;
-      // An empty block is left in one step; inside an occupied voxel every sample is taken.
-      sample =
-          found ? sample + 1 : std::max(sample + 1, static_cast<std::int64_t>(std::ceil(past)));
+  void begin(const Ray& ray) {
+    ray_ = ray;
+    time_step_ = step_ / glm::length(ray.direction);
+    eye_ = eye_cell(ray.origin, frame_);
+    last_voxel_ = -1;
+    sample_ = first_inside(ray, time_step_);
+    now_ = sample_ >= 0 ? Now::kAtSample : Now::kOutside;
+  }
+
+  RayEventOf next() {
+    switch (now_) {
+      case Now::kAtSample:
+        if (!cell_at(ray_, static_cast<double>(sample_) * time_step_, cell_)) {
+          return {RayEvent::kEnd};
+        }
+        block_level_ = frame_.levels;
+        index_ = 0;
+        return {RayEvent::kLookUp, 0};
+      case Now::kInNode:
+        if (found_ && block_level_ > 0) return {RayEvent::kLookUp, index_};
+        if (found_ && index_ != last_voxel_) {
+          last_voxel_ = index_;
+          return {RayEvent::kVoxel, index_, cells_from_eye(eye_, cell_)};
+        }
+        return step();
+      case Now::kOutside:
+        break;
     }
-    return steps;
+    return {RayEvent::kEnd};
+  }
+
+  void give(const VoxelNode& node) {
+    const unsigned shift = static_cast<unsigned>(2 * --block_level_);
+    const unsigned bit = child_bit((static_cast<unsigned>(cell_.x) >> shift) & 3U,
+                                   (static_cast<unsigned>(cell_.y) >> shift) & 3U,
+                                   (static_cast<unsigned>(cell_.z) >> shift) & 3U);
+    found_ = (node.occupied >> bit & 1U) != 0;
+    index_ = node.first_child + static_cast<std::uint32_t>(__builtin_popcountll(
+                                    node.occupied & ((std::uint64_t{1} << bit) - 1)));
+    now_ = Now::kInNode;
   }
 
  private:
+  enum class Now : std::uint8_t { kAtSample, kInNode, kOutside };
+
+  // An empty block is left in one step; inside an occupied voxel every sample is taken.
+  RayEventOf step() {
+    const double past = exit_time(ray_, cell_, block_level_) / time_step_;
+    if (!(past < 1e15)) {
+      now_ = Now::kOutside;
+      return {RayEvent::kEnd};
+    }
+    sample_ =
+        found_ ? sample_ + 1 : std::max(sample_ + 1, static_cast<std::int64_t>(std::ceil(past)));
+    now_ = Now::kAtSample;
+    return {RayEvent::kStep};
+  }
+
   bool cell_at(const Ray& ray, double time, glm::ivec3& cell) const {
     for (int axis = 0; axis < 3; ++axis) {
       const double at = ray.origin[axis] + time * ray.direction[axis];
@@ -104,9 +124,34 @@ class RaySampling {
     return cell_at(ray, static_cast<double>(sample) * time_step, cell) ? sample : sample + 1;
   }
 
-  const VoxelFrame frame_;
+  VoxelFrame frame_;
+  double step_;           // world units
+  double time_step_ = 0;  // of the ray
+  Ray ray_{};
+  glm::ivec3 eye_{0}, cell_{0};  // relative to the root's corner
+  Now now_ = Now::kOutside;
+  std::int64_t sample_ = -1, last_voxel_ = -1;
+  int block_level_ = 0;      // of the block that was looked into last
+  std::uint32_t index_ = 0;  // of the child there
+  bool found_ = false;       // it is occupied
+};
+
+// The samples of a tree, ray by ray, without any time.
+template <class Table>
+class RaySampling {
+ public:
+  RaySampling(const VoxelFrame& frame, Table& table, float step_voxels)
+      : path_(frame, step_voxels), table_(table) {}
+
+  // As RayWalk::walk.
+  template <class Visit>
+  std::uint32_t walk(const Ray& ray, Visit&& visit) {
+    return follow(path_, ray, table_, visit);
+  }
+
+ private:
+  SamplePath path_;
   Table& table_;
-  const double step_;  // world units
 };
 
 }  // namespace sgs

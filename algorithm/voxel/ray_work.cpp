@@ -37,4 +37,31 @@ OperationCounts ray_step_work() {
   return flow.counts(before, flow.size());
 }
 
+OperationCounts pixel_ray_work() {
+  DataFlow flow;
+  VoxelFrame frame;
+  frame.voxel_size = 0.7F;
+  frame.levels = 2;
+  const Counting voxel_size = input(flow, frame.voxel_size);
+  View<Counting> view{};
+  // Looks along the diagonal of the root, which begins at 0.
+  const glm::vec3 rows[3] = {{0.71F, -0.71F, 0}, {0.41F, 0.41F, -0.82F}, {0.58F, 0.57F, 0.59F}};
+  const glm::vec3 eye{-3.1F, -2.9F, -3.3F};
+  for (int axis = 0; axis < 3; ++axis) {
+    view.position[axis] = input(flow, eye[axis]);
+    for (int row = 0; row < 3; ++row) {
+      view.cam_from_world[row][axis] = input(flow, rows[row][axis]);
+    }
+  }
+  view.focal_x = view.focal_y = Counting(300.0F);
+  view.centre_x = input(flow, 31.5F);
+  view.centre_y = input(flow, 23.5F);
+  const Counting x = input(flow, 33), y = input(flow, 22);
+  static_cast<void>(view.position[0] / voxel_size);
+  const std::size_t before = flow.size();
+  RayPath<Counting> path(frame, voxel_size);
+  path.begin(pixel_ray_of(view, x, y));
+  return flow.counts(before, flow.size());
+}
+
 }  // namespace sgs

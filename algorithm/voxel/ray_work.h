@@ -1,5 +1,5 @@
-// What a step of a ray through the voxel tree executes, counted by running it with the counting
-// scalar. The ray and the voxel size are values, the place of the root is a constant.
+// What a ray through the voxel tree executes, counted by running it with the counting scalar. The
+// ray and the voxel size are values, the place of the root is a constant.
 #pragma once
 
 #include "algorithm/splat/operation_counts.h"
@@ -10,5 +10,10 @@ namespace sgs {
 // and the cells of the two axes that it is not left along. A unit that takes a step at fixed
 // intervals has to be built for this. Looking into a node and climbing the tree are integer work.
 OperationCounts ray_step_work();
+
+// Of a ray's beginning, the longest: its direction from its pixel, three reciprocals, and, from an
+// eye beyond the root along all axes, where it enters the root. The view is a value but for its
+// focal lengths, whose reciprocals are made once a frame.
+OperationCounts pixel_ray_work();
 
 }  // namespace sgs

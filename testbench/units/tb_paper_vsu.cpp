@@ -1,5 +1,6 @@
 // Voxel sorting unit in paper order, alone: the voxel table in memory, visits out to several HFUs.
-// Checked against paper_visits on the grid itself; times against the rays' steps counted there.
+// Checked against paper_visits on the grid itself; times against a model that goes
+// cycle by cycle.
 #include <algorithm>
 
 #include "algorithm/render/paper_renderer.h"
@@ -10,6 +11,7 @@
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/random_scene.h"
+#include "testbench/units/ray_timing_model.h"
 #include "testbench/units/reported_groups.h"
 #include "testbench/units/unit_bench.h"
 
@@ -38,67 +40,84 @@ constexpr std::uint64_t kLineBytes = 32;  // of VSU's caches
 
 std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
-// The grid in memory, for the same traversal without any time: counts the nodes that it looks up.
-struct GridTable {
-  const VoxelGrid& grid;
-  std::uint64_t lookups = 0;
-  VoxelNode node(std::uint32_t index) {
-    ++lookups;
-    return grid.nodes[index];
-  }
-};
-
 struct Expected {
   std::vector<std::vector<VoxelRecord>> groups;  // pieces of voxels in visiting order
   std::uint64_t cuts = 0;
-  std::uint64_t traverse_cycles = 0;
-  std::uint64_t first_group_cycles = 0;
+  std::uint64_t traverse_cycles = 0;     // of passes without an overflow, waiting left out
+  std::uint64_t first_group_cycles = 0;  // waiting included
+  std::uint64_t lookups = 0, met = 0;
   std::uint64_t visits = 0, empty = 0, rays = 0, steps = 0, edges = 0, table_bytes_max = 0;
   std::uint64_t passes = 0, overflows = 0;
 };
 
 std::uint64_t macs_of_a_step() { return folded_macs(ray_step_work()); }
+std::uint64_t macs_of_a_beginning() { return folded_macs(pixel_ray_work()); }
 
-// Cycles of the traversal, from what its rays did.
-struct Counted {
-  const PaperVsuConfig& config;
-  GridTable& nodes;
-  const OrderingTable& table;
-  Expected& out;
-
-  void ray(std::uint32_t steps, std::size_t edges) {
-    out.traverse_cycles += std::max({ceil_div(steps * macs_of_a_step(), config.step_lanes),
-                                     ceil_div(edges, config.edges_per_cycle), nodes.lookups});
-    nodes.lookups = 0;
+// What the rays of a group do, from the grid itself.
+template <class Path>
+std::vector<RayEvents> events_of(const Plan& plan, const PixelRect& group, Path path) {
+  std::vector<RayEvents> rays;
+  for (RayPixels at(group, plan.config.ray_step_px); !at.done(); at.next()) {
+    RayEvents& events = rays.emplace_back();
+    path.begin(pixel_ray(plan.scene.job.view, at.x(), at.y()));
+    do {
+      events.push_back(path.next());
+      if (events.back().what == RayEvent::kLookUp) {
+        path.give(plan.scene.grid.nodes[events.back().index]);
+      }
+    } while (events.back().what != RayEvent::kEnd);
   }
-  void full() {}
-  void ordered(const std::vector<std::uint32_t>& voxels, bool) {
-    out.traverse_cycles += voxels.size() + table.edge_count();
-    ++out.passes;
+  return rays;
+}
+std::vector<RayEvents> events_of(const Plan& plan, const PixelRect& group) {
+  const RayPattern rays = plan.config.rays();
+  const VoxelFrame& frame = plan.scene.grid.frame;
+  if (rays.sample_step_voxels > 0) {
+    return events_of(plan, group, SamplePath(frame, rays.sample_step_voxels));
   }
-};
+  return events_of(plan, group, RayPath<float>(frame));
+}
 
-Expected expect(const Plan& plan) {
+std::uint64_t count_of(const std::vector<RayEvents>& rays, RayEvent what) {
+  std::uint64_t sum = 0;
+  for (const RayEvents& ray : rays) {
+    sum += static_cast<std::uint64_t>(std::count_if(
+        ray.begin(), ray.end(), [&](const RayEventOf& event) { return event.what == what; }));
+  }
+  return sum;
+}
+
+// Kahn's algorithm: a level of ready voxels a cycle and the record for each voxel, two records for
+// each edge; beside it the names are cleared, four a cycle.
+std::uint64_t ordering_cycles(const Plan& plan, const OrderingTable& table) {
+  const std::uint64_t clearing =
+      Renaming::slots_for(OrderingTable::most_voxels(plan.config.table_bytes)) / 4;
+  return std::max<std::uint64_t>(clearing,
+                                 std::uint64_t{table.voxel_count()} * (table.ready_levels() + 1) +
+                                     table.edge_count() * ceil_div(2, plan.config.table_banks));
+}
+
+Expected expect(const Plan& plan, std::uint64_t latency) {
   Expected out;
   const VoxelGrid& grid = plan.scene.grid;
   OrderingTable table(grid.voxels.size(), plan.config.table_bytes);
+  RayTimingModel model(plan.config, latency, plan.scene.job.layout.voxel_table().nodes);
   for (const PixelRect& group : plan.scene.job.groups) {
     const RayPattern rays = plan.config.rays();
     const GroupVisits visits = paper_visits(plan.scene.job.view, group, grid, rays, table);
-    if (grid.nodes.empty()) {
-      ++out.passes;
-    } else {
-      GridTable nodes{grid};
-      Counted counted{plan.config, nodes, table, out};
-      if (rays.sample_step_voxels > 0) {
-        RaySampling sampling(grid.frame, nodes, rays.sample_step_voxels);
-        group_visits(plan.scene.job.view, group, rays.step_px, sampling, table, counted);
-      } else {
-        RayWalk walk(grid.frame, nodes);
-        group_visits(plan.scene.job.view, group, rays.step_px, walk, table, counted);
+    out.passes += grid.nodes.empty() ? 1 : visits.passes;
+    if (!grid.nodes.empty()) {
+      const std::vector<RayEvents> events = events_of(plan, group);
+      out.lookups += count_of(events, RayEvent::kLookUp);
+      out.met += count_of(events, RayEvent::kVoxel);
+      table.clear();
+      if (visits.overflows == 0) {
+        const RayTimingModel::Times times = model.pass(events, table);
+        const std::uint64_t ordering = ordering_cycles(plan, table);
+        out.traverse_cycles += times.all - times.waits + ordering;
+        if (out.groups.empty()) out.first_group_cycles = times.all + ordering;
       }
     }
-    if (out.groups.empty()) out.first_group_cycles = out.traverse_cycles;
     std::vector<VoxelRecord> pieces;
     for (const std::uint32_t voxel : visits.voxels) {
       const auto plane = [&](std::uint32_t index) {
@@ -191,8 +210,33 @@ void check_stream(UnitBench& bench, const Plan& plan, const Expected& expected,
   checks.equal(bench.counter("visits") + left_out, expected.visits, "visits accounted for");
 }
 
+// Its cycles are those of the model where times can be computed, and never fewer than each thing
+// that the rays share takes.
+void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const Plan& plan,
+                     const Expected& expected) {
+  Checks& checks = bench.checks();
+  const std::uint64_t busy = bench.busy_cycles("vsu");
+  if (expected.overflows == 0) {
+    const std::uint64_t rays = expected.rays, steps = expected.steps - rays;
+    if (bench_config.still()) {
+      checks.equal(busy, expected.traverse_cycles, "busy cycles of the traversal");
+    }
+    checks.that(busy >= expected.lookups, "more than a look-up a cycle");
+    checks.that(busy * plan.config.step_lanes >= steps * macs_of_a_step(), "too many steps");
+    checks.that(busy * plan.config.ray_lanes >= rays * macs_of_a_beginning(), "too many rays");
+    checks.that(busy >= expected.met, "more than a voxel entered a cycle");
+    const std::uint64_t of_a_step =
+        std::min(plan.config.step_depth_cycles, plan.config.cell_step_depth_cycles);
+    checks.that(busy * plan.config.rays_in_flight >=
+                    steps * of_a_step + rays * plan.config.ray_depth_cycles,
+                "more rays side by side than there are contexts");
+    bench.check_accesses("ray chains", expected.met, expected.met);
+    bench.check_accesses("ray directions", steps, rays);
+  }
+}
+
 void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
-  const Expected expected = expect(plan);
+  const Expected expected = expect(plan, bench_config.latency_cycles);
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
   bench.load(0, plan.scene.image.bytes);
@@ -231,10 +275,15 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
 
   const std::uint64_t visits = bench.counter("visits");
   if (plan.finished_before) checks.equal(visits, 0U, "visits of finished groups");
-  bench.check_counter("rays", expected.rays);
-  bench.check_counter("steps", expected.steps);
+  // Where the table overflows, rays behind the one that did not fit have begun as well.
+  const std::uint64_t rays = bench.counter("rays"), steps = bench.counter("steps");
+  checks.that(rays >= expected.rays &&
+                  rays <= expected.rays + expected.overflows * (plan.config.rays_in_flight - 1),
+              "rays");
+  checks.that(expected.overflows > 0 ? steps >= expected.steps : steps == expected.steps, "steps");
   bench.check_counter("edges", expected.edges);
-  bench.check_operations("vsu", "fp32_lane", expected.steps * macs_of_a_step());
+  bench.check_operations("vsu", "fp32_lane",
+                         (steps - rays) * macs_of_a_step() + rays * macs_of_a_beginning());
   // Each voxel is opened, and two pieces for a cut; what is left of a finished group's is dropped.
   const std::uint64_t pieces = bench.counter("voxels") + 2 * bench.counter("cuts");
   bench.check_accesses("open pieces", visits + bench.counter("cuts"), pieces);
@@ -248,7 +297,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("overflows", expected.overflows);
   checks.equal(expected.overflows > 0, expected.passes > plan.scene.job.groups.size(),
                "a table that overflows is ordered in passes");
-  checks.equal(bench.busy_cycles("vsu"), expected.traverse_cycles, "busy cycles of the traversal");
+  check_traversal(bench, bench_config, plan, expected);
   checks.equal(bench.busy_cycles("visits"), visits + bench.counter("cuts") + expected.groups.size(),
                "busy cycles of handing out");
   // A line a miss.
@@ -265,11 +314,11 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     checks.that(node_misses <= ceil_div(tree_bytes, kLineBytes), "lines of the tree fetched again");
   }
   if (bench_config.still() && plan.scene.job.groups.size() == 1 && expected.passes == 1) {
-    // Steps, misses, one cycle to the other thread, a cycle and a record's miss a visit (waits for
-    // room aside), one cycle for the end, one for the FIFO.
+    // The rays and their order, one cycle to the other thread, a cycle and a record's miss a visit
+    // (waits for room aside), one cycle for the end, one for the FIFO.
     checks.equal(first_end_cycle,
-                 expected.first_group_cycles + node_misses * bench_config.latency_cycles + 1 +
-                     visits + expected.cuts + record_misses * bench_config.latency_cycles + 1 + 1,
+                 expected.first_group_cycles + 1 + visits + expected.cuts +
+                     record_misses * bench_config.latency_cycles + 1 + 1,
                  "end of the group at HFU 0");
   }
 }
@@ -291,7 +340,13 @@ void random_case(Case& test) {
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.fifo_entries = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.config.step_lanes = 1 + static_cast<std::uint32_t>(random() % 200);
-  plan.config.edges_per_cycle = 1 + static_cast<std::uint32_t>(random() % 2);
+  plan.config.rays_in_flight = 1 + static_cast<std::uint32_t>(random() % 40);
+  plan.config.chain_entries = 1 + static_cast<std::uint32_t>(random() % 20);
+  plan.config.ray_lanes = 1 + static_cast<std::uint32_t>(random() % 70);
+  plan.config.step_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 60);
+  plan.config.cell_step_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 20);
+  plan.config.ray_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 100);
+  plan.config.table_banks = 1 + static_cast<std::uint32_t>(random() % 2);
   plan.config.groups_ahead = 1 + static_cast<std::uint32_t>(random() % 3);
   plan.config.node_cache_bytes = 256U << (random() % 5);
   plan.config.record_cache_bytes = 256U << (random() % 3);

@@ -199,8 +199,16 @@ void check_bounds(const Json& view) {
             frame);
     }
     if (of(unit, "steps") > 0) {
-      CHECK(of(unit, "steps") * count(view["datapath"]["ray_step"]["used"]["macs"]) /
-                count(config["vsu"]["step_lanes"]) <=
+      const Json& vsu = config["vsu"];
+      const std::uint64_t rays = of(unit, "rays"), steps = of(unit, "steps") - rays;
+      CHECK(steps * count(view["datapath"]["ray_step"]["used"]["macs"]) /
+                count(vsu["step_lanes"]) <=
+            frame);
+      CHECK(rays * count(view["datapath"]["pixel_ray"]["used"]["macs"]) / count(vsu["ray_lanes"]) <=
+            frame);
+      // Each waits for its own steps.
+      CHECK((steps * count(vsu["cell_step_depth_cycles"]) + rays * count(vsu["ray_depth_cycles"])) /
+                count(vsu["rays_in_flight"]) <=
             frame);
     }
   }
@@ -238,9 +246,9 @@ void check_flow(const Json& view) {
     CHECK(total(view, "shares") == visits);
     CHECK(total(view, "coarse_passed") == sorted);
     CHECK(sorted == counter(view, "merge", "keys"));
-    CHECK(counter(view, "merge", "keys") ==
-          counter(view, "merge", "released") + counter(view, "merge", "dropped_hidden") +
-              counter(view, "merge", "dropped_saturated"));
+    CHECK(counter(view, "merge", "keys") == counter(view, "merge", "released") +
+                                                counter(view, "merge", "dropped_hidden") +
+                                                counter(view, "merge", "dropped_saturated"));
     CHECK(counter(view, "merge", "released") == tested_or_dropped);
     // What went into the heap came out at one end or the other, or was dropped with its group.
     const std::uint64_t inserts = counter(view, "merge", "inserts"),

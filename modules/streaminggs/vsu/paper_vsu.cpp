@@ -1,13 +1,12 @@
-// The two threads of VSU.
+// The threads of VSU.
 #include "modules/streaminggs/vsu/paper_vsu.h"
 
 #include <algorithm>
 
+#include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
-#include "algorithm/voxel/ray_walk.h"
-#include "algorithm/voxel/ray_work.h"
 #include "algorithm/voxel/voxel_cuts.h"
-#include "modules/streaminggs/counted_datapath.h"
+#include "modules/streaminggs/vsu/rays_in_flight.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
@@ -15,27 +14,6 @@ namespace {
 
 // Of a voxel that is being cut: one for each halving of its count; first slot and count.
 constexpr std::uint32_t kOpenPieces = 32, kPieceBytes = 8;
-
-// The voxel tree as a traversal sees it: nodes come out of the cache. Misses are waited for as they
-// happen, the cycles of the steps themselves pass at the end of each ray.
-class CachedTree {
- public:
-  CachedTree(TableCache<VoxelNode>& cache, MemoryPort& port, Activity& activity)
-      : cache_(cache), port_(port), activity_(activity) {}
-
-  VoxelNode node(std::uint32_t index) { return cache_.get(index, port_, activity_); }
-
- private:
-  TableCache<VoxelNode>& cache_;
-  MemoryPort& port_;
-  Activity& activity_;
-};
-
-Datapath ray_steps(const PaperVsuConfig& config) {
-  Datapath path = counted_datapath("ray_step", "vsu", ray_step_work());
-  path.lanes = config.step_lanes;
-  return path;
-}
 
 }  // namespace
 
@@ -49,45 +27,17 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       job_(context.job),
       traverse_("traverse", context.clock),
       emit_("emit", context.clock),
-      ray_steps_(ray_steps(config)),
-      nodes_(config.node_cache_bytes, job_.layout.voxel_table().nodes),
+      rays_(
+          config, context.clock, traverse_, node_memory, job_.layout.voxel_table().nodes,
+          [this](const std::vector<std::uint32_t>& voxels, bool last) { hand_over(voxels, last); }),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
       table_(job_.layout.voxel_table().voxels.count, config.table_bytes),
       ordered_("ordered", context.clock, config.groups_ahead) {
   SC_THREAD(run_traverse);
+  SC_THREAD(run_arrivals);
   SC_THREAD(run_emit);
 }
-
-// The cache gives a node a cycle; steps, look-ups and insertions of a ray go on side by side.
-class PaperVsu::Watch {
- public:
-  explicit Watch(PaperVsu& vsu) : vsu_(vsu), looked_up_(vsu.nodes_.lookups()) {}
-
-  void ray(std::uint32_t steps, std::size_t edges) {
-    const std::uint64_t lookups = vsu_.nodes_.lookups() - looked_up_;
-    looked_up_ = vsu_.nodes_.lookups();
-    vsu_.traverse_.work(std::max(
-        {vsu_.ray_steps_.cycles(steps), lookups, cycles_for(edges, vsu_.config_.edges_per_cycle)}));
-  }
-  void full() {
-    ++vsu_.counters_.overflows;
-    vsu_.counters_.entered += entries();
-  }
-  // Kahn's algorithm: one cycle for each voxel taken and each edge removed.
-  void ordered(const std::vector<std::uint32_t>& voxels, bool last) {
-    vsu_.traverse_.work(entries());
-    vsu_.counters_.entered += entries();
-    vsu_.counters_.table_entries += entries();
-    vsu_.hand_over(voxels, last);
-  }
-
- private:
-  std::uint64_t entries() const { return vsu_.table_.voxel_count() + vsu_.table_.edge_count(); }
-
-  PaperVsu& vsu_;
-  std::uint64_t looked_up_;
-};
 
 void PaperVsu::run_traverse() {
   for (current_group_ = 0; current_group_ < job_.groups.size(); ++current_group_) {
@@ -96,6 +46,7 @@ void PaperVsu::run_traverse() {
     counters_.rays += visits.rays;
     counters_.steps += visits.steps;
     counters_.edges += visits.edges_offered;
+    counters_.overflows += visits.overflows;
     counters_.table_bytes_max = std::max(counters_.table_bytes_max, visits.table_bytes);
   }
   traverse_.idles();
@@ -107,15 +58,16 @@ GroupVisits PaperVsu::order_group(const PixelRect& pixels) {
     hand_over({}, true);
     return {};
   }
-  CachedTree tree(nodes_, node_memory, traverse_);
-  const RayPattern rays = config_.rays();
-  if (rays.sample_step_voxels > 0) {
-    RaySampling sampling(voxels.frame, tree, rays.sample_step_voxels);
-    return group_visits(job_.view, pixels, rays.step_px, sampling, table_, Watch(*this));
+  if (config_.sample_step_voxels > 0) {
+    const SamplePath path(voxels.frame, config_.rays().sample_step_voxels);
+    RaysInFlight in_flight(job_.view, path, rays_);
+    return group_visits(pixels, in_flight, table_);
   }
-  RayWalk walk(voxels.frame, tree);
-  return group_visits(job_.view, pixels, rays.step_px, walk, table_, Watch(*this));
+  RaysInFlight in_flight(job_.view, RayPath<float>(voxels.frame), rays_);
+  return group_visits(pixels, in_flight, table_);
 }
+
+void PaperVsu::run_arrivals() { rays_.fetches.run_arrivals(node_memory, traverse_.clock()); }
 
 void PaperVsu::hand_over(const std::vector<std::uint32_t>& voxels, bool last) {
   ++counters_.passes;
@@ -184,16 +136,13 @@ void PaperVsu::mark_end(std::uint32_t group) {
 
 SramUses PaperVsu::sram_uses(const PaperVsuConfig& config, const BuiltFor& built_for) {
   // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
-  SramUses uses = TableCache<VoxelNode>::sram_uses("node cache", "node cache tags", kSharedSram,
-                                                   config.node_cache_bytes);
+  SramUses uses = RayUnit::sram_uses(config);
   add(uses, TableCache<VoxelRecord>::sram_uses("record cache", "record cache tags", kSharedSram,
                                                config.record_cache_bytes));
   add(uses, TableCache<float>::sram_uses("cut cache", "cut cache tags", kSharedSram,
                                          config.cut_cache_bytes));
   uses.push_back(sram_use("open pieces", kSharedSram, {{kOpenPieces, "pieces"}, {kPieceBytes, "B"}},
                           {8 * kPieceBytes}));
-  uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
-                          {64, SramPorts::kReadAndWrite, 2 * config.edges_per_cycle}));
   uses.push_back(sram_use("ordered voxels", kSharedSram,
                           {{config.groups_ahead, "groups"}, {config.table_bytes / 2, "B"}}, {32}));
   add(uses, outstanding_table(kSharedSram, built_for.memory_port), 2);  // of both ports
@@ -220,24 +169,20 @@ void PaperVsu::publish(DataSheet& sheet) {
                 counters_.passes);
   sheet.counter("overflows", "passes", "of rays begun again because the ordering table was full",
                 counters_.overflows);
-  sheet.counter("node_cache_misses", "nodes", "read from DRAM", nodes_.misses());
+  sheet.counter("node_cache_misses", "nodes", "read from DRAM", rays_.nodes.misses());
   sheet.counter("cut_cache_misses", "planes", "of cut voxels read from DRAM", cuts_.misses());
   sheet.counter("record_cache_misses", "voxel records", "read from DRAM", records_.misses());
-  sheet.datapath(ray_steps_, counters_.steps);
-  nodes_.publish_accesses(sheet, "node cache", "node cache tags");
+  rays_.publish(sheet);
   records_.publish_accesses(sheet, "record cache", "record cache tags");
   cuts_.publish_accesses(sheet, "cut cache", "cut cache tags");
   // A voxel is entered, and taken in two for each cut; what is visited is taken.
   sheet.accesses("open pieces", counters_.visits + counters_.cuts,
                  counters_.voxels + 2 * counters_.cuts);
-  // An edge is looked for and found or entered; each voxel and edge is taken once more, in order;
-  // the eye lies before or behind a cut. A voxel lies in the pass's window: two bounds.
-  sheet.part("vsu", "comparator", 2.0 * config_.edges_per_cycle + 3, 1);
-  const std::uint64_t lookups = counters_.edges + counters_.table_entries;
-  const std::uint64_t compared = lookups + counters_.cuts + 2 * (counters_.edges + counters_.rays);
-  const std::uint64_t written = counters_.entered + counters_.table_entries;
-  sheet.operations("vsu", "comparator", static_cast<double>(compared));
-  sheet.accesses("ordering table", lookups, written);
+  // The eye lies before or behind a cut; a look-up with the tags of a set.
+  sheet.part("vsu", "comparator", 1 + 2.0 * kCacheWays, 1);
+  sheet.operations(
+      "vsu", "comparator",
+      static_cast<double>(counters_.cuts + kCacheWays * (records_.lookups() + cuts_.lookups())));
   const std::uint64_t ordered = counters_.voxels + counters_.visits_saturated;
   sheet.accesses("ordered voxels", ordered, ordered);
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
@@ -246,7 +191,7 @@ void PaperVsu::publish(DataSheet& sheet) {
                  counters_.visits_saturated, "their Gaussians are not streamed");
   sheet.port(node_memory);
   sheet.port(record_memory);
-  sheet.remedy(traverse_, "vsu.step_lanes");
+  sheet.remedy(traverse_, "vsu.rays_in_flight");
   sheet.remedy(node_memory, WaitFor::kReads, "vsu.node_cache_bytes");
   sheet.remedy(record_memory, WaitFor::kReads, "vsu.record_cache_bytes");
   sheet.sram(sram_uses(config_, built_for_));

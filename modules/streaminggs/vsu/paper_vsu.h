@@ -1,9 +1,8 @@
 // Voxel sorting unit (VSU), paper order: for each pixel group it follows the pixels' rays through
 // the voxel tree, orders the voxels that they meet, and hands each out as a visit to the HFUs; one
 // with more Gaussians than a list holds in pieces, the nearest first.
-// Timing: steps on step_lanes lanes beside edges / edges_per_cycle a ray, one cycle a voxel and
-// edge to order them, one cycle a visit and a cut; table misses wait for DRAM. Function:
-// algorithm/order/group_visits.h, algorithm/voxel/voxel_cuts.h.
+// Timing: rays_in_flight.h, ray_unit.h; one cycle a visit and a cut; table misses wait for DRAM.
+// Function: algorithm/order/group_visits.h, algorithm/voxel/voxel_cuts.h.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +15,7 @@
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
+#include "modules/streaminggs/vsu/ray_unit.h"
 #include "modules/streaminggs/vsu/table_cache.h"
 #include "tlm/data_sheet.h"
 #include "tlm/memory_access.h"
@@ -36,8 +36,6 @@ class PaperVsu : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t rays = 0, steps = 0, edges = 0;
-    std::uint64_t entered = 0;           // voxels and distinct edges into the table
-    std::uint64_t table_entries = 0;     // of these, ordered: in no pass that overflowed
     std::uint64_t passes = 0;            // of rays that were ordered, one or more a group
     std::uint64_t overflows = 0;         // passes begun again because the table was full
     std::uint64_t voxels = 0;            // handed out, whole or in pieces
@@ -58,8 +56,8 @@ class PaperVsu : public sc_core::sc_module {
     bool last = true;  // of its group
     std::vector<std::uint32_t> voxels;
   };
-  class Watch;          // lets time pass while a group is ordered, and hands over its passes
   void run_traverse();  // thread: rays to ordered voxels, some passes ahead
+  void run_arrivals();  // thread: waits for the tree's nodes
   void run_emit();      // thread: ordered voxels to visits
   GroupVisits order_group(const PixelRect& pixels);
   void hand_over(const std::vector<std::uint32_t>& voxels, bool last);
@@ -71,8 +69,7 @@ class PaperVsu : public sc_core::sc_module {
   const BuiltFor built_for_;
   const StreamingJob& job_;
   Activity traverse_, emit_;
-  const Datapath ray_steps_;
-  TableCache<VoxelNode> nodes_;
+  RayUnit rays_;
   TableCache<VoxelRecord> records_;
   TableCache<float> cuts_;
   OrderingTable table_;

@@ -4,8 +4,17 @@
 namespace sgs {
 
 void visit(ConfigVisitor& v, PaperVsuConfig& c) {
+  v("rays_in_flight", c.rays_in_flight, in_range(1, 1024), "rays that are followed side by side");
+  v("chain_entries", c.chain_entries, in_range(1, 1024),
+    "voxels that a ray keeps until those of the rays before it are in the ordering table");
   v("step_lanes", c.step_lanes, in_range(1, 10000), "MAC lanes of the rays' steps");
-  v("edges_per_cycle", c.edges_per_cycle, in_range(1, 64), "insertions into the ordering table");
+  v("ray_lanes", c.ray_lanes, in_range(1, 10000), "MAC lanes of the rays' beginnings");
+  v("step_depth_cycles", c.step_depth_cycles, in_range(1, 1000), "until a ray can step again");
+  v("cell_step_depth_cycles", c.cell_step_depth_cycles, in_range(1, 1000),
+    "the same of a step out of a single cell");
+  v("ray_depth_cycles", c.ray_depth_cycles, in_range(1, 1000), "until a ray that begins is there");
+  v("table_banks", c.table_banks, in_range(1, 64),
+    "of the ordering table: of each a record a cycle is read and one written");
   v("ray_step_px", c.ray_step_px, in_range(1, 1024),
     "rays of every so-many-th pixel of a group are followed, and of its last row and column");
   v("sample_step_voxels", c.sample_step_voxels, in_range(0, 10),

@@ -30,15 +30,56 @@ class TableCache {
   TableCache(std::uint32_t capacity_bytes, const RecordArray& table)
       : table_(table), sets_(std::max(1U, capacity_bytes / (kCacheLineBytes * kCacheWays))) {}
 
-  // The record's bytes; on a miss the calling thread waits for DRAM.
-  Record get(std::uint32_t index, MemoryPort& port, Activity& activity) {
-    ++lookups_;
-    const std::uint64_t address = table_.address(index);
-    const std::uint64_t tag = address / kCacheLineBytes;
-    const Line& line = find_or_fetch(tag, port, activity);
+  struct Line {
+    std::uint64_t tag = ~std::uint64_t{0};
+    std::byte bytes[kCacheLineBytes] = {};
+  };
+
+  // The line that holds a record, and the record in it.
+  std::uint64_t line_of(std::uint32_t index) const {
+    return table_.address(index) / kCacheLineBytes;
+  }
+  Record record_in(const Line& line, std::uint32_t index) const {
     Record record;
-    std::memcpy(&record, line.bytes + address % kCacheLineBytes, sizeof record);
+    std::memcpy(&record, line.bytes + table_.address(index) % kCacheLineBytes, sizeof record);
     return record;
+  }
+
+  // The record's line, most recently used from now on; null where it is not there.
+  const Line* find(std::uint32_t index) {
+    ++lookups_;
+    Set& set = set_of(line_of(index));
+    const auto at = std::find_if(set.begin(), set.end(),
+                                 [&](const Line& l) { return l.tag == line_of(index); });
+    if (at == set.end()) return nullptr;
+    std::rotate(set.begin(), at, at + 1);
+    return &set.front();
+  }
+
+  // Starts to read a line that is not there; its bytes are in `into` when the ticket is done.
+  MemoryPort::Ticket fetch(std::uint64_t tag, Line& into, MemoryPort& port, Activity& activity) {
+    ++misses_;
+    into.tag = tag;
+    const std::uint64_t start = std::max(tag * kCacheLineBytes, table_.base);
+    const std::uint64_t stop = std::min((tag + 1) * kCacheLineBytes, table_.end());
+    return start_read(port, activity, start, into.bytes + (start - tag * kCacheLineBytes),
+                      static_cast<std::uint32_t>(stop - start), table_.region);
+  }
+
+  // A line that has come takes the place of its set's least recently used.
+  void fill(const Line& line) {
+    Set& set = set_of(line.tag);
+    set.back() = line;
+    std::rotate(set.begin(), set.end() - 1, set.end());
+  }
+
+  // The record; on a miss the calling thread waits for DRAM.
+  Record get(std::uint32_t index, MemoryPort& port, Activity& activity) {
+    if (const Line* const line = find(index)) return record_in(*line, index);
+    Line line;
+    await(port, activity, fetch(line_of(index), line, port, activity));
+    fill(line);
+    return record_in(line, index);
   }
 
   std::uint64_t lookups() const { return lookups_; }
@@ -63,29 +104,9 @@ class TableCache {
   }
 
  private:
-  struct Line {
-    std::uint64_t tag = ~std::uint64_t{0};
-    std::byte bytes[kCacheLineBytes];
-  };
   using Set = std::array<Line, kCacheWays>;  // most recently used first
 
-  const Line& find_or_fetch(std::uint64_t tag, MemoryPort& port, Activity& activity) {
-    Set& set = sets_[tag % sets_.size()];
-    auto at = std::find_if(set.begin(), set.end(), [&](const Line& l) { return l.tag == tag; });
-    if (at == set.begin()) return *at;
-    if (at == set.end()) {
-      ++misses_;
-      --at;
-      const std::uint64_t start = std::max(tag * kCacheLineBytes, table_.base);
-      const std::uint64_t stop = std::min((tag + 1) * kCacheLineBytes, table_.end());
-      await(port, activity,
-            start_read(port, activity, start, at->bytes + (start - tag * kCacheLineBytes),
-                       static_cast<std::uint32_t>(stop - start), table_.region));
-      at->tag = tag;
-    }
-    std::rotate(set.begin(), at, at + 1);
-    return set.front();
-  }
+  Set& set_of(std::uint64_t tag) { return sets_[tag % sets_.size()]; }
 
   const RecordArray table_;
   std::vector<Set> sets_;

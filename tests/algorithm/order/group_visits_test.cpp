@@ -59,6 +59,19 @@ struct Chains {
       }
     }
   }
+
+  // Neighbours on a ray that are visited the other way round.
+  std::size_t out_of_order(const std::vector<std::uint32_t>& visited) const {
+    std::map<std::uint32_t, std::size_t> place;
+    for (std::size_t i = 0; i < visited.size(); ++i) place[visited[i]] = i;
+    std::size_t sum = 0;
+    for (const auto& chain : of_ray) {
+      for (std::size_t i = 1; i < chain.size(); ++i) {
+        sum += place[chain[i - 1]] >= place[chain[i]] ? 1 : 0;
+      }
+    }
+    return sum;
+  }
 };
 
 TEST_CASE("paper order: a table that is too small orders the same voxels in passes") {
@@ -82,15 +95,7 @@ TEST_CASE("paper order: a table that is too small orders the same voxels in pass
       std::sort(sorted.begin(), sorted.end());
       std::sort(expected.begin(), expected.end());
       CHECK(sorted == expected);  // each once
-      std::map<std::uint32_t, std::size_t> place;
-      for (std::size_t i = 0; i < passes.voxels.size(); ++i) place[passes.voxels[i]] = i;
-      std::size_t out_of_order = 0;
-      for (const auto& chain : chains.of_ray) {
-        for (std::size_t i = 1; i < chain.size(); ++i) {
-          out_of_order += place[chain[i - 1]] >= place[chain[i]] ? 1 : 0;
-        }
-      }
-      CHECK(out_of_order == 0);
+      CHECK(chains.out_of_order(passes.voxels) == 0);
     }
   }
 }
@@ -118,6 +123,30 @@ TEST_CASE("paper order: rays of every so-many-th pixel, and of a group's last on
   CHECK(fewer.rays == 33 * 28);
   CHECK(fewer.voxels.size() <= all.voxels.size());
   CHECK(fewer.voxels.size() > all.voxels.size() / 2);
+}
+
+TEST_CASE("paper order: rays side by side meet the same voxels, in an order of every ray") {
+  const Scene scene = open_scene("builtin:object?n=4000");
+  const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), 0.1F);
+  const View<float> view = make_view<float>(scaled_to(scene.cameras.front(), 96, 54));
+  const PixelRect group{32, 16, 64, 40};
+  OrderingTable table(grid.voxels.size());
+  const GroupVisits in_turn = paper_visits(view, group, grid, {}, table);
+  std::vector<std::uint32_t> expected = in_turn.voxels;
+  std::sort(expected.begin(), expected.end());
+  const Chains chains(view, group, grid);
+  for (const std::uint32_t side_by_side : {2U, 48U, 5000U}) {
+    INFO(side_by_side);
+    const GroupVisits visits = paper_visits(view, group, grid, {1, 0, side_by_side}, table);
+    CHECK(visits.rays == in_turn.rays);
+    CHECK(visits.steps == in_turn.steps);
+    CHECK(visits.edges_offered == in_turn.edges_offered);
+    CHECK(visits.table_bytes == in_turn.table_bytes);
+    CHECK(chains.out_of_order(visits.voxels) == 0);
+    std::vector<std::uint32_t> sorted = visits.voxels;
+    std::sort(sorted.begin(), sorted.end());
+    CHECK(sorted == expected);
+  }
 }
 
 }  // namespace

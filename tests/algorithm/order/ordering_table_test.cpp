@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <random>
+#include <set>
 #include <stdexcept>
 
 namespace sgs {
@@ -12,9 +13,16 @@ namespace {
 
 using Voxels = std::vector<std::uint32_t>;
 
+// The voxels that one ray meets; false as soon as one finds no room.
+bool add_chain(OrderingTable& table, const Voxels& voxels) {
+  OrderingTable::Chain chain;
+  return std::all_of(voxels.begin(), voxels.end(),
+                     [&](std::uint32_t voxel) { return table.add(chain, voxel); });
+}
+
 TEST_CASE("ordering table: one chain is its own order") {
   OrderingTable table(100);
-  table.add_chain({42, 7, 99});
+  add_chain(table, {42, 7, 99});
   CHECK(table.order() == Voxels{42, 7, 99});
   CHECK(table.voxel_count() == 3);
   CHECK(table.edge_count() == 2);
@@ -24,7 +32,7 @@ TEST_CASE("ordering table: one chain is its own order") {
 TEST_CASE("ordering table: nothing, and rays that meet nothing") {
   OrderingTable table(10);
   CHECK(table.order().empty());
-  table.add_chain({});
+  add_chain(table, {});
   CHECK(table.order().empty());
   CHECK(table.edges_offered() == 0);
 }
@@ -32,23 +40,23 @@ TEST_CASE("ordering table: nothing, and rays that meet nothing") {
 TEST_CASE("ordering table: among voxels that are ready the one first met goes first") {
   OrderingTable table(100);
   // Renamed: 50 -> 0, 10 -> 1, 30 -> 2, 20 -> 3.
-  table.add_chain({50, 10});
-  table.add_chain({30, 20});
+  add_chain(table, {50, 10});
+  add_chain(table, {30, 20});
   // Ready at first: 0 and 2. 0 goes, which frees 1; 1 before 2; then 3.
   CHECK(table.order() == Voxels{50, 10, 30, 20});
 
   table.clear();
   // Renamed: 5 -> 0, 6 -> 1, 7 -> 2, 8 -> 3. 3 before 0, 1 free: 1, then 2 (freed by 1), 3, 0.
-  table.add_chain({5});
-  table.add_chain({6, 7});
-  table.add_chain({8, 5});
+  add_chain(table, {5});
+  add_chain(table, {6, 7});
+  add_chain(table, {8, 5});
   CHECK(table.order() == Voxels{6, 7, 8, 5});
 }
 
 TEST_CASE("ordering table: a diamond") {
   OrderingTable table(10);
-  table.add_chain({1, 2, 4});
-  table.add_chain({1, 3, 4});
+  add_chain(table, {1, 2, 4});
+  add_chain(table, {1, 3, 4});
   CHECK(table.order() == Voxels{1, 2, 3, 4});
   CHECK(table.edge_count() == 4);
   CHECK(table.edges_offered() == 4);
@@ -56,42 +64,125 @@ TEST_CASE("ordering table: a diamond") {
 
 TEST_CASE("ordering table: an edge counts once, however many rays offer it") {
   OrderingTable table(10);
-  table.add_chain({1, 2});
-  table.add_chain({1, 2});
-  table.add_chain({3});
-  table.add_chain({1, 2});
+  add_chain(table, {1, 2});
+  add_chain(table, {1, 2});
+  add_chain(table, {3});
+  add_chain(table, {1, 2});
   CHECK(table.edge_count() == 1);
   CHECK(table.edges_offered() == 3);
 }
 
 TEST_CASE("ordering table: clear forgets voxels, edges and the chain before") {
   OrderingTable table(10);
-  table.add_chain({1, 2});
+  add_chain(table, {1, 2});
   table.clear();
-  table.add_chain({1, 2});
+  add_chain(table, {1, 2});
   CHECK(table.edge_count() == 1);
   table.clear();
-  table.add_chain({2, 1});
+  add_chain(table, {2, 1});
   CHECK(table.order() == Voxels{2, 1});
   CHECK(table.sram_bytes() == 2 * 8 + 4);
 }
 
 TEST_CASE("ordering table: a chain that does not fit is told, whatever it lacks room for") {
   OrderingTable voxels(10, 8), edges(10, 2 * 8 + 4 + 3);
-  CHECK(voxels.add_chain({1}));
-  CHECK_FALSE(voxels.add_chain({2}));
+  CHECK(add_chain(voxels, {1}));
+  CHECK_FALSE(add_chain(voxels, {2}));
   voxels.clear();
-  CHECK(voxels.add_chain({2}));
-  CHECK(edges.add_chain({1, 2}));
-  CHECK(edges.add_chain({1}));
-  CHECK_FALSE(edges.add_chain({2, 1}));  // an edge of 4 B where 3 are left
+  CHECK(add_chain(voxels, {2}));
+  CHECK(add_chain(edges, {1, 2}));
+  CHECK(add_chain(edges, {1}));
+  CHECK_FALSE(add_chain(edges, {2, 1}));  // an edge of 4 B where 3 are left
+}
+
+TEST_CASE("ordering table: what an edge reads and writes") {
+  OrderingTable table(1000, 1000);
+  OrderingTable::Chain chain;
+  table.add(chain, 5);
+  // A free slot; the record, the slot and the bit of a voxel that waits for nobody.
+  CHECK(table.accesses().names_read == 1);
+  CHECK(table.accesses().reads == 0);
+  CHECK(table.accesses().writes == 1);
+  table.add(chain, 6);
+  // The voxel before, which has no edge yet; the record, the edge, the list's head, the in-degree.
+  CHECK(table.accesses().reads == 1);
+  CHECK(table.accesses().writes == 1 + 4);
+  const std::uint64_t names = table.accesses().names_read;
+  OrderingTable::Chain again;
+  table.add(again, 5);
+  table.add(again, 6);
+  // Both are found by name and known by their records; the voxel before, and its only edge.
+  CHECK(table.accesses().names_read >= names + 2);
+  CHECK(table.accesses().reads >= 1 + 2 + 2);
+  CHECK(table.accesses().writes == 1 + 4);
+  const OrderingAccesses met = table.accesses();
+  CHECK(table.order() == Voxels{5, 6});
+  // A record for each voxel, two for the edge; the successor's in-degree.
+  CHECK(table.accesses().reads == met.reads + 2 + 2);
+  CHECK(table.accesses().writes == met.writes + 1);
+  CHECK(table.accesses().ready_read >= met.ready_read + 2 * table.ready_levels());
+}
+
+TEST_CASE("ordering table: every voxel of a full renaming is found") {
+  std::mt19937 random(3);
+  for (const std::uint64_t voxels : {1, 2, 5, 96, 512, 3000}) {
+    Renaming names(voxels);
+    std::vector<std::uint32_t> of;
+    std::uint64_t looked_at = 0;
+    const auto find = [&](std::uint32_t voxel) {
+      return names.find(
+          voxel, [&](std::uint32_t n) { return of[n] == voxel; }, looked_at);
+    };
+    while (of.size() < voxels) {
+      const auto first = static_cast<std::uint32_t>(random() % 1000000);
+      for (std::uint32_t v = first; v < first + 9 && of.size() < voxels; ++v) {
+        const std::uint32_t slot = find(v);
+        if (names.taken(slot)) continue;
+        names.take(slot, static_cast<std::uint32_t>(of.size()));
+        of.push_back(v);
+      }
+    }
+    looked_at = 0;
+    std::uint64_t wrong = 0;
+    for (std::uint32_t n = 0; n < voxels; ++n) wrong += names.number(find(of[n])) == n ? 0 : 1;
+    CHECK(wrong == 0);
+    CHECK(looked_at <= 3 * voxels);
+    names.clear();
+    CHECK_FALSE(names.taken(find(of[0])));
+  }
+}
+
+TEST_CASE("ordering table: the first of the ready voxels, against a set") {
+  std::mt19937 random(4);
+  for (const std::uint32_t voxels : {1U, 32U, 33U, 1024U, 1025U, 40000U}) {
+    ReadyVoxels ready(voxels);
+    CHECK(ready.levels() == ReadyVoxels::levels_for(voxels));
+    std::set<std::uint32_t> expected;
+    std::size_t wrong = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const std::uint32_t voxel = random() % voxels;
+      if (random() % 2 == 0) {
+        ready.set(voxel);
+        expected.insert(voxel);
+      } else {
+        ready.clear(voxel);
+        expected.erase(voxel);
+      }
+      wrong += ready.empty() == expected.empty() ? 0 : 1;
+      if (!expected.empty()) wrong += ready.first() == *expected.begin() ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+  }
+  CHECK(ReadyVoxels::levels_for(32) == 1);
+  CHECK(ReadyVoxels::levels_for(1025) == 3);
+  CHECK(ReadyVoxels::all_words_for(512) == 16 + 1);
 }
 
 TEST_CASE("ordering table: chains that contradict each other are found out") {
   OrderingTable table(10);
-  table.add_chain({1, 2});
-  table.add_chain({2, 3});
-  table.add_chain({3, 1});
+  add_chain(table, {1, 2});
+  add_chain(table, {2, 3});
+  add_chain(table, {3, 1});
   CHECK_THROWS_AS(table.order(), std::logic_error);
 }
 
@@ -108,7 +199,7 @@ TEST_CASE("ordering table: random chains that agree with a hidden order are all 
       for (const std::uint32_t voxel : hidden) {
         if (random() % 6 == 0) chain.push_back(voxel);
       }
-      table.add_chain(chain);
+      add_chain(table, chain);
       chains.push_back(chain);
     }
     const Voxels order = table.order();

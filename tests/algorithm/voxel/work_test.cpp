@@ -51,7 +51,8 @@ TEST_CASE("chunk work: the longest case takes all sides, and what the formulas s
   const ChunkCase tested = longest_chunk_case();
   CHECK(GroupFrustum(make_view<float>(tested.camera), tested.group).test(tested.bound).touches);
   const OperationCounts work = chunk_work(tested);
-  // One quotient for each end of two ranges, one of the spread and two of the reach, by near and far.
+  // One quotient for each end of two ranges, one of the spread and two of the reach, by near and
+  // far.
   CHECK(work.divisions == 7);
   CHECK(work.divisors <= 2);
   CHECK(work.square_roots == 2);
@@ -74,6 +75,14 @@ TEST_CASE("ray work: a step takes three plane times and two positions at least")
   CHECK(step.divisors == 0);       // the voxel size is the same for all
   CHECK(step.roundings >= 2 * 2);  // to whole, to a number of a cell
   CHECK(folded_macs(step) < 100);
+}
+
+TEST_CASE("ray work: a ray begins with a direction, its reciprocals and a plane of each axis") {
+  const OperationCounts begin = pixel_ray_work();
+  CHECK(begin.divisions == 2 + 3 + 2);  // the pixel's place, three reciprocals, two positions
+  CHECK(begin.divisors == 3);           // the others are the same for all
+  CHECK(begin.multiplies >= 6 + 3 + 2);
+  CHECK(folded_macs(begin) < 100);
 }
 
 }  // namespace

@@ -158,8 +158,14 @@ TEST_CASE("ledger: paper order is charged with what the golden renderer counts")
                                                    frame.scene->stored.grid(), order)
                                     .stats;
   check_shared(frame, golden, kHfus);
-  CHECK(items(frame, "ray_step") == golden.ray_steps);
-  CHECK(accesses(frame, "ordering table").reads >= golden.edges_offered);
+  CHECK(items(frame, "pixel_ray") == counter(frame, "rays"));
+  CHECK(items(frame, "ray_step") + items(frame, "pixel_ray") == golden.ray_steps);
+  // Of an edge the voxel that it leads to, where that was met before, the one that it comes from,
+  // and the first of its edges, where it has any; a name at least for each end.
+  CHECK(accesses(frame, "ordering table").reads >= 2 * golden.edges_offered);
+  CHECK(accesses(frame, "renamed voxels").reads >= golden.edges_offered);
+  CHECK(accesses(frame, "ready voxels").reads >= golden.visits);
+  CHECK(accesses(frame, "ray directions").reads == items(frame, "ray_step"));
   CHECK(accesses(frame, "ordered voxels").reads == golden.visits);
   CHECK(accesses(frame, "sort buffers").reads >= golden.splats);
 }
@@ -216,7 +222,8 @@ const Choices kExact = {{"vsu.test_lanes", {"8", "128", "600"}},
                         {"merge.entries", {"16", "300"}},
                         {"merge.on_overflow", {"spill", "blend_early"}}};
 const Choices kPaper = {
-    {"vsu.step_lanes", {"8", "128", "600"}}, {"vsu.edges_per_cycle", {"1", "4"}},
+    {"vsu.rays_in_flight", {"1", "48"}},     {"vsu.chain_entries", {"1", "4"}},
+    {"vsu.step_lanes", {"8", "128", "600"}}, {"vsu.table_banks", {"1", "4"}},
     {"vsu.groups_ahead", {"1", "3"}},        {"vsu.table_bytes", {"64", "32768"}},
     {"vsu.visit_gaussians", {"0", "128"}},   {"sorting.buffer_entries", {"16", "256"}}};
 

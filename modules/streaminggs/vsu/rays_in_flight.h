@@ -1,0 +1,254 @@
+// The rays of a group side by side: each is a chain of steps and look-ups that wait for one
+// another, so that lanes and cache are kept busy by many rays.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "algorithm/order/group_visits.h"
+#include "modules/streaminggs/vsu/ray_unit.h"
+
+namespace sgs {
+
+// One pass over the rays of a group, as RaysInRounds makes it, with `rays_in_flight` contexts. Each
+// ray steps when it can; what it meets waits in its context until no other ray can meet anything in
+// a round before, or at a place before it in the same one. So voxels enter the ordering table, and
+// rays give their contexts to others, in the order of rounds. A ray without room for another voxel
+// waits itself.
+//
+// Events are taken in the order of their cycles, those of one cycle in the order of the contexts.
+// The kernel's time follows where it matters to somebody else: when a node has to be fetched, when
+// one is waited for, and at the end.
+template <class Path>
+class RaysInFlight {
+ public:
+  RaysInFlight(const View<float>& view, const Path& path, RayUnit& unit)
+      : view_(view), unit_(unit), contexts_(unit.config.rays_in_flight, Context(path)) {}
+
+  bool follow(const PixelRect& group, VisitWindow& window, OrderingTable& table, GroupVisits& out) {
+    Pass pass{RayPixels(group, unit_.config.ray_step_px), window, table, out};
+    pass_ = &pass;
+    unit_.begin_pass();
+    end_ = unit_.now();
+    events_ = {};
+    for (std::uint32_t c = 0; c < contexts_.size(); ++c) {
+      contexts_[c].round = 0;
+      contexts_[c].met.clear();
+      contexts_[c].leaves.clear();
+      begin_ray(c, unit_.now());
+    }
+    while (pass.fits && !(events_.empty() && unit_.fetches.empty())) {
+      if (!wait_for_event()) continue;
+      const Event event = events_.top();
+      events_.pop();
+      go_on(event.context, event.cycle);
+      enter_in_turn(event.cycle);
+    }
+    unit_.advance_to(end_);
+    if (!pass.fits) {
+      unit_.take_what_comes();
+      unit_.clear(table);
+    }
+    return pass.fits;
+  }
+
+  void ordered(const std::vector<std::uint32_t>& voxels, const OrderingTable& table, bool last) {
+    unit_.order(table);
+    unit_.hand_over(voxels, last);
+  }
+
+ private:
+  static constexpr std::uint64_t kNever = RayUnit::kNever;
+  static constexpr std::uint32_t kNoNode = ~0U;
+
+  enum class State : std::uint8_t { kFlies, kWithoutRoom, kEnded, kFree };
+  struct Met {
+    std::uint64_t place, round;
+  };
+  struct Context {
+    explicit Context(const Path& p) : path(p) {}
+    Path path;
+    State state = State::kFree;
+    std::uint64_t round = 0;           // that it is in
+    std::deque<Met> met;               // voxels that wait to be entered
+    std::deque<std::uint64_t> leaves;  // cycles at which those that are being entered leave
+    OrderingTable::Chain chain;
+    std::uint64_t without_room = kNever;  // place of the voxel for which there was none
+    std::uint32_t wanted = kNoNode;       // node whose look-up has its turn
+  };
+  struct Event {
+    std::uint64_t cycle;
+    std::uint32_t context;
+    bool operator>(const Event& other) const {
+      return std::tie(cycle, context) > std::tie(other.cycle, other.context);
+    }
+  };
+  struct Pass {
+    RayPixels pixels;
+    VisitWindow& window;
+    OrderingTable& table;
+    GroupVisits& out;
+    bool fits = true;
+  };
+
+  void at(std::uint64_t cycle, std::uint32_t c) { events_.push({cycle, c}); }
+
+  // In a context that is free; none where all rays of the group have begun.
+  void begin_ray(std::uint32_t c, std::uint64_t cycle) {
+    Context& context = contexts_[c];
+    context.state = pass_->pixels.done() ? State::kFree : State::kFlies;
+    if (context.state == State::kFree) return;
+    context.path.begin(pixel_ray(view_, pass_->pixels.x(), pass_->pixels.y()));
+    context.chain = {};
+    context.without_room = kNever;
+    context.wanted = kNoNode;
+    pass_->pixels.next();
+    ++pass_->out.rays;
+    ++pass_->out.steps;
+    at(unit_.begin_ray(cycle), c);
+  }
+
+  // Until the next event is due and no node that could come before it is on its way; false where
+  // nodes have come first, and may have made others.
+  bool wait_for_event() {
+    const std::uint64_t next = events_.empty() ? kNever : events_.top().cycle;
+    if (unit_.fetches.empty()) return true;
+    if (unit_.fetches.any_come()) {
+      if (unit_.fetches.ready_cycle() > next) return true;
+      take_nodes();
+      return false;
+    }
+    if (next <= unit_.now()) return true;
+    unit_.wait_for_nodes(next);
+    return false;
+  }
+
+  void take_nodes() {
+    const std::uint64_t cycle = unit_.fetches.ready_cycle();
+    const NodeFetches::Fetch fetch = unit_.fetches.take();
+    unit_.nodes.fill(fetch.line);
+    for (const NodeFetches::Waiting& waiting : fetch.waiting) {
+      contexts_[waiting.ray].path.give(unit_.nodes.record_in(fetch.line, waiting.node));
+      at(unit_.look_up_again(cycle), waiting.ray);
+    }
+  }
+
+  // A ray does what it can in this cycle.
+  void go_on(std::uint32_t c, std::uint64_t cycle) {
+    Context& context = contexts_[c];
+    if (context.wanted != kNoNode) {
+      look_up(c, cycle);
+      return;
+    }
+    if (context.without_room != kNever && !meet(c, context.without_room, cycle)) return;
+    while (true) {
+      const RayEventOf event = context.path.next();
+      switch (event.what) {
+        case RayEvent::kLookUp:
+          context.wanted = event.index;
+          at(unit_.look_up(cycle), c);
+          return;
+        case RayEvent::kStep:
+          ++pass_->out.steps;
+          ++context.round;
+          at(unit_.step(cycle, event.index), c);
+          return;
+        case RayEvent::kVoxel: {
+          const std::uint64_t place = VisitWindow::place(event.index, event.cells);
+          unit_.met_voxel();
+          if (pass_->window.behind(place)) {
+            context.state = State::kEnded;
+            return;
+          }
+          if (!pass_->window.before(place) && !meet(c, place, cycle)) return;
+          break;
+        }
+        case RayEvent::kEnd:
+          context.state = State::kEnded;
+          return;
+      }
+    }
+  }
+
+  void look_up(std::uint32_t c, std::uint64_t cycle) {
+    const std::uint32_t node = std::exchange(contexts_[c].wanted, kNoNode);
+    if (const auto* const line = unit_.nodes.find(node)) {
+      contexts_[c].path.give(unit_.nodes.record_in(*line, node));
+      at(cycle + RayUnit::kLookUpCycles, c);
+      return;
+    }
+    unit_.waiting_for(unit_.nodes.line_of(node), cycle).push_back({c, node});
+  }
+
+  // Whether there is room for a voxel; a ray that has none is called again when there is.
+  bool meet(std::uint32_t c, std::uint64_t place, std::uint64_t cycle) {
+    Context& context = contexts_[c];
+    while (!context.leaves.empty() && context.leaves.front() <= cycle) context.leaves.pop_front();
+    if (context.met.size() + context.leaves.size() < unit_.config.chain_entries) {
+      context.without_room = kNever;
+      context.met.push_back({place, context.round});
+      return true;
+    }
+    context.without_room = place;
+    if (context.leaves.empty()) {
+      context.state = State::kWithoutRoom;
+    } else {
+      at(context.leaves.front(), c);
+    }
+    return false;
+  }
+
+  // In which round a context can enter something next, at the earliest.
+  static std::uint64_t earliest(const Context& context) {
+    if (!context.met.empty()) return context.met.front().round;
+    return context.state == State::kFree ? kNever : context.round;
+  }
+
+  // What is next in the order of rounds: a voxel into the table, or a ray's context to another ray.
+  void enter_in_turn(std::uint64_t cycle) {
+    end_ = std::max(end_, cycle);
+    while (pass_->fits) {
+      std::uint32_t first = 0;
+      for (std::uint32_t c = 1; c < contexts_.size(); ++c) {
+        if (earliest(contexts_[c]) < earliest(contexts_[first])) first = c;
+      }
+      Context& context = contexts_[first];
+      if (!context.met.empty()) {
+        enter(context, cycle);
+        if (context.state == State::kWithoutRoom) {
+          context.state = State::kFlies;
+          at(context.leaves.front(), first);
+        }
+      } else if (context.state == State::kEnded) {
+        ++context.round;
+        begin_ray(first, cycle);
+      } else {
+        return;
+      }
+    }
+  }
+
+  void enter(Context& context, std::uint64_t cycle) {
+    const std::uint64_t place = context.met.front().place;
+    context.met.pop_front();
+    pass_->window.meet(place);
+    pass_->fits = pass_->table.add(context.chain, VisitWindow::voxel(place));
+    context.leaves.push_back(unit_.enter(pass_->table, cycle));
+    end_ = std::max(end_, context.leaves.back());
+  }
+
+  const View<float>& view_;
+  RayUnit& unit_;
+  std::vector<Context> contexts_;
+  std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
+  Pass* pass_ = nullptr;
+  std::uint64_t end_ = 0;  // of the pass, as far as it is known
+};
+
+}  // namespace sgs
