@@ -12,10 +12,20 @@ struct EmptyTree {
   VoxelNode node(std::uint32_t) { return {}; }
 };
 
-}  // namespace
-
-OperationCounts ray_step_work() {
+// What is computed from a place in the graph on.
+struct Flow {
   DataFlow flow;
+  std::size_t from = 0;
+
+  OperationCounts counts() const { return flow.counts(from, flow.size()); }
+  LongestPath path(const OperationLatencies& latencies) const {
+    return flow.longest_path(from, flow.size(), latencies);
+  }
+};
+
+Flow ray_step_flow() {
+  Flow out;
+  DataFlow& flow = out.flow;
   VoxelFrame frame;
   frame.voxel_size = 0.7F;
   frame.levels = 2;
@@ -30,15 +40,16 @@ OperationCounts ray_step_work() {
     ray.step[axis] = 1;
   }
   static_cast<void>(ray.origin[0] / voxel_size);  // its reciprocal is made once a frame
-  const std::size_t before = flow.size();
+  out.from = flow.size();
   EmptyTree tree;
   RayWalk<EmptyTree, Counting> walk(frame, tree, voxel_size);
   walk.walk(ray, [](std::uint32_t, std::uint32_t) { return true; });
-  return flow.counts(before, flow.size());
+  return out;
 }
 
-OperationCounts pixel_ray_work() {
-  DataFlow flow;
+Flow pixel_ray_flow() {
+  Flow out;
+  DataFlow& flow = out.flow;
   VoxelFrame frame;
   frame.voxel_size = 0.7F;
   frame.levels = 2;
@@ -58,10 +69,21 @@ OperationCounts pixel_ray_work() {
   view.centre_y = input(flow, 23.5F);
   const Counting x = input(flow, 33), y = input(flow, 22);
   static_cast<void>(view.position[0] / voxel_size);
-  const std::size_t before = flow.size();
+  out.from = flow.size();
   RayPath<Counting> path(frame, voxel_size);
   path.begin(pixel_ray_of(view, x, y));
-  return flow.counts(before, flow.size());
+  return out;
+}
+
+}  // namespace
+
+OperationCounts ray_step_work() { return ray_step_flow().counts(); }
+LongestPath ray_step_path(const OperationLatencies& latencies) {
+  return ray_step_flow().path(latencies);
+}
+OperationCounts pixel_ray_work() { return pixel_ray_flow().counts(); }
+LongestPath pixel_ray_path(const OperationLatencies& latencies) {
+  return pixel_ray_flow().path(latencies);
 }
 
 }  // namespace sgs

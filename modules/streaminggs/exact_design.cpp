@@ -12,6 +12,7 @@ namespace sgs {
 
 void ExactDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   storage_ = storage;
+  resolve_rendering_depths(config_, chosen);
   resolve_sram(
       config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);
 }

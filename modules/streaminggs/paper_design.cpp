@@ -8,8 +8,10 @@
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/visited_in_order.h"
+#include "algorithm/voxel/ray_work.h"
 #include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/paper_machine.h"
+#include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
 #include "modules/streaminggs/streaming_sram.h"
 
@@ -32,6 +34,12 @@ std::uint64_t spill_bytes(const PaperConfig& config, const VoxelGrid& grid) {
 void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
   storage_ = storage;
   check(config_);
+  const OperationLatencies latencies = config_.single_latencies();
+  resolve_depth("vsu.step_depth_cycles", config_.vsu.step_depth_cycles, ray_step_path(latencies),
+                latencies, 0, chosen);
+  resolve_depth("vsu.ray_depth_cycles", config_.vsu.ray_depth_cycles, pixel_ray_path(latencies),
+                latencies, 0, chosen);
+  resolve_rendering_depths(config_, chosen);
   resolve_sram(
       config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);
 }

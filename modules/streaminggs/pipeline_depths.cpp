@@ -25,18 +25,12 @@ void resolve_depth(const char* key, std::uint32_t& depth_cycles, const LongestPa
   chosen.push_back({key, static_cast<double>(depth_cycles), std::move(why)});
 }
 
-void resolve_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
-                    std::vector<AutoChoice>& chosen) {
+void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& chosen) {
   const OperationLatencies single = config.single_latencies(), half = config.half_latencies();
-  const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(config.parts())));
   RenderingConfig& rendering = config.rendering;
   const RenderingPaths paths = rendering_paths(rendering.precision, single, half);
   const bool in_half = rendering.precision == BlendPrecision::kHalf;
   const OperationLatencies& blending = in_half ? half : single;
-  resolve_depth("hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
-                coarse_path(bound_by, longest_case(), across, single), single, 0, chosen);
-  resolve_depth("hfu.ffu_depth_cycles", config.hfu.ffu_depth_cycles,
-                fine_path(longest_case(), sh_degree, single), single, 0, chosen);
   resolve_depth("rendering.span_depth_cycles", rendering.span_depth_cycles, paths.spans, single, 0,
                 chosen);
   // The conic's lanes stand ahead of the queues: what they take comes on top.
@@ -46,6 +40,16 @@ void resolve_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degr
                 blending, kReadAndWrite, chosen);
   resolve_depth("rendering.drain_depth_cycles", rendering.drain_depth_cycles,
                 pixel_path(config.framebuffer, single), single, 0, chosen);
+}
+
+void resolve_filter_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
+                           std::vector<AutoChoice>& chosen) {
+  const OperationLatencies single = config.single_latencies();
+  const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(config.parts())));
+  resolve_depth("hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
+                coarse_path(bound_by, longest_case(), across, single), single, 0, chosen);
+  resolve_depth("hfu.ffu_depth_cycles", config.hfu.ffu_depth_cycles,
+                fine_path(longest_case(), sh_degree, single), single, 0, chosen);
 }
 
 }  // namespace sgs

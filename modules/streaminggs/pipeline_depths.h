@@ -18,8 +18,10 @@ void resolve_depth(const char* key, std::uint32_t& depth_cycles, const LongestPa
                    const OperationLatencies& latencies, std::uint32_t beside,
                    std::vector<AutoChoice>& chosen);
 
-// Of the filters and of rendering, on a scene of this SH degree.
-void resolve_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
-                    std::vector<AutoChoice>& chosen);
+// Of rendering: what its memories are large enough for depends on them.
+void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& chosen);
+// Of the filters, on a scene of this SH degree.
+void resolve_filter_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
+                           std::vector<AutoChoice>& chosen);
 
 }  // namespace sgs

@@ -23,7 +23,7 @@ void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& 
        resolve_filter_cost(config.hfu, split_of(order, format).bound_by, format.sh_degree)) {
     chosen.push_back(std::move(cost));
   }
-  resolve_depths(config, split_of(order, format).bound_by, format.sh_degree, chosen);
+  resolve_filter_depths(config, split_of(order, format).bound_by, format.sh_degree, chosen);
   check_sram("sram.codebook_bytes", config.sram.codebook_bytes,
              CodebookBuffer::sram_uses(config.codebook, format), kCodebookSram);
 }

@@ -33,6 +33,8 @@ Plan plan_of(TestScene scene) {
   plan.scene = std::move(scene);
   plan.config.table_bytes = 1U << 20U;
   plan.config.visit_gaussians = 0;
+  plan.config.step_depth_cycles = 36;
+  plan.config.ray_depth_cycles = 81;
   return plan;
 }
 

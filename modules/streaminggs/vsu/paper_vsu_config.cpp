@@ -9,10 +9,12 @@ void visit(ConfigVisitor& v, PaperVsuConfig& c) {
     "voxels that a ray keeps until those of the rays before it are in the ordering table");
   v("step_lanes", c.step_lanes, in_range(1, 10000), "MAC lanes of the rays' steps");
   v("ray_lanes", c.ray_lanes, in_range(1, 10000), "MAC lanes of the rays' beginnings");
-  v("step_depth_cycles", c.step_depth_cycles, in_range(1, 1000), "until a ray can step again");
+  v("step_depth_cycles", c.step_depth_cycles, in_range(0, 1000),
+    "until a ray can step again; 0: its longest path");
   v("cell_step_depth_cycles", c.cell_step_depth_cycles, in_range(1, 1000),
     "the same of a step out of a single cell");
-  v("ray_depth_cycles", c.ray_depth_cycles, in_range(1, 1000), "until a ray that begins is there");
+  v("ray_depth_cycles", c.ray_depth_cycles, in_range(0, 1000),
+    "until a ray that begins is there; 0: its longest path");
   v("table_banks", c.table_banks, in_range(1, 64),
     "of the ordering table: of each a record a cycle is read and one written");
   v("ray_step_px", c.ray_step_px, in_range(1, 1024),
