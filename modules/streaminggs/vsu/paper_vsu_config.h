@@ -9,7 +9,7 @@
 namespace sgs {
 
 struct PaperVsuConfig {
-  std::uint32_t rays_in_flight = 48;  // of a group, side by side
+  std::uint32_t rays_in_flight = 60;  // of a group, side by side
   std::uint32_t chain_entries = 3;    // voxels that a ray keeps until they are entered
   std::uint32_t step_lanes = 24;      // multiply-accumulates a cycle of the rays' steps
   std::uint32_t ray_lanes = 8;        // of their beginnings
@@ -24,7 +24,7 @@ struct PaperVsuConfig {
   double sample_step_voxels = 0;            // 0: every cell of the ray; else distance of samples
   std::uint32_t groups_ahead = 1;           // ordered groups that wait for the HFUs
   std::uint32_t table_bytes = 4096;         // ordering table of one group; fuller ones take passes
-  std::uint32_t node_cache_bytes = 4096;    // in front of the tree in DRAM
+  std::uint32_t node_cache_bytes = 2112;    // in front of the tree in DRAM
   std::uint32_t record_cache_bytes = 1024;  // in front of the voxel records
   std::uint32_t cut_cache_bytes = 256;      // in front of the planes of cut voxels
   std::uint32_t visit_gaussians = 256;      // voxels with more are cut; 0: never
