@@ -110,7 +110,6 @@ COMMON = (
     axis("rendering.clusters", 1, 2, 4, 8),
     axis("rendering.cluster_lanes", 480),
     axis("rendering.span_lanes", 16, 32, 64),
-    axis("rendering.span_slots", 8, 16, 32),
     axis("hfu.ffu_lanes", 4, 8, 12, 16, 20, 24, 32, 48, 64),
     axis("hfu.cfu_lanes", 1, 2, 3, 4, 6, 8, 12),
     axis("hfu.second_half_slots", 4, 6, 8, 16, 24, 32),
