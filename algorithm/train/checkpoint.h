@@ -1,0 +1,23 @@
+// Training that is to go on later: a file with all that the next step depends on.
+#pragma once
+
+#include <string>
+
+#include "algorithm/train/trainer.h"
+
+namespace sgs {
+
+struct Checkpoint {
+  std::string training;  // one line that says of what and how; whoever resumes compares it
+  std::string log;       // what was logged so far
+  Trainer::State state;
+};
+
+// Appears under `path` once it is complete. Throws InputError when `path` cannot be created,
+// std::runtime_error when it cannot be written.
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
+
+// Throws InputError: not such a file, of another version, cut off or changed.
+Checkpoint read_checkpoint(const std::string& path);
+
+}  // namespace sgs

@@ -1,0 +1,52 @@
+// The photographs that a scene is fitted to, at one size at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "algorithm/dataset/dataset.h"
+#include "algorithm/image/rgba_image.h"
+#include "algorithm/scene/camera.h"
+
+namespace sgs {
+
+struct Photograph {
+  Camera camera;
+  RgbaImage image;
+};
+
+class Photographs {
+ public:
+  // Gives photograph `at` so many times smaller; several threads may ask at once.
+  using Source = std::function<Photograph(std::size_t at, double downscale)>;
+
+  Photographs(std::size_t count, Source source) : stored_(count), source_(std::move(source)) {}
+  // Those of one split of a data set, which must outlive them.
+  Photographs(const Dataset& dataset, Split split);
+
+  // Loads all of them at another size. 8 B a pixel stay; on the way 16 more for each that a thread
+  // is at. Throws what the source throws.
+  void load(double downscale);
+
+  std::size_t size() const { return stored_.size(); }
+  const Camera& camera(std::size_t at) const { return stored_[at].camera; }
+  // As seen before a background: colours to 16 bits, those of 8 bits exactly.
+  Image before(std::size_t at, const glm::vec3& background) const;
+  // Whether light comes through any of them.
+  bool transparent() const { return transparent_; }
+
+ private:
+  struct Stored {
+    Camera camera;
+    std::vector<std::array<std::uint16_t, 4>> pixels;  // colour times alpha, alpha
+    bool transparent = false;
+  };
+
+  std::vector<Stored> stored_;
+  Source source_;
+  bool transparent_ = false;
+};
+
+}  // namespace sgs

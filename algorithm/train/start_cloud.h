@@ -1,0 +1,31 @@
+// What training begins with.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "algorithm/dataset/dataset.h"
+#include "algorithm/scene/gaussian_cloud.h"
+
+namespace sgs {
+
+struct StartConfig {
+  double opacity = 0.5;      // of each Gaussian; the original has 0.1
+  double scale_share = 0.5;  // of the distance to its neighbours; the original has 1
+};
+
+// Round Gaussians of degree 0 at points, as large as these lie apart: the first `most` of them in a
+// random order where there are more.
+GaussianCloud start_at_points(const std::vector<SfmPoint>& points, std::size_t most,
+                              const StartConfig& config, std::uint64_t seed);
+
+// `count` points of random colours, even in a box.
+std::vector<SfmPoint> random_points(const Extent& box, std::size_t count, std::uint64_t seed);
+
+// Where what the cameras look at may be: the box that the data set states; else a cube around the
+// point that the optical axes pass nearest to, whose half side is a third of the mean distance of
+// the cameras from it.
+Extent box_to_fill(const Dataset& dataset);
+
+}  // namespace sgs

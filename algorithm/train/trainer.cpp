@@ -1,0 +1,171 @@
+#include "algorithm/train/trainer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "algorithm/splat/activate.h"
+#include "algorithm/train/counter_random.h"
+#include "algorithm/train/position_noise.h"
+#include "algorithm/train/relocation.h"
+#include "algorithm/tune/scene_gradient.h"
+
+namespace sgs {
+namespace {
+
+// Coefficients of higher degrees are 0.
+void raise_degree(GaussianCloud& cloud, int degree) {
+  GaussianCloud raised = cloud;
+  raised.resize(cloud.size(), degree);
+  const auto before = static_cast<std::size_t>(sh_coeff_count(cloud.sh_degree));
+  const auto now = static_cast<std::size_t>(sh_coeff_count(degree));
+  raised.sh_coeffs.assign(cloud.size() * now, glm::vec3(0.0F));
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::copy_n(&cloud.sh_coeffs[i * before], before, &raised.sh_coeffs[i * now]);
+  }
+  cloud = std::move(raised);
+}
+
+bool finite(const glm::vec3& v) { return std::isfinite(v.x + v.y + v.z); }
+
+}  // namespace
+
+Trainer::Trainer(const TrainingConfig& config, Photographs& photographs, double extent,
+                 GaussianCloud start)
+    : config_(config),
+      photographs_(photographs),
+      extent_(extent),
+      cloud_(std::move(start)),
+      activated_(activate(cloud_)),
+      adam_(cloud_),
+      statistics_(cloud_.size()) {}
+
+Trainer::Trainer(const TrainingConfig& config, Photographs& photographs, double extent, State state)
+    : Trainer(config, photographs, extent, std::move(state.cloud)) {
+  next_step_ = state.next_step;
+  adam_.restore(std::move(state.moments));
+  statistics_ = std::move(state.statistics);
+}
+
+std::size_t Trainer::photograph_of(int step) {
+  const auto count = static_cast<int>(photographs_.size());
+  if (step / count != order_of_) {
+    order_of_ = step / count;
+    order_.resize(photographs_.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    CounterRandom random{config_.seed, RandomUse::kOrderOfViews,
+                         static_cast<std::uint64_t>(order_of_)};
+    for (std::size_t i = order_.size(); i > 1; --i)
+      std::swap(order_[i - 1], order_[random.below(i)]);
+  }
+  return order_[static_cast<std::size_t>(step % count)];
+}
+
+glm::vec3 Trainer::background_of(int step) const {
+  if (!photographs_.transparent() || config_.background == Background::kBlack) return glm::vec3(0);
+  if (config_.background == Background::kWhite) return glm::vec3(1);
+  CounterRandom random{config_.seed, RandomUse::kBackground, static_cast<std::uint64_t>(step)};
+  const double red = random.uniform(), green = random.uniform();
+  return {red, green, random.uniform()};
+}
+
+void Trainer::prepare(int step) {
+  if (const double wanted = config_.downscale_at(step); wanted != downscale_) {
+    photographs_.load(wanted);
+    downscale_ = wanted;
+  }
+  if (const int degree = config_.degree_at(step); degree > cloud_.sh_degree) {
+    raise_degree(cloud_, degree);
+    adam_.raise_degree(degree);
+    activated_ = activate(cloud_);
+  }
+}
+
+// Of what a step sees only: Gaussians that no view of the moment shows rest in everything.
+void Trainer::add_regularisers() {
+  const auto count = static_cast<double>(cloud_.size());
+  const auto by_opacity = static_cast<float>(config_.opacity_share / count);
+  const auto by_scale = static_cast<float>(config_.scale_share / (3 * count));
+  for (std::size_t r = 0; r < gradient_.size(); ++r) {
+    const Gaussian<float>& g = activated_.gaussians[gradient_.indices[r]];
+    gradient_.parameters.opacity_logits[r] += by_opacity * g.opacity * (1 - g.opacity);
+    gradient_.parameters.log_scales[r] += by_scale * g.scale;
+  }
+}
+
+void Trainer::check_finite(int step, double loss) const {
+  if (!std::isfinite(loss)) throw NotFinite(fmt::format("step {}: the loss is {}", step, loss));
+  const GaussianCloud& by = gradient_.parameters;
+  const auto coeffs = static_cast<std::size_t>(sh_coeff_count(by.sh_degree));
+  for (std::size_t r = 0; r < gradient_.size(); ++r) {
+    bool all = finite(by.means[r]) && finite(by.log_scales[r]) &&
+               std::isfinite(by.opacity_logits[r] + by.quats[r][0] + by.quats[r][1] +
+                             by.quats[r][2] + by.quats[r][3]);
+    for (std::size_t k = 0; k < coeffs; ++k) all = all && finite(by.sh_coeffs[r * coeffs + k]);
+    if (all) continue;
+    throw NotFinite(fmt::format("step {}: a derivative of Gaussian {} is not a finite number", step,
+                                gradient_.indices[r]));
+  }
+}
+
+Trainer::Step Trainer::descend(int step) {
+  const std::size_t at = photograph_of(step);
+  const auto view = make_view<float>(photographs_.camera(at));
+  const glm::vec3 background = background_of(step);
+  const GroupSequences sequences = reference_sequences(view, activated_);
+  const RenderResult picture = draw(sequences, background);
+  ImageLoss loss =
+      photometric_loss(picture.image, photographs_.before(at, background), config_.ssim_share);
+  scene_gradient({view, cloud_, activated_, sequences, picture, background},
+                 {std::move(loss.gradient), {}}, GradientRule::kDerivative, gradient_);
+  if (config_.growth == Growth::kMcmc) add_regularisers();
+  check_finite(step, loss.loss);
+
+  const LearningRates rates = config_.rates_at(step, extent_);
+  adam_.step(gradient_, rates, cloud_);
+  if (config_.growth == Growth::kMcmc) {
+    const auto moved = add_position_noise(cloud_, activated_, config_.noise * rates.mean,
+                                          config_.seed, static_cast<std::uint64_t>(step));
+    reactivate(cloud_, moved, activated_);
+  } else {
+    statistics_.add(sequences, gradient_);
+  }
+  reactivate(cloud_, gradient_.indices, activated_);
+  return {step, at, loss.loss, loss.l1, loss.ssim, gradient_.size()};
+}
+
+void Trainer::grow(int step) {
+  const auto at = static_cast<std::uint64_t>(step);
+  if (config_.growth == Growth::kMcmc) {
+    relocate_dead(cloud_, adam_, config_.seed, at);
+    const auto wanted = std::min(config_.most_gaussians,
+                                 static_cast<std::size_t>(std::ceil(
+                                     config_.growth_factor * static_cast<double>(cloud_.size()))));
+    if (wanted > cloud_.size()) {
+      add_shares(wanted - cloud_.size(), cloud_, adam_, config_.seed, at);
+    }
+  } else {
+    densify_and_prune(config_.densification, statistics_, extent_, step > config_.reset_every,
+                      config_.most_gaussians, config_.seed, at, cloud_, adam_);
+    statistics_.clear(cloud_.size());
+  }
+  activated_ = activate(cloud_);
+}
+
+Trainer::Step Trainer::step() {
+  const int step = next_step_;
+  prepare(step);
+  const Step done = descend(step);
+  if (config_.grows_at(step)) grow(step);
+  const bool resets = config_.growth == Growth::kOriginal && step > 0 &&
+                      step % config_.reset_every == 0 && step < config_.grow_to * config_.steps;
+  if (resets) {
+    reset_opacities(config_.densification, cloud_, adam_);
+    activated_ = activate(cloud_);
+  }
+  ++next_step_;
+  return done;
+}
+
+}  // namespace sgs

@@ -1,0 +1,175 @@
+// Training as a whole, on photographs that are made here.
+#include "algorithm/train/trainer.h"
+
+#include <tbb/global_control.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "algorithm/splat/activate.h"
+#include "algorithm/train/evaluation.h"
+#include "algorithm/train/start_cloud.h"
+#include "algorithm/tune/group_sequences.h"
+#include "tests/algorithm/render/test_clouds.h"
+
+namespace sgs::test {
+namespace {
+
+// Around the origin, at a distance of 3.
+Camera camera_at(int number, int of, double downscale) {
+  Camera camera = forward_camera(static_cast<int>(std::lround(64 / downscale)),
+                                 static_cast<int>(std::lround(48 / downscale)), 60 / downscale);
+  const double turn = 6.283185307179586 * number / of;
+  const glm::dvec3 z = glm::normalize(glm::dvec3(std::cos(turn), std::sin(turn), 0.2));
+  const glm::dvec3 x = glm::normalize(glm::cross(z, glm::dvec3(0, 0, 1)));
+  camera.world_from_camera = glm::dmat3(x, glm::cross(z, x), z);
+  camera.position = -3.0 * z;
+  return camera;
+}
+
+// Transparent where nothing is.
+Photographs photographs_of(const GaussianCloud& scene, std::size_t count, int turned_by = 0) {
+  const int of = static_cast<int>(count);
+  return Photographs(count, [scene, of, turned_by](std::size_t at, double downscale) {
+    Photograph out;
+    out.camera = camera_at(2 * static_cast<int>(at) + turned_by, 2 * of, downscale);
+    const RenderResult drawn =
+        draw(reference_sequences(make_view<float>(out.camera), activate(scene)));
+    out.image = RgbaImage(drawn.image.width, drawn.image.height);
+    for (std::size_t i = 0; i < out.image.pixels.size(); ++i) {
+      out.image.pixels[i] = glm::vec4(drawn.image.pixels[i], 1 - drawn.transmittance[i]);
+    }
+    return out;
+  });
+}
+
+GaussianCloud scene() {
+  GaussianCloud cloud;
+  add_ball(cloud, {0, 0, 0}, 0.3, 0.95, {0.9F, 0.2F, 0.1F});
+  add_ball(cloud, {0.4F, 0.1F, 0.2F}, 0.15, 0.9, {0.1F, 0.8F, 0.2F});
+  add_ball(cloud, {-0.3F, 0.3F, -0.2F}, 0.2, 0.9, {0.2F, 0.3F, 0.9F});
+  return cloud;
+}
+
+TrainingConfig short_training(int steps) {
+  TrainingConfig config;
+  config.steps = steps;
+  config.most_gaussians = 200;
+  config.sh_degree = 1;
+  config.grow_every = 20;
+  config.first_downscale = 2;
+  return config;
+}
+
+GaussianCloud start(std::uint64_t seed) {
+  return start_at_points(random_points({glm::vec3(-0.8F), glm::vec3(0.8F)}, 100, seed), 100, {},
+                         seed);
+}
+
+double test_psnr(const GaussianCloud& cloud) {
+  Photographs test = photographs_of(scene(), 6, 1);
+  test.load(1);
+  return mean_nearness(nearness(activate(cloud), test, glm::vec3(1))).psnr_db;
+}
+
+TEST_CASE("training: views between those that were seen come nearer, by either growth") {
+  for (const Growth growth : {Growth::kMcmc, Growth::kOriginal}) {
+    TrainingConfig config = short_training(400);
+    config.growth = growth;
+    Photographs photographs = photographs_of(scene(), 8);
+    Trainer trainer(config, photographs, 3, start(1));
+    const double before = test_psnr(trainer.cloud());
+    while (!trainer.done()) trainer.step();
+    CAPTURE(before, static_cast<int>(growth));
+    CHECK(test_psnr(trainer.cloud()) > before + 12);
+    CHECK(trainer.cloud().size() <= config.most_gaussians);
+    CHECK(trainer.cloud().sh_degree == 1);
+    if (growth == Growth::kMcmc) CHECK(trainer.cloud().size() == config.most_gaussians);
+  }
+}
+
+struct Trained {
+  std::vector<double> losses;
+  GaussianCloud cloud;
+};
+
+Trained trained(std::uint64_t seed, int steps) {
+  TrainingConfig config = short_training(100);
+  config.seed = seed;
+  Photographs photographs = photographs_of(scene(), 5);
+  Trainer trainer(config, photographs, 3, start(seed));
+  Trained out;
+  for (int i = 0; i < steps; ++i) out.losses.push_back(trainer.step().loss);
+  out.cloud = trainer.cloud();
+  return out;
+}
+
+TEST_CASE("training: the same bits on 1 and 3 threads, others by another seed") {
+  std::vector<Trained> runs;
+  for (const std::size_t threads : {1, 3}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    runs.push_back(trained(1, 60));
+  }
+  CHECK(runs[0].losses == runs[1].losses);
+  CHECK(runs[0].cloud.means == runs[1].cloud.means);
+  CHECK(runs[0].cloud.sh_coeffs == runs[1].cloud.sh_coeffs);
+  CHECK(trained(2, 60).losses != runs[0].losses);
+}
+
+TEST_CASE("training: from a saved state it goes on, bit for bit") {
+  for (const Growth growth : {Growth::kMcmc, Growth::kOriginal}) {
+    TrainingConfig config = short_training(100);
+    config.growth = growth;
+    config.reset_every = 30;
+    Photographs photographs = photographs_of(scene(), 5);
+    Trainer whole(config, photographs, 3, start(1));
+    for (int i = 0; i < 45; ++i) whole.step();
+    Photographs again = photographs_of(scene(), 5);
+    Trainer resumed(config, again, 3, whole.state());
+    while (!whole.done()) {
+      const Trainer::Step a = whole.step(), b = resumed.step();
+      REQUIRE(a.number == b.number);
+      REQUIRE(a.photograph == b.photograph);
+      REQUIRE(a.loss == b.loss);
+    }
+    CHECK(whole.cloud().means == resumed.cloud().means);
+    CHECK(whole.cloud().quats == resumed.cloud().quats);
+  }
+}
+
+TEST_CASE("training: what is no number stops it, and the step has changed nothing") {
+  Photographs photographs = photographs_of(scene(), 3);
+  GaussianCloud cloud = start(1);
+  for (glm::vec3& coeff : cloud.sh_coeffs) coeff.x = 1e38F;
+  Trainer trainer(short_training(10), photographs, 3, cloud);
+  CHECK_THROWS_AS(trainer.step(), NotFinite);
+  CHECK(trainer.cloud().means == cloud.means);
+  CHECK(trainer.next_step() == 0);
+}
+
+TEST_CASE("training: photographs keep 8 bits exactly and know whether they are transparent") {
+  const auto source = [](std::size_t, double) {
+    Photograph out;
+    out.camera = forward_camera(16, 16, 16);
+    out.image = RgbaImage(16, 16);
+    for (std::size_t i = 0; i < 256; ++i) {
+      out.image.pixels[i] = glm::vec4(glm::vec3(static_cast<float>(i) / 255), 1);
+    }
+    return out;
+  };
+  Photographs opaque(1, source);
+  opaque.load(1);
+  CHECK_FALSE(opaque.transparent());
+  const Image image = opaque.before(0, glm::vec3(1));
+  for (std::size_t i = 0; i < 256; ++i) {
+    CHECK(image.pixels[i].y == static_cast<float>(i) / 255);
+  }
+  Photographs through = photographs_of(scene(), 2);
+  through.load(2);
+  CHECK(through.transparent());
+  CHECK(through.camera(0).width == 32);
+}
+
+}  // namespace
+}  // namespace sgs::test

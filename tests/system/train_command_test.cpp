@@ -1,0 +1,90 @@
+// `streaminggs train` on a small data set made here: files, checkpoints, what it refuses.
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/algorithm/dataset/made_datasets.h"
+#include "tests/system/shell.h"
+
+namespace sgs::test {
+namespace {
+
+constexpr const char* kTrain = "$SG train d --steps 40 --gaussians 300 --test-every 20 ";
+
+void make_dataset(const ScratchFolder& scratch) {
+  write_nerf_synthetic(scratch.path("d"), made_scene());
+}
+
+TEST_CASE("train: a scene, a log with a line for each look at the test views") {
+  const ScratchFolder scratch;
+  make_dataset(scratch);
+  const ShellOutcome made = shell(
+      scratch, kTrain + std::string("--out s.ply --log l.csv && $SG info s.ply && cat l.csv"));
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  for (const char* words : {"gaussians                 300\n", "sh degree                 3\n",
+                            "step,seconds,loss,gaussians,test_psnr_db,test_ssim\n20,", "\n40,"}) {
+    INFO(words);
+    CHECK(made.out.find(words) != std::string::npos);
+  }
+}
+
+TEST_CASE("train: what is resumed ends as what was never stopped, bit for bit") {
+  const ScratchFolder scratch;
+  make_dataset(scratch);
+  const std::string train = kTrain;
+  const ShellOutcome made =
+      shell(scratch, train + "--out a.ply --checkpoint 25 && cp a.ply.checkpoint mid && " + train +
+                         "--out b.ply --resume mid && cmp a.ply b.ply");
+  INFO(made.out << made.err);
+  CHECK(made.status == 0);
+}
+
+TEST_CASE("train: Ctrl-C saves, and says how to go on") {
+  const ScratchFolder scratch;
+  make_dataset(scratch);
+  const ShellOutcome made =
+      shell(scratch,
+            "$SG train d --out s.ply --gaussians 300 --steps 100000 & p=$!; sleep 3; kill -INT $p; "
+            "wait $p; echo status $?; ls");
+  INFO(made.out << made.err);
+  CHECK(made.out.find("status 130") != std::string::npos);
+  CHECK(made.out.find("s.ply\ns.ply.checkpoint\n") != std::string::npos);
+  CHECK(made.err.find("to go on: --resume s.ply.checkpoint") != std::string::npos);
+}
+
+TEST_CASE("train: refusals") {
+  struct Row {
+    std::string line;
+    std::vector<std::string> words;  // on stderr
+  };
+  const std::string checkpoint = std::string(kTrain) + "--out s.ply --checkpoint 25 >t && ";
+  for (const Row& row : std::vector<Row>{
+           {"$SG train nofolder --out s.ply", {"nofolder: no such folder"}},
+           {"$SG train d --out ''", {"--out", "got nothing"}},
+           {"$SG train d --out s.ply --steps 0", {"--steps", "0"}},
+           {"$SG train d --out s.ply --growth none", {"--growth", "none"}},
+           {"$SG train d --out s.ply --resume nofile", {"nofile: cannot be opened"}},
+           {"$SG train d --out s.ply --resume d/transforms_train.json",
+            {"d/transforms_train.json", "expected a checkpoint"}},
+           {checkpoint + "head -c 5000 s.ply.checkpoint >c; " + kTrain + "--out t.ply --resume c",
+            {"c: was cut off or changed"}},
+           {checkpoint + "$SG train d --steps 41 --out t.ply --resume s.ply.checkpoint",
+            {"s.ply.checkpoint: is of 'train d --steps 40", "expected 'train d --steps 41"}},
+           {checkpoint + kTrain + "--out s.ply.checkpoint --resume s.ply.checkpoint",
+            {"s.ply.checkpoint"}},
+       }) {
+    const ScratchFolder scratch;
+    make_dataset(scratch);
+    const ShellOutcome outcome = shell(scratch, row.line);
+    INFO(row.line << '\n' << outcome.out << outcome.err);
+    CHECK(outcome.status == 2);
+    for (const std::string& word : row.words) {
+      INFO(word);
+      CHECK(outcome.err.find(word) != std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test
