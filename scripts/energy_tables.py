@@ -164,12 +164,13 @@ def make_tables(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__)
-    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser = run_arguments.parser(__doc__, "all real scenes")
     run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="0", help="number of a camera")
     parser.add_argument("--size", default="640x360", metavar="WxH", help="in px")
-    parser.add_argument("--groups", nargs="+", default=GROUPS, metavar="SHAPE")
+    parser.add_argument(
+        "--groups", nargs="+", default=GROUPS, metavar="SHAPE", help="in px: SIDE or WxH"
+    )
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="over both presets"
     )

@@ -139,11 +139,14 @@ def make_tables(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__)
+    parser = run_arguments.parser(__doc__, "two built-in scenes and all real ones")
     run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="0", help="number of a camera, or all")
     parser.add_argument(
-        "--size", default=REAL_SIZE, metavar="WxH", help="of the scenes given, but for the two that stand in by default; default: %(default)s"
+        "--size",
+        default=REAL_SIZE,
+        metavar="WxH",
+        help="of the scenes given, but for the two that stand in by default",
     )
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="over every preset"
