@@ -199,6 +199,15 @@ class Reports(unittest.TestCase):
         summed = [energy_tables.joules(view, of) for name, of in rows.items() if name != "all"]
         self.assertEqual(sum(summed), 2.0**7 - 1)
 
+    def test_the_ordering_table_grows_with_the_group(self):
+        config = {"group_width_px": 64, "group_height_px": 64, "vsu": {"table_bytes": 4096}}
+        for shape, expected in (("16", 4096), ("64", 4096), ("128", 16384), ("160x120", 19200)):
+            with self.subTest(shape):
+                keys = group_shapes.assignments(shape)
+                made = energy_tables.table_bytes(config, keys)
+                self.assertEqual(made, (f"vsu.table_bytes={expected}",))
+                self.assertEqual(energy_tables.table_bytes({"vsu": {}}, keys), ())
+
     def test_whether_the_named_resource_gains_most(self):
         for gains, most in (((0.2, 0.1), True), ((0.1, 0.2), False), ((0.1999, 0.2), True)):
             doubled = [{"key": k, "time_saved": g} for k, g in zip("ab", gains)]
