@@ -11,6 +11,7 @@ from machine_areas import Areas, area_mm2
 from machine_axes import Machine
 from scenes import Scene
 from simulations import Run
+from view_numbers import decibels
 
 OBJECTIVES: dict[str, Callable[[dict], float]] = {
     "cycles": lambda view: view["frame"]["cycles"],
@@ -49,7 +50,7 @@ class Search:
     for by steps back on other axes, those first that were seen to harm least for the area they
     free. Scenes are simulated two at a time, and a move is given up once it is clearly worse.
     points: every machine that was simulated on all scenes. harm: of a step back on each axis, as an
-    earlier search has seen it."""
+    earlier search has seen it. least_db: what the picture of each scene must have."""
 
     def __init__(
         self,
@@ -60,11 +61,13 @@ class Search:
         objective: str,
         most_runs: int,
         harm: dict[int, float] | None = None,
+        least_db: Sequence[float] | None = None,
     ):
         self.areas, self.kept = areas, areas.kept
         self.scenes, self.size = tuple(scenes), size
         self.budget_mm2, self.value = budget_mm2, OBJECTIVES[objective]
         self.runs_left = most_runs
+        self.least_db = least_db
         self.points: list[Point] = []
         self.harm = dict(harm or {})
         self.seen: set[tuple] = set()
@@ -103,20 +106,24 @@ class Search:
         for first in range(0, len(self.scenes), 2):
             numbers = range(first, min(first + 2, len(self.scenes)))
             self.runs_left -= len(numbers)
-            for outcome in self.kept.outcomes([self.run(machine, storage, n) for n in numbers]):
-                if outcome.refused or area_mm2(outcome.views[0]) > self.budget_mm2 * 1.0001:
+            outcomes = self.kept.outcomes([self.run(machine, storage, n) for n in numbers])
+            for n, outcome in zip(numbers, outcomes):
+                if outcome.refused or not self.allowed(outcome.views[0], n):
                     return math.inf, None
                 views.append(outcome.views[0])
             if against:
                 pairs = zip(views, against.views)
                 worse = statistics.fmean(math.log(self.value(a) / self.value(b)) for a, b in pairs)
-                # Of the first scenes some may still make up for others.
-                early = len(views) < 4 or self.frees(machine, against)
-                if worse > (0.06 / len(views) if early else -BETTER / 2):
+                # Others may still make up for these.
+                if len(views) < len(self.scenes) and worse > 0.06 / len(views):
                     return worse, None
         point = Point(machine, tuple(storage), self.scenes, tuple(views))
         self.points.append(point)
         return worse, point
+
+    def allowed(self, view: dict, scene: int) -> bool:
+        small = area_mm2(view) <= self.budget_mm2 * 1.0001
+        return small and not (self.least_db and decibels(view) < self.least_db[scene])
 
     def frees(self, machine: Machine, best: Point) -> bool:
         area = self.areas.of(machine)
@@ -196,7 +203,7 @@ class Search:
                     n
                     for n, view in found.items()
                     if self.value(view) < self.value(views[n]) * (1 - BETTER)
-                    and area_mm2(view) <= self.budget_mm2 * 1.0001
+                    and self.allowed(view, n)
                 ]
                 for n in moving:
                     storage[n], views[n] = trial[n], found[n]

@@ -53,6 +53,10 @@ def in_floats(kept: KeptRuns, outcome: Outcome) -> Sequence[dict]:
     return kept.outcome(dataclasses.replace(outcome.run, overrides=overrides)).accepted()
 
 
+def quantised(views: Sequence[dict]) -> bool:
+    return any(view["config"]["storage"]["encoding"].startswith("vq") for view in views)
+
+
 def text_row(kept: KeptRuns, scene: str, name: str, outcome: Outcome) -> tuple:
     if outcome.refused:
         return (scene, name, *[""] * (len(HEAD) - 4), f"refused: {outcome.refused}", "")
@@ -62,7 +66,8 @@ def text_row(kept: KeptRuns, scene: str, name: str, outcome: Outcome) -> tuple:
         scene,
         name,
         f"{bus / 1e6:.1f}",
-        f"{asked:.2f}",
+        # Once what a quantised scene holds would be another once.
+        "" if quantised(views) else f"{asked:.2f}",
         f"{wasted:.2f}",
         f"{cycles / 1e6:.2f}",
         f"{fps:.0f}",
@@ -136,7 +141,9 @@ def summary_row(
     of = [numbers(outcome.views) for outcome in by_scene]
     bus, cycles, joules = (statistics.geometric_mean(n[i] for n in of) for i in (0, 3, 5))
     faster = [
-        numbers(b.views)[3] / n[3] for n, b in zip(of, paper) if not b.refused and b.views
+        theirs["frame"]["cycles"] / ours["frame"]["cycles"]
+        for outcome, b in zip(by_scene, paper)
+        for ours, theirs in zip(outcome.views, b.views)
     ]
     times = [f"{ratio:.2f}" for ratio in (min(faster), max(faster))] if faster else []
     return (

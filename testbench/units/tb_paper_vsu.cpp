@@ -345,9 +345,14 @@ void random_case(Case& test) {
   plan.config.rays_in_flight = 1 + static_cast<std::uint32_t>(random() % 40);
   plan.config.chain_entries = 1 + static_cast<std::uint32_t>(random() % 20);
   plan.config.ray_lanes = 1 + static_cast<std::uint32_t>(random() % 70);
-  plan.config.step_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 60);
-  plan.config.cell_step_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 20);
-  plan.config.ray_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 100);
+  // No result is there before its lanes are free.
+  const auto of_step =
+      static_cast<std::uint32_t>(ceil_div(macs_of_a_step(), plan.config.step_lanes));
+  const auto of_ray =
+      static_cast<std::uint32_t>(ceil_div(macs_of_a_beginning(), plan.config.ray_lanes));
+  plan.config.step_depth_cycles = of_step + static_cast<std::uint32_t>(random() % 60);
+  plan.config.cell_step_depth_cycles = of_step + static_cast<std::uint32_t>(random() % 20);
+  plan.config.ray_depth_cycles = of_ray + static_cast<std::uint32_t>(random() % 100);
   plan.config.table_banks = 1 + static_cast<std::uint32_t>(random() % 2);
   plan.config.groups_ahead = 1 + static_cast<std::uint32_t>(random() % 3);
   plan.config.node_cache_bytes = 256U << (random() % 5);
