@@ -105,8 +105,7 @@ def make_table(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__)
-    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser = run_arguments.parser(__doc__, "all real scenes")
     run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="0", help="numbers of cameras, as in 0,2, or all")
     parser.add_argument("--size", default="640x360", metavar="WxH", help="in px")

@@ -3,14 +3,17 @@
 
 Writes energy_components.md: energy by component with the band that the sources leave, a column for
 each scene; and energy_groups.md and .csv: energy, bytes, cycles and area against the group's size,
-means over the scenes. On-chip memory is as large as each group needs; the ordering table of paper
-order, which grows with the group, is the smallest of a few sizes that every scene can be drawn
-with. What was simulated is kept in energy_runs.jsonl.
+arithmetic means over the scenes, so that the columns of a row add up. Rows carry the name of the
+preset that was run. Both orders are charged what was counted on our filters (hfu.cost=counted).
+On-chip memory is as large as each group needs. The ordering table of paper order has the preset's
+bytes and, in groups of more pixels than the preset's, as many times more. What was simulated is
+kept in energy_runs.jsonl.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 import statistics
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -19,17 +22,15 @@ import run_arguments
 import tables
 from group_shapes import assignments
 from kept_runs import KeptRuns
+from objectives import value_at
 from scenes import Scene, find_scenes, shared_names
 from simulations import SRAM_AS_NEEDED, Run
 
 RUNS_FILE = "energy_runs.jsonl"
 # Second halves raw in both: codebooks are compare_variants.py's business.
-PRESETS = {"exact": "exact", "paper": "paper_no_vq"}
-# What is tried in turn where a scene refuses what there is.
-RELIEF = {
-    "exact": ((),),
-    "paper": tuple((f"vsu.table_bytes={n}",) for n in (7680, 16384, 32768, 65536, 131072)),
-}
+PRESETS = ("exact", "paper_no_vq")
+# One rule for both: paper order's presets charge a test what the paper states of its filters.
+SAME_COST = "hfu.cost=counted"
 GROUPS = ["16", "32", "48", "64", "96", "128", "160x120", "160x180"]
 MJ = 1e-3
 
@@ -67,16 +68,26 @@ def with_band(view: dict, keys: Sequence[str]) -> str:
     return f"{middle:.3f} ({low:.3f} .. {high:.3f})"
 
 
-def component_rows(by_order: dict[str, Sequence[dict]]) -> list[tuple]:
+def component_rows(by_preset: dict[str, Sequence[dict]]) -> list[tuple]:
     rows = []
-    for order, views in by_order.items():
+    for preset, views in by_preset.items():
         for name, keys in components(views[0]).items():
-            rows.append((order, name, *(with_band(view, keys) for view in views)))
+            rows.append((preset, name, *(with_band(view, keys) for view in views)))
     return rows
 
 
+def table_bytes(config: dict, shape: Sequence[str]) -> tuple[str, ...]:
+    """The ordering table, where the machine has one, for groups of this shape."""
+    if (bytes_of_preset := value_at(config, "vsu.table_bytes")) is None:
+        return ()
+    sides = [int(assignment.partition("=")[2]) for assignment in shape]
+    pixels_of_preset = config["group_width_px"] * config["group_height_px"]
+    times = max(1.0, math.prod(sides) / pixels_of_preset)
+    return (f"vsu.table_bytes={math.ceil(bytes_of_preset * times)}",)
+
+
 GROUP_HEAD = (
-    "order",
+    "preset",
     "group px",
     "DRAM mJ",
     "SRAM mJ",
@@ -88,10 +99,11 @@ GROUP_HEAD = (
     "M cycles",
     "mm2",
     "SRAM KiB",
+    "ordering table B",
 )
 
 
-def group_row(order: str, shape: str, views: Sequence[dict]) -> tuple:
+def group_row(preset: str, shape: str, views: Sequence[dict]) -> tuple:
     """Means over the scenes; area and memory of the scene that needs most."""
 
     def mean(value: Callable[[dict], float]) -> float:
@@ -105,7 +117,7 @@ def group_row(order: str, shape: str, views: Sequence[dict]) -> tuple:
     logic = [name for name in components(views[0]) if name not in (*memories, *OTHER)]
     sram = max(sum(v["sram"][f"{m}_bytes"] for m in ("input", "codebook", "shared")) for v in views)
     return (
-        order,
+        preset,
         shape,
         f"{mean(lambda v: of(v, lambda name: name == 'DRAM')):.3f}",
         f"{mean(lambda v: of(v, memories.__contains__)):.3f}",
@@ -117,6 +129,7 @@ def group_row(order: str, shape: str, views: Sequence[dict]) -> tuple:
         f"{mean(lambda v: v['frame']['cycles']) / 1e6:.3f}",
         f"{max(v['area_mm2']['total'] for v in views):.2f}",
         f"{sram / 1024:.0f}",
+        value_at(views[0]["config"], "vsu.table_bytes") or "",
     )
 
 
@@ -126,50 +139,44 @@ class Measuring:
         self.kept = KeptRuns(arguments.streaminggs, path, arguments.side_by_side)
         self.arguments, self.scenes = arguments, scenes
 
-    def views(self, order: str, overrides: tuple[str, ...]) -> list[dict]:
-        """Of all scenes. Raises ValueError where one is refused whatever relief there is."""
-        for relief in RELIEF[order]:
-            outcomes = self.kept.outcomes(
-                [
-                    Run(
-                        scene,
-                        self.arguments.view,
-                        self.arguments.size,
-                        PRESETS[order],
-                        (*overrides, *relief, *self.arguments.set),
-                    )
-                    for scene in self.scenes
-                ]
-            )
-            if not any(outcome.refused for outcome in outcomes):
-                break
-        return [outcome.accepted()[0] for outcome in outcomes]
+    def views(self, preset: str, overrides: Sequence[str] = ()) -> list[dict]:
+        """Of all scenes. Raises ValueError where one is refused."""
+        arguments = self.arguments
+        words = (*SRAM_AS_NEEDED, SAME_COST, *overrides, *arguments.set)
+        runs = [
+            Run(scene, arguments.view, arguments.size, preset, words) for scene in self.scenes
+        ]
+        return [outcome.accepted()[0] for outcome in self.kept.outcomes(runs)]
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
     groups = {shape: assignments(shape) for shape in arguments.groups}
     scenes = find_scenes(arguments.scenes or shared_names())
     measuring = Measuring(arguments, scenes)
-    shipped = {order: measuring.views(order, SRAM_AS_NEEDED) for order in PRESETS}
+    shipped = {preset: measuring.views(preset) for preset in PRESETS}
     made = run_arguments.how_made(view for views in shipped.values() for view in views)
-    head = ("order", "mJ of", *(scene.name for scene in scenes))
+    made += f"View {arguments.view} at {arguments.size} px, {SAME_COST}.\n\n"
+    head = ("preset", "mJ of", *(scene.name for scene in scenes))
     tables.write(arguments.out, "energy_components", made, head, component_rows(shipped))
-    rows = [
-        group_row(order, shape, measuring.views(order, (*SRAM_AS_NEEDED, *keys)))
-        for order in PRESETS
-        for shape, keys in groups.items()
-    ]
+    rows = []
+    for preset in PRESETS:
+        config = shipped[preset][0]["config"]
+        for shape, keys in groups.items():
+            views = measuring.views(preset, (*keys, *table_bytes(config, keys)))
+            rows.append(group_row(preset, shape, views))
+    made += "Arithmetic means over the scenes; area and memory of the scene that needs most.\n\n"
     tables.write(arguments.out, "energy_groups", made, GROUP_HEAD, rows)
     measuring.kept.end()
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__)
-    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser = run_arguments.parser(__doc__, "all real scenes")
     run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="0", help="number of a camera")
     parser.add_argument("--size", default="640x360", metavar="WxH", help="in px")
-    parser.add_argument("--groups", nargs="+", default=GROUPS, metavar="SHAPE")
+    parser.add_argument(
+        "--groups", nargs="+", default=GROUPS, metavar="SHAPE", help="in px: SIDE or WxH"
+    )
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="over both presets"
     )

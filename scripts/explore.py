@@ -12,12 +12,14 @@ what was simulated: values as the resolved configuration has them, the size of t
 pixel group always among them: `group=SHAPE` stands for both of its sides.
 
 Objectives, all to be as small as possible:
-  cycles      frame cycles, sum over the views simulated
-  dram_bytes  bytes that units moved, sum over the views
-  sram_bytes  on-chip memory
-  mac_lanes   multiply-accumulate lanes of all filters: hfus x (cfus x cfu_lanes + ffu_lanes)
-or any number of a view's report.json by its path, such as `dram.row_conflicts`: a sum over the
-views, but for what an accelerator has or is (`config`, `sram`, `area_mm2`).
+  cycles        frame cycles, sum over the views simulated
+  dram_bytes    bytes that units moved, sum over the views
+  sram_bytes    on-chip memory
+  filter_lanes  multiply-accumulate lanes of coarse and fine filters, and of nothing else:
+                hfus x (cfus x cfu_lanes + ffu_lanes)
+or any number of a view's report.json by its path, such as `area_mm2.total`, which has every lane
+and memory there is, or `dram.row_conflicts`: a sum over the views, but for what an accelerator has
+or is (`config`, `sram`, `area_mm2`).
 
 Writes explore.csv and explore.md. An exploration that is interrupted or fails midway leaves what it
 has simulated so far as explore_partial.csv and .md.
@@ -47,7 +49,20 @@ def parse_axis(text: str) -> list[str]:
     key, equals, values = text.partition("=")
     if not key or not equals or not all(values.split(",")):
         raise ValueError(f"--axis: '{text}', expected KEY=VALUE,VALUE,...")
-    return [f"{key}={value}" for value in values.split(",")]
+    assignments = [f"{key}={value}" for value in values.split(",")]
+    if len(set(assignments)) < len(assignments):
+        raise ValueError(f"--axis: '{text}', expected different values")
+    return assignments
+
+
+def parse_axes(texts: Sequence[str]) -> list[list[str]]:
+    """Raises ValueError, also where two axes set one key: the later would win unseen."""
+    axes = [parse_axis(text) for text in texts]
+    keys = [a.partition("=")[0] for axis in axes for a in expanded((axis[0],))]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise ValueError(f"--axis: {key}: there are two")
+    return axes
 
 
 def read_points(path: pathlib.Path) -> list[Assignments]:
@@ -68,7 +83,7 @@ def read_points(path: pathlib.Path) -> list[Assignments]:
 def configurations(arguments: argparse.Namespace) -> list[Assignments]:
     if arguments.points:
         return read_points(arguments.points)
-    return list(itertools.product(*(parse_axis(axis) for axis in arguments.axis)))
+    return list(itertools.product(*parse_axes(arguments.axis)))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -170,11 +185,14 @@ def explore(arguments: argparse.Namespace) -> None:
 
 def main() -> int:
     parser = run_arguments.parser(__doc__)
-    parser.formatter_class = argparse.RawDescriptionHelpFormatter
     run_arguments.add_side_by_side(parser)
     which = parser.add_mutually_exclusive_group(required=True)
-    which.add_argument("--axis", action="append", default=[], metavar="KEY=V1,V2,...")
-    which.add_argument("--points", type=pathlib.Path, metavar="FILE")
+    which.add_argument(
+        "--axis", action="append", default=[], metavar="KEY=V1,V2,...", help="any number of them"
+    )
+    which.add_argument(
+        "--points", type=pathlib.Path, metavar="FILE", help="a list in place of a grid"
+    )
     parser.add_argument("--view", default="0", help="number of a camera, or all")
     parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")
     parser.add_argument("--config", default="exact", help="preset or JSON file to start from")
@@ -182,7 +200,10 @@ def main() -> int:
         "--set", action="append", default=[], metavar="KEY=VALUE", help="for every configuration"
     )
     parser.add_argument(
-        "--objectives", default="cycles,dram_bytes,sram_bytes,mac_lanes", metavar="NAME,..."
+        "--objectives",
+        default="cycles,dram_bytes,sram_bytes,filter_lanes,area_mm2.total",
+        metavar="NAME,...",
+        help="numbers to make small",
     )
     return run_arguments.main_of_tables(explore, parser.parse_args())
 

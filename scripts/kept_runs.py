@@ -5,30 +5,17 @@ from __future__ import annotations
 
 import concurrent.futures
 import dataclasses
-import hashlib
 import json
 import pathlib
 import sys
 import threading
 from collections.abc import Sequence
 
-from simulations import MOST_SIDE_BY_SIDE, REPOSITORY, Failure, Outcome, Run, simulate
+from run_digest import program_digest, run_name
+from simulations import MOST_SIDE_BY_SIDE, Failure, Outcome, Run, simulate
 
-# What a run depends on beside the program and its arguments.
-DATA_FOLDERS = ("testbench/configs", "testbench/cost", "modules/dram/memspecs")
 # Parts of a view's report that no table asks for; they are most of its size.
 NOT_KEPT = ("ledger", "left_out", "chosen", "host")
-
-
-def program_digest(binary: pathlib.Path) -> str:
-    """Of program, presets and technology. Raises ValueError when there is no program."""
-    if not binary.is_file():
-        raise ValueError(f"{binary}: not there; scripts/setup.sh builds it")
-    digest = hashlib.sha256(binary.read_bytes())
-    for folder in DATA_FOLDERS:
-        for path in sorted((REPOSITORY / folder).glob("*.json")):
-            digest.update(path.read_bytes())
-    return digest.hexdigest()
 
 
 def view_to_keep(view: dict) -> dict:
@@ -48,7 +35,8 @@ def sums(activity: dict) -> dict:
 
 class KeptRuns:
     """Outcomes of runs, from the file where it has them. A file of another program is left alone:
-    each line names what it was made with. failures: what ended badly, which is not kept."""
+    each line names what it was made with
+    (run_digest.py). failures: what ended badly, which is not kept."""
 
     def __init__(self, binary: pathlib.Path, path: pathlib.Path, side_by_side: int):
         self.binary, self.path = binary, path
@@ -111,10 +99,3 @@ class KeptRuns:
         """To be called when all tables are written. Raises the first Failure there was."""
         if self.failures:
             raise self.failures[0]
-
-
-def run_name(run: Run) -> str:
-    """The arguments of a run, and how large its scene's file is."""
-    file = pathlib.Path(run.scene.spec)
-    size = file.stat().st_size if file.is_file() else 0
-    return " ".join([str(size), *run.arguments()])

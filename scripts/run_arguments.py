@@ -19,18 +19,44 @@ INTERRUPTED = 130
 NOT_IN_TABLES = ("--streaminggs", "--out", "--side-by-side")
 
 
-def parser(about: str) -> argparse.ArgumentParser:
-    """SCENE..., the program to run them with, and a folder for tables."""
-    made = argparse.ArgumentParser(description=about, allow_abbrev=False)
+class Help(argparse.RawDescriptionHelpFormatter, argparse.ArgumentDefaultsHelpFormatter):
+    """Text as it stands in the script, and the default of each argument that has one."""
+
+    def _get_help_string(self, action: argparse.Action) -> str | None:
+        if action.default in (None, "", []) or isinstance(action.default, bool):
+            return action.help
+        if isinstance(action.default, list):
+            return f"{action.help} (default: {' '.join(map(str, action.default))})"
+        return super()._get_help_string(action)
+
+
+def parser(
+    about: str, without_scenes: str = "the built-in scenes and all real ones"
+) -> argparse.ArgumentParser:
+    """SCENE..., the program to run them with, and a folder for tables. without_scenes: what is
+    taken where no scene is named, in words."""
+    made = argparse.ArgumentParser(description=about, formatter_class=Help, allow_abbrev=False)
     made.add_argument(
         "scenes",
         nargs="*",
         metavar="SCENE",
         help="builtin:NAME?n=COUNT, a real scene of ../shared by name, or a .ply file with its "
-        "cameras beside it (NAME.json); default: the built-in scenes and all real ones",
+        f"cameras beside it (NAME.json); default: {without_scenes}",
     )
-    made.add_argument("--streaminggs", type=pathlib.Path, default=simulations.BINARY)
-    made.add_argument("--out", type=pathlib.Path, default=simulations.REPOSITORY / "out")
+    made.add_argument(
+        "--streaminggs",
+        type=pathlib.Path,
+        default=simulations.BINARY,
+        metavar="PROGRAM",
+        help="the command",
+    )
+    made.add_argument(
+        "--out",
+        type=pathlib.Path,
+        default=simulations.REPOSITORY / "out",
+        metavar="FOLDER",
+        help="for tables",
+    )
     return made
 
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 import argparse
 import concurrent.futures
 import json
+import math
 import sys
 from collections.abc import Sequence
 
@@ -86,8 +87,8 @@ def found(
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
-    if arguments.fps <= 0:
-        raise ValueError(f"--fps: {arguments.fps:g}, expected more than 0")
+    if not 0 < arguments.fps < math.inf:
+        raise ValueError(f"--fps: {arguments.fps:g}, expected a number above 0")
     scenes = find_scenes(arguments.scenes or shared_names())
     kept = KeptRuns(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.side_by_side)
     # A descent looks at one view at a time; sizes know nothing of each other.
@@ -105,8 +106,7 @@ def make_tables(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__)
-    parser.formatter_class = argparse.RawDescriptionHelpFormatter
+    parser = run_arguments.parser(__doc__, "all real scenes")
     run_arguments.add_side_by_side(parser)
     parser.add_argument("--fps", type=float, default=90, help="of the slowest view")
     parser.add_argument(

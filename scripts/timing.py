@@ -50,8 +50,10 @@ def make_table(arguments: argparse.Namespace) -> None:
 def main() -> int:
     parser = run_arguments.parser(__doc__)
     parser.add_argument("--view", type=int, default=0, help="number of a camera")
-    parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--configs", nargs="+", default=["exact"], metavar="PRESET")
+    parser.add_argument("--repeats", type=int, default=3, help="of each scene; the median counts")
+    parser.add_argument(
+        "--configs", nargs="+", default=["exact"], metavar="PRESET", help="preset or JSON file"
+    )
     return run_arguments.main_of_tables(make_table, parser.parse_args())
 
 

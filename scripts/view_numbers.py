@@ -14,10 +14,20 @@ def vsu_waits(view: dict) -> float:
 
 
 def binders(views: Sequence[dict]) -> str:
-    units = sorted({view["binding"]["holds"] or view["binding"]["unit"] for view in views})
-    shares = [view["binding"]["utilisation"] for view in views]
+    """Each busiest resource and its share of the frame, and what holds the frame where that is
+    something else: `fine 56% .. 60% -> vsu.node_memory`."""
+    by_unit: dict[str, list[dict]] = {}
+    for view in views:
+        by_unit.setdefault(view["binding"]["unit"], []).append(view["binding"])
+    return ", ".join(binder(unit, by_unit[unit]) for unit in sorted(by_unit))
+
+
+def binder(unit: str, bindings: Sequence[dict]) -> str:
+    shares = [binding["utilisation"] for binding in bindings]
     low, high = f"{min(shares):.0%}", f"{max(shares):.0%}"
-    return f"{', '.join(units)} {low if low == high else f'{low} .. {high}'}"
+    held_by = sorted({binding["holds"] for binding in bindings} - {unit, ""})
+    text = f"{unit} {low if low == high else f'{low} .. {high}'}"
+    return f"{text} -> {' or '.join(held_by)}" if held_by else text
 
 
 def decibels(view: dict) -> float:

@@ -17,6 +17,7 @@ import re
 import sys
 from collections.abc import Iterator
 
+import run_arguments
 import tables
 
 # Names of what stands between a unit and the leaf: an activity, a FIFO or a memory port.
@@ -120,21 +121,21 @@ def view_of(signals: list[Signal], time: int) -> str:
     return "\n".join(lines) + "\n"
 
 
+def write_view(vcd: pathlib.Path, out: pathlib.Path) -> None:
+    """Raises ValueError for what is no VCD file."""
+    with vcd.open(errors="replace") as file:
+        signals = signals_of(file)
+    if not signals:
+        raise ValueError(f"{vcd}: no signal found, expected a VCD file")
+    tables.write_text(out, view_of(signals, last_time(vcd)))
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("vcd", type=pathlib.Path, help="waveform, as `simulate --vcd` writes it")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="view to write, .gtkw")
     arguments = parser.parse_args()
-    try:
-        with arguments.vcd.open() as file:
-            signals = signals_of(file)
-        if not signals:
-            raise ValueError(f"{arguments.vcd}: no signal found, expected a VCD file")
-        tables.write_text(arguments.out, view_of(signals, last_time(arguments.vcd)))
-    except (OSError, ValueError, UnicodeDecodeError) as error:
-        print(f"waveform_view.py: {error}", file=sys.stderr)
-        return 2
-    return 0
+    return run_arguments.main(lambda: write_view(arguments.vcd, arguments.out))
 
 
 if __name__ == "__main__":

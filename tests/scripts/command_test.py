@@ -3,7 +3,7 @@
 import pathlib
 import unittest
 
-from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
+from in_folder import COMMAND, REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import binding_check
 import compare_variants
 import energy_tables
@@ -34,7 +34,8 @@ class WithTheCommand(InFolder):
             (
                 energy_tables,
                 ("--groups", "16", "64x32"),
-                {"| exact | all |": 1, "| paper | 64x32 |": 1},
+                {"| exact | all |": 1, "| paper_no_vq | 64x32 |": 1}
+                | {"View 0 at 640x360 px": 2},
             ),
             (
                 explore,
@@ -43,7 +44,7 @@ class WithTheCommand(InFolder):
             ),
             (explore, ("--config", "paper", "--axis", "hfus=1"), {"| 1 | 64 |": 1}),
             (timing, ("--repeats", "1", "--configs", "exact", "paper"), {"| truck | 64 |": 2}),
-            (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1}),
+            (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, " dB; ": 1}),
             (
                 fair_fight,
                 ("--most-runs", "4", "--objectives", "cycles", "--budgets", "1")
@@ -60,6 +61,18 @@ class WithTheCommand(InFolder):
                 self.assertRegex(made, f"Made by `scripts/{script.__name__}.py ")
                 for text, count in lines.items():
                     self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+
+    def test_every_counter_of_a_report_is_described(self):
+        text = (REPOSITORY / "testbench" / "streaminggs" / "README.md").read_text()
+        scene = find_scene(str(self.scene))
+        for config in ("exact", "paper"):
+            (view,) = simulations.simulate(
+                pathlib.Path(COMMAND), simulations.Run(scene, config=config)
+            ).accepted()
+            for path, unit in view["units"].items():
+                for name in (*unit["activities"], *unit["counters"]):
+                    with self.subTest(config, unit=path):
+                        self.assertIn(f"`{name}`", text)
 
     def test_memory_is_as_large_as_needed(self):
         scene = find_scene(str(self.scene))

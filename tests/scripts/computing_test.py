@@ -45,7 +45,7 @@ class Pareto(unittest.TestCase):
         for name, of_two_views in (
             ("cycles", 20),
             ("dram_bytes", 140),
-            ("mac_lanes", 2 * (4 * 4 + 16)),
+            ("filter_lanes", 2 * (4 * 4 + 16)),
             ("sram_bytes", 11),
             ("frame.cycles", 20),
             ("area_mm2.total", 1.5),
@@ -123,6 +123,19 @@ class Tables(unittest.TestCase):
             filled = fill_readme.filled(readme, pathlib.Path(folder))
         self.assertEqual(filled, readme.replace("old", "new"))
 
+    def test_a_table_of_changed_sources_is_refused(self):
+        readme = "<!-- table: one -->\nold\n<!-- end -->\n"
+        made = "Made by `x`; commit {}.\n\nrows\n"
+        with tempfile.TemporaryDirectory() as folder:
+            for commit, refused in (("abc-dirty", True), ("abc, def-dirty", True), ("abc", False)):
+                (pathlib.Path(folder) / "one.md").write_text(made.format(commit))
+                with self.subTest(commit):
+                    if refused:
+                        with self.assertRaisesRegex(ValueError, "one.md: commit .*-dirty"):
+                            fill_readme.filled(readme, pathlib.Path(folder))
+                    else:
+                        self.assertIn("rows", fill_readme.filled(readme, pathlib.Path(folder)))
+
     def test_readmes_of_sources_only(self):
         with tempfile.TemporaryDirectory() as folder:
             top = pathlib.Path(folder)
@@ -158,6 +171,21 @@ class Reports(unittest.TestCase):
         view = {"units": {"vsu": vsu}, "frame": {"cycles": 100}}
         self.assertEqual(view_numbers.vsu_waits(view), 0.07)
 
+    def test_a_share_stands_beside_the_resource_that_it_is_of(self):
+        def view(unit, share, holds):
+            return {"binding": {"unit": unit, "utilisation": share, "holds": holds}}
+
+        fine = [view("fine", 0.56, "vsu.memory"), view("fine", 0.6, "hfu0"), view("fine", 0.7, "fine")]
+        for views, text in (
+            ([view("dram", 0.8, "dram")], "dram 80%"),
+            ([view("dram", 0.8, "dram"), view("dram", 0.9, "dram")], "dram 80% .. 90%"),
+            ([view("vsu", 0.5, "vsu.memory")], "vsu 50% -> vsu.memory"),
+            ([view("vsu", 0.1, "")], "vsu 10%"),
+            ([view("vsu", 0.7, "vsu"), *fine], "fine 56% .. 70% -> hfu0 or vsu.memory, vsu 70%"),
+        ):
+            with self.subTest(text):
+                self.assertEqual(view_numbers.binders(views), text)
+
     def test_components_of_energy_hold_every_joule(self):
         keys = ("vsu_j", "merge_j", "pixel_state_j", "input_j", "clock_j", "sram_leakage_j")
         bands = {key: {"middle": 2.0**n} for n, key in enumerate((*keys, "dram_j"))}
@@ -170,6 +198,15 @@ class Reports(unittest.TestCase):
         self.assertEqual(rows["SRAM: all else"], ("input_j",))
         summed = [energy_tables.joules(view, of) for name, of in rows.items() if name != "all"]
         self.assertEqual(sum(summed), 2.0**7 - 1)
+
+    def test_the_ordering_table_grows_with_the_group(self):
+        config = {"group_width_px": 64, "group_height_px": 64, "vsu": {"table_bytes": 4096}}
+        for shape, expected in (("16", 4096), ("64", 4096), ("128", 16384), ("160x120", 19200)):
+            with self.subTest(shape):
+                keys = group_shapes.assignments(shape)
+                made = energy_tables.table_bytes(config, keys)
+                self.assertEqual(made, (f"vsu.table_bytes={expected}",))
+                self.assertEqual(energy_tables.table_bytes({"vsu": {}}, keys), ())
 
     def test_whether_the_named_resource_gains_most(self):
         for gains, most in (((0.2, 0.1), True), ((0.1, 0.2), False), ((0.1999, 0.2), True)):

@@ -106,7 +106,16 @@ class Ends(InFolder):
             ),
             (fair_fight, ("--budgets", "1", "0"), "--budgets: 0, expected more than 0$"),
             (fair_fight, ("--area", "-1"), "--area: -1, expected more than 0$"),
-            (smallest_machine, ("--fps", "0"), "--fps: 0, expected more than 0$"),
+            (smallest_machine, ("--fps", "0"), "--fps: 0, expected a number above 0$"),
+            (smallest_machine, ("--fps", "nan"), "--fps: nan, expected a number above 0$"),
+            (smallest_machine, ("--fps", "inf"), "--fps: inf, expected a number above 0$"),
+            (explore, ("--axis", "hfus=2,4,2"), "--axis: 'hfus=2,4,2', expected different values"),
+            (explore, ("--axis", "hfus=2", "--axis", "hfus=4"), "--axis: hfus: there are two$"),
+            (
+                explore,
+                ("--axis", "group=64,32", "--axis", "group_width_px=64"),
+                "--axis: group_width_px: there are two$",
+            ),
             (timing, ("--repeats", "0"), "--repeats: 0, expected at least 1$"),
         ):
             with self.subTest(script.__name__, arguments=arguments):

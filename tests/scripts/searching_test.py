@@ -174,6 +174,42 @@ class Keeping(InFolder):
         self.run_all(self.BODY + "\n        # changed\n")
         self.assertEqual(self.calls(), 8)
 
+    def test_whatever_a_run_reads_belongs_to_it(self):
+        bin_folder, data = self.folder / "bin", self.folder / "share" / "streaminggs"
+        for folder in (bin_folder, data, self.folder / "presets"):
+            folder.mkdir(parents=True)
+        # As in a build tree: the program's folder of data holds links to the sources.
+        (data / "presets").symlink_to(self.folder / "presets")
+        preset = self.folder / "presets" / "exact.json"
+        cameras, config = self.scene.with_suffix(".json"), self.folder / "mine.json"
+        in_config, overriding = self.folder / "a_memspec.json", self.folder / "b_memspec.json"
+        config.write_text(f'{{"dram": {{"memspec": "{in_config}"}}}}')
+        read = (data / "technology.json", preset, cameras, in_config, overriding)
+        for path in read:
+            path.write_text("{}")
+        program = self.stand_in(self.BODY).rename(bin_folder / "streaminggs")
+        calls = bin_folder / "calls"
+
+        def made() -> int:
+            """How many simulations there were, after another start of the script."""
+            scene = Scene("truck", str(self.scene), str(cameras))
+            overrides = (("hfus=1",), ("hfus=3",), ("hfus=1", f"dram.memspec={overriding}"))
+            runs = [simulations.Run(scene, config=str(config), overrides=o) for o in overrides]
+            KeptRuns(program, self.folder / "runs.jsonl", 1).outcomes(runs)
+            return len(calls.read_text().splitlines())
+
+        self.assertEqual(made(), 3)
+        self.assertEqual(made(), 3)
+        so_far = 3
+        for path, again in zip((*read, config, self.scene), (3, 3, 3, 3, 1, 3, 3)):
+            with self.subTest(path.name):
+                content = path.read_bytes()
+                path.write_bytes(content[:-1] + b"!")  # as long as before
+                so_far += again
+                self.assertEqual(made(), so_far)
+                path.write_bytes(content)
+                self.assertEqual(made(), so_far)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -105,8 +105,14 @@ class View(unittest.TestCase):
             with self.subTest(text=text):
                 outcome = self.run_script(text)
                 self.assertEqual(outcome.returncode, 2)
-                self.assertRegex(outcome.stderr, r"^waveform_view.py: .*expected.*\n$")
+                self.assertRegex(outcome.stderr, r"^\S*waveform_view.py: .*expected.*\n$")
                 self.assertFalse(self.view.exists())
+
+    def test_a_file_that_is_not_there_is_named(self):
+        command = [sys.executable, "-B", str(SCRIPT), "nofile", "--out", str(self.view)]
+        outcome = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual(outcome.returncode, 2)
+        self.assertRegex(outcome.stderr, r"^\S*waveform_view.py: nofile: No such file.*\n$")
 
 
 if __name__ == "__main__":
