@@ -144,7 +144,7 @@ Json run_view(const Base& base, int number, const Camera& camera) {
     doublings.push_back(std::move(doubling));
   }
   rank(outcome, doublings);
-  fmt::print("\nview {}: {}\n", number, outcome.binding.explanation);
+  fmt::print("\nview {}: {}\n", number, outcome.binding.sentence());
   print(outcome, doublings);
   fmt::print("{}\n", verdict(outcome, doublings));
   std::fflush(stdout);

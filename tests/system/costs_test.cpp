@@ -120,6 +120,20 @@ void check_binding(const Json& view) {
   }
 }
 
+TEST_CASE("costs: the rays' remedy is more of what they share and wait for, else more rays") {
+  struct Row {
+    const char *setting, *key;
+  };
+  for (const auto& [setting, key] : {Row{"vsu.step_lanes=24", "vsu.rays_in_flight"},
+                                     Row{"vsu.step_lanes=2", "vsu.step_lanes"},
+                                     Row{"vsu.ray_lanes=1", "vsu.ray_lanes"}}) {
+    CAPTURE(setting);
+    const Simulation simulation({"builtin:object?n=3000", "--size", "96x54", "--config", "paper",
+                                 "--set", "storage.encoding=raw", "--set", setting});
+    CHECK(simulation.views()[0]["units"]["vsu"]["activities"]["traverse"]["key"] == key);
+  }
+}
+
 TEST_CASE("costs: the binding resource is the busiest") {
   for (const char* machine : {"exact", "paper"}) {
     for (const char* slow :
