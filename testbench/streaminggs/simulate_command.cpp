@@ -101,8 +101,10 @@ struct Setting {
 // does not keep the others from running; a single one throws.
 int run_views(const SimulateArguments& arguments, Setting& setting, const ResultFolder& out,
               const std::vector<std::pair<int, Camera>>& views) {
-  RunReport report(setting.config, {setting.technology.name, arguments.run.build.stalls.seed,
-                                    arguments.command, setting.began});
+  const std::string& table = setting.technology.path;
+  RunReport report(setting.config,
+                   {setting.technology.name, table, fnv1a64_of_file(table),
+                    arguments.run.build.stalls.seed, arguments.command, setting.began});
   std::vector<std::pair<int, std::string>> failed;
   std::vector<ViewResult> results;
   bool equal = true;
@@ -133,6 +135,7 @@ int run_views(const SimulateArguments& arguments, Setting& setting, const Result
   print_machine(results.front(), setting.config.chosen, setting.technology.name);
   for (const auto& [view, why] : failed) fmt::print("\nview {} failed: {}\n", view, why);
   if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
+  fmt::print("\nwritten to {}\n", out.report().parent_path().string());
   return equal && failed.empty() ? 0 : 1;
 }
 
