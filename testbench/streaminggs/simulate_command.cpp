@@ -176,7 +176,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   if (packed) {
     setting.scene = prepare(std::move(*packed), arguments.scene, config);
   } else {
-    const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
+    const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras, config.storage.encoding);
     setting.scene = prepare(std::move(scene), config, weighing);
   }
   return run_views(arguments, setting, out, views);
@@ -201,6 +201,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.real("--stalls", build.stalls.probability, 0, 1,
             "probability, as 0.1, of a random stall at each side of each FIFO, for tests");
   line.whole("--seed", build.stalls.seed, 0, kMostSeed, "of the random stalls");
+  line.needs("--seed", "--stalls");
   line.whole(
       "--process-order", build.process_order, 0, kMostSeed,
       "seed that shuffles in which order the processes of an instant act; changes no number");

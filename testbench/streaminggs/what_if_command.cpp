@@ -48,7 +48,7 @@ struct Base {
     RunConfig config = read_run_config(changed, *kinds);
     config.design->fit_memories();
     resolve(config);
-    config.design->adapt(scene.stored.image.layout.second_half, config.chosen);
+    adapt(config, scene.stored.image.layout.second_half);
     return config;
   }
 };
@@ -177,7 +177,8 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   if (packed) {
     base.scene = prepare(std::move(*packed), arguments.scene, config);
   } else {
-    const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
+    const std::vector<Camera> weighing = 
+        arguments.weighing_cameras(scene.cameras, config.storage.encoding);
     base.scene = prepare(std::move(scene), config, weighing);
   }
   base.document = to_json(config);
