@@ -1,5 +1,6 @@
 // Joules and savings of a report, counted a second time from its counters.
 #include <algorithm>
+#include <cctype>
 #include <catch2/catch.hpp>
 #include <map>
 #include <string>
@@ -65,7 +66,9 @@ void check_joules(const Json& view) {
   double mm2 = 0;
   for (const Json& use : view["sram"]["uses"]) {
     std::string component = use["name"];
-    std::replace(component.begin(), component.end(), ' ', '_');
+    for (char& c : component) {
+      c = c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
     CHECK(energy[component + "_j"].get<double>() == Approx(use["energy_j"].get<double>()));
     mm2 += use["mm2"].get<double>();
   }
@@ -124,14 +127,17 @@ void check_binding(const Json& view) {
 
 TEST_CASE("costs: the rays' remedy is more of what they share and wait for, else more rays") {
   struct Row {
-    const char *setting, *key;
+    const char *ray_lanes, *step_lanes, *table_banks, *key;
   };
-  for (const auto& [setting, key] : {Row{"vsu.step_lanes=24", "vsu.rays_in_flight"},
-                                     Row{"vsu.step_lanes=2", "vsu.step_lanes"},
-                                     Row{"vsu.ray_lanes=1", "vsu.ray_lanes"}}) {
-    CAPTURE(setting);
-    const Simulation simulation({"builtin:object?n=3000", "--size", "96x54", "--config", "paper",
-                                 "--set", "storage.encoding=raw", "--set", setting});
+  for (const auto& [ray_lanes, step_lanes, table_banks, key] :
+       {Row{"60", "24", "16", "vsu.rays_in_flight"}, Row{"60", "24", "1", "vsu.table_banks"},
+        Row{"60", "2", "16", "vsu.step_lanes"}, Row{"1", "24", "16", "vsu.ray_lanes"}}) {
+    CAPTURE(key);
+    const Simulation simulation(
+        {"builtin:object?n=3000", "--size", "96x54", "--config", "paper", "--set",
+         "storage.encoding=raw", "--set", std::string("vsu.ray_lanes=") + ray_lanes, "--set",
+         std::string("vsu.step_lanes=") + step_lanes, "--set",
+         std::string("vsu.table_banks=") + table_banks});
     CHECK(simulation.views()[0]["units"]["vsu"]["activities"]["traverse"]["key"] == key);
   }
 }

@@ -63,8 +63,8 @@ class RayUnit {
 
   static SramUses sram_uses(const PaperVsuConfig& config);
   void publish(DataSheet& sheet) const;
-  // To follow the rays of a frame faster: more of what they share where it is taken most of the time
-  // and more lanes or banks shorten that, else more rays.
+  // To follow the rays of a frame faster: more of what they share, where the cycles that more lanes or
+  // banks can take away are more than a third of the time, else more rays.
   Remedy remedy() const;
 
  private:
