@@ -108,7 +108,8 @@ void CommandTraceReader::check_end(const std::string& line) {
 
 bool CommandTraceReader::next(CommandRecord& record) {
   std::string_view line;
-  if (!lines_.next(line)) refuse("the end of the file", fmt::format("a command or '{}{}'", kEnd, commands_));
+  if (!lines_.next(line))
+    refuse("the end of the file", fmt::format("a command or '{}{}'", kEnd, commands_));
   const std::string text(line);
   if (text.compare(0, kEnd.size(), kEnd) == 0) {
     check_end(text);

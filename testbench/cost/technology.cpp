@@ -32,9 +32,8 @@ void check_bands(const Json& json, const std::string& at, const std::string& pat
 const PartCost& Technology::part(const std::string& kind) const {
   const auto at = parts.find(kind);
   if (at != parts.end()) return at->second;
-  throw InputError(
-      fmt::format("{}: parts: got no row \"{}\", expected one for all that a machine is made of",
-                  path, kind));
+  throw InputError(fmt::format(
+      "{}: parts: got no row \"{}\", expected one for all that a machine is made of", path, kind));
 }
 
 void visit(ConfigVisitor& v, PartCost& cost) {

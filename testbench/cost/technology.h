@@ -31,8 +31,8 @@ struct MemoryInterfaceCost {
 };
 
 struct Technology {
-  std::string path;  // of the table's file, for messages
-  std::string name;  // of the node
+  std::string path;                       // of the table's file, for messages
+  std::string name;                       // of the node
   std::map<std::string, PartCost> parts;  // by kind
   SramModel sram;
   DieCost die;

@@ -136,8 +136,9 @@ Binding find_binding(const FrameResult& frame) {
   });
   const ResourceUse& busiest = uses[0];
   const ResourceUse next = uses.size() > 1 ? uses[1] : ResourceUse{"nothing else", 0, {}};
-  Binding binding{busiest.name, next.name,      busiest.utilisation, next.utilisation,
-                  busiest.name, busiest.remedy, "",                  ""};
+  Binding binding{
+      busiest.name, next.name, busiest.utilisation, next.utilisation, busiest.name, busiest.remedy,
+      "",           ""};
   binding.explanation = fmt::format(
       "{} works {:.0f} % of the frame, {} {:.0f} %: {} with no limit of its own, the frame would "
       "take at least {:.0f} % of its time",

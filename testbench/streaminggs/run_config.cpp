@@ -90,8 +90,7 @@ void resolve_machine(RunConfig& config) {
   naming_origins(config, [&] {
     config.dram.validate();
     const AddressMapping mapping(config.dram, load_memspec(config.dram.memspec));
-    config.add_choices(
-        scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
+    config.add_choices(scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
     config.design->resolve(config.storage, config.chosen);
   });
 }
@@ -101,10 +100,10 @@ void check_codebook_keys(const RunConfig& config) {
   if (SecondHalfFormat{config.storage.encoding, 0, {}}.quantised()) return;
   for (const ConfigOrigin& value : config.origins) {
     if (value.path.rfind("storage.vq.", 0) != 0 || value.origin.rfind("--set ", 0) != 0) continue;
-    throw InputError(
-        fmt::format("{}: got it with storage.encoding {}, which has no codebooks, expected vq or "
-                    "vq_packed",
-                    value.origin, kEncodingNames[static_cast<std::size_t>(config.storage.encoding)]));
+    throw InputError(fmt::format(
+        "{}: got it with storage.encoding {}, which has no codebooks, expected vq or "
+        "vq_packed",
+        value.origin, kEncodingNames[static_cast<std::size_t>(config.storage.encoding)]));
   }
 }
 

@@ -21,8 +21,8 @@ struct RunConfig {
   std::unique_ptr<MachineDesign> design;
   StorageConfig storage;
   DramConfig dram;
-  std::vector<AutoChoice> chosen;             // what was left to the model
-  std::vector<ConfigOrigin> origins;          // where the document says what
+  std::vector<AutoChoice> chosen;     // what was left to the model
+  std::vector<ConfigOrigin> origins;  // where the document says what
   std::string storage_source;  // of a packed scene, a line: the file, what it holds, who differs
 
   const char* machine() const { return (*kinds)[kind].name; }

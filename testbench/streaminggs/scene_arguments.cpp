@@ -45,8 +45,7 @@ std::string stretch_of(const std::string& size, int view, const Camera& camera, 
   return fmt::format(
       "--size {}: view {} has {}x{} px: its fields of view are kept, so the picture is stretched; "
       "{}x{} keeps its shape",
-      size, view, camera.width, camera.height, frame.width,
-      std::max(1L, std::lround(rows)));
+      size, view, camera.width, camera.height, frame.width, std::max(1L, std::lround(rows)));
 }
 
 // The numbers that `view` names out of 0 to count - 1, in its order.

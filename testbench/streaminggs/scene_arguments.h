@@ -44,8 +44,9 @@ struct SceneArguments {
   // The scene where it is a file made by pack, else nothing. Throws InputError, also for arguments
   // that only a scene that is not packed yet can take.
   std::optional<PackedScene> load_packed() const;
-  // Cameras of the chosen views with their numbers, scaled to `size`; a line on the terminal says so
-  // where that changes the shape of the picture. own: those that the scene brings. Throws InputError.
+  // Cameras of the chosen views with their numbers, scaled to `size`; a line on the terminal says
+  // so where that changes the shape of the picture. own: those that the scene brings. Throws
+  // InputError.
   std::vector<std::pair<int, Camera>> cameras(const std::vector<Camera>& own) const;
   // Sizes of their pictures, before the scene is loaded: none where nothing but the scene says
   // them. Throws InputError.

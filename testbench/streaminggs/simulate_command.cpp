@@ -176,7 +176,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   if (packed) {
     setting.scene = prepare(std::move(*packed), arguments.scene, config);
   } else {
-    const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras, config.storage.encoding);
+    const std::vector<Camera> weighing =
+        arguments.weighing_cameras(scene.cameras, config.storage.encoding);
     setting.scene = prepare(std::move(scene), config, weighing);
   }
   return run_views(arguments, setting, out, views);

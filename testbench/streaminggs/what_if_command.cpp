@@ -177,7 +177,7 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   if (packed) {
     base.scene = prepare(std::move(*packed), arguments.scene, config);
   } else {
-    const std::vector<Camera> weighing = 
+    const std::vector<Camera> weighing =
         arguments.weighing_cameras(scene.cameras, config.storage.encoding);
     base.scene = prepare(std::move(scene), config, weighing);
   }

@@ -25,10 +25,9 @@ Arguments encoded(const std::string& order, const std::string& encoding,
                         "sram.codebook_bytes=256000"};
   if (encoding.rfind("vq", 0) == 0) {
     arguments.insert(arguments.end(), {"--weigh-by", "0"});
-    settings.insert(settings.end(),
-                    {"storage.vq.scale_entries=64", "storage.vq.rotation_entries=100",
-                     "storage.vq.dc_entries=200", "storage.vq.sh_entries=32",
-                     "storage.vq.iterations=3"});
+    settings.insert(settings.end(), {"storage.vq.scale_entries=64",
+                                     "storage.vq.rotation_entries=100", "storage.vq.dc_entries=200",
+                                     "storage.vq.sh_entries=32", "storage.vq.iterations=3"});
   }
   for (const std::string& setting : settings) {
     arguments.insert(arguments.end(), {"--set", setting});

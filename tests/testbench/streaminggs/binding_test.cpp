@@ -197,12 +197,11 @@ TEST_CASE("binding: waiting leads to a unit, a memory or a FIFO") {
     const Binding binding = find_binding(frame);
     CHECK(binding.holds == row.holds);
     CHECK(binding.remedy.key == row.key);
-    const std::string last =
-        row.path.size() == 1 ? row.path[0] + " "
-                             : "the waiting of " + row.path[0] + " leads to " + row.path.back() +
-                                   ", which ";
-    CHECK_THAT(binding.sentence(), Contains("two thirds of it: " + last + row.why) &&
-                                       Contains("raise " + row.key));
+    const std::string last = row.path.size() == 1 ? row.path[0] + " "
+                                                  : "the waiting of " + row.path[0] + " leads to " +
+                                                        row.path.back() + ", which ";
+    CHECK_THAT(binding.sentence(),
+               Contains("two thirds of it: " + last + row.why) && Contains("raise " + row.key));
   }
 }
 
