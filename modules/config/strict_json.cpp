@@ -244,17 +244,14 @@ std::string ConfigDocument::text_at(const std::string& key) const {
   return found != content_->root.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-std::vector<ConfigOrigin> ConfigDocument::origins_below(const std::string& section) const {
+std::vector<ConfigOrigin> ConfigDocument::origins() const {
   std::vector<ConfigOrigin> values;
-  const std::string prefix = section + ".";
-  const auto& origins = content_->origins;
-  for (auto at = origins.lower_bound(prefix);
-       at != origins.end() && at->first.compare(0, prefix.size(), prefix) == 0; ++at) {
-    std::string pointer = "/" + at->first;
+  for (const auto& [path, origin] : content_->origins) {
+    std::string pointer = "/" + path;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     const Json::json_pointer place(pointer);
     if (content_->root.contains(place) && !content_->root[place].is_object()) {
-      values.push_back({at->first, at->second});
+      values.push_back({path, origin});
     }
   }
   return values;

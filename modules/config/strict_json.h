@@ -35,8 +35,8 @@ class ConfigDocument {
   // The text at a key of the top level; empty where there is none.
   std::string text_at(const std::string& key) const;
 
-  // The values (not objects) below `section`, by path.
-  std::vector<ConfigOrigin> origins_below(const std::string& section) const;
+  // Of all values (not objects), by path.
+  std::vector<ConfigOrigin> origins() const;
 
   // Fills `config` (whose present values are the defaults) by visit(v, config). Keys of the
   // document that visit() does not name are refused.

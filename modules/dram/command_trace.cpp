@@ -15,7 +15,8 @@
 namespace sgs {
 
 namespace {
-constexpr const char* kFirstLine = "# streaminggs dram command trace, version 1";
+constexpr std::string_view kEnd = "# commands ";
+constexpr const char* kFirstLine = "# streaminggs dram command trace, version 2";
 const std::map<std::string, WriteLatencySet> kSets = {{"a", WriteLatencySet::kA},
                                                       {"b", WriteLatencySet::kB}};
 const std::map<std::string, RefreshMode> kModes = {{"off", RefreshMode::kOff},
@@ -48,11 +49,13 @@ void CommandTraceWriter::on_command(const CommandRecord& r) {
   fmt::format_to(std::back_inserter(line), "{} {} {} {} {} {}\n", r.cycle, r.channel,
                  kCommandNames[static_cast<std::size_t>(r.command)], r.rank, r.bank, argument);
   to_.write(line.data(), line.size());
+  ++commands_;
 }
 
 void CommandTraceWriter::close() {
   source_.catch_up();
   source_.remove_command_sink(*this);
+  to_.write(fmt::format("{}{}\n", kEnd, commands_));
   to_.finish();
 }
 
@@ -96,10 +99,22 @@ void CommandTraceReader::read_header() {
   header_.refresh = kModes.at(mode);
 }
 
+void CommandTraceReader::check_end(const std::string& line) {
+  const std::string expected = fmt::format("{}{}", kEnd, commands_);
+  if (line != expected) refuse(line, fmt::format("'{}'", expected));
+  std::string_view more;
+  if (lines_.next(more)) refuse(std::string(more), fmt::format("nothing behind '{}'", expected));
+}
+
 bool CommandTraceReader::next(CommandRecord& record) {
   std::string_view line;
-  if (!lines_.next(line)) return false;
+  if (!lines_.next(line))
+    refuse("the end of the file", fmt::format("a command or '{}{}'", kEnd, commands_));
   const std::string text(line);
+  if (text.compare(0, kEnd.size(), kEnd) == 0) {
+    check_end(text);
+    return false;
+  }
   std::istringstream fields(text);
   std::uint64_t channel = 0, rank = 0, bank = 0, argument = 0;
   std::string command, rest;
@@ -121,6 +136,7 @@ bool CommandTraceReader::next(CommandRecord& record) {
     record.row = static_cast<std::uint32_t>(argument);
   else
     record.burst = static_cast<std::uint32_t>(argument);
+  ++commands_;
   return true;
 }
 

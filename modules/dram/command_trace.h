@@ -1,16 +1,18 @@
 // Command traces as text: what a simulation did, for the checker and for people.
 //
-//   # streaminggs dram command trace, version 1
+//   # streaminggs dram command trace, version 2
 //   # memspec lpddr3_1600_4gb
 //   # channels 4
 //   # ranks 1
 //   # write_latency_set a
 //   # refresh all_bank
 //   0 0 ACT 0 3 17
+//   # commands 1
 //
 // A line is: cycle channel command rank bank argument. Commands are kCommandNames; the argument is
 // the row of an ACT, the burst within the row of a RD, RDA, WR or WRA, else 0. Lines of a channel
-// are in the order of their cycles; channels are mixed.
+// are in the order of their cycles; channels are mixed. The last line says how many there are, so
+// that a file that was cut is known.
 #pragma once
 
 #include <string>
@@ -53,6 +55,7 @@ class CommandTraceWriter : public CommandSink {
  private:
   OutputFile& to_;
   CommandSource& source_;
+  std::uint64_t commands_ = 0;
 };
 
 class CommandTraceReader {
@@ -63,15 +66,18 @@ class CommandTraceReader {
   const CommandTraceHeader& header() const { return header_; }
   std::uint64_t line() const { return lines_.line_number(); }
 
-  // False at the end. InputError with file and line: a line that is no command.
+  // False at the end. InputError with file and line: a line that is no command, an end that is
+  // missing or counts others.
   bool next(CommandRecord& record);
 
  private:
   void read_header();
+  void check_end(const std::string& line);
   [[noreturn]] void refuse(const std::string& got, const std::string& expected) const;
 
   LineReader lines_;
   CommandTraceHeader header_;
+  std::uint64_t commands_ = 0;  // so far
 };
 
 }  // namespace sgs

@@ -9,8 +9,10 @@
 
 namespace sgs {
 
-// With hfu.cost counted, replaces hfu.cfu_macs and hfu.ffu_macs by what the filters execute on a
-// scene of this SH degree (algorithm/splat/filter_work.h), and says so; with paper does nothing.
+// Makes hfu.cfu_macs and hfu.ffu_macs, where they are 0, what a test costs. With hfu.cost counted
+// that is what the filters execute on a scene of this SH degree (algorithm/splat/filter_work.h),
+// and is said; with paper what the paper states. Throws InputError where they are counted and the
+// configuration says other numbers: nothing would come of those.
 std::vector<AutoChoice> resolve_filter_cost(HfuConfig& config, CoarseBoundBy bound_by,
                                             int sh_degree);
 

@@ -127,6 +127,10 @@ void CommandLine::numbers(const char* name, std::vector<int>& values, const char
   app_->add(name, values, what)->delimiter(',')->allow_extra_args(false);
 }
 
+void CommandLine::needs(const char* name, const char* other) {
+  app_->app->get_option(name)->needs(app_->app->get_option(other));
+}
+
 bool CommandLine::parse(int argc, const char* const* argv) {
   CLI::App& app = *app_->app;
   check_command(app, argc, argv);

@@ -44,6 +44,9 @@ class CommandLine {
   // Numbers with commas between them.
   void numbers(const char* name, std::vector<int>& values, const char* what);
 
+  // One option of this command is refused without another.
+  void needs(const char* name, const char* other);
+
   // Whether anything is left to do: --help and --version are answered here. Throws InputError.
   bool parse(int argc, const char* const* argv);
   std::string name() const;

@@ -1,7 +1,7 @@
 // Sums of energy and area.
 #include "testbench/cost/cost.h"
 
-#include <algorithm>
+#include <cctype>
 
 namespace sgs {
 namespace {
@@ -18,9 +18,12 @@ void add(CostResult& cost, const std::string& component, const Band& amount) {
   cost.by_component.emplace_back(component, amount);
 }
 
-// "pixel state" -> "pixel_state": as components are written.
+// "decoded Gaussians" -> "decoded_gaussians": as components are written.
 std::string component_of(std::string use) {
-  std::replace(use.begin(), use.end(), ' ', '_');
+  for (char& c : use) {
+    const auto letter = static_cast<unsigned char>(c);
+    c = std::isalnum(letter) != 0 ? static_cast<char>(std::tolower(letter)) : '_';
+  }
   return use;
 }
 

@@ -3,18 +3,37 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "algorithm/input_error.h"
 #include "modules/config/strict_json.h"
 
 namespace sgs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// at: path of the keys.
+void check_bands(const Json& json, const std::string& at, const std::string& path) {
+  if (json.contains("low")) {
+    const double low = json["low"], middle = json["middle"], high = json["high"];
+    if (low <= middle && middle <= high) return;
+    throw InputError(
+        fmt::format("{}: {}: got low {}, middle {}, high {}, expected them in this order", path, at,
+                    low, middle, high));
+  }
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_object()) check_bands(value, at.empty() ? key : at + "." + key, path);
+  }
+}
+
+}  // namespace
 
 const PartCost& Technology::part(const std::string& kind) const {
   const auto at = parts.find(kind);
   if (at != parts.end()) return at->second;
-  throw InputError(
-      fmt::format("technology {}: parts has no row \"{}\", expected one for all that a machine is "
-                  "made of",
-                  name, kind));
+  throw InputError(fmt::format(
+      "{}: parts: got no row \"{}\", expected one for all that a machine is made of", path, kind));
 }
 
 void visit(ConfigVisitor& v, PartCost& cost) {
@@ -51,6 +70,11 @@ Technology load_technology(const std::string& path) {
   document.add_file(path);
   Technology technology;
   document.read_into(technology);
+  technology.path = path;
+  if (technology.name.empty()) {
+    throw InputError(fmt::format("{}: name: got none, expected that of the node", path));
+  }
+  check_bands(Json::parse(config_to_json(technology)), "", path);
   return technology;
 }
 

@@ -31,7 +31,8 @@ struct MemoryInterfaceCost {
 };
 
 struct Technology {
-  std::string name;
+  std::string path;                       // of the table's file, for messages
+  std::string name;                       // of the node
   std::map<std::string, PartCost> parts;  // by kind
   SramModel sram;
   DieCost die;
@@ -46,7 +47,8 @@ void visit(ConfigVisitor& v, DieCost& cost);
 void visit(ConfigVisitor& v, MemoryInterfaceCost& cost);
 void visit(ConfigVisitor& v, Technology& technology);
 
-// Throws InputError.
+// Throws InputError, also for a table without a name and for a band that is not low <= middle <=
+// high.
 Technology load_technology(const std::string& path);
 
 }  // namespace sgs

@@ -170,7 +170,18 @@ int run_self_check(const Arguments& a, const DramConfig& config) {
   return passed ? kDone : kFailed;
 }
 
+// Tables and traces bring the memory that they are of.
+void refuse_unused_config(const Arguments& a) {
+  const char* mode = !a.check.empty() ? "--check" : a.table ? "--table" : a.speed ? "--speed" : "";
+  if (*mode == 0 || (a.config.config.empty() && a.config.overrides.empty())) return;
+  throw InputError(
+      fmt::format("--config, --set: got them with {}, which brings its own memory, expected "
+                  "neither",
+                  mode));
+}
+
 int run(const Arguments& a) {
+  refuse_unused_config(a);
   if (!a.check.empty()) return check_trace(a.check);
   const DramConfig config = read_config(a);
   if (a.print_config) {

@@ -60,9 +60,19 @@ std::string waits_text(const ActivityResult& activity, const WaitResult& wait,
 }
 
 std::string text_of(const Remedy& remedy) {
-  if (!remedy.known()) return "no key of the configuration is known to change that";
   return (remedy.turn == Turn::kUp ? "raise " : "lower ") + remedy.key;
 }
+
+// "the waiting of a leads to b, which waits for input 40 % of the frame, at fifo"
+std::string text_of(const Cause& cause) {
+  const std::string& first = cause.path.front();
+  const std::string& last = cause.path.back();
+  const std::string at = cause.holds == last ? "" : ", at " + cause.holds;
+  if (first == last) return fmt::format("{} {}{}", first, cause.why, at);
+  return fmt::format("the waiting of {} leads to {}, which {}{}", first, last, cause.why, at);
+}
+
+constexpr const char* kNoKey = "no key of the configuration is known to change that";
 
 }  // namespace
 
@@ -124,9 +134,11 @@ Binding find_binding(const FrameResult& frame) {
   std::stable_sort(uses.begin(), uses.end(), [](const ResourceUse& a, const ResourceUse& b) {
     return a.utilisation > b.utilisation;
   });
+  const ResourceUse& busiest = uses[0];
   const ResourceUse next = uses.size() > 1 ? uses[1] : ResourceUse{"nothing else", 0, {}};
-  Binding binding{uses[0].name, next.name, uses[0].utilisation, next.utilisation, uses[0].name,
-                  uses[0].remedy, ""};
+  Binding binding{
+      busiest.name, next.name, busiest.utilisation, next.utilisation, busiest.name, busiest.remedy,
+      "",           ""};
   binding.explanation = fmt::format(
       "{} works {:.0f} % of the frame, {} {:.0f} %: {} with no limit of its own, the frame would "
       "take at least {:.0f} % of its time",
@@ -138,12 +150,23 @@ Binding find_binding(const FrameResult& frame) {
   if (binding.utilisation < kMostly && !cause.path.empty()) {
     binding.holds = cause.holds;
     binding.remedy = cause.remedy;
-    binding.explanation += fmt::format(
-        "; no resource is busy most of the time: the waiting of {} leads to {}, which {}{}",
-        cause.path.front(), cause.path.back(), cause.why,
-        cause.holds == cause.path.back() ? "" : ", at " + cause.holds);
+    binding.explanation += "; no resource works more than two thirds of it: " + text_of(cause);
   }
-  binding.explanation += "; " + text_of(binding.remedy);
+  if (binding.remedy.known()) {
+    binding.advice = text_of(binding.remedy);
+  } else if (busiest.remedy.known()) {
+    binding.remedy = busiest.remedy;
+    binding.advice = fmt::format("{}; to shorten what {} works, {}", kNoKey, busiest.name,
+                                 text_of(binding.remedy));
+  } else {
+    binding.advice = kNoKey;
+  }
+  return binding;
+}
+
+Binding without_advice(Binding binding) {
+  binding.remedy = {};
+  binding.advice = "no Gaussian contributes to the picture: there is nothing to change";
   return binding;
 }
 

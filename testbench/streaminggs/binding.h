@@ -37,11 +37,17 @@ Cause follow_waiting(const FrameResult& frame);
 struct Binding {
   std::string unit, next;  // the busiest resource, and the one after it
   double utilisation = 0, next_utilisation = 0;
-  std::string holds;        // the resource, or where nothing is busy the cause
-  Remedy remedy;            // of that
-  std::string explanation;  // a sentence with the numbers
+  std::string holds;  // the resource, or where nothing is busy the cause
+  Remedy remedy;      // of that; where none is known, of the resource
+  std::string explanation, advice;
+
+  // With the numbers, and what to change.
+  std::string sentence() const { return explanation + "; " + advice; }
 };
 
 Binding find_binding(const FrameResult& frame);
+
+// The same of a frame whose picture is empty: nothing of the configuration is to blame.
+Binding without_advice(Binding binding);
 
 }  // namespace sgs

@@ -40,6 +40,10 @@ SubCommand add_compare_command(CommandLine& line, const Kinds&) {
   line.flag("--exact", arguments->exact, "exit with status 1 when a pixel differs");
   return [arguments] {
     const Image a = read_finite(arguments->a), b = read_finite(arguments->b);
+    if (a.width != b.width || a.height != b.height) {
+      throw InputError(fmt::format("{}: got {}x{} px, expected the {}x{} of {}", arguments->b,
+                                   b.width, b.height, a.width, a.height, arguments->a));
+    }
     const double error = max_abs_error(a, b);
     fmt::print("psnr_db {:.4f}\nssim {:.6f}\nmax_abs_error {:.6g}\n", psnr_db(a, b), ssim(a, b),
                error);

@@ -84,8 +84,8 @@ SubCommand add_info_command(CommandLine& line, const Kinds& kinds) {
     print("median largest scale", rounded(s.median_scale), " world units");
     print("largest scale", rounded(s.max_scale), " world units");
     print("largest scale ratio", rounded(s.max_scale_ratio));
-    print("first halves", grouped(s.first_half_bytes), " B");
-    print("second halves, raw", grouped(s.second_half_bytes), " B");
+    print("first halves, by voxels", grouped(s.first_half_bytes), " B, raw");
+    print("second halves, by voxels", grouped(s.second_half_bytes), " B, raw");
     if (!scene.cameras.empty()) print("cameras", grouped(scene.cameras.size()));
     print_voxels(activate(scene.cloud));
     return 0;

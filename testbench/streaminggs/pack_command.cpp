@@ -58,7 +58,8 @@ int run(const PackArguments& arguments, const Kinds& kinds) {
   plan.check();
   resolve(config);
   const Scene scene = arguments.load();
-  const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
+  const std::vector<Camera> weighing =
+      arguments.weighing_cameras(scene.cameras, config.storage.encoding);
   const PreparedScene prepared = prepare(scene, config, weighing);
   const MemoryImage& image = prepared.stored.image;
   check_records(image, arguments.scene);

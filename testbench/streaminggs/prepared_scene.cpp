@@ -18,11 +18,11 @@ void choose_storage(const ActivatedCloud& cloud, RunConfig& config) {
 
 void adapt(RunConfig& config, const Scene& scene) {
   choose_storage(activate(scene.cloud), config);
-  config.design->adapt({config.storage.encoding, scene.cloud.sh_degree, {}}, config.chosen);
+  adapt(config, SecondHalfFormat{config.storage.encoding, scene.cloud.sh_degree, {}});
 }
 
 void adapt(RunConfig& config, const PackedScene& packed) {
-  config.design->adapt(packed.image.layout.second_half, config.chosen);
+  adapt(config, packed.image.layout.second_half);
 }
 
 PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>& weighing) {
@@ -32,7 +32,7 @@ PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>&
   PreparedScene prepared{
       std::move(scene.name), scene.dropped_invalid,
       store_scene(std::move(cloud), config.storage, weighing, progress.of_quantisation())};
-  config.design->adapt(prepared.stored.image.layout.second_half, config.chosen);
+  adapt(config, prepared.stored.image.layout.second_half);
   return prepared;
 }
 

@@ -12,12 +12,20 @@ namespace sgs {
 
 std::uint64_t fnv1a64(const std::vector<std::byte>& bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;
-  for (std::size_t at = 0; at + 8 <= bytes.size(); at += 8) {
-    std::uint64_t word;
-    std::memcpy(&word, bytes.data() + at, sizeof word);
+  for (std::size_t at = 0; at < bytes.size(); at += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
     hash = (hash ^ word) * 0x100000001b3U;
   }
   return hash;
+}
+
+std::uint64_t fnv1a64_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  std::vector<std::byte> bytes(text.size());
+  std::memcpy(bytes.data(), text.data(), text.size());
+  return fnv1a64(bytes);
 }
 
 std::string command_line() {

@@ -8,8 +8,11 @@
 
 namespace sgs {
 
-// FNV-1a over 64-bit words: tells whether two runs were fed the same bytes.
+// FNV-1a over 64-bit words, the last filled up with zeros: tells whether two runs were fed the same
+// bytes.
 std::uint64_t fnv1a64(const std::vector<std::byte>& bytes);
+// Of a file's.
+std::uint64_t fnv1a64_of_file(const std::string& path);
 
 // This process' command line, its arguments separated by spaces.
 std::string command_line();

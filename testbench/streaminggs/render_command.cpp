@@ -74,7 +74,8 @@ void render_golden_picture(const RenderArguments& arguments, const Kinds& kinds)
   } else {
     resolve(config);
     scene = arguments.load();
-    prepared = prepare(scene, config, arguments.weighing_cameras(scene.cameras));
+    prepared =
+        prepare(scene, config, arguments.weighing_cameras(scene.cameras, config.storage.encoding));
   }
   const FrameJob job = config.design->job(prepared.stored, arguments.camera(scene.cameras));
   DataSheet unread;

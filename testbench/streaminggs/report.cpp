@@ -254,18 +254,16 @@ Json view_report(const ViewResult& view, const PreparedScene& scene) {
   report["schema_version"] = kReportVersion;
   report["scene"] = scene_of(scene);
   report["view"] = view.view;
+  report["camera"] = {{"id", view.camera.id}, {"img_name", view.camera.name}};
   report["image"] = image_of(view, scene.stored.original_known());
-  report["frame"] = {{"cycles", run.cycles},
-                     {"time_s", run.time_s()},
-                     {"fps", 1 / run.time_s()},
-                     {"drained", run.drained}};
+  report["frame"] = {
+      {"cycles", run.cycles},          {"time_s", run.time_s()},          {"fps", 1 / run.time_s()},
+      {"width_px", view.camera.width}, {"height_px", view.camera.height}, {"drained", run.drained}};
   report["units"] = units_of(run.machine);
-  report["binding"] = {{"unit", view.binding.unit},
-                       {"utilisation", view.binding.utilisation},
-                       {"next", view.binding.next},
-                       {"next_utilisation", view.binding.next_utilisation},
-                       {"holds", view.binding.holds},
-                       {"explanation", view.binding.explanation}};
+  report["binding"] = {
+      {"unit", view.binding.unit},   {"utilisation", view.binding.utilisation},
+      {"next", view.binding.next},   {"next_utilisation", view.binding.next_utilisation},
+      {"holds", view.binding.holds}, {"explanation", view.binding.sentence()}};
   add(report["binding"], view.binding.remedy);
   report["dram"] = dram_of(run.memory);
   report["energy"] = energy_section(view);

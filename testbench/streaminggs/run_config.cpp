@@ -50,7 +50,8 @@ std::string compared(const RunConfig& config, const PackedScene& packed, const s
   const Json said = {{"storage", Json::parse(config_to_json(config.storage))}};
   const Json held = {{"storage", Json::parse(config_to_json(packed.storage))}};
   std::string differs;
-  for (const ConfigOrigin& value : config.storage_origins) {
+  for (const ConfigOrigin& value : config.origins) {
+    if (value.path.rfind("storage.", 0) != 0) continue;
     std::string pointer = "/" + value.path;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     const Json &a = said.at(Json::json_pointer(pointer)), &b = held.at(Json::json_pointer(pointer));
@@ -68,6 +69,42 @@ std::string compared(const RunConfig& config, const PackedScene& packed, const s
   return fmt::format("storage from {}: {}{}", std::filesystem::path(path).filename().string(),
                      in_words(packed.storage),
                      differs.empty() ? "" : fmt::format(" (preset {}: {})", name, differs));
+}
+
+// Does it; what refuses a key by its path then also says where that key's value is from.
+template <class Do>
+void naming_origins(const RunConfig& config, const Do& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const std::string key = message.substr(0, message.find(": "));
+    for (const ConfigOrigin& value : config.origins) {
+      if (value.path == key) throw InputError(fmt::format("{}: {}", value.origin, message));
+    }
+    throw;
+  }
+}
+
+void resolve_machine(RunConfig& config) {
+  naming_origins(config, [&] {
+    config.dram.validate();
+    const AddressMapping mapping(config.dram, load_memspec(config.dram.memspec));
+    config.add_choices(scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
+    config.design->resolve(config.storage, config.chosen);
+  });
+}
+
+// A file may be of many encodings, as --print-config's are.
+void check_codebook_keys(const RunConfig& config) {
+  if (SecondHalfFormat{config.storage.encoding, 0, {}}.quantised()) return;
+  for (const ConfigOrigin& value : config.origins) {
+    if (value.path.rfind("storage.vq.", 0) != 0 || value.origin.rfind("--set ", 0) != 0) continue;
+    throw InputError(fmt::format(
+        "{}: got it with storage.encoding {}, which has no codebooks, expected vq or "
+        "vq_packed",
+        value.origin, kEncodingNames[static_cast<std::size_t>(config.storage.encoding)]));
+  }
 }
 
 }  // namespace
@@ -96,15 +133,17 @@ RunConfig read_run_config(const ConfigDocument& document, const std::vector<Mach
   RunConfig config;
   config.kinds = &kinds;
   document.read_into(config);
-  config.storage_origins = document.origins_below("storage");
+  config.origins = document.origins();
   return config;
 }
 
 void resolve(RunConfig& config) {
-  config.dram.validate();
-  const AddressMapping mapping(config.dram, load_memspec(config.dram.memspec));
-  config.add_choices(scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
-  config.design->resolve(config.storage, config.chosen);
+  check_codebook_keys(config);
+  resolve_machine(config);
+}
+
+void adapt(RunConfig& config, const SecondHalfFormat& format) {
+  naming_origins(config, [&] { config.design->adapt(format, config.chosen); });
 }
 
 void resolve(RunConfig& config, const PackedScene& packed, const std::string& path,
@@ -121,7 +160,7 @@ void resolve(RunConfig& config, const PackedScene& packed, const std::string& pa
   }
   config.storage_source = compared(config, packed, path, preset);
   config.storage = packed.storage;
-  resolve(config);
+  resolve_machine(config);
 }
 
 std::string to_json(RunConfig& config) {

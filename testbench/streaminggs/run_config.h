@@ -21,8 +21,8 @@ struct RunConfig {
   std::unique_ptr<MachineDesign> design;
   StorageConfig storage;
   DramConfig dram;
-  std::vector<AutoChoice> chosen;             // what was left to the model
-  std::vector<ConfigOrigin> storage_origins;  // where the document says something of storage
+  std::vector<AutoChoice> chosen;     // what was left to the model
+  std::vector<ConfigOrigin> origins;  // where the document says what
   std::string storage_source;  // of a packed scene, a line: the file, what it holds, who differs
 
   const char* machine() const { return (*kinds)[kind].name; }
@@ -37,8 +37,12 @@ std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order
 // As the document says; what is left to the model is not resolved yet. Throws InputError.
 RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds);
 
-// Makes it the resolved, valid configuration. Throws InputError.
+// Makes it the resolved, valid configuration. Throws InputError, also for what --set says of
+// codebooks that the encoding has not.
 void resolve(RunConfig& config);
+
+// Fits the machine to the scene's records. Throws InputError.
+void adapt(RunConfig& config, const SecondHalfFormat& format);
 
 // The same for a packed scene, which brings its storage. path: what errors name. preset: the file
 // of a shipped configuration, whose storage gives way; empty for none. Throws InputError when the

@@ -52,6 +52,8 @@ std::shared_ptr<const Json> RunReport::of_view(const ViewResult& view,
                        {"commit", commit()},
                        {"memory_image_fnv1a64", fmt::format("{:016x}", view.image_hash)},
                        {"technology", facts_.technology},
+                       {"technology_path", facts_.technology_path},
+                       {"technology_fnv1a64", fmt::format("{:016x}", facts_.technology_hash)},
                        {"seed", facts_.seed},
                        {"command", facts_.command}};
   return report;

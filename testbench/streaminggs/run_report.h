@@ -15,9 +15,10 @@
 namespace sgs {
 
 struct RunFacts {
-  std::string technology;
-  std::uint64_t seed = 0;  // of the random stalls
-  std::string command;     // the whole command line
+  std::string technology, technology_path;
+  std::uint64_t technology_hash = 0;  // of the file
+  std::uint64_t seed = 0;             // of the random stalls
+  std::string command;                // the whole command line
   std::chrono::steady_clock::time_point began;
 };
 

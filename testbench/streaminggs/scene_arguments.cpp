@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <sstream>
@@ -32,9 +33,19 @@ std::pair<int, int> parse_size(const std::string& size) {
       !read_int(size.substr(cross + 1), height) || width < 1 || height < 1 || width > kMaxSizePx ||
       height > kMaxSizePx) {
     throw InputError(
-        fmt::format("--size: '{}', expected WIDTHxHEIGHT, each 1 to {}", size, kMaxSizePx));
+        fmt::format("--size: got '{}', expected WIDTHxHEIGHT, each 1 to {}", size, kMaxSizePx));
   }
   return {width, height};
+}
+
+// What a frame of another shape than the camera's does to it; empty where rounding explains it.
+std::string stretch_of(const std::string& size, int view, const Camera& camera, PixelSize frame) {
+  const double rows = static_cast<double>(camera.height) * frame.width / camera.width;
+  if (std::abs(rows - frame.height) < 1) return "";
+  return fmt::format(
+      "--size {}: view {} has {}x{} px: its fields of view are kept, so the picture is stretched; "
+      "{}x{} keeps its shape",
+      size, view, camera.width, camera.height, frame.width, std::max(1L, std::lround(rows)));
 }
 
 // The numbers that `view` names out of 0 to count - 1, in its order.
@@ -101,6 +112,9 @@ Scene SceneArguments::load() const {
   if (!is_builtin_scene(scene) && !std::filesystem::exists(scene, unknown)) {
     throw InputError(fmt::format("{}: no such file, expected {}", scene, scene_forms));
   }
+  if (std::filesystem::is_directory(scene, unknown)) {
+    throw InputError(fmt::format("{}: got a folder, expected {}", scene, scene_forms));
+  }
   Scene loaded = while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
   if (loaded.dropped_invalid > 0 && loaded.cloud.size() == 0) {
     throw InputError(
@@ -136,12 +150,14 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Ca
     throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
   }
   std::vector<std::pair<int, Camera>> chosen;
+  std::string stretch;
   for (const int number : chosen_numbers(view, static_cast<int>(all.size()))) {
     chosen.emplace_back(number, all[static_cast<std::size_t>(number)]);
   }
   for (auto& [index, camera] : chosen) {
     if (!size.empty()) {
       const auto [width, height] = parse_size(size);
+      if (stretch.empty()) stretch = stretch_of(size, index, camera, {width, height});
       camera = scaled_to(camera, width, height);
     }
     if (camera.width > kMaxSizePx || camera.height > kMaxSizePx) {
@@ -149,6 +165,7 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Ca
                                    camera.height, kMaxSizePx));
     }
   }
+  if (!stretch.empty()) fmt::print("{}\n", stretch);
   return chosen;
 }
 
@@ -167,13 +184,20 @@ std::vector<PixelSize> SceneArguments::frame_sizes() const {
   return sizes;
 }
 
-std::vector<Camera> SceneArguments::weighing_cameras(const std::vector<Camera>& own) const {
+std::vector<Camera> SceneArguments::weighing_cameras(const std::vector<Camera>& own,
+                                                     SecondHalfEncoding encoding) const {
   const std::vector<Camera> all = all_cameras(own);
   if (weigh_by.empty()) return all;
+  if (!SecondHalfFormat{encoding, 0, {}}.quantised()) {
+    throw InputError(fmt::format(
+        "--weigh-by: got it with storage.encoding {}, which has no codebooks, expected vq or "
+        "vq_packed",
+        kEncodingNames[static_cast<std::size_t>(encoding)]));
+  }
   std::vector<Camera> chosen;
   for (const int number : weigh_by) {
     if (number < 0 || number >= static_cast<int>(all.size())) {
-      throw InputError(fmt::format("--weigh-by: {}, expected 0 to {}", number,
+      throw InputError(fmt::format("--weigh-by: got {}, expected 0 to {}", number,
                                    static_cast<int>(all.size()) - 1));
     }
     chosen.push_back(all[static_cast<std::size_t>(number)]);

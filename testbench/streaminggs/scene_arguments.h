@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithm/memory/second_half.h"
 #include "algorithm/output_plan.h"
 #include "algorithm/scene/load_scene.h"
 #include "algorithm/splat/rects.h"
@@ -43,15 +44,18 @@ struct SceneArguments {
   // The scene where it is a file made by pack, else nothing. Throws InputError, also for arguments
   // that only a scene that is not packed yet can take.
   std::optional<PackedScene> load_packed() const;
-  // Cameras of the chosen views with their numbers, scaled to `size`. own: those that the scene
-  // brings. Throws InputError.
+  // Cameras of the chosen views with their numbers, scaled to `size`; a line on the terminal says
+  // so where that changes the shape of the picture. own: those that the scene brings. Throws
+  // InputError.
   std::vector<std::pair<int, Camera>> cameras(const std::vector<Camera>& own) const;
   // Sizes of their pictures, before the scene is loaded: none where nothing but the scene says
   // them. Throws InputError.
   std::vector<PixelSize> frame_sizes() const;
   // Those that weigh the Gaussians of a scene for vector quantisation, in their own size; none
-  // where there are none. Throws InputError.
-  std::vector<Camera> weighing_cameras(const std::vector<Camera>& own) const;
+  // where there are none. Throws InputError, also where --weigh-by is given and the encoding is not
+  // quantised.
+  std::vector<Camera> weighing_cameras(const std::vector<Camera>& own,
+                                       SecondHalfEncoding encoding) const;
 
  private:
   // Those of the file, where one is given: InputError when it holds none.

@@ -101,8 +101,10 @@ struct Setting {
 // does not keep the others from running; a single one throws.
 int run_views(const SimulateArguments& arguments, Setting& setting, const ResultFolder& out,
               const std::vector<std::pair<int, Camera>>& views) {
-  RunReport report(setting.config, {setting.technology.name, arguments.run.build.stalls.seed,
-                                    arguments.command, setting.began});
+  const std::string& table = setting.technology.path;
+  RunReport report(setting.config,
+                   {setting.technology.name, table, fnv1a64_of_file(table),
+                    arguments.run.build.stalls.seed, arguments.command, setting.began});
   std::vector<std::pair<int, std::string>> failed;
   std::vector<ViewResult> results;
   bool equal = true;
@@ -133,6 +135,7 @@ int run_views(const SimulateArguments& arguments, Setting& setting, const Result
   print_machine(results.front(), setting.config.chosen, setting.technology.name);
   for (const auto& [view, why] : failed) fmt::print("\nview {} failed: {}\n", view, why);
   if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
+  fmt::print("\nwritten to {}\n", out.report().parent_path().string());
   return equal && failed.empty() ? 0 : 1;
 }
 
@@ -173,7 +176,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   if (packed) {
     setting.scene = prepare(std::move(*packed), arguments.scene, config);
   } else {
-    const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
+    const std::vector<Camera> weighing =
+        arguments.weighing_cameras(scene.cameras, config.storage.encoding);
     setting.scene = prepare(std::move(scene), config, weighing);
   }
   return run_views(arguments, setting, out, views);
@@ -198,6 +202,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.real("--stalls", build.stalls.probability, 0, 1,
             "probability, as 0.1, of a random stall at each side of each FIFO, for tests");
   line.whole("--seed", build.stalls.seed, 0, kMostSeed, "of the random stalls");
+  line.needs("--seed", "--stalls");
   line.whole(
       "--process-order", build.process_order, 0, kMostSeed,
       "seed that shuffles in which order the processes of an instant act; changes no number");

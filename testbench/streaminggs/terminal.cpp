@@ -44,7 +44,7 @@ void print_table_line(const ViewResult& v) {
 }
 
 void print_details(const ViewResult& v) {
-  fmt::print("\nview {}: {}\n", v.view, v.binding.explanation);
+  fmt::print("\nview {}: {}\n", v.view, v.binding.sentence());
   const Band& energy = v.energy_j.total;
   fmt::print("view {}: energy {:.3f} ({:.3f} .. {:.3f}) mJ\n", v.view, energy.middle * 1e3,
              energy.low * 1e3, energy.high * 1e3);

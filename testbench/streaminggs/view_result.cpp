@@ -44,6 +44,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   check_capacity(job, config.dram);
   ViewResult view;
   view.view = number;
+  view.camera = camera;
   const auto reference_of = [&](const ActivatedCloud& cloud) {
     return render_reference(job.view, cloud, job.background).image;
   };
@@ -66,6 +67,7 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   }
   list_left_out(scene.stored, view.run.machine, left_out);
   view.binding = find_binding(view.run);
+  if (view.golden.contributing == 0) view.binding = without_advice(view.binding);
   view.energy_j = energy_of(view.run, technology);
   view.area_mm2 = area_of(view.run, technology);
   view.sram_model = technology.sram;

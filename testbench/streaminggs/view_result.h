@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algorithm/image/image.h"
+#include "algorithm/scene/camera.h"
 #include "modules/auto_choice.h"
 #include "modules/golden_frame.h"
 #include "testbench/cost/cost.h"
@@ -20,7 +21,8 @@
 namespace sgs {
 
 struct ViewResult {
-  int view = 0;
+  int view = 0;             // index of the camera
+  Camera camera;            // as the frame has it: in its size
   Image frame;              // as read back from the modelled DRAM
   Image reference;          // of the scene as given, in storage order
   Image decoded_reference;  // of the scene as encoded

@@ -48,7 +48,7 @@ struct Base {
     RunConfig config = read_run_config(changed, *kinds);
     config.design->fit_memories();
     resolve(config);
-    config.design->adapt(scene.stored.image.layout.second_half, config.chosen);
+    adapt(config, scene.stored.image.layout.second_half);
     return config;
   }
 };
@@ -144,7 +144,7 @@ Json run_view(const Base& base, int number, const Camera& camera) {
     doublings.push_back(std::move(doubling));
   }
   rank(outcome, doublings);
-  fmt::print("\nview {}: {}\n", number, outcome.binding.explanation);
+  fmt::print("\nview {}: {}\n", number, outcome.binding.sentence());
   print(outcome, doublings);
   fmt::print("{}\n", verdict(outcome, doublings));
   std::fflush(stdout);
@@ -177,7 +177,8 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   if (packed) {
     base.scene = prepare(std::move(*packed), arguments.scene, config);
   } else {
-    const std::vector<Camera> weighing = arguments.weighing_cameras(scene.cameras);
+    const std::vector<Camera> weighing =
+        arguments.weighing_cameras(scene.cameras, config.storage.encoding);
     base.scene = prepare(std::move(scene), config, weighing);
   }
   base.document = to_json(config);

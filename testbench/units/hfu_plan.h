@@ -12,15 +12,17 @@
 
 namespace sgs::tb {
 
-// Pipelines of some depth, which nobody has derived here.
-inline HfuConfig with_depths(HfuConfig config) {
+// Tests of the paper's cost and pipelines of some depth, which nobody has derived here.
+inline HfuConfig resolved(HfuConfig config) {
+  config.cfu_macs = kPaperCfuMacs;
+  config.ffu_macs = kPaperFfuMacs;
   config.cfu_depth_cycles = 12;
   config.ffu_depth_cycles = 40;
   return config;
 }
 
 struct HfuPlan {
-  HfuConfig config = with_depths({});
+  HfuConfig config = resolved({});
   CodebookConfig codebook;
   TestScene scene;
   std::vector<VisitShare> shares;

@@ -19,7 +19,7 @@ BenchConfig still_bench(const HfuPlan& plan, std::uint32_t latency_cycles = 20) 
 void directed(Case& test, const SceneShape& shape, const HfuConfig& config, std::size_t visits,
               std::uint32_t most) {
   HfuPlan plan = plan_of(random_scene(test.random, shape));
-  plan.config = with_depths(config);
+  plan.config = resolved(config);
   add_shares(test.random, plan, visits, most);
   run_hfu(test, still_bench(plan), plan);
 }

@@ -38,9 +38,13 @@ TEST_CASE("command line: options and their values") {
             "&& ls -R o",
             {"view_0"}},
            {"$SG simulate --set group_width_px=32 --set group_height_px=32 --weigh-by 0,1 --set "
-            "hfus=2 $S --size 32x18 --out o "
+            "hfus=2 --set storage.encoding=vq --set sram.codebook_bytes=256000 --set "
+            "storage.vq.iterations=1 $S --size 32x18 --out o "
             "&& ls o",
             {"view_0"}},
+           {"$SG simulate $S --size 32x24 --out o | head -1",
+            {"--size 32x24: view 0 has ", "the picture is stretched; 32x18 keeps its shape"}},
+           {"$SG simulate $B --out o | tail -1", {"written to o\n"}},
            {"$SG simulate $B --view 2,0 --out o && ls o", {"view_0\nview_2\n"}},
            {"$SG simulate $B --view all --out o && ls o", {"view_0", "view_4"}},
            {"$SG render $B --out new/folder/a.png && ls new/folder", {"a.png"}},

@@ -1,6 +1,7 @@
 // Joules and savings of a report, counted a second time from its counters.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <map>
 #include <string>
 
@@ -65,7 +66,10 @@ void check_joules(const Json& view) {
   double mm2 = 0;
   for (const Json& use : view["sram"]["uses"]) {
     std::string component = use["name"];
-    std::replace(component.begin(), component.end(), ' ', '_');
+    for (char& c : component) {
+      c = c == ' ' || c == '-' ? '_'
+                               : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
     CHECK(energy[component + "_j"].get<double>() == Approx(use["energy_j"].get<double>()));
     mm2 += use["mm2"].get<double>();
   }
@@ -83,11 +87,12 @@ TEST_CASE("costs: joules are counters times prices") {
   for (const char* machine : {"exact", "paper"}) {
     for (const char* encoding : {"raw", "vq_packed"}) {
       INFO(machine << " " << encoding);
-      const Simulation simulation({"builtin:object?n=3000", "--size", "96x54", "--config", machine,
-                                   "--set", std::string("storage.encoding=") + encoding, "--set",
-                                   "group_width_px=32", "--set", "group_height_px=32", "--set",
-                                   "sram.codebook_bytes=256000", "--set", "storage.vq.iterations=2",
-                                   "--weigh-by", "0"});
+      const bool raw = std::string(encoding) == "raw";
+      const Simulation simulation(joined(
+          {"builtin:object?n=3000", "--size", "96x54", "--config", machine, "--set",
+           std::string("storage.encoding=") + encoding, "--set", "group_width_px=32", "--set",
+           "group_height_px=32", "--set", "sram.codebook_bytes=256000"},
+          raw ? Arguments{} : Arguments{"--set", "storage.vq.iterations=2", "--weigh-by", "0"}));
       simulation.check();
       check_joules(simulation.views()[0]);
     }
@@ -117,6 +122,23 @@ void check_binding(const Json& view) {
     INFO(name);
     const double share = static_cast<double>(busy) / frame;
     if (name != binding["unit"]) CHECK(share <= Approx(next));
+  }
+}
+
+TEST_CASE("costs: the rays' remedy is more of what they share and wait for, else more rays") {
+  struct Row {
+    const char *ray_lanes, *step_lanes, *table_banks, *key;
+  };
+  for (const auto& [ray_lanes, step_lanes, table_banks, key] :
+       {Row{"60", "24", "16", "vsu.rays_in_flight"}, Row{"60", "24", "1", "vsu.table_banks"},
+        Row{"60", "2", "16", "vsu.step_lanes"}, Row{"1", "24", "16", "vsu.ray_lanes"}}) {
+    CAPTURE(key);
+    const Simulation simulation({"builtin:object?n=3000", "--size", "96x54", "--config", "paper",
+                                 "--set", "storage.encoding=raw", "--set",
+                                 std::string("vsu.ray_lanes=") + ray_lanes, "--set",
+                                 std::string("vsu.step_lanes=") + step_lanes, "--set",
+                                 std::string("vsu.table_banks=") + table_banks});
+    CHECK(simulation.views()[0]["units"]["vsu"]["activities"]["traverse"]["key"] == key);
   }
 }
 

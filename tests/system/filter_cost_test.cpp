@@ -1,6 +1,8 @@
 // hfu.cost: what a test costs, in cycles and energy, by the paper or as counted.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algorithm/scene/cameras.h"
@@ -124,14 +126,42 @@ TEST_CASE("filter cost: --print-config shows the counts of the scene, and is rea
   CHECK(again.out == shown.out);
 }
 
-TEST_CASE("filter cost: only the two names are known") {
+Outcome print_config(const Arguments& settings) {
   Arguments arguments = {"simulate"};
-  const Arguments wrong = with(kObject, "hfu.cost=free");
-  arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+  arguments.insert(arguments.end(), kObject.begin(), kObject.end());
+  for (const std::string& setting : settings) {
+    arguments.insert(arguments.end(), {"--set", setting});
+  }
   arguments.emplace_back("--print-config");
-  const Outcome refused = run_streaminggs(arguments);
-  CHECK(refused.status == 2);
-  CHECK(refused.err.find("hfu.cost") != std::string::npos);
+  return run_streaminggs(arguments);
+}
+
+TEST_CASE("filter cost: unknown names, and numbers beside those that are counted, are refused") {
+  struct Row {
+    Arguments settings;
+    const char* expected;
+  };
+  for (const auto& [settings, expected] : std::vector<Row>{
+           {{"hfu.cost=free"}, "hfu.cost: got \"free\""},
+           {{"hfu.cfu_macs=80"}, "hfu.cfu_macs: got 80 with hfu.cost counted, expected 0 or the "},
+           {{"hfu.ffu_macs=1"}, "hfu.ffu_macs: got 1 with hfu.cost counted, expected 0 or the "}}) {
+    const Outcome refused = print_config(settings);
+    CAPTURE(refused.err);
+    CHECK(refused.status == 2);
+    CHECK(refused.err.find(expected) != std::string::npos);
+    CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("filter cost: with paper a number that is given is charged, else the paper's") {
+  const auto macs = [](const Arguments& settings) {
+    const Outcome shown = print_config(settings);
+    REQUIRE(shown.status == 0);
+    const Json hfu = Json::parse(shown.out)["hfu"];
+    return std::pair(hfu["cfu_macs"].get<int>(), hfu["ffu_macs"].get<int>());
+  };
+  CHECK(macs({"hfu.cost=paper"}) == std::pair(55, 427));
+  CHECK(macs({"hfu.cost=paper", "hfu.cfu_macs=80"}) == std::pair(80, 427));
 }
 
 }  // namespace

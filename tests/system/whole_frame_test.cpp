@@ -1,9 +1,12 @@
 // Whole frames of built-in scenes through the command: right and accounted for, whatever the order
 // and the stalls.
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <string>
 #include <vector>
 
+#include "algorithm/scene/cameras.h"
+#include "testbench/builtin/builtin_scene.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
@@ -188,7 +191,34 @@ TEST_CASE("whole frame: eight bits are the floats, rounded") {
   CHECK(outcome.status == 0);
   const auto report = nlohmann::json::parse(bytes_of(scratch.path("out/report.json")));
   CHECK(report["views"][0]["image"]["equals_streaming_renderer"] == true);
-  CHECK(region_bytes(report["views"][0], "frame_buffer", "write") == 64 * 36 * 3);
+  const nlohmann::json& view = report["views"][0];
+  CHECK(region_bytes(view, "frame_buffer", "write") == 64 * 36 * 3);
+  CHECK(view["frame"]["width_px"] == 64);
+  CHECK(view["frame"]["height_px"] == 36);
+}
+
+TEST_CASE("whole frame: the report names the camera and the table that prices were taken from") {
+  const ScratchFolder scratch;
+  std::vector<Camera> cameras = make_builtin_scene("builtin:object?n=300").cameras;
+  cameras[1].id = 77;
+  cameras[1].name = "seventy-seven";
+  write_cameras(scratch.path("cameras.json"), cameras);
+  const auto provenance_with = [&](const std::string& table) {
+    std::ofstream(scratch.path("table.json")) << table;
+    const Simulation simulation({"builtin:object?n=300", "--size", "32x18", "--view", "1",
+                                 "--cameras", scratch.path("cameras.json"), "--technology",
+                                 scratch.path("table.json")});
+    const nlohmann::json& view = simulation.views()[0];
+    CHECK(view["view"] == 1);
+    CHECK(view["camera"]["id"] == 77);
+    CHECK(view["camera"]["img_name"] == "seventy-seven");
+    CHECK(view["provenance"]["technology"] == "32 nm");
+    CHECK(view["provenance"]["technology_path"] == scratch.path("table.json"));
+    return view["provenance"]["technology_fnv1a64"].get<std::string>();
+  };
+  const std::string shipped = bytes_of(SGS_TECHNOLOGY);
+  CHECK(provenance_with(shipped) == provenance_with(shipped));
+  CHECK(provenance_with(shipped) != provenance_with(shipped + "\n"));
 }
 
 TEST_CASE("whole frame: the golden image of `render` is the frame of `simulate`") {

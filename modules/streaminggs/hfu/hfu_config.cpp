@@ -8,13 +8,15 @@ namespace sgs {
 void visit(ConfigVisitor& v, HfuConfig& c) {
   v("cost", c.cost,
     names<FilterCost>({{"paper", FilterCost::kPaper}, {"counted", FilterCost::kCounted}}),
-    "of a test: cfu_macs and ffu_macs as given, or as counted on our filters");
+    "of a test: cfu_macs and ffu_macs, 55 and 427 where they are 0, or as counted on our filters");
   v("cfus", c.cfus, in_range(1, 64), "coarse filters in one HFU");
-  v("cfu_macs", c.cfu_macs, in_range(1, 10000), "multiply-accumulates of a coarse test");
+  v("cfu_macs", c.cfu_macs, in_range(0, 10000),
+    "multiply-accumulates of a coarse test; 0: by hfu.cost");
   v("cfu_lanes", c.cfu_lanes, in_range(1, 10000), "MAC lanes of one CFU");
   v("cfu_depth_cycles", c.cfu_depth_cycles, in_range(0, 10000),
     "latency of a coarse test; 0: its longest path");
-  v("ffu_macs", c.ffu_macs, in_range(1, 10000), "multiply-accumulates of a fine test");
+  v("ffu_macs", c.ffu_macs, in_range(0, 10000),
+    "multiply-accumulates of a fine test; 0: by hfu.cost");
   v("ffu_lanes", c.ffu_lanes, in_range(1, 10000), "MAC lanes of one FFU");
   v("ffu_depth_cycles", c.ffu_depth_cycles, in_range(0, 10000),
     "latency of a fine test; 0: its longest path");

@@ -11,19 +11,20 @@ namespace sgs {
 constexpr std::uint32_t kPaperCfuMacs = 55;
 constexpr std::uint32_t kPaperFfuMacs = 427;
 
-// Which multiply-accumulates a test costs: cfu_macs and ffu_macs as they are given, or those that
-// our filters execute on the scene (modules/streaminggs/filter_cost.h).
+// Which multiply-accumulates a test costs: cfu_macs and ffu_macs as they are given, the paper's
+// where they are not, or those that our filters execute on the scene
+// (modules/streaminggs/filter_cost.h).
 enum class FilterCost { kPaper, kCounted };
 
 struct HfuConfig {
   FilterCost cost = FilterCost::kCounted;
-  std::uint32_t cfus = 4;  // coarse filters in one HFU
-  std::uint32_t cfu_macs = kPaperCfuMacs;
-  std::uint32_t cfu_lanes = 4;          // MAC lanes of one CFU
-  std::uint32_t cfu_depth_cycles = 0;   // latency beside the lanes' time; 0: the longest path
-  std::uint32_t ffu_macs = kPaperFfuMacs;
+  std::uint32_t cfus = 4;              // coarse filters in one HFU
+  std::uint32_t cfu_macs = 0;          // of a test; 0: as `cost` says
+  std::uint32_t cfu_lanes = 4;         // MAC lanes of one CFU
+  std::uint32_t cfu_depth_cycles = 0;  // latency beside the lanes' time; 0: the longest path
+  std::uint32_t ffu_macs = 0;          // likewise
   std::uint32_t ffu_lanes = 16;
-  std::uint32_t ffu_depth_cycles = 0;  // likewise
+  std::uint32_t ffu_depth_cycles = 0;         // likewise
   bool coarse_filter = true;                  // off: every Gaussian goes to the fine filter
   std::uint32_t input_slots = 2;              // slices in the input buffer: fetched and filtered
   std::uint32_t slice_gaussians = 128;        // first halves in one half of the input buffer

@@ -191,7 +191,7 @@ void PaperVsu::publish(DataSheet& sheet) {
                  counters_.visits_saturated, "their Gaussians are not streamed");
   sheet.port(node_memory);
   sheet.port(record_memory);
-  sheet.remedy(traverse_, "vsu.rays_in_flight");
+  sheet.remedy(traverse_, rays_.remedy());
   sheet.remedy(node_memory, WaitFor::kReads, "vsu.node_cache_bytes");
   sheet.remedy(record_memory, WaitFor::kReads, "vsu.record_cache_bytes");
   sheet.sram(sram_uses(config_, built_for_));

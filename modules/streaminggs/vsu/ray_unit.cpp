@@ -115,6 +115,7 @@ std::uint64_t RayUnit::cycles_since(const OrderingAccesses& all) {
 std::uint64_t RayUnit::enter(const OrderingTable& table, std::uint64_t cycle) {
   ++entered_;
   const std::uint64_t cycles = std::max<std::uint64_t>(1, cycles_since(table.accesses()));
+  table_cycles_ += cycles;
   return turn(table_free_, cycle, cycles) + cycles;
 }
 
@@ -160,6 +161,25 @@ SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
   uses.push_back(sram_use("ready voxels", kSharedSram,
                           {{ready_words(config), "words"}, {kReadyWord, "B"}}, {8 * kReadyWord}));
   return uses;
+}
+
+// More of it leaves one cycle each time.
+Remedy RayUnit::remedy() const {
+  struct Shared {
+    const char* key;
+    std::uint64_t times, cycles;
+  };
+  const Shared all[] = {{"vsu.step_lanes", steps_taken_, steps_taken_ * steps_.interval_cycles()},
+                        {"vsu.ray_lanes", rays_, rays_ * begins_.interval_cycles()},
+                        {"vsu.table_banks", entered_, table_cycles_}};
+  const char* key = "vsu.rays_in_flight";
+  std::uint64_t most = activity_.busy_cycles() / 3;
+  for (const Shared& shared : all) {
+    if (shared.cycles - shared.times <= most) continue;
+    most = shared.cycles - shared.times;
+    key = shared.key;
+  }
+  return key;
 }
 
 void RayUnit::publish(DataSheet& sheet) const {

@@ -63,6 +63,9 @@ class RayUnit {
 
   static SramUses sram_uses(const PaperVsuConfig& config);
   void publish(DataSheet& sheet) const;
+  // To follow the rays of a frame faster: more of what they share, where the cycles that more lanes
+  // or banks can take away are more than a third of the time, else more rays.
+  Remedy remedy() const;
 
  private:
   std::uint64_t cycles_since(const OrderingAccesses& all);
@@ -73,6 +76,7 @@ class RayUnit {
   const Datapath begins_, steps_;
   std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, table_free_ = 0;
   std::uint64_t rays_ = 0, steps_taken_ = 0, met_ = 0, entered_ = 0;
+  std::uint64_t table_cycles_ = 0;                       // in which voxels are entered
   OrderingAccesses accesses_;                            // of the table so far
   std::uint64_t names_cleared_ = 0, ready_cleared_ = 0;  // words
 };

@@ -50,7 +50,7 @@ struct ListedCommands : CommandSource {
 };
 
 const std::string kHeader =
-    "# streaminggs dram command trace, version 1\n# memspec lpddr3_1600_4gb\n# channels 2\n"
+    "# streaminggs dram command trace, version 2\n# memspec lpddr3_1600_4gb\n# channels 2\n"
     "# ranks 1\n# write_latency_set a\n# refresh all_bank\n";
 
 TEST_CASE("command trace: what is written reads back") {
@@ -92,13 +92,25 @@ TEST_CASE("command trace: what is written reads back") {
 }
 
 TEST_CASE("command trace: bad files are refused with line, found and expected") {
-  CHECK(File(kHeader + "0 0 ACT 0 3 17\n").refusal() == "accepted");
+  const std::string one = kHeader + "0 0 ACT 0 3 17\n";
+  CHECK(File(one + "# commands 1\n").refusal() == "accepted");
+  CHECK(File(kHeader + "# commands 0\n").refusal() == "accepted");
+  struct Row {
+    const char *end, *refusal;
+  };
+  for (const auto& [end, refusal] :
+       {Row{"", ": line 8: got 'the end of the file', expected a command or '# commands 1'"},
+        Row{"# commands 2\n", ": line 8: got '# commands 2', expected '# commands 1'"},
+        Row{"# commands 1\n0 0 ACT 0 3 17\n",
+            ": line 9: got '0 0 ACT 0 3 17', expected nothing behind '# commands 1'"}}) {
+    CHECK(File(one + end).refusal().find(refusal) == 0);
+  }
   CHECK(File("").refusal().find(": line 1: got ''") == 0);
   CHECK(File("hello\n").refusal().find(": line 1: got 'hello'") == 0);
   CHECK(File(kHeader.substr(0, 60)).refusal().find(": line 3: got ''") == 0);
   for (const char* line : {"0 0 ACT 0 3", "0 0 ACT 0 3 17 9", "0 0 FLY 0 3 17", "-1 0 ACT 0 3 17",
                            "x 0 ACT 0 3 17", "0 256 ACT 0 3 17", "0 0 ACT 0 3 4294967296", ""})
-    CHECK(File(kHeader + "0 0 ACT 0 3 17\n" + line + "\n")
+    CHECK(File(one + line + "\n")
               .refusal()
               .find(": line 8: got '" + std::string(line) + "', expected cycle channel") == 0);
   CHECK_THROWS_AS(CommandTraceReader("/nowhere/trace"), InputError);

@@ -118,6 +118,33 @@ TEST_CASE("cost: parts that the table does not have are refused by name") {
   }
 }
 
+TEST_CASE("cost: tables that say less than they must, or bands out of order, are refused by file") {
+  struct Row {
+    const char *table, *expected;
+  };
+  for (const auto& [table, expected] :
+       {Row{"{}", ": name: got none, expected that of the node"},
+        Row{R"({"name": "x", "parts": {"lane": {"pj": {"low": 2, "middle": 1, "high": 3}}}})",
+            ": parts.lane.pj: got low 2, middle 1, high 3"},
+        Row{R"({"name": "x", "sram": {"macro": {"low": 1, "middle": 2}}})",
+            ": sram.macro: got low 1, middle 2, high 0"}}) {
+    const ScratchFolder scratch;
+    scratch.write("table.json", table);
+    const std::string path = scratch.path("table.json");
+    CHECK(input_error_of([&] { load_technology(path); }).find(path + expected) == 0);
+  }
+  const ScratchFolder scratch;
+  scratch.write("table.json", R"({"name": "x"})");
+  const Technology without_parts = load_technology(scratch.path("table.json"));
+  CHECK(input_error_of([&] { area_of(frame(), without_parts); }).find(without_parts.path) == 0);
+}
+
+TEST_CASE("cost: components are written in snake case") {
+  FrameResult other = frame();
+  other.machine.sram_uses[0].name = other.machine.sram_accesses[0].use = "finished Sub-tiles";
+  CHECK(of(energy_of(other, priced()), "finished_sub_tiles").middle > 0);
+}
+
 TEST_CASE("cost: the shipped table says what its sources say") {
   const Technology technology = load_technology(SGS_TECHNOLOGY);
   const PartCost& lane = technology.part("fp32_lane");
