@@ -6,6 +6,7 @@
 
 #include "algorithm/image/image.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/rects.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/voxel_grid.h"
 
