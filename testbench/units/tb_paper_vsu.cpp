@@ -3,147 +3,15 @@
 // cycle by cycle.
 #include <algorithm>
 
-#include "algorithm/render/paper_renderer.h"
-#include "algorithm/splat/lane_macs.h"
-#include "algorithm/voxel/ray_work.h"
-#include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/random_scene.h"
-#include "testbench/units/ray_timing_model.h"
+#include "testbench/units/paper_vsu_plan.h"
 #include "testbench/units/reported_groups.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
 namespace {
-
-struct Plan {
-  PaperVsuConfig config;
-  TestScene scene;
-  std::uint32_t hfus = 4;
-  std::uint32_t fifo_entries = kVisitFifoEntries;
-  std::uint32_t feedback_cycles = 1;
-  int saturate_one_in = 0;       // 0: never; else how often a reader reports a group as finished
-  bool finished_before = false;  // all groups are reported before the first visit
-};
-
-Plan plan_of(TestScene scene) {
-  Plan plan;
-  plan.scene = std::move(scene);
-  plan.config.table_bytes = 1U << 20U;
-  plan.config.visit_gaussians = 0;
-  plan.config.step_depth_cycles = 36;
-  plan.config.ray_depth_cycles = 81;
-  return plan;
-}
-
-constexpr std::uint64_t kLineBytes = 32;  // of VSU's caches
-
-std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
-
-struct Expected {
-  std::vector<std::vector<VoxelRecord>> groups;  // pieces of voxels in visiting order
-  std::uint64_t cuts = 0;
-  std::uint64_t traverse_cycles = 0;     // of passes without an overflow, waiting left out
-  std::uint64_t first_group_cycles = 0;  // waiting included
-  std::uint64_t lookups = 0, met = 0;
-  std::uint64_t visits = 0, empty = 0, rays = 0, steps = 0, edges = 0, table_bytes_max = 0;
-  std::uint64_t passes = 0, overflows = 0;
-};
-
-std::uint64_t macs_of_a_step() { return folded_macs(ray_step_work()); }
-std::uint64_t macs_of_a_beginning() { return folded_macs(pixel_ray_work()); }
-
-// What the rays of a group do, from the grid itself.
-template <class Path>
-std::vector<RayEvents> events_of(const Plan& plan, const PixelRect& group, Path path) {
-  std::vector<RayEvents> rays;
-  for (RayPixels at(group, plan.config.ray_step_px); !at.done(); at.next()) {
-    RayEvents& events = rays.emplace_back();
-    path.begin(pixel_ray(plan.scene.job.view, at.x(), at.y()));
-    do {
-      events.push_back(path.next());
-      if (events.back().what == RayEvent::kLookUp) {
-        path.give(plan.scene.grid.nodes[events.back().index]);
-      }
-    } while (events.back().what != RayEvent::kEnd);
-  }
-  return rays;
-}
-std::vector<RayEvents> events_of(const Plan& plan, const PixelRect& group) {
-  const RayPattern rays = plan.config.rays();
-  const VoxelFrame& frame = plan.scene.grid.frame;
-  if (rays.sample_step_voxels > 0) {
-    return events_of(plan, group, SamplePath(frame, rays.sample_step_voxels));
-  }
-  return events_of(plan, group, RayPath<float>(frame));
-}
-
-std::uint64_t count_of(const std::vector<RayEvents>& rays, RayEvent what) {
-  std::uint64_t sum = 0;
-  for (const RayEvents& ray : rays) {
-    sum += static_cast<std::uint64_t>(std::count_if(
-        ray.begin(), ray.end(), [&](const RayEventOf& event) { return event.what == what; }));
-  }
-  return sum;
-}
-
-// Kahn's algorithm: a level of ready voxels a cycle and the record for each voxel, two records for
-// each edge; beside it the names are cleared, four a cycle.
-std::uint64_t ordering_cycles(const Plan& plan, const OrderingTable& table) {
-  const std::uint64_t clearing =
-      Renaming::slots_for(OrderingTable::most_voxels(plan.config.table_bytes)) / 4;
-  return std::max<std::uint64_t>(clearing,
-                                 std::uint64_t{table.voxel_count()} * (table.ready_levels() + 1) +
-                                     table.edge_count() * ceil_div(2, plan.config.table_banks));
-}
-
-Expected expect(const Plan& plan, std::uint64_t latency) {
-  Expected out;
-  const VoxelGrid& grid = plan.scene.grid;
-  OrderingTable table(grid.voxels.size(), plan.config.table_bytes);
-  RayTimingModel model(plan.config, latency, plan.scene.job.layout.voxel_table().nodes);
-  for (const PixelRect& group : plan.scene.job.groups) {
-    const RayPattern rays = plan.config.rays();
-    const GroupVisits visits = paper_visits(plan.scene.job.view, group, grid, rays, table);
-    out.passes += grid.nodes.empty() ? 1 : visits.passes;
-    if (!grid.nodes.empty()) {
-      const std::vector<RayEvents> events = events_of(plan, group);
-      out.lookups += count_of(events, RayEvent::kLookUp);
-      out.met += count_of(events, RayEvent::kVoxel);
-      table.clear();
-      if (visits.overflows == 0) {
-        const RayTimingModel::Times times = model.pass(events, table);
-        const std::uint64_t ordering = ordering_cycles(plan, table);
-        out.traverse_cycles += times.all - times.waits + ordering;
-        if (out.groups.empty()) out.first_group_cycles = times.all + ordering;
-      }
-    }
-    std::vector<VoxelRecord> pieces;
-    for (const std::uint32_t voxel : visits.voxels) {
-      const auto plane = [&](std::uint32_t index) {
-        ++out.cuts;
-        return grid.cuts[index];
-      };
-      const auto visit = [&](const VoxelRecord& piece) {
-        pieces.push_back(piece);
-        return true;
-      };
-      visit_pieces(grid.voxels[voxel], plan.scene.job.view.position, plan.config.visit_gaussians,
-                   plane, visit);
-    }
-    out.visits += pieces.size();
-    out.empty += visits.voxels.empty() ? 1 : 0;
-    out.rays += visits.rays;
-    out.steps += visits.steps;
-    out.edges += visits.edges_offered;
-    out.table_bytes_max = std::max(out.table_bytes_max, visits.table_bytes);
-    out.overflows += visits.overflows;
-    out.groups.push_back(std::move(pieces));
-  }
-  return out;
-}
 
 // All shares of one visit or of one end-of-group mark, put together.
 struct Received {
@@ -151,8 +19,8 @@ struct Received {
   std::uint64_t cycle = 0;         // of the last
 };
 
-void check_visit(Checks& checks, const Plan& plan, std::uint32_t number, const Received& got,
-                 std::uint32_t group, const VoxelRecord& record) {
+void check_visit(Checks& checks, const PaperVsuPlan& plan, std::uint32_t number,
+                 const Received& got, std::uint32_t group, const VoxelRecord& record) {
   std::uint32_t sum = 0, at = record.first;
   for (std::uint32_t k = 0; k < plan.hfus; ++k) {
     const VisitShare& share = got.shares[(k + number) % plan.hfus];
@@ -173,7 +41,7 @@ void check_visit(Checks& checks, const Plan& plan, std::uint32_t number, const R
 
 // Every group's visits in the expected order (of a finished group, the first of them), then its
 // end.
-void check_stream(UnitBench& bench, const Plan& plan, const Expected& expected,
+void check_stream(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisits& expected,
                   const std::vector<Received>& received, const ReportedGroups& finished) {
   Checks& checks = bench.checks();
   std::uint32_t number = 0;
@@ -214,8 +82,8 @@ void check_stream(UnitBench& bench, const Plan& plan, const Expected& expected,
 
 // Its cycles are those of the model where times can be computed, and never fewer than each thing
 // that the rays share takes.
-void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const Plan& plan,
-                     const Expected& expected) {
+void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const PaperVsuPlan& plan,
+                     const ExpectedVisits& expected) {
   Checks& checks = bench.checks();
   const std::uint64_t busy = bench.busy_cycles("vsu");
   if (expected.overflows == 0) {
@@ -237,8 +105,8 @@ void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const Pl
   }
 }
 
-void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
-  const Expected expected = expect(plan, bench_config.latency_cycles);
+void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& plan) {
+  const ExpectedVisits expected = expect(plan, bench_config.latency_cycles);
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
   bench.load(0, plan.scene.image.bytes);
@@ -325,20 +193,20 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   }
 }
 
-BenchConfig still_bench(const Plan& plan) {
+BenchConfig still_bench(const PaperVsuPlan& plan) {
   BenchConfig config;
   config.memory_bytes = memory_bytes(plan.scene.job);
   return config;
 }
 
 void directed(Case& test, const SceneShape& shape) {
-  const Plan plan = plan_of(random_scene(test.random, shape));
+  const PaperVsuPlan plan = plan_of(random_scene(test.random, shape));
   run_plan(test, still_bench(plan), plan);
 }
 
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
-  Plan plan = plan_of(random_scene(random, random_shape(random)));
+  PaperVsuPlan plan = plan_of(random_scene(random, random_shape(random)));
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.fifo_entries = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.config.step_lanes = 1 + static_cast<std::uint32_t>(random() % 200);
@@ -392,7 +260,7 @@ int sc_main(int argc, char* argv[]) {
   many.gaussians = 5000;
   for (const std::uint32_t most : {1U, 64U, 100U, 1000U}) {
     runner.add_directed(fmt::format("voxels cut into pieces of {}", most), [=](Case& test) {
-      Plan plan = plan_of(random_scene(test.random, many));
+      PaperVsuPlan plan = plan_of(random_scene(test.random, many));
       plan.config.visit_gaussians = most;
       run_plan(test, still_bench(plan), plan);
     });
@@ -407,20 +275,20 @@ int sc_main(int argc, char* argv[]) {
   whole.group = square_of(64);
   runner.add_directed("group larger than the frame", [=](Case& test) { directed(test, whole); });
   runner.add_directed("a group that is finished at once", [=](Case& test) {
-    Plan plan = plan_of(random_scene(test.random, whole));
+    PaperVsuPlan plan = plan_of(random_scene(test.random, whole));
     plan.saturate_one_in = 1;
     plan.fifo_entries = 1;
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("groups finished before they begin", [=](Case& test) {
-    Plan plan = plan_of(random_scene(test.random, shape));
+    PaperVsuPlan plan = plan_of(random_scene(test.random, shape));
     plan.finished_before = true;
     run_plan(test, still_bench(plan), plan);
   });
   // 8 bytes are a voxel a pass.
   for (const std::uint32_t bytes : {8U, 12U, 20U, 64U, 300U}) {
     runner.add_directed(fmt::format("ordering table of {} bytes", bytes), [=](Case& test) {
-      Plan plan = plan_of(random_scene(test.random, shape));
+      PaperVsuPlan plan = plan_of(random_scene(test.random, shape));
       plan.config.table_bytes = bytes;
       run_plan(test, still_bench(plan), plan);
     });

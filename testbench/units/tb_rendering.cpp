@@ -1,304 +1,14 @@
 // Rendering unit alone: sorted splats in, a frame buffer in memory out. Checked against GroupState;
 // times against a model stepped cycle by cycle and a recurrence over the groups.
-#include <optional>
-
-#include "algorithm/render/group_state.h"
-#include "algorithm/splat/filter_work.h"
-#include "algorithm/splat/lane_macs.h"
-#include "modules/streaminggs/rendering/rendering_unit.h"
-#include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/random_splats.h"
-#include "testbench/units/rendering_timing_model.h"
-#include "testbench/units/unit_bench.h"
+#include "testbench/units/rendering_run.h"
 
 namespace sgs::tb {
 namespace {
 
-struct Plan {
-  RenderingConfig config;
-  StreamingJob job;
-  PixelSize group;
-  std::uint32_t inputs = 2;
-  Arrival arrival = Arrival::kByVisit;
-  std::uint32_t input_entries = 8;
-  std::vector<std::vector<std::vector<Splat>>> groups;  // [group][visit] front to back
-};
-
-std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
-
-// Of draining a row of pixels: a bank gives one sub-tile a cycle, and what is converted is limited.
-std::uint64_t row_cycles(const Plan& plan, std::uint64_t width) {
-  return std::max(ceil_div(width, plan.config.drain_pixels_per_cycle),
-                  ceil_div(ceil_div(width, 4), plan.config.clusters));
-}
-
-// What must come out: pixels and counts from the algorithm layer, times from the stepped model.
-struct Expected {
-  std::vector<std::byte> frame;
-  RenderingUnit::Counters counters;
-  std::uint64_t functional_blends = 0;      // into unfinished sub-tiles
-  std::vector<RenderingTimes> times;        // [group]
-  std::vector<std::uint64_t> drain_cycles;  // [group]
-  std::vector<bool> saturated;              // [group]
-};
-
-// Blends a splat and says what of the group it reaches.
-RenderingToken blended(const Splat& splat, GroupState& state, Expected& out) {
-  RenderingToken token;
-  token.is_splat = true;
-  const BlendWork work = state.blend_scheduled(
-      splat, [&](const SubtileReach& subtile) { token.reaches.push_back(subtile); });
-  token.rows = work.rows;
-  token.spans = work.spans;
-  const SubtileRect box = state.box_of(splat).subtiles;
-  for (std::size_t y = box.y0; y < box.y1; ++y) {
-    for (std::size_t x = box.x0; x < box.x1; ++x) {
-      token.footprint.push_back(y * state.subtile_columns() + x);
-    }
-  }
-  out.functional_blends += work.blended;
-  out.counters.splats += work.blended > 0 ? 1 : 0;
-  return token;
-}
-
-Expected expect(const Plan& plan) {
-  Expected out;
-  RenderResult frame;
-  frame.image = Image(plan.job.view.width, plan.job.view.height);
-  frame.transmittance.resize(frame.image.pixels.size());
-  frame.contributors.resize(frame.image.pixels.size());
-  for (std::size_t g = 0; g < plan.groups.size(); ++g) {
-    const PixelRect& pixels = plan.job.groups[g];
-    GroupState state(pixels, plan.job.view.width, plan.job.view.height, plan.config.precision,
-                     plan.config.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox);
-    std::vector<RenderingToken> tokens;
-    for (const auto& visit : plan.groups[g]) {
-      for (const Splat& splat : visit) tokens.push_back(blended(splat, state, out));
-      tokens.emplace_back();  // a rejected key, or the end of a visit
-    }
-    tokens.emplace_back();  // the end of the group
-    out.times.push_back(step_rendering(plan.config, state.subtile_count(), tokens));
-    ++out.counters.groups;
-    out.counters.groups_saturated += state.saturated() ? 1 : 0;
-    out.counters.splats_saturated += out.times.back().splats_dropped;
-    out.counters.contributors += state.contributors();
-    out.saturated.push_back(state.saturated());
-    out.drain_cycles.push_back(static_cast<std::uint64_t>(pixels.height()) *
-                                   row_cycles(plan, static_cast<std::uint64_t>(pixels.width())) +
-                               1);
-    state.store(plan.job.background, frame);
-  }
-  out.frame = encode_frame(plan.job.frame_format, frame.image);
-  return out;
-}
-
-struct Times {
-  std::vector<std::uint64_t> blend_begins;  // [group]
-  std::uint64_t end = 0;                    // of the frame
-};
-
-// When a group that begins to drain at `at` has given its last row to the port, from which a
-// transaction leaves a cycle; free_from: of the port.
-std::uint64_t drained_at(const Plan& plan, const PixelRect& pixels, std::uint64_t at,
-                         std::uint64_t& free_from) {
-  const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
-  const auto width = static_cast<std::uint64_t>(pixels.width());
-  for (int y = pixels.y0; y < pixels.y1; ++y) {
-    at += row_cycles(plan, width);
-    const std::uint64_t begin = plan.job.pixel_address(pixels.x0, y);
-    const std::uint64_t last = begin + width * pixel_bytes(plan.job.frame_format) - 1;
-    at = std::max(at, free_from) + last / longest - begin / longest;
-    free_from = at + 1;
-  }
-  return at + 1;  // the last sub-tile is cleared
-}
-
-// When splats are always there: a group is blended when the one before it is and a buffer is free;
-// drained when the one before it is, the depths of a blend and of a conversion after its last
-// blend.
-Times expected_times(const Plan& plan, const Expected& expected,
-                     std::uint64_t write_latency_cycles) {
-  Times times;
-  std::vector<std::uint64_t> drained;
-  std::uint64_t port_free_from = 0;
-  std::uint64_t blend_end = 1;  // input latency
-  for (std::size_t g = 0; g < plan.groups.size(); ++g) {
-    const std::size_t buffers = plan.config.pixel_buffers;
-    if (g >= buffers) blend_end = std::max(blend_end, drained[g - buffers]);
-    times.blend_begins.push_back(blend_end);
-    blend_end += expected.times[g].cycles;
-    std::uint64_t drain = blend_end + plan.config.depth_cycles + plan.config.drain_depth_cycles;
-    if (g > 0) drain = std::max(drain, drained[g - 1]);
-    drained.push_back(drained_at(plan, plan.job.groups[g], drain, port_free_from));
-  }
-  // The last row leaves while the last sub-tile is cleared.
-  times.end = drained.back() - 1 + std::max<std::uint64_t>(write_latency_cycles, 1);
-  return times;
-}
-
-// Notes when it is known that groups are finished.
-class Feedback : public sc_core::sc_module, public FinishGroupIf {
- public:
-  Feedback(const sc_core::sc_module_name& name, const ClockDomain& clock, std::size_t groups)
-      : sc_module(name), cycles(groups), clock_(clock) {}
-  void finish(std::uint32_t group, std::uint32_t known_in_cycles) override {
-    cycles[group].push_back(clock_.now_cycles() + known_in_cycles);
-  }
-  std::vector<std::vector<std::uint64_t>> cycles;  // [group]
-
- private:
-  const ClockDomain& clock_;
-};
-
-// What comes through each FIFO. By visit: visits in turn, each with its end; behind a group's
-// visits its end takes a turn of its own. By token: each in turn, here with a rejected key behind a
-// visit's splats.
-std::vector<std::vector<SplatToken>> tokens_of(const Plan& plan) {
-  std::vector<std::vector<SplatToken>> tokens(plan.inputs);
-  const bool by_token = plan.arrival == Arrival::kByToken;
-  std::uint32_t turn = 0, visit = 0;
-  for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-    const auto put = [&](const Splat& splat, Mark mark) {
-      tokens[turn % plan.inputs].push_back({splat, g, visit, mark});
-      turn += mark != Mark::kNone || by_token ? 1 : 0;
-    };
-    for (const auto& splats : plan.groups[g]) {
-      for (const Splat& splat : splats) put(splat, Mark::kNone);
-      put({}, by_token ? Mark::kRejected : Mark::kEndOfVisit);
-      ++visit;
-    }
-    put({}, Mark::kEndOfGroup);
-    ++visit;
-  }
-  return tokens;
-}
-
-void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
-  UnitBench bench(test, bench_config);
-  Checks& checks = bench.checks();
-  Feedback feedback("feedback", bench.clock(), plan.job.groups.size());
-  const auto inputs = bench.add_fifos<SplatToken>("sorted", plan.inputs, plan.input_entries, 1);
-  std::uint64_t ends = 0;
-  UnitContext context = bench.context(plan.job);
-  context.built_for.group = plan.group;
-  RenderingUnit unit("rendering", plan.config, plan.arrival, context, [&] { ++ends; });
-  for (TimedFifo<SplatToken>* input : inputs) unit.splats(*input);
-  unit.finish(feedback);
-  bench.add_unit(unit);
-  const std::vector<std::vector<SplatToken>> tokens = tokens_of(plan);
-  for (std::uint32_t s = 0; s < plan.inputs; ++s) {
-    bench.add_thread(fmt::format("sorting{}", s), [&, s](Activity& activity) {
-      for (const SplatToken& token : tokens[s]) inputs[s]->push(token, activity);
-    });
-  }
-  const Expected expected = expect(plan);
-  const Times times = expected_times(plan, expected, bench_config.write_latency_cycles);
-  if (bench_config.still()) {
-    bench.add_thread("clock", [&](Activity&) {
-      bench.wait_until_just_before(times.end);
-      checks.equal(ends, 0U, "done a cycle too soon");
-      bench.clock().wait_cycles(1);
-      checks.equal(ends, 1U, "done in time");
-    });
-  }
-  bench.run();
-
-  checks.equal(ends, 1U, "ends of the frame reported");
-  const RegionSpan& frame = plan.job.frame_buffer;
-  checks.that(bench.read_back(frame.base, frame.bytes) == expected.frame,
-              "the frame buffer differs from GroupState's pixels");
-  checks.equal(bench.bytes_written(), frame.bytes, "bytes written");
-  checks.equal(bench.bytes_read(), 0U, "bytes read");
-  const RenderingUnit::Counters& want = expected.counters;
-  bench.check_counter("groups", want.groups);
-  bench.check_counter("groups_saturated", want.groups_saturated);
-  bench.check_counter("splats", want.splats);
-  bench.check_counter("contributors", want.contributors);
-  checks.that(unit.schedule_counters().blends - unit.schedule_counters().late_blends ==
-                  expected.functional_blends,
-              "blends that change pixels");
-  std::uint64_t blend = 0, drain = 0, finishes = 0;
-  RenderingTimes sum;
-  for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-    const RenderingTimes& group = expected.times[g];
-    const bool told = expected.saturated[g] && plan.config.saturation_feedback;
-    checks.equal(feedback.cycles[g].size(), told ? 1U : 0U,
-                 fmt::format("how often group {} was said to be finished", g));
-    if (bench_config.still() && told && !feedback.cycles[g].empty()) {
-      checks.equal(feedback.cycles[g][0], times.blend_begins[g] + *group.finished,
-                   fmt::format("cycle in which group {} was finished", g));
-    }
-    blend += group.cycles;
-    drain += expected.drain_cycles[g];
-    sum.blends += group.blends;
-    sum.spans += group.spans;
-    sum.rows += group.rows;
-    sum.row_cycles += group.row_cycles;
-    sum.splats_hidden += group.splats_hidden;
-    sum.splats_dropped += group.splats_dropped;
-    finishes += group.subtiles_finished;
-    sum.splats_spanned += group.splats_spanned;
-    sum.late_blends += group.late_blends;
-    sum.hazard_cycles += group.hazard_cycles;
-    sum.queue_cycles += group.queue_cycles;
-  }
-  checks.equal(bench.busy_cycles("drain"), drain, "busy cycles of draining");
-  // With stalls it depends on when splats come what is known of sub-tiles.
-  if (!bench_config.still()) return;
-  bench.check_counter("splats_saturated", want.splats_saturated);
-  bench.check_counter("splats_hidden", sum.splats_hidden);
-  bench.check_counter("rows", sum.rows);
-  bench.check_counter("subtile_blends", sum.blends);
-  bench.check_counter("subtile_blends_late", sum.late_blends);
-  bench.check_counter("hazard_cycles", sum.hazard_cycles);
-  bench.check_counter("queue_cycles", sum.queue_cycles);
-  const RenderingWork work = rendering_work(plan.config.precision);
-  const std::uint64_t blend_macs = sum.blends * folded_macs(work.subtile_blend);
-  std::uint64_t pixels = 0;
-  for (const PixelRect& px : plan.job.groups) {
-    pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
-  }
-  const OperationCounts drained = pixel_work(plan.job.frame_format);
-  const std::uint64_t span_macs =
-      pixels * folded_macs(drained) + bench.counter("splats_taken") * folded_macs(work.conic) +
-      sum.spans * folded_macs(work.span) + sum.splats_spanned * folded_macs(work.spans_begin);
-  // The mask is asked of every row for a splat, and of the row that is held for each cluster.
-  const auto rows = static_cast<std::uint64_t>(plan.group.height / 4);
-  const auto words = ceil_div(static_cast<std::uint64_t>(plan.group.width / 4), 32);
-  const std::uint64_t dropped = sum.splats_hidden + sum.splats_dropped;
-  const std::uint64_t looks = sum.blends + sum.hazard_cycles;
-  const std::uint64_t in_loop =
-      ceil_div(plan.config.state_loop_cycles, plan.config.cluster_interval_cycles());
-  const std::uint64_t dispatched = (bench.counter("splats_taken") + dropped) * rows * words +
-                                   sum.row_cycles * plan.config.clusters * words + looks * in_loop;
-  bench.check_operations(
-      "rendering", "comparator",
-      dispatched + pixels * comparisons(drained) + sum.blends * comparisons(work.subtile_blend) +
-          sum.spans * comparisons(work.span) + sum.splats_spanned * comparisons(work.spans_begin));
-  const bool in_half = plan.config.precision == BlendPrecision::kHalf;
-  bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", sum.blends * 16);
-  bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
-  if (in_half) bench.check_operations("rendering", "fp16_lane", blend_macs);
-  // The 16 pixels of a sub-tile at once: blended, cleared; read by rows in draining.
-  std::uint64_t reads = 16 * sum.blends, writes = 16 * sum.blends;
-  for (const PixelRect& px : plan.job.groups) {
-    const std::uint64_t columns = ceil_div(static_cast<std::uint64_t>(px.width()), 4);
-    reads += 4 * columns * static_cast<std::uint64_t>(px.height());
-    writes += 16 * columns * ceil_div(static_cast<std::uint64_t>(px.height()), 4);
-  }
-  bench.check_accesses("pixel state", reads, writes);
-  bench.check_accesses("finished sub-tiles", dropped + sum.splats_spanned + sum.row_cycles,
-                       finishes + plan.groups.size());
-  bench.check_accesses("sub-tiles in the loop", looks, sum.blends);
-  bench.check_accesses("cluster queues", sum.blends, sum.blends);
-  bench.check_accesses("splats under way", bench.counter("splats_taken"),
-                       bench.counter("splats_taken"));
-  checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");
-}
-
-Plan make_plan(int width_px, int height_px, const PixelSize& group, FrameFormat format) {
-  Plan plan;
+RenderingPlan make_plan(int width_px, int height_px, const PixelSize& group, FrameFormat format) {
+  RenderingPlan plan;
   plan.group = group;
   plan.job = frame_job(width_px, height_px, group, format, 0);
   plan.groups.resize(plan.job.groups.size());
@@ -310,8 +20,8 @@ Plan make_plan(int width_px, int height_px, const PixelSize& group, FrameFormat 
   return plan;
 }
 
-std::vector<Splat> random_visit(std::mt19937_64& random, const Plan& plan, std::size_t group,
-                                std::size_t splats, float opacity) {
+std::vector<Splat> random_visit(std::mt19937_64& random, const RenderingPlan& plan,
+                                std::size_t group, std::size_t splats, float opacity) {
   std::vector<Splat> visit;
   for (std::size_t i = 0; i < splats; ++i) {
     visit.push_back(random_splat(random, plan.job.groups[group], plan.job,
@@ -320,14 +30,14 @@ std::vector<Splat> random_visit(std::mt19937_64& random, const Plan& plan, std::
   return visit;
 }
 
-BenchConfig still_bench(const Plan& plan) {
+BenchConfig still_bench(const RenderingPlan& plan) {
   BenchConfig config;
   config.memory_bytes = memory_bytes(plan.job);
   return config;
 }
 
 // A splat that hides all of a group: flat, opaque, as wide as the frame.
-Splat curtain(const Plan& plan) {
+Splat curtain(const RenderingPlan& plan) {
   Splat splat{};
   splat.conic_a = splat.conic_c = 1e-12F;
   splat.opacity = 1;
@@ -339,7 +49,7 @@ Splat curtain(const Plan& plan) {
 
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
-  Plan plan = make_plan(
+  RenderingPlan plan = make_plan(
       1 + static_cast<int>(random() % 150), 1 + static_cast<int>(random() % 90),
       {4 * (1 + static_cast<int>(random() % 24)), 4 * (1 + static_cast<int>(random() % 24))},
       random() % 2 == 0 ? FrameFormat::kRgb8 : FrameFormat::kRgb32f);
@@ -373,7 +83,7 @@ void random_case(Case& test) {
   run_plan(test, bench, plan);
 }
 
-void directed(Case& test, Plan plan, std::size_t splats) {
+void directed(Case& test, RenderingPlan plan, std::size_t splats) {
   for (std::size_t g = 0; g < plan.groups.size(); ++g) {
     plan.groups[g].push_back(random_visit(test.random, plan, g, splats, 1.0F));
   }
@@ -389,7 +99,7 @@ int sc_main(int argc, char* argv[]) {
   CaseRunner runner("tb_rendering", "Rendering unit alone, against the blending of one group");
   const auto format = FrameFormat::kRgb32f;
   runner.add_directed("end-of-group marks only", [](Case& test) {
-    const Plan plan = make_plan(64, 48, square_of(16), format);
+    const RenderingPlan plan = make_plan(64, 48, square_of(16), format);
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("empty visits", [](Case& test) {
@@ -406,18 +116,18 @@ int sc_main(int argc, char* argv[]) {
     directed(test, make_plan(70, 33, square_of(32), FrameFormat::kRgb8), 20);
   });
   runner.add_directed("two pixel buffers", [](Case& test) {
-    Plan plan = make_plan(128, 64, square_of(32), format);
+    RenderingPlan plan = make_plan(128, 64, square_of(32), format);
     plan.config.pixel_buffers = 2;
     directed(test, plan, 50);
   });
   runner.add_directed("every token from another FIFO", [](Case& test) {
-    Plan plan = make_plan(64, 48, square_of(32), format);
+    RenderingPlan plan = make_plan(64, 48, square_of(32), format);
     plan.arrival = Arrival::kByToken;
     plan.inputs = 4;
     directed(test, plan, 30);
   });
   runner.add_directed("saturated group", [](Case& test) {
-    Plan plan = make_plan(64, 32, square_of(32), format);
+    RenderingPlan plan = make_plan(64, 32, square_of(32), format);
     // T falls to 0.01 and 0.0001; the next would bring it below: three splats finish every pixel.
     plan.groups[0].push_back(std::vector<Splat>(10, curtain(plan)));
     plan.groups[0].push_back(random_visit(test.random, plan, 0, 10, 1.0F));
@@ -425,14 +135,14 @@ int sc_main(int argc, char* argv[]) {
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("splats behind finished sub-tiles of an unfinished group", [](Case& test) {
-    Plan plan = make_plan(32, 32, square_of(32), format);
+    RenderingPlan plan = make_plan(32, 32, square_of(32), format);
     Splat left = curtain(plan);
     left.footprint.x1 = 4;
     plan.groups[0].push_back(std::vector<Splat>(10, left));  // the last take a cycle for nothing
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("splats too faint to be blended", [](Case& test) {
-    Plan plan = make_plan(32, 32, square_of(32), format);
+    RenderingPlan plan = make_plan(32, 32, square_of(32), format);
     plan.groups[0].push_back(random_visit(test.random, plan, 0, 10, 0.001F));
     run_plan(test, still_bench(plan), plan);
   });

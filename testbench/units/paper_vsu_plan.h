@@ -1,0 +1,47 @@
+// What a voxel sorting unit in paper order is run with, and what must come of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "algorithm/voxel/voxel_grid.h"
+#include "modules/streaminggs/vsu/paper_vsu.h"
+#include "testbench/units/random_scene.h"
+
+namespace sgs::tb {
+
+struct PaperVsuPlan {
+  PaperVsuConfig config;
+  TestScene scene;
+  std::uint32_t hfus = 4;
+  std::uint32_t fifo_entries = kVisitFifoEntries;
+  std::uint32_t feedback_cycles = 1;
+  int saturate_one_in = 0;       // 0: never; else how often a reader reports a group as finished
+  bool finished_before = false;  // all groups are reported before the first visit
+};
+
+// A table that holds every group, voxels whole.
+PaperVsuPlan plan_of(TestScene scene);
+
+constexpr std::uint64_t kLineBytes = 32;  // of VSU's caches
+
+inline std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
+
+// Multiply-accumulates.
+std::uint64_t macs_of_a_step();
+std::uint64_t macs_of_a_beginning();
+
+struct ExpectedVisits {
+  std::vector<std::vector<VoxelRecord>> groups;  // pieces of voxels in visiting order
+  std::uint64_t cuts = 0;
+  std::uint64_t traverse_cycles = 0;     // of passes without an overflow, waiting left out
+  std::uint64_t first_group_cycles = 0;  // waiting included
+  std::uint64_t lookups = 0, met = 0;
+  std::uint64_t visits = 0, empty = 0, rays = 0, steps = 0, edges = 0, table_bytes_max = 0;
+  std::uint64_t passes = 0, overflows = 0;
+};
+
+// From the grid itself; latency: of memory, cycles.
+ExpectedVisits expect(const PaperVsuPlan& plan, std::uint64_t latency);
+
+}  // namespace sgs::tb
