@@ -5,6 +5,7 @@
 
 #include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_work.h"
+#include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/counted_datapath.h"
 #include "modules/streaminggs/work_rates.h"
 
