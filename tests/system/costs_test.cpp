@@ -89,9 +89,9 @@ TEST_CASE("costs: joules are counters times prices") {
       INFO(machine << " " << encoding);
       const bool raw = std::string(encoding) == "raw";
       const Simulation simulation(joined(
-          {"builtin:object?n=3000", "--size", "96x54", "--config", machine, "--set",
-           std::string("storage.encoding=") + encoding, "--set", "group_width_px=32", "--set",
-           "group_height_px=32", "--set", "sram.codebook_bytes=256000"},
+          with_settings({"builtin:object?n=3000", "--size", "96x54", "--config", machine},
+                        {std::string("storage.encoding=") + encoding, "group_width_px=32",
+                         "group_height_px=32", "sram.codebook_bytes=256000"}),
           raw ? Arguments{} : Arguments{"--set", "storage.vq.iterations=2", "--weigh-by", "0"}));
       simulation.check();
       check_joules(simulation.views()[0]);
@@ -133,11 +133,11 @@ TEST_CASE("costs: the rays' remedy is more of what they share and wait for, else
        {Row{"60", "24", "16", "vsu.rays_in_flight"}, Row{"60", "24", "1", "vsu.table_banks"},
         Row{"60", "2", "16", "vsu.step_lanes"}, Row{"1", "24", "16", "vsu.ray_lanes"}}) {
     CAPTURE(key);
-    const Simulation simulation({"builtin:object?n=3000", "--size", "96x54", "--config", "paper",
-                                 "--set", "storage.encoding=raw", "--set",
-                                 std::string("vsu.ray_lanes=") + ray_lanes, "--set",
-                                 std::string("vsu.step_lanes=") + step_lanes, "--set",
-                                 std::string("vsu.table_banks=") + table_banks});
+    const Simulation simulation(
+        with_settings({"builtin:object?n=3000", "--size", "96x54", "--config", "paper"},
+                      {"storage.encoding=raw", std::string("vsu.ray_lanes=") + ray_lanes,
+                       std::string("vsu.step_lanes=") + step_lanes,
+                       std::string("vsu.table_banks=") + table_banks}));
     CHECK(simulation.views()[0]["units"]["vsu"]["activities"]["traverse"]["key"] == key);
   }
 }
@@ -180,19 +180,10 @@ struct HalfEmpty {
     write_cameras(folder.path("cameras.json"), {camera});
   }
   Arguments arguments(const char* machine, const char* feedback) const {
-    return {folder.path("scene.ply"),
-            "--cameras",
-            folder.path("cameras.json"),
-            "--config",
-            machine,
-            "--set",
-            "group_width_px=16",
-            "--set",
-            "group_height_px=16",
-            "--set",
-            "storage.encoding=raw",
-            "--set",
-            std::string("rendering.saturation_feedback=") + feedback};
+    return with_settings(
+        {folder.path("scene.ply"), "--cameras", folder.path("cameras.json"), "--config", machine},
+        {"group_width_px=16", "group_height_px=16", "storage.encoding=raw",
+         std::string("rendering.saturation_feedback=") + feedback});
   }
   ScratchFolder folder;
 };

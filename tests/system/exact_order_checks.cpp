@@ -84,10 +84,10 @@ void fuzz_exact_frames(unsigned first_seed, unsigned scenes) {
 
 void check_exact_under_pressure(const std::string& name) {
   const Simulation simulation(
-      {shared_scene(name), "--cameras", shared_path("cameras/" + name + ".json"), "--view", "all",
-       "--config", "exact", "--stalls", "0.02", "--set", "group_width_px=64", "--set",
-       "group_height_px=64", "--set", "merge.entries=128", "--set", "vsu.queue_entries=48", "--set",
-       "sram.shared_bytes=1073741824"});
+      with_settings({shared_scene(name), "--cameras", shared_path("cameras/" + name + ".json"),
+                     "--view", "all", "--config", "exact", "--stalls", "0.02"},
+                    {"group_width_px=64", "group_height_px=64", "merge.entries=128",
+                     "vsu.queue_entries=48", "sram.shared_bytes=1073741824"}));
   simulation.check();
   for (const auto& view : simulation.views()) {
     CHECK(counter(view, "merge", "keys_spilled") > 0);
