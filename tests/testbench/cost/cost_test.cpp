@@ -156,9 +156,12 @@ TEST_CASE("cost: the shipped table says what its sources say") {
   const PartCost& half = technology.part("fp16_lane");
   CHECK(half.mm2.middle == Approx(lane.mm2.middle * 3000 / 11884).epsilon(1e-5));
   CHECK(half.pj.middle == Approx(0.65 * (0.4 + 1.1)));
-  const PartCost& compare = technology.part("compare_exchange");
-  CHECK(compare.mm2.middle == Approx(2 * 0.042 / 2 / 80));
-  CHECK(compare.pj.middle == Approx(2 * 13.7 / 80 * 0.65 / 0.55).epsilon(1e-5));
+  // A compare-exchange of 16 bits compared, 32 moved.
+  const PartCost& compare = technology.part("comparator");
+  const PartCost& bit = technology.part("exchange_bit");
+  CHECK(compare.mm2.middle / 2 + 32 * bit.mm2.middle == Approx(0.042 / 2 / 80).epsilon(1e-5));
+  CHECK(compare.pj.middle / 2 + 32 * bit.pj.middle ==
+        Approx(13.7 / 80 * 0.65 / 0.55).epsilon(1e-5));
   for (const auto& [kind, part] : technology.parts) {
     INFO(kind);
     for (const Band& band : {part.mm2, part.pj}) {
