@@ -109,6 +109,14 @@ TEST_CASE("cost: the memory's interface counts where the table says so") {
   technology.memory_interface.counted = true;
   CHECK(area_of(frame(), technology).total.middle == Approx(without + 4 * 0.5));
   CHECK(of(energy_of(frame(), technology), "memory_interface").middle == Approx(4 * 17e-3 * 2e-6));
+  // With a queue of writes in each of four channels, 256 bits wide; 1,000 bytes are 32 bursts.
+  technology.memory_interface.write_queue_bytes = 8192;
+  FrameResult writing = frame();
+  writing.memory.traffic = {{"frame", "rendering", 7, 1000}};
+  CHECK(area_of(writing, technology).total.middle ==
+        Approx(without + 4 * 0.5 + 4 * 65536 * 1e3 * 1e-6));
+  CHECK(of(energy_of(writing, technology), "memory_interface").middle ==
+        Approx((4 * 17e-3 + 4 * 8 * 7e-3) * 2e-6 + 32 * (1 + 1.5) * 512e-12));
 }
 
 TEST_CASE("cost: parts that the table does not have are refused by name") {
