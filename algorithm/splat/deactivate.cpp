@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "algorithm/scene/logit.h"
+
 namespace sgs {
 namespace {
 
@@ -18,8 +20,7 @@ float log_of(float value) {
 }
 
 float logit_of(float opacity) {
-  const double o = opacity;
-  return static_cast<float>(std::clamp(std::log(o) - std::log1p(-o), -kFar, kFar));
+  return static_cast<float>(std::clamp(logit(opacity), -kFar, kFar));
 }
 
 }  // namespace

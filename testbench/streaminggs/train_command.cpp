@@ -128,8 +128,8 @@ class TrainingRun {
     if (every(arguments_.test_every) || trainer_.done()) {
       // As pictures of transparent objects are compared.
       const glm::vec3 background(test_.transparent() ? 1.0F : 0.0F);
-      const auto each = nearness(trainer_.activated(), test_, background);
-      log_.add(step, trainer_.cloud().size(), mean_nearness(each));
+      const auto each = qualities(trainer_.activated(), test_, background);
+      log_.add(step, trainer_.cloud().size(), mean_quality(each));
     }
     if (every(arguments_.checkpoint_every) && !trainer_.done()) save();
   }

@@ -48,7 +48,7 @@ void TrainingLog::tell(const Trainer::Step& step, std::size_t gaussians) {
                          (steps_ - step.number - 1) / rate));
 }
 
-void TrainingLog::add(const Trainer::Step& step, std::size_t gaussians, const Nearness& test) {
+void TrainingLog::add(const Trainer::Step& step, std::size_t gaussians, const Quality& test) {
   const int done = step.number + 1;
   const double rate = (done - first_step_) / seconds(), in_all_s = before_s_ + seconds();
   if (terminal_) fmt::print(stderr, "\r{:<79}\r", "");

@@ -18,7 +18,7 @@ class TrainingLog {
   // After each step; rewrites the line.
   void tell(const Trainer::Step& step, std::size_t gaussians);
   // With the pictures of all test views.
-  void add(const Trainer::Step& step, std::size_t gaussians, const Nearness& test);
+  void add(const Trainer::Step& step, std::size_t gaussians, const Quality& test);
   // step, seconds, loss, Gaussians, PSNR and SSIM of the test views.
   const std::string& csv() const { return csv_; }
 

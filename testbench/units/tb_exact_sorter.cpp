@@ -85,7 +85,7 @@ void run_plan(Case& test, const BenchConfig& config, const Plan& plan) {
     keys += n;
     trivial += n == 1 ? 1 : 0;
     busy += 2 * n + sort_cost(plan.config, n).cycles;  // in, sort, out
-    busy += n == 0 ? 1 : 0;                             // the mark by itself
+    busy += n == 0 ? 1 : 0;                            // the mark by itself
     exchanges += sort_cost(plan.config, n).compare_exchanges;
     moves += sort_cost(plan.config, n).moves;
   }
@@ -93,8 +93,12 @@ void run_plan(Case& test, const BenchConfig& config, const Plan& plan) {
   bench.check_counter("visits_trivial", trivial);
   bench.check_counter("keys", keys);
   bench.check_counter("compare_exchanges", exchanges);
-  bench.check_operations("sorting", "compare_exchange", exchanges);
-  bench.check_accesses("key sorters", keys + moves, keys + moves);
+  bench.check_operations("sorting", "comparator", kSortKeyComparators * exchanges);
+  bench.check_operations("sorting", "exchange_bit",
+                         exchanged_bits(bench.context(job).built_for.chunk_gaussians) * exchanges);
+  bench.check_accesses("key sorters", keys, keys);
+  bench.check_accesses(kComparedKeys, keys + moves, keys);
+  bench.check_accesses(kSortedPlaces, keys + moves, moves);
   checks.equal(bench.busy_cycles("sorting"), busy, "busy cycles");
 }
 

@@ -169,7 +169,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("visits_trivial", trivial);
   bench.check_counter("splats", outcome.received);
   bench.check_counter("list_max", longest);
-  bench.check_operations("sorting", "compare_exchange", bench.counter("compare_exchanges"));
+  const std::uint64_t exchanges = bench.counter("compare_exchanges");
+  bench.check_operations("sorting", "comparator", kSortKeyComparators * exchanges);
+  bench.check_operations("sorting", "exchange_bit",
+                         exchanged_bits(plan.config.buffer_entries) * exchanges);
   bench.check_counter("splats_saturated", outcome.received - outcome.handed_on);
   if (any_saturated) return;
   checks.equal(bench.busy_cycles("sorting"), work.busy_cycles, "busy cycles");
