@@ -222,6 +222,9 @@ Json datapaths_of(const std::vector<DatapathResult>& datapaths) {
     for (const BesideLanes& beside : d.beside) {
       line["beside"][beside.kind] = {{"operations", beside.operations}, {"parts", d.parts(beside)}};
     }
+    line["between"] = {{"register_bits", d.copies * std::uint64_t{d.between.registers}},
+                       {"select_bits", d.copies * std::uint64_t{d.between.multiplexers}}};
+    line["depth_cycles"] = d.depth_cycles;
   }
   return out;
 }
