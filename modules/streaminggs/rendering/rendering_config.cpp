@@ -147,13 +147,13 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("cluster_queue_entries", c.cluster_queue_entries, in_range(1, 1024),
     "sub-tiles waiting for each cluster");
   v("state_loop_cycles", c.state_loop_cycles, in_range(0, 1000),
-    "until the next splat may be blended into the same sub-tile; 0: the longest path");
+    "until the next splat may be blended into the same sub-tile; 0: by its schedule");
   v("depth_cycles", c.depth_cycles, in_range(0, 1000),
-    "latency of a blend, by which drain and news of a finished group come later; 0: longest path");
+    "latency of a blend, by which drain and news of a finished group come later; 0: by its schedule");
   v("span_depth_cycles", c.span_depth_cycles, in_range(0, 1000),
-    "latency of a row's span; 0: the longest path");
+    "latency of a row's span; 0: by its schedule");
   v("drain_depth_cycles", c.drain_depth_cycles, in_range(0, 1000),
-    "latency of a finished pixel's conversion; 0: the longest path");
+    "latency of a finished pixel's conversion; 0: by its schedule");
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "groups whose pixels are on chip");
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");

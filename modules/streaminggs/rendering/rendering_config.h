@@ -16,7 +16,7 @@ struct RenderingConfig {
   std::uint32_t cluster_lanes = 190;  // multiply-accumulates of one cluster: a sub-tile a cycle
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels on chip
   std::uint32_t cluster_queue_entries = 8;             // sub-tiles waiting for each cluster
-  // Of a blend, from a splat's conic to the pixel written. Depths of 0: the longest path.
+  // Of a blend, from a splat's conic to the pixel written. Depths of 0: by schedules.
   std::uint32_t depth_cycles = 0;
   // Of these from reading a pixel to having it written: a splat behind another on the same sub-tile
   // waits as long.
