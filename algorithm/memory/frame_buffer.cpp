@@ -47,6 +47,11 @@ LongestPath pixel_path(FrameFormat format, const OperationLatencies& latencies) 
   return flow.longest_path(0, flow.size(), latencies);
 }
 
+std::vector<LaneStep> pixel_steps(FrameFormat format, const OperationLatencies& latencies) {
+  const DataFlow flow = pixel_flow(format);
+  return lane_steps(flow, 0, flow.size(), latencies);
+}
+
 std::vector<std::byte> encode_frame(FrameFormat format, const Image& image) {
   std::vector<std::byte> bytes(image.pixels.size() * pixel_bytes(format));
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {

@@ -29,6 +29,12 @@ Gaussian<Counting> input(DataFlow& flow, const Gaussian<float>& g) {
   return out;
 }
 
+void keep(DataFlow& flow, std::initializer_list<Counting> values) {
+  for (const Counting& value : values) {
+    if (value.flow != nullptr) flow.keep(value.node);
+  }
+}
+
 // What blending does for 16 pixels, in the arithmetic T; state(value): of a pixel, from outside.
 template <class T, class State>
 void blend_work(const LaneInput<T>& in, const State& state) {
@@ -91,6 +97,7 @@ DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
     run(bound);
     if (bound.in_front) static_cast<void>(group_reach(bound, tested.group));
   }
+  keep(flow, {mean.x, mean.y, mean.z});
   return flow;
 }
 
@@ -114,6 +121,8 @@ FineFlow fine_flow(const FilterCase& tested, int sh_degree) {
   const bool kept = on_screen && reaches_group(splat, tested.group);
   out.test_end = flow.size();
   if (kept) add_colour(view, sh_degree, gaussian.mean, sh.data(), splat);
+  keep(flow, {splat.x, splat.y, splat.depth, splat.conic_a, splat.conic_b, splat.conic_c,
+              splat.opacity, splat.rgb.x, splat.rgb.y, splat.rgb.z});
   return out;
 }
 
@@ -124,11 +133,9 @@ struct RenderingFlow {
   std::vector<std::uint32_t> state;
 };
 
-RenderingFlow rendering_flow(BlendPrecision precision) {
-  RenderingFlow out;
-  DataFlow& flow = out.flow;
+// An ellipse that leans, some 20 px wide, and a row through its middle: every step is taken.
+SplatOf<Counting> leaning_splat(DataFlow& flow) {
   SplatOf<Counting> splat{};
-  // An ellipse that leans, some 20 px wide, and a row through its middle: every step is taken.
   splat.x = input(flow, 101.5F);
   splat.y = input(flow, 57.25F);
   splat.conic_a = input(flow, 0.03F);
@@ -136,15 +143,23 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   splat.conic_c = input(flow, 0.05F);
   splat.opacity = input(flow, 0.9F);
   splat.rgb = input(flow, glm::vec3(0.1F, 0.2F, 0.3F));
+  return splat;
+}
+constexpr int kFirstRowPx = 52;
+
+RenderingFlow rendering_flow(BlendPrecision precision) {
+  RenderingFlow out;
+  DataFlow& flow = out.flow;
+  const SplatOf<Counting> splat = leaning_splat(flow);
   const auto state = [&](float value) {
     const Counting of_pixel = input(flow, value);
     out.state.push_back(of_pixel.node);
     return of_pixel;
   };
   RowSpans<Counting> spans(splat);
-  spans.start(52);
+  spans.start(kFirstRowPx);
   out.spans_begun = flow.size();
-  static_cast<void>(spans.next(56));
+  static_cast<void>(spans.next(kFirstRowPx + kSubtilePx));
   out.spanned = flow.size();
   static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
   out.in_base_2 = flow.size();
@@ -204,6 +219,43 @@ RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencie
   paths.blend = of.flow.longest_path(of.in_base_2, of.flow.size(), blending);
   paths.state_loop = of.flow.longest_path_from(of.state, blending);
   return paths;
+}
+
+std::vector<LaneStep> coarse_steps(CoarseBoundBy bound_by, const FilterCase& tested,
+                                   std::uint32_t across, const OperationLatencies& latencies) {
+  const DataFlow flow = coarse_flow(bound_by, tested, across);
+  return lane_steps(flow, 0, flow.size(), latencies);
+}
+
+std::vector<LaneStep> fine_steps(const FilterCase& tested, int sh_degree,
+                                 const OperationLatencies& latencies) {
+  const DataFlow flow = fine_flow(tested, sh_degree).flow;
+  return lane_steps(flow, 0, flow.size(), latencies);
+}
+
+std::vector<LaneStep> span_steps(std::uint32_t rows, const OperationLatencies& single) {
+  DataFlow flow;
+  RowSpans<Counting> spans(leaning_splat(flow));
+  spans.start(kFirstRowPx);
+  for (std::uint32_t row = 1; row <= rows; ++row) {
+    static_cast<void>(spans.next(kFirstRowPx + static_cast<int>(row) * kSubtilePx));
+  }
+  return lane_steps(flow, 0, flow.size(), single);
+}
+
+std::vector<LaneStep> conic_steps(const OperationLatencies& single) {
+  const RenderingFlow of = rendering_flow(BlendPrecision::kSingle);
+  return lane_steps(of.flow, of.spanned, of.in_base_2, single);
+}
+
+std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLatencies& latencies) {
+  constexpr std::size_t kOfPixel = 4;  // transmittance, red, green, blue
+  const RenderingFlow of = rendering_flow(precision);
+  std::vector<std::vector<std::uint32_t>> pixels;
+  for (auto at = of.state.begin(); at != of.state.end(); at += kOfPixel) {
+    pixels.emplace_back(at, at + kOfPixel);
+  }
+  return lane_steps(of.flow, of.in_base_2, of.flow.size(), latencies, pixels);
 }
 
 OperationCounts FineWork::total() const { return geometry + group_test + colour; }

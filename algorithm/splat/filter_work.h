@@ -10,6 +10,7 @@
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound_by.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/lane_steps.h"
 #include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/operation_counts.h"
 #include "algorithm/splat/rects.h"
@@ -34,6 +35,9 @@ OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
                             std::uint32_t across = 1);
 LongestPath coarse_path(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across,
                         const OperationLatencies& latencies);
+// With what a candidate carries on.
+std::vector<LaneStep> coarse_steps(CoarseBoundBy bound_by, const FilterCase& tested,
+                                   std::uint32_t across, const OperationLatencies& latencies);
 
 // Of the fine test, up to where it fails or to its end. An operation that two parts need counts
 // with the first.
@@ -46,6 +50,8 @@ struct FineWork {
 FineWork fine_work(const FilterCase& tested, int sh_degree);
 LongestPath fine_path(const FilterCase& tested, int sh_degree,
                       const OperationLatencies& latencies);
+std::vector<LaneStep> fine_steps(const FilterCase& tested, int sh_degree,
+                                 const OperationLatencies& latencies);
 
 // Of rendering: a splat's spans are begun once; each row of sub-tiles adds one; each sub-tile is
 // blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once. Ahead of all
@@ -62,5 +68,11 @@ struct RenderingPaths {
 };
 RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencies& single,
                                const OperationLatencies& half);
+
+// Of a splat's spans, from their beginning to so many rows; of its beginning alone; of its conic; of
+// a sub-tile's blend, each pixel's state coming at once when it is needed.
+std::vector<LaneStep> span_steps(std::uint32_t rows, const OperationLatencies& single);
+std::vector<LaneStep> conic_steps(const OperationLatencies& single);
+std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLatencies& latencies);
 
 }  // namespace sgs

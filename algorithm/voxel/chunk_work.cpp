@@ -60,4 +60,9 @@ LongestPath chunk_path(const ChunkCase& tested, const OperationLatencies& latenc
   return flow.longest_path(0, flow.size(), latencies);
 }
 
+std::vector<LaneStep> chunk_steps(const ChunkCase& tested, const OperationLatencies& latencies) {
+  const DataFlow flow = chunk_flow(tested);
+  return lane_steps(flow, 0, flow.size(), latencies);
+}
+
 }  // namespace sgs

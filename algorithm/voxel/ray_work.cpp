@@ -21,6 +21,9 @@ struct Flow {
   LongestPath path(const OperationLatencies& latencies) const {
     return flow.longest_path(from, flow.size(), latencies);
   }
+  std::vector<LaneStep> steps(const OperationLatencies& latencies) const {
+    return lane_steps(flow, from, flow.size(), latencies);
+  }
 };
 
 Flow ray_step_flow() {
@@ -81,9 +84,15 @@ OperationCounts ray_step_work() { return ray_step_flow().counts(); }
 LongestPath ray_step_path(const OperationLatencies& latencies) {
   return ray_step_flow().path(latencies);
 }
+std::vector<LaneStep> ray_step_steps(const OperationLatencies& latencies) {
+  return ray_step_flow().steps(latencies);
+}
 OperationCounts pixel_ray_work() { return pixel_ray_flow().counts(); }
 LongestPath pixel_ray_path(const OperationLatencies& latencies) {
   return pixel_ray_flow().path(latencies);
+}
+std::vector<LaneStep> pixel_ray_steps(const OperationLatencies& latencies) {
+  return pixel_ray_flow().steps(latencies);
 }
 
 }  // namespace sgs

@@ -51,6 +51,13 @@ class Collector : public LeftOutCollector {
       operations(path.component.c_str(), beside.kind.c_str(),
                  static_cast<double>(items) * beside.operations);
     }
+    const auto between = [&](const char* kind, std::uint32_t bits, std::uint32_t of_item) {
+      if (bits == 0) return;
+      part(path.component.c_str(), kind, static_cast<double>(path.copies) * bits, 1);
+      operations(path.component.c_str(), kind, static_cast<double>(items) * of_item);
+    };
+    between("register_bit", path.between.registers, path.between.written);
+    between("select_bit", path.between.multiplexers, path.between.selected);
     const auto same =
         std::find_if(into_.datapaths.begin(), into_.datapaths.end(),
                      [&](const DatapathResult& d) { return d.datapath.name == path.name; });

@@ -27,8 +27,8 @@ void add_memory_path(Machine& machine, std::uint32_t channels, MachineResult& re
   Paths paths;
   machine.publish(paths);
   if (paths.registers > 0) {
-    result.parts.push_back({kComponent, "path_bit", paths.registers, paths.registers});
-    result.operations.push_back({kComponent, "path_bit", paths.registered});
+    result.parts.push_back({kComponent, "register_bit", paths.registers, paths.registers});
+    result.operations.push_back({kComponent, "register_bit", paths.registered});
   }
   if (paths.wide == 0) return;
   // A bit passes one of its channels' multiplexers.

@@ -185,15 +185,20 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
 
 void RenderingUnit::publish_ledger(DataSheet& sheet) {
   const ClusterSchedule::Counters& clusters = schedule_.counters();
-  sheet.datapath(conic_datapath(), counters_.splats_taken);
-  sheet.datapath(blend_datapath(config_), clusters.blends);
-  const Datapath spans = span_datapath(config_);
+  const bool in_half = config_.precision == BlendPrecision::kHalf;
+  sheet.datapath(conic_pipeline(built_for_.single), counters_.splats_taken);
+  sheet.datapath(blend_pipeline(config_, in_half ? built_for_.half : built_for_.single),
+                 clusters.blends);
+  const Datapath spans = span_pipeline(config_, built_for_.single);
+  const SpansBegin begin = spans_begin(config_, built_for_.single);
   sheet.datapath(spans, counters_.spans);
   const auto spanned = static_cast<double>(counters_.splats_spanned);
-  sheet.operations("rendering", spans.lane.c_str(), spanned * spans_begin().macs);
-  sheet.operations("rendering", "comparator", spanned * spans_begin().comparisons);
+  sheet.operations("rendering", spans.lane.c_str(), spanned * begin.macs);
+  sheet.operations("rendering", "comparator", spanned * begin.comparisons);
   sheet.accesses("splats under way", counters_.splats_taken, counters_.splats_taken);
-  sheet.operations("rendering", "small_table", spanned * spans_begin().look_ups);
+  sheet.operations("rendering", "small_table", spanned * begin.look_ups);
+  sheet.operations("rendering", "register_bit", spanned * begin.bits_written);
+  sheet.operations("rendering", "select_bit", spanned * begin.bits_selected);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
   publish_dispatcher(sheet);
   publish_pixels(sheet);
@@ -233,7 +238,7 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
     pixels += width * height;
   }
   const std::uint64_t blends = schedule_.counters().blends;
-  sheet.datapath(drain_datapath(config_, job_.frame_format), pixels);
+  sheet.datapath(drain_pipeline(config_, job_.frame_format, built_for_.single), pixels);
   // A blend reads and writes all places of a sub-tile, draining those of a row, clearing all again.
   sheet.accesses("pixel state", kSubtilePixels * blends + kSubtilePx * drained,
                  kSubtilePixels * (blends + cleared));

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "algorithm/voxel/chunk_work.h"
-#include "modules/streaminggs/counted_datapath.h"
 #include "modules/streaminggs/heap_ledger.h"
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs {
 namespace {
@@ -15,12 +14,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr HeapLedger kChunkQueue{"chunk queue", "chunk queue counts", "vsu", kWalkEntryBytes, 2};
 constexpr HeapLedger kNodeQueue{"node queue", "node queue counts", "vsu", kNodeEntryBytes, 2};
 constexpr std::uint32_t kReadyVisits = 4;  // a cycle there, a cycle back, and some of jitter
-
-Datapath chunk_test(const ExactVsuConfig& config) {
-  Datapath path = counted_datapath("chunk_test", "vsu", chunk_work(longest_chunk_case()));
-  path.lanes = config.test_lanes;
-  return path;
-}
 
 }  // namespace
 
@@ -35,7 +28,8 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
       hand_out_("hand_out", context.clock),
       upper_(std::min<std::uint64_t>(config.upper_nodes, job_.layout.chunk_table().nodes.count)),
       nodes_(config.nodes_in_flight, job_.layout.chunk_table().nodes),
-      tester_(context.clock, chunk_test(config), config.nodes_in_test, config.test_depth_cycles),
+      tester_(context.clock, chunk_test_pipeline(config, context.built_for.single),
+              config.nodes_in_test, config.test_depth_cycles),
       aside_(*this, aside),
       chunk_walk_(job_.view, aside_, config.walk_room()),
       ready_("ready", context.clock, kReadyVisits),

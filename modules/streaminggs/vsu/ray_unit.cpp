@@ -4,9 +4,8 @@
 #include <algorithm>
 
 #include "algorithm/voxel/ray_path.h"
-#include "algorithm/voxel/ray_work.h"
 #include "modules/streaminggs/built_for.h"
-#include "modules/streaminggs/counted_datapath.h"
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
@@ -28,12 +27,6 @@ std::uint64_t ready_words(const PaperVsuConfig& config) {
   return ReadyVoxels::all_words_for(OrderingTable::most_voxels(config.table_bytes));
 }
 
-Datapath datapath(const char* name, const OperationCounts& work, std::uint32_t lanes) {
-  Datapath path = counted_datapath(name, "vsu", work);
-  path.lanes = lanes;
-  return path;
-}
-
 // The first of two things that share something gets it first.
 std::uint64_t turn(std::uint64_t& free, std::uint64_t cycle, std::uint64_t cycles) {
   const std::uint64_t start = std::max(free, cycle);
@@ -43,7 +36,8 @@ std::uint64_t turn(std::uint64_t& free, std::uint64_t cycle, std::uint64_t cycle
 
 }  // namespace
 
-RayUnit::RayUnit(const PaperVsuConfig& c, const ClockDomain& clock, Activity& activity,
+RayUnit::RayUnit(const PaperVsuConfig& c, const OperationLatencies& latencies,
+                 const ClockDomain& clock, Activity& activity,
                  MemoryPort& port, const RecordArray& table, HandOver to)
     : config(c),
       nodes(c.node_cache_bytes, table),
@@ -51,8 +45,8 @@ RayUnit::RayUnit(const PaperVsuConfig& c, const ClockDomain& clock, Activity& ac
       clock_(clock),
       activity_(activity),
       port_(port),
-      begins_(datapath("pixel_ray", pixel_ray_work(), c.ray_lanes)),
-      steps_(datapath("ray_step", ray_step_work(), c.step_lanes)) {}
+      begins_(pixel_ray_pipeline(c, latencies)),
+      steps_(ray_step_pipeline(c, latencies)) {}
 
 void RayUnit::advance_to(std::uint64_t cycle) {
   if (cycle > now()) clock_.wait_cycles(cycle - now());

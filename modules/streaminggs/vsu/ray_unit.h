@@ -23,8 +23,8 @@ class RayUnit {
   using HandOver = std::function<void(const std::vector<std::uint32_t>& voxels, bool last)>;
 
   // clock, activity and port outlive it.
-  RayUnit(const PaperVsuConfig& config, const ClockDomain& clock, Activity& activity,
-          MemoryPort& port, const RecordArray& nodes, HandOver hand_over);
+  RayUnit(const PaperVsuConfig& config, const OperationLatencies& latencies,
+          const ClockDomain& clock, Activity& activity, MemoryPort& port, const RecordArray& nodes, HandOver hand_over);
 
   const PaperVsuConfig config;
   TableCache<VoxelNode> nodes;
