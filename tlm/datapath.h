@@ -29,6 +29,14 @@ struct Datapath {
   std::vector<std::pair<std::string, std::uint64_t>> counts;  // by class of operation
   std::vector<BesideLanes> beside;
 
+  // That which does this kind; a new one without operations where there is none yet.
+  BesideLanes& part_of(const std::string& kind) {
+    for (BesideLanes& part : beside) {
+      if (part.kind == kind) return part;
+    }
+    return beside.emplace_back(BesideLanes{kind, 0});
+  }
+
   std::uint64_t all_lanes() const { return std::uint64_t{lanes} * copies; }
 
   // Cycles that the lanes of one copy are busy with an item: the next can start so much later.

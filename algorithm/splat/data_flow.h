@@ -30,6 +30,7 @@ class DataFlow {
   std::uint32_t apply(Operation operation, Operand a, Operand b);
 
   std::size_t size() const { return nodes_.size(); }
+  Operation operation(std::size_t node) const { return nodes_[node].operation; }
 
   // Operations among nodes [first, last). A sum fuses with a product only if nothing in the whole
   // graph takes the product a second time.
@@ -42,6 +43,8 @@ class DataFlow {
   // The same from one of these nodes on: everything that depends on none of them is there.
   LongestPath longest_path_from(const std::vector<std::uint32_t>& sources,
                                 const OperationLatencies& latencies) const;
+  // [node] when its value is there, in cycles, if all that comes from outside is there at 0.
+  std::vector<std::uint32_t> ready_cycles(const OperationLatencies& latencies) const;
 
  private:
   struct Node {
@@ -58,7 +61,9 @@ class DataFlow {
   bool is_lone_product(Operand operand) const;
   std::optional<LongestPath> path_through(const Node& node, const Paths& paths,
                                           const OperationLatencies& latencies) const;
-  LongestPath extend(Paths paths, std::size_t last, const OperationLatencies& latencies) const;
+  Paths extended(Paths paths, std::size_t last, const OperationLatencies& latencies) const;
+  LongestPath longest_of(const Paths& paths, std::size_t last,
+                         const OperationLatencies& latencies) const;
   bool is_new_divisor(Operand divisor) const;
 
   std::vector<Node> nodes_;

@@ -1,14 +1,17 @@
 // What one test of the coarse and of the fine filter executes, and what rendering does for a splat,
 // counted by running it.
 // Values of the camera and of the group are constants: what depends on them alone is computed once
-// a frame or a group and kept. The decoding of records is not included.
+// a frame or a group and kept. Of the decoding of records only that of a quaternion is included.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "algorithm/scene/camera.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/splat/data_flow.h"
+#include "algorithm/splat/fine_record.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/operation_counts.h"
@@ -38,14 +41,22 @@ LongestPath coarse_path(CoarseBoundBy bound_by, const FilterCase& tested, std::u
 // Of the fine test, up to where it fails or to its end. An operation that two parts need counts
 // with the first.
 struct FineWork {
+  OperationCounts decode;      // the quaternion's largest component, where it is not stored
   OperationCounts geometry;    // to the screen, footprint
   OperationCounts group_test;  // visible ellipse against the group
   OperationCounts colour;      // spherical harmonics
   OperationCounts total() const;
 };
-FineWork fine_work(const FilterCase& tested, int sh_degree);
-LongestPath fine_path(const FilterCase& tested, int sh_degree,
+FineWork fine_work(const FilterCase& tested, const FineRecord& record);
+LongestPath fine_path(const FilterCase& tested, const FineRecord& record,
                       const OperationLatencies& latencies);
+
+// Its graph, with where its first parts end.
+struct FineFlow {
+  DataFlow flow;
+  std::size_t decoded = 0, geometry_end = 0, test_end = 0;
+};
+FineFlow fine_flow(const FilterCase& tested, const FineRecord& record);
 
 // Of rendering: a splat's spans are begun once; each row of sub-tiles adds one; each sub-tile is
 // blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once. Ahead of all

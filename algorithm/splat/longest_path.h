@@ -44,6 +44,8 @@ constexpr LongestPath path_of(Operation operation) {
     case Operation::kInput:
     case Operation::kNegate:
     case Operation::kAbsolute:
+    case Operation::kMoveBits:
+    case Operation::kMaskBits:
       return {};
     case Operation::kMultiply:
     case Operation::kAdd:
@@ -66,7 +68,10 @@ constexpr LongestPath path_of(Operation operation) {
     case Operation::kMaximum:
     case Operation::kIsFinite:
     case Operation::kScale:
+    case Operation::kAddIndex:
       return {0, 1, 0};
+    case Operation::kFromIndex:
+      return {0, 2, 0};
     case Operation::kCeil:
     case Operation::kFloor:
     case Operation::kTruncate:

@@ -35,10 +35,13 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   storage_ = storage;
   check(config_);
   const OperationLatencies latencies = config_.single_latencies();
-  resolve_depth("vsu.step_depth_cycles", config_.vsu.step_depth_cycles, ray_step_path(latencies),
-                latencies, 0, chosen);
+  // A step reads the ray's context and writes it.
+  resolve_depth("vsu.step_depth_cycles", config_.vsu.step_depth_cycles,
+                ray_step_path(longest_step_case(), latencies), latencies, kReadCycles + kWriteCycles, chosen);
+  resolve_depth("vsu.cell_step_depth_cycles", config_.vsu.cell_step_depth_cycles,
+                ray_step_path(cell_step_case(), latencies), latencies, kReadCycles + kWriteCycles, chosen);
   resolve_depth("vsu.ray_depth_cycles", config_.vsu.ray_depth_cycles, pixel_ray_path(latencies),
-                latencies, 0, chosen);
+                latencies, kWriteCycles, chosen);
   resolve_rendering_depths(config_, chosen);
   resolve_sram(
       config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);

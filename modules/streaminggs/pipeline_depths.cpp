@@ -6,14 +6,9 @@
 #include <cmath>
 
 #include "algorithm/splat/filter_work.h"
+#include "modules/streaminggs/hfu/fine_filter.h"
 
 namespace sgs {
-namespace {
-
-constexpr std::uint32_t kReadAndWrite = 2;  // the pixels' state
-
-}  // namespace
-
 void resolve_depth(const char* key, std::uint32_t& depth_cycles, const LongestPath& path,
                    const OperationLatencies& latencies, std::uint32_t beside,
                    std::vector<AutoChoice>& chosen) {
@@ -35,21 +30,22 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
                 chosen);
   // The conic's lanes stand ahead of the queues: what they take comes on top.
   resolve_depth("rendering.depth_cycles", rendering.depth_cycles, paths.blend, blending,
-                paths.conic.cycles(single) + kReadAndWrite, chosen);
+                paths.conic.cycles(single) + kReadCycles + kWriteCycles, chosen);
   resolve_depth("rendering.state_loop_cycles", rendering.state_loop_cycles, paths.state_loop,
-                blending, kReadAndWrite, chosen);
+                blending, kReadCycles + kWriteCycles, chosen);
   resolve_depth("rendering.drain_depth_cycles", rendering.drain_depth_cycles,
                 pixel_path(config.framebuffer, single), single, 0, chosen);
 }
 
-void resolve_filter_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
+void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, int sh_degree,
                            std::vector<AutoChoice>& chosen) {
   const OperationLatencies single = config.single_latencies();
   const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(config.parts())));
   resolve_depth("hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
-                coarse_path(bound_by, longest_case(), across, single), single, 0, chosen);
+                coarse_path(split.bound_by, longest_case(), across, single), single, kReadCycles, chosen);
   resolve_depth("hfu.ffu_depth_cycles", config.hfu.ffu_depth_cycles,
-                fine_path(longest_case(), sh_degree, single), single, 0, chosen);
+                fine_path(longest_case(), split.fine_record(sh_degree), single), single,
+                FineFilter::read_cycles(split.second_bytes), chosen);
 }
 
 }  // namespace sgs

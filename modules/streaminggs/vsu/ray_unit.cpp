@@ -52,7 +52,7 @@ RayUnit::RayUnit(const PaperVsuConfig& c, const ClockDomain& clock, Activity& ac
       activity_(activity),
       port_(port),
       begins_(datapath("pixel_ray", pixel_ray_work(), c.ray_lanes)),
-      steps_(datapath("ray_step", ray_step_work(), c.step_lanes)) {}
+      steps_(datapath("ray_step", ray_step_work(longest_step_case()), c.step_lanes)) {}
 
 void RayUnit::advance_to(std::uint64_t cycle) {
   if (cycle > now()) clock_.wait_cycles(cycle - now());
