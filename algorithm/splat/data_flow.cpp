@@ -17,6 +17,9 @@ bool is_unary(Operation operation) {
     case Operation::kMinimum:
     case Operation::kMaximum:
     case Operation::kScale:
+    case Operation::kAddIndex:
+    case Operation::kMoveBits:
+    case Operation::kMaskBits:
       return false;
     default:
       return true;
@@ -26,7 +29,7 @@ bool is_unary(Operation operation) {
 // A comparator gives less, equal and greater at once.
 bool commutes(Operation operation) {
   return operation == Operation::kMultiply || operation == Operation::kAdd ||
-         operation == Operation::kCompare;
+         operation == Operation::kCompare || operation == Operation::kAddIndex;
 }
 
 using Path = std::optional<LongestPath>;
@@ -85,6 +88,8 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
       case Operation::kInput:
       case Operation::kNegate:
       case Operation::kAbsolute:
+      case Operation::kMoveBits:
+      case Operation::kMaskBits:
         break;
       case Operation::kMultiply:
         ++c.multiplies;
@@ -129,6 +134,12 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
       case Operation::kRound:
         ++c.roundings;
         break;
+      case Operation::kFromIndex:
+        ++c.conversions;
+        break;
+      case Operation::kAddIndex:
+        ++c.index_adds;
+        break;
     }
   }
   return c;
@@ -140,24 +151,42 @@ LongestPath DataFlow::longest_path(std::size_t first, std::size_t last,
   for (std::size_t i = 0; i < last; ++i) {
     if (i < first || nodes_[i].operation == Operation::kInput) paths[i] = LongestPath{};
   }
-  return extend(std::move(paths), first, last, latencies);
+  return longest_of(extended(std::move(paths), first, last, latencies), last, latencies);
 }
 
 LongestPath DataFlow::longest_path_from(const std::vector<std::uint32_t>& sources,
                                         const OperationLatencies& latencies) const {
   Paths paths(nodes_.size());
   for (const std::uint32_t source : sources) paths[source] = LongestPath{};
-  return extend(std::move(paths), 0, nodes_.size(), latencies);
+  return longest_of(extended(std::move(paths), 0, nodes_.size(), latencies), nodes_.size(),
+                    latencies);
+}
+
+std::vector<std::uint32_t> DataFlow::ready_cycles(const OperationLatencies& latencies) const {
+  Paths paths(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].operation == Operation::kInput) paths[i] = LongestPath{};
+  }
+  std::vector<std::uint32_t> cycles;
+  for (const Path& path : extended(std::move(paths), 0, nodes_.size(), latencies)) {
+    cycles.push_back(path->cycles(latencies));
+  }
+  return cycles;
 }
 
 // Every value is numbered behind those that it is made of.
-LongestPath DataFlow::extend(Paths paths, std::size_t first, std::size_t last,
-                             const OperationLatencies& latencies) const {
-  Path longest = LongestPath{};
+DataFlow::Paths DataFlow::extended(Paths paths, std::size_t first, std::size_t last,
+                                   const OperationLatencies& latencies) const {
   for (std::size_t i = 0; i < last; ++i) {
     if (!paths[i]) paths[i] = path_through(nodes_[i], first, paths, latencies);
-    longest = later(longest, paths[i], latencies);
   }
+  return paths;
+}
+
+LongestPath DataFlow::longest_of(const Paths& paths, std::size_t last,
+                                 const OperationLatencies& latencies) const {
+  Path longest = LongestPath{};
+  for (std::size_t i = 0; i < last; ++i) longest = later(longest, paths[i], latencies);
   return *longest;
 }
 

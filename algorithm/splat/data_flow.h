@@ -37,8 +37,8 @@ class DataFlow {
   // The node that holds the result; operations of one operand have it twice.
   std::uint32_t apply(Operation operation, Operand a, Operand b);
 
-  // The value is wanted at the end of the computation, whatever takes it meanwhile. One that nothing
-  // takes is wanted then in any case.
+  // The value is wanted at the end of the computation, whatever takes it meanwhile. One that
+  // nothing takes is wanted then in any case.
   void keep(std::uint32_t node) { nodes_[node].kept = true; }
 
   std::size_t size() const { return nodes_.size(); }
@@ -50,13 +50,15 @@ class DataFlow {
   // graph takes the product a second time.
   OperationCounts counts(std::size_t first, std::size_t last) const;
 
-  // The operations that wait for each other among nodes [first, last), longest in cycles. What comes
-  // from outside or lies before `first` is there at the beginning.
+  // The operations that wait for each other among nodes [first, last), longest in cycles. What
+  // comes from outside or lies before `first` is there at the beginning.
   LongestPath longest_path(std::size_t first, std::size_t last,
                            const OperationLatencies& latencies) const;
   // The same from one of these nodes on: everything that depends on none of them is there.
   LongestPath longest_path_from(const std::vector<std::uint32_t>& sources,
                                 const OperationLatencies& latencies) const;
+  // [node] when its value is there, in cycles, if all that comes from outside is there at 0.
+  std::vector<std::uint32_t> ready_cycles(const OperationLatencies& latencies) const;
 
  private:
   using Key = std::tuple<Operation, bool, std::uint32_t, bool, std::uint32_t>;
@@ -66,8 +68,10 @@ class DataFlow {
 
   std::optional<LongestPath> path_through(const Node& node, std::size_t first, const Paths& paths,
                                           const OperationLatencies& latencies) const;
-  LongestPath extend(Paths paths, std::size_t first, std::size_t last,
-                     const OperationLatencies& latencies) const;
+  Paths extended(Paths paths, std::size_t first, std::size_t last,
+                 const OperationLatencies& latencies) const;
+  LongestPath longest_of(const Paths& paths, std::size_t last,
+                         const OperationLatencies& latencies) const;
   std::uint32_t first_division_by(Operand divisor) const;
 
   std::vector<Node> nodes_;

@@ -101,31 +101,6 @@ DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
   return flow;
 }
 
-// With where its first two parts end.
-struct FineFlow {
-  DataFlow flow;
-  std::size_t geometry_end = 0, test_end = 0;
-};
-
-FineFlow fine_flow(const FilterCase& tested, int sh_degree) {
-  FineFlow out;
-  DataFlow& flow = out.flow;
-  const auto view = make_view<Counting>(tested.camera);
-  const Gaussian<Counting> gaussian = input(flow, tested.gaussian);
-  std::array<glm::vec<3, Counting>, 16> sh;
-  for (auto& coefficient : sh) coefficient = input(flow, glm::vec3(1.0F));
-
-  SplatOf<Counting> splat{};
-  const bool on_screen = make_geometry(view, gaussian, splat);
-  out.geometry_end = flow.size();
-  const bool kept = on_screen && reaches_group(splat, tested.group);
-  out.test_end = flow.size();
-  if (kept) add_colour(view, sh_degree, gaussian.mean, sh.data(), splat);
-  keep(flow, {splat.x, splat.y, splat.depth, splat.conic_a, splat.conic_b, splat.conic_c,
-              splat.opacity, splat.rgb.x, splat.rgb.y, splat.rgb.z});
-  return out;
-}
-
 // With where its parts end, and the inputs that are pixel state.
 struct RenderingFlow {
   DataFlow flow;
@@ -174,6 +149,30 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
 
 }  // namespace
 
+FineFlow fine_flow(const FilterCase& tested, const FineRecord& record) {
+  FineFlow out;
+  DataFlow& flow = out.flow;
+  const auto view = make_view<Counting>(tested.camera);
+  Gaussian<Counting> gaussian = input(flow, tested.gaussian);
+  std::array<glm::vec<3, Counting>, 16> sh;
+  for (auto& coefficient : sh) coefficient = input(flow, glm::vec3(1.0F));
+  if (record.quaternion_words < gaussian.quat.size()) {
+    auto& [largest, x, y, z] = gaussian.quat;
+    largest = moved_by_units(largest_component<Counting>({x, y, z}), input_index(flow, 0));
+  }
+  out.decoded = flow.size();
+
+  SplatOf<Counting> splat{};
+  const bool on_screen = make_geometry(view, gaussian, splat);
+  out.geometry_end = flow.size();
+  const bool kept = on_screen && reaches_group(splat, tested.group);
+  out.test_end = flow.size();
+  if (kept) add_colour(view, record.sh_degree, gaussian.mean, sh.data(), splat);
+  keep(flow, {splat.x, splat.y, splat.depth, splat.conic_a, splat.conic_b, splat.conic_c,
+              splat.opacity, splat.rgb.x, splat.rgb.y, splat.rgb.z});
+  return out;
+}
+
 OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
                             std::uint32_t across) {
   const DataFlow flow = coarse_flow(bound_by, tested, across);
@@ -186,16 +185,16 @@ LongestPath coarse_path(CoarseBoundBy bound_by, const FilterCase& tested, std::u
   return flow.longest_path(0, flow.size(), latencies);
 }
 
-FineWork fine_work(const FilterCase& tested, int sh_degree) {
-  const FineFlow fine = fine_flow(tested, sh_degree);
-  return {fine.flow.counts(0, fine.geometry_end),
+FineWork fine_work(const FilterCase& tested, const FineRecord& record) {
+  const FineFlow fine = fine_flow(tested, record);
+  return {fine.flow.counts(0, fine.decoded), fine.flow.counts(fine.decoded, fine.geometry_end),
           fine.flow.counts(fine.geometry_end, fine.test_end),
           fine.flow.counts(fine.test_end, fine.flow.size())};
 }
 
-LongestPath fine_path(const FilterCase& tested, int sh_degree,
+LongestPath fine_path(const FilterCase& tested, const FineRecord& record,
                       const OperationLatencies& latencies) {
-  const FineFlow fine = fine_flow(tested, sh_degree);
+  const FineFlow fine = fine_flow(tested, record);
   return fine.flow.longest_path(0, fine.flow.size(), latencies);
 }
 
@@ -227,9 +226,9 @@ std::vector<LaneStep> coarse_steps(CoarseBoundBy bound_by, const FilterCase& tes
   return lane_steps(flow, 0, flow.size(), latencies);
 }
 
-std::vector<LaneStep> fine_steps(const FilterCase& tested, int sh_degree,
+std::vector<LaneStep> fine_steps(const FilterCase& tested, const FineRecord& record,
                                  const OperationLatencies& latencies) {
-  const DataFlow flow = fine_flow(tested, sh_degree).flow;
+  const DataFlow flow = fine_flow(tested, record).flow;
   return lane_steps(flow, 0, flow.size(), latencies);
 }
 
@@ -258,6 +257,6 @@ std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLaten
   return lane_steps(of.flow, of.in_base_2, of.flow.size(), latencies, pixels);
 }
 
-OperationCounts FineWork::total() const { return geometry + group_test + colour; }
+OperationCounts FineWork::total() const { return decode + geometry + group_test + colour; }
 
 }  // namespace sgs

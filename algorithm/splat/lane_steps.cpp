@@ -182,6 +182,8 @@ class Expansion {
         return from_outside(number);
       case Operation::kNegate:
       case Operation::kAbsolute:
+      case Operation::kMoveBits:
+      case Operation::kMaskBits:
         return value_of(node.a);
       case Operation::kMultiply: {
         const Operand a = value_of(node.a), b = value_of(node.b);
@@ -210,7 +212,8 @@ class Expansion {
         return answer(compared(value_of(node.a)));
       case Operation::kMinimum:
       case Operation::kMaximum:
-      case Operation::kScale: {
+      case Operation::kScale:
+      case Operation::kAddIndex: {
         const Operand a = value_of(node.a), b = value_of(node.b);
         return compared(a, b);
       }
@@ -219,6 +222,8 @@ class Expansion {
       case Operation::kTruncate:
       case Operation::kRound:
         return compared_in_a_row(value_of(node.a), 3);
+      case Operation::kFromIndex:
+        return compared_in_a_row(value_of(node.a), 2);
     }
     return {};
   }

@@ -7,11 +7,10 @@
 
 #include "algorithm/splat/filter_work.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
+#include "modules/streaminggs/hfu/fine_filter.h"
 
 namespace sgs {
 namespace {
-
-constexpr std::uint32_t kReadAndWrite = 2;  // the pixels' state
 
 void take(const char* key, std::uint32_t& depth_cycles, std::uint32_t scheduled,
           const std::string& of, const LongestPath& path, const OperationLatencies& latencies,
@@ -47,24 +46,27 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   // The conic's lanes stand ahead of the queues: what they take comes on top.
   const Datapath blend = blend_pipeline(part, blending);
   resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend, paths.blend, blending,
-                conic_pipeline(single).depth_cycles + kReadAndWrite, chosen);
+                conic_pipeline(single).depth_cycles + kReadCycles + kWriteCycles, chosen);
   take("rendering.state_loop_cycles", rendering.state_loop_cycles, blend.loop_cycles,
-       "subtile_blend, from a pixel's state on", paths.state_loop, blending, kReadAndWrite, chosen);
+       "subtile_blend, from a pixel's state on", paths.state_loop, blending,
+       kReadCycles + kWriteCycles, chosen);
   resolve_depth("rendering.drain_depth_cycles", rendering.drain_depth_cycles,
                 drain_pipeline(part, config.framebuffer, single),
                 pixel_path(config.framebuffer, single), single, 0, chosen);
 }
 
-void resolve_filter_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
+void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, int sh_degree,
                            std::vector<AutoChoice>& chosen) {
   const OperationLatencies single = config.single_latencies();
   const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(config.parts())));
   resolve_depth("hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
-                coarse_pipeline(config.hfu, bound_by, config.parts(), single),
-                coarse_path(bound_by, longest_case(), across, single), single, 0, chosen);
+                coarse_pipeline(config.hfu, split.bound_by, config.parts(), single),
+                coarse_path(split.bound_by, longest_case(), across, single), single, kReadCycles,
+                chosen);
   resolve_depth("hfu.ffu_depth_cycles", config.hfu.ffu_depth_cycles,
-                fine_pipeline(config.hfu, sh_degree, single),
-                fine_path(longest_case(), sh_degree, single), single, 0, chosen);
+                fine_pipeline(config.hfu, split.fine_record(sh_degree), single),
+                fine_path(longest_case(), split.fine_record(sh_degree), single), single,
+                FineFilter::read_cycles(split.second_bytes), chosen);
 }
 
 }  // namespace sgs

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/memory/record_split.h"
 #include "algorithm/splat/longest_path.h"
 #include "modules/auto_choice.h"
 #include "modules/streaminggs/streaming_config.h"
@@ -13,8 +13,11 @@
 
 namespace sgs {
 
-// A depth that is 0 becomes that of the pipeline and `beside` more, and is said in `chosen`, with the
-// longest path that bounds it; one that is given stays. beside: cycles of what is not in the
+// Beside a schedule: the word that it begins with is read, what it gives is written back.
+constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
+
+// A depth that is 0 becomes that of the pipeline and `beside` more, and is said in `chosen`, with
+// the longest path that bounds it; one that is given stays. beside: cycles of what is not in the
 // schedule, as reading and writing.
 void resolve_depth(const char* key, std::uint32_t& depth_cycles, const Datapath& pipeline,
                    const LongestPath& path, const OperationLatencies& latencies,
@@ -22,8 +25,9 @@ void resolve_depth(const char* key, std::uint32_t& depth_cycles, const Datapath&
 
 // Of rendering: what its memories are large enough for depends on them.
 void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& chosen);
-// Of the filters, on a scene of this SH degree.
-void resolve_filter_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
+// Of the filters, on records of this split and SH degree; each reads its record first, a word a
+// cycle.
+void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, int sh_degree,
                            std::vector<AutoChoice>& chosen);
 
 }  // namespace sgs

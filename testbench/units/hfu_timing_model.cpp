@@ -127,7 +127,8 @@ class Pipeline {
     if (gaussian != nullptr) {
       taker = std::max(taker, data);
       if (decode_latency_ && !finished(taker)) read_lines(share_->lines[*gaussian]);
-      slot_free_.push_back(taker);
+      const std::uint64_t bytes = share_->second_halves.record_bytes;
+      slot_free_.push_back(taker + (bytes + kPortBytes - 1) / kPortBytes);
     }
     if (decode_latency_) hand_on();
     if (gaussian != nullptr) {

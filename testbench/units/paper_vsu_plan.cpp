@@ -64,11 +64,12 @@ PaperVsuPlan plan_of(TestScene scene) {
   plan.config.table_bytes = 1U << 20U;
   plan.config.visit_gaussians = 0;
   plan.config.step_depth_cycles = 36;
+  plan.config.cell_step_depth_cycles = 8;
   plan.config.ray_depth_cycles = 81;
   return plan;
 }
 
-std::uint64_t macs_of_a_step() { return folded_macs(ray_step_work()); }
+std::uint64_t macs_of_a_step() { return folded_macs(ray_step_work(longest_step_case())); }
 std::uint64_t macs_of_a_beginning() { return folded_macs(pixel_ray_work()); }
 
 ExpectedVisits expect(const PaperVsuPlan& plan, std::uint64_t latency) {

@@ -190,7 +190,7 @@ class RayTimingModel {
           now + (of_a_cell ? config_.cell_step_depth_cycles : config_.step_depth_cycles) + 1;
       ++place.next;
       steps_.pop_front();
-      step_free_ = now + interval(ray_step_work(), config_.step_lanes);
+      step_free_ = now + interval(ray_step_work(longest_step_case()), config_.step_lanes);
     }
     if (look_ups_.empty()) return;
     const auto [k, has_come] = look_ups_.front();

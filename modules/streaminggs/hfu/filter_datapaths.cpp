@@ -30,8 +30,8 @@ Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::u
   return path;
 }
 
-Datapath fine_datapath(const HfuConfig& config, int sh_degree) {
-  Datapath path = counted_datapath("fine", "fine", fine_work(longest_case(), sh_degree).total());
+Datapath fine_datapath(const HfuConfig& config, const FineRecord& record) {
+  Datapath path = counted_datapath("fine", "fine", fine_work(longest_case(), record).total());
   path.lanes = config.ffu_lanes;
   path.used_macs = config.ffu_macs;
   path.published_macs = kPaperFfuMacs;
@@ -45,10 +45,10 @@ Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::u
   return path;
 }
 
-Datapath fine_pipeline(const HfuConfig& config, int sh_degree,
+Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies) {
-  Datapath path = fine_datapath(config, sh_degree);
-  schedule(path, fine_steps(longest_case(), sh_degree, latencies), latencies);
+  Datapath path = fine_datapath(config, record);
+  schedule(path, fine_steps(longest_case(), record, latencies), latencies);
   return path;
 }
 

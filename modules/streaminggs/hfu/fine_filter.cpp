@@ -11,6 +11,8 @@
 namespace sgs {
 namespace {
 
+constexpr SramShape kSecondHalfWord{8 * kPortBytes};
+
 // Of those whose second halves are on their way or waiting, and a mark.
 std::uint32_t fetched_entries(const HfuConfig& config) { return config.second_half_slots + 1; }
 
@@ -26,13 +28,16 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
       place_(place),
       job_(context.job),
       fetch_("fetch", context.clock),
-      tests_(side_by_side(fine_pipeline(config, context.job.layout.sh_degree(),
-                                        context.built_for.single),
-                          static_cast<std::uint32_t>(context.job.parts.size()))),
+      tests_(side_by_side(
+          fine_pipeline(config,
+                        context.job.layout.split.fine_record(context.job.layout.sh_degree()),
+                        context.built_for.single),
+          static_cast<std::uint32_t>(context.job.parts.size()))),
       record_bytes_(job_.layout.second_halves.record_bytes),
       second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
       wanted_(config.second_half_slots),
-      free_slots_("free_slots", context.clock, config.second_half_slots, 0) {
+      free_slots_("free_slots", context.clock, config.second_half_slots,
+                  read_cycles(record_bytes_)) {
   SC_THREAD(run_fetch);
   for (std::uint32_t p = 0; p < job_.parts.size(); ++p) make_part(p, context.clock, codebook);
 }
@@ -117,7 +122,7 @@ FineFilter::Decoded FineFilter::take_fetched(Part& part, Activity& activity) {
   return out;
 }
 
-// By one of the parts that want what is in it.
+// By one of the parts that want what is in it, when its last word has been read.
 void FineFilter::free_slot(std::uint32_t slot, Activity& activity) {
   if (--wanted_[slot] == 0) free_slots_.push(slot, activity);
 }
@@ -184,11 +189,16 @@ FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t 
   return *splats[static_cast<int>(part.index * of_part + visit % of_part)];
 }
 
+std::uint32_t FineFilter::read_cycles(std::uint32_t record_bytes) {
+  return static_cast<std::uint32_t>(sram_words(record_bytes, kSecondHalfWord));
+}
+
 SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                                std::uint32_t parts) {
-  SramUses uses = {sram_use(
-      "second halves", kSharedSram,
-      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}}, {8 * kPortBytes}),
+  SramUses uses = {
+      sram_use("second halves", kSharedSram,
+               {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
+               kSecondHalfWord),
       outstanding_table(kSharedSram, built_for.memory_port)};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
@@ -229,7 +239,7 @@ void FineFilter::publish(DataSheet& sheet) {
   sheet.counter("dropped_fetched", "Gaussians", "of these with their second half already fetched",
                 counters_.dropped_fetched);
   sheet.datapath(tests_, counters_.tests);
-  const std::uint64_t words = sram_words(record_bytes_, {8 * kPortBytes});
+  const std::uint64_t words = read_cycles(record_bytes_);
   sheet.accesses("second halves", counters_.taken * words, counters_.second_halves * words);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated - counters_.dropped_fetched,

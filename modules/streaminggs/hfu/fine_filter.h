@@ -60,6 +60,8 @@ class FineFilter : public sc_core::sc_module {
     std::uint64_t dropped_fetched = 0;    // of these, with their second half
   };
   const Counters& counters() const { return counters_; }
+  // Of a second half out of its slot: a word a cycle.
+  static std::uint32_t read_cycles(std::uint32_t record_bytes);
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                             std::uint32_t parts);
   void publish(DataSheet& sheet);

@@ -11,8 +11,8 @@ void visit(ConfigVisitor& v, PaperVsuConfig& c) {
   v("ray_lanes", c.ray_lanes, in_range(1, 10000), "MAC lanes of the rays' beginnings");
   v("step_depth_cycles", c.step_depth_cycles, in_range(0, 1000),
     "until a ray can step again; 0: by its schedule");
-  v("cell_step_depth_cycles", c.cell_step_depth_cycles, in_range(1, 1000),
-    "the same of a step out of a single cell");
+  v("cell_step_depth_cycles", c.cell_step_depth_cycles, in_range(0, 1000),
+    "the same of a step out of a single cell; 0: by its schedule");
   v("ray_depth_cycles", c.ray_depth_cycles, in_range(0, 1000),
     "until a ray that begins is there; 0: by its schedule");
   v("table_banks", c.table_banks, in_range(1, 64),

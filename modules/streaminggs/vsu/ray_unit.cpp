@@ -37,8 +37,8 @@ std::uint64_t turn(std::uint64_t& free, std::uint64_t cycle, std::uint64_t cycle
 }  // namespace
 
 RayUnit::RayUnit(const PaperVsuConfig& c, const OperationLatencies& latencies,
-                 const ClockDomain& clock, Activity& activity,
-                 MemoryPort& port, const RecordArray& table, HandOver to)
+                 const ClockDomain& clock, Activity& activity, MemoryPort& port,
+                 const RecordArray& table, HandOver to)
     : config(c),
       nodes(c.node_cache_bytes, table),
       hand_over(std::move(to)),
@@ -46,7 +46,7 @@ RayUnit::RayUnit(const PaperVsuConfig& c, const OperationLatencies& latencies,
       activity_(activity),
       port_(port),
       begins_(pixel_ray_pipeline(c, latencies)),
-      steps_(ray_step_pipeline(c, latencies)) {}
+      steps_(ray_step_pipeline(c, longest_step_case(), latencies)) {}
 
 void RayUnit::advance_to(std::uint64_t cycle) {
   if (cycle > now()) clock_.wait_cycles(cycle - now());

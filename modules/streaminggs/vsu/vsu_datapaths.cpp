@@ -30,9 +30,10 @@ Datapath pixel_ray_pipeline(const PaperVsuConfig& config, const OperationLatenci
                   latencies);
 }
 
-Datapath ray_step_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies) {
-  return pipeline("ray_step", ray_step_work(), config.step_lanes, ray_step_steps(latencies),
-                  latencies);
+Datapath ray_step_pipeline(const PaperVsuConfig& config, const StepCase& step,
+                           const OperationLatencies& latencies) {
+  return pipeline("ray_step", ray_step_work(step), config.step_lanes,
+                  ray_step_steps(step, latencies), latencies);
 }
 
 }  // namespace sgs

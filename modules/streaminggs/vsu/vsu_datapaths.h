@@ -12,6 +12,7 @@ namespace sgs {
 Datapath chunk_test_pipeline(const ExactVsuConfig& config, const OperationLatencies& latencies);
 // An item a ray; a step of one.
 Datapath pixel_ray_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies);
-Datapath ray_step_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies);
+Datapath ray_step_pipeline(const PaperVsuConfig& config, const StepCase& step,
+                           const OperationLatencies& latencies);
 
 }  // namespace sgs
