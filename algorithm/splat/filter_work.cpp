@@ -205,8 +205,6 @@ RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencie
   return paths;
 }
 
-OperationCounts FineWork::total() const {
-  return decode + geometry + group_test + colour;
-}
+OperationCounts FineWork::total() const { return decode + geometry + group_test + colour; }
 
 }  // namespace sgs

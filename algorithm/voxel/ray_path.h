@@ -66,9 +66,7 @@ class RayPath {
   using Index = IndexOf<T>;
 
   VoxelNode& node_at(int level) { return nodes_[level % kNodesOfRay]; }
-  glm::ivec3 cell() const {
-    return {value_of(cell_[0]), value_of(cell_[1]), value_of(cell_[2])};
-  }
+  glm::ivec3 cell() const { return {value_of(cell_[0]), value_of(cell_[1]), value_of(cell_[2])}; }
 
   // Place of the cell among the children of the node.
   glm::uvec3 place() const {
@@ -130,7 +128,8 @@ class RayPath {
     using std::floor;
     const T position = (ray_.origin[axis] + time * ray_.direction[axis]) / voxel_size_;
     const T relative = floor(position) - T(static_cast<float>(frame_.origin_cell[axis]));
-    const T first = number_of<T>(step > 0 ? from : last), end = number_of<T>(step > 0 ? last : from);
+    const T first = number_of<T>(step > 0 ? from : last),
+            end = number_of<T>(step > 0 ? last : from);
     Index cell = static_cast<Index>(clamp_of(relative, first, end));
     const int far_side = step > 0 ? 1 : 0;  // plane by which a cell is left
     const auto left_before = [&](Index c, int steps_ago) {
@@ -203,8 +202,8 @@ class RayPath {
   VoxelFrame frame_;
   T voxel_size_;
   RayOf<T> ray_{};
-  glm::ivec3 eye_{0};    // its cell, relative to the root's corner
-  Index cell_[3] = {};   // likewise
+  glm::ivec3 eye_{0};   // its cell, relative to the root's corner
+  Index cell_[3] = {};  // likewise
   Now now_ = Now::kOutside;
   int level_ = 1;    // of the node to look into: it spans 4^level cells
   int highest_ = 1;  // level of the nodes that are kept

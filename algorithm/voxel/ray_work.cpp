@@ -79,9 +79,7 @@ Flow pixel_ray_flow() {
 }  // namespace
 
 StepCase longest_step_case() { return {{2.1F, 4.3F, 3.9F}, {0.69F, 0.43F, 0.94F}, 0}; }
-StepCase cell_step_case() {
-  return {{0.3F, 0.4F, 0.2F}, {0.61F, 0.53F, 0.59F}, ~std::uint64_t{0}};
-}
+StepCase cell_step_case() { return {{0.3F, 0.4F, 0.2F}, {0.61F, 0.53F, 0.59F}, ~std::uint64_t{0}}; }
 
 OperationCounts ray_step_work(const StepCase& step) { return step_flow(step).counts(); }
 LongestPath ray_step_path(const StepCase& step, const OperationLatencies& latencies) {

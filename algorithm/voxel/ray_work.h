@@ -18,8 +18,8 @@ struct StepCase {
 };
 
 // One that crosses an empty block of many cells: three planes to leave it by, and the cells of the
-// two axes that it is not left along, each with the planes before and behind it. A unit that takes a
-// step at fixed intervals has to be built for this.
+// two axes that it is not left along, each with the planes before and behind it. A unit that takes
+// a step at fixed intervals has to be built for this.
 StepCase longest_step_case();
 // One out of a single cell, along one axis.
 StepCase cell_step_case();

@@ -37,9 +37,11 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   const OperationLatencies latencies = config_.single_latencies();
   // A step reads the ray's context and writes it.
   resolve_depth("vsu.step_depth_cycles", config_.vsu.step_depth_cycles,
-                ray_step_path(longest_step_case(), latencies), latencies, kReadCycles + kWriteCycles, chosen);
+                ray_step_path(longest_step_case(), latencies), latencies,
+                kReadCycles + kWriteCycles, chosen);
   resolve_depth("vsu.cell_step_depth_cycles", config_.vsu.cell_step_depth_cycles,
-                ray_step_path(cell_step_case(), latencies), latencies, kReadCycles + kWriteCycles, chosen);
+                ray_step_path(cell_step_case(), latencies), latencies, kReadCycles + kWriteCycles,
+                chosen);
   resolve_depth("vsu.ray_depth_cycles", config_.vsu.ray_depth_cycles, pixel_ray_path(latencies),
                 latencies, kWriteCycles, chosen);
   resolve_rendering_depths(config_, chosen);

@@ -130,8 +130,8 @@ TEST_CASE("costs: the rays' remedy is more of what they share and wait for, else
     const char *ray_lanes, *step_lanes, *table_banks, *key;
   };
   for (const auto& [ray_lanes, step_lanes, table_banks, key] :
-       {Row{"60", "24", "16", "vsu.rays_in_flight"}, Row{"60", "24", "1", "vsu.table_banks"},
-        Row{"60", "2", "16", "vsu.step_lanes"}, Row{"1", "24", "16", "vsu.ray_lanes"}}) {
+       {Row{"63", "24", "16", "vsu.rays_in_flight"}, Row{"60", "24", "1", "vsu.table_banks"},
+        Row{"63", "2", "16", "vsu.step_lanes"}, Row{"1", "24", "16", "vsu.ray_lanes"}}) {
     CAPTURE(key);
     const Simulation simulation({"builtin:object?n=3000", "--size", "96x54", "--config", "paper",
                                  "--set", "storage.encoding=raw", "--set",

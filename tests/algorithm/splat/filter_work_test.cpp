@@ -1,8 +1,8 @@
 // Counted filters against the filters in float, and the longest case against random ones.
 #include "algorithm/splat/filter_work.h"
 
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstring>
 #include <random>
 
@@ -162,7 +162,8 @@ TEST_CASE("filter work: the test against the group waits for the box") {
   }
 }
 
-TEST_CASE("filter work: a quaternion of three words takes the fourth's sum and root, ahead of all") {
+TEST_CASE(
+    "filter work: a quaternion of three words takes the fourth's sum and root, ahead of all") {
   for (int degree = 0; degree <= 3; ++degree) {
     const FineWork whole = fine_work(longest_case(), {degree, 4});
     const FineWork decoded = fine_work(longest_case(), {degree, 3});

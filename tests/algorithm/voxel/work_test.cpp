@@ -73,7 +73,8 @@ TEST_CASE("chunk work: the longest case takes all sides, and what the formulas s
   CHECK(folded_macs(chunk_work(behind)) < folded_macs(work) / 2);
 }
 
-TEST_CASE("ray work: a step takes three plane times, and two positions with the planes about them") {
+TEST_CASE(
+    "ray work: a step takes three plane times, and two positions with the planes about them") {
   const OperationCounts step = ray_step_work(longest_step_case());
   // A plane's time is two products, a position one and a quotient.
   CHECK(step.multiplies == (3 + 2 * 2) * 2 + 2);
