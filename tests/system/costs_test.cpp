@@ -32,12 +32,14 @@ Json use_of(const Json& view, const std::string& name) {
 void check_joules(const Json& view) {
   const Technology technology = load_technology(SGS_TECHNOLOGY);
   const auto pj = [&](const char* kind) { return technology.part(kind).pj.middle * 1e-12; };
-  // Of a test: multiply-accumulates as charged, comparisons and roundings as counted.
+  // Of a test: multiply-accumulates as charged, what comparators do as counted.
   const auto test = [&](const char* filter) {
     const Json& counts = view["datapath"][filter]["counts"];
     return view["datapath"][filter]["used"]["macs"].get<double>() * pj("fp32_lane") +
            (counts["comparisons"].get<double>() +
-            kRoundingComparisons * counts["roundings"].get<double>()) *
+            kRoundingComparisons * counts["roundings"].get<double>() +
+            kConversionComparisons * counts["conversions"].get<double>() +
+            counts["index_adds"].get<double>()) *
                pj("comparator") +
            (counts["divisors"].get<double>() + counts["square_roots"].get<double>() +
             counts["logarithms"].get<double>() + counts["look_ups"].get<double>()) *
