@@ -83,9 +83,7 @@ FootprintOf<T> footprint(const Projected<T>& p, T opacity, int width_px, int hei
     if (box.empty()) return {};
   }
   const auto down = [](Index px) { return static_cast<Short>(px / kSubtilePx); };
-  const auto up = [](Index px) {
-    return static_cast<Short>((px + (kSubtilePx - 1)) / kSubtilePx);
-  };
+  const auto up = [](Index px) { return static_cast<Short>((px + (kSubtilePx - 1)) / kSubtilePx); };
   return {down(box.x0), down(box.y0), up(box.x1), up(box.y1)};
 }
 
