@@ -85,7 +85,7 @@ void expect_node(const Plan& plan, const PixelRect& group, const WalkEntry& entr
   const bool upper = entry.at < c.upper_nodes;
   // Taken from its queue; where it was not on chip, on to the test when it has come; its children.
   out.cycles += a_operation + (upper ? 0 : 1) + std::max(touching * a_operation, std::uint64_t{1});
-  out.testing_cycles += (tests * macs_of_a_test() + c.test_lanes - 1) / c.test_lanes;
+  out.testing_cycles += tests * ((macs_of_a_test() + c.test_lanes - 1) / c.test_lanes);
   out.queue_operations += 1 + touching;
   out.tests += tests;
   out.upper += upper ? 1 : 0;

@@ -33,15 +33,21 @@ Json use_of(const Json& view, const std::string& name) {
 void check_joules(const Json& view) {
   const Technology technology = load_technology(SGS_TECHNOLOGY);
   const auto pj = [&](const char* kind) { return technology.part(kind).pj.middle * 1e-12; };
-  // Of a test: multiply-accumulates as charged, what comparators do as counted.
+  // Of a test: multiply-accumulates as charged, what comparators do as counted, bits written
+  // and selected between the lanes as scheduled.
   const auto test = [&](const char* filter) {
     const Json& counts = view["datapath"][filter]["counts"];
+    const auto between = [&](const char* kind) {
+      return view["datapath"][filter]["beside"][kind]["operations"].get<double>() * pj(kind);
+    };
     return view["datapath"][filter]["used"]["macs"].get<double>() * pj("fp32_lane") +
            (counts["comparisons"].get<double>() +
             kRoundingComparisons * counts["roundings"].get<double>() +
             kConversionComparisons * counts["conversions"].get<double>() +
-            counts["index_adds"].get<double>()) *
+            counts["index_adds"].get<double>() +
+            kLogarithmComparisons * counts["logarithms"].get<double>()) *
                pj("comparator") +
+           between("register_bit") + between("select_bit") +
            (counts["divisors"].get<double>() + counts["square_roots"].get<double>() +
             counts["logarithms"].get<double>() + counts["look_ups"].get<double>()) *
                pj("small_table");

@@ -276,5 +276,35 @@ TEST_CASE("ledger: no part and no port does more than a frame has time for") {
   }
 }
 
+TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are folded") {
+  for (const char* preset : {"exact", "paper_no_vq"}) {
+    for (const bool folded : {false, true}) {
+      INFO(preset << (folded ? ", folded" : ""));
+      Settings settings;
+      if (folded) settings = {"rendering.cluster_lanes=64", "hfu.cfu_lanes=2"};
+      const MachineResult machine = simulated(preset, settings, "builtin:object?n=64").result.machine;
+      std::map<std::string, double> stand;
+      for (const DatapathResult& d : machine.datapaths) {
+        INFO(d.datapath.name);
+        const BetweenLanes& between = d.datapath.between;
+        CHECK(between.registers > 0);
+        CHECK(between.written > 0);
+        const bool of_blend = d.datapath.name == "subtile_blend";
+        if (of_blend) CHECK((between.multiplexers > 0) == folded);
+        if (d.datapath.name == "coarse") CHECK(between.multiplexers > between.registers);
+        stand[d.datapath.component + " register_bit"] += d.datapath.copies * between.registers;
+        stand[d.datapath.component + " select_bit"] += d.datapath.copies * between.multiplexers;
+      }
+      for (const Parts& part : machine.parts) {
+        const auto at = stand.find(part.component + " " + part.kind);
+        if (at == stand.end()) continue;
+        CHECK(part.count == at->second);
+        stand.erase(at);
+      }
+      for (const auto& [what, count] : stand) CHECK(count == 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sgs::test
