@@ -15,11 +15,10 @@ constexpr std::size_t kFirstSlots = 64;
 
 SramUse unanswered_writes(const char* name, const char* memory, const MemoryPortConfig& config,
                           std::uint32_t longest_bytes) {
-  return sram_use(
-      name, memory,
-      {{std::min(config.max_writes, config.max_outstanding), "unanswered"},
-       {std::min(config.max_transaction_bytes, longest_bytes), "B"}},
-      {8 * std::min({kPortBytes, config.max_transaction_bytes, longest_bytes})});
+  return sram_use(name, memory,
+                  {{std::min(config.max_writes, config.max_outstanding), "unanswered"},
+                   {std::min(config.max_transaction_bytes, longest_bytes), "B"}},
+                  {8 * std::min({kPortBytes, config.max_transaction_bytes, longest_bytes})});
 }
 
 SramUse outstanding_table(const char* memory, const MemoryPortConfig& config) {
@@ -49,6 +48,9 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConf
   SC_METHOD(launch);
   dont_initialize();
   sensitive << at_target_;
+  SC_METHOD(take_answers);
+  dont_initialize();
+  sensitive << at_port_;
 }
 
 MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint32_t bytes,
@@ -183,19 +185,34 @@ void MemoryPort::request_taken(const tlm::tlm_generic_payload& payload) {
 // with its last word.
 void MemoryPort::arrive(tlm::tlm_generic_payload& payload) {
   request_taken(payload);  // an answer implies END_REQ
-  const sc_core::sc_time now = sc_core::sc_time_stamp();
-  if (payload.is_read()) {
-    const auto cycles = static_cast<double>(words(payload.get_data_length()));
-    last_arrived_ = std::max(now, last_arrived_ + cycles * cycle_);
-  }
-  const sc_core::sc_time until =
-      (payload.is_read() ? last_arrived_ : now) + static_cast<double>(config_.path_cycles) * cycle_;
-  if (until == now) {
+  const sc_core::sc_time way = static_cast<double>(config_.path_cycles) * cycle_;
+  if (way == sc_core::SC_ZERO_TIME) {
     finish(payload);
     return;
   }
-  tlm::tlm_phase phase = tlm::END_RESP;
-  arriving_.notify(payload, phase, until - now);
+  const Ticket ticket = static_cast<PooledPayload&>(payload).memory().tag;
+  answers_.emplace(std::tuple(sc_core::sc_time_stamp() + way, ticket, payload.get_address()),
+                   &payload);
+  at_port_.notify(way);
+}
+
+void MemoryPort::take_answers() {
+  const sc_core::sc_time now = sc_core::sc_time_stamp();
+  while (!answers_.empty() && std::get<0>(answers_.begin()->first) <= now) {
+    tlm::tlm_generic_payload& payload = *answers_.begin()->second;
+    answers_.erase(answers_.begin());
+    if (payload.is_read()) {
+      const auto cycles = static_cast<double>(words(payload.get_data_length()));
+      last_arrived_ = std::max(now, last_arrived_ + cycles * cycle_);
+    }
+    if (payload.is_write() || last_arrived_ == now) {
+      finish(payload);
+      continue;
+    }
+    tlm::tlm_phase phase = tlm::END_RESP;
+    arriving_.notify(payload, phase, last_arrived_ - now);
+  }
+  if (!answers_.empty()) at_port_.notify(std::get<0>(answers_.begin()->first) - now);
 }
 
 void MemoryPort::finish(tlm::tlm_generic_payload& payload) {

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <systemc>
 #include <tlm>
+#include <tuple>
 #include <vector>
 
 #include "tlm/payload_pool.h"
@@ -28,7 +30,8 @@ struct MemoryPortConfig {
   // with posted writes do when they have taken it: one is answered, one is on its way.
   std::uint32_t max_writes = 2;
   // Registers between a port and the channels' controllers, in each direction: wires of some
-  // millimetres and multiplexers of all ports and channels take a cycle.
+  // millimetres and multiplexers of all ports and channels take a cycle. With 0 answers come at
+  // once, whatever their width.
   std::uint32_t path_cycles = 1;
   // Of the path in each direction: a transaction takes it for as many cycles as it has words.
   // No key: the memories behind a port are as wide.
@@ -109,6 +112,7 @@ class MemoryPort : public sc_core::sc_module {
   void launch();  // method: the first request that has come to the end of the path
   void request_taken(const tlm::tlm_generic_payload& payload);
   void arrive(tlm::tlm_generic_payload& payload);
+  void take_answers();  // method: those that have come to the end of the path
   void finish(tlm::tlm_generic_payload& payload);
   void on_arrival(tlm::tlm_generic_payload& payload, const tlm::tlm_phase&) { finish(payload); }
   void check_response(const tlm::tlm_generic_payload& payload) const;
@@ -130,7 +134,11 @@ class MemoryPort : public sc_core::sc_module {
   sc_core::sc_time next_leaves_;  // not earlier
   PayloadPool pool_;
   std::deque<Leaving> leaving_;
-  sc_core::sc_event at_target_;                            // for launch()
+  sc_core::sc_event at_target_;  // for launch()
+  // On the way back, by when it ends and by ticket and address: answers of one instant come in no
+  // order of their own.
+  std::map<std::tuple<sc_core::sc_time, Ticket, std::uint64_t>, tlm::tlm_generic_payload*> answers_;
+  sc_core::sc_event at_port_;                              // for take_answers()
   sc_core::sc_time last_arrived_;                          // the last word of the answer before
   tlm_utils::peq_with_cb_and_phase<MemoryPort> delayed_;   // answers with an annotated delay
   tlm_utils::peq_with_cb_and_phase<MemoryPort> arriving_;  // answers on the path
