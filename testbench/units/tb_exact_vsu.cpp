@@ -310,7 +310,7 @@ void random_case(Case& test) {
   plan.config.nodes_in_flight = 1 + static_cast<std::uint32_t>(random() % 12);
   plan.config.nodes_in_test = 1 + static_cast<std::uint32_t>(random() % 12);
   plan.config.test_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 250);
-  plan.config.cycles_per_queue_operation = 1 + static_cast<std::uint32_t>(random() % 4);
+  plan.config.cycles_per_queue_operation = 2 + static_cast<std::uint32_t>(random() % 3);
   plan.saturate_one_in = random() % 3 == 0 ? 10 : 0;
   plan.feedback_cycles = 1 + static_cast<std::uint32_t>(random() % 40);
   run_plan(test, random_bench(random, memory_bytes(plan.job)), plan);

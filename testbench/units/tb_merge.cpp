@@ -15,7 +15,7 @@ void random_case(Case& test) {
   plan.input_entries = 1 + static_cast<std::uint32_t>(random() % 16);
   plan.output_entries = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.config.entries = 2 + static_cast<std::uint32_t>(random() % (random() % 2 == 0 ? 20 : 400));
-  plan.config.cycles_per_operation = 1 + static_cast<std::uint32_t>(random() % 4);
+  plan.config.cycles_per_operation = 2 + static_cast<std::uint32_t>(random() % 3);
   plan.config.spill_runs = 2 + static_cast<std::uint32_t>(random() % 6);
   plan.config.spill_block_entries = 1 + static_cast<std::uint32_t>(random() % 10);
   if (random() % 5 == 0) plan.config.on_overflow = OnOverflow::kBlendEarly;
@@ -238,7 +238,7 @@ int sc_main(int argc, char* argv[]) {
     test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kBytesOfKey}, "bytes read");
   });
   for (const std::uint32_t n : {0U, 1U, 2U, 16U, 100U}) {
-    for (const std::uint32_t cycles : {1U, 2U, 3U}) {
+    for (const std::uint32_t cycles : {2U, 3U, 4U}) {
       runner.add_directed(fmt::format("time of {} keys, an operation every {} cycles", n, cycles),
                           [=](Case& test) { exact_time(test, n, cycles); });
     }

@@ -246,7 +246,7 @@ void MergeUnit::drop_all() {
 }
 
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
-  SramUses uses = kHeap.sram_uses(heap_entries(config, built_for));
+  SramUses uses = kHeap.sram_uses(heap_entries(config, built_for), config.cycles_per_operation);
   uses.push_back(mask_use(built_for.group));
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
@@ -266,7 +266,8 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
 }
 
 void MergeUnit::publish_ledger(DataSheet& sheet) {
-  kHeap.publish(sheet, heap_entries(config_, built_for_), heap_work());
+  kHeap.publish(sheet, heap_entries(config_, built_for_), config_.cycles_per_operation,
+                heap_work());
   const double of_mask = mask_comparators(built_for_.group);
   sheet.part("merge", "comparator", of_mask, 1);
   sheet.operations("merge", "comparator", of_mask * static_cast<double>(counters_.due));
@@ -304,7 +305,11 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.counter("inserts", "operations", "of the heap", heap.inserts);
   sheet.counter("delete_mins", "operations", "of the heap: released", heap.delete_mins);
   sheet.counter("delete_maxs", "operations", "of the heap: spilled", heap.delete_maxs);
-  sheet.counter("heap_words_read", "words", "of two nodes, below the root", heap.words_read);
+  sheet.counter("heap_nodes_read", "nodes", "of two keys and two counts, below the root",
+                heap.nodes_read);
+  sheet.counter("heap_nodes_read_ahead", "nodes",
+                "beside these where the heap reads ahead: below keys that did not rise",
+                heap.nodes_read_ahead);
   sheet.counter("heap_nodes_written", "nodes", "below the root", heap.nodes_written);
   sheet.counter("heap_comparisons", "comparisons", "of two keys", heap.comparisons);
   sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);

@@ -272,8 +272,9 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
       sram_use("nodes in test", kSharedSram,
                {{config.nodes_in_test, "nodes"}, {sizeof(ChunkNode) + kNodeEntryBytes, "B"}},
                kOfPort)};
-  add(uses, kChunkQueue.sram_uses(config.queue_entries));
-  add(uses, kNodeQueue.sram_uses(config.node_queue_entries));
+  add(uses, kChunkQueue.sram_uses(config.queue_entries, config.cycles_per_queue_operation));
+  add(uses,
+      kNodeQueue.sram_uses(config.node_queue_entries, config.cycles_per_queue_operation));
   uses.push_back(mask_use(built_for.group));
   uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
@@ -336,8 +337,10 @@ void ExactVsu::publish(DataSheet& sheet) {
   // A node goes in and its children come out as entries of the queues, in the same slot.
   const std::uint64_t in_test = 2 * kWords * tester_.nodes();
   sheet.accesses("nodes in test", in_test, in_test);
-  kChunkQueue.publish(sheet, config_.queue_entries, chunk_walk_.chunk_queue().work());
-  kNodeQueue.publish(sheet, config_.node_queue_entries, chunk_walk_.node_queue().work());
+  kChunkQueue.publish(sheet, config_.queue_entries, config_.cycles_per_queue_operation,
+                      chunk_walk_.chunk_queue().work());
+  kNodeQueue.publish(sheet, config_.node_queue_entries, config_.cycles_per_queue_operation,
+                     chunk_walk_.node_queue().work());
   sheet.port(memory, "entries put aside");
   sheet.queue(ready_, "final visits");
   sheet.remedy(walk_, {"vsu.cycles_per_queue_operation", Turn::kDown});
