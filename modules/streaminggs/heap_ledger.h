@@ -21,11 +21,14 @@ struct HeapLedger {
   std::uint32_t key_words;  // that are compared
 
   SramUses sram_uses(std::uint32_t entries, std::uint32_t cycles_per_operation) const {
-    return {sram_use(keys, kSharedSram, {{entries, "keys"}, {key_bytes, "B"}},
-                     {8 * 2 * key_bytes, SramPorts::kReadAndWrite,
-                      heap_banks(entries, cycles_per_operation)}),
-            sram_use(counts, kSharedSram, {{(heap_count_bits(entries) + 7) / 8, "B"}},
-                     count_shape(entries, cycles_per_operation))};
+    const std::uint32_t banks = heap_banks(entries, cycles_per_operation);
+    const SramShape of_counts = count_shape(entries, cycles_per_operation);
+    // Each bank at most once: that is what paces the operations.
+    return {
+        sram_use(keys, kSharedSram, {{entries, "keys"}, {key_bytes, "B"}},
+                 {8 * 2 * key_bytes, SramPorts::kReadAndWrite, banks}, {banks, banks}),
+        sram_use(counts, kSharedSram, {{(heap_count_bits(entries) + 7) / 8, "B"}}, of_counts,
+                 {of_counts.banks, of_counts.banks})};
   }
 
   void publish(DataSheet& sheet, std::uint32_t entries, std::uint32_t cycles_per_operation,

@@ -42,15 +42,15 @@ void exact_time(Case& test, std::uint32_t n, std::uint32_t cycles_per_operation)
   MergeRun run(test, still_bench(plan), plan);
   add_sorters(run, plan);
   run.bench.add_thread("reader", [&](Activity& activity) {
-    // FIFO in, n in, the first out (the mark, where there is none), FIFO out.
-    // A visit's mark takes a cycle of its own where no key comes with it.
-    std::uint64_t due = 1 + n * cycles_per_operation + (n > 0 ? cycles_per_operation : 2) + 1;
+    // FIFO in, n in and the mark beside the heap, the first out, FIFO out. Where there is none, the
+    // visit's mark, that of the group, and the same out.
+    std::uint64_t due = 1 + n * cycles_per_operation + (n > 0 ? 1 : 3) + 1;
     run.bench.wait_until_just_before(due);
     run.bench.checks().that(!run.outputs[0]->can_pop(), "released a cycle too soon");
     for (std::uint32_t i = 0; i <= n; ++i) {
       run.outputs[0]->pop(activity);
       run.bench.checks().equal(run.bench.clock().now_cycles(), due, "time of a key");
-      due += i + 1 < n ? cycles_per_operation : 1;
+      due += i + 1 < n ? cycles_per_operation : 2;
     }
   });
   run.bench.run();

@@ -106,7 +106,9 @@ FineFilter::Decoded FineFilter::take_fetched(Part& part, Activity& activity) {
   const RecordSplit& split = job_.layout.split;
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
   ++counters_.taken;
-  if (part.stage && !finished[static_cast<int>(part.index)]->finished(candidate.group)) {
+  if (part.stage && finished[static_cast<int>(part.index)]->finished(candidate.group)) {
+    activity.work(1);
+  } else if (part.stage) {
     codebooks->read_entries(place_.reader + part.index,
                             read_indices(split, format, candidate.carried, record), activity);
   }
@@ -123,7 +125,11 @@ void FineFilter::free_slot(std::uint32_t slot, Activity& activity) {
 
 void FineFilter::run_decode(Part& part) {
   DecodeStage& stage = *part.stage;
-  while (true) stage.decoded.push(take_fetched(part, stage.decode), stage.decode);
+  while (true) {
+    const Decoded next = take_fetched(part, stage.decode);
+    if (next.candidate.mark != Mark::kNone) stage.decode.work(1);
+    stage.decoded.push(next, stage.decode);
+  }
 }
 
 void FineFilter::run_filter(Part& part) {
@@ -187,7 +193,8 @@ SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_fo
                                std::uint32_t parts) {
   SramUses uses = {sram_use(
       "second halves", kSharedSram,
-      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}}, {8 * kPortBytes}),
+      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
+      {8 * kPortBytes, SramPorts::kReadAndWrite, parts}, {parts, 1}),
       outstanding_table(kSharedSram, built_for.memory_port)};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),

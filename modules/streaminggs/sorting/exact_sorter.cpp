@@ -45,16 +45,17 @@ void ExactSorter::run() {
       sort_.work(1);
       sorted->push(next, sort_);
     }
-    // The mark comes with the last key, a bit of it; where there is none it takes a cycle of its own.
-    if (list.empty()) sort_.work(1);
+    sort_.work(1);
     sorted->push(key, sort_);
   }
 }
 
 SramUses ExactSorter::sram_uses(const BuiltFor& built_for) {
+  // What goes through the network at once lies in as many banks.
+  const std::uint32_t banks = std::clamp(built_for.chunk_gaussians, 1U, kNetworkWidth);
   return {sram_use("key sorters", kSharedSram,
                    {{built_for.chunk_gaussians, "keys"}, {kKeyBytes, "B"}},
-                   {8 * kKeyBytes, SramPorts::kReadAndWrite, kNetworkWidth})};
+                   {8 * kKeyBytes, SramPorts::kReadAndWrite, banks}, {banks, banks})};
 }
 
 void ExactSorter::publish(DataSheet& sheet) {
