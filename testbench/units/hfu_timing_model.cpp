@@ -160,6 +160,7 @@ class Pipeline {
   void read_lines(Cycle lines) {
     decode_ += lines;
     times_.decode_busy += lines;
+    times_.lines += lines;
     ++times_.decoded;
   }
 

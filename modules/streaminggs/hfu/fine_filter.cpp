@@ -191,10 +191,14 @@ FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t 
 
 SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                                std::uint32_t parts) {
+  // A part's reads do not wait for another's: as many banks, while there are words for them.
+  const std::uint32_t word = std::clamp(built_for.second_half_bytes, 1U, kPortBytes);
+  const std::uint32_t words = config.second_half_slots * (built_for.second_half_bytes / word);
+  const std::uint32_t banks = std::clamp(words, 1U, parts);
   SramUses uses = {sram_use(
       "second halves", kSharedSram,
       {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
-      {8 * kPortBytes, SramPorts::kReadAndWrite, parts}, {parts, 1}),
+      {8 * word, SramPorts::kReadAndWrite, banks}, {banks, 1}),
       outstanding_table(kSharedSram, built_for.memory_port)};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),

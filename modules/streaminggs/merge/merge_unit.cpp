@@ -338,7 +338,9 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.sram(sram_uses(config_, built_for_));
-  sheet.remedy(merge_, {"merge.cycles_per_operation", Turn::kDown});
+  if (config_.cycles_per_operation > kFewestHeapCycles) {
+    sheet.remedy(merge_, {"merge.cycles_per_operation", Turn::kDown});
+  }
   sheet.remedy(memory, WaitFor::kReads, "merge.entries");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);

@@ -160,8 +160,12 @@ void RenderingUnit::write_group(const GroupState& state) {
 SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor& built_for) {
   const auto width = static_cast<std::uint32_t>(built_for.group.width);
   const auto height = static_cast<std::uint32_t>(built_for.group.height);
-  // A group that drains and one that is blended have memories of their own.
-  const std::uint32_t pixel_banks = kSubtilePixels * config.clusters * config.pixel_buffers;
+  // A group that drains and one that is blended have memories of their own. A cluster without a
+  // sub-tile of any group has none.
+  const auto subtiles = static_cast<std::uint32_t>(
+      cycles_for(width, kSubtilePx) * cycles_for(height, kSubtilePx));
+  const std::uint32_t with_pixels = std::clamp(subtiles, 1U, config.clusters);
+  const std::uint32_t pixel_banks = kSubtilePixels * with_pixels * config.pixel_buffers;
   const SramPeak of_clusters{config.clusters, config.clusters};
   return {sram_use("pixel state", kSharedSram,
                    {{config.pixel_buffers, "groups"},

@@ -364,7 +364,9 @@ void ExactVsu::publish(DataSheet& sheet) {
                      chunk_walk_.node_queue().work());
   sheet.port(memory, "entries put aside");
   sheet.queue(ready_, "final visits");
-  sheet.remedy(walk_, {"vsu.cycles_per_queue_operation", Turn::kDown});
+  if (config_.cycles_per_queue_operation > kFewestHeapCycles) {
+    sheet.remedy(walk_, {"vsu.cycles_per_queue_operation", Turn::kDown});
+  }
   sheet.remedy(tester_.activity(), "vsu.test_lanes");
   sheet.remedy(chunk_room_, WaitFor::kRoom, "vsu.queue_entries");
   sheet.remedy(node_room_, WaitFor::kRoom, "vsu.node_queue_entries");
