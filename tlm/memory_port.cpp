@@ -18,14 +18,15 @@ SramUse unanswered_writes(const char* name, const char* memory, const MemoryPort
   return sram_use(name, memory,
                   {{std::min(config.max_writes, config.max_outstanding), "unanswered"},
                    {std::min(config.max_transaction_bytes, longest_bytes), "B"}},
-                  {8 * std::min({kPortBytes, config.max_transaction_bytes, longest_bytes})});
+                  {8 * std::min({kPortBytes, config.max_transaction_bytes, longest_bytes})},
+                  kOneOfEach);
 }
 
 SramUse outstanding_table(const char* memory, const MemoryPortConfig& config) {
   constexpr std::uint32_t kEntryBytes = 8;
   return sram_use(kOutstandingTable, memory,
                   {{config.max_outstanding, "transactions"}, {kEntryBytes, "B"}},
-                  {8 * kEntryBytes});
+                  {8 * kEntryBytes}, kOneOfEach);
 }
 
 MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config,

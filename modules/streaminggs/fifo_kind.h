@@ -18,7 +18,8 @@ struct FifoKind {
   std::uint32_t entry_bytes = EntryBytes<T>::value;  // what hardware keeps of an entry on this arrow
 
   SramUse each() const {
-    return sram_use(name, kSharedSram, {{entries, what}, {entry_bytes, "B"}}, {8 * entry_bytes});
+    return sram_use(name, kSharedSram, {{entries, what}, {entry_bytes, "B"}}, {8 * entry_bytes},
+                    kOneOfEach);
   }
   SramUse all() const {
     SramUse use = each();

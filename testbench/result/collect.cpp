@@ -80,18 +80,17 @@ class Collector : public LeftOutCollector {
   }
   void sram(const SramUse& use) override { sgs::add(into_.sram_uses, use); }
   void accesses(const char* use, std::uint64_t reads, std::uint64_t writes) override {
-    auto same = std::find_if(into_.sram_accesses.begin(), into_.sram_accesses.end(),
-                             [&](const SramAccesses& a) { return a.use == use; });
-    if (same == into_.sram_accesses.end()) {
-      same = into_.sram_accesses.insert(same, {use, 0, 0});
-    }
-    same->reads += reads;
-    same->writes += writes;
+    SramAccesses& same = accesses_of(use);
+    same.reads += reads;
+    same.writes += writes;
     if (reads + writes > 0) into_.units.back().charged = true;
   }
   void queue(FifoChannel& queue, const char* use) override {
     if (queue.entry_bytes() == 0) return;
     accesses(use, queue.popped(), queue.pushed());
+    SramPeak& seen = accesses_of(use).seen;
+    seen.reads = std::max(seen.reads, queue.most_popped());
+    seen.writes = std::max(seen.writes, queue.most_pushed());
     // Whoever puts entries in or takes them out is charged with that, wherever the queue is said.
     for (const Activity* end : {queue.writer(), queue.reader()}) {
       if (end != nullptr) movers_.insert(path_below(*end->get_parent_object(), machine_));
@@ -113,6 +112,15 @@ class Collector : public LeftOutCollector {
   }
 
  private:
+  SramAccesses& accesses_of(const std::string& use) {
+    auto same = std::find_if(into_.sram_accesses.begin(), into_.sram_accesses.end(),
+                             [&](const SramAccesses& a) { return a.use == use; });
+    if (same == into_.sram_accesses.end()) {
+      same = into_.sram_accesses.insert(same, {use, 0, 0, {0, 0}});
+    }
+    return *same;
+  }
+
   void apply_remedies() {
     const auto in = [](const auto& remedies, const auto& at) {
       const auto found = remedies.find(at);

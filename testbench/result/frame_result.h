@@ -65,6 +65,7 @@ struct DatapathResult {
 struct SramAccesses {
   std::string use;
   std::uint64_t reads = 0, writes = 0;
+  SramPeak seen{0, 0};  // most of one cycle, where it was looked at
 };
 
 struct LeftOut {

@@ -46,12 +46,16 @@ void serialize(Archive& a, SramShape& r) {
   a(r.width_bits, r.ports, r.banks);
 }
 template <class Archive>
+void serialize(Archive& a, SramPeak& r) {
+  a(r.reads, r.writes);
+}
+template <class Archive>
 void serialize(Archive& a, SramUse& r) {
-  a(r.name, r.memory, r.bytes, r.arithmetic, r.count, r.shape);
+  a(r.name, r.memory, r.bytes, r.arithmetic, r.count, r.shape, r.peak);
 }
 template <class Archive>
 void serialize(Archive& a, SramAccesses& r) {
-  a(r.use, r.reads, r.writes);
+  a(r.use, r.reads, r.writes, r.seen);
 }
 template <class Archive>
 void serialize(Archive& a, BesideLanes& r) {

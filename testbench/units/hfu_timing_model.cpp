@@ -75,15 +75,23 @@ class Pipeline {
 
   void filter(std::size_t at, std::size_t count, Cycle data) {
     coarse_ = std::max(coarse_, data);
-    Cycle owed = 0;
+    // A first half is read a cycle; each CFU begins when it is free.
+    std::vector<Cycle> free(config_.coarse_filter ? config_.cfus : 1, 0);
+    const Cycle of_test = config_.coarse_filter ? config_.cfu_interval_cycles() : 1;
+    Cycle owed = 0, next_read = 0, done = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (i % config_.cfus == 0) {
         if (finished(coarse_)) {
           times_.dropped += count - i;
           break;
         }
-        if (config_.coarse_filter) owed += config_.cfu_interval_cycles();
       }
+      Cycle& cfu = free[i % free.size()];
+      const Cycle begins = std::max(next_read, cfu);
+      next_read = begins + 1;
+      cfu = begins + of_test;
+      owed += cfu - done;
+      done = cfu;
       times_.coarse_tests += config_.coarse_filter ? 1 : 0;
       if (!share_->passes[at + i]) continue;
       spend(owed);
@@ -126,11 +134,22 @@ class Pipeline {
     fetched_taken_.push_back(taker);
     if (gaussian != nullptr) {
       taker = std::max(taker, data);
-      if (decode_latency_ && !finished(taker)) read_lines(share_->lines[*gaussian]);
+      if (decode_latency_ && !finished(taker)) {
+        read_lines(share_->lines[*gaussian]);
+      } else if (decode_latency_) {
+        ++decode_;
+        ++times_.decode_busy;
+      }
       const std::uint64_t bytes = share_->second_halves.record_bytes;
       slot_free_.push_back(taker + (bytes + kPortBytes - 1) / kPortBytes);
     }
-    if (decode_latency_) hand_on();
+    if (decode_latency_) {
+      if (gaussian == nullptr) {
+        ++decode_;
+        ++times_.decode_busy;
+      }
+      hand_on();
+    }
     if (gaussian != nullptr) {
       test(*gaussian);
     } else {
@@ -142,6 +161,7 @@ class Pipeline {
   void read_lines(Cycle lines) {
     decode_ += lines;
     times_.decode_busy += lines;
+    times_.lines += lines;
     ++times_.decoded;
   }
 

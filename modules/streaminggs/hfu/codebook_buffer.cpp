@@ -107,7 +107,7 @@ SramUses CodebookBuffer::sram_uses(const CodebookConfig& config, const SecondHal
     uses.push_back(sram_use(
         kCodebookNames[id], kCodebookSram,
         {{format.entries[id], "entries"}, {format.entry_bytes(static_cast<Codebook>(id)), "B"}},
-        {8 * config.line_bytes, SramPorts::kOne, config.banks}));
+        {8 * config.line_bytes, SramPorts::kOne, config.banks}, {config.banks, 0}));
   }
   return uses;
 }

@@ -11,7 +11,10 @@
 namespace sgs {
 namespace {
 
-constexpr SramShape kSecondHalfWord{8 * kPortBytes};
+// Of second halves: as wide as the port, or as a record that is narrower.
+SramShape word_of(std::uint32_t record_bytes) {
+  return {8 * std::clamp(record_bytes, 1U, kPortBytes)};
+}
 
 // Of those whose second halves are on their way or waiting, and a mark.
 std::uint32_t fetched_entries(const HfuConfig& config) { return config.second_half_slots + 1; }
@@ -112,7 +115,9 @@ FineFilter::Decoded FineFilter::take_fetched(Part& part, Activity& activity) {
   const RecordSplit& split = job_.layout.split;
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
   ++counters_.taken;
-  if (part.stage && !finished[static_cast<int>(part.index)]->finished(candidate.group)) {
+  if (part.stage && finished[static_cast<int>(part.index)]->finished(candidate.group)) {
+    activity.work(1);
+  } else if (part.stage) {
     codebooks->read_entries(place_.reader + part.index,
                             read_indices(split, format, candidate.carried, record), activity);
   }
@@ -129,7 +134,11 @@ void FineFilter::free_slot(std::uint32_t slot, Activity& activity) {
 
 void FineFilter::run_decode(Part& part) {
   DecodeStage& stage = *part.stage;
-  while (true) stage.decoded.push(take_fetched(part, stage.decode), stage.decode);
+  while (true) {
+    const Decoded next = take_fetched(part, stage.decode);
+    if (next.candidate.mark != Mark::kNone) stage.decode.work(1);
+    stage.decoded.push(next, stage.decode);
+  }
 }
 
 void FineFilter::run_filter(Part& part) {
@@ -190,15 +199,20 @@ FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t 
 }
 
 std::uint32_t FineFilter::read_cycles(std::uint32_t record_bytes) {
-  return static_cast<std::uint32_t>(sram_words(record_bytes, kSecondHalfWord));
+  return static_cast<std::uint32_t>(sram_words(record_bytes, word_of(record_bytes)));
 }
 
 SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                                std::uint32_t parts) {
-  SramUses uses = {
-      sram_use("second halves", kSharedSram,
-               {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
-               kSecondHalfWord),
+  // A part's reads do not wait for another's: as many banks, while there are words for them.
+  const SramShape word = word_of(built_for.second_half_bytes);
+  const auto words = static_cast<std::uint32_t>(
+      config.second_half_slots * sram_words(built_for.second_half_bytes, word));
+  const std::uint32_t banks = std::clamp(words, 1U, parts);
+  SramUses uses = {sram_use(
+      "second halves", kSharedSram,
+      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
+      {word.width_bits, word.ports, banks}, {banks, 1}),
       outstanding_table(kSharedSram, built_for.memory_port)};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),

@@ -127,6 +127,10 @@ std::uint32_t RenderingConfig::span_cycles(std::uint32_t spans) const {
   return static_cast<std::uint32_t>(SpanTurns(*this, counted(precision)).cycles(spans));
 }
 
+std::uint32_t RenderingConfig::spans_at_once() const {
+  return static_cast<std::uint32_t>(cycles_for(span_lanes, counted(precision).span_macs));
+}
+
 std::uint32_t RenderingConfig::subtiles_in_loop() const {
   return static_cast<std::uint32_t>(cycles_for(state_loop_cycles, cluster_interval_cycles()));
 }

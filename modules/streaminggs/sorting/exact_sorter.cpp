@@ -48,9 +48,7 @@ void ExactSorter::run() {
       sort_.work(1);
       sorted->push(next, sort_);
     }
-    // The mark comes with the last key, a bit of it; where there is none it takes a cycle of its
-    // own.
-    if (list.empty()) sort_.work(1);
+    sort_.work(1);
     sorted->push(key, sort_);
   }
 }

@@ -56,6 +56,7 @@ void PaperSorter::run() {
     buffer_.clear();
     runs_.clear();
     spill_used_ = 0;
+    sort_.work(1);
     sorted->push(end, sort_);
   }
 }
@@ -78,6 +79,7 @@ SplatToken PaperSorter::collect(FifoSelector<SplatToken>& inputs) {
                                           .c_str());
     }
     if (token.mark != Mark::kNone) {
+      sort_.work(1);
       ended[static_cast<std::size_t>(from)] = true;
       end = token;
       --open;
@@ -205,7 +207,7 @@ SubtileRect PaperSorter::group_subtiles() const {
 SramUses PaperSorter::sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for) {
   const SramUse block = sram_use("spill blocks", kSharedSram,
                                  {{config.spill_block_entries, "splats"}, {kSplatEntryBytes, "B"}},
-                                 {8 * kSplatEntryBytes});
+                                 {8 * kSplatEntryBytes}, kOneOfEach);
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
   SramUses uses = sort_memories(kSortBuffers, kSharedSram, config.buffer_entries, kSplatEntryBytes);
   uses.insert(uses.end(),

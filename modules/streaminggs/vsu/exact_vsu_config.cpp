@@ -19,7 +19,7 @@ void visit(ConfigVisitor& v, ExactVsuConfig& c) {
     "chunks in the queue of the front-to-back walk");
   v("node_queue_entries", c.node_queue_entries, in_range(kChunkNodeWidth + 1, 1 << 24),
     "nodes in the queue of the front-to-back walk");
-  v("cycles_per_queue_operation", c.cycles_per_queue_operation, in_range(1, 64),
+  v("cycles_per_queue_operation", c.cycles_per_queue_operation, in_range(kFewestHeapCycles, 64),
     "until the next may enter a queue's heap");
 }
 

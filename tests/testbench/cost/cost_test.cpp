@@ -50,7 +50,7 @@ FrameResult frame() {
   frame.machine.parts = {{"filter", "lane", 8, 8}, {"heap", "comparator", 100, 100}};
   frame.machine.operations = {
       {"filter", "lane", 3}, {"heap", "comparator", 10}, {"idle", "lane", 0}};
-  add(frame.machine.sram_uses, sram_use("first halves", "input", {{1024, "B"}}, {64}), 2);
+  add(frame.machine.sram_uses, sram_use("first halves", "input", {{1024, "B"}}, {64}, kOneOfEach), 2);
   frame.machine.sram_accesses = {{"first halves", 20, 6}};
   frame.memory.energy_j = 1e-6;
   frame.memory.channels = 4;
@@ -252,7 +252,7 @@ TEST_CASE("cost: on-chip memory is fitted to its published points, and as near a
 
 TEST_CASE("cost: banks make accesses cheaper and area larger, a second port only area") {
   const SramModel model = load_technology(SGS_TECHNOLOGY).sram;
-  const SramUse one = sram_use("pixels", "shared", {{65536, "B"}}, {256});
+  const SramUse one = sram_use("pixels", "shared", {{65536, "B"}}, {256}, kOneOfEach);
   SramUse banked = one, single = one;
   banked.shape.banks = 16;
   single.shape.ports = SramPorts::kOne;
@@ -263,12 +263,12 @@ TEST_CASE("cost: banks make accesses cheaper and area larger, a second port only
   CHECK(model.leakage_mw(banked).middle == model.leakage_mw(one).middle);
   CHECK(model.write_pj(one).middle == Approx(1.1 * model.read_pj(one).middle));
   // A wide bank is macros of 256 bits side by side.
-  const SramUse quarter = sram_use("pixels", "shared", {{16384, "B"}}, {256});
-  const SramUse wide = sram_use("pixels", "shared", {{4 * 16384, "B"}}, {1024});
+  const SramUse quarter = sram_use("pixels", "shared", {{16384, "B"}}, {256}, kOneOfEach);
+  const SramUse wide = sram_use("pixels", "shared", {{4 * 16384, "B"}}, {1024}, kOneOfEach);
   CHECK(model.read_pj(wide).high == Approx(4 * model.read_pj(quarter).high));
   CHECK(model.mm2(wide).high == Approx(4 * model.mm2(quarter).high));
   // 16 KiB with two ports comes out as StreamingGS's 0.0055 mm2 a KB.
-  const SramUse buffer = sram_use("buffer", "shared", {{16384, "B"}}, {128});
+  const SramUse buffer = sram_use("buffer", "shared", {{16384, "B"}}, {128}, kOneOfEach);
   CHECK(model.mm2(buffer).middle / 16 == Approx(0.0055).epsilon(0.01));
 }
 

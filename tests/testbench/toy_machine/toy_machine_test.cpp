@@ -84,7 +84,7 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   const Json& energy = view["energy"];
   CHECK(energy["adder_j"] == Approx(3 * kGaussians * pj("fp32_lane")));
   CHECK(energy["writer_j"] == Approx(kPixels * pj("comparator")));
-  const SramUse blocks = sram_use("blocks", "scratch", {{3, ""}, {8, ""}, {16, ""}}, {128});
+  const SramUse blocks = sram_use("blocks", "scratch", {{3, ""}, {8, ""}, {16, ""}}, {128}, kOneOfEach);
   CHECK(energy["blocks_j"] ==
         Approx(kGaussians * 1e-12 *
                (technology.sram.read_pj(blocks).middle + technology.sram.write_pj(blocks).middle)));
