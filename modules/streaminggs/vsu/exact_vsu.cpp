@@ -151,7 +151,6 @@ bool ExactVsu::give_chunk() {
     end_group(true);
     return true;
   }
-  ++counters_.compared;
   if (const std::optional<WalkEntry> next = chunk_walk_.take_chunk()) {
     any_chunk_ = true;
     if (hidden(*next)) {
@@ -336,14 +335,16 @@ void ExactVsu::publish(DataSheet& sheet) {
                  "no visit, no blending");
   sheet.sram(sram_uses(config_, built_for_));
   const double of_mask = mask_comparators(built_for_.group);
+  // Whenever one of the queues has changed the nearest chunk is compared with all open nodes.
   const double of_open = kOpenNodeWords * open_nodes(config_);
+  const std::uint64_t compared = chunk_walk_.queue_operations();
   sheet.part("vsu", "comparator", of_mask + of_open, 1);
   sheet.operations("vsu", "comparator",
                    of_mask * static_cast<double>(counters_.looked_up) +
-                       of_open * static_cast<double>(counters_.compared));
+                       of_open * static_cast<double>(compared));
   sheet.accesses("finished sub-tiles", mask_bits(built_for_.group) * counters_.looked_up,
                  mask->news());
-  sheet.accesses("keys of open nodes", open_nodes(config_) * counters_.compared,
+  sheet.accesses("keys of open nodes", open_nodes(config_) * compared,
                  counters_.upper_reads + counters_.nodes_read + walk.put_aside);
   // A node comes in and goes out whole, eight children and their common numbers.
   constexpr std::uint64_t kWords = sizeof(ChunkNode) / kPortBytes;

@@ -44,7 +44,6 @@ class ExactVsu : public sc_core::sc_module {
     std::uint64_t upper_reads = 0;       // nodes opened that were on chip
     std::uint64_t nodes_read = 0;        // from DRAM, opened or not
     std::uint64_t nodes_dropped = 0;     // of all: their group had ended before they were open
-    std::uint64_t compared = 0;          // chunks, with what could come before them
     std::uint64_t looked_up = 0;         // chunks and nodes, in the mask of finished sub-tiles
     std::uint64_t nodes_hidden = 0;      // not read: all sub-tiles that they reach were finished
     std::uint64_t chunks_hidden = 0;     // not handed out, likewise

@@ -131,7 +131,7 @@ TEST_CASE("ordering table: a chain of reads takes a cycle each, banks of one add
   };
   for (const std::uint32_t banks : {1U, 2U}) {
     CAPTURE(banks);
-    OrderingTable table(1000, OrderingTable::kUnlimited, banks);
+    OrderingTable table(30, OrderingTable::kUnlimited, banks);
     OrderingTable::Chain chain, again, fork;
     CHECK(cycles_of(table, chain, 5) == 1);  // its slot is free
     // Numbers 0 and 1, edge 0: its record and in-degree and the edge, and the list's head: four
