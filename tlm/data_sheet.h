@@ -41,8 +41,8 @@ class DataSheet {
     (void)resource;
     (void)meaning;
   }
-  // What lets the activity work for fewer cycles; or wait for fewer, for something at a FIFO, a port
-  // or a unit.
+  // What lets the activity work for fewer cycles; or wait for fewer, for something at a FIFO, a
+  // port or a unit.
   virtual void remedy(const Activity&, const Remedy&) {}
   virtual void remedy(const sc_core::sc_object& at, WaitFor what, const Remedy&) {
     (void)at;

@@ -25,8 +25,8 @@ SramUse unanswered_writes(const char* name, const char* memory, const MemoryPort
 SramUse outstanding_table(const char* memory, const MemoryPortConfig& config) {
   constexpr std::uint32_t kEntryBytes = 8;
   return sram_use(kOutstandingTable, memory,
-                  {{config.max_outstanding, "transactions"}, {kEntryBytes, "B"}},
-                  {8 * kEntryBytes}, kOneOfEach);
+                  {{config.max_outstanding, "transactions"}, {kEntryBytes, "B"}}, {8 * kEntryBytes},
+                  kOneOfEach);
 }
 
 MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config,

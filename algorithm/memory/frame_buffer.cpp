@@ -29,7 +29,8 @@ DataFlow pixel_flow(FrameFormat format) {
   DataFlow flow;
   const Counting transmittance = input(flow, 0.25F);
   for (const float background : {0.5F, 0.25F, 0.125F}) {
-    const Counting channel = over_background(input(flow, 0.5F), transmittance, Counting(background));
+    const Counting channel =
+        over_background(input(flow, 0.5F), transmittance, Counting(background));
     if (format == FrameFormat::kRgb8) static_cast<void>(level_of(channel));
   }
   return flow;

@@ -80,7 +80,8 @@ bool OrderingTable::add(Chain& chain, std::uint32_t voxel) {
   if (number != kNone && !first) add_edge(chain.before, number);
   chain.before = number;
   // The slot, and beside it the first record, if any; a word of each level of ready voxels a cycle.
-  const std::uint64_t chained = 1 + accesses_.reads - before.reads - (number == kNone || first ? 0 : 1);
+  const std::uint64_t chained =
+      1 + accesses_.reads - before.reads - (number == kNone || first ? 0 : 1);
   accesses_.cycles += std::max({chained, *std::max_element(written_.begin(), written_.end()),
                                 accesses_.ready_read - before.ready_read});
   return number != kNone && fits();
@@ -97,7 +98,7 @@ std::vector<std::uint32_t> OrderingTable::order() {
     accesses_.cycles += ready_.levels() + 1;
     order.push_back(voxels_[number].id);
     voxels_[number].in_degree = kNone;  // taken
-    std::uint32_t named = kNone;  // record that the edge before names
+    std::uint32_t named = kNone;        // record that the edge before names
     for (std::uint32_t at = voxels_[number].first_edge; at != kNone; at = edges_[at].next) {
       const bool conflict = named != kNone && bank_of_voxel(named) == bank_of_edge(at);
       accesses_.cycles += conflict ? 2 : 1;

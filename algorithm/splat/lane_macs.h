@@ -52,7 +52,6 @@ constexpr std::uint32_t seeds(const OperationCounts& c) {
 
 constexpr std::uint32_t comparisons(const OperationCounts& c) {
   return c.comparisons + c.roundings * kRoundingComparisons + c.splits * kSplitComparisons +
-         return c.comparisons + c.roundings * kRoundingComparisons + c.splits * kSplitComparisons +
          c.scalings * kScalingComparisons + c.logarithms * kLogarithmComparisons +
          c.exponentials * kExponentialComparisons + c.conversions * kConversionComparisons +
          c.index_adds;

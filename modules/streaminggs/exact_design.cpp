@@ -22,7 +22,8 @@ void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>&
   sgs::adapt(config_, storage_order(), format, chosen);
   const OperationLatencies latencies = config_.single_latencies();
   resolve_depth("vsu.test_depth_cycles", config_.vsu.test_depth_cycles,
-                chunk_test_pipeline(config_.vsu, latencies), chunk_path(longest_chunk_case(), latencies), latencies, 0, chosen);
+                chunk_test_pipeline(config_.vsu, latencies),
+                chunk_path(longest_chunk_case(), latencies), latencies, 0, chosen);
 }
 
 FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const {

@@ -92,8 +92,8 @@ using FinishedSubtilesIn = sc_core::sc_port<FinishedSubtilesIf>;
 // Not bound where nobody asks.
 using FinishSubtileOut = sc_core::sc_port<FinishSubtileIf, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
 
-// A bit a sub-tile, in registers: all are read at once, and cleared; each cluster may finish one in a
-// cycle. Each unit that asks keeps its own.
+// A bit a sub-tile, in registers: all are read at once, and cleared; each cluster may finish one in
+// a cycle. Each unit that asks keeps its own.
 inline SramUse mask_use(const PixelSize& group) {
   const auto columns = static_cast<std::uint32_t>(group.width / kSubtilePx);
   const auto rows = static_cast<std::uint32_t>(group.height / kSubtilePx);

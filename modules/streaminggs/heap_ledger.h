@@ -1,7 +1,7 @@
-// What an interval heap (algorithm/order/interval_heap.h) is made of and does, for the data sheet of
-// the unit that has one. A node of two keys is a word, its two counts are one beside it; each bank
-// of keys has its bank of counts. Two comparisons of keys a level, each of key_words comparators of
-// 32 bits.
+// What an interval heap (algorithm/order/interval_heap.h) is made of and does, for the data sheet
+// of the unit that has one. A node of two keys is a word, its two counts are one beside it; each
+// bank of keys has its bank of counts. Two comparisons of keys a level, each of key_words
+// comparators of 32 bits.
 #pragma once
 
 #include <algorithm>
@@ -24,11 +24,10 @@ struct HeapLedger {
     const std::uint32_t banks = heap_banks(entries, cycles_per_operation);
     const SramShape of_counts = count_shape(entries, cycles_per_operation);
     // Each bank at most once: that is what paces the operations.
-    return {
-        sram_use(keys, kSharedSram, {{entries, "keys"}, {key_bytes, "B"}},
-                 {8 * 2 * key_bytes, SramPorts::kReadAndWrite, banks}, {banks, banks}),
-        sram_use(counts, kSharedSram, {{(heap_count_bits(entries) + 7) / 8, "B"}}, of_counts,
-                 {of_counts.banks, of_counts.banks})};
+    return {sram_use(keys, kSharedSram, {{entries, "keys"}, {key_bytes, "B"}},
+                     {8 * 2 * key_bytes, SramPorts::kReadAndWrite, banks}, {banks, banks}),
+            sram_use(counts, kSharedSram, {{(heap_count_bits(entries) + 7) / 8, "B"}}, of_counts,
+                     {of_counts.banks, of_counts.banks})};
   }
 
   void publish(DataSheet& sheet, std::uint32_t entries, std::uint32_t cycles_per_operation,

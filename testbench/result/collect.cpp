@@ -104,8 +104,8 @@ class Collector : public LeftOutCollector {
     into_.sram_available.emplace_back(memory, bytes);
   }
 
-  // To be called when all units have published: what concerns the ends of a FIFO comes from who made
-  // it, not from who is there.
+  // To be called when all units have published: what concerns the ends of a FIFO comes from who
+  // made it, not from who is there.
   void join_ends() {
     for (UnitResult& unit : into_.units) unit.charged |= movers_.count(unit.name) > 0;
     apply_remedies();

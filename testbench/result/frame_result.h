@@ -58,7 +58,8 @@ struct Parts {
 struct DatapathResult {
   Datapath datapath;
   std::uint64_t items = 0;
-  std::uint64_t busiest_cycles = 0;  // that the unit with the most items to its lanes needs at least
+  std::uint64_t busiest_cycles =
+      0;  // that the unit with the most items to its lanes needs at least
 };
 
 // Accesses of one use, of all units that have it.

@@ -52,8 +52,8 @@ void find_unpaid_memories(const MachineResult& machine, std::vector<std::string>
   }
 }
 
-// What a memory is asked for in one cycle, as its unit says it and as its queues were seen to do it,
-// and what it can do; and whether an access fits a bank at all.
+// What a memory is asked for in one cycle, as its unit says it and as its queues were seen to do
+// it, and what it can do; and whether an access fits a bank at all.
 void find_impossible_memories(const MachineResult& machine, std::vector<std::string>& faults) {
   for (const SramUse& use : machine.sram_uses) {
     const SramShape& shape = use.shape;
@@ -65,8 +65,8 @@ void find_impossible_memories(const MachineResult& machine, std::vector<std::str
                                         ? use.peak.reads + use.peak.writes
                                         : std::max(use.peak.reads, use.peak.writes);
     if (of_a_port > shape.banks) {
-      faults.push_back(fmt::format("{}: {} reads and {} writes in a cycle, {} banks of {}", use.name,
-                                   use.peak.reads, use.peak.writes, shape.banks,
+      faults.push_back(fmt::format("{}: {} reads and {} writes in a cycle, {} banks of {}",
+                                   use.name, use.peak.reads, use.peak.writes, shape.banks,
                                    shape.ports == SramPorts::kOne ? "a port" : "a port for each"));
     }
     for (const SramAccesses& a : machine.sram_accesses) {

@@ -71,7 +71,9 @@ void print_sheets(const MachineResult& machine) {
     parts.row(fmt::format("{} | {} | {:g} | {:g} ", part.component, part.kind, part.count,
                           part.per_cycle));
   }
-  Table datapaths("| datapath | component | lanes | multiply-accumulates of an item | beside them | between them: bits of registers, of multiplexers |");
+  Table datapaths(
+      "| datapath | component | lanes | multiply-accumulates of an item | beside them | between "
+      "them: bits of registers, of multiplexers |");
   for (const auto& [d, items, busiest] : machine.datapaths) {
     std::string beside;
     for (const BesideLanes& part : d.beside) {

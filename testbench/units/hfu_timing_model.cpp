@@ -140,8 +140,7 @@ class Pipeline {
         ++decode_;
         ++times_.decode_busy;
       }
-      const std::uint64_t bytes = share_->second_halves.record_bytes;
-      slot_free_.push_back(taker + (bytes + kPortBytes - 1) / kPortBytes);
+      slot_free_.push_back(taker + read_cycles());
     }
     if (decode_latency_) {
       if (gaussian == nullptr) {
@@ -156,6 +155,11 @@ class Pipeline {
       ++fine_;
       ++times_.fine_busy;
     }
+  }
+
+  // A record, a word of the port's width a cycle.
+  Cycle read_cycles() const {
+    return (share_->second_halves.record_bytes + kPortBytes - 1) / kPortBytes;
   }
 
   void read_lines(Cycle lines) {
@@ -179,8 +183,10 @@ class Pipeline {
       ++times_.fine_busy;
       return;
     }
-    fine_ += config_.ffu_interval_cycles();
-    times_.fine_busy += config_.ffu_interval_cycles();
+    const Cycle of_test =
+        std::max<Cycle>(config_.ffu_interval_cycles(), decode_latency_ ? 0 : read_cycles());
+    fine_ += of_test;
+    times_.fine_busy += of_test;
     times_.tested.back()[gaussian] = true;
     ++times_.fine_tests;
   }

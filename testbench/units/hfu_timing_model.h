@@ -14,8 +14,8 @@
 namespace sgs::tb {
 
 struct TimedShare {
-  std::vector<bool> passes;          // [Gaussian] the coarse filter
-  std::vector<std::uint32_t> lines;  // [Gaussian] of the codebook buffer, where there is one
+  std::vector<bool> passes;                 // [Gaussian] the coarse filter
+  std::vector<std::uint32_t> lines;         // [Gaussian] of the codebook buffer, where there is one
   RecordArray first_halves, second_halves;  // in the memory
   std::uint32_t first = 0;                  // slot of Gaussian 0
   // Cycle from which on the filters see that the share's group is finished.

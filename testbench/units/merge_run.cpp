@@ -47,8 +47,8 @@ void check_counters(MergeRun& run, const MergePlan& plan) {
   checks.that(c.ties <= tied, "more ties than keys of one depth");
   checks.equal(c.released + c.dropped_hidden + c.dropped_saturated, keys, "keys accounted for");
   if (!saturating) run.bench.check_counter("released", keys);
-  // A cycle for a key that comes, one that is due and one that goes to DRAM, for a mark and for the end
-  // of a group that goes on; beside them the heap's own pace.
+  // A cycle for a key that comes, one that is due and one that goes to DRAM, for a mark and for the
+  // end of a group that goes on; beside them the heap's own pace.
   const HeapWork& heap = run.unit.heap_work();
   run.bench.check_counter("inserts", heap.inserts);
   run.bench.check_counter("delete_mins", heap.delete_mins);

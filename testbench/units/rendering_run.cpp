@@ -279,8 +279,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   }
   bench.check_accesses("pixel state", reads, writes);
   const std::uint64_t bits = 8 * mask_use(plan.group).total_bytes();
-  bench.check_accesses("finished sub-tiles",
-                       bits * (dropped + sum.splats_spanned + sum.row_cycles),
+  bench.check_accesses("finished sub-tiles", bits * (dropped + sum.splats_spanned + sum.row_cycles),
                        finishes + bits * plan.groups.size());
   bench.check_accesses("sub-tiles in the loop", looks, sum.blends);
   bench.check_accesses("cluster queues", sum.blends, sum.blends);

@@ -53,7 +53,8 @@ struct Expected {
   std::vector<std::vector<WalkEntry>> groups;  // chunks in order
   std::vector<std::uint64_t> nodes_of;         // [group] opened
   std::uint64_t nodes = 0, upper = 0;          // opened; of these kept on chip
-  std::uint64_t tests = 0, testing_cycles = 0, cycles = 0, empty = 0, visits = 0, queue_operations = 0;
+  std::uint64_t tests = 0, testing_cycles = 0, cycles = 0, empty = 0, visits = 0,
+                queue_operations = 0;
 };
 
 std::uint64_t macs_of_a_test() { return folded_macs(chunk_work(longest_chunk_case())); }

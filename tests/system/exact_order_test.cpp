@@ -293,8 +293,9 @@ TEST_CASE("exact frames: what the report holds") {
   CHECK(view["image"]["misordered"] == 0);
   for (const char* name :
        {"keys", "released", "forced_early", "due", "dropped_hidden", "dropped_saturated",
-        "pending_keys_max", "ties", "inserts", "delete_mins", "delete_maxs", "heap_nodes_read", "heap_nodes_read_ahead",
-        "heap_nodes_written", "heap_comparisons", "runs_spilled", "keys_spilled"}) {
+        "pending_keys_max", "ties", "inserts", "delete_mins", "delete_maxs", "heap_nodes_read",
+        "heap_nodes_read_ahead", "heap_nodes_written", "heap_comparisons", "runs_spilled",
+        "keys_spilled"}) {
     INFO(name);
     CHECK(view["units"]["merge"]["counters"].contains(name));
   }

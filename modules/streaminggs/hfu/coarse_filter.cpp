@@ -97,7 +97,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
   const std::uint64_t interval = config_.coarse_filter ? tests_.interval_cycles() : 1;
   const std::uint64_t turns = config_.coarse_filter ? tests_.copies : 1;
   std::uint64_t done = 0, passed = 0;  // cycles of the slice
-  std::uint32_t open = 0;  // parts
+  std::uint32_t open = 0;              // parts
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
     if (i % tests_.copies == 0) {
       open = unfinished_parts(finished, slice.share.group);
@@ -156,8 +156,8 @@ GroupReach CoarseFilter::reach(const FirstHalfBound& bound, std::uint32_t group)
 
 SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
   // What comes from memory in a cycle may be more than one.
-  const auto come = static_cast<std::uint32_t>(
-      cycles_for(kPortBytes, std::max(1U, built_for.first_half_bytes)));
+  const auto come =
+      static_cast<std::uint32_t>(cycles_for(kPortBytes, std::max(1U, built_for.first_half_bytes)));
   return {sram_use("input", kInputSram,
                    {{config.input_slots, "slots"},
                     {config.slice_gaussians, "Gaussians"},

@@ -37,6 +37,10 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
                         context.built_for.single),
           static_cast<std::uint32_t>(context.job.parts.size()))),
       record_bytes_(job_.layout.second_halves.record_bytes),
+      test_cycles_(
+          job_.layout.second_half.quantised()
+              ? tests_.interval_cycles()
+              : std::max<std::uint64_t>(tests_.interval_cycles(), read_cycles(record_bytes_))),
       second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
       wanted_(config.second_half_slots),
       free_slots_("free_slots", context.clock, config.second_half_slots,
@@ -167,7 +171,7 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
     reject(part, candidate);
     return;
   }
-  part.filter.work(tests_.interval_cycles());
+  part.filter.work(test_cycles_);
   ++counters_.tests;
   SplatToken token;
   if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||
@@ -206,13 +210,13 @@ SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_fo
                                std::uint32_t parts) {
   // A part's reads do not wait for another's: as many banks, while there are words for them.
   const SramShape word = word_of(built_for.second_half_bytes);
-  const auto words = static_cast<std::uint32_t>(
-      config.second_half_slots * sram_words(built_for.second_half_bytes, word));
+  const auto words = static_cast<std::uint32_t>(config.second_half_slots *
+                                                sram_words(built_for.second_half_bytes, word));
   const std::uint32_t banks = std::clamp(words, 1U, parts);
-  SramUses uses = {sram_use(
-      "second halves", kSharedSram,
-      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
-      {word.width_bits, word.ports, banks}, {banks, 1}),
+  SramUses uses = {
+      sram_use("second halves", kSharedSram,
+               {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
+               {word.width_bits, word.ports, banks}, {banks, 1}),
       outstanding_table(kSharedSram, built_for.memory_port)};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),

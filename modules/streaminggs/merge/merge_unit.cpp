@@ -259,10 +259,9 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
   uses.push_back(mask_use(built_for.group));
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
-  const SramUse block =
-      sram_use("spill blocks", kSharedSram,
-               {{config.spill_block_entries, "keys"}, {kKeyBytes, "B"}}, {8 * kKeyBytes},
-               kOneOfEach);
+  const SramUse block = sram_use("spill blocks", kSharedSram,
+                                 {{config.spill_block_entries, "keys"}, {kKeyBytes, "B"}},
+                                 {8 * kKeyBytes}, kOneOfEach);
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
   uses.push_back(sram_use("spilled runs", kSharedSram,
                           {{config.spill_runs, "runs"},
@@ -272,10 +271,9 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
                           {8 * kKeyBytes}, kOneOfEach));
   // Depth and slot of the first key of each, which are compared all at once.
   constexpr std::uint32_t kFrontBytes = 4 * kKeyWords;
-  uses.push_back(sram_use("fronts of runs", kSharedSram,
-                          {{config.spill_runs, "runs"}, {kFrontBytes, "B"}},
-                          {8 * kFrontBytes, SramPorts::kReadAndWrite, config.spill_runs},
-                          {config.spill_runs, 1}));
+  uses.push_back(sram_use(
+      "fronts of runs", kSharedSram, {{config.spill_runs, "runs"}, {kFrontBytes, "B"}},
+      {8 * kFrontBytes, SramPorts::kReadAndWrite, config.spill_runs}, {config.spill_runs, 1}));
   uses.push_back(block);
   uses.push_back(unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes));
   return uses;

@@ -3,8 +3,8 @@
 // keys go to DRAM as a sorted run and are merged back; the order stays exact. A key that is due and
 // reaches finished sub-tiles only is dropped: its second half is never fetched.
 // Keys wait in an interval heap, which gives its nearest and its farthest key.
-// Timing: a key in or out and a mark take a cycle each, and the heap begins an insert or delete every
-// `cycles_per_operation` cycles: what is no operation passes beside it.
+// Timing: a key in or out and a mark take a cycle each, and the heap begins an insert or delete
+// every `cycles_per_operation` cycles: what is no operation passes beside it.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class MergeUnit : public sc_core::sc_module {
     std::uint64_t dropped_saturated = 0;
     std::uint64_t due = 0;             // looked up in the mask of finished sub-tiles
     std::uint64_t dropped_hidden = 0;  // of these, behind finished sub-tiles only
-    std::uint64_t pending_max = 0;  // keys on chip
+    std::uint64_t pending_max = 0;     // keys on chip
     std::uint64_t runs_spilled = 0;
     std::uint64_t keys_spilled = 0;  // written to DRAM, over all passes
   };

@@ -153,7 +153,8 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("state_loop_cycles", c.state_loop_cycles, in_range(0, 1000),
     "until the next splat may be blended into the same sub-tile; 0: by its schedule");
   v("depth_cycles", c.depth_cycles, in_range(0, 1000),
-    "latency of a blend, by which drain and news of a finished group come later; 0: by its schedule");
+    "latency of a blend, by which drain and news of a finished group come later; 0: by its "
+    "schedule");
   v("span_depth_cycles", c.span_depth_cycles, in_range(0, 1000),
     "latency of a row's span; 0: by its schedule");
   v("drain_depth_cycles", c.drain_depth_cycles, in_range(0, 1000),

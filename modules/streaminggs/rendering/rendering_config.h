@@ -37,7 +37,8 @@ struct RenderingConfig {
   // A cluster starts a sub-tile every so many cycles.
   std::uint32_t cluster_interval_cycles() const;
   // That the lanes are busy with a splat's first `spans` rows, and from its beginning until these
-  // have their spans; 0 for none. A fixed schedule: whole rows in a cycle, or a row in whole cycles.
+  // have their spans; 0 for none. A fixed schedule: whole rows in a cycle, or a row in whole
+  // cycles.
   std::uint32_t span_cycles(std::uint32_t spans) const;
   // Spans of rows that leave the lanes in one cycle, at most.
   std::uint32_t spans_at_once() const;

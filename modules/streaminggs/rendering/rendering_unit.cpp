@@ -162,8 +162,8 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
   const auto height = static_cast<std::uint32_t>(built_for.group.height);
   // A group that drains and one that is blended have memories of their own. A cluster without a
   // sub-tile of any group has none.
-  const auto subtiles = static_cast<std::uint32_t>(
-      cycles_for(width, kSubtilePx) * cycles_for(height, kSubtilePx));
+  const auto subtiles =
+      static_cast<std::uint32_t>(cycles_for(width, kSubtilePx) * cycles_for(height, kSubtilePx));
   const std::uint32_t with_pixels = std::clamp(subtiles, 1U, config.clusters);
   const std::uint32_t pixel_banks = kSubtilePixels * with_pixels * config.pixel_buffers;
   const SramPeak of_clusters{config.clusters, config.clusters};
@@ -175,8 +175,8 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                    {8 * config.pixel_state_bytes(), SramPorts::kReadAndWrite, pixel_banks},
                    {pixel_banks, pixel_banks}),
           sram_use("splats under way", kSharedSram,
-                   {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}},
-                   {8 * kSplatEntryBytes}, kOneOfEach),
+                   {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
+                   kOneOfEach),
           spans_use(config, built_for.group),
           sram_use("cluster queues", kSharedSram,
                    {{config.clusters, "clusters"},

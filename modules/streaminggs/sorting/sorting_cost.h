@@ -94,7 +94,8 @@ inline SramUses sort_memories(const char* rest, const char* memory, std::uint32_
   const std::uint32_t lists = entries > kNetworkWidth ? 2 : 1;
   constexpr auto kPorts = SramPorts::kReadAndWrite;
   return {
-      sram_use(rest, memory, {{entries, "entries"}, {rest_bytes, "B"}}, {8 * rest_bytes}, kOneOfEach),
+      sram_use(rest, memory, {{entries, "entries"}, {rest_bytes, "B"}}, {8 * rest_bytes},
+               kOneOfEach),
       sram_use(kComparedKeys, memory, {{entries, "keys"}, {kSortKeyBytes, "B"}},
                {8 * kSortKeyBytes, kPorts, banks}, {banks, 1}),
       sram_use(kSortedPlaces, memory, {{lists, "lists"}, {entries, "places"}, {place_bytes, "B"}},

@@ -281,8 +281,7 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
                kOfPort, kOneOfEach),
       open_nodes_use(config)};
   add(uses, kChunkQueue.sram_uses(config.queue_entries, config.cycles_per_queue_operation));
-  add(uses,
-      kNodeQueue.sram_uses(config.node_queue_entries, config.cycles_per_queue_operation));
+  add(uses, kNodeQueue.sram_uses(config.node_queue_entries, config.cycles_per_queue_operation));
   uses.push_back(mask_use(built_for.group));
   uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
@@ -339,9 +338,9 @@ void ExactVsu::publish(DataSheet& sheet) {
   const double of_open = kOpenNodeWords * open_nodes(config_);
   const std::uint64_t compared = chunk_walk_.queue_operations();
   sheet.part("vsu", "comparator", of_mask + of_open, 1);
-  sheet.operations("vsu", "comparator",
-                   of_mask * static_cast<double>(counters_.looked_up) +
-                       of_open * static_cast<double>(compared));
+  sheet.operations(
+      "vsu", "comparator",
+      of_mask * static_cast<double>(counters_.looked_up) + of_open * static_cast<double>(compared));
   sheet.accesses("finished sub-tiles", mask_bits(built_for_.group) * counters_.looked_up,
                  mask->news());
   sheet.accesses("keys of open nodes", open_nodes(config_) * compared,

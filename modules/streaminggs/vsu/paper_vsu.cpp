@@ -28,7 +28,8 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       traverse_("traverse", context.clock),
       emit_("emit", context.clock),
       rays_(
-          config, context.built_for.single, context.clock, traverse_, node_memory, job_.layout.voxel_table().nodes,
+          config, context.built_for.single, context.clock, traverse_, node_memory,
+          job_.layout.voxel_table().nodes,
           [this](const std::vector<std::uint32_t>& voxels, bool last) { hand_over(voxels, last); }),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),

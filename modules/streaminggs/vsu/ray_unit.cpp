@@ -145,8 +145,8 @@ SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
   of_rays("ray chains", {{config.chain_entries, "voxels"}, {kMetBytes, "B"}},
           {8 * kMetBytes, SramPorts::kReadAndWrite, banks}, {1, std::min(banks, 3U)});
   // In registers: the first of all is found at once, a line that is missed looked for among all.
-  of_rays("rounds of rays", {{kRoundBytes, "B"}},
-          {8 * kRoundBytes, SramPorts::kReadAndWrite, rays}, {rays, rays});
+  of_rays("rounds of rays", {{kRoundBytes, "B"}}, {8 * kRoundBytes, SramPorts::kReadAndWrite, rays},
+          {rays, rays});
   of_rays("node fetches", {{kTagBytes, "B"}}, {8 * kTagBytes, SramPorts::kReadAndWrite, rays},
           {rays, 1});
   // In order() an edge is read beside the record that the one before it names.
@@ -187,7 +187,8 @@ void RayUnit::publish(DataSheet& sheet) const {
   const std::uint64_t lookups = nodes.lookups();
   sheet.accesses("ray directions", steps_taken_, rays_);
   sheet.accesses("ray positions", steps_taken_ + lookups, rays_ + steps_taken_ + lookups);
-  sheet.accesses("rounds of rays", entered_ * config.rays_in_flight, rays_ + steps_taken_ + entered_);
+  sheet.accesses("rounds of rays", entered_ * config.rays_in_flight,
+                 rays_ + steps_taken_ + entered_);
   sheet.accesses("ray nodes", steps_taken_, lookups);
   sheet.accesses("ray chains", entered_, entered_);
   sheet.accesses("node fetches", nodes.misses() * config.rays_in_flight, nodes.misses());

@@ -20,15 +20,16 @@ class RayUnit {
   // step is behind the last of these only: its node lies in the context.
   static constexpr std::uint64_t kLookUpCycles = 3, kMaskCycles = 1;
 
-  // The round of each ray that has something to enter is compared with the others', in a tree, before
-  // the next can be: from one voxel that is entered to the next, at least.
+  // The round of each ray that has something to enter is compared with the others', in a tree,
+  // before the next can be: from one voxel that is entered to the next, at least.
   static constexpr std::uint64_t kFirstOfRoundsCycles = 2;
 
   using HandOver = std::function<void(const std::vector<std::uint32_t>& voxels, bool last)>;
 
   // clock, activity and port outlive it.
   RayUnit(const PaperVsuConfig& config, const OperationLatencies& latencies,
-          const ClockDomain& clock, Activity& activity, MemoryPort& port, const RecordArray& nodes, HandOver hand_over);
+          const ClockDomain& clock, Activity& activity, MemoryPort& port, const RecordArray& nodes,
+          HandOver hand_over);
 
   const PaperVsuConfig config;
   TableCache<VoxelNode> nodes;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "algorithm/splat/longest_path.h"
+#include "algorithm/voxel/ray_work.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
 #include "tlm/datapath.h"

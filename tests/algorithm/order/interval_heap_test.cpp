@@ -163,8 +163,8 @@ Stepped step_through(std::size_t capacity, const test::HeapPace& pace, int inter
     for (int c = 0; c < cycles; ++c) stepped.step();
   }
   while (stepped.busy()) stepped.step();
-  return {!stepped.lost() && stepped.results() == expected, stepped.most_at_a_port(), stepped.nodes_read(),
-          stepped.nodes_written(), heap.work()};
+  return {!stepped.lost() && stepped.results() == expected, stepped.most_at_a_port(),
+          stepped.nodes_read(), stepped.nodes_written(), heap.work()};
 }
 
 constexpr test::HeapPace kFourBanks{4, 1}, kTwoBanks{2, 2};

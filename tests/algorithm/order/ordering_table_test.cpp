@@ -124,7 +124,8 @@ TEST_CASE("ordering table: what an edge reads and writes") {
 }
 
 TEST_CASE("ordering table: a chain of reads takes a cycle each, banks of one address give one") {
-  const auto cycles_of = [](OrderingTable& table, OrderingTable::Chain& chain, std::uint32_t voxel) {
+  const auto cycles_of = [](OrderingTable& table, OrderingTable::Chain& chain,
+                            std::uint32_t voxel) {
     const std::uint64_t before = table.accesses().cycles;
     table.add(chain, voxel);
     return table.accesses().cycles - before;
@@ -146,9 +147,9 @@ TEST_CASE("ordering table: a chain of reads takes a cycle each, banks of one add
     CHECK(cycles_of(table, third, 6) == 4);  // behind two edges
     const std::uint64_t before = table.accesses().cycles;
     table.order();
-    // Of each voxel its record and two levels; two edges one behind the other, each beside the record
-    // that the one before names, and the last record. Edge 1 names number 2, which lies in bank 0 as
-    // both edges do.
+    // Of each voxel its record and two levels; two edges one behind the other, each beside the
+    // record that the one before names, and the last record. Edge 1 names number 2, which lies in
+    // bank 0 as both edges do.
     CHECK(table.accesses().cycles - before == 3 * (table.ready_levels() + 1) + 1 + 2 + 1);
   }
 }

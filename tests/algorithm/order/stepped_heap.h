@@ -156,8 +156,7 @@ class SteppedHeap {
     if (node.high < o.key) std::swap(o.key, node.high);
     const std::size_t left = 2 * o.at + 1;
     const bool left_has = node.below[0] < room(left), right_has = node.below[1] < room(left + 1);
-    const std::size_t side =
-        right_has && (!left_has || node.below[1] < node.below[0]) ? 1 : 0;
+    const std::size_t side = right_has && (!left_has || node.below[1] < node.below[0]) ? 1 : 0;
     o.held = node.below[side]++;
     o.at = left + side;
   }

@@ -232,7 +232,7 @@ TEST_CASE("longest path: by cycles, of a range, and from some values on") {
   CHECK(ready[a.node] == 0);
   CHECK(ready[early.node] == 5);
   CHECK(ready[after.node] == 10);  // the product in the difference's lane
-  CHECK(flow.operation(weight.node) == Operation::kMultiply);
+  CHECK(flow.nodes()[weight.node].operation == Operation::kMultiply);
 }
 
 }  // namespace sgs

@@ -144,13 +144,13 @@ TEST_CASE("filter work: the test against the group waits for the box") {
     const std::vector<std::uint32_t> ready = fine.flow.ready_cycles(kEach);
     std::uint32_t first_side = ~0U, last_side = 0;
     for (std::size_t i = fine.decoded; i < fine.geometry_end; ++i) {
-      if (fine.flow.operation(i) != Operation::kTruncate) continue;
+      if (fine.flow.nodes()[i].operation != Operation::kTruncate) continue;
       first_side = std::min(first_side, ready[i]);
       last_side = std::max(last_side, ready[i]);
     }
     std::uint32_t last = 0;
     for (std::size_t i = fine.geometry_end; i < fine.test_end; ++i) {
-      if (fine.flow.operation(i) < Operation::kCompare) continue;
+      if (fine.flow.nodes()[i].operation < Operation::kCompare) continue;
       CAPTURE(i);
       CHECK(ready[i] > first_side);
       last = std::max(last, ready[i]);

@@ -31,9 +31,10 @@ std::vector<Work> all_work() {
     all.push_back({"coarse", coarse_steps(by, tested, 2, kLatencies), coarse_work(by, tested, 2),
                    coarse_path(by, tested, 2, kLatencies)});
   }
-  for (const int degree : {0, 2, 3}) {
-    all.push_back({"fine", fine_steps(tested, degree, kLatencies),
-                   fine_work(tested, degree).total(), fine_path(tested, degree, kLatencies)});
+  for (const FineRecord record :
+       {FineRecord{0, 4}, FineRecord{0, 3}, FineRecord{2, 3}, FineRecord{3, 4}}) {
+    all.push_back({"fine", fine_steps(tested, record, kLatencies),
+                   fine_work(tested, record).total(), fine_path(tested, record, kLatencies)});
   }
   const RenderingWork work = rendering_work(BlendPrecision::kSingle);
   const RenderingPaths paths = rendering_paths(BlendPrecision::kSingle, kLatencies, kLatencies);

@@ -50,7 +50,8 @@ FrameResult frame() {
   frame.machine.parts = {{"filter", "lane", 8, 8}, {"heap", "comparator", 100, 100}};
   frame.machine.operations = {
       {"filter", "lane", 3}, {"heap", "comparator", 10}, {"idle", "lane", 0}};
-  add(frame.machine.sram_uses, sram_use("first halves", "input", {{1024, "B"}}, {64}, kOneOfEach), 2);
+  add(frame.machine.sram_uses, sram_use("first halves", "input", {{1024, "B"}}, {64}, kOneOfEach),
+      2);
   frame.machine.sram_accesses = {{"first halves", 20, 6}};
   frame.memory.energy_j = 1e-6;
   frame.memory.channels = 4;
@@ -275,7 +276,7 @@ TEST_CASE("cost: banks make accesses cheaper and area larger, a second port only
 TEST_CASE("cost: a short memory is a macro with rows to spare, or registers if they are smaller") {
   const SramModel model = load_technology(SGS_TECHNOLOGY).sram;
   const auto rows = [](std::uint64_t count) {
-    return sram_use("heap", "shared", {{count, "rows"}, {16, "B"}}, {128});
+    return sram_use("heap", "shared", {{count, "rows"}, {16, "B"}}, {128}, kOneOfEach);
   };
   const double macro = model.mm2(rows(32)).middle;
   bool registers = true;

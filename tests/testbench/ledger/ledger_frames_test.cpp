@@ -282,7 +282,8 @@ TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are fol
       INFO(preset << (folded ? ", folded" : ""));
       Settings settings;
       if (folded) settings = {"rendering.cluster_lanes=64", "hfu.cfu_lanes=2"};
-      const MachineResult machine = simulated(preset, settings, "builtin:object?n=64").result.machine;
+      const MachineResult machine =
+          simulated(preset, settings, "builtin:object?n=64").result.machine;
       std::map<std::string, double> stand;
       for (const DatapathResult& d : machine.datapaths) {
         INFO(d.datapath.name);

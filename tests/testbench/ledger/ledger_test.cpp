@@ -29,7 +29,8 @@ MachineResult paid() {
   machine.datapaths = {{sum, 100, 100}};
   const SramShape banks{32, SramPorts::kReadAndWrite, 2};
   add(machine.sram_uses, sram_use("rows", "scratch", {{64, "B"}}, banks, {2, 2}), 2);
-  add(machine.sram_uses, sram_use("table", "scratch", {{64, "B"}}, {32, SramPorts::kOne, 1}, {1, 0}));
+  add(machine.sram_uses,
+      sram_use("table", "scratch", {{64, "B"}}, {32, SramPorts::kOne, 1}, {1, 0}));
   machine.sram_accesses = {{"rows", 400, 400, {2, 2}}, {"table", 60, 40, {0, 0}}};
   return machine;
 }

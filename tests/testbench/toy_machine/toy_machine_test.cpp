@@ -84,7 +84,8 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   const Json& energy = view["energy"];
   CHECK(energy["adder_j"] == Approx(3 * kGaussians * pj("fp32_lane")));
   CHECK(energy["writer_j"] == Approx(kPixels * pj("comparator")));
-  const SramUse blocks = sram_use("blocks", "scratch", {{3, ""}, {8, ""}, {16, ""}}, {128}, kOneOfEach);
+  const SramUse blocks =
+      sram_use("blocks", "scratch", {{3, ""}, {8, ""}, {16, ""}}, {128}, kOneOfEach);
   CHECK(energy["blocks_j"] ==
         Approx(kGaussians * 1e-12 *
                (technology.sram.read_pj(blocks).middle + technology.sram.write_pj(blocks).middle)));
@@ -113,8 +114,7 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
 
   // Blocks, what is said of them in the queue, writes of 16 px that are unanswered, colours, and
   // what ports keep of transactions.
-  CHECK(view["sram"]["scratch_bytes"] ==
-        3 * 8 * 16 + 3 * 12 + 2 * 16 * 3 + 2 * 16 + kPortTables);
+  CHECK(view["sram"]["scratch_bytes"] == 3 * 8 * 16 + 3 * 12 + 2 * 16 * 3 + 2 * 16 + kPortTables);
   CHECK(view["sram"]["scratch_available_bytes"] == 4096);
   const auto arithmetic_of = [&](const char* name) {
     for (const Json& use : view["sram"]["uses"]) {
