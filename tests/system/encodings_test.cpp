@@ -29,10 +29,7 @@ Arguments encoded(const std::string& order, const std::string& encoding,
                                      "storage.vq.rotation_entries=100", "storage.vq.dc_entries=200",
                                      "storage.vq.sh_entries=32", "storage.vq.iterations=3"});
   }
-  for (const std::string& setting : settings) {
-    arguments.insert(arguments.end(), {"--set", setting});
-  }
-  return arguments;
+  return with_settings(arguments, settings);
 }
 
 double encoding_psnr(const Simulation& simulation) {
@@ -111,7 +108,7 @@ TEST_CASE("encodings: codebooks that an earlier frame left cost no traffic and n
   for (const char* order : {"exact", "paper"}) {
     Arguments common = encoded(order, "vq");
     // Following all rays of the first group takes as long as loading.
-    if (order == std::string("paper")) common = with_settings(common, {"vsu.ray_step_px=8"});
+    if (order == std::string("paper")) common = with_settings(common, {"vsu.ray_step_px=16"});
     const Simulation first(common), next(with_settings(common, {"codebook.preloaded=true"}));
     first.check();
     next.check();

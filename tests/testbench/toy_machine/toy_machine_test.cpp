@@ -89,7 +89,9 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   CHECK(energy["blocks_j"] ==
         Approx(kGaussians * 1e-12 *
                (technology.sram.read_pj(blocks).middle + technology.sram.write_pj(blocks).middle)));
-  const double logic = 3 * mm2("fp32_lane") + 4 * mm2("comparator");
+  // Two ports of 256 bits each way, a register each and the multiplexers of four channels.
+  const double path = 2 * 2 * 256 * (mm2("register_bit") + 4 * mm2("crossbar_bit"));
+  const double logic = 3 * mm2("fp32_lane") + 4 * mm2("comparator") + path;
   CHECK(energy["clock_j"] ==
         Approx(frame * logic * technology.die.clock_pj_mm2_cycle.middle * 1e-12));
   double sum = 0;
@@ -107,7 +109,8 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   CHECK(area["adder"] == Approx(3 * mm2("fp32_lane")));
   CHECK(area["writer"] == Approx(4 * mm2("comparator")));
   CHECK(area["total"] == Approx(logic + area["sram"].get<double>()));
-  CHECK(area.size() == 5);  // with the bands
+  CHECK(area["memory_path"] == Approx(path));
+  CHECK(area.size() == 6);  // with the bands
   constexpr int kPortTables = 2 * 16 * 8;
   CHECK(left_out(view, "unused_sram_scratch") ==
         4096 - (3 * 8 * 16 + 3 * 12 + 2 * 16 * 3 + 2 * 16 + kPortTables));
