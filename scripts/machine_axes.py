@@ -131,6 +131,7 @@ EXACT = Order(
         axis("vsu.nodes_in_flight", 2, 4, 8),
         axis("vsu.queue_entries", 128, 256, 512, 768),
         axis("hfu.input_slots", 3, 5, 8),
+        axis("rendering.input_fifo_entries", 8, 14, 20),
         *COMMON,
     ),
     axis("storage.chunk_gaussians", 8, 16, 32, 64),
@@ -154,6 +155,7 @@ PAPER = Order(
         axis("fetch", "split", "shared"),
         axis("hfu.slice_gaussians", 32, 64, 128, 256, 512),
         axis("hfu.input_slots", 2, 3),
+        axis("sorting.input_fifo_entries", 4, 7, 12),
         Axis(
             "lists",
             (lists(64, 64), lists(128, 128), lists(256, 256), lists(512, 512), lists(0, 1024)),
@@ -161,7 +163,6 @@ PAPER = Order(
         axis("vsu.rays_in_flight", 16, 32, 48, 64, 96, 128),
         axis("vsu.step_lanes", 8, 12, 24),
         axis("vsu.ray_step_px", 4, 2, 1),
-        axis("vsu.table_banks", 1, 2, 4),
         axis("vsu.table_bytes", 2048, 4096, 8192, 16384, 32768),
         axis("vsu.node_cache_bytes", 2112, 4224, 8448, 16896, 33792),
         *COMMON,
