@@ -158,10 +158,11 @@ TEST_CASE("cost: components are written in snake case") {
 TEST_CASE("cost: the shipped table says what its sources say") {
   const Technology technology = load_technology(SGS_TECHNOLOGY);
   const PartCost& lane = technology.part("fp32_lane");
-  CHECK(lane.mm2.middle == Approx(0.79 / 128));
   CHECK(lane.pj.middle == Approx(0.65 * (0.9 + 3.7)));
   const double to_32nm = 32.0 * 32 / (45 * 45);
   CHECK(lane.mm2.low == Approx((4184 + 7700) * to_32nm * 1e-6).epsilon(1e-5));
+  CHECK(lane.mm2.high == Approx((4360 + 8970) * 0.8 * 0.8 * 1e-6).epsilon(1e-5));
+  CHECK(lane.mm2.middle == Approx(std::sqrt(lane.mm2.low * lane.mm2.high)).epsilon(1e-5));
   const PartCost& half = technology.part("fp16_lane");
   CHECK(half.mm2.middle == Approx(lane.mm2.middle * 3000 / 11884).epsilon(1e-5));
   CHECK(half.pj.middle == Approx(0.65 * (0.4 + 1.1)));
