@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
 
+#include "algorithm/render/paper_renderer.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/storage/stored_scene.h"
@@ -64,6 +66,9 @@ class MachineDesign {
   // machine alone: published in `sheet`, by name, as the work that the frame left out.
   virtual GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                              DataSheet& sheet) const = 0;
+
+  // How it renders, where that is in paper order: what scenes can be tuned for.
+  virtual std::optional<PaperOrderConfig> paper_order() const { return {}; }
 
   virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                          const BuildOptions& options) const = 0;

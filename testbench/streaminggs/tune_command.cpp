@@ -1,0 +1,108 @@
+// streaminggs tune SCENE --boundary --out FILE
+#include "testbench/streaminggs/tune_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "algorithm/input_error.h"
+#include "algorithm/output_plan.h"
+#include "algorithm/splat/activate.h"
+#include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/prepared_scene.h"
+
+namespace sgs {
+namespace {
+
+void check_arguments(const TuneArguments& arguments) {
+  if (!arguments.boundary) {
+    throw InputError("tune: got nothing to tune for, expected --boundary");
+  }
+  if (std::filesystem::path(arguments.out).extension() != ".ply") {
+    throw InputError(fmt::format("--out: {}, expected a name that ends in .ply", arguments.out));
+  }
+  if (arguments.data.empty()) return;
+  const std::pair<const char*, bool> of_cameras[] = {{"--cameras", !arguments.cameras_path.empty()},
+                                                     {"--size", !arguments.size.empty()},
+                                                     {"--between", arguments.between > 0}};
+  for (const auto& [name, given] : of_cameras) {
+    if (given) throw InputError(fmt::format("{}: the data set brings its views", name));
+  }
+}
+
+TuningViews views_for(const TuneArguments& arguments, const Scene& scene) {
+  if (!arguments.data.empty()) return views_of_dataset(arguments.data);
+  std::vector<Camera> cameras;
+  for (auto& [number, camera] : arguments.cameras(scene.cameras)) cameras.push_back(camera);
+  if (arguments.between > 0 && cameras.size() < 2) {
+    throw InputError("--between: got one camera, expected two or more");
+  }
+  return views_of_scene(activate(scene.cloud), cameras, arguments.between, arguments.seed);
+}
+
+int run(const TuneArguments& arguments, const Kinds& kinds) {
+  check_arguments(arguments);
+  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  OutputPlan plan;
+  arguments.add_inputs_to(plan);
+  plan.add_input(arguments.config.path());
+  arguments.FittingArguments::add_to(plan);
+  plan.check();
+  Scene scene = arguments.load();
+  TuningViews views = views_for(arguments, scene);
+  TuningJob job{std::move(scene), std::move(views), std::move(config)};
+  job.config.design->fit_frames([&] { return frame_sizes(job.views); });
+  resolve(job.config);
+  adapt(job.config, job.scene);
+  return tune_for_boundaries(arguments, job);
+}
+
+}  // namespace
+
+std::string TuneArguments::work(std::uint32_t in_all) const {
+  std::string line = fmt::format("{} --boundary --config {}", scene, config.config);
+  for (const std::string& value : config.overrides) line += " --set " + value;
+  if (data.empty()) {
+    line += fmt::format(" --cameras {} --size {} --between {}", cameras_path, size, between);
+  } else {
+    line += " --data " + data;
+  }
+  line += fmt::format(" --steps {} --seed {} --rate {}", in_all, seed, rate);
+  return line + fmt::format(" --beta {} --misordered-in {} --penalty-mean {}", beta, misordered_in,
+                            penalty_mean);
+}
+
+SubCommand add_tune_command(CommandLine& line, const Kinds& kinds) {
+  auto arguments = std::make_shared<TuneArguments>();
+  arguments->view = "all";
+  arguments->config.config = "paper";
+  arguments->add_scene_to(line, kUnpackedSceneForms);
+  line.flag("--boundary", arguments->boundary,
+            "for paper order: less that is blended out of order; centres rest");
+  line.file("--data", arguments->data,
+            "the folder of a data set; without, the scene's own "
+            "reference pictures are what it is to look like");
+  line.file("--cameras", arguments->cameras_path,
+            "cameras.json of these pictures; built-in scenes bring their own");
+  line.text("--size", arguments->size, "WIDTHxHEIGHT in px; scales the intrinsics");
+  line.whole("--between", arguments->between, 0, 100'000,
+             "so many cameras between the given ones to tune on, which then are to test with");
+  arguments->config.add_to(line);
+  arguments->FittingArguments::add_to(line, "scene to write: .ply");
+  line.whole("--steps", arguments->steps, 0, 1'000'000, "a picture each; 0: 3,000");
+  line.whole("--seed", arguments->seed, 0, kMostSeed, "of all that is drawn by lot");
+  line.real("--rate", arguments->rate, 0, 1'000, "of learning, times the original's");
+  line.real("--beta", arguments->beta, 0, 1e9, "of L_CBP in the loss");
+  line.one_of({"group", "pixel"}, "--misordered-in", arguments->misordered_in,
+              "where a Gaussian comes behind a farther one: in its group or at a pixel of its own");
+  line.one_of({"rendered", "scene"}, "--penalty-mean", arguments->penalty_mean,
+              "what L_CBP is a mean over: (group, Gaussian) pairs or all Gaussians");
+  line.whole("--visit-memory", arguments->visit_memory_mb, 0, 1'000'000,
+             "MB of visits that are kept; those of further views are made anew each time");
+  return [arguments, &kinds] { return run(*arguments, kinds); };
+}
+
+}  // namespace sgs
