@@ -1,4 +1,4 @@
-// streaminggs tune SCENE --boundary --out FILE
+// streaminggs tune SCENE --boundary|--quantise --out FILE
 #include "testbench/streaminggs/tune_command.h"
 
 #include <fmt/format.h>
@@ -11,18 +11,25 @@
 #include "algorithm/input_error.h"
 #include "algorithm/output_plan.h"
 #include "algorithm/splat/activate.h"
+#include "algorithm/splat/reorder.h"
+#include "algorithm/storage/image_file.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/numbers.h"
 #include "testbench/streaminggs/prepared_scene.h"
 
 namespace sgs {
 namespace {
 
 void check_arguments(const TuneArguments& arguments) {
-  if (!arguments.boundary) {
-    throw InputError("tune: got nothing to tune for, expected --boundary");
+  if (arguments.boundary == arguments.quantise) {
+    throw InputError(fmt::format("tune: got {}, expected --boundary or --quantise",
+                                 arguments.boundary ? "both" : "nothing to tune for"));
   }
-  if (std::filesystem::path(arguments.out).extension() != ".ply") {
-    throw InputError(fmt::format("--out: {}, expected a name that ends in .ply", arguments.out));
+  const char* extension = arguments.boundary ? ".ply" : kImageFileExtension;
+  if (std::filesystem::path(arguments.out).extension() != extension) {
+    throw InputError(
+        fmt::format("--out: {}, expected a name that ends in {}", arguments.out, extension));
   }
   if (arguments.data.empty()) return;
   const std::pair<const char*, bool> of_cameras[] = {{"--cameras", !arguments.cameras_path.empty()},
@@ -57,20 +64,64 @@ int run(const TuneArguments& arguments, const Kinds& kinds) {
   job.config.design->fit_frames([&] { return frame_sizes(job.views); });
   resolve(job.config);
   adapt(job.config, job.scene);
-  return tune_for_boundaries(arguments, job);
+  return arguments.boundary ? tune_for_boundaries(arguments, job)
+                            : tune_for_codebooks(arguments, job);
 }
 
 }  // namespace
 
-std::string TuneArguments::work(std::uint32_t in_all) const {
-  std::string line = fmt::format("{} --boundary --config {}", scene, config.config);
+CloudInStorage in_storage(const GaussianCloud& cloud, const StorageConfig& storage) {
+  auto [table, order] = scheme_of(storage.order).arrange(activate(cloud), storage);
+  return {std::move(table), reordered(cloud, order)};
+}
+
+CloudInStorage given_in_storage(const TuneArguments& arguments, const TuningJob& job) {
+  CloudInStorage given = in_storage(job.scene.cloud, job.config.storage);
+  if (given.cloud.size() == 0) {
+    throw InputError(arguments.scene + ": holds no Gaussian that a view could show");
+  }
+  return given;
+}
+
+std::optional<PaperOrderConfig> tuned_order(const RunConfig& config) {
+  std::optional<PaperOrderConfig> order = config.design->paper_order();
+  if (order && order->parts > 1 && order->precision == BlendPrecision::kHalf) {
+    throw InputError(
+        "fetch: shared with rendering.precision fp16 filters each part of a group by itself, "
+        "expected split, or fp32");
+  }
+  return order;
+}
+
+void print_target(const TuningJob& job, std::size_t gaussians) {
+  const StorageConfig& storage = job.config.storage;
+  fmt::print("{:<26}{}\n{:<26}{} in {}, {} left out that no view can show\n", "target",
+             job.views.says, "Gaussians", grouped(gaussians),
+             scheme_of(storage.order).in_words(storage),
+             grouped(job.scene.cloud.size() - gaussians));
+}
+
+void print_visits(const VisitPlan& plan) {
+  fmt::print("{:<26}{:.1f} MB kept\n", "visits", static_cast<double>(plan.kept_bytes()) / 1e6);
+}
+
+void TuneArguments::set(TuningConfig& tuning, int own_steps, double own_rate) const {
+  tuning.steps = steps > 0 ? static_cast<int>(steps) : own_steps;
+  tuning.rate = rate > 0 ? rate : own_rate;
+  tuning.seed = seed;
+}
+
+std::string TuneArguments::work(const TuningConfig& tuning) const {
+  std::string line =
+      fmt::format("{} --{} --config {}", scene, boundary ? "boundary" : "quantise", config.config);
   for (const std::string& value : config.overrides) line += " --set " + value;
   if (data.empty()) {
     line += fmt::format(" --cameras {} --size {} --between {}", cameras_path, size, between);
   } else {
     line += " --data " + data;
   }
-  line += fmt::format(" --steps {} --seed {} --rate {}", in_all, seed, rate);
+  line += fmt::format(" --steps {} --seed {} --rate {}", tuning.steps, seed, tuning.rate);
+  if (quantise) return line + fmt::format(" --reassign-every {}", reassign_every);
   return line + fmt::format(" --beta {} --misordered-in {} --penalty-mean {}", beta, misordered_in,
                             penalty_mean);
 }
@@ -82,6 +133,8 @@ SubCommand add_tune_command(CommandLine& line, const Kinds& kinds) {
   arguments->add_scene_to(line, kUnpackedSceneForms);
   line.flag("--boundary", arguments->boundary,
             "for paper order: less that is blended out of order; centres rest");
+  line.flag("--quantise", arguments->quantise,
+            "for codebooks: entries and Gaussians learned together; centres rest");
   line.file("--data", arguments->data,
             "the folder of a data set; without, the scene's own "
             "reference pictures are what it is to look like");
@@ -91,15 +144,24 @@ SubCommand add_tune_command(CommandLine& line, const Kinds& kinds) {
   line.whole("--between", arguments->between, 0, 100'000,
              "so many cameras between the given ones to tune on, which then are to test with");
   arguments->config.add_to(line);
-  arguments->FittingArguments::add_to(line, "scene to write: .ply");
-  line.whole("--steps", arguments->steps, 0, 1'000'000, "a picture each; 0: 3,000");
+  arguments->FittingArguments::add_to(line,
+                                      "scene to write: .ply with --boundary, .sgs with --quantise");
+  line.whole("--steps", arguments->steps, 0, 1'000'000,
+             "a picture each; 0: 3,000 with --boundary, 5,000 with --quantise");
   line.whole("--seed", arguments->seed, 0, kMostSeed, "of all that is drawn by lot");
-  line.real("--rate", arguments->rate, 0, 1'000, "of learning, times the original's");
+  line.real("--rate", arguments->rate, 0, 1'000,
+            "of learning, times the original's; 0: 1 with --boundary, 0.2 with --quantise");
   line.real("--beta", arguments->beta, 0, 1e9, "of L_CBP in the loss");
   line.one_of({"group", "pixel"}, "--misordered-in", arguments->misordered_in,
               "where a Gaussian comes behind a farther one: in its group or at a pixel of its own");
   line.one_of({"rendered", "scene"}, "--penalty-mean", arguments->penalty_mean,
               "what L_CBP is a mean over: (group, Gaussian) pairs or all Gaussians");
+  line.whole("--reassign-every", arguments->reassign_every, 1, 1'000'000,
+             "steps: every Gaussian finds its nearest entries anew");
+  for (const char* name : {"--beta", "--misordered-in", "--penalty-mean"}) {
+    line.needs(name, "--boundary");
+  }
+  line.needs("--reassign-every", "--quantise");
   line.whole("--visit-memory", arguments->visit_memory_mb, 0, 1'000'000,
              "MB of visits that are kept; those of further views are made anew each time");
   return [arguments, &kinds] { return run(*arguments, kinds); };

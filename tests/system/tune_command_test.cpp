@@ -15,6 +15,9 @@ struct Row {
 };
 
 constexpr const char* kTune = "$SG tune $B --boundary --steps 30 --test-every 15 ";
+constexpr const char* kQuantise =
+    "$SG tune $B --quantise --steps 30 --test-every 15 --reassign-every 10 "
+    "--set storage.vq.dc_entries=32 ";
 
 TEST_CASE("tune: a scene whose centres rest, a log that begins with the scene as given") {
   for (const Row& row : std::vector<Row>{
@@ -50,14 +53,38 @@ TEST_CASE("tune: photographs of a data set as the target") {
   CHECK(made.out.find("photographs of d, ") != std::string::npos);
 }
 
+TEST_CASE("tune: codebooks learned, packed for the machine of the configuration") {
+  for (const char* config : {"paper", "exact_vq", "exact_vq_packed"}) {
+    const ScratchFolder scratch;
+    const std::string with = std::string("--config ") + config;
+    const ShellOutcome made =
+        shell(scratch, kQuantise + with +
+                           " --out q.sgs --log l.csv && cat l.csv && $SG info q.sgs && "
+                           "printf '[{\"id\":0,\"img_name\":\"a\",\"width\":32,\"height\":18,"
+                           "\"position\":[0,0,-5],\"rotation\":[[1,0,0],[0,1,0],[0,0,1]],\"fx\":32,"
+                           "\"fy\":32}]' >c.json && $SG simulate q.sgs --cameras c.json " +
+                           with);
+    INFO(made.out << made.err);
+    CHECK(made.status == 0);
+    for (const char* word : {"before codebooks", "test_ssim,reference_psnr_db,reassigned\n0,",
+                             "\n15,", "\n30,", " of 300\n"}) {
+      INFO(word);
+      CHECK(made.out.find(word) != std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("tune: what is resumed ends as what was never stopped, bit for bit") {
-  const ScratchFolder scratch;
-  const std::string tune = kTune;
-  const ShellOutcome made =
-      shell(scratch, tune + "--out a.ply --checkpoint 20 && cp a.ply.checkpoint mid && " + tune +
-                         "--out b.ply --resume mid && cmp a.ply b.ply");
-  INFO(made.out << made.err);
-  CHECK(made.status == 0);
+  for (const std::string tune : {kTune, kQuantise}) {
+    const std::string extension = tune == kTune ? ".ply" : ".sgs";
+    const ScratchFolder scratch;
+    const ShellOutcome made =
+        shell(scratch, tune + "--out a" + extension + " --checkpoint 20 && cp a" + extension +
+                           ".checkpoint mid && " + tune + "--out b" + extension +
+                           " --resume mid && cmp a" + extension + " b" + extension);
+    INFO(made.out << made.err);
+    CHECK(made.status == 0);
+  }
 }
 
 TEST_CASE("tune: Ctrl-C saves, and says how to go on") {
@@ -76,6 +103,13 @@ TEST_CASE("tune: refusals") {
   const std::string checkpoint = std::string(kTune) + "--out s.ply --checkpoint 20 >t && ";
   for (const Row& row : std::vector<Row>{
            {"$SG tune $B --out t.ply", {"got nothing to tune for"}},
+           {"$SG tune $B --boundary --quantise --out t.ply", {"got both"}},
+           {"$SG tune $B --quantise --out t.ply", {"--out", "t.ply", ".sgs"}},
+           {"$SG tune $B --quantise --out t.sgs --config paper_no_vq",
+            {"--quantise", "storage.encoding raw", "vq or vq_packed"}},
+           {"$SG tune $B --quantise --out t.sgs --beta 1", {"--beta", "--boundary"}},
+           {"$SG tune $B --boundary --out t.ply --reassign-every 9",
+            {"--reassign-every", "--quantise"}},
            {"$SG tune nofile.ply --boundary --out t.ply", {"nofile.ply: no such file"}},
            {"$SG tune $B --boundary --out t.txt", {"--out", "t.txt", ".ply"}},
            {"$SG tune $S --boundary --out t.ply --data nofolder", {"nofolder: no such folder"}},
@@ -93,7 +127,9 @@ TEST_CASE("tune: refusals") {
             {"a.ply: holds no Gaussian that a view could show"}},
            {"$SG tune $B --boundary --out t.ply --resume nofile", {"nofile: cannot be opened"}},
            {checkpoint + "$SG tune $B --boundary --steps 31 --out t.ply --resume s.ply.checkpoint",
-            {"is of 'tune builtin:object?n=300", "--steps 30", "expected", "--steps 31"}}}) {
+            {"is of 'tune builtin:object?n=300", "--steps 30", "expected", "--steps 31"}},
+           {checkpoint + kQuantise + "--out t.sgs --resume s.ply.checkpoint",
+            {"is of 'tune builtin:object?n=300", "--boundary", "expected", "--quantise"}}}) {
     const ScratchFolder scratch;
     const ShellOutcome outcome = shell(scratch, row.line);
     INFO(row.line << '\n' << outcome.out << outcome.err);
