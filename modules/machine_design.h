@@ -67,8 +67,10 @@ class MachineDesign {
   virtual GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                              DataSheet& sheet) const = 0;
 
-  // How it renders, where that is in paper order: what scenes can be tuned for.
+  // What scenes can be tuned for: how it renders, where that is in paper order; the group of pixels
+  // that a Gaussian is fetched for, 0 x 0 where there are none.
   virtual std::optional<PaperOrderConfig> paper_order() const { return {}; }
+  virtual PixelSize group() const { return {}; }
 
   virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                          const BuildOptions& options) const = 0;

@@ -23,6 +23,7 @@ class PaperDesign : public MachineDesign {
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                      DataSheet& sheet) const override;
   std::optional<PaperOrderConfig> paper_order() const override;
+  PixelSize group() const override { return config_.group(); }
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                  const BuildOptions& options) const override;
 

@@ -8,8 +8,10 @@
 #include "algorithm/input_error.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/train/boundary_tuner.h"
+#include "algorithm/train/drawing_order.h"
 #include "algorithm/train/paper_quality.h"
+#include "algorithm/train/penalties.h"
+#include "algorithm/train/scene_tuner.h"
 #include "testbench/streaminggs/tune_command.h"
 
 namespace sgs {
@@ -18,12 +20,10 @@ namespace {
 constexpr int kBoundarySteps = 3'000;  // the paper's
 constexpr double kBoundaryRate = 1;
 
-BoundaryTuningConfig tuning_config(const TuneArguments& arguments) {
-  BoundaryTuningConfig config;
-  arguments.set(config, kBoundarySteps, kBoundaryRate);
-  config.beta = arguments.beta;
-  if (arguments.misordered_in == "pixel") config.penalty.in = MisorderedIn::kPixel;
-  if (arguments.penalty_mean == "scene") config.penalty.mean = PenaltyMean::kScene;
+BoundaryPenaltyConfig penalty_config(const TuneArguments& arguments) {
+  BoundaryPenaltyConfig config;
+  if (arguments.misordered_in == "pixel") config.in = MisorderedIn::kPixel;
+  if (arguments.penalty_mean == "scene") config.mean = PenaltyMean::kScene;
   return config;
 }
 
@@ -36,22 +36,12 @@ PaperOrderConfig paper_order_of(const RunConfig& config) {
       config.machine()));
 }
 
-BoundaryTuner begun(const TuneArguments& arguments, const BoundaryTuningConfig& config,
-                    const Photographs& photographs, VisitPlan& plan, const GaussianCloud& given,
-                    const std::optional<Checkpoint>& from) {
-  if (!from) return {config, photographs, plan, given};
-  BoundaryTuner::State state = BoundaryTuner::restored(from->state);
-  if (state.cloud.means != given.means) {
-    throw InputError(fmt::format("{}: is of another scene than {}, its centres are others",
-                                 arguments.resume, arguments.scene));
-  }
-  return {config, photographs, plan, std::move(state)};
-}
-
 }  // namespace
 
 int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
-  const BoundaryTuningConfig config = tuning_config(arguments);
+  TuningConfig config;
+  arguments.set(config, kBoundarySteps, kBoundaryRate);
+  const BoundaryPenaltyConfig penalty = penalty_config(arguments);
   const PaperOrderConfig order = paper_order_of(job.config);
   const StorageConfig& storage = job.config.storage;
   const std::string work = arguments.work(config);
@@ -59,12 +49,15 @@ int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
 
   const CloudInStorage given = given_in_storage(arguments, job);
   VisitPlan plan(std::get<VoxelGrid>(given.table), order, arguments.visit_bytes());
-  BoundaryTuner tuner = begun(arguments, config, job.views.tune, plan, given.cloud, from);
+  SceneTuner tuner = begun_tuner(
+      arguments, job, config, paper_order(plan),
+      arguments.beta > 0 ? boundary_loss(arguments.beta, order.precision, penalty) : Penalty(),
+      given.cloud, from);
   print_target(job, given.cloud.size());
   const auto look = [&] {
     const CloudInStorage now = in_storage(tuner.cloud(), storage);
     const PaperQuality quality = paper_quality(activate(now.cloud), std::get<VoxelGrid>(now.table),
-                                               order, config.penalty, job.views.test);
+                                               order, penalty, job.views.test);
     return Look{quality.paper,
                 {quality.reference.psnr_db, quality.misordered_gaussians, quality.misordered_pixels,
                  quality.penalty}};

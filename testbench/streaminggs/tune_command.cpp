@@ -1,4 +1,4 @@
-// streaminggs tune SCENE --boundary|--quantise --out FILE
+// streaminggs tune SCENE --boundary|--quantise|--streaming --out FILE
 #include "testbench/streaminggs/tune_command.h"
 
 #include <fmt/format.h>
@@ -22,11 +22,14 @@ namespace sgs {
 namespace {
 
 void check_arguments(const TuneArguments& arguments) {
-  if (arguments.boundary == arguments.quantise) {
-    throw InputError(fmt::format("tune: got {}, expected --boundary or --quantise",
-                                 arguments.boundary ? "both" : "nothing to tune for"));
+  const int purposes =
+      (arguments.boundary ? 1 : 0) + (arguments.quantise ? 1 : 0) + (arguments.streaming ? 1 : 0);
+  if (purposes != 1) {
+    throw InputError(
+        fmt::format("tune: got {} to tune for, expected one of --boundary, --quantise, --streaming",
+                    purposes == 0 ? "nothing" : "several things"));
   }
-  const char* extension = arguments.boundary ? ".ply" : kImageFileExtension;
+  const char* extension = arguments.quantise ? kImageFileExtension : ".ply";
   if (std::filesystem::path(arguments.out).extension() != extension) {
     throw InputError(
         fmt::format("--out: {}, expected a name that ends in {}", arguments.out, extension));
@@ -64,8 +67,9 @@ int run(const TuneArguments& arguments, const Kinds& kinds) {
   job.config.design->fit_frames([&] { return frame_sizes(job.views); });
   resolve(job.config);
   adapt(job.config, job.scene);
-  return arguments.boundary ? tune_for_boundaries(arguments, job)
-                            : tune_for_codebooks(arguments, job);
+  if (arguments.boundary) return tune_for_boundaries(arguments, job);
+  return arguments.quantise ? tune_for_codebooks(arguments, job)
+                            : tune_for_streaming(arguments, job);
 }
 
 }  // namespace
@@ -93,6 +97,20 @@ std::optional<PaperOrderConfig> tuned_order(const RunConfig& config) {
   return order;
 }
 
+SceneTuner begun_tuner(const TuneArguments& arguments, const TuningJob& job,
+                       const TuningConfig& config, DrawingOrder order, Penalty penalty,
+                       const GaussianCloud& given, const std::optional<Checkpoint>& from) {
+  if (!from) {
+    return {config, job.views.tune, std::move(order), std::move(penalty), given};
+  }
+  SceneTuner::State state = SceneTuner::restored(from->state);
+  if (state.cloud.means != given.means) {
+    throw InputError(fmt::format("{}: is of another scene than {}, its centres are others",
+                                 arguments.resume, arguments.scene));
+  }
+  return {config, job.views.tune, std::move(order), std::move(penalty), std::move(state)};
+}
+
 void print_target(const TuningJob& job, std::size_t gaussians) {
   const StorageConfig& storage = job.config.storage;
   fmt::print("{:<26}{}\n{:<26}{} in {}, {} left out that no view can show\n", "target",
@@ -112,8 +130,7 @@ void TuneArguments::set(TuningConfig& tuning, int own_steps, double own_rate) co
 }
 
 std::string TuneArguments::work(const TuningConfig& tuning) const {
-  std::string line =
-      fmt::format("{} --{} --config {}", scene, boundary ? "boundary" : "quantise", config.config);
+  std::string line = fmt::format("{} --{} --config {}", scene, purpose(), config.config);
   for (const std::string& value : config.overrides) line += " --set " + value;
   if (data.empty()) {
     line += fmt::format(" --cameras {} --size {} --between {}", cameras_path, size, between);
@@ -122,6 +139,7 @@ std::string TuneArguments::work(const TuningConfig& tuning) const {
   }
   line += fmt::format(" --steps {} --seed {} --rate {}", tuning.steps, seed, tuning.rate);
   if (quantise) return line + fmt::format(" --reassign-every {}", reassign_every);
+  if (streaming) return line + fmt::format(" --price {}", price);
   return line + fmt::format(" --beta {} --misordered-in {} --penalty-mean {}", beta, misordered_in,
                             penalty_mean);
 }
@@ -135,6 +153,9 @@ SubCommand add_tune_command(CommandLine& line, const Kinds& kinds) {
             "for paper order: less that is blended out of order; centres rest");
   line.flag("--quantise", arguments->quantise,
             "for codebooks: entries and Gaussians learned together; centres rest");
+  line.flag("--streaming", arguments->streaming,
+            "for fewer bytes in exact order: Gaussians pay for what they are fetched for; centres "
+            "rest");
   line.file("--data", arguments->data,
             "the folder of a data set; without, the scene's own "
             "reference pictures are what it is to look like");
@@ -144,13 +165,12 @@ SubCommand add_tune_command(CommandLine& line, const Kinds& kinds) {
   line.whole("--between", arguments->between, 0, 100'000,
              "so many cameras between the given ones to tune on, which then are to test with");
   arguments->config.add_to(line);
-  arguments->FittingArguments::add_to(line,
-                                      "scene to write: .ply with --boundary, .sgs with --quantise");
+  arguments->FittingArguments::add_to(line, "scene to write: .sgs with --quantise, else .ply");
   line.whole("--steps", arguments->steps, 0, 1'000'000,
-             "a picture each; 0: 3,000 with --boundary, 5,000 with --quantise");
+             "a picture each; 0: 3,000, with --quantise 5,000");
   line.whole("--seed", arguments->seed, 0, kMostSeed, "of all that is drawn by lot");
   line.real("--rate", arguments->rate, 0, 1'000,
-            "of learning, times the original's; 0: 1 with --boundary, 0.2 with --quantise");
+            "of learning, times the original's; 0: 1, with --quantise and --streaming 0.2");
   line.real("--beta", arguments->beta, 0, 1e9, "of L_CBP in the loss");
   line.one_of({"group", "pixel"}, "--misordered-in", arguments->misordered_in,
               "where a Gaussian comes behind a farther one: in its group or at a pixel of its own");
@@ -162,6 +182,8 @@ SubCommand add_tune_command(CommandLine& line, const Kinds& kinds) {
     line.needs(name, "--boundary");
   }
   line.needs("--reassign-every", "--quantise");
+  line.real("--price", arguments->price, 0, 1e9, "of a fetch in the loss");
+  line.needs("--price", "--streaming");
   line.whole("--visit-memory", arguments->visit_memory_mb, 0, 1'000'000,
              "MB of visits that are kept; those of further views are made anew each time");
   return [arguments, &kinds] { return run(*arguments, kinds); };

@@ -9,6 +9,9 @@
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/scene/load_scene.h"
 #include "algorithm/storage/stored_scene.h"
+#include "algorithm/train/drawing_order.h"
+#include "algorithm/train/penalties.h"
+#include "algorithm/train/scene_tuner.h"
 #include "algorithm/train/tuning_config.h"
 #include "algorithm/tune/visit_plan.h"
 #include "testbench/command_line/config_source.h"
@@ -20,7 +23,7 @@
 namespace sgs {
 
 struct TuneArguments : SceneArguments, FittingArguments {
-  bool boundary = false, quantise = false;
+  bool boundary = false, quantise = false, streaming = false;
   std::string data;  // folder of a data set; empty: the scene's own pictures
   std::uint32_t between = 0;
   ConfigSource config;
@@ -30,9 +33,13 @@ struct TuneArguments : SceneArguments, FittingArguments {
   double beta = 0.05;
   std::string misordered_in = "group", penalty_mean = "rendered";
   std::uint32_t reassign_every = 100;
+  double price = 0.01;
   std::uint32_t visit_memory_mb = 1024;
 
   std::size_t visit_bytes() const { return std::size_t{visit_memory_mb} * 1'000'000; }
+  const char* purpose() const {
+    return boundary ? "boundary" : quantise ? "quantise" : "streaming";
+  }
   // What a checkpoint must have been made with.
   std::string work(const TuningConfig& config) const;
   // What all tunings take of it; steps, rate: where the user says none.
@@ -59,11 +66,18 @@ CloudInStorage given_in_storage(const TuneArguments& arguments, const TuningJob&
 // for.
 std::optional<PaperOrderConfig> tuned_order(const RunConfig& config);
 
+// A tuner of what is written as .ply, at its beginning or from a checkpoint. given: in storage
+// order. Throws InputError where the checkpoint is of another scene.
+SceneTuner begun_tuner(const TuneArguments& arguments, const TuningJob& job,
+                       const TuningConfig& config, DrawingOrder order, Penalty penalty,
+                       const GaussianCloud& given, const std::optional<Checkpoint>& from);
+
 void print_target(const TuningJob& job, std::size_t gaussians);
 void print_visits(const VisitPlan& plan);
 
 // Each returns the exit status. Throw InputError.
 int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job);
+int tune_for_streaming(const TuneArguments& arguments, const TuningJob& job);
 int tune_for_codebooks(const TuneArguments& arguments, const TuningJob& job);
 
 }  // namespace sgs

@@ -19,6 +19,9 @@ constexpr const char* kQuantise =
     "$SG tune $B --quantise --steps 30 --test-every 15 --reassign-every 10 "
     "--set storage.vq.dc_entries=32 ";
 
+constexpr const char* kStreaming =
+    "$SG tune $B --streaming --config exact --steps 30 --test-every 15 --price 0.5 ";
+
 TEST_CASE("tune: a scene whose centres rest, a log that begins with the scene as given") {
   for (const Row& row : std::vector<Row>{
            {"--out t.ply --log l.csv",
@@ -74,9 +77,22 @@ TEST_CASE("tune: codebooks learned, packed for the machine of the configuration"
   }
 }
 
+TEST_CASE("tune: what is cheaper to stream") {
+  const ScratchFolder scratch;
+  const ShellOutcome made = shell(
+      scratch, std::string(kStreaming) + "--out t.ply --log l.csv && cat l.csv && $SG info t.ply");
+  INFO(made.out << made.err);
+  CHECK(made.status == 0);
+  for (const char* word : {"in chunks of 8", "test_ssim,stored,fetches\n0,", "\n15,", "\n30,",
+                           "gaussians                 300\n"}) {
+    INFO(word);
+    CHECK(made.out.find(word) != std::string::npos);
+  }
+}
+
 TEST_CASE("tune: what is resumed ends as what was never stopped, bit for bit") {
-  for (const std::string tune : {kTune, kQuantise}) {
-    const std::string extension = tune == kTune ? ".ply" : ".sgs";
+  for (const std::string tune : {kTune, kQuantise, kStreaming}) {
+    const std::string extension = tune == kQuantise ? ".sgs" : ".ply";
     const ScratchFolder scratch;
     const ShellOutcome made =
         shell(scratch, tune + "--out a" + extension + " --checkpoint 20 && cp a" + extension +
@@ -103,13 +119,15 @@ TEST_CASE("tune: refusals") {
   const std::string checkpoint = std::string(kTune) + "--out s.ply --checkpoint 20 >t && ";
   for (const Row& row : std::vector<Row>{
            {"$SG tune $B --out t.ply", {"got nothing to tune for"}},
-           {"$SG tune $B --boundary --quantise --out t.ply", {"got both"}},
+           {"$SG tune $B --boundary --quantise --out t.ply", {"got several things to tune for"}},
            {"$SG tune $B --quantise --out t.ply", {"--out", "t.ply", ".sgs"}},
            {"$SG tune $B --quantise --out t.sgs --config paper_no_vq",
             {"--quantise", "storage.encoding raw", "vq or vq_packed"}},
            {"$SG tune $B --quantise --out t.sgs --beta 1", {"--beta", "--boundary"}},
            {"$SG tune $B --boundary --out t.ply --reassign-every 9",
             {"--reassign-every", "--quantise"}},
+           {"$SG tune $B --streaming --out t.ply", {"--streaming", "machine paper", "exact order"}},
+           {"$SG tune $B --boundary --out t.ply --price 1", {"--price", "--streaming"}},
            {"$SG tune nofile.ply --boundary --out t.ply", {"nofile.ply: no such file"}},
            {"$SG tune $B --boundary --out t.txt", {"--out", "t.txt", ".ply"}},
            {"$SG tune $S --boundary --out t.ply --data nofolder", {"nofolder: no such folder"}},

@@ -1,30 +1,25 @@
-// Boundary-aware fine-tuning (StreamingGS, DAC 2025): a scene that paper order shows better.
+// Fine-tuning of a scene that stands: in the order that a machine draws in, with what is to become
+// less.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/train/drawing_order.h"
 #include "algorithm/train/fitting.h"
+#include "algorithm/train/penalties.h"
 #include "algorithm/train/photographs.h"
 #include "algorithm/train/tuning_config.h"
 #include "algorithm/train/view_order.h"
 #include "algorithm/tune/adam.h"
-#include "algorithm/tune/boundary_penalty.h"
 #include "algorithm/tune/cloud_gradient.h"
-#include "algorithm/tune/visit_plan.h"
 
 namespace sgs {
 
-struct BoundaryTuningConfig : TuningConfig {
-  double beta = 0.05;  // of L_CBP in the loss
-  BoundaryPenaltyConfig penalty;
-};
-
-// Each step: L = L_3DGS + beta L_CBP of a photograph's view as paper order draws it, before black
-// as the machines do, in their precision; everything but the centres moves.
-class BoundaryTuner : public Fitting {
+// Each step: L = L_3DGS + penalty, of a photograph's view as the order draws it; everything but the
+// centres moves.
+class SceneTuner : public Fitting {
  public:
   // All that there is to save.
   struct State {
@@ -33,11 +28,12 @@ class BoundaryTuner : public Fitting {
     AdamMoments moments;
   };
 
-  // photographs: loaded. plan: of a grid of the given scene. Both must outlive the tuner.
-  BoundaryTuner(const BoundaryTuningConfig& config, const Photographs& photographs, VisitPlan& plan,
-                GaussianCloud given);
-  BoundaryTuner(const BoundaryTuningConfig& config, const Photographs& photographs, VisitPlan& plan,
-                State state);
+  // photographs: loaded; must outlive the tuner. given: in the order's storage order. penalty: may
+  // be empty.
+  SceneTuner(const TuningConfig& config, const Photographs& photographs, DrawingOrder order,
+             Penalty penalty, GaussianCloud given);
+  SceneTuner(const TuningConfig& config, const Photographs& photographs, DrawingOrder order,
+             Penalty penalty, State state);
 
   FittingStep step() override;
   int next_step() const override { return next_step_; }
@@ -49,9 +45,10 @@ class BoundaryTuner : public Fitting {
   const GaussianCloud& cloud() const { return cloud_; }
 
  private:
-  const BoundaryTuningConfig config_;
+  const TuningConfig config_;
   const Photographs& photographs_;
-  VisitPlan& plan_;
+  const DrawingOrder order_;
+  const Penalty penalty_;
   int next_step_ = 0;
   GaussianCloud cloud_;
   ActivatedCloud activated_;

@@ -1,5 +1,5 @@
-// Boundary-aware tuning as a whole, on a small scene whose own pictures are the target.
-#include "algorithm/train/boundary_tuner.h"
+// Tunings of scenes as a whole, on a small one whose own pictures are the target.
+#include "algorithm/train/scene_tuner.h"
 
 #include <tbb/global_control.h>
 
@@ -8,6 +8,7 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/render/reference_renderer.h"
+#include "algorithm/render/splat_bins.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/reorder.h"
 #include "algorithm/train/own_pictures.h"
@@ -52,18 +53,21 @@ struct Case {
   }
 };
 
-BoundaryTuningConfig short_tuning(double beta, MisorderedIn in = MisorderedIn::kPixel) {
-  BoundaryTuningConfig config;
+TuningConfig short_tuning() {
+  TuningConfig config;
   config.steps = 150;
   config.rate = 10;  // for as many steps more
-  config.beta = beta;
-  config.penalty.in = in;
   return config;
 }
 
-GaussianCloud tuned(const Case& scene, const BoundaryTuningConfig& config) {
+Penalty boundary(double beta, MisorderedIn in) {
+  return boundary_loss(beta, BlendPrecision::kHalf, {in, PenaltyMean::kRendered});
+}
+
+GaussianCloud tuned(const Case& scene, double beta) {
   VisitPlan plan(scene.grid, scene.order, 1U << 20U);
-  BoundaryTuner tuner(config, scene.pictures, plan, scene.cloud);
+  SceneTuner tuner(short_tuning(), scene.pictures, paper_order(plan),
+                   beta > 0 ? boundary(beta, MisorderedIn::kPixel) : Penalty(), scene.cloud);
   while (!tuner.done()) tuner.step();
   return tuner.cloud();
 }
@@ -75,7 +79,7 @@ TEST_CASE("boundary tuning: paper order comes nearer, and less of it is out of o
   REQUIRE(before.misordered_pixels > 0.02);
   PaperQuality by_loss{};
   for (const double beta : {0.0, 0.5}) {
-    const GaussianCloud cloud = tuned(scene, short_tuning(beta));
+    const GaussianCloud cloud = tuned(scene, beta);
     CHECK(cloud.means == scene.cloud.means);
     const PaperQuality after = scene.quality(cloud);
     CAPTURE(beta, before.paper.psnr_db, after.paper.psnr_db, before.misordered_pixels,
@@ -93,16 +97,18 @@ TEST_CASE("boundary tuning: paper order comes nearer, and less of it is out of o
 
 TEST_CASE("boundary tuning: saved and resumed, on 1 and 3 threads, the same bits") {
   const Case scene;
-  const BoundaryTuningConfig config = short_tuning(0.05, MisorderedIn::kGroup);
+  const TuningConfig config = short_tuning();
+  const Penalty penalty = boundary(0.05, MisorderedIn::kGroup);
   VisitPlan plan(scene.grid, scene.order, 1U << 20U);
-  BoundaryTuner whole(config, scene.pictures, plan, scene.cloud);
+  SceneTuner whole(config, scene.pictures, paper_order(plan), penalty, scene.cloud);
   for (int i = 0; i < 10; ++i) whole.step();
   const std::string saved = whole.saved();
   for (int i = 0; i < 10; ++i) whole.step();
   for (const std::size_t threads : {1, 3}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     VisitPlan none(scene.grid, scene.order, 0);
-    BoundaryTuner resumed(config, scene.pictures, none, BoundaryTuner::restored(saved));
+    SceneTuner resumed(config, scene.pictures, paper_order(none), penalty,
+                       SceneTuner::restored(saved));
     CHECK(resumed.next_step() == 10);
     for (int i = 0; i < 10; ++i) resumed.step();
     CHECK(resumed.saved() == whole.saved());
@@ -115,10 +121,43 @@ TEST_CASE("boundary tuning: what is no number stops it, and the step has changed
   GaussianCloud cloud = scene.cloud;
   for (glm::vec3& coeff : cloud.sh_coeffs) coeff.x = 1e38F;
   VisitPlan plan(scene.grid, scene.order, 0);
-  BoundaryTuner tuner(short_tuning(0.05), scene.pictures, plan, cloud);
+  SceneTuner tuner(short_tuning(), scene.pictures, paper_order(plan),
+                   boundary(0.05, MisorderedIn::kPixel), cloud);
   const std::string before = tuner.saved();
   CHECK_THROWS_AS(tuner.step(), NotFinite);
   CHECK(tuner.saved() == before);
+}
+
+// Groups that the boxes of all splats meet.
+std::size_t fetches(const ActivatedCloud& cloud, const PixelSize& group) {
+  std::size_t sum = 0;
+  for (const Camera& camera : cameras()) {
+    const auto view = make_view<float>(camera);
+    const CellGrid grid = cell_grid(view.width, view.height, group);
+    for (const Splat& splat : reference_sequences(view, cloud).splats) {
+      sum += cells_of(grid, splat.footprint).size();
+    }
+  }
+  return sum;
+}
+
+TEST_CASE("streaming tuning: fewer fetches the more they cost, for some quality") {
+  const Case scene;
+  const PixelSize group = square_of(16);
+  std::size_t before = fetches(activate(scene.cloud), group);
+  for (const double weight : {0.005, 0.05}) {
+    SceneTuner tuner(short_tuning(), scene.pictures, reference_order(),
+                     streaming_loss(weight, group), scene.cloud);
+    while (!tuner.done()) tuner.step();
+    const std::size_t after = fetches(activate(tuner.cloud()), group);
+    const double psnr =
+        mean_nearness(nearness(activate(tuner.cloud()), scene.pictures, glm::vec3(0))).psnr_db;
+    CAPTURE(weight, before, after, psnr);
+    CHECK(static_cast<double>(after) < 0.9 * static_cast<double>(before));
+    CHECK(psnr > 25);
+    CHECK(tuner.cloud().means == scene.cloud.means);
+    before = after;
+  }
 }
 
 TEST_CASE("tuning: rates fall to a tenth, centres rest") {
