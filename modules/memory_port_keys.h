@@ -12,6 +12,8 @@ inline void visit(ConfigVisitor& v, MemoryPortConfig& c) {
   v("max_outstanding", c.max_outstanding, in_range(1, 4096), "requests of a port in flight");
   v("max_writes", c.max_writes, in_range(1, 4096),
     "writes of these; the port keeps their bytes until they are answered");
+  v("path_cycles", c.path_cycles, in_range(0, 64),
+    "registers between port and channels, in each direction");
 }
 
 }  // namespace sgs

@@ -5,8 +5,8 @@
 //     sheet.unit(*this);
 //     sheet.activity(sort_, "sorting", "takes, sorts and hands on the keys of one chunk");
 //     sheet.counter("keys", "keys", "sorted", counters_.keys);
-//     sheet.part("sorting", "compare_exchange", kNetworkComparators, 1);
-//     sheet.operations("sorting", "compare_exchange", counters_.compare_exchanges);
+//     sheet.part("sorting", "comparator", kNetworkComparators, 1);
+//     sheet.operations("sorting", "comparator", counters_.compare_exchanges);
 //     sheet.sram(sram_uses(built_for_));
 //     sheet.accesses("key sorters", counters_.keys, counters_.keys);
 //   }
@@ -41,8 +41,8 @@ class DataSheet {
     (void)resource;
     (void)meaning;
   }
-  // What lets the activity work for fewer cycles; or wait for fewer, for something at a FIFO, a port
-  // or a unit.
+  // What lets the activity work for fewer cycles; or wait for fewer, for something at a FIFO, a
+  // port or a unit.
   virtual void remedy(const Activity&, const Remedy&) {}
   virtual void remedy(const sc_core::sc_object& at, WaitFor what, const Remedy&) {
     (void)at;

@@ -16,6 +16,14 @@ struct BesideLanes {
   std::uint32_t operations = 0;
 };
 
+// What stands between the lanes of one copy and what is beside them: registers that hold values
+// until they are taken, multiplexers of two bits by which an input takes one of several; and what
+// an item writes and passes of them. Bits.
+struct BetweenLanes {
+  std::uint32_t registers = 0, multiplexers = 0;
+  std::uint32_t written = 0, selected = 0;
+};
+
 struct Datapath {
   std::string name;       // of what it does to an item: "coarse", "chunk_test"
   std::string component;  // whose square millimetres and joules
@@ -28,6 +36,18 @@ struct Datapath {
   std::uint32_t used_macs = 0, counted_macs = 0, published_macs = 0;
   std::vector<std::pair<std::string, std::uint64_t>> counts;  // by class of operation
   std::vector<BesideLanes> beside;
+  BetweenLanes between;
+  // From the beginning of an item to its end; of these from what is read when it is needed to the
+  // end of what depends on it.
+  std::uint32_t depth_cycles = 0, loop_cycles = 0;
+
+  // That which does this kind; a new one without operations where there is none yet.
+  BesideLanes& part_of(const std::string& kind) {
+    for (BesideLanes& part : beside) {
+      if (part.kind == kind) return part;
+    }
+    return beside.emplace_back(BesideLanes{kind, 0});
+  }
 
   std::uint64_t all_lanes() const { return std::uint64_t{lanes} * copies; }
 

@@ -18,14 +18,15 @@ SramUse unanswered_writes(const char* name, const char* memory, const MemoryPort
   return sram_use(name, memory,
                   {{std::min(config.max_writes, config.max_outstanding), "unanswered"},
                    {std::min(config.max_transaction_bytes, longest_bytes), "B"}},
-                  {8 * std::min({kPortBytes, config.max_transaction_bytes, longest_bytes})});
+                  {8 * std::min({kPortBytes, config.max_transaction_bytes, longest_bytes})},
+                  kOneOfEach);
 }
 
 SramUse outstanding_table(const char* memory, const MemoryPortConfig& config) {
   constexpr std::uint32_t kEntryBytes = 8;
   return sram_use(kOutstandingTable, memory,
-                  {{config.max_outstanding, "transactions"}, {kEntryBytes, "B"}},
-                  {8 * kEntryBytes});
+                  {{config.max_outstanding, "transactions"}, {kEntryBytes, "B"}}, {8 * kEntryBytes},
+                  kOneOfEach);
 }
 
 MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config,
@@ -35,12 +36,22 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConf
       config_(config),
       cycle_(cycle),
       delayed_(this, &MemoryPort::on_phase),
+      arriving_(this, &MemoryPort::on_arrival),
       slots_(kFirstSlots) {
-  if (config.max_transaction_bytes == 0 || config.max_outstanding == 0 || config.max_writes == 0)
-    throw std::invalid_argument(fmt::format(
-        "{}: max_transaction_bytes {}, max_outstanding {} and max_writes {} must be at least 1",
-        this->name(), config.max_transaction_bytes, config.max_outstanding, config.max_writes));
+  if (config.max_transaction_bytes == 0 || config.max_outstanding == 0 || config.max_writes == 0 ||
+      config.width_bytes == 0)
+    throw std::invalid_argument(
+        fmt::format("{}: max_transaction_bytes {}, max_outstanding {}, max_writes {} and "
+                    "width_bytes {} must be at least 1",
+                    this->name(), config.max_transaction_bytes, config.max_outstanding,
+                    config.max_writes, config.width_bytes));
   socket.register_nb_transport_bw(this, &MemoryPort::nb_transport_bw);
+  SC_METHOD(launch);
+  dont_initialize();
+  sensitive << at_target_;
+  SC_METHOD(take_answers);
+  dont_initialize();
+  sensitive << at_port_;
 }
 
 MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint32_t bytes,
@@ -125,21 +136,37 @@ void MemoryPort::send(PooledPayload& payload) {
     sc_core::wait(room_);
     --waiting_for_room_;
   }
-  next_leaves_ = sc_core::sc_time_stamp() + cycle_;
+  const std::uint64_t cycles = payload.is_write() ? words(payload.get_data_length()) : 1;
+  next_leaves_ = sc_core::sc_time_stamp() + static_cast<double>(cycles) * cycle_;
   ++outstanding_;
   writes_outstanding_ += payload.is_write() ? 1 : 0;
   ++transactions_;
   bytes_outstanding_ += payload.get_data_length();
+  // The memory takes a write when it has its last word.
+  const std::uint64_t way = config_.path_cycles + cycles - 1;
+  leaving_.push_back({&payload, sc_core::sc_time_stamp() + static_cast<double>(way) * cycle_});
+  launch();
+}
+
+void MemoryPort::launch() {
+  if (request_ != nullptr || leaving_.empty()) return;
+  const Leaving first = leaving_.front();
+  if (const sc_core::sc_time& now = sc_core::sc_time_stamp(); now < first.due) {
+    at_target_.notify(first.due - now);
+    return;
+  }
+  leaving_.pop_front();
+  PooledPayload& payload = *first.payload;
   request_ = &payload;
   tlm::tlm_phase phase = tlm::BEGIN_REQ;
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
   const tlm::tlm_sync_enum status = socket->nb_transport_fw(payload, phase, delay);
   if (status == tlm::TLM_ACCEPTED) return;
-  if (delay != sc_core::SC_ZERO_TIME) sc_core::wait(delay);
-  if (status == tlm::TLM_COMPLETED) {
-    finish(payload);
-  } else {
+  if (status == tlm::TLM_COMPLETED) phase = tlm::END_RESP;  // which on_phase() need not send
+  if (delay == sc_core::SC_ZERO_TIME) {
     on_phase(payload, phase);
+  } else {
+    delayed_.notify(payload, phase, delay);
   }
 }
 
@@ -150,12 +177,47 @@ void MemoryPort::trace(sc_core::sc_trace_file* file) const {
 void MemoryPort::request_taken(const tlm::tlm_generic_payload& payload) {
   if (request_ != &payload) return;
   request_ = nullptr;
+  if (!leaving_.empty()) at_target_.notify(sc_core::SC_ZERO_TIME);
   if (waiting_for_room_ > 0) room_.notify(sc_core::SC_ZERO_TIME);
+}
+
+// The memory has the answer. Its words take the path behind those of the answers before: they come
+// from the memory more slowly than the path takes them, so that one that finds it free is there
+// with its last word.
+void MemoryPort::arrive(tlm::tlm_generic_payload& payload) {
+  request_taken(payload);  // an answer implies END_REQ
+  const sc_core::sc_time way = static_cast<double>(config_.path_cycles) * cycle_;
+  if (way == sc_core::SC_ZERO_TIME) {
+    finish(payload);
+    return;
+  }
+  const Ticket ticket = static_cast<PooledPayload&>(payload).memory().tag;
+  answers_.emplace(std::tuple(sc_core::sc_time_stamp() + way, ticket, payload.get_address()),
+                   &payload);
+  at_port_.notify(way);
+}
+
+void MemoryPort::take_answers() {
+  const sc_core::sc_time now = sc_core::sc_time_stamp();
+  while (!answers_.empty() && std::get<0>(answers_.begin()->first) <= now) {
+    tlm::tlm_generic_payload& payload = *answers_.begin()->second;
+    answers_.erase(answers_.begin());
+    if (payload.is_read()) {
+      const auto cycles = static_cast<double>(words(payload.get_data_length()));
+      last_arrived_ = std::max(now, last_arrived_ + cycles * cycle_);
+    }
+    if (payload.is_write() || last_arrived_ == now) {
+      finish(payload);
+      continue;
+    }
+    tlm::tlm_phase phase = tlm::END_RESP;
+    arriving_.notify(payload, phase, last_arrived_ - now);
+  }
+  if (!answers_.empty()) at_port_.notify(std::get<0>(answers_.begin()->first) - now);
 }
 
 void MemoryPort::finish(tlm::tlm_generic_payload& payload) {
   check_response(payload);
-  request_taken(payload);  // an answer implies END_REQ
   --outstanding_;
   writes_outstanding_ -= payload.is_write() ? 1 : 0;
   bytes_outstanding_ -= payload.get_data_length();
@@ -184,6 +246,10 @@ void MemoryPort::on_phase(tlm::tlm_generic_payload& payload, const tlm::tlm_phas
     request_taken(payload);
     return;
   }
+  if (phase == tlm::END_RESP) {
+    arrive(payload);
+    return;
+  }
   if (phase != tlm::BEGIN_RESP) {
     SC_REPORT_ERROR("/sgs/memory_port", "a phase that the base protocol does not know");
     return;
@@ -191,7 +257,7 @@ void MemoryPort::on_phase(tlm::tlm_generic_payload& payload, const tlm::tlm_phas
   tlm::tlm_phase end = tlm::END_RESP;
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
   socket->nb_transport_fw(payload, end, delay);
-  finish(payload);
+  arrive(payload);
 }
 
 tlm::tlm_sync_enum MemoryPort::nb_transport_bw(tlm::tlm_generic_payload& payload,
@@ -204,8 +270,8 @@ tlm::tlm_sync_enum MemoryPort::nb_transport_bw(tlm::tlm_generic_payload& payload
     request_taken(payload);
     return tlm::TLM_ACCEPTED;
   }
-  // Finishing at once spares the END_RESP call.
-  finish(payload);
+  // Ending it at once spares the END_RESP call.
+  arrive(payload);
   phase = tlm::END_RESP;
   return tlm::TLM_COMPLETED;
 }

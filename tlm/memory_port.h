@@ -6,9 +6,13 @@
 #include <tlm_utils/peq_with_cb_and_phase.h>
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <deque>
+#include <map>
 #include <systemc>
 #include <tlm>
+#include <tuple>
 #include <vector>
 
 #include "tlm/payload_pool.h"
@@ -16,23 +20,30 @@
 
 namespace sgs {
 
+// What the memories behind a port, and its buffer of writes, take in or give out at once: a burst.
+constexpr std::uint32_t kPortBytes = 32;
+
 struct MemoryPortConfig {
   std::uint32_t max_transaction_bytes = 256;
   std::uint32_t max_outstanding = 16;  // transactions
   // Writes among them. The port keeps the bytes of a write until it is answered, which memories
   // with posted writes do when they have taken it: one is answered, one is on its way.
   std::uint32_t max_writes = 2;
+  // Registers between a port and the channels' controllers, in each direction: wires of some
+  // millimetres and multiplexers of all ports and channels take a cycle. With 0 answers come at
+  // once, whatever their width.
+  std::uint32_t path_cycles = 1;
+  // Of the path in each direction: a transaction takes it for as many cycles as it has words.
+  // No key: the memories behind a port are as wide.
+  std::uint32_t width_bytes = kPortBytes;
 };
-
-// What a port's buffer of writes takes in or gives out at once: a burst.
-constexpr std::uint32_t kPortBytes = 32;
 
 // What a port keeps of writes that are at most so long.
 SramUse unanswered_writes(const char* name, const char* memory, const MemoryPortConfig& config,
                           std::uint32_t longest_bytes);
 
-// What a port keeps of each transaction that is on its way: where its bytes go on chip, how many they
-// are, and whose they are. All ports of a machine have it under the one name.
+// What a port keeps of each transaction that is on its way: where its bytes go on chip, how many
+// they are, and whose they are. All ports of a machine have it under the one name.
 constexpr const char* kOutstandingTable = "outstanding transactions";
 SramUse outstanding_table(const char* memory, const MemoryPortConfig& config);
 
@@ -40,10 +51,12 @@ SramUse outstanding_table(const char* memory, const MemoryPortConfig& config);
 // same time would be served in the order in which the kernel runs them.)
 class MemoryPort : public sc_core::sc_module {
  public:
+  SC_HAS_PROCESS(MemoryPort);
   tlm_utils::simple_initiator_socket<MemoryPort> socket;
 
-  // cycle: from one transaction to the next at the least; 0: any number may leave at once, for an
-  // initiator that is no hardware. std::invalid_argument when a number of the configuration is 0.
+  // cycle: of the port's clock; 0: any number may leave and arrive at once, without a path, for an
+  // initiator that is no hardware. std::invalid_argument when a number of the configuration is 0,
+  // but for path_cycles.
   MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConfig& config,
              const sc_core::sc_time& cycle = sc_core::SC_ZERO_TIME);
 
@@ -51,11 +64,12 @@ class MemoryPort : public sc_core::sc_module {
 
   // Starts reading [address, address + bytes) into `into`, which must stay valid until the ticket
   // is done. Splits at multiples of max_transaction_bytes, one a cycle. Blocks the calling thread
-  // until the last of them leaves, while max_outstanding transactions are in flight or the target holds back END_REQ.
+  // until the last of them is on its path, while max_outstanding transactions are in flight or the
+  // target holds back END_REQ.
   Ticket read(std::uint64_t address, void* into, std::uint32_t bytes, std::uint8_t region);
 
-  // Starts writing; the bytes are copied before it returns. Blocks as read() does, and while
-  // max_writes are unanswered.
+  // Starts writing; the bytes are copied before it returns. A word of width_bytes leaves a cycle.
+  // Blocks as read() does, and while max_writes are unanswered.
   Ticket write(std::uint64_t address, const void* from, std::uint32_t bytes, std::uint8_t region);
 
   bool done(Ticket ticket) const;
@@ -74,6 +88,7 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t bytes_written() const { return bytes_written_; }
   // Accesses of the buffer that keeps unanswered writes, kPortBytes each.
   std::uint64_t words_written() const { return words_written_; }
+  const MemoryPortConfig& config() const { return config_; }
 
   // Those of its transactions; when it is idle, none is in use.
   const PayloadPool& payloads() const { return pool_; }
@@ -94,25 +109,48 @@ class MemoryPort : public sc_core::sc_module {
   const Slot& slot(Ticket ticket) const { return slots_[ticket & (slots_.size() - 1)]; }
 
   void send(PooledPayload& payload);
+  void launch();  // method: the first request that has come to the end of the path
   void request_taken(const tlm::tlm_generic_payload& payload);
+  void arrive(tlm::tlm_generic_payload& payload);
+  void take_answers();  // method: those that have come to the end of the path
   void finish(tlm::tlm_generic_payload& payload);
+  void on_arrival(tlm::tlm_generic_payload& payload, const tlm::tlm_phase&) { finish(payload); }
   void check_response(const tlm::tlm_generic_payload& payload) const;
   void on_phase(tlm::tlm_generic_payload& payload, const tlm::tlm_phase& phase);
   tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                      sc_core::sc_time& delay);
 
+  // On the way to the target; due: not earlier at its end.
+  struct Leaving {
+    PooledPayload* payload;
+    sc_core::sc_time due;
+  };
+  std::uint64_t words(std::uint64_t bytes) const {
+    return (bytes + config_.width_bytes - 1) / config_.width_bytes;
+  }
+
   const MemoryPortConfig config_;
   const sc_core::sc_time cycle_;
   sc_core::sc_time next_leaves_;  // not earlier
   PayloadPool pool_;
-  tlm_utils::peq_with_cb_and_phase<MemoryPort> delayed_;  // answers with an annotated delay
+  std::deque<Leaving> leaving_;
+  sc_core::sc_event at_target_;  // for launch()
+  // On the way back, by when it ends and by ticket and address: answers of one instant come in no
+  // order of their own.
+  std::map<std::tuple<sc_core::sc_time, Ticket, std::uint64_t>, tlm::tlm_generic_payload*> answers_;
+  sc_core::sc_event at_port_;                              // for take_answers()
+  sc_core::sc_time last_arrived_;                          // the last word of the answer before
+  tlm_utils::peq_with_cb_and_phase<MemoryPort> delayed_;   // answers with an annotated delay
+  tlm_utils::peq_with_cb_and_phase<MemoryPort> arriving_;  // answers on the path
 
   std::vector<Slot> slots_;  // ring over the tickets [oldest_, next_); a power of two
   Ticket oldest_ = 0;        // all before it are done
   Ticket next_ = 0;
 
   bool has_room(bool for_write) const {
-    return request_ == nullptr && outstanding_ < config_.max_outstanding &&
+    const std::size_t under_way = leaving_.size() + (request_ != nullptr ? 1 : 0);
+    return under_way < std::max(config_.path_cycles, 1U) &&
+           outstanding_ < config_.max_outstanding &&
            (!for_write || writes_outstanding_ < config_.max_writes);
   }
 

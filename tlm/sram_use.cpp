@@ -12,8 +12,8 @@ std::string SramUse::product() const {
 }
 
 SramUse sram_use(const char* name, const char* memory, const SramFactors& factors,
-                 const SramShape& shape) {
-  SramUse use{name, memory, 1, "", 1, shape};
+                 const SramShape& shape, const SramPeak& peak) {
+  SramUse use{name, memory, 1, "", 1, shape, peak};
   for (const auto& [value, what] : factors) {
     use.bytes *= value;
     use.arithmetic += fmt::format("{}{} {}", use.arithmetic.empty() ? "" : " x ", value, what);
@@ -24,7 +24,7 @@ SramUse sram_use(const char* name, const char* memory, const SramFactors& factor
 void add(SramUses& to, const SramUse& use, std::uint64_t count) {
   const auto same = std::find_if(to.begin(), to.end(), [&](const SramUse& u) {
     return u.name == use.name && u.memory == use.memory && u.bytes == use.bytes &&
-           u.arithmetic == use.arithmetic && u.shape == use.shape;
+           u.arithmetic == use.arithmetic && u.shape == use.shape && u.peak == use.peak;
   });
   if (same != to.end()) {
     same->count += count * use.count;

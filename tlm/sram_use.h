@@ -23,6 +23,16 @@ constexpr bool operator==(const SramShape& a, const SramShape& b) {
   return a.width_bits == b.width_bits && a.ports == b.ports && a.banks == b.banks;
 }
 
+// Most accesses in one cycle, over all banks.
+struct SramPeak {
+  std::uint32_t reads, writes;
+};
+constexpr bool operator==(const SramPeak& a, const SramPeak& b) {
+  return a.reads == b.reads && a.writes == b.writes;
+}
+// What most uses ask of their memory: as much as a bank of two ports gives.
+constexpr SramPeak kOneOfEach{1, 1};
+
 // One use of one of the on-chip memories, as often as it is there.
 struct SramUse {
   std::string name;
@@ -31,6 +41,7 @@ struct SramUse {
   std::string arithmetic;   // how they come about: "8 slots x 256 B"
   std::uint64_t count = 1;
   SramShape shape{32};
+  SramPeak peak = kOneOfEach;  // of one
 
   std::uint64_t total_bytes() const { return count * bytes; }
   // "4 x 8 slots x 256 B": of all.
@@ -43,7 +54,7 @@ using SramFactors = std::vector<std::pair<std::uint64_t, const char*>>;  // (val
 
 // The product of the factors.
 SramUse sram_use(const char* name, const char* memory, const SramFactors& factors,
-                 const SramShape& shape);
+                 const SramShape& shape, const SramPeak& peak);
 
 // Accesses of `width_bits` that move so many bytes, the last one not full.
 constexpr std::uint64_t sram_words(std::uint64_t bytes, const SramShape& shape) {

@@ -30,7 +30,7 @@ SramUse fifo_use(const char* name, const char* memory, std::uint32_t entries,
                  const char* what_they_are) {
   static_assert(EntryBytes<T>::value > 0, "T::kSramBytes says what hardware keeps of an entry");
   return sram_use(name, memory, {{entries, what_they_are}, {EntryBytes<T>::value, "B"}},
-                  {8 * EntryBytes<T>::value});
+                  {8 * EntryBytes<T>::value}, kOneOfEach);
 }
 
 // What can be said of a FIFO whatever it holds.
@@ -39,6 +39,9 @@ class FifoChannel : public sc_core::sc_prim_channel {
   std::uint32_t fill() const { return fill_; }
   std::uint64_t pushed() const { return pushed_; }  // entries so far
   std::uint64_t popped() const { return pushed_ - fill_; }
+  // Most of them within one cycle.
+  std::uint32_t most_pushed() const { return pushes_.most; }
+  std::uint32_t most_popped() const { return pops_.most; }
   virtual std::uint32_t capacity() const = 0;
   virtual std::uint32_t entry_bytes() const = 0;  // as EntryBytes
 
@@ -64,9 +67,22 @@ class FifoChannel : public sc_core::sc_prim_channel {
  protected:
   explicit FifoChannel(const char* name) : sc_prim_channel(name) {}
 
+  // How many things happen at the same time.
+  struct AtOnce {
+    sc_core::sc_time at;
+    std::uint32_t now = 0, most = 0;
+    void count() {
+      const sc_core::sc_time& time = sc_core::sc_time_stamp();
+      now = time == at ? now + 1 : 1;
+      at = time;
+      if (now > most) most = now;
+    }
+  };
+
   std::uint32_t fill_ = 0;
   const Activity *writer_ = nullptr, *reader_ = nullptr;
   std::uint64_t pushed_ = 0;
+  AtOnce pushes_, pops_;
   std::optional<StallInjector> writer_stalls_, reader_stalls_;
 };
 
@@ -101,6 +117,7 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
     entry.ready = sc_core::sc_time_stamp() + latency_;
     ++fill_;
     ++pushed_;
+    pushes_.count();
     if (reader_waits_) filled_.notify(sc_core::SC_ZERO_TIME);
     if (listener_ != nullptr) listener_->notify(sc_core::SC_ZERO_TIME);
   }
@@ -123,6 +140,7 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
     T value = std::move(entries_[head_].value);
     head_ = wrapped(head_ + 1);
     --fill_;
+    pops_.count();
     if (writer_waits_) room_.notify(sc_core::SC_ZERO_TIME);
     return value;
   }

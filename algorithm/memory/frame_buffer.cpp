@@ -29,7 +29,8 @@ DataFlow pixel_flow(FrameFormat format) {
   DataFlow flow;
   const Counting transmittance = input(flow, 0.25F);
   for (const float background : {0.5F, 0.25F, 0.125F}) {
-    const Counting channel = over_background(input(flow, 0.5F), transmittance, Counting(background));
+    const Counting channel =
+        over_background(input(flow, 0.5F), transmittance, Counting(background));
     if (format == FrameFormat::kRgb8) static_cast<void>(level_of(channel));
   }
   return flow;
@@ -45,6 +46,11 @@ OperationCounts pixel_work(FrameFormat format) {
 LongestPath pixel_path(FrameFormat format, const OperationLatencies& latencies) {
   const DataFlow flow = pixel_flow(format);
   return flow.longest_path(0, flow.size(), latencies);
+}
+
+std::vector<LaneStep> pixel_steps(FrameFormat format, const OperationLatencies& latencies) {
+  const DataFlow flow = pixel_flow(format);
+  return lane_steps(flow, 0, flow.size(), latencies);
 }
 
 std::vector<std::byte> encode_frame(FrameFormat format, const Image& image) {

@@ -34,6 +34,7 @@
 
 #include "algorithm/memory/second_half.h"
 #include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/splat/fine_record.h"
 #include "algorithm/splat/visible_extents.h"
 
 namespace sgs {
@@ -44,6 +45,7 @@ struct RecordSplit {
   bool short_quaternion = false;                          // three words of four are stored
   std::uint32_t second_bytes = 0;
 
+  FineRecord fine_record(int sh_degree) const { return {sh_degree, short_quaternion ? 3U : 4U}; }
   std::uint32_t first_bytes() const {
     return 12 + (bound_by == CoarseBoundBy::kExtents ? 4 : 0) + 4 * carried_words;
   }

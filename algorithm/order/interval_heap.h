@@ -16,10 +16,16 @@
 //               and leaves in its turn: both children read, one node written a level. delete max
 //               likewise at the high ends
 //
-// Level l is a memory of its own of at most 2^l nodes; the children of one node lie in one word.
-// A hole is filled from the level below, so two neighbouring levels work on one operation: another
-// may begin every second cycle if a level decides in one, and it does if the words under both
-// candidates for the hole are read ahead, while they are compared.
+// Level l is a memory of its own of at most 2^l nodes, spread over banks of a read and a write port
+// each. A hole is filled from the level below, so two neighbouring levels work on one operation.
+//   - Another may begin every second cycle if a hole sinks a level a cycle. While the candidates
+//   for
+//     it are compared, the children of both are read, up to four nodes of one level: four banks,
+//     by the side of the candidate and that of its child. The operation before writes that level in
+//     the same cycle, so a node that is read as it is written is what is written.
+//   - With two banks, left and right children, what is read waits for the comparison: a hole sinks
+//     a level in two cycles, and another operation may begin every third.
+// tests/algorithm/order/stepped_heap.h goes through both cycle by cycle.
 #pragma once
 
 #include <algorithm>
@@ -33,12 +39,20 @@ namespace sgs {
 // What the levels did. The root is in registers and not counted.
 struct HeapWork {
   std::uint64_t inserts = 0, delete_mins = 0, delete_maxs = 0;
-  std::uint64_t words_read = 0;     // of two nodes; with those read ahead
-  std::uint64_t nodes_written = 0;  // of two keys and two counts: one a level that is passed
-  std::uint64_t comparisons = 0;    // of two keys, at any level
+  std::uint64_t nodes_read = 0;        // that hold a key: of two keys and two counts
+  std::uint64_t nodes_read_ahead = 0;  // beside these, below candidates that do not fill a hole
+  std::uint64_t nodes_written = 0;     // at most one a level that is passed
+  std::uint64_t comparisons = 0;       // of two keys, at any level
 
   std::uint64_t operations() const { return inserts + delete_mins + delete_maxs; }
 };
+
+// From one operation to the next, at least.
+constexpr std::uint32_t kFewestHeapCycles = 2;
+// Banks of a level, where an operation begins every so many cycles.
+constexpr std::uint32_t heap_banks_of_level(std::uint32_t cycles_per_operation) {
+  return cycles_per_operation == kFewestHeapCycles ? 4 : 2;
+}
 
 // Levels of nodes that so many keys take.
 inline std::uint32_t heap_levels(std::uint64_t capacity) {
@@ -56,6 +70,18 @@ inline std::uint64_t heap_count_bits(std::uint64_t capacity) {
     bits += (std::uint64_t{1} << level) * 2 * bits_a_count;
   }
   return bits;
+}
+
+// Banks of all levels, none without a node of two keys; the root is one of them.
+inline std::uint32_t heap_banks(std::uint64_t capacity, std::uint32_t cycles_per_operation) {
+  std::uint64_t nodes = std::max<std::uint64_t>(1, capacity / 2);
+  std::uint64_t banks = 0;
+  for (std::uint64_t of_level = 1; nodes > 0; of_level *= 2) {
+    const std::uint64_t here = std::min(of_level, nodes);
+    banks += std::min<std::uint64_t>(here, heap_banks_of_level(cycles_per_operation));
+    nodes -= here;
+  }
+  return static_cast<std::uint32_t>(banks);
 }
 
 // Before: a strict order of keys, total where the order of what comes out is to be known.
@@ -89,7 +115,7 @@ class IntervalHeap {
     std::size_t at = 0, held = size_++;  // keys in the node and below it, so far
     while (true) {
       Node& node = nodes_[at];
-      work_.words_read += at > 0 ? 1 : 0;
+      work_.nodes_read += at > 0 && held > 0 ? 1 : 0;
       work_.nodes_written += at > 0 ? 1 : 0;
       if (held == 0) {
         node = {std::move(key), {}, {0, 0}};
@@ -138,6 +164,10 @@ class IntervalHeap {
     return right_has && (!left_has || node.below[1] < node.below[0]) ? 1 : 0;
   }
 
+  std::uint64_t children_with_keys(std::size_t at) const {
+    return (nodes_[at].below[0] > 0 ? 1 : 0) + (nodes_[at].below[1] > 0 ? 1 : 0);
+  }
+
   // The key at one end (0: low, 1: high) of a node that holds `held` with what is below it.
   Key& end_of(std::size_t at, std::size_t held, std::size_t end) {
     return end == 0 || held == 1 ? nodes_[at].low : nodes_[at].high;
@@ -155,14 +185,19 @@ class IntervalHeap {
         const Key &a = end_of(left, node.below[0], end), &b = end_of(left + 1, node.below[1], end);
         side = (end == 0 ? before(b, a) : before(a, b)) ? 1 : 0;
       }
-      work_.words_read += at == 0 ? 1 : 2;
-      ++work_.nodes_written;
+      const std::size_t other = 1 - side;
+      work_.nodes_read += node.below[other] > 0 ? 2 : 1;
+      if (node.below[other] > 2) work_.nodes_read_ahead += children_with_keys(left + other);
+      work_.nodes_written += at > 0 ? 1 : 0;
       held = node.below[side]--;
       (end == 0 ? node.low : node.high) = end_of(left + side, held, end);
       at = left + side;
     }
     // Two keys: the other one is left alone. One: the node is empty.
-    if (held == 2 && end == 0) nodes_[at].low = std::move(nodes_[at].high);
+    if (held == 2 && end == 0) {
+      nodes_[at].low = std::move(nodes_[at].high);
+      work_.nodes_written += at > 0 ? 1 : 0;
+    }
     return taken;
   }
 

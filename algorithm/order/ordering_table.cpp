@@ -15,8 +15,10 @@ std::uint64_t most_held(std::size_t voxel_count, std::uint64_t capacity_bytes) {
 
 }  // namespace
 
-OrderingTable::OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes)
+OrderingTable::OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes,
+                             std::uint32_t banks)
     : capacity_bytes_(capacity_bytes),
+      written_(banks),
       names_(most_held(voxel_count, capacity_bytes)),
       ready_(most_held(voxel_count, capacity_bytes)) {}
 
@@ -44,7 +46,7 @@ std::uint32_t OrderingTable::rename(std::uint32_t voxel) {
   if (!fits()) return kNone;
   names_.take(slot, number);
   ++accesses_.names_written;
-  ++accesses_.writes;
+  write(bank_of_voxel(number));
   const std::uint32_t words = ready_.set(number);
   accesses_.ready_read += words;
   accesses_.ready_written += words;
@@ -60,7 +62,9 @@ void OrderingTable::add_edge(std::uint32_t from, std::uint32_t to) {
   }
   edges_.push_back({to, voxels_[from].first_edge});
   voxels_[from].first_edge = edge_count() - 1;
-  accesses_.writes += 3;  // the edge, the list's head, the in-degree
+  write(bank_of_edge(edge_count() - 1));
+  write(bank_of_voxel(from));  // the list's head
+  write(bank_of_voxel(to));    // the in-degree
   if (voxels_[to].in_degree++ > 0) return;
   const std::uint32_t words = ready_.clear(to);
   accesses_.ready_read += words;
@@ -68,12 +72,19 @@ void OrderingTable::add_edge(std::uint32_t from, std::uint32_t to) {
 }
 
 bool OrderingTable::add(Chain& chain, std::uint32_t voxel) {
-  if (chain.before != kNone) ++edges_offered_;
+  const OrderingAccesses before = accesses_;
+  std::fill(written_.begin(), written_.end(), 0);
+  const bool first = chain.before == kNone;
+  if (!first) ++edges_offered_;
   const std::uint32_t number = rename(voxel);
-  if (number == kNone) return false;
-  if (chain.before != kNone) add_edge(chain.before, number);
+  if (number != kNone && !first) add_edge(chain.before, number);
   chain.before = number;
-  return fits();
+  // The slot, and beside it the first record, if any; a word of each level of ready voxels a cycle.
+  const std::uint64_t chained =
+      1 + accesses_.reads - before.reads - (number == kNone || first ? 0 : 1);
+  accesses_.cycles += std::max({chained, *std::max_element(written_.begin(), written_.end()),
+                                accesses_.ready_read - before.ready_read});
+  return number != kNone && fits();
 }
 
 std::vector<std::uint32_t> OrderingTable::order() {
@@ -84,10 +95,15 @@ std::vector<std::uint32_t> OrderingTable::order() {
     accesses_.ready_read += ready_.levels();
     accesses_.ready_written += ready_.clear(number);
     ++accesses_.reads;
+    accesses_.cycles += ready_.levels() + 1;
     order.push_back(voxels_[number].id);
     voxels_[number].in_degree = kNone;  // taken
+    std::uint32_t named = kNone;        // record that the edge before names
     for (std::uint32_t at = voxels_[number].first_edge; at != kNone; at = edges_[at].next) {
-      Voxel& next = voxels_[edges_[at].successor];
+      const bool conflict = named != kNone && bank_of_voxel(named) == bank_of_edge(at);
+      accesses_.cycles += conflict ? 2 : 1;
+      named = edges_[at].successor;
+      Voxel& next = voxels_[named];
       accesses_.reads += 2;
       ++accesses_.writes;
       if (--next.in_degree > 0) continue;
@@ -95,6 +111,7 @@ std::vector<std::uint32_t> OrderingTable::order() {
       accesses_.ready_read += words;
       accesses_.ready_written += words;
     }
+    accesses_.cycles += named != kNone ? 1 : 0;  // the last of them
   }
   if (order.size() != voxels_.size()) {
     throw std::logic_error("ordering table: the rays of a group contradict each other");

@@ -24,6 +24,12 @@ struct OrderingAccesses {
   std::uint64_t reads = 0, writes = 0;              // of the table
   std::uint64_t names_read = 0, names_written = 0;  // of the renaming
   std::uint64_t ready_read = 0, ready_written = 0;  // of the words of ready voxels
+  // That all this takes. What is read names what is read next, so that it comes a cycle each, one
+  // behind the other: the hash's slot (beside it the record of the voxel before), the record that
+  // it names, the edges of the voxel before. Writes go to their banks beside the next reads. In
+  // ordering a level of ready voxels is read a cycle, then the voxel's record, then its edges; the
+  // record that an edge names is read beside the next edge, unless both lie in one bank.
+  std::uint64_t cycles = 0;
 };
 
 class OrderingTable {
@@ -33,8 +39,10 @@ class OrderingTable {
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
   // voxel_count: how many voxels exist; ids below it may appear in chains. capacity_bytes: SRAM
-  // that is there for one group, at least that of a voxel.
-  explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited);
+  // that is there for one group, at least that of a voxel. banks: over which its words of 8 B, a
+  // voxel's record or two edges, are spread in turn.
+  explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited,
+                         std::uint32_t banks = 2);
 
   // Voxels for which a table of so many bytes has room.
   static std::uint64_t most_voxels(std::uint64_t capacity_bytes) {
@@ -70,7 +78,7 @@ class OrderingTable {
            std::uint64_t{edge_count()} * kOrderingBytesPerEdge;
   }
   const OrderingAccesses& accesses() const { return accesses_; }
-  // Cycles that finding the first of the ready voxels takes: a level of words each.
+  // Of words, that finding the first of the ready voxels passes.
   std::uint32_t ready_levels() const { return ready_.levels(); }
 
  private:
@@ -85,7 +93,16 @@ class OrderingTable {
   void add_edge(std::uint32_t from, std::uint32_t to);
   bool fits() const { return sram_bytes() <= capacity_bytes_; }
 
+  std::uint32_t bank_of_voxel(std::uint32_t number) const { return number % banks(); }
+  std::uint32_t bank_of_edge(std::uint32_t edge) const { return edge / 2 % banks(); }
+  std::uint32_t banks() const { return static_cast<std::uint32_t>(written_.size()); }
+  void write(std::uint32_t bank) {
+    ++accesses_.writes;
+    ++written_[bank];
+  }
+
   const std::uint64_t capacity_bytes_;
+  std::vector<std::uint64_t> written_;  // [bank] by the voxel that is being added
   Renaming names_;
   ReadyVoxels ready_;
   std::vector<Voxel> voxels_;  // [renamed id]

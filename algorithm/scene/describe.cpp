@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "algorithm/scene/logit.h"
+
 namespace sgs {
 namespace {
 
@@ -46,7 +48,6 @@ void measure_scales(const GaussianCloud& cloud, SceneSummary& summary) {
 }
 
 void measure_opacities(const GaussianCloud& cloud, SceneSummary& summary) {
-  const auto sigmoid = [](double logit) { return 1.0 / (1.0 + std::exp(-logit)); };
   for (const float logit : cloud.opacity_logits) {
     if (sigmoid(logit) < 1.0 / 255.0) ++summary.invisible_count;
   }

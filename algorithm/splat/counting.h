@@ -5,13 +5,27 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "algorithm/splat/data_flow.h"
 #include "algorithm/splat/exp2.h"
 #include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/scalar.h"
+#include "algorithm/splat/unit_quaternion.h"
 
 namespace sgs {
+
+// A whole number in the graph. Sums and comparisons are operations; products, quotients and masks
+// with a constant power of two are wires.
+struct CountingIndex {
+  int value;
+  DataFlow* flow;  // null: a constant
+  std::uint32_t node;
+
+  CountingIndex() = default;
+  CountingIndex(int constant) : value(constant), flow(nullptr), node(0) {}  // NOLINT: as an int
+  CountingIndex(int result, DataFlow* in, std::uint32_t at) : value(result), flow(in), node(at) {}
+};
 
 struct Counting {
   float value;
@@ -22,25 +36,37 @@ struct Counting {
   explicit Counting(float constant) : value(constant), flow(nullptr), node(0) {}
   Counting(float result, DataFlow* in, std::uint32_t at) : value(result), flow(in), node(at) {}
 
-  explicit operator int() const;  // toward zero
+  explicit operator CountingIndex() const;  // toward zero
   explicit operator double() const { return static_cast<double>(value); }
 };
 
 inline float value_of(Counting a) { return a.value; }
+inline int value_of(CountingIndex a) { return a.value; }
 
 inline Counting input(DataFlow& flow, float value) { return {value, &flow, flow.input()}; }
+
+inline CountingIndex input_index(DataFlow& flow, int value) { return {value, &flow, flow.input()}; }
 
 inline DataFlow::Operand operand_of(Counting a) {
   if (a.flow != nullptr) return {false, a.node};
   return {true, __builtin_bit_cast(std::uint32_t, a.value)};
 }
 
-inline Counting recorded(float result, Operation operation, Counting a, Counting b) {
-  DataFlow* const flow = a.flow != nullptr ? a.flow : b.flow;
-  if (flow == nullptr) return Counting(result);
-  return {result, flow, flow->apply(operation, operand_of(a), operand_of(b))};
+inline DataFlow::Operand operand_of(CountingIndex a) {
+  if (a.flow != nullptr) return {false, a.node};
+  return {true, static_cast<std::uint32_t>(a.value)};
 }
-inline Counting recorded(float result, Operation operation, Counting a) {
+
+// Result: Counting or CountingIndex, as the value is a float or an int.
+template <class Value, class A, class B>
+auto recorded(Value result, Operation operation, A a, B b) {
+  using Result = std::conditional_t<std::is_same_v<Value, float>, Counting, CountingIndex>;
+  DataFlow* const flow = a.flow != nullptr ? a.flow : b.flow;
+  if (flow == nullptr) return Result(result);
+  return Result(result, flow, flow->apply(operation, operand_of(a), operand_of(b)));
+}
+template <class Value, class A>
+auto recorded(Value result, Operation operation, A a) {
   return recorded(result, operation, a, a);
 }
 
@@ -69,9 +95,50 @@ inline Counting abs(Counting a) { return recorded(std::abs(a.value), Operation::
 inline Counting ceil(Counting a) { return recorded(std::ceil(a.value), Operation::kCeil, a); }
 inline Counting floor(Counting a) { return recorded(std::floor(a.value), Operation::kFloor, a); }
 inline Counting round(Counting a) { return recorded(std::round(a.value), Operation::kRound, a); }
-inline Counting::operator int() const {
-  recorded(value, Operation::kTruncate, *this);
-  return static_cast<int>(value);
+inline Counting::operator CountingIndex() const {
+  return recorded(static_cast<int>(value), Operation::kTruncate, *this);
+}
+
+template <>
+struct WholeNumbers<Counting> {
+  using Index = CountingIndex;
+  using Short = CountingIndex;
+};
+template <>
+inline Counting number_of<Counting>(CountingIndex index) {
+  return recorded(static_cast<float>(index.value), Operation::kFromIndex, index);
+}
+inline CountingIndex operator+(CountingIndex a, CountingIndex b) {
+  return recorded(a.value + b.value, Operation::kAddIndex, a, b);
+}
+inline CountingIndex operator-(CountingIndex a, int constant) { return a + -constant; }
+inline CountingIndex operator*(CountingIndex a, int power_of_two) {
+  return recorded(a.value * power_of_two, Operation::kMoveBits, a, CountingIndex(power_of_two));
+}
+inline CountingIndex operator/(CountingIndex a, int power_of_two) {
+  return recorded(a.value / power_of_two, Operation::kMoveBits, a, CountingIndex(-power_of_two));
+}
+inline CountingIndex without_bits(CountingIndex a, int bits) {
+  return recorded(a.value & ~bits, Operation::kMaskBits, a, CountingIndex(~bits));
+}
+inline CountingIndex with_bits(CountingIndex a, int bits) {
+  return recorded(a.value | bits, Operation::kMaskBits, a, CountingIndex(bits));
+}
+inline bool operator<(CountingIndex a, CountingIndex b) {
+  recorded(0, Operation::kCompare, a, b);
+  return a.value < b.value;
+}
+inline bool operator<=(CountingIndex a, CountingIndex b) {
+  recorded(0, Operation::kCompare, a, b);
+  return a.value <= b.value;
+}
+template <>
+inline CountingIndex max_of<CountingIndex>(CountingIndex a, CountingIndex b) {
+  return recorded(max_of(a.value, b.value), Operation::kMaximum, a, b);
+}
+template <>
+inline CountingIndex min_of<CountingIndex>(CountingIndex a, CountingIndex b) {
+  return recorded(min_of(a.value, b.value), Operation::kMinimum, a, b);
 }
 
 inline bool isfinite(Counting a) {
@@ -122,6 +189,9 @@ inline Counting scaled_by(Counting x, float power_of_two) {
 }
 inline Counting inverse_root_above(Counting x) {
   return recorded(inverse_root_above(x.value), Operation::kLookUp, x);
+}
+inline Counting moved_by_units(Counting x, CountingIndex units) {
+  return recorded(moved_by_units(x.value, units.value), Operation::kAddIndex, x, units);
 }
 template <>
 inline Counting exp2_of<Counting>(Counting t) {

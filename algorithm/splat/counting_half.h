@@ -1,6 +1,6 @@
 // A half (half_scalar.h) that records every operation it goes through: the templates of blending
 // instantiated with it round as HalfScalar does, and are counted. Rounding to 16 bits is part of
-// the operation that it follows, or of the wires into the lanes.
+// the operation that it follows; an addition to an exponent rounds in the same adder.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 
 #include "algorithm/splat/counting.h"
 #include "algorithm/splat/half_scalar.h"
+#include "algorithm/splat/lane_input.h"
 
 namespace sgs {
 
@@ -45,6 +46,11 @@ inline CountingHalf max_of<CountingHalf>(CountingHalf a, CountingHalf b) {
 template <>
 inline CountingHalf min_of<CountingHalf>(CountingHalf a, CountingHalf b) {
   return CountingHalf(min_of(a.counting(), b.counting()));
+}
+
+template <>
+inline CountingHalf narrowed<CountingHalf, Counting>(Counting x) {
+  return CountingHalf(recorded(rounded_to_half(x.value), Operation::kRound, x));
 }
 
 template <>

@@ -17,6 +17,9 @@ bool is_unary(Operation operation) {
     case Operation::kMinimum:
     case Operation::kMaximum:
     case Operation::kScale:
+    case Operation::kAddIndex:
+    case Operation::kMoveBits:
+    case Operation::kMaskBits:
       return false;
     default:
       return true;
@@ -26,7 +29,7 @@ bool is_unary(Operation operation) {
 // A comparator gives less, equal and greater at once.
 bool commutes(Operation operation) {
   return operation == Operation::kMultiply || operation == Operation::kAdd ||
-         operation == Operation::kCompare;
+         operation == Operation::kCompare || operation == Operation::kAddIndex;
 }
 
 using Path = std::optional<LongestPath>;
@@ -44,7 +47,7 @@ Path behind(const Path& path, const LongestPath& operations) {
 }  // namespace
 
 std::uint32_t DataFlow::input() {
-  nodes_.push_back({Operation::kInput, {true, 0}, {true, 0}, 0, false});
+  nodes_.push_back({Operation::kInput, {true, 0}, {true, 0}, 0, 0, false});
   return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
 
@@ -56,18 +59,20 @@ std::uint32_t DataFlow::apply(Operation operation, Operand a, Operand b) {
       known_.try_emplace(Key{operation, a.is_constant, a.of, b.is_constant, b.of},
                          static_cast<std::uint32_t>(nodes_.size()));
   if (!is_new) return at->second;
-  const bool new_divisor = operation == Operation::kDivide && is_new_divisor(b);
-  nodes_.push_back({operation, a, b, 0, new_divisor});
+  const std::uint32_t first_division =
+      operation == Operation::kDivide ? first_division_by(b) : at->second;
+  nodes_.push_back({operation, a, b, 0, first_division, false});
   if (!a.is_constant) ++nodes_[a.of].uses;
   if (!is_unary(operation) && !b.is_constant) ++nodes_[b.of].uses;
   return at->second;
 }
 
-// The reciprocal of a constant is a constant.
-bool DataFlow::is_new_divisor(Operand divisor) const {
-  return !divisor.is_constant && std::none_of(nodes_.begin(), nodes_.end(), [&](const Node& node) {
-    return node.operation == Operation::kDivide && !node.b.is_constant && node.b.of == divisor.of;
+std::uint32_t DataFlow::first_division_by(Operand divisor) const {
+  const auto at = std::find_if(nodes_.begin(), nodes_.end(), [&](const Node& node) {
+    return node.operation == Operation::kDivide && node.b.is_constant == divisor.is_constant &&
+           node.b.of == divisor.of;
   });
+  return static_cast<std::uint32_t>(at - nodes_.begin());
 }
 
 bool DataFlow::is_lone_product(Operand operand) const {
@@ -83,6 +88,8 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
       case Operation::kInput:
       case Operation::kNegate:
       case Operation::kAbsolute:
+      case Operation::kMoveBits:
+      case Operation::kMaskBits:
         break;
       case Operation::kMultiply:
         ++c.multiplies;
@@ -94,7 +101,8 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
         break;
       case Operation::kDivide:
         ++c.divisions;
-        if (node.new_divisor) ++c.divisors;
+        // The reciprocal of a constant is a constant.
+        if (!node.b.is_constant && node.first_division == i) ++c.divisors;
         break;
       case Operation::kSquareRoot:
         ++c.square_roots;
@@ -126,6 +134,12 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
       case Operation::kRound:
         ++c.roundings;
         break;
+      case Operation::kFromIndex:
+        ++c.conversions;
+        break;
+      case Operation::kAddIndex:
+        ++c.index_adds;
+        break;
     }
   }
   return c;
@@ -137,29 +151,49 @@ LongestPath DataFlow::longest_path(std::size_t first, std::size_t last,
   for (std::size_t i = 0; i < last; ++i) {
     if (i < first || nodes_[i].operation == Operation::kInput) paths[i] = LongestPath{};
   }
-  return extend(std::move(paths), last, latencies);
+  return longest_of(extended(std::move(paths), first, last, latencies), last, latencies);
 }
 
 LongestPath DataFlow::longest_path_from(const std::vector<std::uint32_t>& sources,
                                         const OperationLatencies& latencies) const {
   Paths paths(nodes_.size());
   for (const std::uint32_t source : sources) paths[source] = LongestPath{};
-  return extend(std::move(paths), nodes_.size(), latencies);
+  return longest_of(extended(std::move(paths), 0, nodes_.size(), latencies), nodes_.size(),
+                    latencies);
+}
+
+std::vector<std::uint32_t> DataFlow::ready_cycles(const OperationLatencies& latencies) const {
+  Paths paths(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].operation == Operation::kInput) paths[i] = LongestPath{};
+  }
+  std::vector<std::uint32_t> cycles;
+  for (const Path& path : extended(std::move(paths), 0, nodes_.size(), latencies)) {
+    cycles.push_back(path->cycles(latencies));
+  }
+  return cycles;
 }
 
 // Every value is numbered behind those that it is made of.
-LongestPath DataFlow::extend(Paths paths, std::size_t last,
-                             const OperationLatencies& latencies) const {
-  Path longest = LongestPath{};
+DataFlow::Paths DataFlow::extended(Paths paths, std::size_t first, std::size_t last,
+                                   const OperationLatencies& latencies) const {
   for (std::size_t i = 0; i < last; ++i) {
-    if (!paths[i]) paths[i] = path_through(nodes_[i], paths, latencies);
-    longest = later(longest, paths[i], latencies);
+    if (!paths[i]) paths[i] = path_through(nodes_[i], first, paths, latencies);
   }
+  return paths;
+}
+
+LongestPath DataFlow::longest_of(const Paths& paths, std::size_t last,
+                                 const OperationLatencies& latencies) const {
+  Path longest = LongestPath{};
+  for (std::size_t i = 0; i < last; ++i) longest = later(longest, paths[i], latencies);
   return *longest;
 }
 
-// Of the products that a sum takes alone, the later one is made in the sum's own lane.
-std::optional<LongestPath> DataFlow::path_through(const Node& node, const Paths& paths,
+// Of the products that a sum takes alone, the later one is made in the sum's own lane. A reciprocal
+// that was taken before `first` is there.
+std::optional<LongestPath> DataFlow::path_through(const Node& node, std::size_t first,
+                                                  const Paths& paths,
                                                   const OperationLatencies& latencies) const {
   const auto of = [&](const Operand& operand) {
     return operand.is_constant ? Path{} : paths[operand.of];
@@ -180,7 +214,8 @@ std::optional<LongestPath> DataFlow::path_through(const Node& node, const Paths&
       return behind(from, path_of(node.operation));
     }
     case Operation::kDivide:
-      return behind(join(a, behind(b, kReciprocalPath)), path_of(node.operation));
+      return behind(node.first_division < first ? join(a, b) : join(a, behind(b, kReciprocalPath)),
+                    path_of(node.operation));
     default:
       return behind(join(a, b), path_of(node.operation));
   }

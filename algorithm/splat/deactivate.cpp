@@ -8,14 +8,15 @@
 #include <cmath>
 #include <cstddef>
 
+#include "algorithm/scene/logit.h"
+
 namespace sgs {
 namespace {
 
 constexpr double kFar = 200;  // exp(-200) is 0 as a float
 
 float logit_of(float opacity) {
-  const double o = opacity;
-  return static_cast<float>(std::clamp(std::log(o) - std::log1p(-o), -kFar, kFar));
+  return static_cast<float>(std::clamp(logit(opacity), -kFar, kFar));
 }
 
 }  // namespace

@@ -29,6 +29,12 @@ Gaussian<Counting> input(DataFlow& flow, const Gaussian<float>& g) {
   return out;
 }
 
+void keep(DataFlow& flow, std::initializer_list<Counting> values) {
+  for (const Counting& value : values) {
+    if (value.flow != nullptr) flow.keep(value.node);
+  }
+}
+
 // What blending does for 16 pixels, in the arithmetic T; state(value): of a pixel, from outside.
 template <class T, class State>
 void blend_work(const LaneInput<T>& in, const State& state) {
@@ -91,30 +97,8 @@ DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
     run(bound);
     if (bound.in_front) static_cast<void>(group_reach(bound, tested.group));
   }
+  keep(flow, {mean.x, mean.y, mean.z});
   return flow;
-}
-
-// With where its first two parts end.
-struct FineFlow {
-  DataFlow flow;
-  std::size_t geometry_end = 0, test_end = 0;
-};
-
-FineFlow fine_flow(const FilterCase& tested, int sh_degree) {
-  FineFlow out;
-  DataFlow& flow = out.flow;
-  const auto view = make_view<Counting>(tested.camera);
-  const Gaussian<Counting> gaussian = input(flow, tested.gaussian);
-  std::array<glm::vec<3, Counting>, 16> sh;
-  for (auto& coefficient : sh) coefficient = input(flow, glm::vec3(1.0F));
-
-  SplatOf<Counting> splat{};
-  const bool on_screen = make_geometry(view, gaussian, splat);
-  out.geometry_end = flow.size();
-  const bool kept = on_screen && reaches_group(splat, tested.group);
-  out.test_end = flow.size();
-  if (kept) add_colour(view, sh_degree, gaussian.mean, sh.data(), splat);
-  return out;
 }
 
 // With where its parts end, and the inputs that are pixel state.
@@ -124,11 +108,9 @@ struct RenderingFlow {
   std::vector<std::uint32_t> state;
 };
 
-RenderingFlow rendering_flow(BlendPrecision precision) {
-  RenderingFlow out;
-  DataFlow& flow = out.flow;
+// An ellipse that leans, some 20 px wide, and a row through its middle: every step is taken.
+SplatOf<Counting> leaning_splat(DataFlow& flow) {
   SplatOf<Counting> splat{};
-  // An ellipse that leans, some 20 px wide, and a row through its middle: every step is taken.
   splat.x = input(flow, 101.5F);
   splat.y = input(flow, 57.25F);
   splat.conic_a = input(flow, 0.03F);
@@ -136,15 +118,23 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   splat.conic_c = input(flow, 0.05F);
   splat.opacity = input(flow, 0.9F);
   splat.rgb = input(flow, glm::vec3(0.1F, 0.2F, 0.3F));
+  return splat;
+}
+constexpr int kFirstRowPx = 52;
+
+RenderingFlow rendering_flow(BlendPrecision precision) {
+  RenderingFlow out;
+  DataFlow& flow = out.flow;
+  const SplatOf<Counting> splat = leaning_splat(flow);
   const auto state = [&](float value) {
     const Counting of_pixel = input(flow, value);
     out.state.push_back(of_pixel.node);
     return of_pixel;
   };
   RowSpans<Counting> spans(splat);
-  spans.start(52);
+  spans.start(kFirstRowPx);
   out.spans_begun = flow.size();
-  static_cast<void>(spans.next(56));
+  static_cast<void>(spans.next(kFirstRowPx + kSubtilePx));
   out.spanned = flow.size();
   static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
   out.in_base_2 = flow.size();
@@ -159,6 +149,30 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
 
 }  // namespace
 
+FineFlow fine_flow(const FilterCase& tested, const FineRecord& record) {
+  FineFlow out;
+  DataFlow& flow = out.flow;
+  const auto view = make_view<Counting>(tested.camera);
+  Gaussian<Counting> gaussian = input(flow, tested.gaussian);
+  std::array<glm::vec<3, Counting>, 16> sh;
+  for (auto& coefficient : sh) coefficient = input(flow, glm::vec3(1.0F));
+  if (record.quaternion_words < gaussian.quat.size()) {
+    auto& [largest, x, y, z] = gaussian.quat;
+    largest = moved_by_units(largest_component<Counting>({x, y, z}), input_index(flow, 0));
+  }
+  out.decoded = flow.size();
+
+  SplatOf<Counting> splat{};
+  const bool on_screen = make_geometry(view, gaussian, splat);
+  out.geometry_end = flow.size();
+  const bool kept = on_screen && reaches_group(splat, tested.group);
+  out.test_end = flow.size();
+  if (kept) add_colour(view, record.sh_degree, gaussian.mean, sh.data(), splat);
+  keep(flow, {splat.x, splat.y, splat.depth, splat.conic_a, splat.conic_b, splat.conic_c,
+              splat.opacity, splat.rgb.x, splat.rgb.y, splat.rgb.z});
+  return out;
+}
+
 OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
                             std::uint32_t across) {
   const DataFlow flow = coarse_flow(bound_by, tested, across);
@@ -171,16 +185,16 @@ LongestPath coarse_path(CoarseBoundBy bound_by, const FilterCase& tested, std::u
   return flow.longest_path(0, flow.size(), latencies);
 }
 
-FineWork fine_work(const FilterCase& tested, int sh_degree) {
-  const FineFlow fine = fine_flow(tested, sh_degree);
-  return {fine.flow.counts(0, fine.geometry_end),
+FineWork fine_work(const FilterCase& tested, const FineRecord& record) {
+  const FineFlow fine = fine_flow(tested, record);
+  return {fine.flow.counts(0, fine.decoded), fine.flow.counts(fine.decoded, fine.geometry_end),
           fine.flow.counts(fine.geometry_end, fine.test_end),
           fine.flow.counts(fine.test_end, fine.flow.size())};
 }
 
-LongestPath fine_path(const FilterCase& tested, int sh_degree,
+LongestPath fine_path(const FilterCase& tested, const FineRecord& record,
                       const OperationLatencies& latencies) {
-  const FineFlow fine = fine_flow(tested, sh_degree);
+  const FineFlow fine = fine_flow(tested, record);
   return fine.flow.longest_path(0, fine.flow.size(), latencies);
 }
 
@@ -206,6 +220,43 @@ RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencie
   return paths;
 }
 
-OperationCounts FineWork::total() const { return geometry + group_test + colour; }
+std::vector<LaneStep> coarse_steps(CoarseBoundBy bound_by, const FilterCase& tested,
+                                   std::uint32_t across, const OperationLatencies& latencies) {
+  const DataFlow flow = coarse_flow(bound_by, tested, across);
+  return lane_steps(flow, 0, flow.size(), latencies);
+}
+
+std::vector<LaneStep> fine_steps(const FilterCase& tested, const FineRecord& record,
+                                 const OperationLatencies& latencies) {
+  const DataFlow flow = fine_flow(tested, record).flow;
+  return lane_steps(flow, 0, flow.size(), latencies);
+}
+
+std::vector<LaneStep> span_steps(std::uint32_t rows, const OperationLatencies& single) {
+  DataFlow flow;
+  RowSpans<Counting> spans(leaning_splat(flow));
+  spans.start(kFirstRowPx);
+  for (std::uint32_t row = 1; row <= rows; ++row) {
+    static_cast<void>(spans.next(kFirstRowPx + static_cast<int>(row) * kSubtilePx));
+  }
+  return lane_steps(flow, 0, flow.size(), single);
+}
+
+std::vector<LaneStep> conic_steps(const OperationLatencies& single) {
+  const RenderingFlow of = rendering_flow(BlendPrecision::kSingle);
+  return lane_steps(of.flow, of.spanned, of.in_base_2, single);
+}
+
+std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLatencies& latencies) {
+  constexpr std::size_t kOfPixel = 4;  // transmittance, red, green, blue
+  const RenderingFlow of = rendering_flow(precision);
+  std::vector<std::vector<std::uint32_t>> pixels;
+  for (auto at = of.state.begin(); at != of.state.end(); at += kOfPixel) {
+    pixels.emplace_back(at, at + kOfPixel);
+  }
+  return lane_steps(of.flow, of.in_base_2, of.flow.size(), latencies, pixels);
+}
+
+OperationCounts FineWork::total() const { return decode + geometry + group_test + colour; }
 
 }  // namespace sgs

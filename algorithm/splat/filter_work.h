@@ -1,15 +1,19 @@
 // What one test of the coarse and of the fine filter executes, and what rendering does for a splat,
 // counted by running it.
 // Values of the camera and of the group are constants: what depends on them alone is computed once
-// a frame or a group and kept. The decoding of records is not included.
+// a frame or a group and kept. Of the decoding of records only that of a quaternion is included.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "algorithm/scene/camera.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/splat/data_flow.h"
+#include "algorithm/splat/fine_record.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/lane_steps.h"
 #include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/operation_counts.h"
 #include "algorithm/splat/rects.h"
@@ -34,18 +38,31 @@ OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
                             std::uint32_t across = 1);
 LongestPath coarse_path(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across,
                         const OperationLatencies& latencies);
+// With what a candidate carries on.
+std::vector<LaneStep> coarse_steps(CoarseBoundBy bound_by, const FilterCase& tested,
+                                   std::uint32_t across, const OperationLatencies& latencies);
 
 // Of the fine test, up to where it fails or to its end. An operation that two parts need counts
 // with the first.
 struct FineWork {
+  OperationCounts decode;      // the quaternion's largest component, where it is not stored
   OperationCounts geometry;    // to the screen, footprint
   OperationCounts group_test;  // visible ellipse against the group
   OperationCounts colour;      // spherical harmonics
   OperationCounts total() const;
 };
-FineWork fine_work(const FilterCase& tested, int sh_degree);
-LongestPath fine_path(const FilterCase& tested, int sh_degree,
+FineWork fine_work(const FilterCase& tested, const FineRecord& record);
+LongestPath fine_path(const FilterCase& tested, const FineRecord& record,
                       const OperationLatencies& latencies);
+std::vector<LaneStep> fine_steps(const FilterCase& tested, const FineRecord& record,
+                                 const OperationLatencies& latencies);
+
+// Its graph, with where its first parts end.
+struct FineFlow {
+  DataFlow flow;
+  std::size_t decoded = 0, geometry_end = 0, test_end = 0;
+};
+FineFlow fine_flow(const FilterCase& tested, const FineRecord& record);
 
 // Of rendering: a splat's spans are begun once; each row of sub-tiles adds one; each sub-tile is
 // blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once. Ahead of all
@@ -55,12 +72,18 @@ struct RenderingWork {
 };
 RenderingWork rendering_work(BlendPrecision precision);
 
-// Of a splat's spans with the first row's, of its conic, of a pixel's blend, and from a pixel's state
-// to what is written back. Latencies of lanes in single and in half precision.
+// Of a splat's spans with the first row's, of its conic, of a pixel's blend, and from a pixel's
+// state to what is written back. Latencies of lanes in single and in half precision.
 struct RenderingPaths {
   LongestPath spans, conic, blend, state_loop;
 };
 RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencies& single,
                                const OperationLatencies& half);
+
+// Of a splat's spans, from their beginning to so many rows; of its beginning alone; of its conic;
+// of a sub-tile's blend, each pixel's state coming at once when it is needed.
+std::vector<LaneStep> span_steps(std::uint32_t rows, const OperationLatencies& single);
+std::vector<LaneStep> conic_steps(const OperationLatencies& single);
+std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLatencies& latencies);
 
 }  // namespace sgs

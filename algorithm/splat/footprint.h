@@ -17,7 +17,6 @@
 // cut.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -45,7 +44,7 @@ T visible_cutoff(T opacity) {
 
 // Tile rectangle of section 2.7, in tiles.
 template <class T>
-PixelRect tile_rect(T x, T y, T radius, int width_px, int height_px) {
+PixelRectOf<IndexOf<T>> tile_rect(T x, T y, T radius, int width_px, int height_px) {
   const int tiles_x = (width_px + kTilePx - 1) / kTilePx;
   const int tiles_y = (height_px + kTilePx - 1) / kTilePx;
   const T tile = constant<T>(kTilePx), last = constant<T>(kTilePx - 1);
@@ -58,12 +57,15 @@ PixelRect tile_rect(T x, T y, T radius, int width_px, int height_px) {
 // Sub-tiles that a splat may touch: its tiles, cut to the box around its visible ellipse.
 // Empty for a splat that is never visible or off the frame.
 template <class T>
-SubtileRect footprint(const Projected<T>& p, T opacity, int width_px, int height_px) {
+FootprintOf<T> footprint(const Projected<T>& p, T opacity, int width_px, int height_px) {
+  using Index = IndexOf<T>;
+  using Short = typename WholeNumbers<T>::Short;
   const T cutoff = visible_cutoff(opacity);
-  const PixelRect tiles = tile_rect(p.x, p.y, p.radius, width_px, height_px);
+  const PixelRectOf<Index> tiles = tile_rect(p.x, p.y, p.radius, width_px, height_px);
   if (tiles.empty() || !(cutoff >= T(0.0F))) return {};
-  PixelRect box{tiles.x0 * kTilePx, tiles.y0 * kTilePx, std::min(tiles.x1 * kTilePx, width_px),
-                std::min(tiles.y1 * kTilePx, height_px)};
+  PixelRectOf<Index> box{tiles.x0 * kTilePx, tiles.y0 * kTilePx,
+                         min_of<Index>(tiles.x1 * kTilePx, width_px),
+                         min_of<Index>(tiles.y1 * kTilePx, height_px)};
   const T trace = T(p.cov_a + p.cov_c);
   const T widening = ellipse_widening(T(trace * trace / p.determinant));
   if (widening < T(kMaxWidening)) {
@@ -80,21 +82,17 @@ SubtileRect footprint(const Projected<T>& p, T opacity, int width_px, int height
                              past(T(p.x + half_x), width_px), past(T(p.y + half_y), height_px)});
     if (box.empty()) return {};
   }
-  const auto down = [](int px) { return static_cast<std::uint16_t>(px / kSubtilePx); };
-  const auto up = [](int px) {
-    return static_cast<std::uint16_t>((px + kSubtilePx - 1) / kSubtilePx);
-  };
+  const auto down = [](Index px) { return static_cast<Short>(px / kSubtilePx); };
+  const auto up = [](Index px) { return static_cast<Short>((px + (kSubtilePx - 1)) / kSubtilePx); };
   return {down(box.x0), down(box.y0), up(box.x1), up(box.y1)};
 }
 
 // Lower bound of q over all points of a rectangle of pixel centres (inclusive bounds, px).
 // q is convex: its minimum is 0 inside, else on an edge that faces the centre.
 template <class T>
-T least_q(T x, T y, T a, T b, T c, const PixelRect& pixels) {
-  const T left = T(T(static_cast<float>(pixels.x0)) - x),
-          right = T(T(static_cast<float>(pixels.x1 - 1)) - x);
-  const T top = T(T(static_cast<float>(pixels.y0)) - y),
-          bottom = T(T(static_cast<float>(pixels.y1 - 1)) - y);
+T least_q(T x, T y, T a, T b, T c, const PixelRectOf<IndexOf<T>>& pixels) {
+  const T left = T(number_of<T>(pixels.x0) - x), right = T(number_of<T>(pixels.x1 - 1) - x);
+  const T top = T(number_of<T>(pixels.y0) - y), bottom = T(number_of<T>(pixels.y1 - 1) - y);
   const T zero = T(0.0F);
   if (left <= zero && right >= zero && top <= zero && bottom >= zero) return zero;
   const auto q = [&](T dx, T dy) { return T(a * dx * dx + T(2.0F) * b * dx * dy + c * dy * dy); };
@@ -116,10 +114,10 @@ T least_q(T x, T y, T a, T b, T c, const PixelRect& pixels) {
 // and the pixel's q as above, 9 eps S between Q and the conic here, 6 eps S in evaluating it here,
 // the rest for S itself.
 template <class T>
-bool reaches(T x, T y, T a, T b, T c, T cutoff, const PixelRect& pixels) {
+bool reaches(T x, T y, T a, T b, T c, T cutoff, const PixelRectOf<IndexOf<T>>& pixels) {
   using std::abs;
-  const auto distance = [](int px, T centre) {
-    return T(abs(T(T(static_cast<float>(px)) - centre)));
+  const auto distance = [](IndexOf<T> px, T centre) {
+    return T(abs(T(number_of<T>(px) - centre)));
   };
   const T far_x = max_of(distance(pixels.x0, x), distance(pixels.x1 - 1, x));
   const T far_y = max_of(distance(pixels.y0, y), distance(pixels.y1 - 1, y));

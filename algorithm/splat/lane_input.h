@@ -34,6 +34,12 @@ LaneInput<S> lane_input(const SplatOf<S>& s, S left, S top) {
 // x times a power of two: an addition to its exponent.
 inline float scaled_by(float x, float power_of_two) { return x * power_of_two; }
 
+// In a narrower format: what no operation before has rounded.
+template <class H, class S>
+H narrowed(S x) {
+  return H(x);
+}
+
 // In the half H. 4^e in [1/4, 1) of the larger of A and C: lengths are in units of 2^e px.
 template <class H, class S>
 LaneInput<H> lane_input_in_half(const SplatOf<S>& s, S left, S top) {
@@ -44,10 +50,10 @@ LaneInput<H> lane_input_in_half(const SplatOf<S>& s, S left, S top) {
   const Log2Conic<S> conic = log2_conic(s.conic_a, s.conic_b, s.conic_c);
   return {{H(scaled_by(conic.a, per_area)), H(scaled_by(conic.b, per_area)),
            H(scaled_by(conic.c, per_area))},
-          H(s.opacity),
-          H(s.rgb.x),
-          H(s.rgb.y),
-          H(s.rgb.z),
+          narrowed<H>(s.opacity),
+          narrowed<H>(s.rgb.x),
+          narrowed<H>(s.rgb.y),
+          narrowed<H>(s.rgb.z),
           H(scaled_by(left, unit)),
           H(scaled_by(top, unit)),
           unit};

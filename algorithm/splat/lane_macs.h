@@ -38,19 +38,23 @@ constexpr std::uint32_t folded_macs(const OperationCounts& c) {
 // its magnitude does.
 constexpr std::uint32_t kRoundingComparisons = 3;  // shifted to its last place, rounded, back
 constexpr std::uint32_t kSplitComparisons = 4;  // shifted, rounded; leading zeros of the rest, back
-constexpr std::uint32_t kScalingComparisons = 1;  // an addition to the exponent
+constexpr std::uint32_t kScalingComparisons = 1;     // an addition to the exponent
+constexpr std::uint32_t kLogarithmComparisons = 1;   // the exponent apart
+constexpr std::uint32_t kConversionComparisons = 2;  // leading zeros, shifted by them
 // Two for the ends of its range; its whole number of ln2; the power of two.
 constexpr std::uint32_t kExponentialComparisons = 2 + kRoundingComparisons + kScalingComparisons;
 
-// Look-ups that such a computation starts from: of 8 bits for a reciprocal and a root, of an interval
-// for a logarithm.
+// Look-ups that such a computation starts from: of 8 bits for a reciprocal and a root, of an
+// interval for a logarithm.
 constexpr std::uint32_t seeds(const OperationCounts& c) {
   return c.divisors + c.square_roots + c.logarithms;
 }
 
 constexpr std::uint32_t comparisons(const OperationCounts& c) {
   return c.comparisons + c.roundings * kRoundingComparisons + c.splits * kSplitComparisons +
-         c.scalings * kScalingComparisons + c.exponentials * kExponentialComparisons;
+         c.scalings * kScalingComparisons + c.logarithms * kLogarithmComparisons +
+         c.exponentials * kExponentialComparisons + c.conversions * kConversionComparisons +
+         c.index_adds;
 }
 
 }  // namespace sgs

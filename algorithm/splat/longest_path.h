@@ -1,9 +1,9 @@
 // Operations that wait for each other, and the cycles that they take: the depth of a pipeline.
 //
-// A lane is a fused multiply-adder in a few stages; what it has no hardware for is made of such steps
-// (lane_macs.h), of which here those in a row count. A comparator's operation and a look-up take a
-// cycle each. An answer of a comparison is no value: where it selects, it is the write enable of
-// what is computed beside it, and is there before that is.
+// A lane is a fused multiply-adder in a few stages; what it has no hardware for is made of such
+// steps (lane_macs.h), of which here those in a row count. A comparator's operation and a look-up
+// take a cycle each. An answer of a comparison is no value: where it selects, it is the write
+// enable of what is computed beside it, and is there before that is.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 namespace sgs {
 
 // Cycles from the operands to the result. Generated fused multiply-adders of single precision at
-// about 1 GHz have 3 to 5 stages (Galal and Horowitz, "Energy-Efficient Floating-Point Unit Design",
-// IEEE Transactions on Computers, 2011); in half precision the multiplier's tree and the shifts are
-// half as deep.
+// about 1 GHz have 3 to 5 stages (Galal and Horowitz, "Energy-Efficient Floating-Point Unit
+// Design", IEEE Transactions on Computers, 2011); in half precision the multiplier's tree and the
+// shifts are half as deep.
 struct OperationLatencies {
   std::uint32_t lane = 3, comparator = 1, look_up = 1;
 };
@@ -44,6 +44,8 @@ constexpr LongestPath path_of(Operation operation) {
     case Operation::kInput:
     case Operation::kNegate:
     case Operation::kAbsolute:
+    case Operation::kMoveBits:
+    case Operation::kMaskBits:
       return {};
     case Operation::kMultiply:
     case Operation::kAdd:
@@ -66,7 +68,10 @@ constexpr LongestPath path_of(Operation operation) {
     case Operation::kMaximum:
     case Operation::kIsFinite:
     case Operation::kScale:
+    case Operation::kAddIndex:
       return {0, 1, 0};
+    case Operation::kFromIndex:
+      return {0, 2, 0};
     case Operation::kCeil:
     case Operation::kFloor:
     case Operation::kTruncate:

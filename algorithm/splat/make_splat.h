@@ -32,17 +32,19 @@ bool make_geometry(const View<T>& view, const Gaussian<T>& g, SplatOf<T>& out) {
 }
 
 // Pixels of a footprint, cut to `within`.
-inline PixelRect footprint_px(const SubtileRect& footprint, const PixelRect& within) {
-  return intersection({footprint.x0 * kSubtilePx, footprint.y0 * kSubtilePx,
-                       footprint.x1 * kSubtilePx, footprint.y1 * kSubtilePx},
-                      within);
+template <class Short>
+auto footprint_px(const SubtileRectOf<Short>& footprint, const PixelRect& within) {
+  using Index = decltype(footprint.x0 * kSubtilePx);
+  return intersection(PixelRectOf<Index>{footprint.x0 * kSubtilePx, footprint.y0 * kSubtilePx,
+                                         footprint.x1 * kSubtilePx, footprint.y1 * kSubtilePx},
+                      {within.x0, within.y0, within.x1, within.y1});
 }
 
 // Whether a splat can change a pixel of the group `pixels`: its footprint overlaps and so does its
 // visible ellipse.
 template <class T>
 bool reaches_group(const SplatOf<T>& s, const PixelRect& pixels) {
-  const PixelRect overlap = footprint_px(s.footprint, pixels);
+  const auto overlap = footprint_px(s.footprint, pixels);
   return !overlap.empty() &&
          reaches(s.x, s.y, s.conic_a, s.conic_b, s.conic_c, visible_cutoff(s.opacity), overlap);
 }

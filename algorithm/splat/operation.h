@@ -26,7 +26,11 @@ enum class Operation : std::uint8_t {
   kCeil,
   kFloor,
   kTruncate,
-  kRound
+  kRound,
+  kFromIndex,  // a whole number becomes a float
+  kAddIndex,   // of two whole numbers
+  kMoveBits,   // of a whole number, by places that are known: wires
+  kMaskBits    // of a whole number: set or cleared
 };
 
 }  // namespace sgs

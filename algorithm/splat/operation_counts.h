@@ -1,5 +1,5 @@
-// How many operations of each class a computation takes. Signs (negation, absolute value),
-// selections and integer arithmetic on pixel bounds are not counted.
+// How many operations of each class a computation takes. Signs (negation, absolute value)
+// and selections are not counted, nor bits of a whole number that are moved or cleared.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,8 @@ struct OperationCounts {
   std::uint32_t roundings = 0;    // to a whole number
   std::uint32_t splits = 0;       // into whole steps and the rest
   std::uint32_t scalings = 0;     // by a power of two that is computed: added to the exponent
+  std::uint32_t conversions = 0;  // of whole numbers to floats
+  std::uint32_t index_adds = 0;   // of whole numbers
   std::uint32_t look_ups = 0;     // of a row of a table of coefficients
 };
 
@@ -35,6 +37,8 @@ constexpr OperationCounts operator+(OperationCounts a, const OperationCounts& b)
   a.roundings += b.roundings;
   a.splits += b.splits;
   a.scalings += b.scalings;
+  a.conversions += b.conversions;
+  a.index_adds += b.index_adds;
   a.look_ups += b.look_ups;
   return a;
 }

@@ -2,8 +2,9 @@
 // counted in.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
+
+#include "algorithm/splat/scalar.h"
 
 namespace sgs {
 
@@ -17,26 +18,33 @@ inline bool operator==(const PixelSize& a, const PixelSize& b) {
 }
 
 // Pixels [x0, x1) x [y0, y1).
-struct PixelRect {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+template <class Index>
+struct PixelRectOf {
+  Index x0{}, y0{}, x1{}, y1{};
   bool empty() const { return x1 <= x0 || y1 <= y0; }
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-};
+  Index width() const { return x1 - x0; }
+  Index height() const { return y1 - y0; }
 
-inline PixelRect intersection(const PixelRect& a, const PixelRect& b) {
-  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
+  friend PixelRectOf intersection(const PixelRectOf& a, const PixelRectOf& b) {
+    return {max_of(a.x0, b.x0), max_of(a.y0, b.y0), min_of(a.x1, b.x1), min_of(a.y1, b.y1)};
+  }
+};
+using PixelRect = PixelRectOf<int>;
 
 // Sub-tiles [x0, x1) x [y0, y1) in units of 4 px from the frame's corner. 16 bits reach 262,140 px.
-struct SubtileRect {
-  std::uint16_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+template <class Short>
+struct SubtileRectOf {
+  Short x0{}, y0{}, x1{}, y1{};
   bool empty() const { return x1 <= x0 || y1 <= y0; }
-};
 
-inline SubtileRect intersection(const SubtileRect& a, const SubtileRect& b) {
-  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
+  friend SubtileRectOf intersection(const SubtileRectOf& a, const SubtileRectOf& b) {
+    return {max_of(a.x0, b.x0), max_of(a.y0, b.y0), min_of(a.x1, b.x1), min_of(a.y1, b.y1)};
+  }
+};
+using SubtileRect = SubtileRectOf<std::uint16_t>;
+// In the arithmetic of T.
+template <class T>
+using FootprintOf = SubtileRectOf<typename WholeNumbers<T>::Short>;
 
 inline bool operator==(const SubtileRect& a, const SubtileRect& b) {
   return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;

@@ -19,6 +19,26 @@ constexpr T constant(double value) {
 
 // The float behind a value, for what is decided and not computed.
 inline float value_of(float x) { return x; }
+inline int value_of(int x) { return x; }
+
+// Whole numbers in the arithmetic of T: an index, and the form in which sub-tiles are kept.
+template <class T>
+struct WholeNumbers {
+  using Index = int;
+  using Short = std::uint16_t;
+};
+template <class T>
+using IndexOf = typename WholeNumbers<T>::Index;
+
+// With these bits cleared, or set.
+inline int without_bits(int x, int bits) { return x & ~bits; }
+inline int with_bits(int x, int bits) { return x | bits; }
+
+// An index, less than 2^24 from 0, as a number.
+template <class T>
+T number_of(IndexOf<T> index) {
+  return T(static_cast<float>(index));
+}
 
 template <class T>
 inline T sqrt_of(T x) {
@@ -81,9 +101,9 @@ inline T clamp_of(T x, T low, T high) {
 
 // x rounded toward zero and clamped to [0, high]; safe for values outside the range of int.
 template <class T>
-inline int truncated_index(T x, int high) {
+inline IndexOf<T> truncated_index(T x, int high) {
   if (!(x > T(0))) return 0;  // also NaN
-  return x >= T(static_cast<float>(high)) ? high : static_cast<int>(x);
+  return x >= T(static_cast<float>(high)) ? IndexOf<T>(high) : static_cast<IndexOf<T>>(x);
 }
 
 }  // namespace sgs

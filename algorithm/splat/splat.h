@@ -16,7 +16,7 @@ struct SplatOf {
   T depth;              // v_z, the sorting key
   std::uint32_t index;  // in the cloud: orders equal depths
   glm::vec<3, T> rgb;
-  SubtileRect footprint;  // sub-tiles that may be blended, in the whole frame
+  FootprintOf<T> footprint;  // sub-tiles that may be blended, in the whole frame
 };
 using Splat = SplatOf<float>;
 

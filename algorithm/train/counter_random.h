@@ -7,6 +7,8 @@
 #include <glm/vec3.hpp>
 #include <initializer_list>
 
+#include "algorithm/split_mix.h"
+
 namespace sgs {
 
 // What is drawn.
@@ -27,14 +29,15 @@ class CounterRandom {
   CounterRandom(std::uint64_t seed, RandomUse use, std::uint64_t step = 0,
                 std::uint64_t index = 0) {
     for (const std::uint64_t name : {seed, static_cast<std::uint64_t>(use), step, index}) {
-      state_ = mixed(state_ ^ mixed(name + kStep));
+      state_ = scrambled(state_ ^ mix_bits(name));
     }
   }
 
-  // 64 bits; Steele, Lea and Flood 2014 (SplitMix).
+  // 64 bits.
   std::uint64_t bits() {
-    state_ += kStep;
-    return mixed(state_);
+    const std::uint64_t drawn = mix_bits(state_);
+    state_ += kSplitMixStep;
+    return drawn;
   }
   // In [0, 1), in steps of 2^-53.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
@@ -49,17 +52,11 @@ class CounterRandom {
   }
 
  private:
-  static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;
   static constexpr double kTurn = 6.283185307179586;
 
-  static std::uint64_t mixed(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return z ^ (z >> 31);
-  }
   double radius() { return std::sqrt(-2 * std::log(1 - uniform())); }
 
-  std::uint64_t state_ = kStep;
+  std::uint64_t state_ = kSplitMixStep;
 };
 
 }  // namespace sgs

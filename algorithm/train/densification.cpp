@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numeric>
 
+#include "algorithm/scene/logit.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/reorder.h"
 #include "algorithm/train/counter_random.h"
@@ -119,9 +120,8 @@ void densify_and_prune(const DensificationConfig& config, const DensificationSta
 }
 
 void reset_opacities(const DensificationConfig& config, GaussianCloud& cloud, Adam& adam) {
-  const double most = config.reset_opacity;
-  const auto logit = static_cast<float>(std::log(most / (1 - most)));
-  for (float& own : cloud.opacity_logits) own = std::min(own, logit);
+  const auto most = static_cast<float>(logit(config.reset_opacity));
+  for (float& own : cloud.opacity_logits) own = std::min(own, most);
   adam.rearrange(std::vector<std::uint32_t>(cloud.size(), Adam::kNew));
 }
 

@@ -5,9 +5,9 @@
 
 namespace sgs {
 
-std::vector<Nearness> nearness(const ActivatedCloud& cloud, const Photographs& photographs,
+std::vector<Quality> qualities(const ActivatedCloud& cloud, const Photographs& photographs,
                                const glm::vec3& background) {
-  std::vector<Nearness> out;
+  std::vector<Quality> out;
   for (std::size_t at = 0; at < photographs.size(); ++at) {
     const auto view = make_view<float>(photographs.camera(at));
     const Image picture = draw(reference_sequences(view, cloud), background).image;
@@ -17,9 +17,9 @@ std::vector<Nearness> nearness(const ActivatedCloud& cloud, const Photographs& p
   return out;
 }
 
-Nearness mean_nearness(const std::vector<Nearness>& each) {
-  Nearness sum{0, 0};
-  for (const Nearness& one : each) {
+Quality mean_quality(const std::vector<Quality>& each) {
+  Quality sum{0, 0};
+  for (const Quality& one : each) {
     sum.psnr_db += one.psnr_db;
     sum.ssim += one.ssim;
   }

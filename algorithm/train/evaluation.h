@@ -1,4 +1,4 @@
-// How near a scene comes to photographs.
+// The quality of a scene's pictures beside photographs.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace sgs {
 
-struct Nearness {
+struct Quality {
   double psnr_db, ssim;
 };
 
 // Of each photograph, before `background`, in the reference order. What the scene shows is rounded
 // to 8 bits neither here nor in PSNR.
-std::vector<Nearness> nearness(const ActivatedCloud& cloud, const Photographs& photographs,
+std::vector<Quality> qualities(const ActivatedCloud& cloud, const Photographs& photographs,
                                const glm::vec3& background);
 
 // Means over all of them, PSNR in dB.
-Nearness mean_nearness(const std::vector<Nearness>& each);
+Quality mean_quality(const std::vector<Quality>& each);
 
 }  // namespace sgs

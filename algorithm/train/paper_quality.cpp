@@ -11,7 +11,7 @@ namespace sgs {
 PaperQuality paper_quality(const ActivatedCloud& cloud, const VoxelGrid& grid,
                            const PaperOrderConfig& order, const BoundaryPenaltyConfig& penalty,
                            const Photographs& photographs) {
-  std::vector<Nearness> paper;
+  std::vector<Quality> paper;
   std::uint64_t rendered = 0, misordered = 0, blends = 0, misordered_blends = 0;
   double penalties = 0;
   for (std::size_t at = 0; at < photographs.size(); ++at) {
@@ -32,7 +32,7 @@ PaperQuality paper_quality(const ActivatedCloud& cloud, const VoxelGrid& grid,
   const auto share = [](std::uint64_t part, std::uint64_t all) {
     return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : 0;
   };
-  return {mean_nearness(paper), mean_nearness(nearness(cloud, photographs, order.background)),
+  return {mean_quality(paper), mean_quality(qualities(cloud, photographs, order.background)),
           share(misordered, rendered), share(misordered_blends, blends),
           penalties / static_cast<double>(photographs.size())};
 }

@@ -13,8 +13,8 @@ namespace sgs {
 
 // Means over the photographs; shares of all views together.
 struct PaperQuality {
-  Nearness paper;               // of the pictures in paper order, as the golden renderer draws them
-  Nearness reference;           // of the same scene's reference pictures
+  Quality paper;                // of the pictures in paper order, as the golden renderer draws them
+  Quality reference;            // of the same scene's reference pictures
   double misordered_gaussians;  // share of (group, Gaussian) pairs that are rendered
   double misordered_pixels;     // share of blends behind a splat that is farther, at the same pixel
   double penalty;               // L_CBP

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "algorithm/scene/logit.h"
 #include "algorithm/train/counter_random.h"
 
 namespace sgs {
@@ -15,15 +16,13 @@ constexpr int kMostShares = 51;
 // Nearer to 1 logits lose their digits.
 constexpr double kMostOpacity = 1 - 1e-6;
 
-double opacity_of(float logit) { return 1 / (1 + std::exp(-static_cast<double>(logit))); }
-
 // Indices drawn in proportion to opacity, those of at most kDeadOpacity never.
 class Drawing {
  public:
   explicit Drawing(const GaussianCloud& cloud) : sums_(cloud.size()) {
     double sum = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const double opacity = opacity_of(cloud.opacity_logits[i]);
+      const double opacity = sigmoid(cloud.opacity_logits[i]);
       if (opacity > kDeadOpacity) sum += opacity;
       sums_[i] = sum;
     }
@@ -63,9 +62,9 @@ void put_shares(const std::vector<std::uint32_t>& places, const Drawing& drawing
   std::iota(from.begin(), from.end(), 0);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 1) continue;
-    const Division share = divided(opacity_of(cloud.opacity_logits[i]), counts[i]);
+    const Division share = divided(sigmoid(cloud.opacity_logits[i]), counts[i]);
     const double opacity = std::clamp(share.opacity, kDeadOpacity, kMostOpacity);
-    cloud.opacity_logits[i] = static_cast<float>(std::log(opacity / (1 - opacity)));
+    cloud.opacity_logits[i] = static_cast<float>(logit(opacity));
     cloud.log_scales[i] += static_cast<float>(std::log(share.scale_factor));
     from[i] = Adam::kNew;
   }
@@ -98,7 +97,7 @@ std::size_t relocate_dead(GaussianCloud& cloud, Adam& adam, std::uint64_t seed,
   if (drawing.empty()) return 0;
   std::vector<std::uint32_t> dead;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (opacity_of(cloud.opacity_logits[i]) <= kDeadOpacity) {
+    if (sigmoid(cloud.opacity_logits[i]) <= kDeadOpacity) {
       dead.push_back(static_cast<std::uint32_t>(i));
     }
   }

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <numeric>
 
+#include "algorithm/scene/logit.h"
 #include "algorithm/splat/spherical_harmonics.h"
 #include "algorithm/train/counter_random.h"
 #include "algorithm/train/neighbour_distance.h"
@@ -54,12 +55,12 @@ GaussianCloud start_at_points(const std::vector<SfmPoint>& points, std::size_t m
   cloud.resize(chosen.size(), 0);
   for (std::size_t i = 0; i < chosen.size(); ++i) cloud.means[i] = chosen[i].position;
   const std::vector<float> apart = neighbour_distances(cloud.means);
-  const auto logit = static_cast<float>(std::log(config.opacity / (1 - config.opacity)));
+  const auto opacity_logit = static_cast<float>(logit(config.opacity));
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const float scale = std::max(static_cast<float>(config.scale_share) * apart[i], kLeastScale);
     cloud.log_scales[i] = glm::vec3(std::log(scale));
     cloud.quats[i] = {1, 0, 0, 0};
-    cloud.opacity_logits[i] = logit;
+    cloud.opacity_logits[i] = opacity_logit;
     cloud.sh_coeffs[i] = (chosen[i].colour - 0.5F) / static_cast<float>(kShFactor[0]);
   }
   return cloud;

@@ -5,11 +5,12 @@
 #include <array>
 #include <cmath>
 
+#include "algorithm/voxel/chunk_decode.h"
+
 namespace sgs {
 namespace {
 
-constexpr int kLevels = 255;
-constexpr int kStepsPerOctave = 16;
+constexpr int kLevels = kMostExtent;
 
 // Smallest power of two, as exponent, with origin + 255 steps >= high in float.
 int step_exponent(float origin, float high) {
@@ -24,7 +25,7 @@ int step_exponent(float origin, float high) {
 }
 
 float position(float origin, int q, int exponent) {
-  return origin + static_cast<float>(q) * std::ldexp(1.0F, exponent);
+  return box_bound(origin, std::ldexp(1.0F, exponent), q);
 }
 
 std::uint8_t quantise_low(float value, float origin, int exponent) {
@@ -41,36 +42,34 @@ std::uint8_t quantise_high(float value, float origin, int exponent) {
   return static_cast<std::uint8_t>(q);
 }
 
-// 2^(-k / 16) for k = 0 .. 15, rounded up, so that no extent comes back smaller.
-const std::array<float, kStepsPerOctave>& fractions() {
-  static const auto table = [] {
-    std::array<float, kStepsPerOctave> out{};
-    for (int k = 0; k < kStepsPerOctave; ++k) {
-      out[static_cast<std::size_t>(k)] = std::nextafter(
-          static_cast<float>(std::exp2(-k / static_cast<double>(kStepsPerOctave))), 2.0F);
-    }
-    return out;
-  }();
-  return table;
-}
-
-float extent_value(int q, int exponent) {
-  const int below = kLevels - q;
-  return std::ldexp(fractions()[static_cast<std::size_t>(below % kStepsPerOctave)],
-                    exponent - below / kStepsPerOctave);
+float extent_of(int q, int exponent) {
+  return extent_value<float>(q, least_extent_exponent(exponent));
 }
 
 std::uint8_t quantise_extent(float value, int exponent) {
   if (!(value > 0)) return 0;
-  const double below = (exponent - std::log2(static_cast<double>(value))) * kStepsPerOctave;
+  const double below = (exponent - std::log2(static_cast<double>(value))) * kExtentSteps;
   int q = kLevels - static_cast<int>(std::clamp(std::floor(below), 0.0, 255.0));
-  while (q < kLevels && extent_value(q, exponent) < value) ++q;
+  while (q < kLevels && extent_of(q, exponent) < value) ++q;
   return static_cast<std::uint8_t>(q);
 }
 
 constexpr int kInfiniteExtent = 127;  // exponent that stands for "beyond float"
 
 }  // namespace
+
+float extent_fraction(int q) {
+  static const auto table = [] {
+    std::array<float, kExtentSteps> out{};
+    for (int k = 0; k < kExtentSteps; ++k) {
+      const double octaves = (kExtentSteps - 1 - k) / static_cast<double>(kExtentSteps);
+      out[static_cast<std::size_t>(k)] =
+          std::nextafter(static_cast<float>(std::exp2(-octaves)), 2.0F);
+    }
+    return out;
+  }();
+  return table[static_cast<std::size_t>(q % kExtentSteps)];
+}
 
 ChunkBound merged(const ChunkBound& a, const ChunkBound& b) {
   ChunkBound out;
@@ -108,7 +107,7 @@ void quantise(const ChunkBound* bounds, ChunkNode& node) {
 ChunkBound child_bound(const ChunkNode& node, int child) {
   const auto extent = [&](int q) {
     if (node.extent_exponent == kInfiniteExtent) return std::numeric_limits<float>::infinity();
-    return extent_value(q, node.extent_exponent);
+    return extent_of(q, node.extent_exponent);
   };
   ChunkBound out;
   for (int k = 0; k < 3; ++k) {

@@ -3,9 +3,18 @@
 
 #include "algorithm/splat/counting.h"
 #include "algorithm/splat/filter_work.h"
+#include "algorithm/voxel/chunk_decode.h"
 #include "algorithm/voxel/chunk_test.h"
 
 namespace sgs {
+
+// Found by extent_value() through their arguments.
+static Counting extent_fraction(CountingIndex q) {
+  return recorded(extent_fraction(q.value), Operation::kLookUp, q);
+}
+static Counting scaled_by_exponent(Counting x, CountingIndex exponent) {
+  return recorded(scaled_by_exponent(x.value, exponent.value), Operation::kScale, x, exponent);
+}
 
 ChunkCase longest_chunk_case() {
   const FilterCase gaussian = longest_case();
@@ -24,24 +33,19 @@ namespace {
 DataFlow chunk_flow(const ChunkCase& tested) {
   DataFlow flow;
   const auto view = make_view<Counting>(tested.camera);
-  const auto vec = [&](const glm::vec3& v) {
-    return glm::vec<3, Counting>{input(flow, v.x), input(flow, v.y), input(flow, v.z)};
-  };
-  // A bound of the box is q 2^e behind the node's origin, a multiply-add each.
-  const glm::vec<3, Counting> origin = vec(tested.bound.low);
-  const Counting step = input(flow, 0x1p-8F);
-  const auto decoded = [&](const glm::vec3& v) {
-    glm::vec<3, Counting> out;
-    for (int k = 0; k < 3; ++k) {
-      out[k] = origin[k] + step * input(flow, (v[k] - tested.bound.low[k]) * 0x1p8F);
-    }
-    return out;
-  };
+  ChunkNode node;
+  node.children = 1;
+  quantise(&tested.bound, node);
+  const CountingIndex least = input_index(flow, least_extent_exponent(node.extent_exponent));
   ChunkBoundOf<Counting> bound;
-  bound.low = decoded(tested.bound.low);
-  bound.high = decoded(tested.bound.high);
-  bound.extent = vec(tested.bound.extent);
-  bound.scale_max = input(flow, tested.bound.scale_max);
+  for (int k = 0; k < 3; ++k) {
+    const Counting origin = input(flow, node.origin[k]);
+    const Counting step = input(flow, std::ldexp(1.0F, node.step_exponent[k]));
+    bound.low[k] = box_bound(origin, step, input_index(flow, node.low[0][k]));
+    bound.high[k] = box_bound(origin, step, input_index(flow, node.high[0][k]));
+    bound.extent[k] = extent_value<Counting>(input_index(flow, node.extent[0][k]), least);
+  }
+  bound.scale_max = extent_value<Counting>(input_index(flow, node.scale[0]), least);
   const ChunkTestOf<Counting> test = GroupFrustumOf<Counting>(view, tested.group).test(bound);
   // A child is no nearer than its parent.
   if (test.touches) static_cast<void>(max_of(test.nearest, input(flow, 0.0F)));
@@ -58,6 +62,11 @@ OperationCounts chunk_work(const ChunkCase& tested) {
 LongestPath chunk_path(const ChunkCase& tested, const OperationLatencies& latencies) {
   const DataFlow flow = chunk_flow(tested);
   return flow.longest_path(0, flow.size(), latencies);
+}
+
+std::vector<LaneStep> chunk_steps(const ChunkCase& tested, const OperationLatencies& latencies) {
+  const DataFlow flow = chunk_flow(tested);
+  return lane_steps(flow, 0, flow.size(), latencies);
 }
 
 }  // namespace sgs

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "algorithm/scene/camera.h"
+#include "algorithm/splat/lane_steps.h"
 #include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/operation_counts.h"
 #include "algorithm/splat/rects.h"
@@ -25,5 +26,6 @@ ChunkCase longest_chunk_case();
 // is decoded from its node: box bounds origin + q 2^e, extents by table.
 OperationCounts chunk_work(const ChunkCase& tested);
 LongestPath chunk_path(const ChunkCase& tested, const OperationLatencies& latencies);
+std::vector<LaneStep> chunk_steps(const ChunkCase& tested, const OperationLatencies& latencies);
 
 }  // namespace sgs

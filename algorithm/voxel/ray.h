@@ -18,9 +18,9 @@ struct RayOf {
   glm::vec<3, T> origin, direction, inverse;
   glm::ivec3 step;  // -1, 0, 1
 
-  T plane_time(int axis, int plane, T voxel_size) const {
+  T plane_time(int axis, IndexOf<T> plane, T voxel_size) const {
     if (step[axis] == 0) return T(std::numeric_limits<float>::infinity());
-    return (T(static_cast<float>(plane)) * voxel_size - origin[axis]) * inverse[axis];
+    return (number_of<T>(plane) * voxel_size - origin[axis]) * inverse[axis];
   }
 };
 using Ray = RayOf<float>;

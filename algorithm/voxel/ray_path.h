@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <type_traits>
 
 #include "algorithm/voxel/cells_from_eye.h"
 #include "algorithm/voxel/children_ahead.h"
@@ -64,11 +63,14 @@ class RayPath {
  private:
   enum class Now : std::uint8_t { kAtRoot, kInNode, kAtVoxel, kOutside };
 
+  using Index = IndexOf<T>;
+
   VoxelNode& node_at(int level) { return nodes_[level % kNodesOfRay]; }
+  glm::ivec3 cell() const { return {value_of(cell_[0]), value_of(cell_[1]), value_of(cell_[2])}; }
 
   // Place of the cell among the children of the node.
   glm::uvec3 place() const {
-    return glm::uvec3(cell_) >> static_cast<unsigned>(2 * (level_ - 1)) & 3U;
+    return glm::uvec3(cell()) >> static_cast<unsigned>(2 * (level_ - 1)) & 3U;
   }
 
   RayEventOf look() {
@@ -84,63 +86,58 @@ class RayPath {
       return {RayEvent::kLookUp, child};
     }
     now_ = Now::kAtVoxel;
-    return {RayEvent::kVoxel, child, cells_from_eye(eye_, cell_)};
+    return {RayEvent::kVoxel, child, cells_from_eye(eye_, cell())};
   }
 
   // Out of the largest block in which nothing is ahead.
   RayEventOf step() {
-    const glm::ivec3 from = cell_;
+    const glm::ivec3 from = cell();
     const int log2_size = empty_block(node_at(level_), place(), ray_.step, level_);
     leave_block(log2_size);
     now_ = outside() ? Now::kOutside : Now::kInNode;
     if (now_ == Now::kInNode) {
       // Climb to the smallest node that holds the old cell and the new one.
+      const glm::ivec3 to = cell();
       const auto differs =
-          static_cast<unsigned>((from.x ^ cell_.x) | (from.y ^ cell_.y) | (from.z ^ cell_.z));
+          static_cast<unsigned>((from.x ^ to.x) | (from.y ^ to.y) | (from.z ^ to.z));
       while (differs >> (2 * level_) != 0) ++level_;
       if (level_ > highest_) now_ = Now::kAtRoot;
     }
     return {RayEvent::kStep, static_cast<std::uint32_t>(log2_size)};
   }
 
-  // In which a position along a ray is computed from its time.
-  using Wide = std::conditional_t<std::is_same_v<T, float>, double, T>;
-  static Wide wide(int value) {
-    if constexpr (std::is_same_v<Wide, double>) {
-      return value;
-    } else {
-      return Wide(static_cast<float>(value));
-    }
-  }
-
   bool outside() const {
     const auto side = static_cast<unsigned>(frame_.side_cells());
-    return static_cast<unsigned>(cell_.x) >= side || static_cast<unsigned>(cell_.y) >= side ||
-           static_cast<unsigned>(cell_.z) >= side;
+    const glm::uvec3 at(cell());
+    return at.x >= side || at.y >= side || at.z >= side;
   }
 
-  // Time at which the ray crosses the plane below `cell` (relative to the root) of an axis.
-  T plane_time(int axis, int cell) const {
-    return ray_.plane_time(axis, cell + frame_.origin_cell[axis], voxel_size_);
+  // Time at which the ray crosses the plane that lies `above` cells over the one below `cell`
+  // (relative to the root) of an axis.
+  T plane_time(int axis, Index cell, int above) const {
+    return ray_.plane_time(axis, cell + (frame_.origin_cell[axis] + above), voxel_size_);
   }
 
   // Cell along `axis` when the ray crosses another axis' plane at `time`, between `from` and `last`
-  // (in the direction of travel): all planes crossed before count.
-  int cell_when(int axis, T time, int crossed_axis, int from, int last) const {
+  // (in the direction of travel): all planes crossed before count. Where the ray is at that time
+  // only says where to look: the planes' own times decide, so that the cell does not depend on how
+  // the position is rounded.
+  Index cell_when(int axis, T time, int crossed_axis, Index from, Index last) const {
     const int step = ray_.step[axis];
-    if (step == 0 || from == last) return from;
+    if (step == 0 || value_of(from) == value_of(last)) return from;
     using std::floor;
-    const Wide position =
-        (Wide(ray_.origin[axis]) + Wide(time) * Wide(ray_.direction[axis])) / Wide(voxel_size_);
-    const Wide relative = floor(position) - wide(frame_.origin_cell[axis]);
-    const int low = std::min(from, last), high = std::max(from, last);
-    int cell = static_cast<int>(clamp_of(relative, wide(low), wide(high)));
+    const T position = (ray_.origin[axis] + time * ray_.direction[axis]) / voxel_size_;
+    const T relative = floor(position) - T(static_cast<float>(frame_.origin_cell[axis]));
+    const T first = number_of<T>(step > 0 ? from : last),
+            end = number_of<T>(step > 0 ? last : from);
+    Index cell = static_cast<Index>(clamp_of(relative, first, end));
     const int far_side = step > 0 ? 1 : 0;  // plane by which a cell is left
-    const auto left_before = [&](int c) {
-      return crosses_before(plane_time(axis, c + far_side), axis, time, crossed_axis);
+    const auto left_before = [&](Index c, int steps_ago) {
+      return crosses_before(plane_time(axis, c, far_side - steps_ago * step), axis, time,
+                            crossed_axis);
     };
-    while (cell != last && left_before(cell)) cell += step;
-    while (cell != from && !left_before(cell - step)) cell -= step;
+    while (value_of(cell) != value_of(last) && left_before(cell, 0)) cell = cell + step;
+    while (value_of(cell) != value_of(from) && !left_before(cell, 1)) cell = cell + -step;
     return cell;
   }
 
@@ -149,19 +146,17 @@ class RayPath {
   void leave_block(int log2_size) {
     const int size = 1 << log2_size;
     int exit_axis = 0;
-    T exit_time = T(std::numeric_limits<float>::infinity());
-    glm::ivec3 last;
+    T exit_time{};
+    Index last[3];
     for (int axis = 0; axis < 3; ++axis) {
-      const int low = cell_[axis] & ~(size - 1);
-      last[axis] = ray_.step[axis] > 0 ? low + size - 1 : low;
-      const T time = plane_time(axis, ray_.step[axis] > 0 ? low + size : low);
-      if (axis == 0 || time < exit_time) {
-        exit_time = time;
-        exit_axis = axis;
-      }
+      const Index low = without_bits(cell_[axis], size - 1);
+      last[axis] = ray_.step[axis] > 0 ? with_bits(cell_[axis], size - 1) : low;
+      const T time = plane_time(axis, low, ray_.step[axis] > 0 ? size : 0);
+      if (axis > 0 && time < exit_time) exit_axis = axis;
+      exit_time = axis == 0 ? time : min_of(exit_time, time);
     }
     if (ray_.step[exit_axis] == 0) {  // a direction of zero length never leaves
-      cell_.x = -1;
+      cell_[0] = -1;
       return;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -178,16 +173,15 @@ class RayPath {
     T entry_time = T(0.0F);
     int entry_axis = -1;
     for (int axis = 0; axis < 3; ++axis) {
-      cell_[axis] =
-          cell_of(value_of(ray_.origin[axis]), frame_.voxel_size) - frame_.origin_cell[axis];
-      if (cell_[axis] >= 0 && cell_[axis] < side) continue;
-      const int step = ray_.step[axis];
-      if (cell_[axis] < 0 ? step <= 0 : step >= 0) return false;
-      const T time = plane_time(axis, step > 0 ? 0 : side);
-      if (entry_axis < 0 || crosses_before(entry_time, entry_axis, time, axis)) {
-        entry_time = time;
-        entry_axis = axis;
-      }
+      cell_[axis] = cell_of(ray_.origin[axis], voxel_size_) + -frame_.origin_cell[axis];
+      const int at = value_of(cell_[axis]), step = ray_.step[axis];
+      if (at >= 0 && at < side) continue;
+      if (at < 0 ? step <= 0 : step >= 0) return false;
+      const T time = plane_time(axis, Index(step > 0 ? 0 : side), 0);
+      const bool first = entry_axis < 0;
+      // The last crossing is the one that enters; of equal times that of the later axis.
+      if (first || entry_time <= time) entry_axis = axis;
+      entry_time = first ? time : max_of(entry_time, time);
     }
     if (entry_axis < 0) return true;
     for (int axis = 0; axis < 3; ++axis) {
@@ -196,8 +190,8 @@ class RayPath {
         cell_[axis] = step > 0 ? 0 : side - 1;
       } else {
         // One cell past the root is far enough to see that the ray misses it.
-        const int last = step > 0 ? side : -1;
-        if (step > 0 ? cell_[axis] < last : cell_[axis] > last) {
+        const int last = step > 0 ? side : -1, at = value_of(cell_[axis]);
+        if (step > 0 ? at < last : at > last) {
           cell_[axis] = cell_when(axis, entry_time, entry_axis, cell_[axis], last);
         }
       }
@@ -208,7 +202,8 @@ class RayPath {
   VoxelFrame frame_;
   T voxel_size_;
   RayOf<T> ray_{};
-  glm::ivec3 eye_{0}, cell_{0};  // relative to the root's corner
+  glm::ivec3 eye_{0};   // its cell, relative to the root's corner
+  Index cell_[3] = {};  // likewise
   Now now_ = Now::kOutside;
   int level_ = 1;    // of the node to look into: it spans 4^level cells
   int highest_ = 1;  // level of the nodes that are kept

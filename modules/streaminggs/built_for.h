@@ -5,6 +5,7 @@
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/second_half.h"
+#include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/rects.h"
 #include "tlm/memory_port.h"
 
@@ -17,6 +18,7 @@ struct BuiltFor {
   std::uint32_t first_half_bytes = 0, second_half_bytes = 0;  // the largest of any degree
   std::uint32_t chunk_gaussians = 0;                          // exact order: most in one chunk
   MemoryPortConfig memory_port;                               // of each unit's port
+  OperationLatencies single, half{2, 1, 1};                   // of lanes of each precision
 };
 
 // The on-chip memories.

@@ -1,16 +1,14 @@
 // A datapath from what was counted by running its code.
 #pragma once
 
-#include <string_view>
-
 #include "algorithm/splat/lane_macs.h"
 #include "tlm/datapath.h"
 
 namespace sgs {
 
 // Single precision, charged with what was counted, one lane until it is said otherwise. Beside the
-// lanes stand comparators, and tables: for what reciprocals, roots and logarithms start from, and for
-// what the code looks up (rows: their kind).
+// lanes stand comparators, and tables: for what reciprocals, roots and logarithms start from, and
+// for what the code looks up (rows: their kind).
 inline Datapath counted_datapath(const char* name, const char* component, const OperationCounts& c,
                                  const char* rows = "small_table") {
   Datapath path;
@@ -30,12 +28,14 @@ inline Datapath counted_datapath(const char* name, const char* component, const 
                  {"roundings", c.roundings},
                  {"splits", c.splits},
                  {"scalings", c.scalings},
+                 {"conversions", c.conversions},
+                 {"index_adds", c.index_adds},
                  {"look_ups", c.look_ups}};
-  if (comparisons(c) > 0) path.beside.push_back({"comparator", comparisons(c)});
-  const bool one_kind = std::string_view(rows) == "small_table";
-  const std::uint32_t small = seeds(c) + (one_kind ? c.look_ups : 0);
-  if (small > 0) path.beside.push_back({"small_table", small});
-  if (!one_kind && c.look_ups > 0) path.beside.push_back({rows, c.look_ups});
+  for (const auto& [kind, operations] :
+       {BesideLanes{"comparator", comparisons(c)}, BesideLanes{"small_table", seeds(c)},
+        BesideLanes{rows, c.look_ups}}) {
+    if (operations > 0) path.part_of(kind).operations += operations;
+  }
   return path;
 }
 

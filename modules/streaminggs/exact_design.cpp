@@ -7,6 +7,7 @@
 #include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
 #include "modules/streaminggs/streaming_sram.h"
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs {
 
@@ -21,6 +22,7 @@ void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>&
   sgs::adapt(config_, storage_order(), format, chosen);
   const OperationLatencies latencies = config_.single_latencies();
   resolve_depth("vsu.test_depth_cycles", config_.vsu.test_depth_cycles,
+                chunk_test_pipeline(config_.vsu, latencies),
                 chunk_path(longest_chunk_case(), latencies), latencies, 0, chosen);
 }
 

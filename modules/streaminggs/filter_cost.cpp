@@ -21,14 +21,16 @@ void take_count(const char* key, std::uint32_t& macs, std::uint32_t counted) {
 
 }  // namespace
 
-std::vector<AutoChoice> resolve_filter_cost(HfuConfig& hfu, CoarseBoundBy bound_by, int sh_degree) {
+std::vector<AutoChoice> resolve_filter_cost(HfuConfig& hfu, const RecordSplit& split,
+                                            int sh_degree) {
   if (hfu.cost == FilterCost::kPaper) {
     if (hfu.cfu_macs == 0) hfu.cfu_macs = kPaperCfuMacs;
     if (hfu.ffu_macs == 0) hfu.ffu_macs = kPaperFfuMacs;
     return {};
   }
-  take_count("hfu.cfu_macs", hfu.cfu_macs, coarse_datapath(hfu, bound_by, 1).counted_macs);
-  take_count("hfu.ffu_macs", hfu.ffu_macs, fine_datapath(hfu, sh_degree).counted_macs);
+  take_count("hfu.cfu_macs", hfu.cfu_macs, coarse_datapath(hfu, split.bound_by, 1).counted_macs);
+  take_count("hfu.ffu_macs", hfu.ffu_macs,
+             fine_datapath(hfu, split.fine_record(sh_degree)).counted_macs);
   return {{"hfu.cfu_macs", static_cast<double>(hfu.cfu_macs),
            fmt::format("counted on the coarse filter; the paper says {}", kPaperCfuMacs)},
           {"hfu.ffu_macs", static_cast<double>(hfu.ffu_macs),

@@ -3,17 +3,17 @@
 
 #include <vector>
 
-#include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/memory/record_split.h"
 #include "modules/auto_choice.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
 
 namespace sgs {
 
 // Makes hfu.cfu_macs and hfu.ffu_macs, where they are 0, what a test costs. With hfu.cost counted
-// that is what the filters execute on a scene of this SH degree (algorithm/splat/filter_work.h),
-// and is said; with paper what the paper states. Throws InputError where they are counted and the
-// configuration says other numbers: nothing would come of those.
-std::vector<AutoChoice> resolve_filter_cost(HfuConfig& config, CoarseBoundBy bound_by,
+// that is what the filters execute on records of this split and SH degree
+// (algorithm/splat/filter_work.h), and is said; with paper what the paper states. Throws InputError
+// where they are counted and the configuration says other numbers: nothing would come of those.
+std::vector<AutoChoice> resolve_filter_cost(HfuConfig& config, const RecordSplit& split,
                                             int sh_degree);
 
 }  // namespace sgs

@@ -92,14 +92,18 @@ using FinishedSubtilesIn = sc_core::sc_port<FinishedSubtilesIf>;
 // Not bound where nobody asks.
 using FinishSubtileOut = sc_core::sc_port<FinishSubtileIf, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
 
-// A bit a sub-tile, all of them read at once: each unit that asks keeps its own.
+// A bit a sub-tile, in registers: all are read at once, and cleared; each cluster may finish one in
+// a cycle. Each unit that asks keeps its own.
 inline SramUse mask_use(const PixelSize& group) {
   const auto columns = static_cast<std::uint32_t>(group.width / kSubtilePx);
   const auto rows = static_cast<std::uint32_t>(group.height / kSubtilePx);
   const std::uint32_t row_bytes = (columns + 7) / 8;
+  const std::uint32_t bits = 8 * rows * row_bytes;
   return sram_use("finished sub-tiles", kSharedSram, {{rows, "rows"}, {row_bytes, "B"}},
-                  {8 * rows * row_bytes, SramPorts::kReadAndWrite, 1});
+                  {1, SramPorts::kReadAndWrite, bits}, {bits, bits});
 }
+// Of a look-up.
+inline std::uint64_t mask_bits(const PixelSize& group) { return mask_use(group).shape.banks; }
 // What asks it: of each row the columns of a reach, and whether one of them is unfinished. About
 // what a comparator of 32 bits does.
 inline std::uint32_t mask_comparators(const PixelSize& group) {

@@ -28,6 +28,7 @@ struct PaperConfig : StreamingConfig {
     rendering.cluster_queue_entries = 4;
     memory_port.max_outstanding = 8;
     hfu.candidate_fifo_entries = 10;  // what 89 KB leave
+    rendering.input_fifo_entries = 4;
   }
 
   // Lists that are sorted side by side: those of one part of the groups, and of all. A network

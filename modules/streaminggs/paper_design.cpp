@@ -14,6 +14,7 @@
 #include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
 #include "modules/streaminggs/streaming_sram.h"
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs {
 namespace {
@@ -35,10 +36,18 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   storage_ = storage;
   check(config_);
   const OperationLatencies latencies = config_.single_latencies();
-  resolve_depth("vsu.step_depth_cycles", config_.vsu.step_depth_cycles, ray_step_path(latencies),
-                latencies, 0, chosen);
-  resolve_depth("vsu.ray_depth_cycles", config_.vsu.ray_depth_cycles, pixel_ray_path(latencies),
-                latencies, 0, chosen);
+  // A step reads the ray's context and writes it.
+  constexpr std::uint32_t kContext = kReadCycles + kWriteCycles;
+  for (const auto& [key, depth, step] :
+       {std::tuple("vsu.step_depth_cycles", &config_.vsu.step_depth_cycles, longest_step_case()),
+        std::tuple("vsu.cell_step_depth_cycles", &config_.vsu.cell_step_depth_cycles,
+                   cell_step_case())}) {
+    resolve_depth(key, *depth, ray_step_pipeline(config_.vsu, step, latencies),
+                  ray_step_path(step, latencies), latencies, kContext, chosen);
+  }
+  resolve_depth("vsu.ray_depth_cycles", config_.vsu.ray_depth_cycles,
+                pixel_ray_pipeline(config_.vsu, latencies), pixel_ray_path(latencies), latencies,
+                kWriteCycles, chosen);
   resolve_rendering_depths(config_, chosen);
   resolve_sram(
       config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);

@@ -1,4 +1,4 @@
-// Longest paths as configuration.
+// Schedules as configuration.
 #include "modules/streaminggs/pipeline_depths.h"
 
 #include <fmt/format.h>
@@ -6,50 +6,67 @@
 #include <cmath>
 
 #include "algorithm/splat/filter_work.h"
+#include "modules/streaminggs/hfu/filter_datapaths.h"
+#include "modules/streaminggs/hfu/fine_filter.h"
 
 namespace sgs {
 namespace {
 
-constexpr std::uint32_t kReadAndWrite = 2;  // the pixels' state
+void take(const char* key, std::uint32_t& depth_cycles, std::uint32_t scheduled,
+          const std::string& of, const LongestPath& path, const OperationLatencies& latencies,
+          std::uint32_t beside, std::vector<AutoChoice>& chosen) {
+  if (depth_cycles > 0) return;
+  depth_cycles = scheduled + beside;
+  std::string why = fmt::format(
+      "schedule of {}; its longest path is {}: {} on lanes, {} on comparators, {} look-ups", of,
+      path.cycles(latencies), path.lane, path.comparator, path.look_ups);
+  if (beside > 0) why += fmt::format("; {} beside", beside);
+  chosen.push_back({key, static_cast<double>(depth_cycles), std::move(why)});
+}
 
 }  // namespace
 
-void resolve_depth(const char* key, std::uint32_t& depth_cycles, const LongestPath& path,
-                   const OperationLatencies& latencies, std::uint32_t beside,
-                   std::vector<AutoChoice>& chosen) {
-  if (depth_cycles > 0) return;
-  depth_cycles = path.cycles(latencies) + beside;
-  std::string why = fmt::format("longest path: {} on lanes of {} cycles, {} on comparators, {} look-ups",
-                                path.lane, latencies.lane, path.comparator, path.look_ups);
-  if (beside > 0) why += fmt::format("; {} beside", beside);
-  chosen.push_back({key, static_cast<double>(depth_cycles), std::move(why)});
+void resolve_depth(const char* key, std::uint32_t& depth_cycles, const Datapath& pipeline,
+                   const LongestPath& path, const OperationLatencies& latencies,
+                   std::uint32_t beside, std::vector<AutoChoice>& chosen) {
+  take(key, depth_cycles, pipeline.depth_cycles,
+       fmt::format("{} on {} lanes of {} cycles", pipeline.name, pipeline.lanes, latencies.lane),
+       path, latencies, beside, chosen);
 }
 
 void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& chosen) {
   const OperationLatencies single = config.single_latencies(), half = config.half_latencies();
   RenderingConfig& rendering = config.rendering;
+  const RenderingConfig part = rendering_of_part(config);
   const RenderingPaths paths = rendering_paths(rendering.precision, single, half);
   const bool in_half = rendering.precision == BlendPrecision::kHalf;
   const OperationLatencies& blending = in_half ? half : single;
-  resolve_depth("rendering.span_depth_cycles", rendering.span_depth_cycles, paths.spans, single, 0,
-                chosen);
+  resolve_depth("rendering.span_depth_cycles", rendering.span_depth_cycles,
+                span_pipeline(part, single), paths.spans, single, 0, chosen);
   // The conic's lanes stand ahead of the queues: what they take comes on top.
-  resolve_depth("rendering.depth_cycles", rendering.depth_cycles, paths.blend, blending,
-                paths.conic.cycles(single) + kReadAndWrite, chosen);
-  resolve_depth("rendering.state_loop_cycles", rendering.state_loop_cycles, paths.state_loop,
-                blending, kReadAndWrite, chosen);
+  const Datapath blend = blend_pipeline(part, blending);
+  resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend, paths.blend, blending,
+                conic_pipeline(single).depth_cycles + kReadCycles + kWriteCycles, chosen);
+  take("rendering.state_loop_cycles", rendering.state_loop_cycles, blend.loop_cycles,
+       "subtile_blend, from a pixel's state on", paths.state_loop, blending,
+       kReadCycles + kWriteCycles, chosen);
   resolve_depth("rendering.drain_depth_cycles", rendering.drain_depth_cycles,
+                drain_pipeline(part, config.framebuffer, single),
                 pixel_path(config.framebuffer, single), single, 0, chosen);
 }
 
-void resolve_filter_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
+void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, int sh_degree,
                            std::vector<AutoChoice>& chosen) {
   const OperationLatencies single = config.single_latencies();
   const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(config.parts())));
   resolve_depth("hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
-                coarse_path(bound_by, longest_case(), across, single), single, 0, chosen);
+                coarse_pipeline(config.hfu, split.bound_by, config.parts(), single),
+                coarse_path(split.bound_by, longest_case(), across, single), single, kReadCycles,
+                chosen);
   resolve_depth("hfu.ffu_depth_cycles", config.hfu.ffu_depth_cycles,
-                fine_path(longest_case(), sh_degree, single), single, 0, chosen);
+                fine_pipeline(config.hfu, split.fine_record(sh_degree), single),
+                fine_path(longest_case(), split.fine_record(sh_degree), single), single,
+                FineFilter::read_cycles(split.second_bytes), chosen);
 }
 
 }  // namespace sgs

@@ -1,27 +1,33 @@
-// How long a result takes through each pipeline: the longest path through what its unit computes
-// (algorithm/splat/longest_path.h), at the latency of the lanes that the machine is built of.
+// How long a result takes through each pipeline: the end of a schedule of what its unit computes on
+// the lanes that it has (algorithm/splat/folded_schedule.h), at their latency.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/memory/record_split.h"
 #include "algorithm/splat/longest_path.h"
 #include "modules/auto_choice.h"
 #include "modules/streaminggs/streaming_config.h"
+#include "tlm/datapath.h"
 
 namespace sgs {
 
-// A depth that is 0 becomes the path's cycles and `beside` more, and is said in `chosen`; one that
-// is given stays. beside: cycles of what is not on the path, as reading and writing.
-void resolve_depth(const char* key, std::uint32_t& depth_cycles, const LongestPath& path,
-                   const OperationLatencies& latencies, std::uint32_t beside,
-                   std::vector<AutoChoice>& chosen);
+// Beside a schedule: the word that it begins with is read, what it gives is written back.
+constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
+
+// A depth that is 0 becomes that of the pipeline and `beside` more, and is said in `chosen`, with
+// the longest path that bounds it; one that is given stays. beside: cycles of what is not in the
+// schedule, as reading and writing.
+void resolve_depth(const char* key, std::uint32_t& depth_cycles, const Datapath& pipeline,
+                   const LongestPath& path, const OperationLatencies& latencies,
+                   std::uint32_t beside, std::vector<AutoChoice>& chosen);
 
 // Of rendering: what its memories are large enough for depends on them.
 void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& chosen);
-// Of the filters, on a scene of this SH degree.
-void resolve_filter_depths(StreamingConfig& config, CoarseBoundBy bound_by, int sh_degree,
+// Of the filters, on records of this split and SH degree; each reads its record first, a word a
+// cycle.
+void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, int sh_degree,
                            std::vector<AutoChoice>& chosen);
 
 }  // namespace sgs

@@ -78,6 +78,8 @@ BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) 
   }
   out.chunk_gaussians = storage.chunk_gaussians;
   out.memory_port = config.memory_port;
+  out.single = config.single_latencies();
+  out.half = config.half_latencies();
   return out;
 }
 

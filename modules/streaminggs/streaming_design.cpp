@@ -19,11 +19,11 @@ constexpr int kMaxDegree = 3;
 
 void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& format,
            std::vector<AutoChoice>& chosen) {
-  for (AutoChoice& cost :
-       resolve_filter_cost(config.hfu, split_of(order, format).bound_by, format.sh_degree)) {
+  const RecordSplit split = split_of(order, format);
+  for (AutoChoice& cost : resolve_filter_cost(config.hfu, split, format.sh_degree)) {
     chosen.push_back(std::move(cost));
   }
-  resolve_filter_depths(config, split_of(order, format).bound_by, format.sh_degree, chosen);
+  resolve_filter_depths(config, split, format.sh_degree, chosen);
   check_sram("sram.codebook_bytes", config.sram.codebook_bytes,
              CodebookBuffer::sram_uses(config.codebook, format), kCodebookSram);
 }

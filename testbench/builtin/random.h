@@ -6,15 +6,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace sgs {
+#include "algorithm/split_mix.h"
 
-// One step of SplitMix64 (Steele, Lea, Flood 2014): also a good hash of a counter.
-inline std::uint64_t mix_bits(std::uint64_t value) {
-  value += 0x9e3779b97f4a7c15u;
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebu;
-  return value ^ (value >> 31);
-}
+namespace sgs {
 
 // A stream of numbers for each seed. The distributions of <random> differ between libraries; these
 // do not, and a stream per Gaussian makes scenes independent of the number of threads.

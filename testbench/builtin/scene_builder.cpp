@@ -9,6 +9,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numeric>
 
+#include "algorithm/scene/logit.h"
+
 namespace sgs {
 namespace {
 
@@ -48,7 +50,7 @@ void store(const Surfel& surfel, const std::array<glm::dvec3, 16>& coeffs, Rando
   cloud.quats[index] = {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y),
                         static_cast<float>(q.z)};
   const double opacity = std::clamp(surfel.opacity, 1e-4, 0.9999);
-  cloud.opacity_logits[index] = static_cast<float>(std::log(opacity / (1.0 - opacity)));
+  cloud.opacity_logits[index] = static_cast<float>(logit(opacity));
   // Nor does it leave any coefficient at exactly zero.
   constexpr double kResidue = 0.008;
   for (std::size_t k = 0; k < coeffs.size(); ++k) {

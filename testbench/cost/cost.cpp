@@ -35,6 +35,22 @@ CostResult logic_area(const MachineResult& machine, const Technology& technology
   return area;
 }
 
+SramUse write_queues(const FrameResult& frame, const Technology& technology) {
+  constexpr std::uint32_t kBurstBits = 256;
+  SramUse queue = sram_use("waiting writes", "controller",
+                           {{technology.memory_interface.write_queue_bytes, "B"}}, {kBurstBits}, kOneOfEach);
+  queue.count = frame.memory.channels;
+  return queue;
+}
+
+// Each burst of a write is put in and taken out.
+Band write_queue_energy_j(const FrameResult& frame, const SramUse& queue, const SramModel& model) {
+  std::uint64_t bytes = 0;
+  for (const RegionTraffic& traffic : frame.memory.traffic) bytes += traffic.written_bytes;
+  const auto bursts = static_cast<double>(sram_words(bytes, queue.shape));
+  return bursts * kPj * (model.read_pj(queue) + model.write_pj(queue));
+}
+
 }  // namespace
 
 CostResult area_of(const FrameResult& frame, const Technology& technology) {
@@ -43,7 +59,9 @@ CostResult area_of(const FrameResult& frame, const Technology& technology) {
   for (const SramUse& use : frame.machine.sram_uses) sram = sram + technology.sram.mm2(use);
   add(area, "sram", sram);
   if (technology.memory_interface.counted) {
-    add(area, "memory_interface", frame.memory.channels * technology.memory_interface.mm2);
+    add(area, "memory_interface",
+        frame.memory.channels * technology.memory_interface.mm2 +
+            technology.sram.mm2(write_queues(frame, technology)));
   }
   return area;
 }
@@ -75,8 +93,12 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology) {
       kMw * frame.time_s() * (technology.die.logic_leakage_mw_mm2 * logic));
   add(energy, "sram_leakage", kMw * frame.time_s() * sram_leakage);
   if (technology.memory_interface.counted) {
+    const SramUse queues = write_queues(frame, technology);
     add(energy, "memory_interface",
-        frame.memory.channels * kMw * frame.time_s() * technology.memory_interface.mw);
+        kMw * frame.time_s() *
+                (frame.memory.channels * technology.memory_interface.mw +
+                 technology.sram.leakage_mw(queues)) +
+            write_queue_energy_j(frame, queues, technology.sram));
   }
   const double dram = frame.memory.energy_j;
   add(energy, "dram", {dram, dram, dram});

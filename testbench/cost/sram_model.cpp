@@ -1,6 +1,7 @@
 // The formula, and its fields in the table.
 #include "testbench/cost/sram_model.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sgs {
@@ -10,6 +11,21 @@ double bank_bits(const SramUse& use) {
   return 8.0 * static_cast<double>(use.bytes) / use.shape.banks;
 }
 double ports(const SramUse& use) { return use.shape.ports == SramPorts::kOne ? 1 : 2; }
+double banks(const SramUse& use) { return static_cast<double>(use.count) * use.shape.banks; }
+
+// Of the macros of a bank, with the rows that nobody uses.
+double macro_bits(const SramModel& model, const SramUse& use) {
+  return std::max(bank_bits(use), model.least_rows * use.shape.width_bits);
+}
+
+Band macro_um2(const SramModel& model, const SramUse& use) {
+  return model.bare_um2(macro_bits(model, use), use.shape.width_bits, ports(use)) * model.macro *
+         model.placed;
+}
+
+Band register_um2(const SramModel& model, const SramUse& use) {
+  return bank_bits(use) * model.um2_register;
+}
 
 }  // namespace
 
@@ -22,21 +38,26 @@ double SramModel::bare_read_pj(double bits, double width_bits) const {
   return width_bits * (pj_width + pj_cell * length) + pj_decode * length;
 }
 
+bool SramModel::in_registers(const SramUse& use) const {
+  return register_um2(*this, use).middle < macro_um2(*this, use).middle;
+}
+
 Band SramModel::mm2(const SramUse& use) const {
   constexpr double kMm2 = 1e-6;  // of a um2
-  const double banks = static_cast<double>(use.count) * use.shape.banks;
-  return kMm2 * banks * bare_um2(bank_bits(use), use.shape.width_bits, ports(use)) * macro * placed;
+  return kMm2 * banks(use) * (in_registers(use) ? register_um2(*this, use) : macro_um2(*this, use));
 }
 
 Band SramModel::leakage_mw(const SramUse& use) const {
-  constexpr double kKiB = 1024;
-  return static_cast<double>(use.total_bytes()) / kKiB * leakage_mw_kib;
+  constexpr double kKiB = 8 * 1024;  // bits
+  const double bits = in_registers(use) ? bank_bits(use) : macro_bits(*this, use);
+  return banks(use) * bits / kKiB * leakage_mw_kib;
 }
 
 Band SramModel::read_pj(const SramUse& use) const {
   const std::uint32_t macros = (use.shape.width_bits + kMacroBits - 1) / kMacroBits;
   return static_cast<double>(macros) *
-         bare_read_pj(bank_bits(use) / macros, use.shape.width_bits / static_cast<double>(macros)) *
+         bare_read_pj(macro_bits(*this, use) / macros,
+                      use.shape.width_bits / static_cast<double>(macros)) *
          access;
 }
 
@@ -62,6 +83,8 @@ void visit(ConfigVisitor& v, SramModel& m) {
   v("pj_width", m.pj_width, range, "energy of a bit accessed");
   v("pj_cell", m.pj_cell, range, "the same, times the root of the bits of a bank");
   v("pj_decode", m.pj_decode, range, "energy of an access, times the root of the bits of a bank");
+  v("least_rows", m.least_rows, range, "of a macro");
+  v.section("um2_register", m.um2_register, "area of a bit kept in registers, on a die");
   v.section("macro", m.macro, "area of a macro over that of the formula");
   v.section("placed", m.placed, "area on a die over that of the macro");
   v.section("access", m.access, "energy over that of the formula");

@@ -2,6 +2,7 @@
 // user can replace.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -27,6 +28,7 @@ struct DieCost {
 struct MemoryInterfaceCost {
   bool counted = false;
   Band mm2, mw;
+  std::uint64_t write_queue_bytes = 0;  // of writes that wait; on-chip memory, beside mm2 and mw
   std::string source;
 };
 

@@ -51,6 +51,13 @@ class Collector : public LeftOutCollector {
       operations(path.component.c_str(), beside.kind.c_str(),
                  static_cast<double>(items) * beside.operations);
     }
+    const auto between = [&](const char* kind, std::uint32_t bits, std::uint32_t of_item) {
+      if (bits == 0) return;
+      part(path.component.c_str(), kind, static_cast<double>(path.copies) * bits, 1);
+      operations(path.component.c_str(), kind, static_cast<double>(items) * of_item);
+    };
+    between("register_bit", path.between.registers, path.between.written);
+    between("select_bit", path.between.multiplexers, path.between.selected);
     const auto same =
         std::find_if(into_.datapaths.begin(), into_.datapaths.end(),
                      [&](const DatapathResult& d) { return d.datapath.name == path.name; });
@@ -73,18 +80,17 @@ class Collector : public LeftOutCollector {
   }
   void sram(const SramUse& use) override { sgs::add(into_.sram_uses, use); }
   void accesses(const char* use, std::uint64_t reads, std::uint64_t writes) override {
-    auto same = std::find_if(into_.sram_accesses.begin(), into_.sram_accesses.end(),
-                             [&](const SramAccesses& a) { return a.use == use; });
-    if (same == into_.sram_accesses.end()) {
-      same = into_.sram_accesses.insert(same, {use, 0, 0});
-    }
-    same->reads += reads;
-    same->writes += writes;
+    SramAccesses& same = accesses_of(use);
+    same.reads += reads;
+    same.writes += writes;
     if (reads + writes > 0) into_.units.back().charged = true;
   }
   void queue(FifoChannel& queue, const char* use) override {
     if (queue.entry_bytes() == 0) return;
     accesses(use, queue.popped(), queue.pushed());
+    SramPeak& seen = accesses_of(use).seen;
+    seen.reads = std::max(seen.reads, queue.most_popped());
+    seen.writes = std::max(seen.writes, queue.most_pushed());
     // Whoever puts entries in or takes them out is charged with that, wherever the queue is said.
     for (const Activity* end : {queue.writer(), queue.reader()}) {
       if (end != nullptr) movers_.insert(path_below(*end->get_parent_object(), machine_));
@@ -98,14 +104,23 @@ class Collector : public LeftOutCollector {
     into_.sram_available.emplace_back(memory, bytes);
   }
 
-  // To be called when all units have published: what concerns the ends of a FIFO comes from who made
-  // it, not from who is there.
+  // To be called when all units have published: what concerns the ends of a FIFO comes from who
+  // made it, not from who is there.
   void join_ends() {
     for (UnitResult& unit : into_.units) unit.charged |= movers_.count(unit.name) > 0;
     apply_remedies();
   }
 
  private:
+  SramAccesses& accesses_of(const std::string& use) {
+    auto same = std::find_if(into_.sram_accesses.begin(), into_.sram_accesses.end(),
+                             [&](const SramAccesses& a) { return a.use == use; });
+    if (same == into_.sram_accesses.end()) {
+      same = into_.sram_accesses.insert(same, {use, 0, 0, {0, 0}});
+    }
+    return *same;
+  }
+
   void apply_remedies() {
     const auto in = [](const auto& remedies, const auto& at) {
       const auto found = remedies.find(at);

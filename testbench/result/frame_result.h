@@ -58,13 +58,15 @@ struct Parts {
 struct DatapathResult {
   Datapath datapath;
   std::uint64_t items = 0;
-  std::uint64_t busiest_cycles = 0;  // that the unit with the most items to its lanes needs at least
+  std::uint64_t busiest_cycles =
+      0;  // that the unit with the most items to its lanes needs at least
 };
 
 // Accesses of one use, of all units that have it.
 struct SramAccesses {
   std::string use;
   std::uint64_t reads = 0, writes = 0;
+  SramPeak seen{0, 0};  // most of one cycle, where it was looked at
 };
 
 struct LeftOut {

@@ -52,6 +52,33 @@ void find_unpaid_memories(const MachineResult& machine, std::vector<std::string>
   }
 }
 
+// What a memory is asked for in one cycle, as its unit says it and as its queues were seen to do
+// it, and what it can do; and whether an access fits a bank at all.
+void find_impossible_memories(const MachineResult& machine, std::vector<std::string>& faults) {
+  for (const SramUse& use : machine.sram_uses) {
+    const SramShape& shape = use.shape;
+    if (8 * use.bytes < std::uint64_t{shape.width_bits} * shape.banks && use.bytes > 0) {
+      faults.push_back(fmt::format("{}: {} B in {} banks of {} bits: a bank does not hold a word",
+                                   use.name, use.bytes, shape.banks, shape.width_bits));
+    }
+    const std::uint32_t of_a_port = shape.ports == SramPorts::kOne
+                                        ? use.peak.reads + use.peak.writes
+                                        : std::max(use.peak.reads, use.peak.writes);
+    if (of_a_port > shape.banks) {
+      faults.push_back(fmt::format("{}: {} reads and {} writes in a cycle, {} banks of {}",
+                                   use.name, use.peak.reads, use.peak.writes, shape.banks,
+                                   shape.ports == SramPorts::kOne ? "a port" : "a port for each"));
+    }
+    for (const SramAccesses& a : machine.sram_accesses) {
+      if (a.use != use.name) continue;
+      if (a.seen.reads <= use.peak.reads && a.seen.writes <= use.peak.writes) continue;
+      faults.push_back(fmt::format("{}: {} reads and {} writes seen in a cycle, {} and {} are said",
+                                   use.name, a.seen.reads, a.seen.writes, use.peak.reads,
+                                   use.peak.writes));
+    }
+  }
+}
+
 void find_unpaid_units(const MachineResult& machine, std::vector<std::string>& faults) {
   for (const UnitResult& unit : machine.units) {
     std::uint64_t busy = 0;
@@ -86,6 +113,7 @@ std::vector<LedgerLine> ledger_of(const MachineResult& machine) {
 std::vector<std::string> ledger_faults(const MachineResult& machine, std::uint64_t cycles) {
   std::vector<std::string> faults;
   find_unpaid_memories(machine, faults);
+  find_impossible_memories(machine, faults);
   find_unpaid_units(machine, faults);
   for (const LedgerLine& line : ledger_of(machine)) {
     if (line.done > 0 && line.per_cycle == 0) {

@@ -24,7 +24,8 @@ std::vector<LedgerLine> ledger_of(const MachineResult& machine);
 
 // What is wrong with it, in words; nothing in a machine that pays for all it does: a use of on-chip
 // memory that nobody says the accesses of, accesses of no use, operations that no part does, more
-// operations or accesses than the frame has time for, and a unit that was busy and charged nothing.
+// operations or accesses than the frame has time for, more accesses in one cycle than a memory has
+// ports, banks that are smaller than a word, and a unit that was busy and charged nothing.
 std::vector<std::string> ledger_faults(const MachineResult& machine, std::uint64_t cycles);
 
 }  // namespace sgs

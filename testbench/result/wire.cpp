@@ -46,21 +46,29 @@ void serialize(Archive& a, SramShape& r) {
   a(r.width_bits, r.ports, r.banks);
 }
 template <class Archive>
+void serialize(Archive& a, SramPeak& r) {
+  a(r.reads, r.writes);
+}
+template <class Archive>
 void serialize(Archive& a, SramUse& r) {
-  a(r.name, r.memory, r.bytes, r.arithmetic, r.count, r.shape);
+  a(r.name, r.memory, r.bytes, r.arithmetic, r.count, r.shape, r.peak);
 }
 template <class Archive>
 void serialize(Archive& a, SramAccesses& r) {
-  a(r.use, r.reads, r.writes);
+  a(r.use, r.reads, r.writes, r.seen);
 }
 template <class Archive>
 void serialize(Archive& a, BesideLanes& r) {
   a(r.kind, r.operations);
 }
 template <class Archive>
+void serialize(Archive& a, BetweenLanes& r) {
+  a(r.registers, r.multiplexers, r.written, r.selected);
+}
+template <class Archive>
 void serialize(Archive& a, Datapath& r) {
   a(r.name, r.component, r.lane, r.lanes, r.copies, r.used_macs, r.counted_macs, r.published_macs,
-    r.counts, r.beside);
+    r.counts, r.beside, r.between, r.depth_cycles, r.loop_cycles);
 }
 template <class Archive>
 void serialize(Archive& a, DatapathResult& r) {

@@ -71,15 +71,19 @@ void print_sheets(const MachineResult& machine) {
     parts.row(fmt::format("{} | {} | {:g} | {:g} ", part.component, part.kind, part.count,
                           part.per_cycle));
   }
-  Table datapaths("| datapath | component | lanes | multiply-accumulates of an item | beside them |");
+  Table datapaths(
+      "| datapath | component | lanes | multiply-accumulates of an item | beside them | between "
+      "them: bits of registers, of multiplexers |");
   for (const auto& [d, items, busiest] : machine.datapaths) {
     std::string beside;
     for (const BesideLanes& part : d.beside) {
       beside += fmt::format("{}{} on {} {}", beside.empty() ? "" : ", ", part.operations,
                             d.parts(part), part.kind);
     }
-    datapaths.row(fmt::format("{} | {} | {} {} | {} | {} ", d.name, d.component, d.all_lanes(),
-                              d.lane, d.used_macs, beside));
+    datapaths.row(fmt::format("{} | {} | {} {} | {} | {} | {}, {} ", d.name, d.component,
+                              d.all_lanes(), d.lane, d.used_macs, beside,
+                              d.copies * std::uint64_t{d.between.registers},
+                              d.copies * std::uint64_t{d.between.multiplexers}));
   }
   Table sram("| on-chip memory | use | bytes | arithmetic | memories | ports | bits wide |");
   for (const SramUse& use : machine.sram_uses) {

@@ -14,7 +14,7 @@ namespace sgs {
 
 // What test views say of the scene of the moment; of each further column of the log a number.
 struct Look {
-  Nearness test;
+  Quality test;
   std::vector<double> more;
 };
 

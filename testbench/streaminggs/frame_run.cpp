@@ -15,6 +15,7 @@
 #include "testbench/process/sc_errors.h"
 #include "testbench/result/collect.h"
 #include "testbench/result/collect_memory.h"
+#include "testbench/result/memory_path.h"
 #include "testbench/result/sram_budget.h"
 #include "testbench/result/waveform_sheet.h"
 #include "testbench/result/wire.h"
@@ -63,6 +64,7 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   result.clock_mhz = machine->clock().mhz();
   result.drained = drained(*machine) && memory.idle();
   result.machine = collect(*machine);
+  add_memory_path(*machine, dram.channels, result.machine);
   result.memory = collect_memory(memory, job.layout.regions, machine->requesters());
   result.frame.resize(job.frame_buffer.bytes);
   memory.read_back(job.frame_buffer.base, result.frame.data(), result.frame.size());

@@ -222,6 +222,14 @@ Json datapaths_of(const std::vector<DatapathResult>& datapaths) {
     for (const BesideLanes& beside : d.beside) {
       line["beside"][beside.kind] = {{"operations", beside.operations}, {"parts", d.parts(beside)}};
     }
+    const auto between = [&, copies = d.copies](const char* kind, std::uint32_t bits,
+                                                std::uint32_t of_item) {
+      if (bits == 0) return;
+      line["beside"][kind] = {{"operations", of_item}, {"parts", std::uint64_t{copies} * bits}};
+    };
+    between("register_bit", d.between.registers, d.between.written);
+    between("select_bit", d.between.multiplexers, d.between.selected);
+    line["depth_cycles"] = d.depth_cycles;
   }
   return out;
 }

@@ -93,7 +93,7 @@ int run(const TrainArguments& arguments) {
   // As pictures of transparent objects are compared.
   const glm::vec3 background(test.transparent() ? 1.0F : 0.0F);
   const auto look = [&] {
-    return Look{mean_nearness(nearness(trainer.activated(), test, background)), {}};
+    return Look{mean_quality(qualities(trainer.activated(), test, background)), {}};
   };
   const auto write = [&] { write_ply(arguments.out, trainer.cloud()); };
   const FittingTask task{"train", arguments.training(), trainer, {}, look, write};

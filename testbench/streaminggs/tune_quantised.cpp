@@ -69,7 +69,7 @@ class Judge {
       : test_(job.views.test), order_(order) {}
 
   struct Verdict {
-    Nearness shown, reference;
+    Quality shown, reference;
   };
   Verdict of(const ActivatedCloud& cloud, const StoredTable& table) const {
     if (order_) {
@@ -77,7 +77,7 @@ class Judge {
           paper_quality(cloud, std::get<VoxelGrid>(table), *order_, {}, test_);
       return {quality.paper, quality.reference};
     }
-    const Nearness shown = mean_nearness(nearness(cloud, test_, glm::vec3(0)));
+    const Quality shown = mean_quality(qualities(cloud, test_, glm::vec3(0)));
     return {shown, shown};
   }
 

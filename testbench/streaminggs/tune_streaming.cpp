@@ -55,7 +55,7 @@ int tune_for_streaming(const TuneArguments& arguments, const TuningJob& job) {
   const auto look = [&] {
     const CloudInStorage now = in_storage(tuner.cloud(), job.config.storage);
     const ActivatedCloud cloud = activate(now.cloud);
-    return Look{mean_nearness(nearness(cloud, job.views.test, glm::vec3(0))),
+    return Look{mean_quality(qualities(cloud, job.views.test, glm::vec3(0))),
                 {static_cast<double>(cloud.size()), fetches_of(cloud, job.views.test, group)}};
   };
   const FittingTask task{"tune", work,

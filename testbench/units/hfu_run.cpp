@@ -90,7 +90,7 @@ void check_counters(UnitBench& bench, const HfuPlan& plan, const HfuTimes& times
     checks.equal(bench.busy_cycles("fine"), times.fine_busy, "busy cycles, fine");
     if (!quantised) return;
     bench.check_counter("records_decoded", times.decoded);
-    bench.check_counter("lines_read", times.decode_busy);
+    bench.check_counter("lines_read", times.lines);
     bench.check_counter("bank_conflict_cycles", 0);  // of one reader
     checks.equal(bench.busy_cycles("decode"), times.decode_busy, "busy cycles, decode");
     return;

@@ -75,15 +75,23 @@ class Pipeline {
 
   void filter(std::size_t at, std::size_t count, Cycle data) {
     coarse_ = std::max(coarse_, data);
-    Cycle owed = 0;
+    // A first half is read a cycle; each CFU begins when it is free.
+    std::vector<Cycle> free(config_.coarse_filter ? config_.cfus : 1, 0);
+    const Cycle of_test = config_.coarse_filter ? config_.cfu_interval_cycles() : 1;
+    Cycle owed = 0, next_read = 0, done = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (i % config_.cfus == 0) {
         if (finished(coarse_)) {
           times_.dropped += count - i;
           break;
         }
-        if (config_.coarse_filter) owed += config_.cfu_interval_cycles();
       }
+      Cycle& cfu = free[i % free.size()];
+      const Cycle begins = std::max(next_read, cfu);
+      next_read = begins + 1;
+      cfu = begins + of_test;
+      owed += cfu - done;
+      done = cfu;
       times_.coarse_tests += config_.coarse_filter ? 1 : 0;
       if (!share_->passes[at + i]) continue;
       spend(owed);
@@ -126,10 +134,21 @@ class Pipeline {
     fetched_taken_.push_back(taker);
     if (gaussian != nullptr) {
       taker = std::max(taker, data);
-      if (decode_latency_ && !finished(taker)) read_lines(share_->lines[*gaussian]);
-      slot_free_.push_back(taker);
+      if (decode_latency_ && !finished(taker)) {
+        read_lines(share_->lines[*gaussian]);
+      } else if (decode_latency_) {
+        ++decode_;
+        ++times_.decode_busy;
+      }
+      slot_free_.push_back(taker + read_cycles());
     }
-    if (decode_latency_) hand_on();
+    if (decode_latency_) {
+      if (gaussian == nullptr) {
+        ++decode_;
+        ++times_.decode_busy;
+      }
+      hand_on();
+    }
     if (gaussian != nullptr) {
       test(*gaussian);
     } else {
@@ -138,9 +157,15 @@ class Pipeline {
     }
   }
 
+  // A record, a word of the port's width a cycle.
+  Cycle read_cycles() const {
+    return (share_->second_halves.record_bytes + kPortBytes - 1) / kPortBytes;
+  }
+
   void read_lines(Cycle lines) {
     decode_ += lines;
     times_.decode_busy += lines;
+    times_.lines += lines;
     ++times_.decoded;
   }
 
@@ -158,8 +183,10 @@ class Pipeline {
       ++times_.fine_busy;
       return;
     }
-    fine_ += config_.ffu_interval_cycles();
-    times_.fine_busy += config_.ffu_interval_cycles();
+    const Cycle of_test =
+        std::max<Cycle>(config_.ffu_interval_cycles(), decode_latency_ ? 0 : read_cycles());
+    fine_ += of_test;
+    times_.fine_busy += of_test;
     times_.tested.back()[gaussian] = true;
     ++times_.fine_tests;
   }

@@ -14,8 +14,8 @@
 namespace sgs::tb {
 
 struct TimedShare {
-  std::vector<bool> passes;          // [Gaussian] the coarse filter
-  std::vector<std::uint32_t> lines;  // [Gaussian] of the codebook buffer, where there is one
+  std::vector<bool> passes;                 // [Gaussian] the coarse filter
+  std::vector<std::uint32_t> lines;         // [Gaussian] of the codebook buffer, where there is one
   RecordArray first_halves, second_halves;  // in the memory
   std::uint32_t first = 0;                  // slot of Gaussian 0
   // Cycle from which on the filters see that the share's group is finished.
@@ -26,6 +26,7 @@ struct HfuTimes {
   std::vector<std::uint64_t> shares_done;  // [share] cycle in which its mark goes to sorting
   std::vector<std::vector<bool>> tested;   // [share][Gaussian] by the fine filter
   std::uint64_t coarse_busy = 0, decode_busy = 0, fine_busy = 0;
+  std::uint64_t lines = 0;  // of the codebook buffer that were read
   std::uint64_t first_halves = 0, coarse_tests = 0, coarse_passed = 0;
   std::uint64_t second_halves = 0, decoded = 0, fine_tests = 0;
   std::uint64_t dropped = 0;  // their group was finished

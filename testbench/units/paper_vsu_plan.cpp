@@ -46,14 +46,13 @@ std::uint64_t count_of(const std::vector<RayEvents>& rays, RayEvent what) {
   return sum;
 }
 
-// Kahn's algorithm: a level of ready voxels a cycle and the record for each voxel, two records for
-// each edge; beside it the names are cleared, four a cycle.
-std::uint64_t ordering_cycles(const PaperVsuPlan& plan, const OrderingTable& table) {
+// Kahn's algorithm, which uses the table up; beside it the names are cleared, four a cycle.
+std::uint64_t ordering_cycles(const PaperVsuPlan& plan, OrderingTable& table) {
   const std::uint64_t clearing =
       Renaming::slots_for(OrderingTable::most_voxels(plan.config.table_bytes)) / 4;
-  return std::max<std::uint64_t>(clearing,
-                                 std::uint64_t{table.voxel_count()} * (table.ready_levels() + 1) +
-                                     table.edge_count() * ceil_div(2, plan.config.table_banks));
+  const std::uint64_t before = table.accesses().cycles;
+  table.order();
+  return std::max(clearing, table.accesses().cycles - before);
 }
 
 }  // namespace
@@ -64,17 +63,18 @@ PaperVsuPlan plan_of(TestScene scene) {
   plan.config.table_bytes = 1U << 20U;
   plan.config.visit_gaussians = 0;
   plan.config.step_depth_cycles = 36;
+  plan.config.cell_step_depth_cycles = 8;
   plan.config.ray_depth_cycles = 81;
   return plan;
 }
 
-std::uint64_t macs_of_a_step() { return folded_macs(ray_step_work()); }
+std::uint64_t macs_of_a_step() { return folded_macs(ray_step_work(longest_step_case())); }
 std::uint64_t macs_of_a_beginning() { return folded_macs(pixel_ray_work()); }
 
 ExpectedVisits expect(const PaperVsuPlan& plan, std::uint64_t latency) {
   ExpectedVisits out;
   const VoxelGrid& grid = plan.scene.grid;
-  OrderingTable table(grid.voxels.size(), plan.config.table_bytes);
+  OrderingTable table(grid.voxels.size(), plan.config.table_bytes, plan.config.table_banks);
   RayTimingModel model(plan.config, latency, plan.scene.job.layout.voxel_table().nodes);
   for (const PixelRect& group : plan.scene.job.groups) {
     const RayPattern rays = plan.config.rays();

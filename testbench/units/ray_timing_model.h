@@ -166,17 +166,11 @@ class RayTimingModel {
     return true;
   }
 
-  // A record of each bank, and a word of the others, a cycle.
+  // A voxel every second cycle at most.
   std::uint64_t enter(Place& place, std::uint64_t now) {
-    const OrderingAccesses a = table_->accesses();
+    const std::uint64_t before = table_->accesses().cycles;
     table_->add(place.chain, place.met.front().voxel);
-    const OrderingAccesses b = table_->accesses();
-    const auto of_banks = [&](std::uint64_t n) {
-      return (n + config_.table_banks - 1) / config_.table_banks;
-    };
-    const std::uint64_t cycles =
-        std::max({std::uint64_t{1}, of_banks(b.reads - a.reads), of_banks(b.writes - a.writes),
-                  b.names_read - a.names_read, b.ready_read - a.ready_read});
+    const std::uint64_t cycles = std::max<std::uint64_t>(2, table_->accesses().cycles - before);
     table_free_ = std::max(table_free_, now) + cycles;
     end_ = std::max(end_, table_free_);
     return table_free_;
@@ -190,7 +184,7 @@ class RayTimingModel {
           now + (of_a_cell ? config_.cell_step_depth_cycles : config_.step_depth_cycles) + 1;
       ++place.next;
       steps_.pop_front();
-      step_free_ = now + interval(ray_step_work(), config_.step_lanes);
+      step_free_ = now + interval(ray_step_work(longest_step_case()), config_.step_lanes);
     }
     if (look_ups_.empty()) return;
     const auto [k, has_come] = look_ups_.front();

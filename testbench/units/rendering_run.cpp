@@ -278,10 +278,12 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
     writes += 16 * columns * ceil_div(static_cast<std::uint64_t>(px.height()), 4);
   }
   bench.check_accesses("pixel state", reads, writes);
-  bench.check_accesses("finished sub-tiles", dropped + sum.splats_spanned + sum.row_cycles,
-                       finishes + plan.groups.size());
+  const std::uint64_t bits = 8 * mask_use(plan.group).total_bytes();
+  bench.check_accesses("finished sub-tiles", bits * (dropped + sum.splats_spanned + sum.row_cycles),
+                       finishes + bits * plan.groups.size());
   bench.check_accesses("sub-tiles in the loop", looks, sum.blends);
   bench.check_accesses("cluster queues", sum.blends, sum.blends);
+  bench.check_accesses("spans", bench.counter("spans"), bench.counter("spans"));
   bench.check_accesses("splats under way", bench.counter("splats_taken"),
                        bench.counter("splats_taken"));
   checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");

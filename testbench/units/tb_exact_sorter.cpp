@@ -84,8 +84,7 @@ void run_plan(Case& test, const BenchConfig& config, const Plan& plan) {
     const std::uint64_t n = visit.size() - 1;
     keys += n;
     trivial += n == 1 ? 1 : 0;
-    busy += 2 * n + sort_cost(plan.config, n).cycles;  // in, sort, out
-    busy += n == 0 ? 1 : 0;                             // the mark by itself
+    busy += 2 * n + sort_cost(plan.config, n).cycles + 1;  // in, sort, out; the mark
     exchanges += sort_cost(plan.config, n).compare_exchanges;
     moves += sort_cost(plan.config, n).moves;
   }
@@ -93,8 +92,12 @@ void run_plan(Case& test, const BenchConfig& config, const Plan& plan) {
   bench.check_counter("visits_trivial", trivial);
   bench.check_counter("keys", keys);
   bench.check_counter("compare_exchanges", exchanges);
-  bench.check_operations("sorting", "compare_exchange", exchanges);
-  bench.check_accesses("key sorters", keys + moves, keys + moves);
+  bench.check_operations("sorting", "comparator", kSortKeyComparators * exchanges);
+  bench.check_operations("sorting", "exchange_bit",
+                         exchanged_bits(bench.context(job).built_for.chunk_gaussians) * exchanges);
+  bench.check_accesses("key sorters", keys, keys);
+  bench.check_accesses(kComparedKeys, keys + moves, keys);
+  bench.check_accesses(kSortedPlaces, keys + moves, moves);
   checks.equal(bench.busy_cycles("sorting"), busy, "busy cycles");
 }
 
@@ -145,8 +148,8 @@ void exact_time(Case& test, std::size_t n) {
       output.pop(activity);
       bench.checks().equal(bench.clock().now_cycles(), first + i, "time of a key");
     }
-    output.pop(activity);  // the mark comes with the last key
-    bench.checks().equal(bench.clock().now_cycles(), first + (n > 0 ? n - 1 : 0), "the mark");
+    output.pop(activity);
+    bench.checks().equal(bench.clock().now_cycles(), first + n, "the mark");
   });
   bench.run();
 }

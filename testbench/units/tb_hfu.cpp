@@ -56,8 +56,9 @@ void exact_coarse_time(Case& test, std::uint32_t n) {
     // The last transaction of the slice leaves so many cycles after the first.
     const std::uint64_t leaving =
         (kFirstHalfBytes * n - 1) / MemoryPortConfig{}.max_transaction_bytes;
-    const std::uint64_t done =
-        1 + 1 + leaving + kLatency + (n + 3) / 4 * kInterval + kDepth + 1 + 1 + kMarkCycles;
+    const std::uint64_t behind_the_first = (n - 1) % 4;  // a CFU begins a cycle after the other
+    const std::uint64_t done = 1 + 1 + leaving + kLatency + behind_the_first +
+                               (n + 3) / 4 * kInterval + kDepth + 1 + 1 + kMarkCycles;
     bench.wait_until_just_before(done);
     bench.checks().that(!output.can_pop(), "done a cycle too soon");
     output.pop(activity);

@@ -15,7 +15,7 @@ void random_case(Case& test) {
   plan.input_entries = 1 + static_cast<std::uint32_t>(random() % 16);
   plan.output_entries = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.config.entries = 2 + static_cast<std::uint32_t>(random() % (random() % 2 == 0 ? 20 : 400));
-  plan.config.cycles_per_operation = 1 + static_cast<std::uint32_t>(random() % 4);
+  plan.config.cycles_per_operation = 2 + static_cast<std::uint32_t>(random() % 3);
   plan.config.spill_runs = 2 + static_cast<std::uint32_t>(random() % 6);
   plan.config.spill_block_entries = 1 + static_cast<std::uint32_t>(random() % 10);
   if (random() % 5 == 0) plan.config.on_overflow = OnOverflow::kBlendEarly;
@@ -42,15 +42,15 @@ void exact_time(Case& test, std::uint32_t n, std::uint32_t cycles_per_operation)
   MergeRun run(test, still_bench(plan), plan);
   add_sorters(run, plan);
   run.bench.add_thread("reader", [&](Activity& activity) {
-    // FIFO in, n in, the first out (the mark, where there is none), FIFO out.
-    // A visit's mark takes a cycle of its own where no key comes with it.
-    std::uint64_t due = 1 + n * cycles_per_operation + (n > 0 ? cycles_per_operation : 2) + 1;
+    // FIFO in, n in and the mark beside the heap, the first out, FIFO out. Where there is none, the
+    // visit's mark, that of the group, and the same out.
+    std::uint64_t due = 1 + n * cycles_per_operation + (n > 0 ? 1 : 3) + 1;
     run.bench.wait_until_just_before(due);
     run.bench.checks().that(!run.outputs[0]->can_pop(), "released a cycle too soon");
     for (std::uint32_t i = 0; i <= n; ++i) {
       run.outputs[0]->pop(activity);
       run.bench.checks().equal(run.bench.clock().now_cycles(), due, "time of a key");
-      due += i + 1 < n ? cycles_per_operation : 1;
+      due += i + 1 < n ? cycles_per_operation : 2;
     }
   });
   run.bench.run();
@@ -238,7 +238,7 @@ int sc_main(int argc, char* argv[]) {
     test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kBytesOfKey}, "bytes read");
   });
   for (const std::uint32_t n : {0U, 1U, 2U, 16U, 100U}) {
-    for (const std::uint32_t cycles : {1U, 2U, 3U}) {
+    for (const std::uint32_t cycles : {2U, 3U, 4U}) {
       runner.add_directed(fmt::format("time of {} keys, an operation every {} cycles", n, cycles),
                           [=](Case& test) { exact_time(test, n, cycles); });
     }

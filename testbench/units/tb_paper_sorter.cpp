@@ -160,7 +160,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     longest = std::max(longest, n);
     any_saturated = any_saturated || finished.finished(visit.group);
     const Work of_visit = expected_work(plan.config, n);
-    work.busy_cycles += of_visit.busy_cycles;
+    work.busy_cycles += of_visit.busy_cycles + plan.hfus + 1;  // marks in, mark out
     work.entries_spilled += of_visit.entries_spilled;
     work.runs += of_visit.runs;
   }
@@ -169,7 +169,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_counter("visits_trivial", trivial);
   bench.check_counter("splats", outcome.received);
   bench.check_counter("list_max", longest);
-  bench.check_operations("sorting", "compare_exchange", bench.counter("compare_exchanges"));
+  const std::uint64_t exchanges = bench.counter("compare_exchanges");
+  bench.check_operations("sorting", "comparator", kSortKeyComparators * exchanges);
+  bench.check_operations("sorting", "exchange_bit",
+                         exchanged_bits(plan.config.buffer_entries) * exchanges);
   bench.check_counter("splats_saturated", outcome.received - outcome.handed_on);
   if (any_saturated) return;
   checks.equal(bench.busy_cycles("sorting"), work.busy_cycles, "busy cycles");
@@ -262,17 +265,17 @@ void exact_time(Case& test, std::size_t n) {
     token.mark = Mark::kEndOfGroup;
     input.push(token, activity);
   });
-  // Input latency, n in, sort, first out, output latency; an empty list only hands on its mark.
+  // Input latency, n and the mark in, sort, first out (of an empty list the mark), output latency.
   const std::uint64_t cost = sort_cost(plan.config, n).cycles;
-  const std::uint64_t first = 1 + n + cost + (n > 0 ? 1 : 0) + 1;
+  const std::uint64_t first = 1 + n + 1 + cost + 1 + 1;
   bench.add_thread("reader", [&](Activity& activity) {
     bench.wait_until_just_before(first);
     bench.checks().that(!output.can_pop(), "done a cycle too soon");
     output.pop(activity);
     bench.checks().equal(bench.clock().now_cycles(), first, "first entry");
     for (std::size_t i = 0; i < n; ++i) output.pop(activity);
-    // One a cycle; the mark comes with the last.
-    bench.checks().equal(bench.clock().now_cycles(), first + (n > 0 ? n - 1 : 0), "last entry");
+    // One a cycle, and the mark.
+    bench.checks().equal(bench.clock().now_cycles(), first + n, "last entry");
   });
   bench.run();
 }

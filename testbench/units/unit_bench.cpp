@@ -55,6 +55,9 @@ UnitContext UnitBench::context(const StreamingJob& job) const {
   constexpr std::uint32_t kUnlimited = 4096;
   MemoryPortConfig port;
   if (config_.memory == Memory::kFixedLatency) port.max_outstanding = port.max_writes = kUnlimited;
+  // The units' times, not those of the port, which tests/tlm has.
+  port.path_cycles = 0;
+  port.width_bytes = port.max_transaction_bytes;
   BuiltFor built_for;
   built_for.memory_port = port;
   return {clock_, job, built_for};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -32,13 +33,21 @@ Json use_of(const Json& view, const std::string& name) {
 void check_joules(const Json& view) {
   const Technology technology = load_technology(SGS_TECHNOLOGY);
   const auto pj = [&](const char* kind) { return technology.part(kind).pj.middle * 1e-12; };
-  // Of a test: multiply-accumulates as charged, comparisons and roundings as counted.
+  // Of a test: multiply-accumulates as charged, what comparators do as counted, bits written
+  // and selected between the lanes as scheduled.
   const auto test = [&](const char* filter) {
     const Json& counts = view["datapath"][filter]["counts"];
+    const auto between = [&](const char* kind) {
+      return view["datapath"][filter]["beside"][kind]["operations"].get<double>() * pj(kind);
+    };
     return view["datapath"][filter]["used"]["macs"].get<double>() * pj("fp32_lane") +
            (counts["comparisons"].get<double>() +
-            kRoundingComparisons * counts["roundings"].get<double>()) *
+            kRoundingComparisons * counts["roundings"].get<double>() +
+            kConversionComparisons * counts["conversions"].get<double>() +
+            counts["index_adds"].get<double>() +
+            kLogarithmComparisons * counts["logarithms"].get<double>()) *
                pj("comparator") +
+           between("register_bit") + between("select_bit") +
            (counts["divisors"].get<double>() + counts["square_roots"].get<double>() +
             counts["logarithms"].get<double>() + counts["look_ups"].get<double>()) *
                pj("small_table");
@@ -46,7 +55,13 @@ void check_joules(const Json& view) {
   std::map<std::string, double> expected;
   expected["coarse"] = sum_of(view, "coarse_tests") * test("coarse");
   expected["fine"] = sum_of(view, "fine_tests") * test("fine");
-  expected["sorting"] = sum_of(view, "compare_exchanges") * pj("compare_exchange");
+  // Keys of two times 32 bits; with them the place in the sorting unit's memory.
+  constexpr double kSortingUnits = 2, kKeyBytes = 8;
+  const double entries =
+      use_of(view, "compared keys")["bytes"].get<double>() / kSortingUnits / kKeyBytes;
+  expected["sorting"] =
+      sum_of(view, "compare_exchanges") *
+      (2 * pj("comparator") + (64 + std::ceil(std::log2(entries))) * pj("exchange_bit"));
   for (const auto& [component, joules] : expected) {
     INFO(component);
     CHECK(joules > 0);
@@ -89,9 +104,9 @@ TEST_CASE("costs: joules are counters times prices") {
       INFO(machine << " " << encoding);
       const bool raw = std::string(encoding) == "raw";
       const Simulation simulation(joined(
-          {"builtin:object?n=3000", "--size", "96x54", "--config", machine, "--set",
-           std::string("storage.encoding=") + encoding, "--set", "group_width_px=32", "--set",
-           "group_height_px=32", "--set", "sram.codebook_bytes=256000"},
+          with_settings({"builtin:object?n=3000", "--size", "96x54", "--config", machine},
+                        {std::string("storage.encoding=") + encoding, "group_width_px=32",
+                         "group_height_px=32", "sram.codebook_bytes=256000"}),
           raw ? Arguments{} : Arguments{"--set", "storage.vq.iterations=2", "--weigh-by", "0"}));
       simulation.check();
       check_joules(simulation.views()[0]);
@@ -127,17 +142,16 @@ void check_binding(const Json& view) {
 
 TEST_CASE("costs: the rays' remedy is more of what they share and wait for, else more rays") {
   struct Row {
-    const char *ray_lanes, *step_lanes, *table_banks, *key;
+    const char *ray_lanes, *step_lanes, *key;
   };
-  for (const auto& [ray_lanes, step_lanes, table_banks, key] :
-       {Row{"60", "24", "16", "vsu.rays_in_flight"}, Row{"60", "24", "1", "vsu.table_banks"},
-        Row{"60", "2", "16", "vsu.step_lanes"}, Row{"1", "24", "16", "vsu.ray_lanes"}}) {
+  for (const auto& [ray_lanes, step_lanes, key] :
+       {Row{"63", "24", "vsu.rays_in_flight"}, Row{"63", "2", "vsu.step_lanes"},
+        Row{"1", "24", "vsu.ray_lanes"}}) {
     CAPTURE(key);
-    const Simulation simulation({"builtin:object?n=3000", "--size", "96x54", "--config", "paper",
-                                 "--set", "storage.encoding=raw", "--set",
-                                 std::string("vsu.ray_lanes=") + ray_lanes, "--set",
-                                 std::string("vsu.step_lanes=") + step_lanes, "--set",
-                                 std::string("vsu.table_banks=") + table_banks});
+    const Simulation simulation(
+        with_settings({"builtin:object?n=3000", "--size", "96x54", "--config", "paper"},
+                      {"storage.encoding=raw", std::string("vsu.ray_lanes=") + ray_lanes,
+                       std::string("vsu.step_lanes=") + step_lanes}));
     CHECK(simulation.views()[0]["units"]["vsu"]["activities"]["traverse"]["key"] == key);
   }
 }
@@ -180,19 +194,10 @@ struct HalfEmpty {
     write_cameras(folder.path("cameras.json"), {camera});
   }
   Arguments arguments(const char* machine, const char* feedback) const {
-    return {folder.path("scene.ply"),
-            "--cameras",
-            folder.path("cameras.json"),
-            "--config",
-            machine,
-            "--set",
-            "group_width_px=16",
-            "--set",
-            "group_height_px=16",
-            "--set",
-            "storage.encoding=raw",
-            "--set",
-            std::string("rendering.saturation_feedback=") + feedback};
+    return with_settings(
+        {folder.path("scene.ply"), "--cameras", folder.path("cameras.json"), "--config", machine},
+        {"group_width_px=16", "group_height_px=16", "storage.encoding=raw",
+         std::string("rendering.saturation_feedback=") + feedback});
   }
   ScratchFolder folder;
 };

@@ -29,10 +29,7 @@ Arguments encoded(const std::string& order, const std::string& encoding,
                                      "storage.vq.rotation_entries=100", "storage.vq.dc_entries=200",
                                      "storage.vq.sh_entries=32", "storage.vq.iterations=3"});
   }
-  for (const std::string& setting : settings) {
-    arguments.insert(arguments.end(), {"--set", setting});
-  }
-  return arguments;
+  return with_settings(arguments, settings);
 }
 
 double encoding_psnr(const Simulation& simulation) {
@@ -87,15 +84,9 @@ TEST_CASE("encodings: a record's bytes, and what each encoding costs in the pict
 }
 
 TEST_CASE("encodings: nothing is lost where codebooks hold every value") {
-  Arguments arguments = {"builtin:object?n=1500",
-                         "--size",
-                         "64x36",
-                         "--set",
-                         "storage.encoding=vq",
-                         "--set",
-                         "sram.codebook_bytes=1000000",
-                         "--set",
-                         "storage.vq.sh_entries=4096"};
+  Arguments arguments = with_settings(
+      {"builtin:object?n=1500", "--size", "64x36"},
+      {"storage.encoding=vq", "sram.codebook_bytes=1000000", "storage.vq.sh_entries=4096"});
   const Simulation vq(arguments);
   vq.check();
   // All but opacity, in 255ths, and scales, through a logarithm.
@@ -117,8 +108,8 @@ TEST_CASE("encodings: codebooks that an earlier frame left cost no traffic and n
   for (const char* order : {"exact", "paper"}) {
     Arguments common = encoded(order, "vq");
     // Following all rays of the first group takes as long as loading.
-    if (order == std::string("paper")) common = joined(common, {"--set", "vsu.ray_step_px=8"});
-    const Simulation first(common), next(joined(common, {"--set", "codebook.preloaded=true"}));
+    if (order == std::string("paper")) common = with_settings(common, {"vsu.ray_step_px=16"});
+    const Simulation first(common), next(with_settings(common, {"codebook.preloaded=true"}));
     first.check();
     next.check();
     CHECK(next.frame(0) == first.frame(0));
@@ -134,10 +125,8 @@ TEST_CASE("encodings: codebooks that an earlier frame left cost no traffic and n
 TEST_CASE("encodings: fewer and narrower banks cost cycles, no pixel") {
   for (const char* order : {"exact", "paper"}) {
     const Arguments common = encoded(order, "vq_packed");
-    const Simulation wide(
-        joined(common, {"--set", "codebook.banks=64", "--set", "codebook.line_bytes=64"}));
-    const Simulation narrow(
-        joined(common, {"--set", "codebook.banks=1", "--set", "codebook.line_bytes=4"}));
+    const Simulation wide(with_settings(common, {"codebook.banks=64", "codebook.line_bytes=64"}));
+    const Simulation narrow(with_settings(common, {"codebook.banks=1", "codebook.line_bytes=4"}));
     wide.check();
     narrow.check();
     CHECK(narrow.frame(0) == wide.frame(0));
@@ -152,19 +141,16 @@ TEST_CASE("encodings: fewer and narrower banks cost cycles, no pixel") {
 
 TEST_CASE("encodings: all views, groups of other sizes, other numbers of units") {
   for (const char* order : {"exact", "paper"}) {
-    Arguments six = {"--set", "hfus=6",
-                     "--set", "sram.input_bytes=32768",
-                     "--set", "hfu.second_half_slots=1",
-                     "--set", "codebook.latency_cycles=50"};
+    Arguments six = settings({"hfus=6", "sram.input_bytes=32768", "hfu.second_half_slots=1",
+                              "codebook.latency_cycles=50"});
     // Six parts of a square group there are not.
     if (order == std::string("paper")) {
-      six.insert(six.end(), {"--set", "fetch=split", "--set", "hfu.slice_gaussians=128"});
+      six = with_settings(six, {"fetch=split", "hfu.slice_gaussians=128"});
     }
     for (const Arguments& variant :
-         {Arguments{"--view", "all"}, Arguments{"--set", "hfus=1", "--set", "sorting_units=1"}, six,
-          Arguments{"--set", "group_width_px=16", "--set", "group_height_px=16", "--set",
-                    "hfu.coarse_filter=false"},
-          Arguments{"--set", "storage.store_invisible=true", "--set", "clock_mhz=733"}}) {
+         {Arguments{"--view", "all"}, settings({"hfus=1", "sorting_units=1"}), six,
+          settings({"group_width_px=16", "group_height_px=16", "hfu.coarse_filter=false"}),
+          settings({"storage.store_invisible=true", "clock_mhz=733"})}) {
       INFO(order << " " << variant[1]);
       Simulation(joined(encoded(order, "vq_packed", "builtin:outdoor?n=2000"), variant)).check();
     }

@@ -28,7 +28,7 @@ std::vector<std::string> random_exact_options(std::mt19937_64& random) {
   set("group_height_px", 4 * between(1, random() % 2 == 0 ? 8 : 50));
   set("storage.chunk_gaussians", between(1, random() % 2 == 0 ? 16 : 256));
   set("merge.entries", between(2, random() % 2 == 0 ? 32 : 4096));
-  set("merge.cycles_per_operation", between(1, 4));
+  set("merge.cycles_per_operation", between(2, 4));
   set("merge.spill_runs", between(2, 8));
   set("merge.spill_block_entries", between(1, 16));
   set("vsu.queue_entries", between(9, random() % 2 == 0 ? 16 : 512));
@@ -36,7 +36,7 @@ std::vector<std::string> random_exact_options(std::mt19937_64& random) {
   set("vsu.upper_nodes", between(0, 40));
   set("vsu.nodes_in_flight", between(1, 16));
   // A slow walk has visits left when a group finishes.
-  set("vsu.cycles_per_queue_operation", between(1, random() % 2 == 0 ? 4 : 64));
+  set("vsu.cycles_per_queue_operation", between(2, random() % 2 == 0 ? 4 : 64));
   set("hfus", between(1, 6));
   set("sorting_units", between(1, 4));
   set("hfu.second_half_slots", between(1, 16));
@@ -84,10 +84,10 @@ void fuzz_exact_frames(unsigned first_seed, unsigned scenes) {
 
 void check_exact_under_pressure(const std::string& name) {
   const Simulation simulation(
-      {shared_scene(name), "--cameras", shared_path("cameras/" + name + ".json"), "--view", "all",
-       "--config", "exact", "--stalls", "0.02", "--set", "group_width_px=64", "--set",
-       "group_height_px=64", "--set", "merge.entries=128", "--set", "vsu.queue_entries=48", "--set",
-       "sram.shared_bytes=1073741824"});
+      with_settings({shared_scene(name), "--cameras", shared_path("cameras/" + name + ".json"),
+                     "--view", "all", "--config", "exact", "--stalls", "0.02"},
+                    {"group_width_px=64", "group_height_px=64", "merge.entries=128",
+                     "vsu.queue_entries=48", "sram.shared_bytes=1073741824"}));
   simulation.check();
   for (const auto& view : simulation.views()) {
     CHECK(counter(view, "merge", "keys_spilled") > 0);

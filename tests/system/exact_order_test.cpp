@@ -86,26 +86,16 @@ TEST_CASE("exact frames: bytes are counts times sizes, counted without the accel
       INFO("chunk " << chunk << ", group " << group.width << " x " << group.height);
       const auto [cloud, tree] = by_chunks(in_file, chunk);
       const Counts counts = count_frame(camera, cloud, tree, group);
-      const Arguments arguments = {"builtin:outdoor?n=6000",
-                                   "--size",
-                                   "150x90",
-                                   "--view",
-                                   "2",
-                                   "--set",
-                                   "rendering.saturation_feedback=false",
-                                   "--set",
-                                   "storage.chunk_gaussians=" + std::to_string(chunk),
-                                   "--set",
-                                   "group_width_px=" + std::to_string(group.width),
-                                   "--set",
-                                   "group_height_px=" + std::to_string(group.height),
-                                   "--set",
-                                   "sram.shared_bytes=1073741824",
-                                   "--set",
-                                   "vsu.upper_nodes=5"};
-      const Simulation roomy(
-          joined(arguments, {"--set", "merge.entries=100000", "--set", "vsu.queue_entries=100000",
-                             "--set", "vsu.node_queue_entries=100000"}));
+      const Arguments arguments =
+          with_settings({"builtin:outdoor?n=6000", "--size", "150x90", "--view", "2"},
+                        {"rendering.saturation_feedback=false",
+                         "storage.chunk_gaussians=" + std::to_string(chunk),
+                         "group_width_px=" + std::to_string(group.width),
+                         "group_height_px=" + std::to_string(group.height),
+                         "sram.shared_bytes=1073741824", "vsu.upper_nodes=5"});
+      const Simulation roomy(with_settings(
+          arguments,
+          {"merge.entries=100000", "vsu.queue_entries=100000", "vsu.node_queue_entries=100000"}));
       roomy.check();
       const Json& view = roomy.views()[0];
       CHECK(counter(view, "vsu", "visits") == counts.visits);
@@ -124,9 +114,8 @@ TEST_CASE("exact frames: bytes are counts times sizes, counted without the accel
       CHECK(region_bytes(view, "chunk_table", "read") ==
             kNode * (upper + counter(view, "vsu", "nodes_read")));
 
-      const Simulation tight(
-          joined(arguments, {"--set", "merge.entries=32", "--set", "vsu.queue_entries=9", "--set",
-                             "vsu.node_queue_entries=9"}));
+      const Simulation tight(with_settings(
+          arguments, {"merge.entries=32", "vsu.queue_entries=9", "vsu.node_queue_entries=9"}));
       tight.check();
       CHECK(tight.frame(0) == roomy.frame(0));
       const Json& small = tight.views()[0];
@@ -227,9 +216,9 @@ TEST_CASE("exact frames: what is spilled grows little faster than the keys") {
     std::vector<double> writes_a_key;
     for (const std::size_t keys : {2000U, 16000U}) {
       write_ply(scratch.path("scene.ply"), make(keys));
-      const Simulation simulation({scratch.path("scene.ply"), "--cameras",
-                                   scratch.path("cameras.json"), "--set", "merge.entries=16",
-                                   "--set", "rendering.saturation_feedback=false"});
+      const Simulation simulation(
+          with_settings({scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json")},
+                        {"merge.entries=16", "rendering.saturation_feedback=false"}));
       simulation.check();
       writes_a_key.push_back(
           static_cast<double>(counter(simulation.views()[0], "merge", "keys_spilled")) /
@@ -248,23 +237,17 @@ TEST_CASE("exact frames: 20,000 Gaussians at one point, the buffer holds 64 keys
   const Arguments arguments = {scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"),
                                "--set", "merge.entries=64"};
   Simulation(arguments).check();
-  const Simulation unfinished(joined(arguments, {"--set", "rendering.saturation_feedback=false"}));
+  const Simulation unfinished(with_settings(arguments, {"rendering.saturation_feedback=false"}));
   unfinished.check();
   CHECK(counter(unfinished.views()[0], "merge", "ties") ==
         counter(unfinished.views()[0], "merge", "released") - 1);  // one group
 }
 
 TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and says so") {
-  const Arguments arguments = {"builtin:outdoor?n=8000",
-                               "--size",
-                               "160x90",
-                               "--set",
-                               "group_width_px=64",
-                               "--set",
-                               "group_height_px=64",
-                               "--set",
-                               "merge.on_overflow=blend_early"};
-  const Simulation early(joined(arguments, {"--set", "merge.entries=16"}));
+  const Arguments arguments =
+      with_settings({"builtin:outdoor?n=8000", "--size", "160x90"},
+                    {"group_width_px=64", "group_height_px=64", "merge.on_overflow=blend_early"});
+  const Simulation early(with_settings(arguments, {"merge.entries=16"}));
   const Json& view = early.views()[0];
   CHECK(view["image"]["equals_streaming_renderer"] == true);
   CHECK(counter(view, "merge", "forced_early") > 0);
@@ -274,7 +257,7 @@ TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and say
   CHECK(counter(view, "merge", "runs_spilled") == 0);
   CHECK(region_bytes(view, "spill", "write") == 0);
 
-  const Simulation enough(joined(arguments, {"--set", "merge.entries=5000"}));
+  const Simulation enough(with_settings(arguments, {"merge.entries=5000"}));
   enough.check();  // the reference image
   CHECK(counter(enough.views()[0], "merge", "forced_early") == 0);
 }
@@ -282,19 +265,12 @@ TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and say
 TEST_CASE("exact frames: blend_early without the coarse filter, whose keys are others") {
   for (const char* entries : {"16", "64", "150"}) {
     INFO(entries);
-    const Arguments arguments = {"builtin:outdoor?n=4000",
-                                 "--size",
-                                 "160x90",
-                                 "--set",
-                                 "group_width_px=64",
-                                 "--set",
-                                 "group_height_px=64",
-                                 "--set",
-                                 "merge.on_overflow=blend_early",
-                                 "--set",
-                                 std::string("merge.entries=") + entries};
+    const Arguments arguments =
+        with_settings({"builtin:outdoor?n=4000", "--size", "160x90"},
+                      {"group_width_px=64", "group_height_px=64", "merge.on_overflow=blend_early",
+                       std::string("merge.entries=") + entries});
     const Simulation with(arguments);
-    const Simulation without(joined(arguments, {"--set", "hfu.coarse_filter=false"}));
+    const Simulation without(with_settings(arguments, {"hfu.coarse_filter=false"}));
     const Json &filtered = with.views()[0], &all = without.views()[0];
     CHECK(all["image"]["equals_streaming_renderer"] == true);
     CHECK(filtered["image"]["equals_streaming_renderer"] == true);
@@ -317,8 +293,9 @@ TEST_CASE("exact frames: what the report holds") {
   CHECK(view["image"]["misordered"] == 0);
   for (const char* name :
        {"keys", "released", "forced_early", "due", "dropped_hidden", "dropped_saturated",
-        "pending_keys_max", "ties", "inserts", "delete_mins", "delete_maxs", "heap_words_read",
-        "heap_nodes_written", "heap_comparisons", "runs_spilled", "keys_spilled"}) {
+        "pending_keys_max", "ties", "inserts", "delete_mins", "delete_maxs", "heap_nodes_read",
+        "heap_nodes_read_ahead", "heap_nodes_written", "heap_comparisons", "runs_spilled",
+        "keys_spilled"}) {
     INFO(name);
     CHECK(view["units"]["merge"]["counters"].contains(name));
   }

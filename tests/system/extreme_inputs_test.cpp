@@ -105,7 +105,7 @@ TEST_CASE("extreme input: thousands at one point, all of one depth") {
   check_machine("paper", cloud, {camera_at({0, 0, -5})},
                 joined(joined(to_the_end, whole), {"--set", "sorting.buffer_entries=16"}));
   check_machine("exact", cloud, {camera_at({0, 0, -5})},
-                joined(to_the_end, {"--set", "merge.entries=1024"}));
+                with_settings(to_the_end, {"merge.entries=1024"}));
 }
 
 TEST_CASE("extreme input: coordinates of a million, details of a thousandth") {
@@ -154,8 +154,7 @@ TEST_CASE("extreme input: the camera in a voxel, on a face, on an edge, in a cor
   }
   // Groups whose ordering tables hold that many voxels.
   check_scene(cloud, cameras,
-              {"--set", "storage.voxel_size=0.5", "--set", "group_width_px=32", "--set",
-               "group_height_px=32"});
+              settings({"storage.voxel_size=0.5", "group_width_px=32", "group_height_px=32"}));
 }
 
 TEST_CASE("extreme input: many layers too faint for one splat to show much") {

@@ -18,9 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-const Arguments kObject = {
-    "builtin:object?n=3000", "--size", "96x54", "--set", "group_width_px=32", "--set",
-    "group_height_px=32"};
+const Arguments kObject = with_settings({"builtin:object?n=3000", "--size", "96x54"},
+                                        {"group_width_px=32", "group_height_px=32"});
 
 Arguments with(Arguments arguments, const std::string& setting) {
   arguments.insert(arguments.end(), {"--set", setting});
@@ -46,7 +45,8 @@ void check_charged(const Json& view, const char* whose) {
   CHECK(hfu["ffu_macs"] == fine[whose]["macs"]);
   CHECK(hfu["cfu_macs"] == coarse[whose]["macs"]);
   const auto tests = total(view, "fine_tests");
-  CHECK(fine_busy(view) == tests * fine[whose]["interval_cycles"].get<std::uint64_t>() + total(view, "groups"));
+  CHECK(fine_busy(view) ==
+        tests * fine[whose]["interval_cycles"].get<std::uint64_t>() + total(view, "groups"));
 }
 
 // What comparators did beside the lanes is the same whatever the lanes are charged.

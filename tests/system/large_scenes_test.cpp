@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tests/system/shared_scenes.h"
+#include "tests/system/streaminggs_run.h"
 
 namespace sgs::test {
 namespace {
@@ -50,8 +51,8 @@ void check_encodings(const char* scene) {
   for (const char* order : {"paper_no_vq", "exact"}) {
     std::vector<Variant> variants;
     for (const char* encoding : {"half", "vq", "vq_packed"}) {
-      variants.push_back({"--set", std::string("storage.encoding=") + encoding, "--set",
-                          "sram.codebook_bytes=256000"});
+      variants.push_back(
+          settings({std::string("storage.encoding=") + encoding, "sram.codebook_bytes=256000"}));
     }
     check_shared_scene(scene, order, variants);
   }

@@ -54,10 +54,9 @@ class PackedScenes {
   std::size_t visible_ = 0;
 };
 
-const Arguments kQuantised = {
-    "--set", "sram.codebook_bytes=65536",      "--set", "storage.vq.scale_entries=50",
-    "--set", "storage.vq.rotation_entries=70", "--set", "storage.vq.dc_entries=60",
-    "--set", "storage.vq.sh_entries=30",       "--set", "storage.vq.iterations=3"};
+const Arguments kQuantised = settings({"sram.codebook_bytes=65536", "storage.vq.scale_entries=50",
+                                       "storage.vq.rotation_entries=70", "storage.vq.dc_entries=60",
+                                       "storage.vq.sh_entries=30", "storage.vq.iterations=3"});
 
 struct Case {
   const char* order;
@@ -188,8 +187,8 @@ TEST_CASE("pack: a .ply in storage order, whose reference picture is the frame")
   const GaussianCloud given = read_ply(scenes.ply()).cloud;
   for (const Arguments& making :
        {Arguments{"--config", "exact"},
-        Arguments{"--config", "exact", "--set", "storage.chunk_gaussians=5", "--set",
-                  "storage.store_invisible=true"}}) {
+        with_settings({"--config", "exact"},
+                      {"storage.chunk_gaussians=5", "storage.store_invisible=true"})}) {
     const Simulation simulation(joined(scenes.view(scenes.ply()), making));
     const Json& image = simulation.views()[0]["image"];
     CHECK(image["psnr_db"].is_null());
@@ -319,7 +318,7 @@ TEST_CASE("pack: what is said of storage is as the file has it, or a preset's") 
            {with("hfus=1"), "storage from scene.sgs: half, voxels of 2 (preset paper_no_vq: raw)"},
            {{"paper"}, "storage from scene.sgs: half, voxels of 2 (preset paper: vq)"},
            {with("storage.encoding=half"), "storage from scene.sgs: half, voxels of 2\n"},
-           {{"paper", "--set", "storage.encoding=half", "--set", "storage.voxel_size=0"},
+           {with_settings({"paper"}, {"storage.encoding=half", "storage.voxel_size=0"}),
             "storage from scene.sgs: half, voxels of 2\n"},
            {{"paper"}, "encoding not known: packed"},
            {{"paper"}, "are against the decoded scene"}}) {
@@ -358,14 +357,14 @@ TEST_CASE("pack: a scene that no reader would take is refused and leaves nothing
 TEST_CASE("pack: --print-config shows what the image decides") {
   const PackedScenes scenes;
   REQUIRE(scenes
-              .pack(joined({"--config", "exact", "--set", "storage.encoding=vq_packed", "--set",
-                            "storage.chunk_gaussians=24"},
+              .pack(joined(with_settings({"--config", "exact"}, {"storage.encoding=vq_packed",
+                                                                 "storage.chunk_gaussians=24"}),
                            kQuantised))
               .status == 0);
   const Arguments print = {"simulate", scenes.packed(), "--set", "hfu.cost=counted",
                            "--print-config"};
   check_refused(print, {"sram.codebook_bytes: 0 bytes are there"});
-  const Outcome shown = run_streaminggs(joined(print, {"--set", "sram.codebook_bytes=65536"}));
+  const Outcome shown = run_streaminggs(with_settings(print, {"sram.codebook_bytes=65536"}));
   INFO(shown.err);
   REQUIRE(shown.status == 0);
   const Json config = Json::parse(shown.out);

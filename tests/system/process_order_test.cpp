@@ -100,8 +100,8 @@ std::vector<Arguments> variants(const std::string& machine) {
 }
 
 // Groups so small that some saturate.
-const Arguments kScene = {"--size",           "97x61", "--set",
-                          "group_width_px=8", "--set", "group_height_px=8"};
+const Arguments kScene =
+    with_settings({"--size", "97x61"}, {"group_width_px=8", "group_height_px=8"});
 
 Arguments scene(const char* machine) {
   return joined({"builtin:object?n=6000", "--config", machine}, kScene);

@@ -36,15 +36,9 @@ struct Pair {
   Simulation with, without;
 };
 
-const Arguments kScene = {"builtin:outdoor?n=4000",
-                          "--view",
-                          "all",
-                          "--size",
-                          "160x90",
-                          "--set",
-                          "group_width_px=16",
-                          "--set",
-                          "group_height_px=16"};
+const Arguments kScene =
+    with_settings({"builtin:outdoor?n=4000", "--view", "all", "--size", "160x90"},
+                  {"group_width_px=16", "group_height_px=16"});
 
 Arguments in_order(const char* order) {
   Arguments all = kScene;
@@ -57,7 +51,7 @@ TEST_CASE("savings: Gaussians that no view can show are not stored") {
   // group's rays and could change the order of others that no ray had put in order. Whole, since
   // what is stored decides where a voxel is cut.
   Arguments paper = in_order("paper");
-  paper.insert(paper.end(), {"--set", "storage.voxel_size=100", "--set", "vsu.visit_gaussians=0"});
+  paper = with_settings(paper, {"storage.voxel_size=100", "vsu.visit_gaussians=0"});
   // Views without equal depths: slots, which order them, follow from what is stored.
   Arguments exact = in_order("exact");
   std::replace(exact.begin(), exact.end(), std::string("all"), std::string("0,1,2"));
@@ -95,7 +89,7 @@ TEST_CASE("savings: sub-tiles that the ellipse cannot reach are skipped") {
   for (const char* order : {"paper", "exact"}) {
     // In parts of 8 px every splat is on so few sub-tiles that no test pays.
     Arguments wide = in_order(order);
-    wide.insert(wide.end(), {"--set", "group_width_px=64", "--set", "group_height_px=64"});
+    wide = with_settings(wide, {"group_width_px=64", "group_height_px=64"});
     const Pair pair(wide, "rendering.ellipse_test=false");
     pair.check_more([](const Json& v) { return total(v, "subtile_blends"); });
   }

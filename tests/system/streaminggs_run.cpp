@@ -26,6 +26,18 @@ Arguments joined(Arguments first, const Arguments& second) {
   return first;
 }
 
+Arguments settings(const Arguments& assignments) {
+  Arguments all;
+  for (const std::string& assignment : assignments) {
+    all.insert(all.end(), {"--set", assignment});
+  }
+  return all;
+}
+
+Arguments with_settings(const Arguments& first, const Arguments& assignments) {
+  return joined(first, settings(assignments));
+}
+
 Outcome run_program(const std::string& program, const Arguments& arguments) {
   const ScratchFolder scratch;
   std::string command = quoted(program);

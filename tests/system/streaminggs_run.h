@@ -16,6 +16,9 @@ struct Outcome {
 
 using Arguments = std::vector<std::string>;
 Arguments joined(Arguments first, const Arguments& second);
+// `--set key=value` for each of the assignments; the same behind other arguments.
+Arguments settings(const Arguments& assignments);
+Arguments with_settings(const Arguments& first, const Arguments& assignments);
 
 Outcome run_program(const std::string& program, const Arguments& arguments);
 Outcome run_streaminggs(const Arguments& arguments);

@@ -177,7 +177,7 @@ TEST_CASE("waveform: quantised scenes show the codebook buffer and what decodes"
     check_time(time_at(vcd, signals.at(kMachine + "codebooks.full")), 1,
                frame_cycles(view) - total(view, "loaded_at_cycle"));
     // What is not there is not shown.
-    const Simulation raw(joined(scene, {"--set", "storage.encoding=raw"}));
+    const Simulation raw(with_settings(scene, {"storage.encoding=raw"}));
     const auto without = signals_of(vcd);
     CHECK(without.count(kMachine + "hfu0.fine.filter.busy") == 1);
     CHECK(without.count(kMachine + "hfu0.fine.decode.busy") == 0);

@@ -14,13 +14,12 @@ namespace sgs::test {
 namespace {
 
 Arguments group_of(const std::string& width, const std::string& height) {
-  return {"--set", "group_width_px=" + width, "--set", "group_height_px=" + height};
+  return settings({"group_width_px=" + width, "group_height_px=" + height});
 }
 
 // Room for groups of any size, and for ordering tables of any number of voxels.
 Arguments roomy(const std::string& order) {
-  Arguments room = {"--set", "sram.shared_bytes=1073741824", "--set",
-                    "sram.input_bytes=1073741824"};
+  Arguments room = settings({"sram.shared_bytes=1073741824", "sram.input_bytes=1073741824"});
   if (order == "paper") room.insert(room.end(), {"--set", "vsu.table_bytes=67108864"});
   return room;
 }
@@ -29,17 +28,9 @@ TEST_CASE("whole frame: the same pixels with and without stalls") {
   for (const char* order : {"paper", "exact"}) {
     for (const char* scene : {"builtin:object?n=3000", "builtin:outdoor?n=3000"}) {
       INFO(order << " " << scene);
-      const Arguments common = {scene,
-                                "--view",
-                                "all",
-                                "--size",
-                                "96x54",
-                                "--config",
-                                order,
-                                "--set",
-                                "group_width_px=32",
-                                "--set",
-                                "group_height_px=32"};
+      const Arguments common =
+          with_settings({scene, "--view", "all", "--size", "96x54", "--config", order},
+                        {"group_width_px=32", "group_height_px=32"});
       const Simulation plain(common);
       plain.check();
       for (const Arguments& variant :
@@ -107,10 +98,11 @@ TEST_CASE("whole frame: pixels in half where parts of a group meet") {
   for (const char* hfus : {"1", "4"}) {
     for (const auto& [width, height] : {std::pair{"8", "8"}, {"24", "16"}}) {
       INFO(hfus << " " << width << " x " << height);
-      Simulation(joined({"builtin:object?n=20000", "--size", "160x96", "--config", "paper", "--set",
-                         "storage.encoding=raw", "--set", "rendering.precision=fp16", "--set",
-                         "fetch=shared", "--set", std::string("hfus=") + hfus},
-                        joined(group_of(width, height), roomy("paper"))))
+      Simulation(
+          joined(with_settings({"builtin:object?n=20000", "--size", "160x96", "--config", "paper"},
+                               {"storage.encoding=raw", "rendering.precision=fp16", "fetch=shared",
+                                std::string("hfus=") + hfus}),
+                 joined(group_of(width, height), roomy("paper"))))
           .check();
     }
   }
@@ -145,14 +137,12 @@ TEST_CASE("whole frame: voxels and chunks from tiny to all") {
 TEST_CASE("whole frame: other numbers of units, ports and memory channels") {
   for (const char* order : {"paper", "exact"}) {
     for (const Arguments& variant :
-         {Arguments{"--set", "hfus=1", "--set", "sorting_units=1"},
-          order == std::string("paper")
-              ? Arguments{"--set", "hfus=3", "--set", "fetch=split", "--set", "sorting_units=5"}
-              : Arguments{"--set", "hfus=3", "--set", "sorting_units=5"},
-          Arguments{"--set", "memory_port.max_outstanding=1", "--set", "dram.channels=1"},
+         {settings({"hfus=1", "sorting_units=1"}),
+          order == std::string("paper") ? settings({"hfus=3", "fetch=split", "sorting_units=5"})
+                                        : settings({"hfus=3", "sorting_units=5"}),
+          settings({"memory_port.max_outstanding=1", "dram.channels=1"}),
           Arguments{"--set", "clock_mhz=733"},
-          Arguments{"--set", "hfu.cfus=1", "--set", "hfu.second_half_slots=1", "--set",
-                    "hfu.candidate_fifo_entries=1"},
+          settings({"hfu.cfus=1", "hfu.second_half_slots=1", "hfu.candidate_fifo_entries=1"}),
           Arguments{"--set", "hfu.coarse_filter=false"}}) {
       INFO(order << " " << variant[1]);
       Simulation(
@@ -224,22 +214,16 @@ TEST_CASE("whole frame: the report names the camera and the table that prices we
 TEST_CASE("whole frame: the golden image of `render` is the frame of `simulate`") {
   for (const std::string order : {"paper", "exact"}) {
     const std::string preset = order == "paper" ? "paper_no_vq" : order;
-    const Simulation simulated({"builtin:object?n=3000", "--size", "100x60", "--config", preset,
-                                "--set", "group_width_px=64", "--set", "group_height_px=64",
-                                "--set", "sram.shared_bytes=1073741824"});
+    const Simulation simulated(
+        with_settings({"builtin:object?n=3000", "--size", "100x60", "--config", preset},
+                      {"group_width_px=64", "group_height_px=64", "sram.shared_bytes=1073741824"}));
     const ScratchFolder scratch;
     const std::string frame = simulated.folder() + "/out/view_0/frame.exr";
     const Arguments render = {"render", "builtin:object?n=3000", "--size",    "100x60",
                               "--out",  scratch.path("g.exr"),   "--ordering"};
-    const Arguments as_simulated = {order,
-                                    "--config",
-                                    preset,
-                                    "--set",
-                                    "group_width_px=64",
-                                    "--set",
-                                    "group_height_px=64",
-                                    "--set",
-                                    "sram.shared_bytes=1073741824"};
+    const Arguments as_simulated =
+        with_settings({order, "--config", preset},
+                      {"group_width_px=64", "group_height_px=64", "sram.shared_bytes=1073741824"});
     REQUIRE(run_streaminggs(joined(render, as_simulated)).status == 0);
     CHECK(run_streaminggs({"compare", "--exact", frame, scratch.path("g.exr")}).status == 0);
     // Exact order is the reference's, to the bit.

@@ -2,6 +2,8 @@
 // answers of every kind.
 #include "tlm/memory_port.h"
 
+#include <tlm_utils/simple_target_socket.h>
+
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>
@@ -24,8 +26,8 @@ class Unit : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(Unit);
   Unit(const sc_core::sc_module_name& name, const MemoryPortConfig& config,
-       std::vector<std::function<void(MemoryPort&)>> threads)
-      : sc_module(name), port("port", config), threads_(std::move(threads)) {
+       std::vector<std::function<void(MemoryPort&)>> threads, const sc_core::sc_time& cycle = {})
+      : sc_module(name), port("port", config, cycle), threads_(std::move(threads)) {
     for (std::size_t i = 0; i < threads_.size(); ++i) SC_THREAD(run);
   }
 
@@ -222,14 +224,14 @@ TEST_CASE("memory port: takes answers in every way of the base protocol") {
     Answers answers;
     double sent_ns, answered_ns;  // the last request, and the last answer
   };
-  // Four reads of one transaction each; a request goes when the one before has ended, and waits for
-  // the delay that it is answered with.
+  // Four reads of one transaction each; a request goes when the one before has ended, at once or
+  // after the delay that it was answered with.
   const std::vector<Row> rows = {
       {Answers::kCompleted, 0, 0},
-      {Answers::kCompletedLater, 4 * 30, 4 * 30},
+      {Answers::kCompletedLater, 3 * 30, 4 * 30},
       {Answers::kEndOfRequest, 0, 40},
       {Answers::kResponse, 0, 0},
-      {Answers::kResponseLater, 4 * 20, 4 * 20},
+      {Answers::kResponseLater, 3 * 20, 4 * 20},
       {Answers::kCalls, 3 * 10, 3 * 10 + 50},
       {Answers::kResponseCall, 3 * 25, 4 * 25},
       // The first response, called at 15, lasts until 45 and holds up the calls that follow.
@@ -270,6 +272,88 @@ TEST_CASE("memory port: takes answers in every way of the base protocol") {
     CHECK(chain.checker.finished() == 4);
     CHECK(chain.sent.to_seconds() * 1e9 == Approx(rows[i].sent_ns));
     CHECK(chain.answered.to_seconds() * 1e9 == Approx(rows[i].answered_ns));
+  }
+}
+
+// Answers everything at once, and remembers when it came.
+class PromptMemory : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_target_socket<PromptMemory> socket{"socket"};
+  explicit PromptMemory(const sc_core::sc_module_name& name) : sc_module(name) {
+    socket.register_nb_transport_fw(this, &PromptMemory::nb_transport_fw);
+  }
+  std::vector<double> came_ns;
+
+ private:
+  tlm::tlm_sync_enum nb_transport_fw(tlm::tlm_generic_payload& payload, tlm::tlm_phase&,
+                                     sc_core::sc_time&) {
+    came_ns.push_back(sc_core::sc_time_stamp().to_seconds() * 1e9);
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+    return tlm::TLM_COMPLETED;
+  }
+};
+
+TEST_CASE(
+    "memory port: a word of its width leaves and arrives a cycle, behind the path's registers") {
+  struct Row {
+    std::uint32_t path_cycles;
+    bool write;
+    std::uint32_t bytes;
+    std::vector<double> came_ns;  // at the memory, of three transactions asked for at 100
+    double done_ns;
+  };
+  // 32 B a cycle of 1 ns. The memory answers at once: what is read comes no faster than its words,
+  // writes are answered by a word without data.
+  const std::vector<Row> rows = {
+      {0, false, 32, {100, 101, 102}, 102},
+      {1, false, 32, {101, 102, 103}, 104},
+      {3, false, 32, {103, 104, 105}, 108},
+      {1, false, 33, {101, 102, 103}, 101 + 2 * 2 + 1},
+      {1, false, 256, {101, 102, 103}, 101 + 2 * 8 + 1},
+      {0, true, 256, {107, 115, 123}, 123},
+      {1, true, 256, {108, 116, 124}, 125},
+      {3, true, 256, {110, 118, 126}, 129},
+  };
+  struct Run {
+    explicit Run(const Row& row)
+        : unit(sc_core::sc_gen_unique_name("unit"), config_of(row), {[this, row](MemoryPort& port) {
+                 sc_core::wait(100, sc_core::SC_NS);
+                 for (std::uint64_t k = 0; k < 3; ++k) {
+                   if (row.write) {
+                     port.write(256 * k, bytes, row.bytes, 0);
+                   } else {
+                     port.read(256 * k, bytes, row.bytes, 0);
+                   }
+                 }
+                 port.wait_all();
+                 done_ns = sc_core::sc_time_stamp().to_seconds() * 1e9;
+               }},
+               sc_core::sc_time(1, sc_core::SC_NS)),
+          memory(sc_core::sc_gen_unique_name("memory")) {
+      unit.port.socket.bind(memory.socket);
+    }
+    static MemoryPortConfig config_of(const Row& row) {
+      MemoryPortConfig config;
+      config.path_cycles = row.path_cycles;
+      config.max_writes = 16;
+      return config;
+    }
+    std::uint8_t bytes[256] = {};
+    Unit unit;
+    PromptMemory memory;
+    double done_ns = 0;
+  };
+  std::vector<std::unique_ptr<Run>> runs;
+  for (const Row& row : rows) runs.push_back(std::make_unique<Run>(row));
+  sc_core::sc_start();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    INFO("row " << i);
+    REQUIRE(runs[i]->memory.came_ns.size() == 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(runs[i]->memory.came_ns[k] == Approx(rows[i].came_ns[k]));
+    }
+    CHECK(runs[i]->done_ns == Approx(rows[i].done_ns));
+    CHECK(runs[i]->unit.port.idle());
   }
 }
 

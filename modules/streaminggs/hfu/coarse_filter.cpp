@@ -2,8 +2,10 @@
 #include "modules/streaminggs/hfu/coarse_filter.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "modules/streaminggs/hfu/filter_datapaths.h"
+#include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
 
@@ -13,8 +15,9 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
       memory("memory", context.built_for.memory_port, context.clock.period()),
       config_(config),
       built_for_(context.built_for),
-      tests_(side_by_side(coarse_datapath(config, context.job.layout.split.bound_by,
-                                          static_cast<std::uint32_t>(context.job.parts.size())),
+      tests_(side_by_side(coarse_pipeline(config, context.job.layout.split.bound_by,
+                                          static_cast<std::uint32_t>(context.job.parts.size()),
+                                          context.built_for.single),
                           static_cast<std::uint32_t>(context.job.parts.size()))),
       job_(context.job),
       record_bytes_(job_.layout.first_halves.record_bytes),
@@ -85,12 +88,16 @@ std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
          (std::size_t{slot} * config_.slice_gaussians + at) * std::size_t{record_bytes_};
 }
 
-// The CFUs take a Gaussian each at a time. Simulated time is only let pass where somebody could
-// see it: before a candidate is handed on, and at the end.
+// The CFUs take a Gaussian each at a time, one a cycle out of the input buffer; so they are done a
+// cycle apart, and a candidate a cycle goes on. Without the filter a Gaussian takes that cycle.
+// Simulated time is only let pass where somebody could see it: before a candidate is handed on, and
+// at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
   const RecordSplit& split = job_.layout.split;
-  std::uint64_t pending_cycles = 0;
-  std::uint32_t open = 0;  // parts
+  const std::uint64_t interval = config_.coarse_filter ? tests_.interval_cycles() : 1;
+  const std::uint64_t turns = config_.coarse_filter ? tests_.copies : 1;
+  std::uint64_t done = 0, passed = 0;  // cycles of the slice
+  std::uint32_t open = 0;              // parts
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
     if (i % tests_.copies == 0) {
       open = unfinished_parts(finished, slice.share.group);
@@ -98,8 +105,8 @@ void CoarseFilter::filter_slice(const Slice& slice) {
         counters_.dropped_saturated += slice.share.count - i;
         break;
       }
-      if (config_.coarse_filter) pending_cycles += tests_.interval_cycles();
     }
+    done = i / turns * std::max(interval, turns) + i % turns + interval;
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
     const FirstHalfBound bound = bound_first_half(split, first, job_.view);
@@ -107,8 +114,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     if (parts == 0) continue;
     counters_.passed += count_parts(parts);
     ++counters_.candidates;
-    filter_.work(pending_cycles);
-    pending_cycles = 0;
+    filter_.work(done - std::exchange(passed, done));
     FineCandidate candidate;
     candidate.group = slice.share.group;
     candidate.visit = slice.share.visit;
@@ -122,7 +128,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     candidate.reach = reach(bound, slice.share.group);
     in_turn(survivors, candidate.visit).push(candidate, filter_);
   }
-  filter_.work(pending_cycles);
+  filter_.work(done - passed);
 }
 
 // The parts that the Gaussian may touch, of those that are open. A part without pixels is finished
@@ -149,11 +155,14 @@ GroupReach CoarseFilter::reach(const FirstHalfBound& bound, std::uint32_t group)
 }
 
 SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
+  // What comes from memory in a cycle may be more than one.
+  const auto come =
+      static_cast<std::uint32_t>(cycles_for(kPortBytes, std::max(1U, built_for.first_half_bytes)));
   return {sram_use("input", kInputSram,
                    {{config.input_slots, "slots"},
                     {config.slice_gaussians, "Gaussians"},
                     {built_for.first_half_bytes, "B"}},
-                   {8 * built_for.first_half_bytes}),
+                   {8 * built_for.first_half_bytes, SramPorts::kReadAndWrite, come}, {1, come}),
           fifo_use<Slice>("slices", kSharedSram, config.input_slots, "slices"),
           outstanding_table(kSharedSram, built_for.memory_port)};
 }

@@ -104,10 +104,16 @@ std::uint64_t CodebookBuffer::take_lines(std::size_t codebook, const EntryRange&
 SramUses CodebookBuffer::sram_uses(const CodebookConfig& config, const SecondHalfFormat& format) {
   SramUses uses;
   for (std::size_t id = 0; format.quantised() && id < kCodebookCount; ++id) {
-    uses.push_back(sram_use(
-        kCodebookNames[id], kCodebookSram,
-        {{format.entries[id], "entries"}, {format.entry_bytes(static_cast<Codebook>(id)), "B"}},
-        {8 * config.line_bytes, SramPorts::kOne, config.banks}));
+    const std::uint32_t entry = format.entry_bytes(static_cast<Codebook>(id));
+    const std::uint64_t bytes = std::uint64_t{format.entries[id]} * entry;
+    const auto line = static_cast<std::uint32_t>(
+        std::max<std::uint64_t>(1, std::min<std::uint64_t>(config.line_bytes, bytes)));
+    // A codebook of fewer lines lies in fewer banks.
+    const auto banks = static_cast<std::uint32_t>(
+        std::max<std::uint64_t>(1, std::min<std::uint64_t>(config.banks, bytes / line)));
+    uses.push_back(sram_use(kCodebookNames[id], kCodebookSram,
+                            {{format.entries[id], "entries"}, {entry, "B"}},
+                            {8 * line, SramPorts::kOne, banks}, {banks, 0}));
   }
   return uses;
 }

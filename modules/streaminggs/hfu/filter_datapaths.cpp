@@ -7,12 +7,19 @@
 #include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/visible_extents.h"
 #include "modules/streaminggs/counted_datapath.h"
+#include "modules/streaminggs/scheduled_datapath.h"
 
 namespace sgs {
+namespace {
+
+std::uint32_t across(std::uint32_t parts) {
+  return static_cast<std::uint32_t>(std::lround(std::sqrt(parts)));
+}
+
+}  // namespace
 
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts) {
-  const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(parts)));
-  OperationCounts in_parts = coarse_work(bound_by, longest_case(), across);
+  OperationCounts in_parts = coarse_work(bound_by, longest_case(), across(parts));
   if (bound_by == CoarseBoundBy::kExtents) in_parts.look_ups += kExtentLookUps;
   const std::uint32_t whole = folded_macs(coarse_work(bound_by, longest_case()));
   Datapath path = counted_datapath("coarse", "coarse", in_parts);
@@ -23,11 +30,25 @@ Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::u
   return path;
 }
 
-Datapath fine_datapath(const HfuConfig& config, int sh_degree) {
-  Datapath path = counted_datapath("fine", "fine", fine_work(longest_case(), sh_degree).total());
+Datapath fine_datapath(const HfuConfig& config, const FineRecord& record) {
+  Datapath path = counted_datapath("fine", "fine", fine_work(longest_case(), record).total());
   path.lanes = config.ffu_lanes;
   path.used_macs = config.ffu_macs;
   path.published_macs = kPaperFfuMacs;
+  return path;
+}
+
+Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts,
+                         const OperationLatencies& latencies) {
+  Datapath path = coarse_datapath(config, bound_by, parts);
+  schedule(path, coarse_steps(bound_by, longest_case(), across(parts), latencies), latencies);
+  return path;
+}
+
+Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
+                       const OperationLatencies& latencies) {
+  Datapath path = fine_datapath(config, record);
+  schedule(path, fine_steps(longest_case(), record, latencies), latencies);
   return path;
 }
 

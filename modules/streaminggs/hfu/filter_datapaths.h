@@ -2,6 +2,8 @@
 #pragma once
 
 #include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/splat/fine_record.h"
+#include "algorithm/splat/longest_path.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
 #include "tlm/datapath.h"
 
@@ -9,7 +11,13 @@ namespace sgs {
 
 // parts: of a group that one test tells apart, a square number. cfu_macs are of a group in one.
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts);
-Datapath fine_datapath(const HfuConfig& config, int sh_degree);
+Datapath fine_datapath(const HfuConfig& config, const FineRecord& record);
+
+// The same, scheduled on lanes of such latencies.
+Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts,
+                         const OperationLatencies& latencies);
+Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
+                       const OperationLatencies& latencies);
 
 // That of several HFUs.
 inline Datapath side_by_side(Datapath of_one, std::uint32_t hfus) {

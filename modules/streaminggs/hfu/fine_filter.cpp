@@ -11,6 +11,11 @@
 namespace sgs {
 namespace {
 
+// Of second halves: as wide as the port, or as a record that is narrower.
+SramShape word_of(std::uint32_t record_bytes) {
+  return {8 * std::clamp(record_bytes, 1U, kPortBytes)};
+}
+
 // Of those whose second halves are on their way or waiting, and a mark.
 std::uint32_t fetched_entries(const HfuConfig& config) { return config.second_half_slots + 1; }
 
@@ -26,12 +31,20 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
       place_(place),
       job_(context.job),
       fetch_("fetch", context.clock),
-      tests_(side_by_side(fine_datapath(config, context.job.layout.sh_degree()),
-                          static_cast<std::uint32_t>(context.job.parts.size()))),
+      tests_(side_by_side(
+          fine_pipeline(config,
+                        context.job.layout.split.fine_record(context.job.layout.sh_degree()),
+                        context.built_for.single),
+          static_cast<std::uint32_t>(context.job.parts.size()))),
       record_bytes_(job_.layout.second_halves.record_bytes),
+      test_cycles_(
+          job_.layout.second_half.quantised()
+              ? tests_.interval_cycles()
+              : std::max<std::uint64_t>(tests_.interval_cycles(), read_cycles(record_bytes_))),
       second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
       wanted_(config.second_half_slots),
-      free_slots_("free_slots", context.clock, config.second_half_slots, 0) {
+      free_slots_("free_slots", context.clock, config.second_half_slots,
+                  read_cycles(record_bytes_)) {
   SC_THREAD(run_fetch);
   for (std::uint32_t p = 0; p < job_.parts.size(); ++p) make_part(p, context.clock, codebook);
 }
@@ -106,7 +119,9 @@ FineFilter::Decoded FineFilter::take_fetched(Part& part, Activity& activity) {
   const RecordSplit& split = job_.layout.split;
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
   ++counters_.taken;
-  if (part.stage && !finished[static_cast<int>(part.index)]->finished(candidate.group)) {
+  if (part.stage && finished[static_cast<int>(part.index)]->finished(candidate.group)) {
+    activity.work(1);
+  } else if (part.stage) {
     codebooks->read_entries(place_.reader + part.index,
                             read_indices(split, format, candidate.carried, record), activity);
   }
@@ -116,14 +131,18 @@ FineFilter::Decoded FineFilter::take_fetched(Part& part, Activity& activity) {
   return out;
 }
 
-// By one of the parts that want what is in it.
+// By one of the parts that want what is in it, when its last word has been read.
 void FineFilter::free_slot(std::uint32_t slot, Activity& activity) {
   if (--wanted_[slot] == 0) free_slots_.push(slot, activity);
 }
 
 void FineFilter::run_decode(Part& part) {
   DecodeStage& stage = *part.stage;
-  while (true) stage.decoded.push(take_fetched(part, stage.decode), stage.decode);
+  while (true) {
+    const Decoded next = take_fetched(part, stage.decode);
+    if (next.candidate.mark != Mark::kNone) stage.decode.work(1);
+    stage.decoded.push(next, stage.decode);
+  }
 }
 
 void FineFilter::run_filter(Part& part) {
@@ -152,7 +171,7 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
     reject(part, candidate);
     return;
   }
-  part.filter.work(tests_.interval_cycles());
+  part.filter.work(test_cycles_);
   ++counters_.tests;
   SplatToken token;
   if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||
@@ -183,11 +202,21 @@ FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t 
   return *splats[static_cast<int>(part.index * of_part + visit % of_part)];
 }
 
+std::uint32_t FineFilter::read_cycles(std::uint32_t record_bytes) {
+  return static_cast<std::uint32_t>(sram_words(record_bytes, word_of(record_bytes)));
+}
+
 SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                                std::uint32_t parts) {
-  SramUses uses = {sram_use(
-      "second halves", kSharedSram,
-      {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}}, {8 * kPortBytes}),
+  // A part's reads do not wait for another's: as many banks, while there are words for them.
+  const SramShape word = word_of(built_for.second_half_bytes);
+  const auto words = static_cast<std::uint32_t>(config.second_half_slots *
+                                                sram_words(built_for.second_half_bytes, word));
+  const std::uint32_t banks = std::clamp(words, 1U, parts);
+  SramUses uses = {
+      sram_use("second halves", kSharedSram,
+               {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
+               {word.width_bits, word.ports, banks}, {banks, 1}),
       outstanding_table(kSharedSram, built_for.memory_port)};
   add(uses,
       fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
@@ -228,7 +257,7 @@ void FineFilter::publish(DataSheet& sheet) {
   sheet.counter("dropped_fetched", "Gaussians", "of these with their second half already fetched",
                 counters_.dropped_fetched);
   sheet.datapath(tests_, counters_.tests);
-  const std::uint64_t words = sram_words(record_bytes_, {8 * kPortBytes});
+  const std::uint64_t words = read_cycles(record_bytes_);
   sheet.accesses("second halves", counters_.taken * words, counters_.second_halves * words);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated - counters_.dropped_fetched,

@@ -60,6 +60,8 @@ class FineFilter : public sc_core::sc_module {
     std::uint64_t dropped_fetched = 0;    // of these, with their second half
   };
   const Counters& counters() const { return counters_; }
+  // Of a second half out of its slot: a word a cycle.
+  static std::uint32_t read_cycles(std::uint32_t record_bytes);
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                             std::uint32_t parts);
   void publish(DataSheet& sheet);
@@ -114,6 +116,8 @@ class FineFilter : public sc_core::sc_module {
   Activity fetch_;
   const Datapath tests_;
   const std::uint32_t record_bytes_;
+  // From a test to the next: its lanes', or until its record is read where nobody does that ahead.
+  const std::uint64_t test_cycles_;
   std::vector<std::byte> second_halves_;  // [second_half_slots] records
   std::vector<std::uint32_t> wanted_;     // [second_half_slots] parts that have not yet taken it
   std::vector<std::unique_ptr<Part>> parts_;

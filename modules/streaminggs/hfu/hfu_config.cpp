@@ -14,12 +14,12 @@ void visit(ConfigVisitor& v, HfuConfig& c) {
     "multiply-accumulates of a coarse test; 0: by hfu.cost");
   v("cfu_lanes", c.cfu_lanes, in_range(1, 10000), "MAC lanes of one CFU");
   v("cfu_depth_cycles", c.cfu_depth_cycles, in_range(0, 10000),
-    "latency of a coarse test; 0: its longest path");
+    "latency of a coarse test; 0: by its schedule");
   v("ffu_macs", c.ffu_macs, in_range(0, 10000),
     "multiply-accumulates of a fine test; 0: by hfu.cost");
   v("ffu_lanes", c.ffu_lanes, in_range(1, 10000), "MAC lanes of one FFU");
   v("ffu_depth_cycles", c.ffu_depth_cycles, in_range(0, 10000),
-    "latency of a fine test; 0: its longest path");
+    "latency of a fine test; 0: by its schedule");
   v("coarse_filter", c.coarse_filter, "off: every Gaussian goes to the fine filter");
   v("input_slots", c.input_slots, in_range(2, 1024), "slices in an HFU's input buffer");
   v("slice_gaussians", c.slice_gaussians, in_range(2, 1 << 20), "first halves in one slice");

@@ -21,7 +21,7 @@ struct HfuConfig {
   std::uint32_t cfus = 4;              // coarse filters in one HFU
   std::uint32_t cfu_macs = 0;          // of a test; 0: as `cost` says
   std::uint32_t cfu_lanes = 4;         // MAC lanes of one CFU
-  std::uint32_t cfu_depth_cycles = 0;  // latency beside the lanes' time; 0: the longest path
+  std::uint32_t cfu_depth_cycles = 0;  // latency beside the lanes' time; 0: by its schedule
   std::uint32_t ffu_macs = 0;          // likewise
   std::uint32_t ffu_lanes = 16;
   std::uint32_t ffu_depth_cycles = 0;         // likewise

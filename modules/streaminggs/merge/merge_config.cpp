@@ -1,6 +1,8 @@
 // Keys of the merge unit.
 #include "modules/streaminggs/merge/merge_config.h"
 
+#include "algorithm/order/interval_heap.h"
+
 namespace sgs {
 
 void visit(ConfigVisitor& v, MergeConfig& c) {
@@ -11,7 +13,7 @@ void visit(ConfigVisitor& v, MergeConfig& c) {
   v("spill_runs", c.spill_runs, in_range(2, 1024), "spilled runs read back side by side");
   v("spill_block_entries", c.spill_block_entries, in_range(1, 1024),
     "keys read and written at once");
-  v("cycles_per_operation", c.cycles_per_operation, in_range(1, 16),
+  v("cycles_per_operation", c.cycles_per_operation, in_range(kFewestHeapCycles, 16),
     "of the heap: from one insert or delete to the next");
   v("latency_cycles", c.latency_cycles, in_range(1, 1000),
     "of a key from a sorting unit until it may be released");

@@ -62,13 +62,12 @@ void MergeUnit::run() {
     FifoReadIf<FineCandidate>& input = in_turn(sorted, visit);
     FineCandidate key = input.pop(merge_);
     group_ = key.group;
-    const bool alone = key.mark == Mark::kEndOfVisit;  // a mark that comes with no key
     while (key.mark == Mark::kNone) {
       take(key);
       key = input.pop(merge_);
     }
     group_ = key.group;
-    if (alone) merge_.work(1);
+    merge_.work(1);
     if (finished->finished(group_)) drop_all();
     if (key.mark == Mark::kEndOfGroup) {
       end_group(key);
@@ -87,10 +86,11 @@ void MergeUnit::take(const FineCandidate& key) {
     return;
   }
   if (pending_.full()) spill_farthest();
+  wait_for_heap();
   pending_.insert(key);
   note_pending();
   counters_.pending_max = std::max<std::uint64_t>(counters_.pending_max, pending_.size());
-  merge_.work(config_.cycles_per_operation);
+  merge_.work(1);
 }
 
 // Releases every key nearer than `nearest`, from the chip and from the runs.
@@ -120,10 +120,18 @@ void MergeUnit::force_out() {
   }
 }
 
+// Until its last operation has left the root far enough behind; then that of this cycle begins.
+void MergeUnit::wait_for_heap() {
+  const std::uint64_t now = merge_.clock().now_cycles();
+  if (now < heap_free_) merge_.work(heap_free_ - now);
+  heap_free_ = std::max(now, heap_free_) + config_.cycles_per_operation;
+}
+
 FineCandidate MergeUnit::take_nearest() {
+  wait_for_heap();
   const FineCandidate key = pending_.delete_min();
   note_pending();
-  merge_.work(config_.cycles_per_operation);
+  merge_.work(1);
   return key;
 }
 
@@ -163,9 +171,10 @@ void MergeUnit::spill_farthest() {
   const SpillRun run{next_run_address(), keys};
   ReverseSpillWriter<KeyCodec> writer(to, run, KeyCodec{group_});
   for (std::uint64_t k = 0; k < keys; ++k) {
+    wait_for_heap();
     const FineCandidate key = pending_.delete_max();
     note_pending();
-    merge_.work(config_.cycles_per_operation);
+    merge_.work(1);
     writer.append(key);
   }
   ++counters_.runs_spilled;
@@ -246,31 +255,37 @@ void MergeUnit::drop_all() {
 }
 
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
-  SramUses uses = kHeap.sram_uses(heap_entries(config, built_for));
+  SramUses uses = kHeap.sram_uses(heap_entries(config, built_for), config.cycles_per_operation);
   uses.push_back(mask_use(built_for.group));
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
-  const SramUse block =
-      sram_use("spill blocks", kSharedSram,
-               {{config.spill_block_entries, "keys"}, {kKeyBytes, "B"}}, {8 * kKeyBytes});
+  const SramUse block = sram_use("spill blocks", kSharedSram,
+                                 {{config.spill_block_entries, "keys"}, {kKeyBytes, "B"}},
+                                 {8 * kKeyBytes}, kOneOfEach);
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
   uses.push_back(sram_use("spilled runs", kSharedSram,
                           {{config.spill_runs, "runs"},
                            {2, "blocks"},
                            {config.spill_block_entries, "keys"},
                            {kKeyBytes, "B"}},
-                          {8 * kKeyBytes}));
+                          {8 * kKeyBytes}, kOneOfEach));
+  // Depth and slot of the first key of each, which are compared all at once.
+  constexpr std::uint32_t kFrontBytes = 4 * kKeyWords;
+  uses.push_back(sram_use(
+      "fronts of runs", kSharedSram, {{config.spill_runs, "runs"}, {kFrontBytes, "B"}},
+      {8 * kFrontBytes, SramPorts::kReadAndWrite, config.spill_runs}, {config.spill_runs, 1}));
   uses.push_back(block);
   uses.push_back(unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes));
   return uses;
 }
 
 void MergeUnit::publish_ledger(DataSheet& sheet) {
-  kHeap.publish(sheet, heap_entries(config_, built_for_), heap_work());
+  kHeap.publish(sheet, heap_entries(config_, built_for_), config_.cycles_per_operation,
+                heap_work());
   const double of_mask = mask_comparators(built_for_.group);
   sheet.part("merge", "comparator", of_mask, 1);
   sheet.operations("merge", "comparator", of_mask * static_cast<double>(counters_.due));
-  sheet.accesses("finished sub-tiles", counters_.due, mask->news());
+  sheet.accesses("finished sub-tiles", mask_bits(built_for_.group) * counters_.due, mask->news());
   if (config_.on_overflow != OnOverflow::kSpill) {
     sheet.port(memory);
     return;
@@ -280,6 +295,8 @@ void MergeUnit::publish_ledger(DataSheet& sheet) {
   sheet.part("merge", "comparator", comparators, 1);
   sheet.operations("merge", "comparator",
                    comparators * static_cast<double>(counters_.keys_spilled));
+  sheet.accesses("fronts of runs", config_.spill_runs * counters_.keys_spilled,
+                 counters_.keys_spilled);
   sheet.accesses("spilled runs", counters_.keys_spilled, counters_.keys_spilled);
   sheet.accesses("spill blocks", counters_.keys_spilled, counters_.keys_spilled);
   sheet.port(memory, "spill writes");
@@ -304,7 +321,11 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.counter("inserts", "operations", "of the heap", heap.inserts);
   sheet.counter("delete_mins", "operations", "of the heap: released", heap.delete_mins);
   sheet.counter("delete_maxs", "operations", "of the heap: spilled", heap.delete_maxs);
-  sheet.counter("heap_words_read", "words", "of two nodes, below the root", heap.words_read);
+  sheet.counter("heap_nodes_read", "nodes", "of two keys and two counts, below the root",
+                heap.nodes_read);
+  sheet.counter("heap_nodes_read_ahead", "nodes",
+                "beside these where the heap reads ahead: below keys that did not rise",
+                heap.nodes_read_ahead);
   sheet.counter("heap_nodes_written", "nodes", "below the root", heap.nodes_written);
   sheet.counter("heap_comparisons", "comparisons", "of two keys", heap.comparisons);
   sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
@@ -315,7 +336,9 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.sram(sram_uses(config_, built_for_));
-  sheet.remedy(merge_, {"merge.cycles_per_operation", Turn::kDown});
+  if (config_.cycles_per_operation > kFewestHeapCycles) {
+    sheet.remedy(merge_, {"merge.cycles_per_operation", Turn::kDown});
+  }
   sheet.remedy(memory, WaitFor::kReads, "merge.entries");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);

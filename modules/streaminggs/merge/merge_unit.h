@@ -3,8 +3,8 @@
 // keys go to DRAM as a sorted run and are merged back; the order stays exact. A key that is due and
 // reaches finished sub-tiles only is dropped: its second half is never fetched.
 // Keys wait in an interval heap, which gives its nearest and its farthest key.
-// Timing: the heap begins an insert or delete every `cycles_per_operation` cycles; a key that is
-// dropped, taken from a run or moved from run to run takes one cycle, and so does a mark.
+// Timing: a key in or out and a mark take a cycle each, and the heap begins an insert or delete
+// every `cycles_per_operation` cycles: what is no operation passes beside it.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class MergeUnit : public sc_core::sc_module {
     std::uint64_t dropped_saturated = 0;
     std::uint64_t due = 0;             // looked up in the mask of finished sub-tiles
     std::uint64_t dropped_hidden = 0;  // of these, behind finished sub-tiles only
-    std::uint64_t pending_max = 0;  // keys on chip
+    std::uint64_t pending_max = 0;     // keys on chip
     std::uint64_t runs_spilled = 0;
     std::uint64_t keys_spilled = 0;  // written to DRAM, over all passes
   };
@@ -76,6 +76,7 @@ class MergeUnit : public sc_core::sc_module {
   void force_out();
   void emit(const FineCandidate& key);
   void end_group(const FineCandidate& end);
+  void wait_for_heap();
   FineCandidate take_nearest();
   void spill_farthest();
   void merge_shortest_runs();
@@ -102,6 +103,7 @@ class MergeUnit : public sc_core::sc_module {
   std::uint64_t spill_used_ = 0;                 // bytes of it
   std::uint32_t spills_ = 0;                     // of this group
   std::uint64_t sequence_ = 0;                   // keys and marks released
+  std::uint64_t heap_free_ = 0;                  // cycle from which on it begins another operation
   float last_depth_ = -1;                        // of the key released last in this group
   std::uint32_t group_ = 0, pending_count_ = 0;  // for the waveform
   Counters counters_;

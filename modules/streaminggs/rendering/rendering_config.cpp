@@ -5,6 +5,7 @@
 
 #include "algorithm/splat/filter_work.h"
 #include "modules/streaminggs/counted_datapath.h"
+#include "modules/streaminggs/scheduled_datapath.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
@@ -15,12 +16,10 @@ struct Counted {
   explicit Counted(BlendPrecision precision)
       : work(rendering_work(precision)),
         blend_macs(folded_macs(work.subtile_blend)),
-        span_macs(folded_macs(work.span)),
-        begin{folded_macs(work.spans_begin), comparisons(work.spans_begin),
-              seeds(work.spans_begin)} {}
+        begin_macs(folded_macs(work.spans_begin)),
+        span_macs(folded_macs(work.span)) {}
   RenderingWork work;
-  std::uint32_t blend_macs, span_macs;
-  SpansBegin begin;
+  std::uint32_t blend_macs, begin_macs, span_macs;
 };
 
 const Counted& counted(BlendPrecision precision) {
@@ -28,24 +27,32 @@ const Counted& counted(BlendPrecision precision) {
   return precision == BlendPrecision::kHalf ? half : single;
 }
 
-}  // namespace
+// How the lanes of the spans take turns: a splat's beginning first, and beside it as many rows as
+// there are lanes left for; then `rows_at_once` each `row_cycles`.
+struct SpanTurns {
+  SpanTurns(const RenderingConfig& config, const Counted& work)
+      : begin_cycles(cycles_for(work.begin_macs, config.span_lanes)),
+        row_cycles(cycles_for(work.span_macs, config.span_lanes)),
+        rows_at_once(std::max(1U, config.span_lanes / work.span_macs)),
+        rows_beside((begin_cycles * config.span_lanes - work.begin_macs) / work.span_macs) {}
+  std::uint64_t begin_cycles, row_cycles;
+  std::uint64_t rows_at_once, rows_beside;
 
-Datapath conic_datapath() {
-  Datapath path =
-      counted_datapath("conic", "rendering", counted(BlendPrecision::kSingle).work.conic);
-  path.lanes = path.used_macs;
-  return path;
-}
+  std::uint64_t cycles(std::uint64_t rows) const {
+    const std::uint64_t behind = rows - std::min(rows, rows_beside);
+    return begin_cycles + cycles_for(behind, rows_at_once) * row_cycles;
+  }
+  // That a schedule tells apart: the others take the way of these again.
+  std::uint32_t rows() const {
+    return static_cast<std::uint32_t>(rows_beside > 0 ? rows_beside : rows_at_once);
+  }
+};
 
-Datapath blend_datapath(const RenderingConfig& config) {
-  const OperationCounts& work = counted(config.precision).work.subtile_blend;
-  const bool in_half = config.precision == BlendPrecision::kHalf;
-  Datapath path = counted_datapath("subtile_blend", "rendering", work,
-                                   in_half ? "exp2_table_half" : "exp2_table");
-  if (in_half) path.lane = "fp16_lane";
-  path.lanes = config.cluster_lanes;
-  path.copies = config.clusters;
-  return path;
+// A splat with so many rows, on the lanes' schedule.
+FoldedPipeline folded_spans(const Datapath& path, const SpanTurns& turns, std::uint32_t rows,
+                            const OperationLatencies& single) {
+  const auto interval = static_cast<std::uint32_t>(turns.cycles(turns.rows()));
+  return folded_pipeline(span_steps(rows, single), parts_of(path, interval), single);
 }
 
 Datapath span_datapath(const RenderingConfig& config) {
@@ -54,14 +61,62 @@ Datapath span_datapath(const RenderingConfig& config) {
   return path;
 }
 
-Datapath drain_datapath(const RenderingConfig& config, FrameFormat format) {
-  Datapath path = counted_datapath("drain", "rendering", pixel_work(format));
+}  // namespace
+
+Datapath conic_pipeline(const OperationLatencies& single) {
+  Datapath path =
+      counted_datapath("conic", "rendering", counted(BlendPrecision::kSingle).work.conic);
   path.lanes = path.used_macs;
-  path.copies = config.drain_pixels_per_cycle;
+  schedule(path, conic_steps(single), single);
   return path;
 }
 
-const SpansBegin& spans_begin() { return counted(BlendPrecision::kSingle).begin; }
+Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies) {
+  const OperationCounts& work = counted(config.precision).work.subtile_blend;
+  const bool in_half = config.precision == BlendPrecision::kHalf;
+  Datapath path = counted_datapath("subtile_blend", "rendering", work,
+                                   in_half ? "exp2_table_half" : "exp2_table");
+  if (in_half) path.lane = "fp16_lane";
+  path.lanes = config.cluster_lanes;
+  path.copies = config.clusters;
+  schedule(path, blend_steps(config.precision, latencies), latencies,
+           in_half ? kHalfBits : kSingleBits);
+  return path;
+}
+
+// An item of the registers' energy is a row more.
+Datapath span_pipeline(const RenderingConfig& config, const OperationLatencies& single) {
+  Datapath path = span_datapath(config);
+  const SpanTurns turns(config, counted(config.precision));
+  const FoldedPipeline all = folded_spans(path, turns, turns.rows(), single);
+  const LaneWiring one = folded_spans(path, turns, 1, single).wiring;
+  const LaneWiring two = folded_spans(path, turns, 2, single).wiring;
+  path.between = between_lanes(all.wiring, kSingleBits);
+  const auto more = [](std::uint32_t of_two, std::uint32_t of_one) {
+    return kSingleBits * (std::max(of_two, of_one) - of_one);
+  };
+  path.between.written = more(two.words_written, one.words_written);
+  path.between.selected = more(two.words_selected, one.words_selected);
+  path.depth_cycles = all.schedule.cycles;
+  return path;
+}
+
+Datapath drain_pipeline(const RenderingConfig& config, FrameFormat format,
+                        const OperationLatencies& single) {
+  Datapath path = counted_datapath("drain", "rendering", pixel_work(format));
+  path.lanes = path.used_macs;
+  path.copies = config.drain_pixels_per_cycle;
+  schedule(path, pixel_steps(format, single), single);
+  return path;
+}
+
+SpansBegin spans_begin(const RenderingConfig& config, const OperationLatencies& single) {
+  const OperationCounts& work = counted(config.precision).work.spans_begin;
+  const SpanTurns turns(config, counted(config.precision));
+  const LaneWiring none = folded_spans(span_datapath(config), turns, 0, single).wiring;
+  return {folded_macs(work), comparisons(work), seeds(work), kSingleBits * none.words_written,
+          kSingleBits * none.words_selected};
+}
 
 std::uint32_t RenderingConfig::cluster_interval_cycles() const {
   return static_cast<std::uint32_t>(cycles_for(counted(precision).blend_macs, cluster_lanes));
@@ -69,9 +124,11 @@ std::uint32_t RenderingConfig::cluster_interval_cycles() const {
 
 std::uint32_t RenderingConfig::span_cycles(std::uint32_t spans) const {
   if (spans == 0) return 0;
-  const Counted& work = counted(precision);
-  return static_cast<std::uint32_t>(
-      cycles_for(work.begin.macs + std::uint64_t{spans} * work.span_macs, span_lanes));
+  return static_cast<std::uint32_t>(SpanTurns(*this, counted(precision)).cycles(spans));
+}
+
+std::uint32_t RenderingConfig::spans_at_once() const {
+  return static_cast<std::uint32_t>(cycles_for(span_lanes, counted(precision).span_macs));
 }
 
 std::uint32_t RenderingConfig::subtiles_in_loop() const {
@@ -94,13 +151,14 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("cluster_queue_entries", c.cluster_queue_entries, in_range(1, 1024),
     "sub-tiles waiting for each cluster");
   v("state_loop_cycles", c.state_loop_cycles, in_range(0, 1000),
-    "until the next splat may be blended into the same sub-tile; 0: the longest path");
+    "until the next splat may be blended into the same sub-tile; 0: by its schedule");
   v("depth_cycles", c.depth_cycles, in_range(0, 1000),
-    "latency of a blend, by which drain and news of a finished group come later; 0: longest path");
+    "latency of a blend, by which drain and news of a finished group come later; 0: by its "
+    "schedule");
   v("span_depth_cycles", c.span_depth_cycles, in_range(0, 1000),
-    "latency of a row's span; 0: the longest path");
+    "latency of a row's span; 0: by its schedule");
   v("drain_depth_cycles", c.drain_depth_cycles, in_range(0, 1000),
-    "latency of a finished pixel's conversion; 0: the longest path");
+    "latency of a finished pixel's conversion; 0: by its schedule");
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "groups whose pixels are on chip");
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");

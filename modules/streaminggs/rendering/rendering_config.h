@@ -5,6 +5,7 @@
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/splat/blend.h"
+#include "algorithm/splat/longest_path.h"
 #include "modules/config/config_visitor.h"
 #include "tlm/datapath.h"
 
@@ -15,7 +16,7 @@ struct RenderingConfig {
   std::uint32_t cluster_lanes = 190;  // multiply-accumulates of one cluster: a sub-tile a cycle
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels on chip
   std::uint32_t cluster_queue_entries = 8;             // sub-tiles waiting for each cluster
-  // Of a blend, from a splat's conic to the pixel written. Depths of 0: the longest path.
+  // Of a blend, from a splat's conic to the pixel written. Depths of 0: by schedules.
   std::uint32_t depth_cycles = 0;
   // Of these from reading a pixel to having it written: a splat behind another on the same sub-tile
   // waits as long.
@@ -36,8 +37,11 @@ struct RenderingConfig {
   // A cluster starts a sub-tile every so many cycles.
   std::uint32_t cluster_interval_cycles() const;
   // That the lanes are busy with a splat's first `spans` rows, and from its beginning until these
-  // have their spans; 0 for none.
+  // have their spans; 0 for none. A fixed schedule: whole rows in a cycle, or a row in whole
+  // cycles.
   std::uint32_t span_cycles(std::uint32_t spans) const;
+  // Spans of rows that leave the lanes in one cycle, at most.
+  std::uint32_t spans_at_once() const;
   std::uint32_t spans_known_after(std::uint32_t spans) const {
     return spans == 0 ? 0 : span_cycles(spans) + span_depth_cycles;
   }
@@ -52,18 +56,20 @@ struct RenderingConfig {
 
 // Counted by running the code (algorithm/splat/filter_work.h): the lanes that every splat passes
 // ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile; those
-// of the spans, an item a row.
-Datapath conic_datapath();
-Datapath blend_datapath(const RenderingConfig& config);
-Datapath span_datapath(const RenderingConfig& config);
+// of the spans, an item a row. Scheduled on lanes of these latencies.
+Datapath conic_pipeline(const OperationLatencies& single);
+Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies);
+Datapath span_pipeline(const RenderingConfig& config, const OperationLatencies& single);
 // An item a finished pixel: as many lanes as drain_pixels_per_cycle of them take.
-Datapath drain_datapath(const RenderingConfig& config, FrameFormat format);
+Datapath drain_pipeline(const RenderingConfig& config, FrameFormat format,
+                        const OperationLatencies& single);
 
-// What a splat takes of the spans' lanes, comparators and tables beside its rows.
+// What a splat takes of the spans' lanes, comparators and tables beside its rows, and of the bits
+// between them.
 struct SpansBegin {
-  std::uint32_t macs, comparisons, look_ups;
+  std::uint32_t macs, comparisons, look_ups, bits_written, bits_selected;
 };
-const SpansBegin& spans_begin();
+SpansBegin spans_begin(const RenderingConfig& config, const OperationLatencies& single);
 
 void visit(ConfigVisitor& v, RenderingConfig& config);
 

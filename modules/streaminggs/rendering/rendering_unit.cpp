@@ -12,13 +12,17 @@ namespace {
 constexpr std::uint64_t kClearCycles = 1;
 constexpr std::uint32_t kSubtileNumberBytes = 2;
 
-// A splat, and of each row of sub-tiles the first and the last that it reaches, or none.
-std::uint32_t span_slot_bytes(const PixelSize& group) {
+// Of each row of sub-tiles the first and the last that a splat reaches, or none: of rows that leave
+// the lanes at once each in a bank of its own, a row a cycle to the dispatcher.
+SramUse spans_use(const RenderingConfig& config, const PixelSize& group) {
   const auto rows = static_cast<std::uint32_t>((group.height + kSubtilePx - 1) / kSubtilePx);
   const auto columns = static_cast<std::uint32_t>((group.width + kSubtilePx - 1) / kSubtilePx);
   std::uint32_t bits = 1;
   while ((1U << bits) < columns) ++bits;
-  return kSplatEntryBytes + (rows * 2 * bits + 7) / 8;
+  const std::uint32_t at_once = std::min(config.spans_at_once(), std::max(1U, rows));
+  return sram_use("spans", kSharedSram,
+                  {{config.span_slots, "slots"}, {(rows * 2 * bits + 7) / 8, "B"}},
+                  {2 * bits, SramPorts::kReadAndWrite, at_once}, {1, at_once});
 }
 
 // Of the dispatcher, for the first sub-tile of each cluster in what is left of a row: x & -x of its
@@ -156,21 +160,29 @@ void RenderingUnit::write_group(const GroupState& state) {
 SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor& built_for) {
   const auto width = static_cast<std::uint32_t>(built_for.group.width);
   const auto height = static_cast<std::uint32_t>(built_for.group.height);
+  // A group that drains and one that is blended have memories of their own. A cluster without a
+  // sub-tile of any group has none.
+  const auto subtiles =
+      static_cast<std::uint32_t>(cycles_for(width, kSubtilePx) * cycles_for(height, kSubtilePx));
+  const std::uint32_t with_pixels = std::clamp(subtiles, 1U, config.clusters);
+  const std::uint32_t pixel_banks = kSubtilePixels * with_pixels * config.pixel_buffers;
+  const SramPeak of_clusters{config.clusters, config.clusters};
   return {sram_use("pixel state", kSharedSram,
                    {{config.pixel_buffers, "groups"},
                     {width, "px"},
                     {height, "px"},
                     {config.pixel_state_bytes(), "B"}},
-                   {8 * config.pixel_state_bytes(), SramPorts::kReadAndWrite,
-                    kSubtilePixels * config.clusters}),
+                   {8 * config.pixel_state_bytes(), SramPorts::kReadAndWrite, pixel_banks},
+                   {pixel_banks, pixel_banks}),
           sram_use("splats under way", kSharedSram,
-                   {{config.span_slots, "slots"}, {span_slot_bytes(built_for.group), "B"}},
-                   {8 * kSplatEntryBytes}),
+                   {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
+                   kOneOfEach),
+          spans_use(config, built_for.group),
           sram_use("cluster queues", kSharedSram,
                    {{config.clusters, "clusters"},
                     {config.cluster_queue_entries, "splats"},
                     {kSplatEntryBytes, "B"}},
-                   {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}),
+                   {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}, of_clusters),
           mask_use(built_for.group),
           outstanding_table(kSharedSram, built_for.memory_port),
           sram_use("sub-tiles in the loop", kSharedSram,
@@ -178,22 +190,29 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
                     {config.subtiles_in_loop(), "sub-tiles"},
                     {kSubtileNumberBytes, "B"}},
                    {8 * kSubtileNumberBytes * config.subtiles_in_loop(), SramPorts::kReadAndWrite,
-                    config.clusters}),
+                    config.clusters},
+                   of_clusters),
           unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
                             width * pixel_bytes(built_for.frame_format))};
 }
 
 void RenderingUnit::publish_ledger(DataSheet& sheet) {
   const ClusterSchedule::Counters& clusters = schedule_.counters();
-  sheet.datapath(conic_datapath(), counters_.splats_taken);
-  sheet.datapath(blend_datapath(config_), clusters.blends);
-  const Datapath spans = span_datapath(config_);
+  const bool in_half = config_.precision == BlendPrecision::kHalf;
+  sheet.datapath(conic_pipeline(built_for_.single), counters_.splats_taken);
+  sheet.datapath(blend_pipeline(config_, in_half ? built_for_.half : built_for_.single),
+                 clusters.blends);
+  const Datapath spans = span_pipeline(config_, built_for_.single);
+  const SpansBegin begin = spans_begin(config_, built_for_.single);
   sheet.datapath(spans, counters_.spans);
   const auto spanned = static_cast<double>(counters_.splats_spanned);
-  sheet.operations("rendering", spans.lane.c_str(), spanned * spans_begin().macs);
-  sheet.operations("rendering", "comparator", spanned * spans_begin().comparisons);
+  sheet.operations("rendering", spans.lane.c_str(), spanned * begin.macs);
+  sheet.operations("rendering", "comparator", spanned * begin.comparisons);
   sheet.accesses("splats under way", counters_.splats_taken, counters_.splats_taken);
-  sheet.operations("rendering", "small_table", spanned * spans_begin().look_ups);
+  sheet.accesses("spans", counters_.spans, counters_.spans);
+  sheet.operations("rendering", "small_table", spanned * begin.look_ups);
+  sheet.operations("rendering", "register_bit", spanned * begin.bits_written);
+  sheet.operations("rendering", "select_bit", spanned * begin.bits_selected);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
   publish_dispatcher(sheet);
   publish_pixels(sheet);
@@ -215,8 +234,10 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
                    of_splat * static_cast<double>(counters_.splats_taken + dropped) +
                        of_row * static_cast<double>(clusters.row_cycles) +
                        of_loop * static_cast<double>(looks));
-  sheet.accesses("finished sub-tiles", dropped + counters_.splats_spanned + clusters.row_cycles,
-                 clusters.finished + counters_.groups);
+  const std::uint64_t bits = mask_bits(built_for_.group);
+  sheet.accesses("finished sub-tiles",
+                 bits * (dropped + counters_.splats_spanned + clusters.row_cycles),
+                 clusters.finished + bits * counters_.groups);
   sheet.accesses("sub-tiles in the loop", looks, clusters.blends);
 }
 
@@ -233,7 +254,7 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
     pixels += width * height;
   }
   const std::uint64_t blends = schedule_.counters().blends;
-  sheet.datapath(drain_datapath(config_, job_.frame_format), pixels);
+  sheet.datapath(drain_pipeline(config_, job_.frame_format, built_for_.single), pixels);
   // A blend reads and writes all places of a sub-tile, draining those of a row, clearing all again.
   sheet.accesses("pixel state", kSubtilePixels * blends + kSubtilePx * drained,
                  kSubtilePixels * (blends + cleared));

@@ -7,6 +7,9 @@
 #include "modules/streaminggs/sorting/sorting_cost.h"
 
 namespace sgs {
+namespace {
+constexpr const char* kKeySorters = "key sorters";
+}  // namespace
 
 ExactSorter::ExactSorter(const sc_core::sc_module_name& name, const SortingNetworkConfig& config,
                          std::uint32_t first_visit, std::uint32_t visit_step,
@@ -45,16 +48,13 @@ void ExactSorter::run() {
       sort_.work(1);
       sorted->push(next, sort_);
     }
-    // The mark comes with the last key, a bit of it; where there is none it takes a cycle of its own.
-    if (list.empty()) sort_.work(1);
+    sort_.work(1);
     sorted->push(key, sort_);
   }
 }
 
 SramUses ExactSorter::sram_uses(const BuiltFor& built_for) {
-  return {sram_use("key sorters", kSharedSram,
-                   {{built_for.chunk_gaussians, "keys"}, {kKeyBytes, "B"}},
-                   {8 * kKeyBytes, SramPorts::kReadAndWrite, kNetworkWidth})};
+  return sort_memories(kKeySorters, kSharedSram, built_for.chunk_gaussians, kKeyBytes);
 }
 
 void ExactSorter::publish(DataSheet& sheet) {
@@ -66,11 +66,10 @@ void ExactSorter::publish(DataSheet& sheet) {
   sheet.counter("keys", "keys", "received", counters_.keys);
   sheet.counter("compare_exchanges", "operations", "of the sorting network",
                 counters_.compare_exchanges);
-  publish_network(sheet, config_, counters_.compare_exchanges);
+  publish_network(sheet, config_, built_for_.chunk_gaussians, counters_.compare_exchanges);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(built_for_));
-  const std::uint64_t moved = counters_.keys + counters_.moves;
-  sheet.accesses("key sorters", moved, moved);
+  publish_sort_accesses(sheet, kKeySorters, counters_.keys, counters_.moves);
   sheet.remedy(sort_, "sorting_units");
   sheet.signal("visit", visit_);
 }

@@ -13,6 +13,8 @@
 namespace sgs {
 namespace {
 
+constexpr const char* kSortBuffers = "sort buffers";
+
 // Splats of one group.
 struct SplatCodec {
   using Entry = Splat;
@@ -54,6 +56,7 @@ void PaperSorter::run() {
     buffer_.clear();
     runs_.clear();
     spill_used_ = 0;
+    sort_.work(1);
     sorted->push(end, sort_);
   }
 }
@@ -76,6 +79,7 @@ SplatToken PaperSorter::collect(FifoSelector<SplatToken>& inputs) {
                                           .c_str());
     }
     if (token.mark != Mark::kNone) {
+      sort_.work(1);
       ended[static_cast<std::size_t>(from)] = true;
       end = token;
       --open;
@@ -203,13 +207,13 @@ SubtileRect PaperSorter::group_subtiles() const {
 SramUses PaperSorter::sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for) {
   const SramUse block = sram_use("spill blocks", kSharedSram,
                                  {{config.spill_block_entries, "splats"}, {kSplatEntryBytes, "B"}},
-                                 {8 * kSplatEntryBytes});
+                                 {8 * kSplatEntryBytes}, kOneOfEach);
   const auto bytes = static_cast<std::uint32_t>(block.bytes);
-  return {sram_use("sort buffers", kSharedSram,
-                   {{config.buffer_entries, "splats"}, {kSplatEntryBytes, "B"}},
-                   {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, kNetworkWidth}),
-          block, outstanding_table(kSharedSram, built_for.memory_port),
-          unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes)};
+  SramUses uses = sort_memories(kSortBuffers, kSharedSram, config.buffer_entries, kSplatEntryBytes);
+  uses.insert(uses.end(),
+              {block, outstanding_table(kSharedSram, built_for.memory_port),
+               unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes)});
+  return uses;
 }
 
 void PaperSorter::publish(DataSheet& sheet) {
@@ -227,12 +231,13 @@ void PaperSorter::publish(DataSheet& sheet) {
   sheet.counter("entries_spilled", "splats", "written to DRAM, over all passes",
                 counters_.entries_spilled);
   sheet.counter("list_max", "splats", "longest list of one visit", counters_.list_max);
-  publish_network(sheet, config_, counters_.compare_exchanges, place_.lists_of_network);
+  publish_network(sheet, config_, config_.buffer_entries, counters_.compare_exchanges,
+                  place_.lists_of_network);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(config_, built_for_));
-  // In and out, through the network, and those spilled and read back once more each.
-  const std::uint64_t moved = counters_.splats + counters_.moves + counters_.entries_spilled;
-  sheet.accesses("sort buffers", moved, moved);
+  // Those spilled and read back came in and went out once more each.
+  publish_sort_accesses(sheet, kSortBuffers, counters_.splats + counters_.entries_spilled,
+                        counters_.moves);
   sheet.accesses("spill blocks", counters_.entries_spilled, counters_.entries_spilled);
   sheet.port(memory, "spill writes");
   sheet.remedy(sort_, "sorting_units");

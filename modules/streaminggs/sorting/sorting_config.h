@@ -17,7 +17,7 @@ struct SortingNetworkConfig {
 
 struct PaperSorterConfig : SortingNetworkConfig {
   std::uint32_t buffer_entries = 256;     // splats on chip; longer lists spill sorted runs to DRAM
-  std::uint32_t input_fifo_entries = 6;   // from each HFU: as many as its FFU has under way
+  std::uint32_t input_fifo_entries = 7;   // from each HFU: as many as its FFU has under way
   std::uint32_t spill_block_entries = 4;  // read and written at once: 192 B
 };
 

@@ -1,7 +1,9 @@
-// Cycles of a 16-wide bitonic network (Batcher, "Sorting networks and their applications", 1968)
-// that sorts blocks of 16 and merges sorted runs 8 entries at a time.
+// A 16-wide bitonic network (Batcher, "Sorting networks and their applications", 1968) that sorts
+// blocks of 16 and merges sorted runs 8 entries at a time: its cycles, comparators and memories.
+// Through it go keys and their places; what else an entry has stays where it came to lie.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "modules/streaminggs/sorting/sorting_config.h"
@@ -13,6 +15,10 @@ constexpr std::uint32_t kNetworkWidth = 16;
 constexpr std::uint32_t kMergeWidth = kNetworkWidth / 2;
 constexpr std::uint32_t kSortStages = 10;  // log2(16) (log2(16) + 1) / 2
 constexpr std::uint32_t kMergeStages = 4;  // log2(16)
+
+// What is compared: depth, then slot. A comparator of the technology table has 32 bits.
+constexpr std::uint32_t kSortKeyBytes = 8;
+constexpr std::uint32_t kSortKeyComparators = 8 * kSortKeyBytes / 32;
 
 // Levels of a binary merge tree over `runs` runs.
 constexpr std::uint32_t merge_levels(std::uint64_t runs) {
@@ -35,7 +41,7 @@ constexpr std::uint32_t network_comparators(const SortingNetworkConfig& config) 
 struct SortingCost {
   std::uint64_t cycles = 0;
   std::uint64_t compare_exchanges = 0;
-  std::uint64_t moves = 0;  // entries read from the buffer, and written back
+  std::uint64_t moves = 0;  // of entries through the network: keys read, places written
 };
 
 // Sorting n entries on chip. A list of 1 is in order already and need not pass; of 0 there is none.
@@ -49,13 +55,60 @@ constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_
           blocks * kNetworkWidth + merges * kMergeWidth};
 }
 
-// The network of a unit, or its share of one that serves several units in turn, and what it did so
-// far.
+// Of one of so many entries on chip.
+constexpr std::uint32_t place_bits(std::uint64_t entries) {
+  std::uint32_t bits = 1;
+  while ((std::uint64_t{1} << bits) < entries) ++bits;
+  return bits;
+}
+
+// What a compare-exchange moves of each of its two entries: the key and its place.
+constexpr std::uint32_t exchanged_bits(std::uint64_t entries) {
+  return 8 * kSortKeyBytes + place_bits(entries);
+}
+
+// The network of a unit with room for so many entries, or its share of one that serves several
+// units in turn, and what it did so far.
 inline void publish_network(DataSheet& sheet, const SortingNetworkConfig& config,
-                            std::uint64_t compare_exchanges, std::uint32_t units_of_network = 1) {
-  const double comparators = network_comparators(config);
-  sheet.part("sorting", "compare_exchange", comparators / units_of_network, 1);
-  sheet.operations("sorting", "compare_exchange", static_cast<double>(compare_exchanges));
+                            std::uint64_t entries, std::uint64_t compare_exchanges,
+                            std::uint32_t units_of_network = 1) {
+  const double there = static_cast<double>(network_comparators(config)) / units_of_network;
+  const auto done = static_cast<double>(compare_exchanges);
+  sheet.part("sorting", "comparator", kSortKeyComparators * there, 1);
+  sheet.operations("sorting", "comparator", kSortKeyComparators * done);
+  sheet.part("sorting", "exchange_bit", exchanged_bits(entries) * there, 1);
+  sheet.operations("sorting", "exchange_bit", exchanged_bits(entries) * done);
+}
+
+constexpr const char* kComparedKeys = "compared keys";
+constexpr const char* kSortedPlaces = "sorted places";
+
+// Memories of a unit that sorts so many entries: the key of each, the rest of it (`rest`), and
+// lists of their places, a second one where runs are merged from one list into the other. The
+// network takes 16 keys and places at once, so these have as many banks.
+inline SramUses sort_memories(const char* rest, const char* memory, std::uint32_t entries,
+                              std::uint32_t entry_bytes) {
+  const std::uint32_t banks = std::min(entries, kNetworkWidth);
+  const std::uint32_t rest_bytes = entry_bytes - kSortKeyBytes;
+  const std::uint32_t place_bytes = (place_bits(entries) + 7) / 8;
+  const std::uint32_t lists = entries > kNetworkWidth ? 2 : 1;
+  constexpr auto kPorts = SramPorts::kReadAndWrite;
+  return {
+      sram_use(rest, memory, {{entries, "entries"}, {rest_bytes, "B"}}, {8 * rest_bytes},
+               kOneOfEach),
+      sram_use(kComparedKeys, memory, {{entries, "keys"}, {kSortKeyBytes, "B"}},
+               {8 * kSortKeyBytes, kPorts, banks}, {banks, 1}),
+      sram_use(kSortedPlaces, memory, {{lists, "lists"}, {entries, "places"}, {place_bytes, "B"}},
+               {8 * place_bytes, kPorts, banks}, {banks, banks})};
+}
+
+// entries: each came in and went out once, key and rest, at its place; moves: what the network
+// read, keys at their places, and wrote, places.
+inline void publish_sort_accesses(DataSheet& sheet, const char* rest, std::uint64_t entries,
+                                  std::uint64_t moves) {
+  sheet.accesses(rest, entries, entries);
+  sheet.accesses(kComparedKeys, entries + moves, entries);
+  sheet.accesses(kSortedPlaces, entries + moves, moves);
 }
 
 // What lists of one entry spare, for the data sheet.

@@ -1,6 +1,6 @@
 // The chunk test as a pipeline: several nodes are in it at a time. A node's children pass the lanes
-// one behind the other; when the last has left the pipeline what became of them can go into the
-// queues. Nodes come out in the order in which they were put in.
+// one behind the other, each at the lanes' whole interval; when the last has left the pipeline what
+// became of them can go into the queues. Nodes come out in the order in which they were put in.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class ChunkTester {
   void run() {
     while (true) {
       const NodeInTest node = waiting_.pop(test_);
-      test_.work(lanes_.cycles(node.record.children));
+      test_.work(node.record.children * lanes_.interval_cycles());
       tests_ += node.record.children;
       ++nodes_;
       tested_.push(node, test_);

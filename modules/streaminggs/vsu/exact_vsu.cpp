@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "algorithm/voxel/chunk_work.h"
-#include "modules/streaminggs/counted_datapath.h"
 #include "modules/streaminggs/heap_ledger.h"
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs {
 namespace {
@@ -16,10 +15,17 @@ constexpr HeapLedger kChunkQueue{"chunk queue", "chunk queue counts", "vsu", kWa
 constexpr HeapLedger kNodeQueue{"node queue", "node queue counts", "vsu", kNodeEntryBytes, 2};
 constexpr std::uint32_t kReadyVisits = 4;  // a cycle there, a cycle back, and some of jitter
 
-Datapath chunk_test(const ExactVsuConfig& config) {
-  Datapath path = counted_datapath("chunk_test", "vsu", chunk_work(longest_chunk_case()));
-  path.lanes = config.test_lanes;
-  return path;
+// Keys of the nodes that are taken from their queue and not open yet, and of the nearest entry that
+// was put aside: depth, node and one of two walks, in registers, since a chunk is compared with all
+// of them at once.
+constexpr std::uint32_t kOpenNodeBits = 65, kOpenNodeWords = 2;
+std::uint32_t open_nodes(const ExactVsuConfig& config) {
+  return config.nodes_in_flight + config.nodes_in_test + 1;
+}
+SramUse open_nodes_use(const ExactVsuConfig& config) {
+  const std::uint32_t nodes = open_nodes(config);
+  return sram_use("keys of open nodes", kSharedSram, {{(kOpenNodeBits * nodes + 7) / 8, "B"}},
+                  {kOpenNodeBits, SramPorts::kReadAndWrite, nodes}, {nodes, 1});
 }
 
 }  // namespace
@@ -35,7 +41,8 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
       hand_out_("hand_out", context.clock),
       upper_(std::min<std::uint64_t>(config.upper_nodes, job_.layout.chunk_table().nodes.count)),
       nodes_(config.nodes_in_flight, job_.layout.chunk_table().nodes),
-      tester_(context.clock, chunk_test(config), config.nodes_in_test, config.test_depth_cycles),
+      tester_(context.clock, chunk_test_pipeline(config, context.built_for.single),
+              config.nodes_in_test, config.test_depth_cycles),
       aside_(*this, aside),
       chunk_walk_(job_.view, aside_, config.walk_room()),
       ready_("ready", context.clock, kReadyVisits),
@@ -265,15 +272,16 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
   constexpr SramShape kOfPort{8 * kPortBytes};
   SramUses uses = {
       sram_use("upper nodes", kSharedSram,
-               {{config.upper_nodes, "nodes"}, {sizeof(ChunkNode), "B"}}, kOfPort),
+               {{config.upper_nodes, "nodes"}, {sizeof(ChunkNode), "B"}}, kOfPort, kOneOfEach),
       sram_use("nodes in flight", kSharedSram,
                {{config.nodes_in_flight, "nodes"}, {sizeof(ChunkNode) + kNodeEntryBytes, "B"}},
-               kOfPort),
+               kOfPort, kOneOfEach),
       sram_use("nodes in test", kSharedSram,
                {{config.nodes_in_test, "nodes"}, {sizeof(ChunkNode) + kNodeEntryBytes, "B"}},
-               kOfPort)};
-  add(uses, kChunkQueue.sram_uses(config.queue_entries));
-  add(uses, kNodeQueue.sram_uses(config.node_queue_entries));
+               kOfPort, kOneOfEach),
+      open_nodes_use(config)};
+  add(uses, kChunkQueue.sram_uses(config.queue_entries, config.cycles_per_queue_operation));
+  add(uses, kNodeQueue.sram_uses(config.node_queue_entries, config.cycles_per_queue_operation));
   uses.push_back(mask_use(built_for.group));
   uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
@@ -326,9 +334,17 @@ void ExactVsu::publish(DataSheet& sheet) {
                  "no visit, no blending");
   sheet.sram(sram_uses(config_, built_for_));
   const double of_mask = mask_comparators(built_for_.group);
-  sheet.part("vsu", "comparator", of_mask, 1);
-  sheet.operations("vsu", "comparator", of_mask * static_cast<double>(counters_.looked_up));
-  sheet.accesses("finished sub-tiles", counters_.looked_up, mask->news());
+  // Whenever one of the queues has changed the nearest chunk is compared with all open nodes.
+  const double of_open = kOpenNodeWords * open_nodes(config_);
+  const std::uint64_t compared = chunk_walk_.queue_operations();
+  sheet.part("vsu", "comparator", of_mask + of_open, 1);
+  sheet.operations(
+      "vsu", "comparator",
+      of_mask * static_cast<double>(counters_.looked_up) + of_open * static_cast<double>(compared));
+  sheet.accesses("finished sub-tiles", mask_bits(built_for_.group) * counters_.looked_up,
+                 mask->news());
+  sheet.accesses("keys of open nodes", open_nodes(config_) * compared,
+                 counters_.upper_reads + counters_.nodes_read + walk.put_aside);
   // A node comes in and goes out whole, eight children and their common numbers.
   constexpr std::uint64_t kWords = sizeof(ChunkNode) / kPortBytes;
   sheet.accesses("upper nodes", kWords * counters_.upper_reads, kWords * upper_.size());
@@ -336,11 +352,15 @@ void ExactVsu::publish(DataSheet& sheet) {
   // A node goes in and its children come out as entries of the queues, in the same slot.
   const std::uint64_t in_test = 2 * kWords * tester_.nodes();
   sheet.accesses("nodes in test", in_test, in_test);
-  kChunkQueue.publish(sheet, config_.queue_entries, chunk_walk_.chunk_queue().work());
-  kNodeQueue.publish(sheet, config_.node_queue_entries, chunk_walk_.node_queue().work());
+  kChunkQueue.publish(sheet, config_.queue_entries, config_.cycles_per_queue_operation,
+                      chunk_walk_.chunk_queue().work());
+  kNodeQueue.publish(sheet, config_.node_queue_entries, config_.cycles_per_queue_operation,
+                     chunk_walk_.node_queue().work());
   sheet.port(memory, "entries put aside");
   sheet.queue(ready_, "final visits");
-  sheet.remedy(walk_, {"vsu.cycles_per_queue_operation", Turn::kDown});
+  if (config_.cycles_per_queue_operation > kFewestHeapCycles) {
+    sheet.remedy(walk_, {"vsu.cycles_per_queue_operation", Turn::kDown});
+  }
   sheet.remedy(tester_.activity(), "vsu.test_lanes");
   sheet.remedy(chunk_room_, WaitFor::kRoom, "vsu.queue_entries");
   sheet.remedy(node_room_, WaitFor::kRoom, "vsu.node_queue_entries");

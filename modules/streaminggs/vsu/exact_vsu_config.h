@@ -13,12 +13,12 @@ struct ExactVsuConfig {
   std::uint32_t nodes_in_flight = 4;       // others, on their way from DRAM
   std::uint32_t test_lanes = 64;           // multiply-accumulates a cycle of the chunk test
   std::uint32_t nodes_in_test = 8;         // nodes whose children are in the test's pipeline
-  std::uint32_t test_depth_cycles = 0;     // of it, beside the lanes' time; 0: the longest path
+  std::uint32_t test_depth_cycles = 0;     // of it, beside the lanes' time; 0: by its schedule
   std::uint32_t queue_entries = 512;       // chunks in the queue of the front-to-back walk
   std::uint32_t node_queue_entries = 256;  // nodes in that of the nodes
-  // A level of an interval heap reads both children in one cycle, compares and writes in the next;
-  // behind that the next operation can enter the level.
-  std::uint32_t cycles_per_queue_operation = 2;
+  // Of a queue's heap, as the merge unit's: 2 would take four banks a level, which read ahead; with
+  // 3 and more it has two (../../../algorithm/order/interval_heap.h).
+  std::uint32_t cycles_per_queue_operation = 3;
 
   WalkRoom walk_room() const { return {node_queue_entries, queue_entries}; }
 };

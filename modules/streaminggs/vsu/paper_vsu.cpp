@@ -28,11 +28,12 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       traverse_("traverse", context.clock),
       emit_("emit", context.clock),
       rays_(
-          config, context.clock, traverse_, node_memory, job_.layout.voxel_table().nodes,
+          config, context.built_for.single, context.clock, traverse_, node_memory,
+          job_.layout.voxel_table().nodes,
           [this](const std::vector<std::uint32_t>& voxels, bool last) { hand_over(voxels, last); }),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
-      table_(job_.layout.voxel_table().voxels.count, config.table_bytes),
+      table_(job_.layout.voxel_table().voxels.count, config.table_bytes, config.table_banks),
       ordered_("ordered", context.clock, config.groups_ahead) {
   SC_THREAD(run_traverse);
   SC_THREAD(run_arrivals);
@@ -142,9 +143,10 @@ SramUses PaperVsu::sram_uses(const PaperVsuConfig& config, const BuiltFor& built
   add(uses, TableCache<float>::sram_uses("cut cache", "cut cache tags", kSharedSram,
                                          config.cut_cache_bytes));
   uses.push_back(sram_use("open pieces", kSharedSram, {{kOpenPieces, "pieces"}, {kPieceBytes, "B"}},
-                          {8 * kPieceBytes}));
+                          {8 * kPieceBytes}, kOneOfEach));
   uses.push_back(sram_use("ordered voxels", kSharedSram,
-                          {{config.groups_ahead, "groups"}, {config.table_bytes / 2, "B"}}, {32}));
+                          {{config.groups_ahead, "groups"}, {config.table_bytes / 2, "B"}}, {32},
+                          kOneOfEach));
   add(uses, outstanding_table(kSharedSram, built_for.memory_port), 2);  // of both ports
   return uses;
 }

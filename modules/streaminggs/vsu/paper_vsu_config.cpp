@@ -10,11 +10,11 @@ void visit(ConfigVisitor& v, PaperVsuConfig& c) {
   v("step_lanes", c.step_lanes, in_range(1, 10000), "MAC lanes of the rays' steps");
   v("ray_lanes", c.ray_lanes, in_range(1, 10000), "MAC lanes of the rays' beginnings");
   v("step_depth_cycles", c.step_depth_cycles, in_range(0, 1000),
-    "until a ray can step again; 0: its longest path");
-  v("cell_step_depth_cycles", c.cell_step_depth_cycles, in_range(1, 1000),
-    "the same of a step out of a single cell");
+    "until a ray can step again; 0: by its schedule");
+  v("cell_step_depth_cycles", c.cell_step_depth_cycles, in_range(0, 1000),
+    "the same of a step out of a single cell; 0: by its schedule");
   v("ray_depth_cycles", c.ray_depth_cycles, in_range(0, 1000),
-    "until a ray that begins is there; 0: its longest path");
+    "until a ray that begins is there; 0: by its schedule");
   v("table_banks", c.table_banks, in_range(1, 64),
     "of the ordering table: of each a record a cycle is read and one written");
   v("ray_step_px", c.ray_step_px, in_range(1, 1024),

@@ -9,16 +9,14 @@
 namespace sgs {
 
 struct PaperVsuConfig {
-  std::uint32_t rays_in_flight = 60;  // of a group, side by side
+  std::uint32_t rays_in_flight = 51;  // of a group, side by side
   std::uint32_t chain_entries = 3;    // voxels that a ray keeps until they are entered
   std::uint32_t step_lanes = 24;      // multiply-accumulates a cycle of the rays' steps
   std::uint32_t ray_lanes = 8;        // of their beginnings
-  // From a step's beginning to the ray's next; 0: the longest path through it.
-  std::uint32_t step_depth_cycles = 0;
-  // Of one out of a single cell, which moves along one axis only: two multiply-accumulates of three
-  // cycles, and two comparisons.
-  std::uint32_t cell_step_depth_cycles = 8;
-  std::uint32_t ray_depth_cycles = 0;       // of a ray's beginning; 0: the longest path
+  // From a step's beginning to the ray's next, and of one out of a single cell, which moves along
+  // one axis only; 0: by its schedule.
+  std::uint32_t step_depth_cycles = 0, cell_step_depth_cycles = 0;
+  std::uint32_t ray_depth_cycles = 0;       // of a ray's beginning; 0: by its schedule
   std::uint32_t table_banks = 2;            // of the ordering table: a record of each a cycle
   std::uint32_t ray_step_px = 2;            // rays of every so-many-th pixel, and of the last ones
   double sample_step_voxels = 0;            // 0: every cell of the ray; else distance of samples

@@ -2,11 +2,11 @@
 #include "modules/streaminggs/vsu/ray_unit.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "algorithm/voxel/ray_path.h"
-#include "algorithm/voxel/ray_work.h"
 #include "modules/streaminggs/built_for.h"
-#include "modules/streaminggs/counted_datapath.h"
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
@@ -17,6 +17,8 @@ namespace {
 // round.
 constexpr std::uint32_t kDirectionBytes = 24, kPositionBytes = 16;
 constexpr std::uint32_t kNodeBytes = 12, kMetBytes = 8;
+constexpr std::uint32_t kRoundBytes = 2;
+constexpr std::uint32_t kRayBanks = 4;   // of what steps and look-ups share: by the ray's number
 constexpr std::uint32_t kTagBytes = 4;   // of a line on its way
 constexpr std::uint32_t kNameBytes = 2;  // the number of a voxel
 constexpr std::uint32_t kNamesWord = 8, kReadyWord = 4;
@@ -28,12 +30,6 @@ std::uint64_t ready_words(const PaperVsuConfig& config) {
   return ReadyVoxels::all_words_for(OrderingTable::most_voxels(config.table_bytes));
 }
 
-Datapath datapath(const char* name, const OperationCounts& work, std::uint32_t lanes) {
-  Datapath path = counted_datapath(name, "vsu", work);
-  path.lanes = lanes;
-  return path;
-}
-
 // The first of two things that share something gets it first.
 std::uint64_t turn(std::uint64_t& free, std::uint64_t cycle, std::uint64_t cycles) {
   const std::uint64_t start = std::max(free, cycle);
@@ -43,16 +39,17 @@ std::uint64_t turn(std::uint64_t& free, std::uint64_t cycle, std::uint64_t cycle
 
 }  // namespace
 
-RayUnit::RayUnit(const PaperVsuConfig& c, const ClockDomain& clock, Activity& activity,
-                 MemoryPort& port, const RecordArray& table, HandOver to)
+RayUnit::RayUnit(const PaperVsuConfig& c, const OperationLatencies& latencies,
+                 const ClockDomain& clock, Activity& activity, MemoryPort& port,
+                 const RecordArray& table, HandOver to)
     : config(c),
       nodes(c.node_cache_bytes, table),
       hand_over(std::move(to)),
       clock_(clock),
       activity_(activity),
       port_(port),
-      begins_(datapath("pixel_ray", pixel_ray_work(), c.ray_lanes)),
-      steps_(datapath("ray_step", ray_step_work(), c.step_lanes)) {}
+      begins_(pixel_ray_pipeline(c, latencies)),
+      steps_(ray_step_pipeline(c, longest_step_case(), latencies)) {}
 
 void RayUnit::advance_to(std::uint64_t cycle) {
   if (cycle > now()) clock_.wait_cycles(cycle - now());
@@ -103,31 +100,19 @@ void RayUnit::take_what_comes() {
   }
 }
 
-// Each memory gives and takes one of its words a cycle and bank.
 std::uint64_t RayUnit::cycles_since(const OrderingAccesses& all) {
-  const OrderingAccesses before = accesses_;
-  accesses_ = all;
-  return std::max({cycles_for(all.reads - before.reads, config.table_banks),
-                   cycles_for(all.writes - before.writes, config.table_banks),
-                   all.names_read - before.names_read, all.names_written - before.names_written,
-                   all.ready_read - before.ready_read, all.ready_written - before.ready_written});
+  return all.cycles - std::exchange(accesses_, all).cycles;
 }
 
 std::uint64_t RayUnit::enter(const OrderingTable& table, std::uint64_t cycle) {
   ++entered_;
-  const std::uint64_t cycles = std::max<std::uint64_t>(1, cycles_since(table.accesses()));
-  table_cycles_ += cycles;
+  const std::uint64_t cycles = std::max(kFirstOfRoundsCycles, cycles_since(table.accesses()));
   return turn(table_free_, cycle, cycles) + cycles;
 }
 
-// Kahn's algorithm: of a voxel the search for the first that is ready, a level a cycle, and its
-// record; of an edge itself and then the record of its end.
 void RayUnit::order(const OrderingTable& table) {
   const std::uint64_t clearing = names_bytes(config) / kNamesWord;
-  const std::uint64_t in_turn =
-      std::uint64_t{table.voxel_count()} * (table.ready_levels() + 1) +
-      std::uint64_t{table.edge_count()} * cycles_for(2, config.table_banks);
-  activity_.work(std::max({in_turn, cycles_since(table.accesses()), clearing}));
+  activity_.work(std::max(cycles_since(table.accesses()), clearing));
   names_cleared_ += clearing;
 }
 
@@ -143,24 +128,37 @@ SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
   SramUses uses = TableCache<VoxelNode>::sram_uses("node cache", "node cache tags", kSharedSram,
                                                    config.node_cache_bytes);
   const std::uint32_t rays = config.rays_in_flight;
-  const auto of_rays = [&](const char* name, const SramFactors& each, const SramShape& shape) {
+  const auto of_rays = [&](const char* name, const SramFactors& each, const SramShape& shape,
+                           const SramPeak& peak) {
     SramFactors factors = {{rays, "rays"}};
     factors.insert(factors.end(), each.begin(), each.end());
-    uses.push_back(sram_use(name, kSharedSram, factors, shape));
+    uses.push_back(sram_use(name, kSharedSram, factors, shape, peak));
   };
-  of_rays("ray directions", {{kDirectionBytes, "B"}}, {8 * kDirectionBytes});
+  of_rays("ray directions", {{kDirectionBytes, "B"}}, {8 * kDirectionBytes}, kOneOfEach);
+  // A step and a look-up begin in a cycle, and what began earlier ends: a step out of a block, one
+  // out of a cell, a look-up, a ray's beginning.
+  const std::uint32_t banks = std::min(rays, kRayBanks);
+  const std::uint32_t ends = std::min(banks, 4U);
   of_rays("ray positions", {{kPositionBytes, "B"}},
-          {8 * kPositionBytes, SramPorts::kReadAndWrite, 2});
-  of_rays("ray nodes", {{kNodesOfRay, "nodes"}, {kNodeBytes, "B"}}, {8 * kNodeBytes});
-  of_rays("ray chains", {{config.chain_entries, "voxels"}, {kMetBytes, "B"}}, {8 * kMetBytes});
-  of_rays("node fetches", {{kTagBytes, "B"}}, {8 * kTagBytes});
+          {8 * kPositionBytes, SramPorts::kReadAndWrite, banks}, {std::min(banks, 2U), ends});
+  of_rays("ray nodes", {{kNodesOfRay, "nodes"}, {kNodeBytes, "B"}}, {8 * kNodeBytes}, kOneOfEach);
+  of_rays("ray chains", {{config.chain_entries, "voxels"}, {kMetBytes, "B"}},
+          {8 * kMetBytes, SramPorts::kReadAndWrite, banks}, {1, std::min(banks, 3U)});
+  // In registers: the first of all is found at once, a line that is missed looked for among all.
+  of_rays("rounds of rays", {{kRoundBytes, "B"}}, {8 * kRoundBytes, SramPorts::kReadAndWrite, rays},
+          {rays, rays});
+  of_rays("node fetches", {{kTagBytes, "B"}}, {8 * kTagBytes, SramPorts::kReadAndWrite, rays},
+          {rays, 1});
+  // In order() an edge is read beside the record that the one before it names.
   uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
-                          {64, SramPorts::kReadAndWrite, config.table_banks}));
+                          {64, SramPorts::kReadAndWrite, config.table_banks},
+                          {std::min(config.table_banks, 2U), config.table_banks}));
   uses.push_back(sram_use("renamed voxels", kSharedSram,
                           {{names_bytes(config) / kNameBytes, "slots"}, {kNameBytes, "B"}},
-                          {8 * kNamesWord}));
+                          {8 * kNamesWord}, kOneOfEach));
   uses.push_back(sram_use("ready voxels", kSharedSram,
-                          {{ready_words(config), "words"}, {kReadyWord, "B"}}, {8 * kReadyWord}));
+                          {{ready_words(config), "words"}, {kReadyWord, "B"}}, {8 * kReadyWord},
+                          kOneOfEach));
   return uses;
 }
 
@@ -171,8 +169,7 @@ Remedy RayUnit::remedy() const {
     std::uint64_t times, cycles;
   };
   const Shared all[] = {{"vsu.step_lanes", steps_taken_, steps_taken_ * steps_.interval_cycles()},
-                        {"vsu.ray_lanes", rays_, rays_ * begins_.interval_cycles()},
-                        {"vsu.table_banks", entered_, table_cycles_}};
+                        {"vsu.ray_lanes", rays_, rays_ * begins_.interval_cycles()}};
   const char* key = "vsu.rays_in_flight";
   std::uint64_t most = activity_.busy_cycles() / 3;
   for (const Shared& shared : all) {
@@ -189,10 +186,12 @@ void RayUnit::publish(DataSheet& sheet) const {
   nodes.publish_accesses(sheet, "node cache", "node cache tags");
   const std::uint64_t lookups = nodes.lookups();
   sheet.accesses("ray directions", steps_taken_, rays_);
-  sheet.accesses("ray positions", steps_taken_ + lookups, rays_ + steps_taken_);
+  sheet.accesses("ray positions", steps_taken_ + lookups, rays_ + steps_taken_ + lookups);
+  sheet.accesses("rounds of rays", entered_ * config.rays_in_flight,
+                 rays_ + steps_taken_ + entered_);
   sheet.accesses("ray nodes", steps_taken_, lookups);
   sheet.accesses("ray chains", entered_, entered_);
-  sheet.accesses("node fetches", nodes.misses(), nodes.misses());
+  sheet.accesses("node fetches", nodes.misses() * config.rays_in_flight, nodes.misses());
   sheet.accesses("ordering table", accesses_.reads, accesses_.writes);
   sheet.accesses("renamed voxels", accesses_.names_read, accesses_.names_written + names_cleared_);
   sheet.accesses("ready voxels", accesses_.ready_read, accesses_.ready_written + ready_cleared_);

@@ -20,11 +20,16 @@ class RayUnit {
   // step is behind the last of these only: its node lies in the context.
   static constexpr std::uint64_t kLookUpCycles = 3, kMaskCycles = 1;
 
+  // The round of each ray that has something to enter is compared with the others', in a tree,
+  // before the next can be: from one voxel that is entered to the next, at least.
+  static constexpr std::uint64_t kFirstOfRoundsCycles = 2;
+
   using HandOver = std::function<void(const std::vector<std::uint32_t>& voxels, bool last)>;
 
   // clock, activity and port outlive it.
-  RayUnit(const PaperVsuConfig& config, const ClockDomain& clock, Activity& activity,
-          MemoryPort& port, const RecordArray& nodes, HandOver hand_over);
+  RayUnit(const PaperVsuConfig& config, const OperationLatencies& latencies,
+          const ClockDomain& clock, Activity& activity, MemoryPort& port, const RecordArray& nodes,
+          HandOver hand_over);
 
   const PaperVsuConfig config;
   TableCache<VoxelNode> nodes;
@@ -64,7 +69,7 @@ class RayUnit {
   static SramUses sram_uses(const PaperVsuConfig& config);
   void publish(DataSheet& sheet) const;
   // To follow the rays of a frame faster: more of what they share, where the cycles that more lanes
-  // or banks can take away are more than a third of the time, else more rays.
+  // can take away are more than a third of the time, else more rays.
   Remedy remedy() const;
 
  private:
@@ -76,7 +81,6 @@ class RayUnit {
   const Datapath begins_, steps_;
   std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, table_free_ = 0;
   std::uint64_t rays_ = 0, steps_taken_ = 0, met_ = 0, entered_ = 0;
-  std::uint64_t table_cycles_ = 0;                       // in which voxels are entered
   OrderingAccesses accesses_;                            // of the table so far
   std::uint64_t names_cleared_ = 0, ready_cleared_ = 0;  // words
 };

@@ -91,9 +91,9 @@ class TableCache {
                             std::uint32_t capacity_bytes) {
     const std::uint32_t lines =
         kCacheWays * std::max(1U, capacity_bytes / (kCacheLineBytes * kCacheWays));
-    return {sram_use(lines_name, memory, {{capacity_bytes, "B"}}, {8 * kPortBytes}),
+    return {sram_use(lines_name, memory, {{capacity_bytes, "B"}}, {8 * kPortBytes}, kOneOfEach),
             sram_use(tags_name, memory, {{lines, "lines"}, {kCacheTagBytes, "B"}},
-                     {8 * kCacheTagBytes * kCacheWays})};
+                     {8 * kCacheTagBytes * kCacheWays}, kOneOfEach)};
   }
   // What was read and written of both so far.
   void publish_accesses(DataSheet& sheet, const char* lines_name, const char* tags_name) const {

@@ -74,10 +74,24 @@ struct Chains {
   }
 };
 
-TEST_CASE("paper order: a table that is too small orders the same voxels in passes") {
+struct GridSeen {
+  VoxelGrid grid;
+  View<float> view;
+};
+
+GridSeen small_scene() {
   const Scene scene = open_scene("builtin:object?n=4000");
-  const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), 0.1F);
-  const View<float> view = make_view<float>(scaled_to(scene.cameras.front(), 96, 54));
+  return {test::by_voxels(activate(scene.cloud), 0.1F).table,
+          make_view<float>(scaled_to(scene.cameras.front(), 96, 54))};
+}
+
+std::vector<std::uint32_t> sorted(std::vector<std::uint32_t> voxels) {
+  std::sort(voxels.begin(), voxels.end());
+  return voxels;
+}
+
+TEST_CASE("paper order: a table that is too small orders the same voxels in passes") {
+  const auto [grid, view] = small_scene();
   for (const PixelRect& group : {PixelRect{40, 20, 56, 36}, PixelRect{48, 16, 72, 28}}) {
     OrderingTable roomy(grid.voxels.size());
     const GroupVisits whole = paper_visits(view, group, grid, {}, roomy);
@@ -91,10 +105,7 @@ TEST_CASE("paper order: a table that is too small orders the same voxels in pass
       CHECK(passes.overflows > 0);
       CHECK(passes.table_bytes <= bytes);
       CHECK(passes.rays > whole.rays);
-      std::vector<std::uint32_t> sorted = passes.voxels, expected = whole.voxels;
-      std::sort(sorted.begin(), sorted.end());
-      std::sort(expected.begin(), expected.end());
-      CHECK(sorted == expected);  // each once
+      CHECK(sorted(passes.voxels) == sorted(whole.voxels));  // each once
       CHECK(chains.out_of_order(passes.voxels) == 0);
     }
   }
@@ -112,9 +123,7 @@ TEST_CASE("paper order: rays of every so-many-th pixel, and of a group's last on
       CHECK(at[i] - at[i - 1] == static_cast<int>(step));
     }
   }
-  const Scene scene = open_scene("builtin:object?n=4000");
-  const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), 0.1F);
-  const View<float> view = make_view<float>(scaled_to(scene.cameras.front(), 96, 54));
+  const auto [grid, view] = small_scene();
   const PixelRect group{32, 0, 96, 54};
   OrderingTable table(grid.voxels.size());
   const GroupVisits all = paper_visits(view, group, grid, {}, table);
@@ -126,14 +135,10 @@ TEST_CASE("paper order: rays of every so-many-th pixel, and of a group's last on
 }
 
 TEST_CASE("paper order: rays side by side meet the same voxels, in an order of every ray") {
-  const Scene scene = open_scene("builtin:object?n=4000");
-  const auto [cloud, grid] = test::by_voxels(activate(scene.cloud), 0.1F);
-  const View<float> view = make_view<float>(scaled_to(scene.cameras.front(), 96, 54));
+  const auto [grid, view] = small_scene();
   const PixelRect group{32, 16, 64, 40};
   OrderingTable table(grid.voxels.size());
   const GroupVisits in_turn = paper_visits(view, group, grid, {}, table);
-  std::vector<std::uint32_t> expected = in_turn.voxels;
-  std::sort(expected.begin(), expected.end());
   const Chains chains(view, group, grid);
   for (const std::uint32_t side_by_side : {2U, 48U, 5000U}) {
     INFO(side_by_side);
@@ -143,9 +148,7 @@ TEST_CASE("paper order: rays side by side meet the same voxels, in an order of e
     CHECK(visits.edges_offered == in_turn.edges_offered);
     CHECK(visits.table_bytes == in_turn.table_bytes);
     CHECK(chains.out_of_order(visits.voxels) == 0);
-    std::vector<std::uint32_t> sorted = visits.voxels;
-    std::sort(sorted.begin(), sorted.end());
-    CHECK(sorted == expected);
+    CHECK(sorted(visits.voxels) == sorted(in_turn.voxels));
   }
 }
 

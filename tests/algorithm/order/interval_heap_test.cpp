@@ -8,6 +8,8 @@
 #include <set>
 #include <vector>
 
+#include "stepped_heap.h"
+
 using namespace sgs;
 
 namespace {
@@ -71,8 +73,8 @@ TEST_CASE("interval heap: what a multiset says, of every size, with many and no 
         // No operation passes more levels than there are below the root.
         const std::uint64_t below_root = heap_levels(capacity) - 1;
         CHECK(work.nodes_written <= work.operations() * below_root);
-        CHECK(work.words_read <=
-              (work.inserts + 2 * (work.delete_mins + work.delete_maxs)) * below_root);
+        CHECK(work.nodes_read + work.nodes_read_ahead <=
+              (work.inserts + 4 * (work.delete_mins + work.delete_maxs)) * below_root);
         CHECK(work.comparisons <= work.operations() * 2 * (below_root + 1));
       }
     }
@@ -104,21 +106,111 @@ TEST_CASE("interval heap: work of single operations, by hand") {
   Heap heap(6);  // a root and two children
   for (const std::uint32_t key : {5U, 1U}) heap.insert(key);
   CHECK(heap.work().comparisons == 1);
-  CHECK(heap.work().words_read == 0);  // the root is in registers
+  CHECK(heap.work().nodes_read == 0);  // the root is in registers
   heap.insert(9);                      // takes 5's place at the high end, 5 sinks
   CHECK(heap.work().comparisons == 3);
-  CHECK(heap.work().words_read == 1);
+  CHECK(heap.work().nodes_read == 0);  // nothing is there yet
   CHECK(heap.work().nodes_written == 1);
   heap.insert(3);  // to the other child, which is emptier
-  CHECK(heap.work().words_read == 2);
+  CHECK(heap.work().nodes_written == 2);
   CHECK(heap.delete_min() == 1);  // 3 and 5 are compared, 3 rises
   CHECK(heap.work().comparisons == 6);
-  CHECK(heap.work().words_read == 3);
-  CHECK(heap.work().nodes_written == 3);
-  CHECK(heap.delete_max() == 9);  // only 5 is below: nothing to compare
+  CHECK(heap.work().nodes_read == 2);
+  CHECK(heap.work().nodes_written == 2);  // the root, and the child is empty
+  CHECK(heap.delete_max() == 9);          // only 5 is below: nothing to compare
   CHECK(heap.work().comparisons == 6);
+  CHECK(heap.work().nodes_read == 3);
+  CHECK(heap.work().nodes_read_ahead == 0);
   CHECK(heap.min() == 3);
   CHECK(heap.max() == 5);
+}
+
+namespace {
+
+// What a stepped heap did with random operations, one every `interval` cycles, and the heap itself
+// with the same.
+struct Stepped {
+  bool same_results = false;
+  std::uint32_t most_at_a_port = 0;
+  std::uint64_t nodes_read = 0, nodes_written = 0;
+  HeapWork work;
+};
+
+Stepped step_through(std::size_t capacity, const test::HeapPace& pace, int interval) {
+  using What = test::SteppedHeap::What;
+  Heap heap(capacity);
+  test::SteppedHeap stepped(capacity, pace);
+  std::vector<std::uint32_t> expected;
+  std::mt19937 random(static_cast<unsigned>(capacity));
+  for (int i = 0; i < 20000; ++i) {
+    const unsigned inserts_of_8 = i / 500 % 2 == 0 ? 6 : 2;  // full and empty in turn
+    const auto key = static_cast<std::uint32_t>(random() % 1000);
+    if (random() % 997 == 0) {
+      heap.clear();
+      stepped.clear();
+    }
+    if (heap.empty() || (random() % 8 < inserts_of_8 && !heap.full())) {
+      heap.insert(key);
+      stepped.begin(What::kInsert, key);
+    } else if (random() % 4 > 0) {
+      expected.push_back(heap.delete_min());
+      stepped.begin(What::kDeleteMin, 0);
+    } else {
+      expected.push_back(heap.delete_max());
+      stepped.begin(What::kDeleteMax, 0);
+    }
+    const int cycles = interval + (random() % 16 == 0 ? static_cast<int>(random() % 5) : 0);
+    for (int c = 0; c < cycles; ++c) stepped.step();
+  }
+  while (stepped.busy()) stepped.step();
+  return {!stepped.lost() && stepped.results() == expected, stepped.most_at_a_port(),
+          stepped.nodes_read(), stepped.nodes_written(), heap.work()};
+}
+
+constexpr test::HeapPace kFourBanks{4, 1}, kTwoBanks{2, 2};
+
+}  // namespace
+
+TEST_CASE("interval heap: overlapped operations take a port once a cycle and come out the same") {
+  for (const std::size_t capacity : {2U, 3U, 6U, 7U, 30U, 101U, 1397U}) {
+    CAPTURE(capacity);
+    const Stepped fast = step_through(capacity, kFourBanks, 2);
+    CHECK(fast.same_results);
+    CHECK(fast.most_at_a_port <= 1);
+    CHECK(fast.nodes_read == fast.work.nodes_read + fast.work.nodes_read_ahead);
+    CHECK(fast.nodes_written == fast.work.nodes_written);
+    const Stepped slow = step_through(capacity, kTwoBanks, 3);
+    CHECK(slow.same_results);
+    CHECK(slow.most_at_a_port <= 1);
+    CHECK(slow.nodes_read == slow.work.nodes_read);
+    CHECK(slow.nodes_written == slow.work.nodes_written);
+  }
+}
+
+TEST_CASE("interval heap: less than that is too little") {
+  const auto works = [](const test::HeapPace& pace, int interval) {
+    const Stepped stepped = step_through(1397, pace, interval);
+    return stepped.same_results && stepped.most_at_a_port <= 1;
+  };
+  CHECK_FALSE(works(kFourBanks, 1));
+  CHECK_FALSE(works({2, 1}, 2));         // both candidates' children in two banks
+  CHECK_FALSE(works({4, 1, false}, 2));  // what is written in the same cycle is not seen
+  CHECK_FALSE(works({2, 2, false}, 3));
+  CHECK_FALSE(works(kTwoBanks, 2));
+  CHECK_FALSE(works({4, 2}, 2));
+  CHECK(works({4, 1, false}, 3));
+  CHECK(works({2, 2, false}, 4));
+}
+
+TEST_CASE("interval heap: banks, none without a node") {
+  CHECK(heap_banks_of_level(2) == 4);
+  CHECK(heap_banks_of_level(3) == 2);
+  CHECK(heap_banks(1, 2) == 1);
+  CHECK(heap_banks(2, 2) == 1);
+  CHECK(heap_banks(6, 2) == 3);             // a root and two
+  CHECK(heap_banks(10, 2) == 5);            // two more below
+  CHECK(heap_banks(1397, 2) == 3 + 8 * 4);  // ten levels
+  CHECK(heap_banks(1397, 3) == 1 + 9 * 2);
 }
 
 TEST_CASE("interval heap: levels and bits of its counts") {

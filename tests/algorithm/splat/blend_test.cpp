@@ -197,7 +197,8 @@ TEST_CASE("the vector kernel equals a scalar loop bit for bit") {
   CHECK(finished_lanes > 1000);
 }
 
-TEST_CASE("a float rounds to the half that is nearest: all halves, the middles between, and beside") {
+TEST_CASE(
+    "a float rounds to the half that is nearest: all halves, the middles between, and beside") {
   using Imath::half;
   int wrong = 0;
   const auto right = [&](float x) {

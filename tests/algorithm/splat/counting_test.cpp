@@ -2,6 +2,7 @@
 #include "algorithm/splat/counting.h"
 
 #include <catch2/catch.hpp>
+#include <vector>
 
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/lane_macs.h"
@@ -86,7 +87,7 @@ TEST_CASE("counting: functions, comparisons and roundings apart") {
   CHECK_FALSE(a >= b);  // the comparator has said so already
   CHECK(max_of(a, b).value == 4);
   CHECK(isfinite(a));
-  CHECK(truncated_index(a, 10) == 2);  // above 0? below 10? then toward zero
+  CHECK(truncated_index(a, 10).value == 2);  // above 0? below 10? then toward zero
   CHECK(floor(a).value == 2);
   const OperationCounts counts = all(flow);
   CHECK(counts.square_roots == 1);
@@ -96,7 +97,32 @@ TEST_CASE("counting: functions, comparisons and roundings apart") {
   CHECK(counts.roundings == 2);
   CHECK(counts.multiplies + counts.adds + counts.divisions == 0);
   CHECK(folded_macs(counts) == kSquareRootMacs + kLogarithmMacs + kExponentialMacs);
-  CHECK(comparisons(counts) == 5 + 2 * kRoundingComparisons + kExponentialComparisons);
+  CHECK(comparisons(counts) ==
+        5 + 2 * kRoundingComparisons + kLogarithmComparisons + kExponentialComparisons);
+}
+
+TEST_CASE("counting: whole numbers stay in the graph until they are numbers again") {
+  DataFlow flow;
+  const Counting a = input(flow, 13.5F);
+  const CountingIndex index = truncated_index(a, 100);
+  const CountingIndex moved = index * 4 / 8 + 3 - 1;
+  CHECK(moved.value == 8);
+  CHECK(without_bits(moved, 7).value == 8);
+  CHECK(with_bits(moved, 7).value == 15);
+  CHECK(max_of(moved, CountingIndex(20)).value == 20);
+  CHECK(min_of(moved, CountingIndex(20)).value == 8);
+  CHECK(moved < CountingIndex(9));
+  CHECK(moved <= CountingIndex(8));
+  CHECK(number_of<Counting>(moved).value == 8.0F);
+  CHECK(moved_by_units(a, CountingIndex(2)).value == moved_by_units(13.5F, 2));
+  const OperationCounts counts = all(flow);
+  CHECK(counts.index_adds == 2 + 1);
+  CHECK(counts.conversions == 1);
+  CHECK(counts.comparisons == 2 + 4);  // the index's ends; the nearest, the farthest, 9, 8
+  CHECK(comparisons(counts) ==
+        2 + 4 + kRoundingComparisons + kConversionComparisons + counts.index_adds);
+  // Down, two sums, a number: shifts and masks are wires.
+  CHECK(flow.longest_path(0, flow.size(), {3, 1, 1}) == LongestPath{0, 3 + 2 + 2, 0});
 }
 
 TEST_CASE("counting: alpha of a pixel") {
@@ -136,9 +162,11 @@ TEST_CASE("longest path: what waits for what, by hand") {
   const Row rows[] = {
       {"one product", [](Counting a, Counting b, Counting, Counting) { return a * b; }, {1, 0, 0}},
       {"a sum right behind its product",
-       [](Counting a, Counting b, Counting c, Counting) { return a * b + c; }, {1, 0, 0}},
+       [](Counting a, Counting b, Counting c, Counting) { return a * b + c; },
+       {1, 0, 0}},
       {"two products, one in the sum's lane",
-       [](Counting a, Counting b, Counting c, Counting d) { return a * b + c * d; }, {2, 0, 0}},
+       [](Counting a, Counting b, Counting c, Counting d) { return a * b + c * d; },
+       {2, 0, 0}},
       {"the later of two products is the one in the sum's lane",
        [](Counting a, Counting b, Counting c, Counting d) { return a * b + c * d * d; },
        {2, 0, 0}},
@@ -154,7 +182,8 @@ TEST_CASE("longest path: what waits for what, by hand") {
       {"signs are free, constants are there",
        [](Counting a, Counting, Counting, Counting) { return -abs(a) * Counting(3.0F); },
        {1, 0, 0}},
-      {"a quotient from its divisor", [](Counting a, Counting b, Counting, Counting) { return a / b; },
+      {"a quotient from its divisor",
+       [](Counting a, Counting b, Counting, Counting) { return a / b; },
        {7, 0, 1}},
       {"a quotient from a late dividend: the reciprocal is made beside it",
        [](Counting a, Counting b, Counting c, Counting d) {
@@ -199,6 +228,11 @@ TEST_CASE("longest path: by cycles, of a range, and from some values on") {
   CHECK(flow.longest_path_from({state.node}, {1, 1, 1}) == LongestPath{1, 1, 0});
   CHECK(flow.longest_path_from({state.node}, {3, 1, 1}).cycles({3, 1, 1}) == 4);
   CHECK(flow.longest_path_from({after.node}, {3, 1, 1}) == LongestPath{0, 1, 0});
+  const std::vector<std::uint32_t> ready = flow.ready_cycles({5, 1, 1});
+  CHECK(ready[a.node] == 0);
+  CHECK(ready[early.node] == 5);
+  CHECK(ready[after.node] == 10);  // the product in the difference's lane
+  CHECK(flow.nodes()[weight.node].operation == Operation::kMultiply);
 }
 
 }  // namespace sgs

@@ -1,6 +1,7 @@
 // Counted filters against the filters in float, and the longest case against random ones.
 #include "algorithm/splat/filter_work.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <random>
@@ -60,7 +61,11 @@ void check_same(const FilterCase& tested, const std::vector<glm::vec3>& sh) {
   CHECK(same_bits(counted_splat.x.value, splat.x));
   CHECK(same_bits(counted_splat.conic_a.value, splat.conic_a));
   CHECK(same_bits(counted_splat.conic_b.value, splat.conic_b));
-  CHECK(counted_splat.footprint == splat.footprint);
+  const auto& box = counted_splat.footprint;
+  CHECK(box.x0.value == splat.footprint.x0);
+  CHECK(box.y0.value == splat.footprint.y0);
+  CHECK(box.x1.value == splat.footprint.x1);
+  CHECK(box.y1.value == splat.footprint.y1);
   CHECK(reaches_group(counted_splat, tested.group) == reaches_group(splat, tested.group));
 
   std::vector<glm::vec<3, Counting>> counted_sh;
@@ -75,6 +80,7 @@ bool none_exceeds(const OperationCounts& a, const OperationCounts& most) {
          a.divisors <= most.divisors && a.square_roots <= most.square_roots &&
          a.logarithms <= most.logarithms && a.exponentials <= most.exponentials &&
          a.comparisons <= most.comparisons && a.roundings <= most.roundings &&
+         a.conversions <= most.conversions && a.index_adds <= most.index_adds &&
          folded_macs(a) <= folded_macs(most) && comparisons(a) <= comparisons(most);
 }
 
@@ -104,12 +110,12 @@ TEST_CASE("filter work: the counting scalar takes the same decisions and gives t
 TEST_CASE("filter work: no Gaussian takes more of any operation than the longest case") {
   const OperationCounts coarse = coarse_work(CoarseBoundBy::kLargestScale, longest_case());
   const OperationCounts extents = coarse_work(CoarseBoundBy::kExtents, longest_case());
-  const FineWork fine = fine_work(longest_case(), 3);
+  const FineWork fine = fine_work(longest_case(), {3});
   int as_long = 0;
   for_random_cases(3000, [&](const FilterCase& tested, RandomGaussians&) {
     CHECK(none_exceeds(coarse_work(CoarseBoundBy::kLargestScale, tested), coarse));
     CHECK(none_exceeds(coarse_work(CoarseBoundBy::kExtents, tested), extents));
-    const FineWork work = fine_work(tested, 3);
+    const FineWork work = fine_work(tested, {3});
     CHECK(none_exceeds(work.total(), fine.total()));
     as_long += folded_macs(work.total()) == folded_macs(fine.total()) ? 1 : 0;
   });
@@ -119,14 +125,57 @@ TEST_CASE("filter work: no Gaussian takes more of any operation than the longest
 TEST_CASE("filter work: a higher degree costs colour and nothing else") {
   for (int degree = 1; degree <= 3; ++degree) {
     CAPTURE(degree);
-    const FineWork lower = fine_work(longest_case(), degree - 1);
-    const FineWork higher = fine_work(longest_case(), degree);
+    const FineWork lower = fine_work(longest_case(), {degree - 1});
+    const FineWork higher = fine_work(longest_case(), {degree});
     CHECK(folded_macs(higher.colour) > folded_macs(lower.colour));
     CHECK(folded_macs(higher.geometry) == folded_macs(lower.geometry));
     CHECK(folded_macs(higher.group_test) == folded_macs(lower.group_test));
     CHECK(folded_macs(higher.total()) == folded_macs(higher.geometry) +
                                              folded_macs(higher.group_test) +
                                              folded_macs(higher.colour));
+  }
+}
+
+TEST_CASE("filter work: the test against the group waits for the box") {
+  constexpr OperationLatencies kEach = {3, 1, 1};
+  for (const std::uint32_t words : {3U, 4U}) {
+    CAPTURE(words);
+    const FineFlow fine = fine_flow(longest_case(), {0, words});
+    const std::vector<std::uint32_t> ready = fine.flow.ready_cycles(kEach);
+    std::uint32_t first_side = ~0U, last_side = 0;
+    for (std::size_t i = fine.decoded; i < fine.geometry_end; ++i) {
+      if (fine.flow.nodes()[i].operation != Operation::kTruncate) continue;
+      first_side = std::min(first_side, ready[i]);
+      last_side = std::max(last_side, ready[i]);
+    }
+    std::uint32_t last = 0;
+    for (std::size_t i = fine.geometry_end; i < fine.test_end; ++i) {
+      if (fine.flow.nodes()[i].operation < Operation::kCompare) continue;
+      CAPTURE(i);
+      CHECK(ready[i] > first_side);
+      last = std::max(last, ready[i]);
+    }
+    // From a side: cut to the frame and to the group, an edge beside the centre, where on it the
+    // least lies, q there, the least of two, and the verdict.
+    CHECK(last > last_side + 2 + 2 + 3 * (1 + 1 + 1 + 2 + 2) + 2);
+    CHECK(fine_path(longest_case(), {0, words}, kEach).cycles(kEach) == last);
+  }
+}
+
+TEST_CASE(
+    "filter work: a quaternion of three words takes the fourth's sum and root, ahead of all") {
+  for (int degree = 0; degree <= 3; ++degree) {
+    const FineWork whole = fine_work(longest_case(), {degree, 4});
+    const FineWork decoded = fine_work(longest_case(), {degree, 3});
+    CHECK(folded_macs(whole.decode) + comparisons(whole.decode) == 0);
+    // The squares are the rotation's, too: they leave their lanes before the differences.
+    CHECK(folded_macs(decoded.decode) == 3 + 3 + kSquareRootMacs);
+    CHECK(comparisons(decoded.decode) == 1 + 1);
+    CHECK(seeds(decoded.decode) == 1);
+    CHECK(folded_macs(decoded.total()) == folded_macs(whole.total()) + 3 + kSquareRootMacs);
+    const OperationLatencies each = {3, 1, 1};
+    CHECK(fine_path(longest_case(), {degree, 3}, each).cycles(each) >
+          fine_path(longest_case(), {degree, 4}, each).cycles(each));
   }
 }
 
@@ -142,8 +191,8 @@ TEST_CASE("filter work: a test that fails early has executed less") {
     CHECK(coarse.fused == 6);
     CHECK(folded_macs(coarse) == 15);
   }
-  CHECK(folded_macs(fine_work(behind, 3).total()) == 15);
-  CHECK(comparisons(fine_work(behind, 3).total()) == 1);
+  CHECK(folded_macs(fine_work(behind, {3}).total()) == 15);
+  CHECK(comparisons(fine_work(behind, {3}).total()) == 1);
 }
 
 TEST_CASE("filter work: halves that are counted are the halves of blending") {
@@ -189,6 +238,9 @@ TEST_CASE("work of rendering a splat, counted") {
   CHECK(folded_macs(half) == 30 + 16 * 9);
   CHECK(half.comparisons == 16 * 5 + 1);
   CHECK(half.scalings == 16 + 5);
+  // What nothing has rounded before: opacity and colour.
+  CHECK(half.roundings == 4);
+  CHECK(work.subtile_blend.roundings == 0);
   CHECK(work.span.square_roots == 1);
   CHECK(work.spans_begin.square_roots == 2);
 }

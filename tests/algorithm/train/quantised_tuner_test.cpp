@@ -128,7 +128,7 @@ struct Case {
     if (storage.order == StorageOrder::kVoxels) {
       return paper_quality(stored.decoded, stored.grid(), order, {}, pictures).paper.psnr_db;
     }
-    return mean_nearness(nearness(stored.decoded, pictures, glm::vec3(0))).psnr_db;
+    return mean_quality(qualities(stored.decoded, pictures, glm::vec3(0))).psnr_db;
   }
 };
 

@@ -151,7 +151,7 @@ TEST_CASE("streaming tuning: fewer fetches the more they cost, for some quality"
     while (!tuner.done()) tuner.step();
     const std::size_t after = fetches(activate(tuner.cloud()), group);
     const double psnr =
-        mean_nearness(nearness(activate(tuner.cloud()), scene.pictures, glm::vec3(0))).psnr_db;
+        mean_quality(qualities(activate(tuner.cloud()), scene.pictures, glm::vec3(0))).psnr_db;
     CAPTURE(weight, before, after, psnr);
     CHECK(static_cast<double>(after) < 0.9 * static_cast<double>(before));
     CHECK(psnr > 25);

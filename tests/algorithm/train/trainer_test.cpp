@@ -70,7 +70,7 @@ GaussianCloud start(std::uint64_t seed) {
 double test_psnr(const GaussianCloud& cloud) {
   Photographs test = photographs_of(scene(), 6, 1);
   test.load(1);
-  return mean_nearness(nearness(activate(cloud), test, glm::vec3(1))).psnr_db;
+  return mean_quality(qualities(activate(cloud), test, glm::vec3(1))).psnr_db;
 }
 
 TEST_CASE("training: views between those that were seen come nearer, by either growth") {

@@ -56,6 +56,12 @@ TEST_CASE("chunk work: the longest case takes all sides, and what the formulas s
   CHECK(work.divisions == 7);
   CHECK(work.divisors <= 2);
   CHECK(work.square_roots == 2);
+  // The child out of its node: six bounds of a box, and a row of the table for each extent and the
+  // scale, whose exponent is a sum.
+  CHECK(work.conversions == 6);
+  CHECK(work.look_ups >= 4);
+  CHECK(work.scalings == 4);
+  CHECK(work.index_adds == 4);
   // Four sides: three products with the middle, three with the half-size, three for n each; three
   // rows of the camera twice.
   CHECK(work.multiplies >= 4 * 9 + 3 * 6);
@@ -67,14 +73,47 @@ TEST_CASE("chunk work: the longest case takes all sides, and what the formulas s
   CHECK(folded_macs(chunk_work(behind)) < folded_macs(work) / 2);
 }
 
-TEST_CASE("ray work: a step takes three plane times and two positions at least") {
-  const OperationCounts step = ray_step_work();
+TEST_CASE(
+    "ray work: a step takes three plane times, and two positions with the planes about them") {
+  const OperationCounts step = ray_step_work(longest_step_case());
   // A plane's time is two products, a position one and a quotient.
-  CHECK(step.multiplies >= 3 * 2 + 2);
+  CHECK(step.multiplies == (3 + 2 * 2) * 2 + 2);
   CHECK(step.divisions == 2);
   CHECK(step.divisors == 0);       // the voxel size is the same for all
-  CHECK(step.roundings >= 2 * 2);  // to whole, to a number of a cell
+  CHECK(step.roundings == 2 * 2);  // to whole, to a number of a cell
+  CHECK(step.conversions == 3 + 2 * (2 + 2));
   CHECK(folded_macs(step) < 100);
+  // A cell's plane is an index more and a number, its time a product and a sum in one lane and
+  // another product, the earliest of three times two comparisons.
+  constexpr OperationLatencies kEach = {3, 1, 1};
+  const LongestPath cell = {2, 1 + 2 + 2, 0};
+  CHECK(ray_step_path(cell_step_case(), kEach) == cell);
+  // From there to the position and its quotient, down, beside the root, into the block, to an index
+  // and on to its plane, whose time is compared; the cell before or behind it.
+  const LongestPath to_position = {1 + 3 + 1, 3 + 2 + 3, 0}, to_time = {2, 1 + 2 + 1, 0};
+  const LongestPath step_path = ray_step_path(longest_step_case(), kEach);
+  CHECK(step_path == cell + to_position + to_time);
+}
+
+TEST_CASE("ray work: no step takes more than the longest, wherever it begins") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> place(0.01F, 11.19F), slope(0.01F, 1);
+  const OperationCounts longest = ray_step_work(longest_step_case());
+  const OperationLatencies each = {3, 1, 1};
+  const std::uint32_t cycles = ray_step_path(longest_step_case(), each).cycles(each);
+  int as_long = 0;
+  for (int i = 0; i < 3000; ++i) {
+    StepCase step{{place(random), place(random), place(random)}, {}, 0};
+    for (int k = 0; k < 3; ++k) {
+      step.direction[k] = random() % 2 == 0 ? slope(random) : -slope(random);
+    }
+    const OperationCounts work = ray_step_work(step);
+    CHECK(folded_macs(work) <= folded_macs(longest));
+    CHECK(comparisons(work) <= comparisons(longest));
+    CHECK(ray_step_path(step, each).cycles(each) <= cycles);
+    as_long += folded_macs(work) == folded_macs(longest) ? 1 : 0;
+  }
+  CHECK(as_long > 0);
 }
 
 TEST_CASE("ray work: a ray begins with a direction, its reciprocals and a plane of each axis") {
@@ -82,6 +121,7 @@ TEST_CASE("ray work: a ray begins with a direction, its reciprocals and a plane 
   CHECK(begin.divisions == 2 + 3 + 2);  // the pixel's place, three reciprocals, two positions
   CHECK(begin.divisors == 3);           // the others are the same for all
   CHECK(begin.multiplies >= 6 + 3 + 2);
+  CHECK(begin.conversions == 2 * 2);  // of the planes that decide; the root's are the same for all
   CHECK(folded_macs(begin) < 100);
 }
 

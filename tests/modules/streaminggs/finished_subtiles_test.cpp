@@ -71,7 +71,7 @@ TEST_CASE("finished sub-tiles: a bit each, all at once") {
                          {{320, 180}, 45 * 10, 45 * 3}}) {
     INFO(row.group.width << " x " << row.group.height);
     CHECK(mask_use(row.group).total_bytes() == row.bytes);
-    CHECK(mask_use(row.group).shape.width_bits == 8 * row.bytes);
+    CHECK(mask_bits(row.group) == 8 * row.bytes);
     CHECK(mask_comparators(row.group) == row.comparators);
   }
 }

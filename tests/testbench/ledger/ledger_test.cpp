@@ -28,9 +28,10 @@ MachineResult paid() {
   sum.used_macs = 1;
   machine.datapaths = {{sum, 100, 100}};
   const SramShape banks{32, SramPorts::kReadAndWrite, 2};
-  add(machine.sram_uses, sram_use("rows", "scratch", {{64, "B"}}, banks), 2);
-  add(machine.sram_uses, sram_use("table", "scratch", {{64, "B"}}, {32, SramPorts::kOne, 1}));
-  machine.sram_accesses = {{"rows", 400, 400}, {"table", 60, 40}};
+  add(machine.sram_uses, sram_use("rows", "scratch", {{64, "B"}}, banks, {2, 2}), 2);
+  add(machine.sram_uses,
+      sram_use("table", "scratch", {{64, "B"}}, {32, SramPorts::kOne, 1}, {1, 0}));
+  machine.sram_accesses = {{"rows", 400, 400, {2, 2}}, {"table", 60, 40, {0, 0}}};
   return machine;
 }
 
@@ -52,17 +53,17 @@ TEST_CASE("ledger: every kind of unpaid work is found by name") {
   const std::vector<Fault> faults = {
       {"a use without accesses",
        [](MachineResult& m) {
-         add(m.sram_uses, sram_use("cache", "scratch", {{8, "B"}}, {32}));
+         add(m.sram_uses, sram_use("cache", "scratch", {{8, "B"}}, {32}, kOneOfEach));
        },
        "nobody says the accesses of \"cache\""},
       {"accesses of nothing",
        [](MachineResult& m) {
-         m.sram_accesses.push_back({"cache", 0, 0});
+         m.sram_accesses.push_back({"cache", 0, 0, {0, 0}});
        },
        "\"cache\", which is no use"},
       {"two uses of a name",
        [](MachineResult& m) {
-         add(m.sram_uses, sram_use("rows", "scratch", {{8, "B"}}, {32}));
+         add(m.sram_uses, sram_use("rows", "scratch", {{8, "B"}}, {32}, kOneOfEach));
        },
        "two different uses of on-chip memory are named \"rows\""},
       {"operations of no part",
@@ -86,6 +87,19 @@ TEST_CASE("ledger: every kind of unpaid work is found by name") {
        "rows: writes: 401 done"},
       {"too many accesses of one port", [](MachineResult& m) { m.sram_accesses[1].reads += 1; },
        "table: accesses: 101 done, 1 a cycle"},
+      {"more reads in a cycle than ports", [](MachineResult& m) { m.sram_uses[0].peak.reads = 3; },
+       "rows: 3 reads and 2 writes in a cycle, 2 banks of a port for each"},
+      {"more writes", [](MachineResult& m) { m.sram_uses[0].peak.writes = 3; },
+       "rows: 2 reads and 3 writes in a cycle"},
+      {"a read and a write of one port", [](MachineResult& m) { m.sram_uses[1].peak.writes = 1; },
+       "table: 1 reads and 1 writes in a cycle, 1 banks of a port"},
+      {"a queue that takes more than is said",
+       [](MachineResult& m) { m.sram_accesses[0].seen.writes = 3; },
+       "rows: 2 reads and 3 writes seen in a cycle, 2 and 2 are said"},
+      {"a queue that gives more", [](MachineResult& m) { m.sram_accesses[0].seen.reads = 3; },
+       "rows: 3 reads and 2 writes seen"},
+      {"banks of half a word", [](MachineResult& m) { m.sram_uses[0].shape.width_bits = 257; },
+       "rows: 64 B in 2 banks of 257 bits: a bank does not hold a word"},
       {"a busy unit that charges nothing", [](MachineResult& m) { m.units[0].charged = false; },
        "adder was busy for 60 cycles and charged nothing"}};
   for (const Fault& fault : faults) {

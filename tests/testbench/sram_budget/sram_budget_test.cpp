@@ -139,7 +139,7 @@ TEST_CASE("sram budget: more than there is, and a queue in no use, are refused b
   machine.says = [&](DataSheet& sheet, FifoChannel& fifo) {
     sheet.sram(fits);
     sheet.sram(fits);
-    sheet.sram(sram_use("blocks", "scratch", {{3, "blocks"}, {7, "B"}}, {32}));
+    sheet.sram(sram_use("blocks", "scratch", {{3, "blocks"}, {7, "B"}}, {32}, kOneOfEach));
     sheet.queue(fifo, "messages");
     sheet.sram_available("scratch", 220);
   };
@@ -172,7 +172,7 @@ TEST_CASE("sram budget: more than there is, and a queue in no use, are refused b
 TEST_CASE("sram budget: what no unit takes is not built, and said so") {
   Publisher machine("machine");
   machine.says = [](DataSheet& sheet, FifoChannel&) {
-    sheet.sram(sram_use("blocks", "scratch", {{1000, "B"}}, {32}));
+    sheet.sram(sram_use("blocks", "scratch", {{1000, "B"}}, {32}, kOneOfEach));
     sheet.sram_available("scratch", 3072);
     sheet.sram_available("full", 0);
   };

@@ -60,7 +60,7 @@ SramUses FetchUnit::sram_uses(const ToyConfig& config) {
                    {{config.fetch.buffer_blocks, "blocks"},
                     {config.fetch.block_gaussians, "Gaussians"},
                     {kFirstHalfBytes, "B"}},
-                   {8 * kFirstHalfBytes}),
+                   {8 * kFirstHalfBytes}, kOneOfEach),
           fifo_use<Fetched>("fetched", kScratch, config.fetch.buffer_blocks, "blocks"),
           outstanding_table(kScratch, config.memory_port)};
 }

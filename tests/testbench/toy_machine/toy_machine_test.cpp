@@ -84,11 +84,14 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   const Json& energy = view["energy"];
   CHECK(energy["adder_j"] == Approx(3 * kGaussians * pj("fp32_lane")));
   CHECK(energy["writer_j"] == Approx(kPixels * pj("comparator")));
-  const SramUse blocks = sram_use("blocks", "scratch", {{3, ""}, {8, ""}, {16, ""}}, {128});
+  const SramUse blocks =
+      sram_use("blocks", "scratch", {{3, ""}, {8, ""}, {16, ""}}, {128}, kOneOfEach);
   CHECK(energy["blocks_j"] ==
         Approx(kGaussians * 1e-12 *
                (technology.sram.read_pj(blocks).middle + technology.sram.write_pj(blocks).middle)));
-  const double logic = 3 * mm2("fp32_lane") + 4 * mm2("comparator");
+  // Two ports of 256 bits each way, a register each and the multiplexers of four channels.
+  const double path = 2 * 2 * 256 * (mm2("register_bit") + 4 * mm2("crossbar_bit"));
+  const double logic = 3 * mm2("fp32_lane") + 4 * mm2("comparator") + path;
   CHECK(energy["clock_j"] ==
         Approx(frame * logic * technology.die.clock_pj_mm2_cycle.middle * 1e-12));
   double sum = 0;
@@ -106,15 +109,15 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   CHECK(area["adder"] == Approx(3 * mm2("fp32_lane")));
   CHECK(area["writer"] == Approx(4 * mm2("comparator")));
   CHECK(area["total"] == Approx(logic + area["sram"].get<double>()));
-  CHECK(area.size() == 5);  // with the bands
+  CHECK(area["memory_path"] == Approx(path));
+  CHECK(area.size() == 6);  // with the bands
   constexpr int kPortTables = 2 * 16 * 8;
   CHECK(left_out(view, "unused_sram_scratch") ==
         4096 - (3 * 8 * 16 + 3 * 12 + 2 * 16 * 3 + 2 * 16 + kPortTables));
 
   // Blocks, what is said of them in the queue, writes of 16 px that are unanswered, colours, and
   // what ports keep of transactions.
-  CHECK(view["sram"]["scratch_bytes"] ==
-        3 * 8 * 16 + 3 * 12 + 2 * 16 * 3 + 2 * 16 + kPortTables);
+  CHECK(view["sram"]["scratch_bytes"] == 3 * 8 * 16 + 3 * 12 + 2 * 16 * 3 + 2 * 16 + kPortTables);
   CHECK(view["sram"]["scratch_available_bytes"] == 4096);
   const auto arithmetic_of = [&](const char* name) {
     for (const Json& use : view["sram"]["uses"]) {

@@ -1,0 +1,41 @@
+// A datapath's depth, registers and multiplexers from the schedule of its steps on its lanes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "algorithm/splat/folded_pipeline.h"
+#include "tlm/datapath.h"
+
+namespace sgs {
+
+constexpr std::uint32_t kSingleBits = 32, kHalfBits = 16;
+
+// The lanes of one copy, what stands beside them, and an item every so many cycles.
+inline FoldedParts parts_of(const Datapath& path, std::uint32_t interval_cycles) {
+  FoldedParts parts;
+  parts.lanes = path.lanes;
+  parts.interval_cycles = interval_cycles;
+  for (const BesideLanes& beside : path.beside) {
+    const auto in_copy = static_cast<std::uint32_t>(path.parts(beside) / path.copies);
+    (beside.kind == "comparator" ? parts.comparators : parts.tables) += in_copy;
+  }
+  return parts;
+}
+
+inline BetweenLanes between_lanes(const LaneWiring& wiring, std::uint32_t value_bits) {
+  return {value_bits * wiring.register_words, value_bits * wiring.select_words,
+          value_bits * wiring.words_written, value_bits * wiring.words_selected};
+}
+
+// Lanes, copies and charge must be what they will be. value_bits: of a value between two steps.
+inline void schedule(Datapath& path, const std::vector<LaneStep>& steps,
+                     const OperationLatencies& latencies, std::uint32_t value_bits = kSingleBits) {
+  const auto interval = static_cast<std::uint32_t>(path.interval_cycles());
+  const FoldedPipeline folded = folded_pipeline(steps, parts_of(path, interval), latencies);
+  path.between = between_lanes(folded.wiring, value_bits);
+  path.depth_cycles = folded.schedule.cycles;
+  path.loop_cycles = folded.schedule.loop_cycles;
+}
+
+}  // namespace sgs

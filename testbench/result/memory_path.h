@@ -1,0 +1,15 @@
+// What lies between a machine's memory ports and the channels' controllers, paid by the machine.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/machine.h"
+#include "testbench/result/frame_result.h"
+
+namespace sgs {
+
+// Adds parts and operations of component "memory_path": for each port and direction the registers
+// of the path, and for each channel a multiplexer, a bit each; what passed them.
+void add_memory_path(Machine& machine, std::uint32_t channels, MachineResult& result);
+
+}  // namespace sgs
