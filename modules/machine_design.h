@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
 
+#include "algorithm/render/paper_renderer.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/storage/stored_scene.h"
@@ -64,6 +66,11 @@ class MachineDesign {
   // machine alone: published in `sheet`, by name, as the work that the frame left out.
   virtual GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                              DataSheet& sheet) const = 0;
+
+  // What scenes can be tuned for: how it renders, where that is in paper order; the group of pixels
+  // that a Gaussian is fetched for, 0 x 0 where there are none.
+  virtual std::optional<PaperOrderConfig> paper_order() const { return {}; }
+  virtual PixelSize group() const { return {}; }
 
   virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                          const BuildOptions& options) const = 0;

@@ -102,6 +102,18 @@ GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const 
   return group_visits(group, rounds, table);
 }
 
+std::vector<std::vector<std::uint32_t>> visited_voxels(const View<float>& view,
+                                                       const VoxelGrid& grid,
+                                                       const PaperOrderConfig& config) {
+  const std::vector<PixelRect> groups = pixel_groups(view.width, view.height, config.group);
+  std::vector<std::vector<std::uint32_t>> out(groups.size());
+  tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(), config.table_bytes);
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t group) {
+    out[group] = paper_visits(view, groups[group], grid, config.rays, tables.local()).voxels;
+  });
+  return out;
+}
+
 StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud& cloud,
                                    const VoxelGrid& grid, const PaperOrderConfig& config) {
   StreamingResult out;

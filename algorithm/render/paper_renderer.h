@@ -3,6 +3,9 @@
 // the voxel, blend. Across voxels nothing is corrected: what that loses is counted.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "algorithm/order/group_visits.h"
 #include "algorithm/render/streaming_result.h"
 #include "algorithm/splat/blend.h"
@@ -38,5 +41,10 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
 // Visits of one group from a grid in memory, the same that VSU derives from its table in DRAM.
 GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const VoxelGrid& grid,
                          const RayPattern& rays, OrderingTable& table);
+
+// [group] the voxels of all groups' visits, as in StreamingResult. They follow from the grid alone.
+std::vector<std::vector<std::uint32_t>> visited_voxels(const View<float>& view,
+                                                       const VoxelGrid& grid,
+                                                       const PaperOrderConfig& config);
 
 }  // namespace sgs

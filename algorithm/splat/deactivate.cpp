@@ -15,15 +15,15 @@ namespace {
 
 constexpr double kFar = 200;  // exp(-200) is 0 as a float
 
-float log_of(float value) {
-  return static_cast<float>(std::max(std::log(static_cast<double>(value)), -kFar));
-}
-
 float logit_of(float opacity) {
   return static_cast<float>(std::clamp(logit(opacity), -kFar, kFar));
 }
 
 }  // namespace
+
+float log_scale_of(float scale) {
+  return static_cast<float>(std::max(std::log(static_cast<double>(scale)), -kFar));
+}
 
 GaussianCloud deactivate(const ActivatedCloud& cloud) {
   GaussianCloud out;
@@ -33,7 +33,8 @@ GaussianCloud deactivate(const ActivatedCloud& cloud) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
       const Gaussian<float>& g = cloud.gaussians[i];
       out.means[i] = g.mean;
-      out.log_scales[i] = {log_of(g.scale.x), log_of(g.scale.y), log_of(g.scale.z)};
+      out.log_scales[i] = {log_scale_of(g.scale.x), log_scale_of(g.scale.y),
+                           log_scale_of(g.scale.z)};
       out.quats[i] = g.quat;
       out.opacity_logits[i] = logit_of(g.opacity);
     }

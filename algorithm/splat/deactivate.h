@@ -11,4 +11,7 @@ namespace sgs {
 // unit quaternion is one that floats of a file lead to. 0 and 1 come back as they are.
 GaussianCloud deactivate(const ActivatedCloud& cloud);
 
+// ln(scale), of 0 a number whose exponential is 0 as a float.
+float log_scale_of(float scale);
+
 }  // namespace sgs

@@ -1,6 +1,7 @@
 // From a configuration to encoded, laid-out scenes.
 #include "algorithm/storage/store_scene.h"
 
+#include <optional>
 #include <utility>
 
 #include "algorithm/splat/reorder.h"
@@ -18,32 +19,42 @@ EncodedCloud encode(const ActivatedCloud& cloud, const StorageConfig& config,
   return encode_quantised(cloud, quantised, config.encoding);
 }
 
-}  // namespace
-
-StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
-                        const std::vector<Camera>& weighing, const VqProgress& progress) {
+// original: what was encoded, where something was lost.
+StoredScene arranged(EncodedCloud encoded, std::optional<ActivatedCloud> original,
+                     const StorageConfig& config) {
   const StorageScheme& scheme = scheme_of(config.order);
-  scheme.check(config);  // before the work
   StoredScene out;
   out.storage = config;
-  out.gaussians = cloud.size();
-  EncodedCloud encoded;
-  if (config.encoding == SecondHalfEncoding::kRaw) {
-    encoded = encode_raw(std::move(cloud));
-  } else {
-    encoded = encode(cloud, config, weighing, progress);
-    out.original = std::move(cloud);
-  }
+  out.gaussians = encoded.decoded.size();
   // From here on there is no other order than that of storage.
   Arrangement<StoredTable> arrangement = scheme.arrange(encoded.decoded, config);
   const std::vector<std::uint32_t>& order = arrangement.storage_order;
   encoded = reordered(std::move(encoded), order);
-  if (out.original) out.original = reordered(*out.original, order);
+  if (original) out.original = reordered(*original, order);
   out.image = scheme.image_of(encoded, arrangement.table);
   out.table = std::move(arrangement.table);
   out.decoded = std::move(encoded.decoded);
   out.file_indices = std::move(arrangement.storage_order);
   return out;
+}
+
+}  // namespace
+
+StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
+                        const std::vector<Camera>& weighing, const VqProgress& progress) {
+  scheme_of(config.order).check(config);  // before the work
+  if (config.encoding == SecondHalfEncoding::kRaw) {
+    return arranged(encode_raw(std::move(cloud)), {}, config);
+  }
+  EncodedCloud encoded = encode(cloud, config, weighing, progress);
+  return arranged(std::move(encoded), std::move(cloud), config);
+}
+
+StoredScene store_quantised(ActivatedCloud cloud, const QuantisedCloud& quantised,
+                            const StorageConfig& config) {
+  scheme_of(config.order).check(config);
+  EncodedCloud encoded = encode_quantised(cloud, quantised, config.encoding);
+  return arranged(std::move(encoded), std::move(cloud), config);
 }
 
 }  // namespace sgs

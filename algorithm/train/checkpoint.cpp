@@ -4,50 +4,21 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <cereal/archives/portable_binary.hpp>
-#include <cereal/types/array.hpp>
-#include <cereal/types/string.hpp>
-#include <cereal/types/vector.hpp>
-#include <sstream>
-
 #include "algorithm/input_error.h"
 #include "algorithm/input_file.h"
 #include "algorithm/output_file.h"
-
-namespace glm {
-
-template <class Archive>
-void serialize(Archive& archive, vec3& v) {
-  archive(v.x, v.y, v.z);
-}
-
-}  // namespace glm
+#include "algorithm/train/saved_bytes.h"
 
 namespace sgs {
 
 template <class Archive>
-void serialize(Archive& archive, GaussianCloud& cloud) {
-  archive(cloud.sh_degree, cloud.means, cloud.log_scales, cloud.quats, cloud.opacity_logits,
-          cloud.sh_coeffs);
-}
-
-template <class Archive>
-void serialize(Archive& archive, AdamMoments& moments) {
-  std::uint64_t row = moments.row;
-  archive(row, moments.values, moments.updates);
-  moments.row = row;
-}
-
-template <class Archive>
 void serialize(Archive& archive, Checkpoint& checkpoint) {
-  Trainer::State& state = checkpoint.state;
-  archive(checkpoint.training, checkpoint.log, state.next_step, state.cloud, state.moments,
-          state.statistics);
+  archive(checkpoint.work, checkpoint.log, checkpoint.state);
 }
 
 namespace {
 
-constexpr std::string_view kMagic = "\x89SGSTRAIN\r\n\x1a\n1";
+constexpr std::string_view kMagic = "\x89SGSTRAIN\r\n\x1a\n2";
 
 std::uint32_t crc_of(const std::string& text) {
   return static_cast<std::uint32_t>(
@@ -63,13 +34,7 @@ std::string four_bytes(std::uint32_t value) {
 }  // namespace
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
-  std::ostringstream stream;
-  {
-    cereal::PortableBinaryOutputArchive archive(
-        stream, cereal::PortableBinaryOutputArchive::Options::LittleEndian());
-    archive(checkpoint);
-  }
-  const std::string body = stream.str();
+  const std::string body = saved_bytes(checkpoint);
   OutputFile file(path);
   file.write(kMagic);
   file.write(four_bytes(crc_of(body)));
@@ -82,8 +47,8 @@ Checkpoint read_checkpoint(const std::string& path) {
   const std::string text = file.text_from(0, file.size_bytes());
   if (text.compare(0, kMagic.size(), kMagic) != 0) {
     throw InputError(
-        fmt::format("{}: begins with something else, expected a checkpoint of "
-                    "streaminggs train",
+        fmt::format("{}: begins with something else, expected a checkpoint of streaminggs train "
+                    "or tune",
                     path));
   }
   const std::string crc = text.substr(kMagic.size(), 4);
@@ -92,9 +57,7 @@ Checkpoint read_checkpoint(const std::string& path) {
     throw InputError(path + ": was cut off or changed, its checksum is another");
   }
   Checkpoint checkpoint;
-  std::istringstream stream(body);
-  cereal::PortableBinaryInputArchive archive(stream);
-  archive(checkpoint);
+  restore_bytes(body, checkpoint);
   return checkpoint;
 }
 

@@ -1,16 +1,14 @@
-// Training that is to go on later: a file with all that the next step depends on.
+// A fitting that is to go on later: a file with all that the next step depends on.
 #pragma once
 
 #include <string>
 
-#include "algorithm/train/trainer.h"
-
 namespace sgs {
 
 struct Checkpoint {
-  std::string training;  // one line that says of what and how; whoever resumes compares it
-  std::string log;       // what was logged so far
-  Trainer::State state;
+  std::string work;   // one line that says of what and how; whoever resumes compares it
+  std::string log;    // what was logged so far
+  std::string state;  // Fitting::saved()
 };
 
 // Appears under `path` once it is complete. Throws InputError when `path` cannot be created,

@@ -19,7 +19,8 @@ enum class RandomUse : std::uint64_t {
   kNoise,
   kRelocate,
   kGrow,
-  kSplit
+  kSplit,
+  kCameras
 };
 
 class CounterRandom {

@@ -1,17 +1,22 @@
 #include "algorithm/train/trainer.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "algorithm/splat/activate.h"
+#include "algorithm/train/comparison.h"
 #include "algorithm/train/counter_random.h"
 #include "algorithm/train/position_noise.h"
 #include "algorithm/train/relocation.h"
-#include "algorithm/tune/scene_gradient.h"
+#include "algorithm/train/saved_bytes.h"
 
 namespace sgs {
+
+template <class Archive>
+void serialize(Archive& archive, Trainer::State& state) {
+  archive(state.next_step, state.cloud, state.moments, state.statistics);
+}
+
 namespace {
 
 // Coefficients of higher degrees are 0.
@@ -27,8 +32,6 @@ void raise_degree(GaussianCloud& cloud, int degree) {
   cloud = std::move(raised);
 }
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x + v.y + v.z); }
-
 }  // namespace
 
 Trainer::Trainer(const TrainingConfig& config, Photographs& photographs, double extent,
@@ -39,7 +42,8 @@ Trainer::Trainer(const TrainingConfig& config, Photographs& photographs, double 
       cloud_(std::move(start)),
       activated_(activate(cloud_)),
       adam_(cloud_),
-      statistics_(cloud_.size()) {}
+      statistics_(cloud_.size()),
+      view_order_(config.seed) {}
 
 Trainer::Trainer(const TrainingConfig& config, Photographs& photographs, double extent, State state)
     : Trainer(config, photographs, extent, std::move(state.cloud)) {
@@ -48,18 +52,12 @@ Trainer::Trainer(const TrainingConfig& config, Photographs& photographs, double 
   statistics_ = std::move(state.statistics);
 }
 
-std::size_t Trainer::photograph_of(int step) {
-  const auto count = static_cast<int>(photographs_.size());
-  if (step / count != order_of_) {
-    order_of_ = step / count;
-    order_.resize(photographs_.size());
-    std::iota(order_.begin(), order_.end(), 0);
-    CounterRandom random{config_.seed, RandomUse::kOrderOfViews,
-                         static_cast<std::uint64_t>(order_of_)};
-    for (std::size_t i = order_.size(); i > 1; --i)
-      std::swap(order_[i - 1], order_[random.below(i)]);
-  }
-  return order_[static_cast<std::size_t>(step % count)];
+std::string Trainer::saved() const { return saved_bytes(state()); }
+
+Trainer::State Trainer::restored(const std::string& saved) {
+  State state;
+  restore_bytes(saved, state);
+  return state;
 }
 
 glm::vec3 Trainer::background_of(int step) const {
@@ -94,33 +92,16 @@ void Trainer::add_regularisers() {
   }
 }
 
-void Trainer::check_finite(int step, double loss) const {
-  if (!std::isfinite(loss)) throw NotFinite(fmt::format("step {}: the loss is {}", step, loss));
-  const GaussianCloud& by = gradient_.parameters;
-  const auto coeffs = static_cast<std::size_t>(sh_coeff_count(by.sh_degree));
-  for (std::size_t r = 0; r < gradient_.size(); ++r) {
-    bool all = finite(by.means[r]) && finite(by.log_scales[r]) &&
-               std::isfinite(by.opacity_logits[r] + by.quats[r][0] + by.quats[r][1] +
-                             by.quats[r][2] + by.quats[r][3]);
-    for (std::size_t k = 0; k < coeffs; ++k) all = all && finite(by.sh_coeffs[r * coeffs + k]);
-    if (all) continue;
-    throw NotFinite(fmt::format("step {}: a derivative of Gaussian {} is not a finite number", step,
-                                gradient_.indices[r]));
-  }
-}
-
 Trainer::Step Trainer::descend(int step) {
-  const std::size_t at = photograph_of(step);
+  const std::size_t at = view_order_.at(step, photographs_.size());
   const auto view = make_view<float>(photographs_.camera(at));
   const glm::vec3 background = background_of(step);
   const GroupSequences sequences = reference_sequences(view, activated_);
-  const RenderResult picture = draw(sequences, background);
-  ImageLoss loss =
-      photometric_loss(picture.image, photographs_.before(at, background), config_.ssim_share);
-  scene_gradient({view, cloud_, activated_, sequences, picture, background},
-                 {std::move(loss.gradient), {}}, GradientRule::kDerivative, gradient_);
+  const Comparison found =
+      compare_with(photographs_.before(at, background), view, cloud_, activated_, sequences,
+                   background, BlendPrecision::kSingle, config_.ssim_share, gradient_);
   if (config_.growth == Growth::kMcmc) add_regularisers();
-  check_finite(step, loss.loss);
+  check_finite(step, found.loss, gradient_);
 
   const LearningRates rates = config_.rates_at(step, extent_);
   adam_.step(gradient_, rates, cloud_);
@@ -132,7 +113,7 @@ Trainer::Step Trainer::descend(int step) {
     statistics_.add(sequences, gradient_);
   }
   reactivate(cloud_, gradient_.indices, activated_);
-  return {step, at, loss.loss, loss.l1, loss.ssim, gradient_.size()};
+  return {step, at, found.loss, found.l1, found.ssim, gradient_.size()};
 }
 
 void Trainer::grow(int step) {

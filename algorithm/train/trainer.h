@@ -2,33 +2,24 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/train/densification.h"
+#include "algorithm/train/fitting.h"
 #include "algorithm/train/photographs.h"
 #include "algorithm/train/training_config.h"
+#include "algorithm/train/view_order.h"
 #include "algorithm/tune/adam.h"
 #include "algorithm/tune/cloud_gradient.h"
 
 namespace sgs {
 
-// A loss or a parameter is not a number any more; what() names step and Gaussian.
-class NotFinite : public std::runtime_error {
+class Trainer : public Fitting {
  public:
-  using std::runtime_error::runtime_error;
-};
-
-class Trainer {
- public:
-  struct Step {
-    int number;  // from 0
-    std::size_t photograph;
-    double loss, l1, ssim;
-    std::size_t seen;  // Gaussians that the step moved
-  };
+  using Step = FittingStep;
   // All that there is to save.
   struct State {
     int next_step = 0;
@@ -43,23 +34,23 @@ class Trainer {
           GaussianCloud start);
   Trainer(const TrainingConfig& config, Photographs& photographs, double extent, State state);
 
-  // The next one. Throws NotFinite; the cloud is then what it was before the step.
-  Step step();
+  Step step() override;
+  int next_step() const override { return next_step_; }
+  int steps() const override { return config_.steps; }
+  std::size_t gaussians() const override { return cloud_.size(); }
+  std::string saved() const override;
+  static State restored(const std::string& saved);
 
-  int next_step() const { return next_step_; }
-  bool done() const { return next_step_ >= config_.steps; }
   const GaussianCloud& cloud() const { return cloud_; }
   const ActivatedCloud& activated() const { return activated_; }
   double downscale() const { return downscale_; }
   State state() const { return {next_step_, cloud_, adam_.moments(), statistics_}; }
 
  private:
-  std::size_t photograph_of(int step);
   glm::vec3 background_of(int step) const;
   void prepare(int step);
   Step descend(int step);
   void add_regularisers();
-  void check_finite(int step, double loss) const;
   void grow(int step);
 
   const TrainingConfig config_;
@@ -72,8 +63,7 @@ class Trainer {
   Adam adam_;
   DensificationStatistics statistics_;
   CloudGradient gradient_;
-  std::vector<std::size_t> order_;  // of the photographs, shuffled anew each time through
-  int order_of_ = -1;               // which time through that is
+  ViewOrder view_order_;
 };
 
 }  // namespace sgs

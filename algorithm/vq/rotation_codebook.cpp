@@ -200,6 +200,31 @@ void normalise(std::vector<float>& quats) {
   }
 }
 
+// Canonical quaternions and each axis' share in the sensitivity, by which the weights are
+// multiplied.
+PointSet rotation_points(const std::vector<CanonicalShape>& shapes,
+                         const std::vector<float>& weights, const std::vector<float>& pixel_sizes) {
+  PointSet points{kDims, std::vector<float>(shapes.size() * kDims), weights};
+  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
+    const std::array<float, 3> sensitivity = turn_sensitivity(shapes[i].scale, pixel_sizes[i]);
+    const float sum = sensitivity[0] + sensitivity[1] + sensitivity[2];
+    float* const point = &points.values[i * kDims];
+    std::copy_n(shapes[i].quat.begin(), kQuatDims, point);
+    for (std::size_t k = 0; k < 3; ++k) {
+      point[kQuatDims + k] = sum > 0 ? sensitivity[k] / sum : 0;
+    }
+    points.weights[i] *= sum;
+  });
+  return points;
+}
+
+std::vector<std::uint32_t> labels_of(const std::vector<Match>& matches) {
+  std::vector<std::uint32_t> labels(matches.size());
+  std::transform(matches.begin(), matches.end(), labels.begin(),
+                 [](const Match& match) { return match.entry; });
+  return labels;
+}
+
 }  // namespace
 
 std::array<float, 3> turn_sensitivity(const glm::vec3& falling_scale, float pixel_size) {
@@ -232,18 +257,11 @@ RotationCodebook train_rotations(const std::vector<CanonicalShape>& shapes,
                                  const std::vector<float>& weights,
                                  const std::vector<float>& pixel_sizes, const KMeansConfig& config,
                                  const KMeansProgress& progress) {
-  PointSet quats{kQuatDims, std::vector<float>(shapes.size() * kQuatDims), weights};
-  PointSet points{kDims, std::vector<float>(shapes.size() * kDims), weights};
-  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
-    const std::array<float, 3> sensitivity = turn_sensitivity(shapes[i].scale, pixel_sizes[i]);
-    const float sum = sensitivity[0] + sensitivity[1] + sensitivity[2];
-    std::copy_n(shapes[i].quat.begin(), kQuatDims, quats.values.begin() + i * kQuatDims);
-    std::copy_n(shapes[i].quat.begin(), kQuatDims, points.values.begin() + i * kDims);
-    for (std::size_t k = 0; k < 3; ++k) {
-      points.values[i * kDims + kQuatDims + k] = sum > 0 ? sensitivity[k] / sum : 0;
-    }
-    quats.weights[i] = points.weights[i] = weights[i] * sum;
-  });
+  const PointSet points = rotation_points(shapes, weights, pixel_sizes);
+  PointSet quats{kQuatDims, std::vector<float>(shapes.size() * kQuatDims), points.weights};
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    std::copy_n(points[i], kQuatDims, &quats.values[i * kQuatDims]);
+  }
 
   KMeansResult start = kmeans(quats, config, progress);
   RotationCodebook out{std::move(start.centroids), std::move(start.labels)};
@@ -261,10 +279,15 @@ RotationCodebook train_rotations(const std::vector<CanonicalShape>& shapes,
     before = cost;
     move_entries(training, matches, out.quats);
   }
-  const std::vector<Match> matches = match_all(points, out.quats);
-  std::transform(matches.begin(), matches.end(), out.labels.begin(),
-                 [](const Match& match) { return match.entry; });
+  out.labels = labels_of(match_all(points, out.quats));
   return out;
+}
+
+std::vector<std::uint32_t> nearest_rotations(const std::vector<CanonicalShape>& shapes,
+                                             const std::vector<float>& pixel_sizes,
+                                             const std::vector<float>& quats) {
+  const std::vector<float> even(shapes.size(), 1.0F);
+  return labels_of(match_all(rotation_points(shapes, even, pixel_sizes), quats));
 }
 
 }  // namespace sgs

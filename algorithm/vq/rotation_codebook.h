@@ -34,4 +34,10 @@ RotationCodebook train_rotations(const std::vector<CanonicalShape>& shapes,
                                  const std::vector<float>& pixel_sizes, const KMeansConfig& config,
                                  const KMeansProgress& progress);
 
+// [N] to each shape the entry of quats ([K, 4], unit length) that costs least, as train_rotations()
+// has it.
+std::vector<std::uint32_t> nearest_rotations(const std::vector<CanonicalShape>& shapes,
+                                             const std::vector<float>& pixel_sizes,
+                                             const std::vector<float>& quats);
+
 }  // namespace sgs

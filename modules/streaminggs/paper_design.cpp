@@ -61,8 +61,7 @@ FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const 
   return streaming_job(config_, scene, camera, spill_bytes(config_, scene.grid()));
 }
 
-GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
-                                DataSheet& sheet) const {
+std::optional<PaperOrderConfig> PaperDesign::paper_order() const {
   PaperOrderConfig order;
   order.group = config_.group();
   order.coarse_filter = config_.hfu.coarse_filter;
@@ -71,6 +70,12 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.visit_gaussians = config_.vsu.visit_gaussians;
   order.parts = config_.parts();
   order.precision = config_.rendering.precision;
+  return order;
+}
+
+GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
+                                DataSheet& sheet) const {
+  PaperOrderConfig order = *paper_order();
   order.background = job.background;
   StreamingResult result = render_paper_order(job.view, scene.decoded, scene.grid(), order);
   publish_left_out(scene, result.stats.blocks_visited, sheet);

@@ -1,6 +1,8 @@
 // The design of the machine of paper order.
 #pragma once
 
+#include <optional>
+
 #include "modules/machine_design.h"
 #include "modules/streaminggs/paper_config.h"
 #include "modules/streaminggs/streaming_sram.h"
@@ -20,6 +22,8 @@ class PaperDesign : public MachineDesign {
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                      DataSheet& sheet) const override;
+  std::optional<PaperOrderConfig> paper_order() const override;
+  PixelSize group() const override { return config_.group(); }
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                  const BuildOptions& options) const override;
 

@@ -3,34 +3,31 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "algorithm/dataset/open_dataset.h"
 #include "algorithm/input_error.h"
-#include "algorithm/output_file.h"
 #include "algorithm/output_plan.h"
 #include "algorithm/scene/ply_writer.h"
-#include "algorithm/train/checkpoint.h"
-#include "testbench/command_line/guard.h"
-#include "testbench/command_line/interrupt.h"
+#include "algorithm/train/trainer.h"
 #include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
-#include "testbench/streaminggs/training_log.h"
+#include "testbench/streaminggs/fitting_run.h"
 
 namespace sgs {
 namespace {
 
-struct TrainArguments {
-  std::string dataset, out, log, resume;
+struct TrainArguments : FittingArguments {
+  std::string dataset;
   std::string growth = "mcmc";
   std::string background = "random";
-  std::uint32_t steps = 20'000, test_every = 1'000, checkpoint_every = 0;
+  std::uint32_t steps = 20'000;
   std::uint64_t gaussians = 100'000;
   std::uint64_t seed = 1;
   std::uint32_t sh_degree = 3;
 
-  std::string checkpoint() const { return out + ".checkpoint"; }
   // What a checkpoint must have been made with.
   std::string training() const {
     return fmt::format(
@@ -72,99 +69,16 @@ GaussianCloud start_of(const Dataset& dataset, const TrainingConfig& config) {
   return start_at_points(points, config.start_gaussians, config.start, config.seed);
 }
 
-Checkpoint begun(const TrainArguments& arguments, const Dataset& dataset,
-                 const TrainingConfig& config) {
-  if (arguments.resume.empty()) {
-    GaussianCloud cloud = start_of(dataset, config);
-    AdamMoments moments = Adam(cloud).moments();
-    const std::size_t count = cloud.size();
-    return {arguments.training(),
-            "",
-            {0, std::move(cloud), std::move(moments), DensificationStatistics(count)}};
-  }
-  Checkpoint checkpoint = read_checkpoint(arguments.resume);
-  if (checkpoint.training != arguments.training()) {
-    throw InputError(fmt::format("{}: is of 'train {}', expected 'train {}'", arguments.resume,
-                                 checkpoint.training, arguments.training()));
-  }
-  return checkpoint;
+Trainer begun(const std::optional<Checkpoint>& from, const Dataset& dataset,
+              const TrainingConfig& config, Photographs& photographs) {
+  const double extent = scene_extent(training_cameras(dataset));
+  if (from) return {config, photographs, extent, Trainer::restored(from->state)};
+  return {config, photographs, extent, start_of(dataset, config)};
 }
-
-class TrainingRun {
- public:
-  TrainingRun(const TrainArguments& arguments, const Dataset& dataset, const TrainingConfig& config,
-              Checkpoint from)
-      : arguments_(arguments),
-        train_(dataset, Split::kTrain),
-        test_(dataset, Split::kTest),
-        log_(config.steps, std::move(from.log)),
-        trainer_(config, train_, scene_extent(training_cameras(dataset)), std::move(from.state)) {
-    test_.load(1);
-  }
-
-  int run() {
-    const Interrupt interrupt;
-    try {
-      while (!trainer_.done()) {
-        if (interrupt.wished()) return stopped();
-        step();
-      }
-    } catch (const NotFinite& error) {
-      save();
-      throw std::runtime_error(
-          fmt::format("{}; the state before it is in {}", error.what(), arguments_.checkpoint()));
-    }
-    write_files();
-    return kDone;
-  }
-
- private:
-  void step() {
-    const Trainer::Step step = trainer_.step();
-    log_.tell(step, trainer_.cloud().size());
-    const auto every = [&](std::uint32_t steps) {
-      return steps > 0 && trainer_.next_step() % static_cast<int>(steps) == 0;
-    };
-    if (every(arguments_.test_every) || trainer_.done()) {
-      // As pictures of transparent objects are compared.
-      const glm::vec3 background(test_.transparent() ? 1.0F : 0.0F);
-      const auto each = qualities(trainer_.activated(), test_, background);
-      log_.add(step, trainer_.cloud().size(), mean_quality(each));
-    }
-    if (every(arguments_.checkpoint_every) && !trainer_.done()) save();
-  }
-
-  void save() const {
-    write_checkpoint(arguments_.checkpoint(),
-                     {arguments_.training(), log_.csv(), trainer_.state()});
-  }
-
-  int stopped() {
-    save();
-    write_files();
-    fmt::print(stderr, "streaminggs train: stopped before step {}; to go on: --resume {}\n",
-               trainer_.next_step() + 1, arguments_.checkpoint());
-    return kInterrupted;
-  }
-
-  void write_files() const {
-    if (!arguments_.log.empty()) {
-      write_whole_file(arguments_.log, log_.csv().data(), log_.csv().size());
-    }
-    write_ply(arguments_.out, trainer_.cloud());
-  }
-
-  const TrainArguments& arguments_;
-  Photographs train_, test_;
-  TrainingLog log_;
-  Trainer trainer_;
-};
 
 int run(const TrainArguments& arguments) {
   OutputPlan plan;
-  plan.add_input(arguments.resume);
-  plan.add_output(arguments.out);
-  if (!arguments.log.empty()) plan.add_output(arguments.log);
+  arguments.add_to(plan);
   plan.check();
   const Dataset dataset =
       while_doing("reading " + arguments.dataset, [&] { return open_dataset(arguments.dataset); });
@@ -172,7 +86,18 @@ int run(const TrainArguments& arguments) {
     throw InputError(arguments.dataset + ": has no view to test with");
   }
   const TrainingConfig config = training_config(arguments);
-  return TrainingRun(arguments, dataset, config, begun(arguments, dataset, config)).run();
+  const std::optional<Checkpoint> from = arguments.resumed("train", arguments.training());
+  Photographs train(dataset, Split::kTrain), test(dataset, Split::kTest);
+  Trainer trainer = begun(from, dataset, config, train);
+  test.load(1);
+  // As pictures of transparent objects are compared.
+  const glm::vec3 background(test.transparent() ? 1.0F : 0.0F);
+  const auto look = [&] {
+    return Look{mean_quality(qualities(trainer.activated(), test, background)), {}};
+  };
+  const auto write = [&] { write_ply(arguments.out, trainer.cloud()); };
+  const FittingTask task{"train", arguments.training(), trainer, {}, look, write};
+  return run_fitting(arguments, task, from ? from->log : "", false);
 }
 
 }  // namespace
@@ -180,16 +105,11 @@ int run(const TrainArguments& arguments) {
 SubCommand add_train_command(CommandLine& line, const Kinds&) {
   auto arguments = std::make_shared<TrainArguments>();
   line.file("DATASET", arguments->dataset, "the folder of a data set", Given::kAlways);
-  line.file("--out", arguments->out, "scene to write: .ply", Given::kAlways);
-  line.file("--log", arguments->log, "steps, loss and quality as CSV");
+  arguments->add_to(line, "scene to write: .ply");
   line.whole("--steps", arguments->steps, 1, 1'000'000, "of training, a photograph each");
   line.whole("--gaussians", arguments->gaussians, 1, 100'000'000, "at most");
   line.whole("--seed", arguments->seed, 0, kMostSeed, "of all that is drawn by lot");
   line.whole("--sh-degree", arguments->sh_degree, 0, 3, "of colours");
-  line.whole("--test-every", arguments->test_every, 1, 1'000'000, "steps: test views are drawn");
-  line.whole("--checkpoint", arguments->checkpoint_every, 0, 1'000'000,
-             "steps: FILE.ply.checkpoint is written; 0: when stopped by Ctrl-C only");
-  line.file("--resume", arguments->resume, "a checkpoint of the same training, to go on from");
   line.one_of({"mcmc", "original"}, "--growth", arguments->growth, "where Gaussians come and go");
   line.one_of({"random", "white", "black"}, "--background", arguments->background,
               "behind transparent photographs");

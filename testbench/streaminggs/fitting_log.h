@@ -1,0 +1,50 @@
+// How a fitting goes: a table on standard output and the same as CSV; on a terminal a line between.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algorithm/train/evaluation.h"
+#include "algorithm/train/fitting.h"
+
+namespace sgs {
+
+// What test views say of the scene of the moment; of each further column of the log a number.
+struct Look {
+  Quality test;
+  std::vector<double> more;
+};
+
+// A column of the log beside those that every fitting has.
+struct LogColumn {
+  const char* csv;
+  const char* heading;  // of the table, up to 10 letters
+};
+
+class FittingLog {
+ public:
+  // steps: in all. csv: what an earlier run wrote, whose time goes on.
+  FittingLog(int steps, std::vector<LogColumn> more, std::string csv);
+
+  // After each step; rewrites the line.
+  void tell(const FittingStep& step, std::size_t gaussians);
+  // After so many steps; loss: of the last one, none before the first.
+  void add(int done, std::optional<double> loss, std::size_t gaussians, const Look& look);
+  // step, seconds, loss, Gaussians, PSNR and SSIM of the test views, further columns.
+  const std::string& csv() const { return csv_; }
+
+ private:
+  double seconds() const;
+
+  const int steps_;
+  const bool terminal_;
+  std::string csv_;
+  double before_s_ = 0;  // that earlier runs took
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  int first_step_ = -1;  // of this run
+};
+
+}  // namespace sgs

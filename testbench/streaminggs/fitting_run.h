@@ -1,0 +1,47 @@
+// A fitting from the step that it stands at to its last one, or to Ctrl-C: progress, log,
+// checkpoints, files.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algorithm/output_plan.h"
+#include "algorithm/train/checkpoint.h"
+#include "algorithm/train/fitting.h"
+#include "testbench/command_line/command_line.h"
+#include "testbench/streaminggs/fitting_log.h"
+
+namespace sgs {
+
+// What all commands that fit a scene have in common.
+struct FittingArguments {
+  std::string out, log, resume;
+  std::uint32_t test_every = 1'000, checkpoint_every = 0;
+
+  // scene_forms: what --out may be.
+  void add_to(CommandLine& line, const char* scene_forms);
+  void add_to(OutputPlan& plan) const;
+  std::string checkpoint() const { return out + ".checkpoint"; }
+  // The one to go on from, if any. work: what it must have been made by. Throws InputError.
+  std::optional<Checkpoint> resumed(const std::string& command, const std::string& work) const;
+};
+
+struct FittingTask {
+  std::string command;  // "train"
+  std::string work;     // as Checkpoint::work
+  Fitting& fitting;
+  std::vector<LogColumn> more;  // that look() fills in
+  std::function<Look()> look;
+  std::function<void()> write;  // the scene, to its place
+};
+
+// Looks at the test views as often as is asked for, behind the last step, and before the first one
+// where `from_start`. log: what an earlier run logged. Returns the exit status. Throws
+// std::runtime_error where the fitting stops by itself (NotFinite), with the last good state saved.
+int run_fitting(const FittingArguments& arguments, const FittingTask& task, std::string log,
+                bool from_start);
+
+}  // namespace sgs

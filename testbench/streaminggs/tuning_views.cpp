@@ -1,0 +1,63 @@
+#include "testbench/streaminggs/tuning_views.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/input_error.h"
+#include "algorithm/train/own_pictures.h"
+#include "testbench/command_line/while_doing.h"
+#include "testbench/streaminggs/numbers.h"
+
+namespace sgs {
+
+TuningViews views_of_dataset(const std::string& folder) {
+  auto dataset = std::make_unique<const Dataset>(
+      while_doing("reading " + folder, [&] { return open_dataset(folder); }));
+  if (views_of(*dataset, Split::kTest).empty()) {
+    throw InputError(folder + ": has no view to test with");
+  }
+  std::vector<Camera> cameras;
+  for (const int view : views_of(*dataset, Split::kTrain)) {
+    cameras.push_back(dataset->views[static_cast<std::size_t>(view)].camera);
+  }
+  Photographs tune(*dataset, Split::kTrain), test(*dataset, Split::kTest);
+  tune.load(1);
+  test.load(1);
+  std::string says = fmt::format("{} photographs of {}, {} others to test with",
+                                 grouped(tune.size()), folder, grouped(test.size()));
+  return {std::move(dataset), std::move(cameras), std::move(tune), std::move(test),
+          std::move(says)};
+}
+
+TuningViews views_of_scene(const ActivatedCloud& cloud, const std::vector<Camera>& cameras,
+                           std::uint32_t between, std::uint64_t seed) {
+  constexpr std::size_t kTestEvery = 8;
+  std::vector<Camera> tune, test;
+  if (between > 0) {
+    test = cameras;
+    tune = cameras_between(cameras, between, seed);
+  } else {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      (i % kTestEvery == 0 ? test : tune).push_back(cameras[i]);
+    }
+    if (tune.empty()) tune = test;
+  }
+  TuningViews out{nullptr, tune, own_pictures(cloud, tune), own_pictures(cloud, test), ""};
+  out.tune.load(1);
+  out.test.load(1);
+  out.says = fmt::format(
+      "no photographs: the scene's own reference pictures, {} views{}, {} to "
+      "test with",
+      grouped(tune.size()), between > 0 ? " between the cameras" : "", grouped(test.size()));
+  return out;
+}
+
+std::vector<PixelSize> frame_sizes(const TuningViews& views) {
+  std::vector<PixelSize> sizes;
+  for (const Camera& camera : views.cameras) sizes.push_back({camera.width, camera.height});
+  return sizes;
+}
+
+}  // namespace sgs

@@ -1,0 +1,91 @@
+// The price of streaming: by hand, and its derivatives against dual numbers.
+#include "algorithm/tune/streaming_price.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "algorithm/tune/activation_gradient.h"
+#include "algorithm/tune/projection_gradient.h"
+#include "tests/algorithm/splat/dual.h"
+#include "tests/algorithm/tune/hard_gaussians.h"
+
+namespace sgs::test {
+namespace {
+
+TEST_CASE("price of streaming: of what is seen the groups that a box meets") {
+  Projected<double> p{};
+  p.cov_a = 25;
+  p.cov_c = 100;
+  const double k = std::sqrt(2 * std::log(255 * 0.5) + 1e-4);
+  const double paid = 0.5 / 0.55;
+  struct Row {
+    double opacity;
+    PixelSize group, frame;
+    double price;
+  };
+  const double x = 1 + 2 * k * 5 / 32, y = 1 + 2 * k * 10 / 64;
+  for (const Row& row : {Row{0.5, {32, 64}, {640, 640}, paid * x * y},
+                         {0.5, {32, 64}, {32, 640}, paid * y},
+                         {0.5, {32, 64}, {32, 64}, paid},
+                         {0.003, {32, 64}, {640, 640}, 0}}) {
+    CHECK(streaming_price(p, row.opacity, row.group, row.frame).value == Approx(row.price));
+  }
+}
+
+template <class T>
+T price_of(const View<T>& view, const RawGaussian<T>& raw, const PixelSize& group) {
+  const Gaussian<T> g = activate(raw);
+  const auto p = project(view, g, to_camera(view, g.mean));
+  return streaming_price(p, g.opacity, group, {view.width, view.height}).value;
+}
+
+TEST_CASE("price of streaming: its derivatives are those of dual numbers") {
+  const Camera camera = small_camera();
+  const auto view = make_view<double>(camera);
+  const auto dual_view = make_view<Dual>(camera);
+  const PixelSize group{8, 4};
+  std::size_t compared = 0;
+  for (const HardScene& hard : hard_scenes()) {
+    if (hard.scene.sh_degree > 0) continue;
+    for (const RawGaussian<double>& raw : hard.scene.raw) {
+      const Gaussian<double> g = activate(raw);
+      const glm::dvec3 v = to_camera(view, g.mean);
+      if (!(v.z > 0.2)) continue;
+      const auto price = streaming_price(project(view, g, v), g.opacity, group, {20, 12});
+      const auto ours = activation_gradient(
+          raw, g, projection_gradient(view, g, v, price.by_splat, GradientRule::kDerivative));
+      const auto slope = [&](auto&& member) {
+        RawGaussian<Dual> dual{};
+        for (int k = 0; k < 3; ++k) {
+          dual.mean[k] = Dual(raw.mean[k]);
+          dual.log_scale[k] = Dual(raw.log_scale[k]);
+        }
+        for (std::size_t k = 0; k < 4; ++k) dual.quat[k] = Dual(raw.quat[k]);
+        dual.opacity_logit = Dual(raw.opacity_logit);
+        member(dual).slope = 1;
+        return price_of(dual_view, dual, group).slope;
+      };
+      double largest = std::abs(ours.opacity_logit);
+      for (int k = 0; k < 3; ++k) {
+        largest = std::max({largest, std::abs(ours.mean[k]), std::abs(ours.log_scale[k])});
+      }
+      const auto check = [&](double own, double exact) {
+        INFO(hard.name);
+        REQUIRE(std::abs(own - exact) <= 1e-5 * std::abs(exact) + 1e-11 * largest);
+        compared += exact != 0 ? 1 : 0;
+      };
+      for (int k = 0; k < 3; ++k) {
+        check(ours.mean[k], slope([&](auto& d) -> Dual& { return d.mean[k]; }));
+        check(ours.log_scale[k], slope([&](auto& d) -> Dual& { return d.log_scale[k]; }));
+      }
+      for (std::size_t k = 0; k < 4; ++k) {
+        check(ours.quat[k], slope([&](auto& d) -> Dual& { return d.quat[k]; }));
+      }
+      check(ours.opacity_logit, slope([&](auto& d) -> Dual& { return d.opacity_logit; }));
+    }
+  }
+  CHECK(compared > 300);
+}
+
+}  // namespace
+}  // namespace sgs::test

@@ -1,0 +1,163 @@
+// `streaminggs tune` on small scenes: files, checkpoints, what it refuses.
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/algorithm/dataset/made_datasets.h"
+#include "tests/system/shell.h"
+
+namespace sgs::test {
+namespace {
+
+struct Row {
+  std::string line;
+  std::vector<std::string> words;
+};
+
+constexpr const char* kTune = "$SG tune $B --boundary --steps 30 --test-every 15 ";
+constexpr const char* kQuantise =
+    "$SG tune $B --quantise --steps 30 --test-every 15 --reassign-every 10 "
+    "--set storage.vq.dc_entries=32 ";
+
+constexpr const char* kStreaming =
+    "$SG tune $B --streaming --config exact --steps 30 --test-every 15 --price 0.5 ";
+
+TEST_CASE("tune: a scene whose centres rest, a log that begins with the scene as given") {
+  for (const Row& row : std::vector<Row>{
+           {"--out t.ply --log l.csv",
+            {"no photographs: the scene's own reference pictures, 4 views, 1 to test with",
+             "step,seconds,loss,gaussians,test_psnr_db,test_ssim,reference_psnr_db,"
+             "misordered_gaussians,misordered_pixels,l_cbp\n0,",
+             "\n15,", "\n30,", "gaussians                 300\n"}},
+           {"--out t.ply --log l.csv --between 5 --beta 0.5 --misordered-in pixel",
+            {"5 views between the cameras, 5 to test with"}},
+           {"--out t.ply --log l.csv --set storage.voxel_size=0.5 --visit-memory 0",
+            {"in voxels of 0.5", "0.0 MB kept"}}}) {
+    const ScratchFolder scratch;
+    const ShellOutcome made = shell(scratch, kTune + row.line + " && cat l.csv && $SG info t.ply");
+    INFO(row.line << '\n' << made.out << made.err);
+    CHECK(made.status == 0);
+    for (const std::string& word : row.words) {
+      INFO(word);
+      CHECK(made.out.find(word) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("tune: photographs of a data set as the target") {
+  const ScratchFolder scratch;
+  write_nerf_synthetic(scratch.path("d"), made_scene());
+  const ShellOutcome made =
+      shell(scratch,
+            "$SG train d --steps 60 --gaussians 300 --out s.ply && $SG tune s.ply --boundary "
+            "--data d --steps 5 --out t.ply");
+  INFO(made.out << made.err);
+  CHECK(made.status == 0);
+  CHECK(made.out.find("photographs of d, ") != std::string::npos);
+}
+
+TEST_CASE("tune: codebooks learned, packed for the machine of the configuration") {
+  for (const char* config : {"paper", "exact_vq", "exact_vq_packed"}) {
+    const ScratchFolder scratch;
+    const std::string with = std::string("--config ") + config;
+    const ShellOutcome made =
+        shell(scratch, kQuantise + with +
+                           " --out q.sgs --log l.csv && cat l.csv && $SG info q.sgs && "
+                           "printf '[{\"id\":0,\"img_name\":\"a\",\"width\":32,\"height\":18,"
+                           "\"position\":[0,0,-5],\"rotation\":[[1,0,0],[0,1,0],[0,0,1]],\"fx\":32,"
+                           "\"fy\":32}]' >c.json && $SG simulate q.sgs --cameras c.json " +
+                           with);
+    INFO(made.out << made.err);
+    CHECK(made.status == 0);
+    for (const char* word : {"before codebooks", "test_ssim,reference_psnr_db,reassigned\n0,",
+                             "\n15,", "\n30,", " of 300\n"}) {
+      INFO(word);
+      CHECK(made.out.find(word) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("tune: what is cheaper to stream") {
+  const ScratchFolder scratch;
+  const ShellOutcome made = shell(
+      scratch, std::string(kStreaming) + "--out t.ply --log l.csv && cat l.csv && $SG info t.ply");
+  INFO(made.out << made.err);
+  CHECK(made.status == 0);
+  for (const char* word : {"in chunks of 8", "test_ssim,stored,fetches\n0,", "\n15,", "\n30,",
+                           "gaussians                 300\n"}) {
+    INFO(word);
+    CHECK(made.out.find(word) != std::string::npos);
+  }
+}
+
+TEST_CASE("tune: what is resumed ends as what was never stopped, bit for bit") {
+  for (const std::string tune : {kTune, kQuantise, kStreaming}) {
+    const std::string extension = tune == kQuantise ? ".sgs" : ".ply";
+    const ScratchFolder scratch;
+    const ShellOutcome made =
+        shell(scratch, tune + "--out a" + extension + " --checkpoint 20 && cp a" + extension +
+                           ".checkpoint mid && " + tune + "--out b" + extension +
+                           " --resume mid && cmp a" + extension + " b" + extension);
+    INFO(made.out << made.err);
+    CHECK(made.status == 0);
+  }
+}
+
+TEST_CASE("tune: Ctrl-C saves, and says how to go on") {
+  const ScratchFolder scratch;
+  const ShellOutcome made = shell(
+      scratch,
+      "$SG tune $B --boundary --out s.ply --steps 1000000 & p=$!; sleep 2; kill -INT $p; wait $p; "
+      "echo status $?; ls");
+  INFO(made.out << made.err);
+  CHECK(made.out.find("status 130") != std::string::npos);
+  CHECK(made.out.find("s.ply\ns.ply.checkpoint\n") != std::string::npos);
+  CHECK(made.err.find("to go on: --resume s.ply.checkpoint") != std::string::npos);
+}
+
+TEST_CASE("tune: refusals") {
+  const std::string checkpoint = std::string(kTune) + "--out s.ply --checkpoint 20 >t && ";
+  for (const Row& row : std::vector<Row>{
+           {"$SG tune $B --out t.ply", {"got nothing to tune for"}},
+           {"$SG tune $B --boundary --quantise --out t.ply", {"got several things to tune for"}},
+           {"$SG tune $B --quantise --out t.ply", {"--out", "t.ply", ".sgs"}},
+           {"$SG tune $B --quantise --out t.sgs --config paper_no_vq",
+            {"--quantise", "storage.encoding raw", "vq or vq_packed"}},
+           {"$SG tune $B --quantise --out t.sgs --beta 1", {"--beta", "--boundary"}},
+           {"$SG tune $B --boundary --out t.ply --reassign-every 9",
+            {"--reassign-every", "--quantise"}},
+           {"$SG tune $B --streaming --out t.ply", {"--streaming", "machine paper", "exact order"}},
+           {"$SG tune $B --boundary --out t.ply --price 1", {"--price", "--streaming"}},
+           {"$SG tune nofile.ply --boundary --out t.ply", {"nofile.ply: no such file"}},
+           {"$SG tune $B --boundary --out t.txt", {"--out", "t.txt", ".ply"}},
+           {"$SG tune $S --boundary --out t.ply --data nofolder", {"nofolder: no such folder"}},
+           {"$SG tune $B --boundary --out t.ply --data d", {"--size", "data set"}},
+           {"$SG tune $B --boundary --out t.ply --config exact",
+            {"--boundary", "machine exact", "paper order"}},
+           {"$SG tune $B --boundary --out t.ply --beta -1", {"--beta", "-1"}},
+           {"$SG tune $B --boundary --out t.ply --misordered-in x", {"--misordered-in", "x"}},
+           {ply_of({"0 0 5"}) + "; $SG tune a.ply --boundary --out t.ply",
+            {"a.ply: brings no cameras"}},
+           {ply_of({"0 0 5"}, -9) +
+                "; printf '[{\"id\":0,\"img_name\":\"a\",\"width\":16,\"height\":16,\"position\":"
+                "[0,0,0],\"rotation\":[[1,0,0],[0,1,0],[0,0,1]],\"fx\":16,\"fy\":16}]' >c.json; "
+                "$SG tune a.ply --boundary --out t.ply --cameras c.json",
+            {"a.ply: holds no Gaussian that a view could show"}},
+           {"$SG tune $B --boundary --out t.ply --resume nofile", {"nofile: cannot be opened"}},
+           {checkpoint + "$SG tune $B --boundary --steps 31 --out t.ply --resume s.ply.checkpoint",
+            {"is of 'tune builtin:object?n=300", "--steps 30", "expected", "--steps 31"}},
+           {checkpoint + kQuantise + "--out t.sgs --resume s.ply.checkpoint",
+            {"is of 'tune builtin:object?n=300", "--boundary", "expected", "--quantise"}}}) {
+    const ScratchFolder scratch;
+    const ShellOutcome outcome = shell(scratch, row.line);
+    INFO(row.line << '\n' << outcome.out << outcome.err);
+    CHECK(outcome.status == 2);
+    for (const std::string& word : row.words) {
+      INFO(word);
+      CHECK(outcome.err.find(word) != std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test
