@@ -1,12 +1,13 @@
 // What an interval heap (algorithm/order/interval_heap.h) is made of and does, for the data sheet
-// of the unit that has one. A level is a use of on-chip memory by itself, the root's is 0; a node of
-// two keys and its two counts is a word. Two comparisons of keys a level, each of key_words
+// of the unit that has one. A level is a use of on-chip memory by itself, the root's is 0; a node
+// of two keys and its two counts is a word. Two comparisons of keys a level, each of key_words
 // comparators of 32 bits.
 //
 // Between the memories, a level, with keys of K bits and nodes of N:
 //   - registers for the key that sinks and for the node that waits to be written: K + N
 //   - what an insert swaps at either end and what a hole takes: 7 K of multiplexers
-//   - of what is read: a word that is written in the same cycle passes by each bank, two of the four
+//   - of what is read: a word that is written in the same cycle passes by each bank, two of the
+//   four
 //     that are read ahead go on, and one of the two that are compared rises
 #pragma once
 
@@ -53,8 +54,8 @@ struct HeapLedger {
                      root + of.nodes_read + (ahead ? of.nodes_read_ahead : 0), passes);
       const double held = 8.0 * key_bytes + node_bits(entries, level);
       const double chosen =
-          7 * 8.0 * key_bytes + double{words_chosen(entries, level, cycles_per_operation)} *
-                                    node_bits(entries, level);
+          7 * 8.0 * key_bytes +
+          double{words_chosen(entries, level, cycles_per_operation)} * node_bits(entries, level);
       registers += held;
       multiplexers += chosen;
       registered += held * static_cast<double>(passes);

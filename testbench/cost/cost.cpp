@@ -46,8 +46,9 @@ Band clocked_area(const MachineResult& machine, const Technology& technology) {
 
 SramUse write_queues(const FrameResult& frame, const Technology& technology) {
   constexpr std::uint32_t kBurstBits = 256;
-  SramUse queue = sram_use("waiting writes", "controller",
-                           {{technology.memory_interface.write_queue_bytes, "B"}}, {kBurstBits}, kOneOfEach);
+  SramUse queue =
+      sram_use("waiting writes", "controller",
+               {{technology.memory_interface.write_queue_bytes, "B"}}, {kBurstBits}, kOneOfEach);
   queue.count = frame.memory.channels;
   return queue;
 }

@@ -40,7 +40,8 @@ double SramModel::bare_read_pj(double bits, double width_bits) const {
 
 Band SramModel::mm2(const SramUse& use) const {
   constexpr double kMm2 = 1e-6;  // of a um2
-  return kMm2 * banks(use) * (use.in_registers() ? register_um2(*this, use) : macro_um2(*this, use));
+  return kMm2 * banks(use) *
+         (use.in_registers() ? register_um2(*this, use) : macro_um2(*this, use));
 }
 
 Band SramModel::leakage_mw(const SramUse& use) const {

@@ -48,7 +48,7 @@ struct SramModel {
   // macro that they replace.
   Band mm2(const SramUse& use) const;
   Band leakage_mw(const SramUse& use) const;  // of macros: registers leak as the logic does
-  Band read_pj(const SramUse& use) const;  // one access of one bank
+  Band read_pj(const SramUse& use) const;     // one access of one bank
   Band write_pj(const SramUse& use) const;
 };
 

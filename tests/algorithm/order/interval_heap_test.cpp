@@ -107,7 +107,7 @@ TEST_CASE("interval heap: work of single operations, by hand") {
   for (const std::uint32_t key : {5U, 1U}) heap.insert(key);
   CHECK(heap.work().comparisons == 1);
   CHECK(heap.work().all_levels().nodes_read == 0);  // the root is in registers
-  heap.insert(9);                      // takes 5's place at the high end, 5 sinks
+  heap.insert(9);                                   // takes 5's place at the high end, 5 sinks
   CHECK(heap.work().comparisons == 3);
   CHECK(heap.work().all_levels().nodes_read == 0);  // nothing is there yet
   CHECK(heap.work().all_levels().nodes_written == 1);
@@ -117,7 +117,7 @@ TEST_CASE("interval heap: work of single operations, by hand") {
   CHECK(heap.work().comparisons == 6);
   CHECK(heap.work().all_levels().nodes_read == 2);
   CHECK(heap.work().all_levels().nodes_written == 2);  // the root, and the child is empty
-  CHECK(heap.delete_max() == 9);          // only 5 is below: nothing to compare
+  CHECK(heap.delete_max() == 9);                       // only 5 is below: nothing to compare
   CHECK(heap.work().comparisons == 6);
   CHECK(heap.work().all_levels().nodes_read == 3);
   CHECK(heap.work().all_levels().nodes_read_ahead == 0);

@@ -122,8 +122,7 @@ TEST_CASE("toy machine: binding, energy, area and SRAM follow from its data shee
   CHECK(area["memory_path"] == Approx(path));
   CHECK(area.size() == 6);  // with the bands
   constexpr int kPortTables = 2 * 16 * 8;
-  CHECK(left_out(view, "unused_sram_scratch") ==
-        4096 - (3 * 8 * 16 + kPortTables));
+  CHECK(left_out(view, "unused_sram_scratch") == 4096 - (3 * 8 * 16 + kPortTables));
 
   // Blocks, and what ports keep of transactions.
   CHECK(view["sram"]["scratch_bytes"] == 3 * 8 * 16 + kPortTables);
