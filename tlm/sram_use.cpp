@@ -38,16 +38,24 @@ void add(SramUses& to, const SramUses& uses, std::uint64_t count) {
   for (const SramUse& use : uses) add(to, use, count);
 }
 
+namespace {
+
+bool takes_of(const SramUse& use, const std::string& memory) {
+  return use.memory == memory && !use.in_registers();
+}
+
+}  // namespace
+
 std::uint64_t sram_bytes(const SramUses& uses, const std::string& memory) {
   std::uint64_t sum = 0;
-  for (const SramUse& use : uses) sum += use.memory == memory ? use.total_bytes() : 0;
+  for (const SramUse& use : uses) sum += takes_of(use, memory) ? use.total_bytes() : 0;
   return sum;
 }
 
 std::string sram_sum(const SramUses& uses, const std::string& memory) {
   std::string sum;
   for (const SramUse& use : uses) {
-    if (use.memory != memory) continue;
+    if (!takes_of(use, memory)) continue;
     sum += fmt::format("{}{} {} ({})", sum.empty() ? "" : " + ", use.name, use.total_bytes(),
                        use.product());
   }

@@ -33,6 +33,11 @@ constexpr bool operator==(const SramPeak& a, const SramPeak& b) {
 // What most uses ask of their memory: as much as a bank of two ports gives.
 constexpr SramPeak kOneOfEach{1, 1};
 
+// Banks of at most so many rows are flip-flops, not SRAM: shorter than the row of words that a
+// macro's periphery is worth. It is a rule of shape, so that what a configuration may hold does not
+// hang on prices; the technology table's middle values put the boundary there too.
+constexpr std::uint32_t register_rows(SramPorts ports) { return ports == SramPorts::kOne ? 5 : 7; }
+
 // One use of one of the on-chip memories, as often as it is there.
 struct SramUse {
   std::string name;
@@ -44,6 +49,9 @@ struct SramUse {
   SramPeak peak = kOneOfEach;  // of one
 
   std::uint64_t total_bytes() const { return count * bytes; }
+  bool in_registers() const {
+    return 8 * bytes <= std::uint64_t{register_rows(shape.ports)} * shape.banks * shape.width_bits;
+  }
   // "4 x 8 slots x 256 B": of all.
   std::string product() const;
 };
@@ -65,10 +73,10 @@ constexpr std::uint64_t sram_words(std::uint64_t bytes, const SramShape& shape) 
 void add(SramUses& to, const SramUse& use, std::uint64_t count = 1);
 void add(SramUses& to, const SramUses& uses, std::uint64_t count = 1);
 
-// Bytes of all uses of one memory.
+// Bytes of SRAM of all uses of one memory: what is in registers takes none of it.
 std::uint64_t sram_bytes(const SramUses& uses, const std::string& memory);
 
-// "a 12 (3 x 4 B) + b 8 (8 B)": the uses of one memory.
+// "a 12 (3 x 4 B) + b 8 (8 B)": the uses of one memory that sram_bytes() adds up.
 std::string sram_sum(const SramUses& uses, const std::string& memory);
 
 }  // namespace sgs

@@ -36,15 +36,29 @@
 
 namespace sgs {
 
-// What the levels did. The root is in registers and not counted.
-struct HeapWork {
-  std::uint64_t inserts = 0, delete_mins = 0, delete_maxs = 0;
+// What the memory of one level did.
+struct HeapLevelWork {
   std::uint64_t nodes_read = 0;        // that hold a key: of two keys and two counts
   std::uint64_t nodes_read_ahead = 0;  // beside these, below candidates that do not fill a hole
-  std::uint64_t nodes_written = 0;     // at most one a level that is passed
-  std::uint64_t comparisons = 0;       // of two keys, at any level
+  std::uint64_t nodes_written = 0;     // at most one an operation
+};
+
+// What the levels did. The root is in registers, where nothing is counted.
+struct HeapWork {
+  std::uint64_t inserts = 0, delete_mins = 0, delete_maxs = 0;
+  std::uint64_t comparisons = 0;  // of two keys, at any level
+  std::vector<HeapLevelWork> levels;
 
   std::uint64_t operations() const { return inserts + delete_mins + delete_maxs; }
+  HeapLevelWork all_levels() const {
+    HeapLevelWork sum;
+    for (const HeapLevelWork& level : levels) {
+      sum.nodes_read += level.nodes_read;
+      sum.nodes_read_ahead += level.nodes_read_ahead;
+      sum.nodes_written += level.nodes_written;
+    }
+    return sum;
+  }
 };
 
 // From one operation to the next, at least.
@@ -61,27 +75,17 @@ inline std::uint32_t heap_levels(std::uint64_t capacity) {
   return levels;
 }
 
-// Bits of all counts: a node whose children can hold n keys has room to count to n for each.
-inline std::uint64_t heap_count_bits(std::uint64_t capacity) {
-  std::uint64_t bits = 0;
-  const std::uint32_t levels = heap_levels(capacity);
-  for (std::uint32_t level = 0; level + 1 < levels; ++level) {
-    const std::uint32_t bits_a_count = levels - level;  // 2 (2^k - 1) keys below, k levels deep
-    bits += (std::uint64_t{1} << level) * 2 * bits_a_count;
-  }
-  return bits;
+// Nodes of a level, the root's is 0, where levels are filled from above.
+inline std::uint64_t heap_nodes(std::uint64_t capacity, std::uint32_t level) {
+  const std::uint64_t nodes = (capacity + 1) / 2, above = (std::uint64_t{1} << level) - 1;
+  return std::min(std::uint64_t{1} << level, nodes - std::min(nodes, above));
 }
 
-// Banks of all levels, none without a node of two keys; the root is one of them.
-inline std::uint32_t heap_banks(std::uint64_t capacity, std::uint32_t cycles_per_operation) {
-  std::uint64_t nodes = std::max<std::uint64_t>(1, capacity / 2);
-  std::uint64_t banks = 0;
-  for (std::uint64_t of_level = 1; nodes > 0; of_level *= 2) {
-    const std::uint64_t here = std::min(of_level, nodes);
-    banks += std::min<std::uint64_t>(here, heap_banks_of_level(cycles_per_operation));
-    nodes -= here;
-  }
-  return static_cast<std::uint32_t>(banks);
+// Bits of one of the two counts of a level's nodes: 2 (2^k - 1) keys below, k levels deep. The
+// deepest level has none.
+inline std::uint32_t heap_count_bits(std::uint64_t capacity, std::uint32_t level) {
+  const std::uint32_t levels = heap_levels(capacity);
+  return level + 1 < levels ? levels - level : 0;
 }
 
 // Before: a strict order of keys, total where the order of what comes out is to be known.
@@ -91,6 +95,7 @@ class IntervalHeap {
   // capacity: keys, at least 1.
   explicit IntervalHeap(std::size_t capacity)
       : capacity_(capacity), nodes_((capacity + 1) / 2), room_(nodes_.size()) {
+    work_.levels.resize(heap_levels(capacity));
     for (std::size_t at = nodes_.size(); at-- > 0;) {
       room_[at] = at + 1 == nodes_.size() && capacity % 2 == 1 ? 1 : 2;
       for (const std::size_t child : {2 * at + 1, 2 * at + 2}) {
@@ -113,10 +118,10 @@ class IntervalHeap {
   void insert(Key key) {
     ++work_.inserts;
     std::size_t at = 0, held = size_++;  // keys in the node and below it, so far
-    while (true) {
+    for (std::size_t level = 0;; ++level) {
       Node& node = nodes_[at];
-      work_.nodes_read += at > 0 && held > 0 ? 1 : 0;
-      work_.nodes_written += at > 0 ? 1 : 0;
+      work_.levels[level].nodes_read += at > 0 && held > 0 ? 1 : 0;
+      work_.levels[level].nodes_written += at > 0 ? 1 : 0;
       if (held == 0) {
         node = {std::move(key), {}, {0, 0}};
         return;
@@ -174,9 +179,9 @@ class IntervalHeap {
   }
 
   Key take(std::size_t end) {
-    std::size_t at = 0, held = size_--;
+    std::size_t at = 0, held = size_--, level = 0;
     Key taken = end_of(at, held, end);
-    while (held > 2) {  // the hole is filled from below
+    for (; held > 2; ++level) {  // the hole is filled from below
       Node& node = nodes_[at];
       std::size_t side = node.below[0] > 0 ? 0 : 1;
       const std::size_t left = 2 * at + 1;
@@ -186,9 +191,11 @@ class IntervalHeap {
         side = (end == 0 ? before(b, a) : before(a, b)) ? 1 : 0;
       }
       const std::size_t other = 1 - side;
-      work_.nodes_read += node.below[other] > 0 ? 2 : 1;
-      if (node.below[other] > 2) work_.nodes_read_ahead += children_with_keys(left + other);
-      work_.nodes_written += at > 0 ? 1 : 0;
+      work_.levels[level + 1].nodes_read += node.below[other] > 0 ? 2 : 1;
+      if (node.below[other] > 2) {
+        work_.levels[level + 2].nodes_read_ahead += children_with_keys(left + other);
+      }
+      work_.levels[level].nodes_written += at > 0 ? 1 : 0;
       held = node.below[side]--;
       (end == 0 ? node.low : node.high) = end_of(left + side, held, end);
       at = left + side;
@@ -196,7 +203,7 @@ class IntervalHeap {
     // Two keys: the other one is left alone. One: the node is empty.
     if (held == 2 && end == 0) {
       nodes_[at].low = std::move(nodes_[at].high);
-      work_.nodes_written += at > 0 ? 1 : 0;
+      work_.levels[level].nodes_written += at > 0 ? 1 : 0;
     }
     return taken;
   }

@@ -1,11 +1,19 @@
 // What an interval heap (algorithm/order/interval_heap.h) is made of and does, for the data sheet
-// of the unit that has one. A node of two keys is a word, its two counts are one beside it; each
-// bank of keys has its bank of counts. Two comparisons of keys a level, each of key_words
+// of the unit that has one. A level is a use of on-chip memory by itself, the root's is 0; a node
+// of two keys and its two counts is a word. Two comparisons of keys a level, each of key_words
 // comparators of 32 bits.
+//
+// Between the memories, a level, with keys of K bits and nodes of N:
+//   - registers for the key that sinks and for the node that waits to be written: K + N
+//   - what an insert swaps at either end and what a hole takes: 7 K of multiplexers
+//   - of what is read: a word that is written in the same cycle passes by each bank, two of the
+//   four
+//     that are read ahead go on, and one of the two that are compared rises
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 
 #include "algorithm/order/interval_heap.h"
 #include "modules/streaminggs/built_for.h"
@@ -14,48 +22,74 @@
 namespace sgs {
 
 struct HeapLedger {
-  const char* keys;    // name of the use that holds them
-  const char* counts;  // and of that of their counts
+  const char* keys;  // the uses are named so, and by their level
   const char* component;
   std::uint32_t key_bytes;
   std::uint32_t key_words;  // that are compared
 
   SramUses sram_uses(std::uint32_t entries, std::uint32_t cycles_per_operation) const {
-    const std::uint32_t banks = heap_banks(entries, cycles_per_operation);
-    const SramShape of_counts = count_shape(entries, cycles_per_operation);
-    // Each bank at most once: that is what paces the operations.
-    return {sram_use(keys, kSharedSram, {{entries, "keys"}, {key_bytes, "B"}},
-                     {8 * 2 * key_bytes, SramPorts::kReadAndWrite, banks}, {banks, banks}),
-            sram_use(counts, kSharedSram, {{(heap_count_bits(entries) + 7) / 8, "B"}}, of_counts,
-                     {of_counts.banks, of_counts.banks})};
+    SramUses uses;
+    for (std::uint32_t level = 0; level < heap_levels(entries); ++level) {
+      const std::uint32_t bits = node_bits(entries, level);
+      const std::uint32_t banks = banks_of(entries, level, cycles_per_operation);
+      // Each bank at most once: that is what paces the operations.
+      uses.push_back(sram_use(name_of(level).c_str(), kSharedSram,
+                              {{(heap_nodes(entries, level) * bits + 7) / 8, "B"}},
+                              {bits, SramPorts::kReadAndWrite, banks}, {banks, banks}));
+    }
+    return uses;
   }
 
   void publish(DataSheet& sheet, std::uint32_t entries, std::uint32_t cycles_per_operation,
                const HeapWork& work) const {
     constexpr std::uint32_t kOfLevel = 2;
     const bool ahead = cycles_per_operation == kFewestHeapCycles;
-    const std::uint64_t read = work.nodes_read + (ahead ? work.nodes_read_ahead : 0);
-    sheet.accesses(keys, read, work.nodes_written);
-    sheet.accesses(counts, read, work.nodes_written);
+    double registers = 0, multiplexers = 0, registered = 0, selected = 0;
+    for (std::uint32_t level = 0; level < heap_levels(entries); ++level) {
+      const HeapLevelWork& of = work.levels[level];
+      // The root is read and written by each operation.
+      const std::uint64_t root = level == 0 ? work.operations() : 0;
+      const std::uint64_t passes = root + of.nodes_written;
+      sheet.accesses(name_of(level).c_str(),
+                     root + of.nodes_read + (ahead ? of.nodes_read_ahead : 0), passes);
+      const double held = 8.0 * key_bytes + node_bits(entries, level);
+      const double chosen =
+          7 * 8.0 * key_bytes +
+          double{words_chosen(entries, level, cycles_per_operation)} * node_bits(entries, level);
+      registers += held;
+      multiplexers += chosen;
+      registered += held * static_cast<double>(passes);
+      selected += chosen * static_cast<double>(passes);
+    }
+    sheet.part(component, "register_bit", registers, 1);
+    sheet.operations(component, "register_bit", registered);
+    sheet.part(component, "select_bit", multiplexers, 1);
+    sheet.operations(component, "select_bit", selected);
     sheet.part(component, "comparator", double{kOfLevel} * key_words * heap_levels(entries), 1);
     sheet.operations(component, "comparator",
                      static_cast<double>(key_words) * static_cast<double>(work.comparisons));
   }
 
+  std::string name_of(std::uint32_t level) const {
+    return std::string(keys) + " " + std::to_string(level);
+  }
+
  private:
-  // The deepest level has no counts; of the others each counts to what lies below it, so that its
-  // words are narrower the deeper it lies: their mean width.
-  static SramShape count_shape(std::uint32_t entries, std::uint32_t cycles_per_operation) {
-    const std::uint32_t levels = heap_levels(entries);
-    std::uint32_t banks = 0, bits = 0;
-    for (std::uint32_t level = 0; level + 1 < levels; ++level) {
-      const std::uint32_t here =
-          std::min(1U << std::min(level, 31U), heap_banks_of_level(cycles_per_operation));
-      banks += here;
-      bits += here * 2 * (levels - level);
-    }
-    if (banks == 0) return {1};
-    return {(2 * bits + banks) / (2 * banks), SramPorts::kReadAndWrite, banks};
+  std::uint32_t node_bits(std::uint32_t entries, std::uint32_t level) const {
+    return 2 * (8 * key_bytes + heap_count_bits(entries, level));
+  }
+  static std::uint32_t banks_of(std::uint32_t entries, std::uint32_t level,
+                                std::uint32_t cycles_per_operation) {
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        heap_nodes(entries, level), heap_banks_of_level(cycles_per_operation)));
+  }
+  // Words of a level's that two-way multiplexers choose; the root is alone and there at all times.
+  static std::uint32_t words_chosen(std::uint32_t entries, std::uint32_t level,
+                                    std::uint32_t cycles_per_operation) {
+    constexpr std::uint32_t kCompared = 2, kRiser = 1;
+    const std::uint32_t banks = banks_of(entries, level, cycles_per_operation);
+    if (level == 0) return 0;
+    return banks + (banks > kCompared ? kCompared : 0) + kRiser;
   }
 };
 

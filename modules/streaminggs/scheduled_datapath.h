@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "algorithm/splat/folded_pipeline.h"
@@ -29,10 +30,15 @@ inline BetweenLanes between_lanes(const LaneWiring& wiring, std::uint32_t value_
 }
 
 // Lanes, copies and charge must be what they will be. value_bits: of a value between two steps.
+// Throws std::logic_error where the steps take more lanes than there are, unless the charge is a
+// published one, which may be less than was counted.
 inline void schedule(Datapath& path, const std::vector<LaneStep>& steps,
                      const OperationLatencies& latencies, std::uint32_t value_bits = kSingleBits) {
   const auto interval = static_cast<std::uint32_t>(path.interval_cycles());
   const FoldedPipeline folded = folded_pipeline(steps, parts_of(path, interval), latencies);
+  if (path.used_macs == path.counted_macs && folded.parts.lanes > path.lanes) {
+    throw std::logic_error(path.name + ": its steps take more lanes than are charged");
+  }
   path.between = between_lanes(folded.wiring, value_bits);
   path.depth_cycles = folded.schedule.cycles;
   path.loop_cycles = folded.schedule.loop_cycles;

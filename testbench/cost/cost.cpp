@@ -35,10 +35,20 @@ CostResult logic_area(const MachineResult& machine, const Technology& technology
   return area;
 }
 
+// What flip-flops are in has a clock and leaks as logic does: parts, and memories in registers.
+Band clocked_area(const MachineResult& machine, const Technology& technology) {
+  Band area = logic_area(machine, technology).total;
+  for (const SramUse& use : machine.sram_uses) {
+    if (use.in_registers()) area = area + technology.sram.mm2(use);
+  }
+  return area;
+}
+
 SramUse write_queues(const FrameResult& frame, const Technology& technology) {
   constexpr std::uint32_t kBurstBits = 256;
-  SramUse queue = sram_use("waiting writes", "controller",
-                           {{technology.memory_interface.write_queue_bytes, "B"}}, {kBurstBits}, kOneOfEach);
+  SramUse queue =
+      sram_use("waiting writes", "controller",
+               {{technology.memory_interface.write_queue_bytes, "B"}}, {kBurstBits}, kOneOfEach);
   queue.count = frame.memory.channels;
   return queue;
 }
@@ -87,7 +97,7 @@ CostResult energy_of(const FrameResult& frame, const Technology& technology) {
     sram_leakage = sram_leakage + technology.sram.leakage_mw(use);
   }
   const auto cycles = static_cast<double>(frame.cycles);
-  const Band logic = logic_area(machine, technology).total;
+  const Band logic = clocked_area(machine, technology);
   add(energy, "clock", cycles * kPj * (technology.die.clock_pj_mm2_cycle * logic));
   add(energy, "logic_leakage",
       kMw * frame.time_s() * (technology.die.logic_leakage_mw_mm2 * logic));

@@ -38,19 +38,16 @@ double SramModel::bare_read_pj(double bits, double width_bits) const {
   return width_bits * (pj_width + pj_cell * length) + pj_decode * length;
 }
 
-bool SramModel::in_registers(const SramUse& use) const {
-  return register_um2(*this, use).middle < macro_um2(*this, use).middle;
-}
-
 Band SramModel::mm2(const SramUse& use) const {
   constexpr double kMm2 = 1e-6;  // of a um2
-  return kMm2 * banks(use) * (in_registers(use) ? register_um2(*this, use) : macro_um2(*this, use));
+  return kMm2 * banks(use) *
+         (use.in_registers() ? register_um2(*this, use) : macro_um2(*this, use));
 }
 
 Band SramModel::leakage_mw(const SramUse& use) const {
   constexpr double kKiB = 8 * 1024;  // bits
-  const double bits = in_registers(use) ? bank_bits(use) : macro_bits(*this, use);
-  return banks(use) * bits / kKiB * leakage_mw_kib;
+  if (use.in_registers()) return {};
+  return banks(use) * macro_bits(*this, use) / kKiB * leakage_mw_kib;
 }
 
 Band SramModel::read_pj(const SramUse& use) const {

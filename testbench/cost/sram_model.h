@@ -25,7 +25,7 @@ struct SramPoint {
 //   pJ of a read = W (pj_width + pj_cell sqrt(C)) + pj_decode sqrt(C)
 // sqrt(C) stands for the length of word lines, bit lines and the way there. The points are at most
 // 256 bits wide; a wider bank is made of macros of at most so many, side by side. None has fewer
-// than least_rows rows: a shorter bank is a macro of so many, or registers if these take less area.
+// than least_rows rows: a shorter bank is a macro of so many, or registers where its use says so.
 struct SramModel {
   double um2_bit = 0, um2_bit_port = 0, um2_width = 0;
   double pj_width = 0, pj_cell = 0, pj_decode = 0;
@@ -44,14 +44,11 @@ struct SramModel {
   double bare_um2(double bits, double width_bits, double ports) const;
   double bare_read_pj(double bits, double width_bits) const;
 
-  // Whether registers are less area for a bank than a macro of at least least_rows rows.
-  bool in_registers(const SramUse& use) const;
-
   // Of all that is there of the use, on the die. An access of registers is charged as one of the
   // macro that they replace.
   Band mm2(const SramUse& use) const;
-  Band leakage_mw(const SramUse& use) const;
-  Band read_pj(const SramUse& use) const;  // one access of one bank
+  Band leakage_mw(const SramUse& use) const;  // of macros: registers leak as the logic does
+  Band read_pj(const SramUse& use) const;     // one access of one bank
   Band write_pj(const SramUse& use) const;
 };
 

@@ -85,12 +85,13 @@ void print_sheets(const MachineResult& machine) {
                               d.copies * std::uint64_t{d.between.registers},
                               d.copies * std::uint64_t{d.between.multiplexers}));
   }
-  Table sram("| on-chip memory | use | bytes | arithmetic | memories | ports | bits wide |");
+  Table sram(
+      "| on-chip memory | use | bytes | built as | arithmetic | memories | ports | bits wide |");
   for (const SramUse& use : machine.sram_uses) {
-    sram.row(fmt::format("{} | {} | {} | {} | {} | {} | {} ", use.memory, use.name,
-                         use.total_bytes(), use.product(), use.count * use.shape.banks,
-                         use.shape.ports == SramPorts::kOne ? "one" : "read and write",
-                         use.shape.width_bits));
+    sram.row(fmt::format(
+        "{} | {} | {} | {} | {} | {} | {} | {} ", use.memory, use.name, use.total_bytes(),
+        use.in_registers() ? "registers" : "SRAM", use.product(), use.count * use.shape.banks,
+        use.shape.ports == SramPorts::kOne ? "one" : "read and write", use.shape.width_bits));
   }
 }
 

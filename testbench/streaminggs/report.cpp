@@ -190,6 +190,7 @@ Json sram_of(const MachineResult& machine, const SramModel& model) {
     out["uses"].push_back({{"name", use.name},
                            {"memory", use.memory},
                            {"bytes", use.total_bytes()},
+                           {"built_as", use.in_registers() ? "registers" : "sram"},
                            {"arithmetic", use.product()},
                            {"memories", use.count * use.shape.banks},
                            {"width_bits", use.shape.width_bits},

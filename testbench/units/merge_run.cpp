@@ -75,10 +75,21 @@ void check_counters(MergeRun& run, const MergePlan& plan) {
   } else {
     run.bench.check_counter("runs_spilled", 0);
   }
-  // A word a node; a key is depth and slot.
-  std::uint64_t read = run.bench.counter("heap_nodes_read");
-  if (plan.config.cycles_per_operation == 2) read += run.bench.counter("heap_nodes_read_ahead");
-  run.bench.check_accesses("waiting keys", read, run.bench.counter("heap_nodes_written"));
+  // A word a node, the root's in each operation; a level passes no more nodes than operations.
+  run.bench.check_accesses("waiting keys 0", heap.operations(), heap.operations());
+  std::uint64_t read = 0, written = 0;
+  for (std::size_t level = 1; level < heap.levels.size(); ++level) {
+    const HeapLevelWork& of = heap.levels[level];
+    const std::uint64_t ahead = plan.config.cycles_per_operation == 2 ? of.nodes_read_ahead : 0;
+    run.bench.check_accesses("waiting keys " + std::to_string(level), of.nodes_read + ahead,
+                             of.nodes_written);
+    checks.that(of.nodes_written <= heap.operations(), "a level is written twice by an operation");
+    read += of.nodes_read;
+    written += of.nodes_written;
+  }
+  run.bench.check_counter("heap_nodes_read", read);
+  run.bench.check_counter("heap_nodes_written", written);
+  // A key is depth and slot.
   std::uint64_t comparisons = 2 * run.bench.counter("heap_comparisons");
   comparisons += 4 * c.due;  // 4 rows of 4 sub-tiles, of 16 px
   run.bench.check_accesses("finished sub-tiles", 32 * c.due, run.mask.news());  // 4 rows of a byte

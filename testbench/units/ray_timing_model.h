@@ -166,11 +166,14 @@ class RayTimingModel {
     return true;
   }
 
-  // A voxel every second cycle at most.
+  // A voxel once the first of all rounds is found and the table has taken the one before.
   std::uint64_t enter(Place& place, std::uint64_t now) {
     const std::uint64_t before = table_->accesses().cycles;
     table_->add(place.chain, place.met.front().voxel);
-    const std::uint64_t cycles = std::max<std::uint64_t>(2, table_->accesses().cycles - before);
+    // The first of 8 rounds is found in a cycle, of 64 in two, of 512 in three.
+    const std::uint64_t rays = config_.rays_in_flight;
+    const std::uint64_t first = rays <= 8 ? 1 : rays <= 64 ? 2 : rays <= 512 ? 3 : 4;
+    const std::uint64_t cycles = std::max(first, table_->accesses().cycles - before);
     table_free_ = std::max(table_free_, now) + cycles;
     end_ = std::max(end_, table_free_);
     return table_free_;

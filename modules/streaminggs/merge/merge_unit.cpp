@@ -18,7 +18,7 @@ std::uint32_t heap_entries(const MergeConfig& config, const BuiltFor& built_for)
 }
 
 constexpr std::uint32_t kKeyWords = 2;  // that are compared: depth and slot
-constexpr HeapLedger kHeap{"waiting keys", "counts of the heap", "merge", kKeyBytes, kKeyWords};
+constexpr HeapLedger kHeap{"waiting keys", "merge", kKeyBytes, kKeyWords};
 
 }  // namespace
 
@@ -304,6 +304,7 @@ void MergeUnit::publish_ledger(DataSheet& sheet) {
 
 void MergeUnit::publish(DataSheet& sheet) {
   const HeapWork& heap = heap_work();
+  const HeapLevelWork below_root = heap.all_levels();
   sheet.unit(*this);
   sheet.activity(merge_, "merge", "takes keys, releases them in final order");
   sheet.counter("keys", "keys", "received", counters_.keys);
@@ -322,11 +323,11 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.counter("delete_mins", "operations", "of the heap: released", heap.delete_mins);
   sheet.counter("delete_maxs", "operations", "of the heap: spilled", heap.delete_maxs);
   sheet.counter("heap_nodes_read", "nodes", "of two keys and two counts, below the root",
-                heap.nodes_read);
+                below_root.nodes_read);
   sheet.counter("heap_nodes_read_ahead", "nodes",
                 "beside these where the heap reads ahead: below keys that did not rise",
-                heap.nodes_read_ahead);
-  sheet.counter("heap_nodes_written", "nodes", "below the root", heap.nodes_written);
+                below_root.nodes_read_ahead);
+  sheet.counter("heap_nodes_written", "nodes", "below the root", below_root.nodes_written);
   sheet.counter("heap_comparisons", "comparisons", "of two keys", heap.comparisons);
   sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
   sheet.counter("keys_spilled", "keys", "written to DRAM, over all passes", counters_.keys_spilled);

@@ -11,8 +11,8 @@ namespace sgs {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr HeapLedger kChunkQueue{"chunk queue", "chunk queue counts", "vsu", kWalkEntryBytes, 2};
-constexpr HeapLedger kNodeQueue{"node queue", "node queue counts", "vsu", kNodeEntryBytes, 2};
+constexpr HeapLedger kChunkQueue{"chunk queue", "vsu", kWalkEntryBytes, 2};
+constexpr HeapLedger kNodeQueue{"node queue", "vsu", kNodeEntryBytes, 2};
 constexpr std::uint32_t kReadyVisits = 4;  // a cycle there, a cycle back, and some of jitter
 
 // Keys of the nodes that are taken from their queue and not open yet, and of the nearest entry that

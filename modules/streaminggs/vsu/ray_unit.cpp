@@ -106,7 +106,8 @@ std::uint64_t RayUnit::cycles_since(const OrderingAccesses& all) {
 
 std::uint64_t RayUnit::enter(const OrderingTable& table, std::uint64_t cycle) {
   ++entered_;
-  const std::uint64_t cycles = std::max(kFirstOfRoundsCycles, cycles_since(table.accesses()));
+  const std::uint64_t cycles = std::max<std::uint64_t>(
+      first_of_rounds_cycles(config.rays_in_flight), cycles_since(table.accesses()));
   return turn(table_free_, cycle, cycles) + cycles;
 }
 

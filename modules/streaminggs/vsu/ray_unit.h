@@ -22,8 +22,14 @@ class RayUnit {
   static constexpr std::uint64_t kLookUpCycles = 3, kMaskCycles = 1;
 
   // The round of each ray that has something to enter is compared with the others', in a tree,
-  // before the next can be: from one voxel that is entered to the next, at least.
-  static constexpr std::uint64_t kFirstOfRoundsCycles = 2;
+  // before the next can be: from one voxel that is entered to the next, at least. Three levels of
+  // comparators a cycle.
+  static constexpr std::uint32_t first_of_rounds_cycles(std::uint32_t rays) {
+    constexpr std::uint32_t kLevelsOfCycle = 3;
+    std::uint32_t levels = 1;
+    while ((1U << levels) < rays) ++levels;
+    return (levels + kLevelsOfCycle - 1) / kLevelsOfCycle;
+  }
 
   using HandOver = std::function<void(const std::vector<std::uint32_t>& voxels, bool last)>;
 

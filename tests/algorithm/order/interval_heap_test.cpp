@@ -72,8 +72,8 @@ TEST_CASE("interval heap: what a multiset says, of every size, with many and no 
             {capacity, different, inserts}, static_cast<unsigned>(capacity) + inserts, 4000);
         // No operation passes more levels than there are below the root.
         const std::uint64_t below_root = heap_levels(capacity) - 1;
-        CHECK(work.nodes_written <= work.operations() * below_root);
-        CHECK(work.nodes_read + work.nodes_read_ahead <=
+        CHECK(work.all_levels().nodes_written <= work.operations() * below_root);
+        CHECK(work.all_levels().nodes_read + work.all_levels().nodes_read_ahead <=
               (work.inserts + 4 * (work.delete_mins + work.delete_maxs)) * below_root);
         CHECK(work.comparisons <= work.operations() * 2 * (below_root + 1));
       }
@@ -106,21 +106,21 @@ TEST_CASE("interval heap: work of single operations, by hand") {
   Heap heap(6);  // a root and two children
   for (const std::uint32_t key : {5U, 1U}) heap.insert(key);
   CHECK(heap.work().comparisons == 1);
-  CHECK(heap.work().nodes_read == 0);  // the root is in registers
-  heap.insert(9);                      // takes 5's place at the high end, 5 sinks
+  CHECK(heap.work().all_levels().nodes_read == 0);  // the root is in registers
+  heap.insert(9);                                   // takes 5's place at the high end, 5 sinks
   CHECK(heap.work().comparisons == 3);
-  CHECK(heap.work().nodes_read == 0);  // nothing is there yet
-  CHECK(heap.work().nodes_written == 1);
+  CHECK(heap.work().all_levels().nodes_read == 0);  // nothing is there yet
+  CHECK(heap.work().all_levels().nodes_written == 1);
   heap.insert(3);  // to the other child, which is emptier
-  CHECK(heap.work().nodes_written == 2);
+  CHECK(heap.work().all_levels().nodes_written == 2);
   CHECK(heap.delete_min() == 1);  // 3 and 5 are compared, 3 rises
   CHECK(heap.work().comparisons == 6);
-  CHECK(heap.work().nodes_read == 2);
-  CHECK(heap.work().nodes_written == 2);  // the root, and the child is empty
-  CHECK(heap.delete_max() == 9);          // only 5 is below: nothing to compare
+  CHECK(heap.work().all_levels().nodes_read == 2);
+  CHECK(heap.work().all_levels().nodes_written == 2);  // the root, and the child is empty
+  CHECK(heap.delete_max() == 9);                       // only 5 is below: nothing to compare
   CHECK(heap.work().comparisons == 6);
-  CHECK(heap.work().nodes_read == 3);
-  CHECK(heap.work().nodes_read_ahead == 0);
+  CHECK(heap.work().all_levels().nodes_read == 3);
+  CHECK(heap.work().all_levels().nodes_read_ahead == 0);
   CHECK(heap.min() == 3);
   CHECK(heap.max() == 5);
 }
@@ -177,13 +177,14 @@ TEST_CASE("interval heap: overlapped operations take a port once a cycle and com
     const Stepped fast = step_through(capacity, kFourBanks, 2);
     CHECK(fast.same_results);
     CHECK(fast.most_at_a_port <= 1);
-    CHECK(fast.nodes_read == fast.work.nodes_read + fast.work.nodes_read_ahead);
-    CHECK(fast.nodes_written == fast.work.nodes_written);
+    const HeapLevelWork of_fast = fast.work.all_levels();
+    CHECK(fast.nodes_read == of_fast.nodes_read + of_fast.nodes_read_ahead);
+    CHECK(fast.nodes_written == of_fast.nodes_written);
     const Stepped slow = step_through(capacity, kTwoBanks, 3);
     CHECK(slow.same_results);
     CHECK(slow.most_at_a_port <= 1);
-    CHECK(slow.nodes_read == slow.work.nodes_read);
-    CHECK(slow.nodes_written == slow.work.nodes_written);
+    CHECK(slow.nodes_read == slow.work.all_levels().nodes_read);
+    CHECK(slow.nodes_written == slow.work.all_levels().nodes_written);
   }
 }
 
@@ -202,34 +203,33 @@ TEST_CASE("interval heap: less than that is too little") {
   CHECK(works({2, 2, false}, 4));
 }
 
-TEST_CASE("interval heap: banks, none without a node") {
+TEST_CASE("interval heap: banks of a level") {
   CHECK(heap_banks_of_level(2) == 4);
   CHECK(heap_banks_of_level(3) == 2);
-  CHECK(heap_banks(1, 2) == 1);
-  CHECK(heap_banks(2, 2) == 1);
-  CHECK(heap_banks(6, 2) == 3);             // a root and two
-  CHECK(heap_banks(10, 2) == 5);            // two more below
-  CHECK(heap_banks(1397, 2) == 3 + 8 * 4);  // ten levels
-  CHECK(heap_banks(1397, 3) == 1 + 9 * 2);
 }
 
-TEST_CASE("interval heap: levels and bits of its counts") {
+TEST_CASE("interval heap: levels, their nodes and the bits of counts") {
   CHECK(heap_levels(1) == 1);
   CHECK(heap_levels(2) == 1);
   CHECK(heap_levels(3) == 2);
   CHECK(heap_levels(6) == 2);
   CHECK(heap_levels(7) == 3);
   CHECK(heap_levels(1952) == 10);  // 2 (2^10 - 1) = 2,046
-  CHECK(heap_count_bits(2) == 0);
-  CHECK(heap_count_bits(6) == 4);    // two counts up to 2
-  CHECK(heap_count_bits(14) == 14);  // two up to 6, four up to 2
-  for (const std::uint64_t capacity : {6U, 14U, 62U}) {
-    std::uint64_t bits = 0;
+  CHECK(heap_count_bits(2, 0) == 0);
+  CHECK(heap_count_bits(6, 0) == 2);  // up to 2
+  CHECK(heap_count_bits(6, 1) == 0);
+  for (const std::uint64_t capacity : {6U, 14U, 62U, 1345U}) {
     const std::uint32_t levels = heap_levels(capacity);
-    for (std::uint32_t level = 0; level + 1 < levels; ++level) {
+    std::uint64_t nodes = 0;
+    for (std::uint32_t level = 0; level < levels; ++level) {
       const double most = 2.0 * (std::exp2(levels - level - 1) - 1);
-      bits += (2U << level) * static_cast<std::uint64_t>(std::ceil(std::log2(most + 1)));
+      CHECK(heap_count_bits(capacity, level) == std::ceil(std::log2(most + 1)));
+      CHECK(heap_nodes(capacity, level) > 0);
+      nodes += heap_nodes(capacity, level);
     }
-    CHECK(heap_count_bits(capacity) == bits);
+    CHECK(nodes == (capacity + 1) / 2);
+    CHECK(heap_nodes(capacity, levels) == 0);
   }
+  CHECK(heap_nodes(1345, 8) == 256);
+  CHECK(heap_nodes(1345, 9) == 673 - 511);
 }

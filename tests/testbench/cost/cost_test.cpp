@@ -276,24 +276,40 @@ TEST_CASE("cost: banks make accesses cheaper and area larger, a second port only
 
 TEST_CASE("cost: a short memory is a macro with rows to spare, or registers if they are smaller") {
   const SramModel model = load_technology(SGS_TECHNOLOGY).sram;
-  const auto rows = [](std::uint64_t count) {
-    return sram_use("heap", "shared", {{count, "rows"}, {16, "B"}}, {128}, kOneOfEach);
-  };
-  const double macro = model.mm2(rows(32)).middle;
-  bool registers = true;
-  for (std::uint64_t count = 1; count <= 32; ++count) {
-    INFO(count);
-    const double as_registers = 1e-6 * 128 * static_cast<double>(count) * model.um2_register.middle;
-    CHECK(model.mm2(rows(count)).middle == Approx(std::min(as_registers, macro)));
-    // Once a macro is smaller it stays so.
-    CHECK((registers || !model.in_registers(rows(count))));
-    registers = model.in_registers(rows(count));
-    CHECK(model.leakage_mw(rows(count)).middle ==
-          Approx(model.leakage_mw(rows(registers ? count : 32)).middle));
-    CHECK(model.read_pj(rows(count)).middle == Approx(model.read_pj(rows(32)).middle));
+  for (const SramPorts ports : {SramPorts::kOne, SramPorts::kReadAndWrite}) {
+    for (const std::uint32_t width : {16U, 128U, 512U}) {
+      const auto rows = [&](std::uint64_t count) {
+        return sram_use("heap", "shared", {{count, "rows"}, {width / 8, "B"}}, {width, ports},
+                        kOneOfEach);
+      };
+      const double macro = model.mm2(rows(32)).middle;
+      for (std::uint64_t count = 1; count <= 32; ++count) {
+        INFO(width << " bits, " << count << " rows");
+        const double as_registers =
+            1e-6 * width * static_cast<double>(count) * model.um2_register.middle;
+        // The rule of shape picks what this table makes the smaller.
+        CHECK(rows(count).in_registers() == as_registers < macro);
+        CHECK(model.mm2(rows(count)).middle == Approx(std::min(as_registers, macro)));
+        CHECK(model.leakage_mw(rows(count)).middle ==
+              (rows(count).in_registers() ? 0 : model.leakage_mw(rows(32)).middle));
+        CHECK(model.read_pj(rows(count)).middle == Approx(model.read_pj(rows(32)).middle));
+      }
+    }
   }
-  CHECK(model.in_registers(rows(4)));
-  CHECK(!model.in_registers(rows(16)));
+}
+
+TEST_CASE("cost: memories in registers have a clock and leak as logic does") {
+  FrameResult with = frame();
+  add(with.machine.sram_uses, sram_use("queue", "shared", {{8, "B"}}, {64}, kOneOfEach), 3);
+  const CostResult energy = energy_of(with, priced()), without = energy_of(frame(), priced());
+  const double mm2 = 3 * 64 * 1e6 * 1e-6;
+  CHECK(of(area_of(with, priced()), "sram").middle ==
+        Approx(of(area_of(frame(), priced()), "sram").middle + mm2));
+  CHECK(of(energy, "clock").middle ==
+        Approx(of(without, "clock").middle * (1 + mm2 / 3)));  // of 3 mm2 of parts
+  CHECK(of(energy, "logic_leakage").middle ==
+        Approx(of(without, "logic_leakage").middle * (1 + mm2 / 3)));
+  CHECK(of(energy, "sram_leakage").middle == of(without, "sram_leakage").middle);
 }
 
 }  // namespace
