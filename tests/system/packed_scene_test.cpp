@@ -285,7 +285,7 @@ TEST_CASE("pack: what a packed scene cannot be used for is refused") {
                  scenes.path("out.png")},
                 {file, "stored by chunks", "machine paper reads"});
   check_refused(joined(joined(simulate, out), {"--set", "sram.codebook_bytes=1000"}),
-                {"sram.codebook_bytes: 1000 bytes are there", "50 entries"});
+                {"sram.codebook_bytes: 1000 bytes are there", "30 entries"});
   check_refused(joined(joined(simulate, out), {"--weigh-by", "0"}), {"--weigh-by", file});
   check_refused(joined(joined(simulate, out), {"--drop-invalid"}), {"--drop-invalid", file});
   check_refused(joined({"simulate", file}, out), {file, "--cameras FILE is needed"});
