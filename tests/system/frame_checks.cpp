@@ -116,6 +116,11 @@ HalfBytes half_bytes(const Json& view) {
   return {16, bytes};
 }
 
+// HFUs behind one fetch, each with its part of the groups.
+std::uint64_t parts_of(const Json& config) {
+  return config["machine"] == "paper" && config["fetch"] == "shared" ? count(config["hfus"]) : 1;
+}
+
 // Codebooks come once, decoding is for what was fetched.
 void check_codebooks(const Json& view) {
   std::uint64_t bytes = 0;
@@ -144,14 +149,14 @@ void check_codebooks(const Json& view) {
     CHECK(total(view, "dropped_saturated") == 0);
     CHECK(total(view, "records_decoded") == total(view, "second_halves_taken"));
   }
-  // An HFU reads a line a cycle; the rest of the time it decodes nothing.
+  // An HFU reads a line a cycle; what is dropped passes in a cycle, and so does a mark: in exact
+  // order that of a group, in paper order that of each HFU's share of a visit.
+  const std::uint64_t dropped = total(view, "second_halves_taken") - total(view, "records_decoded");
+  const std::uint64_t marks = view["config"]["machine"] == "exact"
+                                  ? counter_of_all(view, "rendering", "groups")
+                                  : total(view, "shares") * parts_of(view["config"]);
   CHECK(total_busy(view, "decode") >=
-        total(view, "lines_read") + total(view, "bank_conflict_cycles"));
-}
-
-// HFUs behind one fetch, each with its part of the groups.
-std::uint64_t parts_of(const Json& config) {
-  return config["machine"] == "paper" && config["fetch"] == "shared" ? count(config["hfus"]) : 1;
+        total(view, "lines_read") + total(view, "bank_conflict_cycles") + dropped + marks);
 }
 
 // Bytes asked for against counters of the units that asked.
