@@ -3,6 +3,7 @@
 
 #include <sys/wait.h>
 
+#include <catch2/catch.hpp>
 #include <cstdlib>
 
 namespace sgs::test {
@@ -31,6 +32,17 @@ ShellOutcome shell(const ScratchFolder& scratch, const std::string& line) {
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, bytes_of(outside.path("out")),
           bytes_of(outside.path("err"))};
+}
+
+void check_refused(const ScratchFolder& scratch, const std::string& line,
+                   const std::vector<std::string>& words) {
+  const ShellOutcome outcome = shell(scratch, line);
+  INFO(line << '\n' << outcome.out << outcome.err);
+  CHECK(outcome.status == 2);
+  for (const std::string& word : words) {
+    INFO(word);
+    CHECK(outcome.err.find(word) != std::string::npos);
+  }
 }
 
 }  // namespace sgs::test

@@ -20,4 +20,8 @@ std::string ply_of(const std::vector<std::string>& positions, double opacity = 1
 // FULL before a command lets no file grow beyond 4 KiB. Longer than 60 s counts as never (124).
 ShellOutcome shell(const ScratchFolder& scratch, const std::string& line);
 
+// Runs it: refused with exit status 2, and these words on the error channel.
+void check_refused(const ScratchFolder& scratch, const std::string& line,
+                   const std::vector<std::string>& words);
+
 }  // namespace sgs::test

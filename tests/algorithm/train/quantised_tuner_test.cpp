@@ -17,6 +17,7 @@
 #include "algorithm/train/paper_quality.h"
 #include "algorithm/vq/image_weights.h"
 #include "tests/algorithm/render/test_clouds.h"
+#include "tests/algorithm/train/cameras_in_a_row.h"
 #include "tests/support/scratch_folder.h"
 
 namespace sgs::test {
@@ -73,15 +74,6 @@ TEST_CASE("entries: a step by the sum over those that use one, within what an en
   CHECK(quantised.codebooks[0][1] == 1);
 }
 
-std::vector<Camera> cameras() {
-  std::vector<Camera> out;
-  for (const double x : {-0.3, 0.0, 0.3}) {
-    out.push_back(forward_camera(96, 64, 80));
-    out.back().position.x = x;
-  }
-  return out;
-}
-
 // A scene with far fewer entries than Gaussians, in paper order or in the reference order.
 struct Case {
   StorageConfig storage;
@@ -107,9 +99,9 @@ struct Case {
     auto [made, slots] = scheme_of(by).arrange(given, storage);
     table = std::move(made);
     cloud = reordered(given, slots);
-    pictures = own_pictures(cloud, cameras());
+    pictures = own_pictures(cloud, cameras_in_a_row());
     pictures.load(1);
-    weighing = {image_weights(cloud, cameras()), pixel_sizes(cloud, cameras())};
+    weighing = {image_weights(cloud, cameras_in_a_row()), pixel_sizes(cloud, cameras_in_a_row())};
     quantised = quantise(cloud, weighing.weights, weighing.pixel_sizes, storage.vq);
   }
   std::optional<VisitPlan> plan() const {

@@ -14,20 +14,12 @@
 #include "algorithm/train/own_pictures.h"
 #include "algorithm/train/paper_quality.h"
 #include "tests/algorithm/render/test_clouds.h"
+#include "tests/algorithm/train/cameras_in_a_row.h"
 
 namespace sgs::test {
 namespace {
 
 constexpr float kVoxel = 0.4F;
-
-std::vector<Camera> cameras() {
-  std::vector<Camera> out;
-  for (const double x : {-0.3, 0.0, 0.3}) {
-    out.push_back(forward_camera(96, 64, 80));
-    out.back().position.x = x;
-  }
-  return out;
-}
 
 // A scene whose Gaussians span voxels, and its target.
 struct Case {
@@ -43,7 +35,7 @@ struct Case {
     cloud = reordered(given, storage_order);
     order.group = square_of(32);
     order.precision = BlendPrecision::kHalf;
-    pictures = own_pictures(activate(cloud), cameras());
+    pictures = own_pictures(activate(cloud), cameras_in_a_row());
     pictures.load(1);
   }
   PaperQuality quality(const GaussianCloud& of) const {
@@ -131,7 +123,7 @@ TEST_CASE("boundary tuning: what is no number stops it, and the step has changed
 // Groups that the boxes of all splats meet.
 std::size_t fetches(const ActivatedCloud& cloud, const PixelSize& group) {
   std::size_t sum = 0;
-  for (const Camera& camera : cameras()) {
+  for (const Camera& camera : cameras_in_a_row()) {
     const auto view = make_view<float>(camera);
     const CellGrid grid = cell_grid(view.width, view.height, group);
     for (const Splat& splat : reference_sequences(view, cloud).splats) {
@@ -172,7 +164,7 @@ TEST_CASE("tuning: rates fall to a tenth, centres rest") {
 
 TEST_CASE("own pictures: the reference renderer's, and cameras between those given") {
   const ActivatedCloud cloud = activate(random_cloud(1, 200, 0, {0, 0, 3}, 1, 0.05F, 0.4F));
-  const std::vector<Camera> given = cameras();
+  const std::vector<Camera> given = cameras_in_a_row();
   Photographs pictures = own_pictures(cloud, given);
   pictures.load(1);
   CHECK_FALSE(pictures.transparent());
