@@ -19,10 +19,9 @@
 // Level l is a memory of its own of at most 2^l nodes, spread over banks of a read and a write port
 // each. A hole is filled from the level below, so two neighbouring levels work on one operation.
 //   - Another may begin every second cycle if a hole sinks a level a cycle. While the candidates
-//   for
-//     it are compared, the children of both are read, up to four nodes of one level: four banks,
-//     by the side of the candidate and that of its child. The operation before writes that level in
-//     the same cycle, so a node that is read as it is written is what is written.
+//     for it are compared, the children of both are read, up to four nodes of one level: four
+//     banks, by the side of the candidate and that of its child. The operation before writes that
+//     level in the same cycle, so a node that is read as it is written is what is written.
 //   - With two banks, left and right children, what is read waits for the comparison: a hole sinks
 //     a level in two cycles, and another operation may begin every third.
 // tests/algorithm/order/stepped_heap.h goes through both cycle by cycle.

@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "algorithm/splat/lane_macs.h"
+
 namespace sgs {
 namespace {
 
@@ -85,8 +87,8 @@ class Expansion {
   Operand look_up(Operand of) { return push(StepBy::kTable, {{0, of}}); }
   Operand compared(Operand a) { return push(StepBy::kComparator, {{0, a}}); }
   Operand compared(Operand a, Operand b) { return push(StepBy::kComparator, {{0, a}, {1, b}}); }
-  Operand compared_in_a_row(Operand a, int times) {
-    for (int i = 0; i < times; ++i) a = compared(a);
+  Operand compared_in_a_row(Operand a, std::uint32_t times) {
+    for (std::uint32_t i = 0; i < times; ++i) a = compared(a);
     return a;
   }
 
@@ -167,7 +169,7 @@ class Expansion {
       compared(x, constant(end));
       steps_.back().answers = true;
     }
-    const Operand n = compared_in_a_row(product(x, constant(1.4427F)), 3);
+    const Operand n = compared_in_a_row(product(x, constant(1.4427F)), kRoundingComparisons);
     const Operand rest = fused(n, constant(1e-6F), fused(n, constant(0.6931F), x));
     Operand p = fused(rest, constant(0.001F), constant(0.01F));
     for (int i = 0; i < 6; ++i) p = fused(p, rest, constant(static_cast<float>(i)));
@@ -203,7 +205,7 @@ class Expansion {
       case Operation::kLookUp:
         return look_up(value_of(node.a));
       case Operation::kSplit:
-        return compared_in_a_row(value_of(node.a), 4);
+        return compared_in_a_row(value_of(node.a), kSplitComparisons);
       case Operation::kCompare: {
         const Operand a = value_of(node.a), b = value_of(node.b);
         return answer(compared(a, b));
@@ -221,9 +223,9 @@ class Expansion {
       case Operation::kFloor:
       case Operation::kTruncate:
       case Operation::kRound:
-        return compared_in_a_row(value_of(node.a), 3);
+        return compared_in_a_row(value_of(node.a), kRoundingComparisons);
       case Operation::kFromIndex:
-        return compared_in_a_row(value_of(node.a), 2);
+        return compared_in_a_row(value_of(node.a), kConversionComparisons);
     }
     return {};
   }

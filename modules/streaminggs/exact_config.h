@@ -25,9 +25,8 @@ struct ExactConfig : StreamingConfig {
     hfu.input_slots = 5;
     hfu.second_half_slots = 16;
     rendering.pixel_buffers = 1;
-    rendering.input_fifo_entries =
-        14;                     // splats in an FFU's pipeline, one every 18 cycles, and some
-    rendering.span_slots = 32;  // as many as a pipeline of spans takes, a few cycles each
+    rendering.input_fifo_entries = 14;  // splats in an FFU's pipeline, one every 18 cycles
+    rendering.span_slots = 32;          // in the pipeline of spans, one every few cycles
   }
 };
 

@@ -15,8 +15,7 @@ struct FifoKind {
   const char* what;  // the entries are
   std::uint32_t count, entries, latency_cycles;
   const char* key = nullptr;  // of the configuration that says how many entries; null: fixed
-  std::uint32_t entry_bytes =
-      EntryBytes<T>::value;  // what hardware keeps of an entry on this arrow
+  std::uint32_t entry_bytes = EntryBytes<T>::value;  // that hardware keeps of an entry here
 
   SramUse each() const {
     return sram_use(name, kSharedSram, {{entries, what}, {entry_bytes, "B"}}, {8 * entry_bytes},

@@ -7,8 +7,7 @@
 //   - registers for the key that sinks and for the node that waits to be written: K + N
 //   - what an insert swaps at either end and what a hole takes: 7 K of multiplexers
 //   - of what is read: a word that is written in the same cycle passes by each bank, two of the
-//   four
-//     that are read ahead go on, and one of the two that are compared rises
+//     four that are read ahead go on, and one of the two that are compared rises
 #pragma once
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/test_clouds.h"
+#include "tests/algorithm/vq/small_config.h"
 
 namespace sgs {
 namespace {
@@ -15,15 +16,7 @@ struct Case {
   std::vector<float> pixel_sizes = std::vector<float>(cloud.size(), 0.01F);
   QuantisedCloud quantised;
 
-  Case() {
-    VqConfig config;
-    config.scale_entries = 40;
-    config.rotation_entries = 60;
-    config.dc_entries = 30;
-    config.sh_entries = 20;
-    config.iterations = 5;
-    quantised = quantise(cloud, weights, pixel_sizes, config);
-  }
+  Case() { quantised = quantise(cloud, weights, pixel_sizes, test::small_config()); }
 };
 
 TEST_CASE("assign: what quantise() found is found again, and no entry moves") {

@@ -13,6 +13,7 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/vq/canonical_shape.h"
 #include "tests/algorithm/render/test_clouds.h"
+#include "tests/algorithm/vq/small_config.h"
 
 namespace sgs {
 namespace {
@@ -27,16 +28,6 @@ std::vector<float> even(const ActivatedCloud& cloud) {
 
 std::vector<float> unknown(const ActivatedCloud& cloud) {
   return std::vector<float>(cloud.size(), 0.0F);
-}
-
-VqConfig small_config() {
-  VqConfig config;
-  config.scale_entries = 40;
-  config.rotation_entries = 60;
-  config.dc_entries = 30;
-  config.sh_entries = 20;
-  config.iterations = 5;
-  return config;
 }
 
 std::size_t entries_of(const QuantisedCloud& quantised, Codebook codebook, int degree) {
@@ -54,7 +45,7 @@ const float* entry_of(const QuantisedCloud& quantised, Codebook codebook, int de
 TEST_CASE("quantise: no more entries than configured, an index for each Gaussian") {
   for (int degree = 0; degree <= 3; ++degree) {
     const ActivatedCloud cloud = cloud_of(1, 2000, degree);
-    const VqConfig config = small_config();
+    const VqConfig config = test::small_config();
     const QuantisedCloud quantised = quantise(cloud, even(cloud), unknown(cloud), config);
     for (std::size_t id = 0; id < kCodebookCount; ++id) {
       const auto codebook = static_cast<Codebook>(id);
@@ -85,7 +76,8 @@ TEST_CASE("quantise: words of an entry") {
 
 TEST_CASE("quantise: ratios fall from exactly 1, quaternions have length 1") {
   const ActivatedCloud cloud = cloud_of(2, 3000, 1);
-  const QuantisedCloud quantised = quantise(cloud, even(cloud), unknown(cloud), small_config());
+  const QuantisedCloud quantised =
+      quantise(cloud, even(cloud), unknown(cloud), test::small_config());
   const auto& ratios = quantised.codebooks[static_cast<std::size_t>(Codebook::kScale)];
   for (std::size_t at = 0; at < ratios.size(); at += 3) {
     CHECK(ratios[at] == 1.0F);
@@ -160,11 +152,11 @@ TEST_CASE("quantise: the same for one and four threads, another seed gives other
   std::vector<QuantisedCloud> results;
   for (const std::size_t threads : {1U, 4U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    results.push_back(quantise(cloud, even(cloud), unknown(cloud), small_config()));
+    results.push_back(quantise(cloud, even(cloud), unknown(cloud), test::small_config()));
   }
   CHECK(results[0].codebooks == results[1].codebooks);
   CHECK(results[0].indices == results[1].indices);
-  VqConfig other = small_config();
+  VqConfig other = test::small_config();
   other.seed = 2;
   CHECK(quantise(cloud, even(cloud), unknown(cloud), other).codebooks != results[0].codebooks);
 }
@@ -173,7 +165,7 @@ TEST_CASE("quantise: progress of each codebook, errors that do not rise") {
   const ActivatedCloud cloud = cloud_of(6, 3000, 1);
   std::array<double, kCodebookCount> last;
   last.fill(std::numeric_limits<double>::infinity());
-  quantise(cloud, even(cloud), unknown(cloud), small_config(),
+  quantise(cloud, even(cloud), unknown(cloud), test::small_config(),
            [&](Codebook codebook, std::uint32_t, double error) {
              double& before = last[static_cast<std::size_t>(codebook)];
              CHECK(error <= before * (1 + 1e-6));
@@ -186,7 +178,7 @@ TEST_CASE("quantise: a heavy Gaussian is served at the cost of light ones") {
   const ActivatedCloud cloud = cloud_of(7, 2000, 1);
   std::vector<float> weights = even(cloud);
   weights[77] = 1e6F;
-  const QuantisedCloud quantised = quantise(cloud, weights, unknown(cloud), small_config());
+  const QuantisedCloud quantised = quantise(cloud, weights, unknown(cloud), test::small_config());
   const float* dc = entry_of(quantised, Codebook::kDc, 1, 77);
   for (int channel = 0; channel < 3; ++channel) {
     CHECK(std::abs(dc[channel] - cloud.sh(77)[0][channel]) < 1e-3F);
@@ -205,10 +197,11 @@ TEST_CASE("quantise: extreme shapes and colours leave every entry finite") {
     cloud.sh_coeffs[16 * 5 + static_cast<std::size_t>(k)] = glm::vec3(1e30F);
     cloud.sh_coeffs[16 * 6 + static_cast<std::size_t>(k)] = glm::vec3(-3e38F);
   }
-  const QuantisedCloud quantised = quantise(cloud, even(cloud), unknown(cloud), small_config());
+  const QuantisedCloud quantised =
+      quantise(cloud, even(cloud), unknown(cloud), test::small_config());
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
     CHECK(entries_of(quantised, static_cast<Codebook>(id), 3) ==
-          small_config().entries(static_cast<Codebook>(id)));
+          test::small_config().entries(static_cast<Codebook>(id)));
     for (const float word : quantised.codebooks[id]) REQUIRE(std::isfinite(word));
   }
   // A codebook that the huge values have not spoilt for the rest.
