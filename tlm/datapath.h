@@ -37,6 +37,7 @@ struct Datapath {
   std::vector<std::pair<std::string, std::uint64_t>> counts;  // by class of operation
   std::vector<BesideLanes> beside;
   BetweenLanes between;
+  std::uint32_t set_bits = 0;  // of registers that all copies read: numbers of frame and group
   // From the beginning of an item to its end; of these from what is read when it is needed to the
   // end of what depends on it.
   std::uint32_t depth_cycles = 0, loop_cycles = 0;

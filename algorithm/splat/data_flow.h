@@ -40,6 +40,10 @@ class DataFlow {
   // The value is wanted at the end of the computation, whatever takes it meanwhile. One that
   // nothing takes is wanted then in any case.
   void keep(std::uint32_t node) { nodes_[node].kept = true; }
+  // So many words that nothing computes with go along with an item to its end.
+  void pass_beside(std::size_t words) {
+    for (std::size_t i = 0; i < words; ++i) keep(input());
+  }
 
   std::size_t size() const { return nodes_.size(); }
   const std::vector<Node>& nodes() const { return nodes_; }

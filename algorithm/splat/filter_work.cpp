@@ -2,6 +2,7 @@
 #include "algorithm/splat/filter_work.h"
 
 #include <array>
+#include <cstddef>
 #include <glm/geometric.hpp>
 
 #include "algorithm/splat/coarse_bound.h"
@@ -34,6 +35,11 @@ void keep(DataFlow& flow, std::initializer_list<Counting> values) {
     if (value.flow != nullptr) flow.keep(value.node);
   }
 }
+
+// Words that go along with an item.
+constexpr std::size_t kBesideCoarse = 3;  // storage slot, two words of the first half
+constexpr std::size_t kBesideFine = 2;    // storage slot, visit
+constexpr std::size_t kBesideBlend = 1;   // number of the sub-tile
 
 // What blending does for 16 pixels, in the arithmetic T; state(value): of a pixel, from outside.
 template <class T, class State>
@@ -81,6 +87,7 @@ DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
   // Counted whatever it says.
   const auto run = [&](const auto& bound) {
     if (!bound.in_front) return;
+    keep(flow, {bound.depth});
     const PixelRect& group = tested.group;
     const int parts = static_cast<int>(across);
     const int width = (group.x1 - group.x0) / parts, height = (group.y1 - group.y0) / parts;
@@ -98,6 +105,7 @@ DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
     if (bound.in_front) static_cast<void>(group_reach(bound, tested.group));
   }
   keep(flow, {mean.x, mean.y, mean.z});
+  flow.pass_beside(kBesideCoarse);
   return flow;
 }
 
@@ -138,6 +146,7 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   out.spanned = flow.size();
   static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
   out.in_base_2 = flow.size();
+  flow.pass_beside(kBesideBlend);
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
   if (precision == BlendPrecision::kHalf) {
     blend_work(lane_input_in_half<CountingHalf>(splat, left, top), state);
@@ -156,6 +165,7 @@ FineFlow fine_flow(const FilterCase& tested, const FineRecord& record) {
   Gaussian<Counting> gaussian = input(flow, tested.gaussian);
   std::array<glm::vec<3, Counting>, 16> sh;
   for (auto& coefficient : sh) coefficient = input(flow, glm::vec3(1.0F));
+  flow.pass_beside(kBesideFine);
   if (record.quaternion_words < gaussian.quat.size()) {
     auto& [largest, x, y, z] = gaussian.quat;
     largest = moved_by_units(largest_component<Counting>({x, y, z}), input_index(flow, 0));

@@ -253,4 +253,14 @@ std::vector<LaneStep> lane_steps(const DataFlow& flow, std::size_t first, std::s
   return Expansion(flow, first, last, latencies, together).run();
 }
 
+std::uint32_t constants_of(const std::vector<LaneStep>& steps) {
+  std::set<std::uint32_t> bits;
+  for (const LaneStep& step : steps) {
+    for (const LaneStep::Source& source : step.sources) {
+      if (source.value.is_constant) bits.insert(source.value.of);
+    }
+  }
+  return static_cast<std::uint32_t>(bits.size());
+}
+
 }  // namespace sgs

@@ -35,6 +35,9 @@ std::vector<LaneStep> lane_steps(const DataFlow& flow, std::size_t first, std::s
                                  const OperationLatencies& latencies,
                                  const std::vector<std::vector<std::uint32_t>>& together = {});
 
+// Different constants that the steps take: numbers of the frame, of the group, and of the code.
+std::uint32_t constants_of(const std::vector<LaneStep>& steps);
+
 // Cycles from the sources to the value.
 constexpr std::uint32_t cycles_of(StepBy by, const OperationLatencies& latencies) {
   switch (by) {

@@ -47,6 +47,7 @@ DataFlow chunk_flow(const ChunkCase& tested) {
   }
   bound.scale_max = extent_value<Counting>(input_index(flow, node.scale[0]), least);
   const ChunkTestOf<Counting> test = GroupFrustumOf<Counting>(view, tested.group).test(bound);
+  flow.pass_beside(1);  // which child of which node
   // A child is no nearer than its parent.
   if (test.touches) static_cast<void>(max_of(test.nearest, input(flow, 0.0F)));
   return flow;

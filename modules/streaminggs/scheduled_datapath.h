@@ -44,4 +44,10 @@ inline void schedule(Datapath& path, const std::vector<LaneStep>& steps,
   path.loop_cycles = folded.schedule.loop_cycles;
 }
 
+// Registers for the constants of the steps: of the group that is worked on and of the next, which is
+// set meanwhile. Those of the code itself, wires, are counted among them.
+inline void set_by_group(Datapath& path, const std::vector<LaneStep>& steps) {
+  path.set_bits = 2 * kSingleBits * constants_of(steps);
+}
+
 }  // namespace sgs

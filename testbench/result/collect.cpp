@@ -56,6 +56,7 @@ class Collector : public LeftOutCollector {
       part(path.component.c_str(), kind, static_cast<double>(path.copies) * bits, 1);
       operations(path.component.c_str(), kind, static_cast<double>(items) * of_item);
     };
+    part(path.component.c_str(), "register_bit", path.set_bits, 1);
     between("register_bit", path.between.registers, path.between.written);
     between("select_bit", path.between.multiplexers, path.between.selected);
     const auto same =

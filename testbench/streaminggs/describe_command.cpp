@@ -73,17 +73,17 @@ void print_sheets(const MachineResult& machine) {
   }
   Table datapaths(
       "| datapath | component | lanes | multiply-accumulates of an item | beside them | between "
-      "them: bits of registers, of multiplexers |");
+      "them: bits of registers, of multiplexers, set by frame and group |");
   for (const auto& [d, items, busiest] : machine.datapaths) {
     std::string beside;
     for (const BesideLanes& part : d.beside) {
       beside += fmt::format("{}{} on {} {}", beside.empty() ? "" : ", ", part.operations,
                             d.parts(part), part.kind);
     }
-    datapaths.row(fmt::format("{} | {} | {} {} | {} | {} | {}, {} ", d.name, d.component,
+    datapaths.row(fmt::format("{} | {} | {} {} | {} | {} | {}, {}, {} ", d.name, d.component,
                               d.all_lanes(), d.lane, d.used_macs, beside,
                               d.copies * std::uint64_t{d.between.registers},
-                              d.copies * std::uint64_t{d.between.multiplexers}));
+                              d.copies * std::uint64_t{d.between.multiplexers}, d.set_bits));
   }
   Table sram(
       "| on-chip memory | use | bytes | built as | arithmetic | memories | ports | bits wide |");

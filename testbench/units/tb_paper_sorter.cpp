@@ -50,7 +50,7 @@ Work expected_work(const PaperSorterConfig& config, std::uint64_t n) {
   work.entries_spilled = n;
   const std::size_t fan_in = std::max(2U, config.buffer_entries / (2 * config.spill_block_entries));
   const auto merge_cycles = [&](std::uint64_t entries, std::size_t count) {
-    return entries * merge_levels(count) * config.merge_interval_cycles / kMergeWidth;
+    return entries * merge_tree_cycles(config, count) / kMergeWidth;
   };
   while (runs.size() > fan_in) {
     std::vector<std::uint64_t> longer;

@@ -41,14 +41,18 @@ Datapath fine_datapath(const HfuConfig& config, const FineRecord& record) {
 Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts,
                          const OperationLatencies& latencies) {
   Datapath path = coarse_datapath(config, bound_by, parts);
-  schedule(path, coarse_steps(bound_by, longest_case(), across(parts), latencies), latencies);
+  const auto steps = coarse_steps(bound_by, longest_case(), across(parts), latencies);
+  schedule(path, steps, latencies);
+  set_by_group(path, steps);
   return path;
 }
 
 Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies) {
   Datapath path = fine_datapath(config, record);
-  schedule(path, fine_steps(longest_case(), record, latencies), latencies);
+  const auto steps = fine_steps(longest_case(), record, latencies);
+  schedule(path, steps, latencies);
+  set_by_group(path, steps);
   return path;
 }
 

@@ -107,8 +107,8 @@ void PaperSorter::accept(const SplatToken& token) {
 
 void PaperSorter::sort_buffer() {
   std::sort(buffer_.begin(), buffer_.end(), in_front);
-  const SortingCost cost = sort_cost(config_, buffer_.size());
-  sort_.work(place_.lists_of_network * cost.cycles);
+  const SortingCost cost = sort_cost(config_, buffer_.size(), place_.lists_of_network);
+  sort_.work(cost.cycles);
   counters_.compare_exchanges += cost.compare_exchanges;
   counters_.moves += cost.moves;
 }
@@ -170,11 +170,12 @@ void PaperSorter::merge(const SpillRun* runs, std::size_t count, Sink&& sink) {
   std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(behind)> heads(behind);
   for (std::size_t i = 0; i < count; ++i) heads.push(i);
   const std::uint32_t levels = merge_levels(count);
+  const std::uint64_t cycles = merge_tree_cycles(config_, count, place_.lists_of_network);
   std::uint64_t owed = 0;  // merge cycles, in units of 1/kMergeWidth
   while (!heads.empty() && !finished->finished(group_)) {
     const std::size_t nearest = heads.top();
     heads.pop();
-    owed += std::uint64_t{levels} * config_.merge_interval_cycles * place_.lists_of_network;
+    owed += cycles;
     sort_.work(owed / kMergeWidth);
     owed %= kMergeWidth;
     counters_.compare_exchanges += std::uint64_t{levels} * kMergeStages;
@@ -232,7 +233,7 @@ void PaperSorter::publish(DataSheet& sheet) {
                 counters_.entries_spilled);
   sheet.counter("list_max", "splats", "longest list of one visit", counters_.list_max);
   publish_network(sheet, config_, config_.buffer_entries, counters_.compare_exchanges,
-                  place_.lists_of_network);
+                  counters_.moves, place_.lists_of_network);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(config_, built_for_));
   // Those spilled and read back came in and went out once more each.

@@ -27,6 +27,20 @@ constexpr std::uint32_t merge_levels(std::uint64_t runs) {
   return levels;
 }
 
+// Cycles in which kMergeWidth entries pass all levels. `lists` take turns in the network. The
+// farther half of what a merge gives goes into the next merge of the same pair of runs, so that a
+// pair has one every kMergeStages cycles; pairs and lists go side by side.
+constexpr std::uint64_t merge_tree_cycles(const SortingNetworkConfig& config, std::uint64_t runs,
+                                          std::uint32_t lists = 1) {
+  std::uint64_t cycles = 0;
+  for (; runs > 1; runs = (runs + 1) / 2) {
+    const std::uint64_t pairs = runs / 2;
+    cycles += std::max<std::uint64_t>(std::uint64_t{lists} * config.merge_interval_cycles,
+                                      (kMergeStages + pairs - 1) / pairs);
+  }
+  return cycles;
+}
+
 // Comparators that stand there: those of all stages where a block starts every cycle, folded where
 // blocks or merges start less often.
 constexpr std::uint32_t network_comparators(const SortingNetworkConfig& config) {
@@ -44,13 +58,16 @@ struct SortingCost {
   std::uint64_t moves = 0;  // of entries through the network: keys read, places written
 };
 
-// Sorting n entries on chip. A list of 1 is in order already and need not pass; of 0 there is none.
-constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_t n) {
+// Sorting n entries on chip, in turns with other lists. A list of 1 is in order already and need
+// not pass; of 0 there is none.
+constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_t n,
+                                std::uint32_t lists = 1) {
   if (n == 0 || (n == 1 && config.skip_trivial)) return {};
   const std::uint64_t blocks = (n + kNetworkWidth - 1) / kNetworkWidth;
-  const std::uint64_t merges = merge_levels(blocks) * ((n + kMergeWidth - 1) / kMergeWidth);
-  return {config.sort_latency_cycles + blocks * config.sort_interval_cycles +
-              merges * config.merge_interval_cycles,
+  const std::uint64_t of_a_level = (n + kMergeWidth - 1) / kMergeWidth;
+  const std::uint64_t merges = merge_levels(blocks) * of_a_level;
+  return {lists * (config.sort_latency_cycles + blocks * config.sort_interval_cycles) +
+              of_a_level * merge_tree_cycles(config, blocks, lists),
           (blocks * kSortStages + merges * kMergeStages) * kMergeWidth,
           blocks * kNetworkWidth + merges * kMergeWidth};
 }
@@ -67,17 +84,27 @@ constexpr std::uint32_t exchanged_bits(std::uint64_t entries) {
   return 8 * kSortKeyBytes + place_bits(entries);
 }
 
+// Multiplexers of two that a key passes from its bank to its place before the network. Where lists
+// are merged, the keys that come next lie in any banks; a block lies in all of them, in order.
+constexpr std::uint32_t kKeySelections = 4;  // log2(16)
+
 // The network of a unit with room for so many entries, or its share of one that serves several
-// units in turn, and what it did so far.
+// units in turn, and what it did so far. moves: as of sort_cost.
 inline void publish_network(DataSheet& sheet, const SortingNetworkConfig& config,
                             std::uint64_t entries, std::uint64_t compare_exchanges,
-                            std::uint32_t units_of_network = 1) {
+                            std::uint64_t moves, std::uint32_t units_of_network = 1) {
   const double there = static_cast<double>(network_comparators(config)) / units_of_network;
   const auto done = static_cast<double>(compare_exchanges);
   sheet.part("sorting", "comparator", kSortKeyComparators * there, 1);
   sheet.operations("sorting", "comparator", kSortKeyComparators * done);
   sheet.part("sorting", "exchange_bit", exchanged_bits(entries) * there, 1);
   sheet.operations("sorting", "exchange_bit", exchanged_bits(entries) * done);
+  if (entries <= kNetworkWidth) return;
+  const std::uint32_t selected = kMergeWidth * (kNetworkWidth - 1) * exchanged_bits(entries);
+  sheet.part("sorting", "select_bit", static_cast<double>(selected) / units_of_network, 1);
+  sheet.operations("sorting", "select_bit",
+                   static_cast<double>(kKeySelections) * exchanged_bits(entries) *
+                       static_cast<double>(moves));
 }
 
 constexpr const char* kComparedKeys = "compared keys";

@@ -21,8 +21,11 @@ Datapath pipeline(const char* name, const OperationCounts& work, std::uint32_t l
 
 Datapath chunk_test_pipeline(const ExactVsuConfig& config, const OperationLatencies& latencies) {
   const ChunkCase longest = longest_chunk_case();
-  return pipeline("chunk_test", chunk_work(longest), config.test_lanes,
-                  chunk_steps(longest, latencies), latencies);
+  const auto steps = chunk_steps(longest, latencies);
+  Datapath path =
+      pipeline("chunk_test", chunk_work(longest), config.test_lanes, steps, latencies);
+  set_by_group(path, steps);
+  return path;
 }
 
 Datapath pixel_ray_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies) {

@@ -65,16 +65,18 @@ TEST_CASE("sorting cost: a block of 16 takes ten stages of eight, a merge four")
 }
 
 TEST_CASE("sorting cost: by hand, with the defaults") {
-  const SortingNetworkConfig config;  // latency 12, a block a cycle, a merge every 2 cycles
+  // Latency 12, a block a cycle, a merge every 2 cycles, every 4 where there is one pair of runs.
+  const SortingNetworkConfig config;
   const auto cycles = [&](std::uint64_t n) { return sort_cost(config, n).cycles; };
   CHECK(cycles(0) == 0);
   CHECK(cycles(1) == 0);
   CHECK(cycles(2) == 12 + 1);
   CHECK(cycles(16) == 12 + 1);
-  CHECK(cycles(17) == 12 + 2 + 3 * 2);  // two blocks, one level of three merges of eight
-  CHECK(cycles(32) == 12 + 2 + 4 * 2);
-  CHECK(cycles(33) == 12 + 3 + 2 * 5 * 2);  // three blocks, two levels
-  CHECK(cycles(64) == 12 + 4 + 2 * 8 * 2);
+  CHECK(cycles(17) == 12 + 2 + 3 * 4);  // two blocks, one level of three merges of eight
+  CHECK(cycles(32) == 12 + 2 + 4 * 4);
+  CHECK(cycles(33) == 12 + 3 + 2 * 5 * 4);  // three blocks, two levels of one pair
+  CHECK(cycles(64) == 12 + 4 + 8 * 2 + 8 * 4);
+  CHECK(sort_cost(config, 64, 2).cycles == 2 * (12 + 4) + 2 * 8 * 4);  // another list between
   CHECK(sort_cost(config, 16).compare_exchanges == 80);
   CHECK(sort_cost(config, 32).compare_exchanges == 2 * 80 + 4 * 32);
 }
@@ -85,6 +87,31 @@ TEST_CASE("sorting cost: a trivial list costs only when nothing is skipped") {
   CHECK(sort_cost(config, 0).cycles == 0);
   CHECK(sort_cost(config, 1).cycles == 13);
   CHECK(sort_cost(config, 1).compare_exchanges == 80);
+}
+
+// Merges of one pair of runs, each begun when the network takes one and what the last one of the
+// pair gave back is there.
+TEST_CASE("sorting cost: no merge begins before the one that it waits for has ended") {
+  for (const std::uint32_t interval : {1U, 2U, 3U, 5U}) {
+    SortingNetworkConfig config;
+    config.merge_interval_cycles = interval;
+    for (const std::uint64_t pairs : {1U, 2U, 3U, 4U, 8U}) {
+      constexpr std::uint64_t kRounds = 50;
+      std::vector<std::uint64_t> done(pairs, 0);
+      std::uint64_t network = 0;
+      for (std::uint64_t merge = 0; merge < kRounds * pairs; ++merge) {
+        const std::uint64_t begin = std::max(network, done[merge % pairs]);
+        network = begin + interval;
+        done[merge % pairs] = begin + kMergeStages;
+      }
+      const std::uint64_t level = merge_tree_cycles(config, 2 * pairs) -
+                                  merge_tree_cycles(config, pairs);
+      const double of_a_merge = static_cast<double>(network) / static_cast<double>(kRounds * pairs);
+      INFO(interval << " cycles, " << pairs << " pairs");
+      CHECK(static_cast<double>(level) >= of_a_merge - 0.5 * kMergeStages / kRounds);
+      CHECK(static_cast<double>(level) < of_a_merge + 1);
+    }
+  }
 }
 
 TEST_CASE("sorting cost: levels of a merge tree") {

@@ -295,7 +295,8 @@ TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are fol
         const bool of_blend = d.datapath.name == "subtile_blend";
         if (of_blend) CHECK((between.multiplexers > 0) == folded);
         if (d.datapath.name == "coarse") CHECK(between.multiplexers > between.registers);
-        stand[d.datapath.component + " register_bit"] += d.datapath.copies * between.registers;
+        stand[d.datapath.component + " register_bit"] +=
+            d.datapath.copies * between.registers + d.datapath.set_bits;
         stand[d.datapath.component + " select_bit"] += d.datapath.copies * between.multiplexers;
       }
       if (std::string(preset) == "exact") {
