@@ -64,6 +64,7 @@ class Collector : public LeftOutCollector {
                      [&](const DatapathResult& d) { return d.datapath.name == path.name; });
     if (same != into_.datapaths.end()) {
       same->datapath.copies += path.copies;
+      same->datapath.set_bits += path.set_bits;
       same->items += items;
       same->busiest_cycles = std::max(same->busiest_cycles, path.cycles(items));
     } else {

@@ -379,6 +379,7 @@ int sc_main(int argc, char* argv[]) {
     many.gaussians = 1000;
     Plan plan = plan_of(random_scene(test.random, many), 2);
     plan.config.upper_nodes = 0;
+    plan.config.nodes_in_flight = 4;
     plan.reads_overlap = true;
     BenchConfig config = still_bench(plan);
     config.latency_cycles = 200;

@@ -75,7 +75,7 @@ TEST_CASE("command line: options and their values") {
             ply_of({"0 0 0"})},
            {"$SG pack a.ply --out a.sgs > t && ! grep weighted t", {}, ply_of({"0 0 0"})},
            {"$SG describe > t && ! grep -q '```' t && cat t",
-            {"group_width_px = 128", "\n| unit | activity | resource | what it does |\n"}},
+            {"group_width_px = 96", "\n| unit | activity | resource | what it does |\n"}},
            {"$TB --config exact --print-config", {"\"dram\": {", "\"channels\": 4"}},
            {"$TB --config c.json --set dram.ranks=2 --print-config",
             {"\"channels\": 2", "\"ranks\": 2"},

@@ -257,7 +257,7 @@ TEST_CASE("exact frames: blend_early is lossy where the buffer is small, and say
   CHECK(counter(view, "merge", "runs_spilled") == 0);
   CHECK(region_bytes(view, "spill", "write") == 0);
 
-  const Simulation enough(with_settings(arguments, {"merge.entries=5000"}));
+  const Simulation enough(with_settings(arguments, {"sram.shared_bytes=0", "merge.entries=5000"}));
   enough.check();  // the reference image
   CHECK(counter(enough.views()[0], "merge", "forced_early") == 0);
 }

@@ -105,7 +105,7 @@ TEST_CASE("extreme input: thousands at one point, all of one depth") {
   check_machine("paper", cloud, {camera_at({0, 0, -5})},
                 joined(joined(to_the_end, whole), {"--set", "sorting.buffer_entries=16"}));
   check_machine("exact", cloud, {camera_at({0, 0, -5})},
-                with_settings(to_the_end, {"merge.entries=1024"}));
+                with_settings(to_the_end, {"sram.shared_bytes=0", "merge.entries=1024"}));
 }
 
 TEST_CASE("extreme input: coordinates of a million, details of a thousandth") {

@@ -9,7 +9,7 @@
 namespace sgs {
 
 struct MergeConfig {
-  std::uint32_t entries = 1345;  // keys that wait on chip
+  std::uint32_t entries = 512;  // keys that wait on chip
   OnOverflow on_overflow = OnOverflow::kSpill;
   std::uint32_t spill_runs = 8;           // runs in DRAM that are read back side by side
   std::uint32_t spill_block_entries = 8;  // keys read and written at once: 256 B

@@ -66,6 +66,8 @@ void ExactSorter::publish(DataSheet& sheet) {
   sheet.counter("keys", "keys", "received", counters_.keys);
   sheet.counter("compare_exchanges", "operations", "of the sorting network",
                 counters_.compare_exchanges);
+  sheet.counter("moves", "keys", "through the sorting network, once for each pass",
+                counters_.moves);
   publish_network(sheet, config_, built_for_.chunk_gaussians, counters_.compare_exchanges,
                   counters_.moves);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);

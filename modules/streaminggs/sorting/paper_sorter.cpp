@@ -228,6 +228,8 @@ void PaperSorter::publish(DataSheet& sheet) {
                 counters_.splats_saturated);
   sheet.counter("compare_exchanges", "operations", "of the sorting network",
                 counters_.compare_exchanges);
+  sheet.counter("moves", "keys", "through the sorting network, once for each pass",
+                counters_.moves);
   sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
   sheet.counter("entries_spilled", "splats", "written to DRAM, over all passes",
                 counters_.entries_spilled);

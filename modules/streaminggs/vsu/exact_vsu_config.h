@@ -10,8 +10,8 @@ namespace sgs {
 
 struct ExactVsuConfig {
   std::uint32_t upper_nodes = 24;          // of the chunk tree, kept on chip
-  std::uint32_t nodes_in_flight = 4;       // others, on their way from DRAM
-  std::uint32_t test_lanes = 64;           // multiply-accumulates a cycle of the chunk test
+  std::uint32_t nodes_in_flight = 2;       // others, on their way from DRAM
+  std::uint32_t test_lanes = 32;           // multiply-accumulates a cycle of the chunk test
   std::uint32_t nodes_in_test = 8;         // nodes whose children are in the test's pipeline
   std::uint32_t test_depth_cycles = 0;     // of it, beside the lanes' time; 0: by its schedule
   std::uint32_t queue_entries = 512;       // chunks in the queue of the front-to-back walk
