@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sgs {
 namespace {
@@ -13,10 +14,15 @@ constexpr double kSameGain = 0.005;
 
 double saved(double before, double after) { return before > 0 ? 1 - after / before : 0; }
 
+// Of whole cycles there is no half.
+double halved(double value) {
+  return std::floor(value) == value ? std::ceil(value / 2) : value / 2;
+}
+
 }  // namespace
 
 Doubling::Doubling(const Remedy& remedy, double value)
-    : key(remedy.key), from(value), to(remedy.turn == Turn::kUp ? 2 * value : value / 2) {}
+    : key(remedy.key), from(value), to(remedy.turn == Turn::kUp ? 2 * value : halved(value)) {}
 
 std::vector<Remedy> remedies_of(const FrameResult& frame) {
   std::vector<Remedy> all;
@@ -63,8 +69,9 @@ std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings)
       std::find_if(doublings.begin(), doublings.end(),
                    [&](const Doubling& doubling) { return doubling.key == binding.remedy.key; });
   if (binding.remedy.key.empty() || named == doublings.end() || !named->refused.empty()) {
-    return fmt::format("binding names {}, which no key doubles; {} gains most: {:.1f} % of the time",
-                       binding.holds, best.key, 100 * most);
+    return fmt::format(
+        "binding names {}, which no key doubles; {} gains most: {:.1f} % of the time",
+        binding.holds, best.key, 100 * most);
   }
   const double gain = time_saved(base, named->outcome);
   if (most - gain < kSameGain) {

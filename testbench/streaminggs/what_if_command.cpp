@@ -135,6 +135,7 @@ Json run_view(const Base& base, int number, const Camera& camera) {
   std::vector<Doubling> doublings;
   for (const Remedy& remedy : remedies_of(frame)) {
     Doubling doubling(remedy, value_at(document, remedy.key));
+    if (doubling.to == doubling.from) continue;  // it is as short as it can be
     try {
       const RunConfig doubled = base.variant(fmt::format("{}={}", doubling.key, doubling.to));
       doubling.outcome = outcome_of(run(base, doubled, camera, golden), base.technology);

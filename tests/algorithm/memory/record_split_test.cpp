@@ -125,7 +125,8 @@ TEST_CASE("record split: every encoding and degree comes back as its decoder giv
     } else {
       CodebookIndices indices{};
       for (std::size_t id = 0; id < kCodebookCount; ++id) {
-        if (format.entries[id] > 0) indices[id] = random() % format.entries[id];
+        if (format.entries[id] > 0)
+          indices[id] = static_cast<std::uint32_t>(random() % format.entries[id]);
       }
       encode_quantised_second_half(format, indices, static_cast<std::uint8_t>(random() % 256),
                                    encoded.data());

@@ -191,7 +191,7 @@ TEST_CASE("ordering table: the first of the ready voxels, against a set") {
     std::set<std::uint32_t> expected;
     std::size_t wrong = 0;
     for (int i = 0; i < 3000; ++i) {
-      const std::uint32_t voxel = random() % voxels;
+      const std::uint32_t voxel = static_cast<std::uint32_t>(random() % voxels);
       if (random() % 2 == 0) {
         ready.set(voxel);
         expected.insert(voxel);

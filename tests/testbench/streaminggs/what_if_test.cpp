@@ -46,14 +46,16 @@ TEST_CASE("what-if: every remedy of the data sheets and the memory, once") {
 TEST_CASE("what-if: more of it, or half the cycles") {
   CHECK(Doubling("lanes", 8).to == 16);
   CHECK(Doubling({"cycles_per_operation", Turn::kDown}, 2).to == 1);
+  CHECK(Doubling({"cycles_per_operation", Turn::kDown}, 3).to == 2);  // in whole cycles
+  CHECK(Doubling({"front_end_ns", Turn::kDown}, 2.5).to == 1.25);
 }
 
 TEST_CASE("what-if: ranked by time saved, the smaller of equals first, the refused last") {
   const Outcome base = outcome(1000, 5);
-  std::vector<Doubling> doublings = {
-      refused("impossible"), doubling("slower", outcome(1100, 6)),
-      doubling("large", outcome(800, 7)), doubling("small", outcome(800, 6)),
-      doubling("best", outcome(500, 9))};
+  std::vector<Doubling> doublings = {refused("impossible"), doubling("slower", outcome(1100, 6)),
+                                     doubling("large", outcome(800, 7)),
+                                     doubling("small", outcome(800, 6)),
+                                     doubling("best", outcome(500, 9))};
   rank(base, doublings);
   std::string order;
   for (const Doubling& d : doublings) order += d.key + " ";
@@ -64,18 +66,19 @@ TEST_CASE("what-if: ranked by time saved, the smaller of equals first, the refus
 }
 
 TEST_CASE("what-if: the verdict on what binding names") {
-  const std::vector<Doubling> doublings = {
-      doubling("lanes", outcome(500, 6)), doubling("entries", outcome(502, 6)),
-      doubling("channels", outcome(900, 5)), refused("banks")};
+  const std::vector<Doubling> doublings = {doubling("lanes", outcome(500, 6)),
+                                           doubling("entries", outcome(502, 6)),
+                                           doubling("channels", outcome(900, 5)), refused("banks")};
   struct Row {
     const char* named;
     const char* says;
   };
   for (const Row& row : {Row{"lanes", "binding names lanes, and it gains most: 50.0 %"},
                          Row{"entries", "binding names entries, and it gains most: 49.8 %"},
-                         Row{"channels", "binding names channels, which gains 10.0 % of the time; "
-                                         "lanes gains most: 50.0 %. With channels=2, unit "
-                                         "holds the frame: unit works 70 %"},
+                         Row{"channels",
+                             "binding names channels, which gains 10.0 % of the time; "
+                             "lanes gains most: 50.0 %. With channels=2, unit "
+                             "holds the frame: unit works 70 %"},
                          Row{"banks", "which no key doubles; lanes gains most"},
                          Row{"", "binding names unit, which no key doubles"}}) {
     CHECK_THAT(verdict(outcome(1000, 5, row.named), doublings), Contains(row.says));
