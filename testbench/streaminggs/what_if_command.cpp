@@ -32,9 +32,14 @@ struct WhatIfArguments : SceneArguments {
   std::string out;  // JSON; empty: the terminal alone
 };
 
-// A scene, and a machine for it whose every size is decided but those of its on-chip memories.
+// What stays as it was decided for the frame. All else that the configuration leaves open follows
+// anew from what is doubled: on-chip memories, depths of pipelines.
+constexpr const char* kDecided[] = {"/group_width_px", "/group_height_px", "/storage"};
+
+// A scene, and a machine for it.
 struct Base {
-  std::string document;  // the resolved configuration
+  std::string document;  // the configuration, with what is decided
+  std::string resolved;  // and with all that was chosen
   PreparedScene scene;
   Technology technology;
   const Kinds* kinds = nullptr;
@@ -131,10 +136,10 @@ Json run_view(const Base& base, int number, const Camera& camera) {
       encode_frame(job.frame_format, config.design->golden(base.scene.stored, job, sheet).image);
   const FrameResult frame = run(base, config, camera, golden);
   const Outcome outcome = outcome_of(frame, base.technology);
-  const Json document = Json::parse(base.document);
+  const Json resolved = Json::parse(base.resolved);
   std::vector<Doubling> doublings;
   for (const Remedy& remedy : remedies_of(frame)) {
-    Doubling doubling(remedy, value_at(document, remedy.key));
+    Doubling doubling(remedy, value_at(resolved, remedy.key));
     if (doubling.to == doubling.from) continue;  // it is as short as it can be
     try {
       const RunConfig doubled = base.variant(fmt::format("{}={}", doubling.key, doubling.to));
@@ -157,6 +162,7 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   base.kinds = &kinds;
   RunConfig config = read_run_config(arguments.config.document(), kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
+  Json document = Json::parse(to_json(config));
   config.design->fit_frames([&] { return arguments.frame_sizes(); });
   if (packed) {
     resolve(config, *packed, arguments.scene, arguments.config.preset_path());
@@ -182,7 +188,13 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
         arguments.weighing_cameras(scene.cameras, config.storage.encoding);
     base.scene = prepare(std::move(scene), config, weighing);
   }
-  base.document = to_json(config);
+  base.resolved = to_json(config);
+  const Json resolved = Json::parse(base.resolved);
+  for (const char* at : kDecided) {
+    const Json::json_pointer key(at);
+    if (resolved.contains(key)) document[key] = resolved[key];
+  }
+  base.document = document.dump();
   Json report = Json::array();
   for (const auto& [number, camera] : views) report.push_back(run_view(base, number, camera));
   if (!arguments.out.empty()) {

@@ -1,0 +1,46 @@
+// What what-if says of a doubled resource is what simulate says of a machine that has it.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using nlohmann::json;
+
+void check_rows(const std::string& preset) {
+  const ScratchFolder scratch;
+  const std::string table = scratch.path("what_if.json");
+  const Arguments scene = {"builtin:object?n=2000", "--size", "96x54", "--config", preset};
+  const Outcome done = run_streaminggs(
+      with_settings(joined({"what-if"}, joined(scene, {"--out", table})), {"framebuffer=rgb32f"}));
+  INFO(done.err);
+  REQUIRE(done.status == 0);
+  const json view = json::parse(std::ifstream(table)).at(0);
+  int rows = 0;
+  for (const json& row : view["doubled"]) {
+    const auto key = row["key"].get<std::string>();
+    if (row.contains("refused")) continue;
+    std::ostringstream to;
+    to << row["to"].get<double>();
+    INFO(preset << ": " << key);
+    const Simulation alone(
+        with_settings(scene, {key + "=" + to.str(), "sram.shared_bytes=0", "sram.input_bytes=0"}));
+    CHECK(alone.views()[0]["frame"]["cycles"] == row["cycles"]);
+    CHECK(alone.views()[0]["area_mm2"]["total"].get<double>() ==
+          Approx(row["area_mm2"].get<double>()));
+    ++rows;
+  }
+  CHECK(rows > 5);
+}
+
+TEST_CASE("what-if: a row is the frame of a machine with that much of it, depths and all") {
+  check_rows("exact");
+  check_rows("paper_no_vq");
+}
+
+}  // namespace
+}  // namespace sgs::test
