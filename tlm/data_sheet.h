@@ -48,6 +48,8 @@ class DataSheet {
     (void)at;
     (void)what;
   }
+  // What may help the unit as well, though nothing names it: for a search that tries all.
+  virtual void may_help(const Remedy&) {}
   // unit: of the value ("cycles", "bytes", "keys").
   virtual void counter(const char* name, const char* unit, const char* meaning,
                        std::uint64_t value) {

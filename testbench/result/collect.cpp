@@ -35,6 +35,7 @@ class Collector : public LeftOutCollector {
   void remedy(const Activity& activity, const Remedy& remedy) override {
     for_work_[path_below(activity, machine_)] = remedy;
   }
+  void may_help(const Remedy& remedy) override { into_.units.back().may_help.push_back(remedy); }
   void remedy(const sc_core::sc_object& at, WaitFor what, const Remedy& remedy) override {
     for_waits_[{path_below(at, machine_), what}] = remedy;
   }

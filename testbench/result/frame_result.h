@@ -40,6 +40,7 @@ struct UnitResult {
   std::string name;  // path below the machine
   std::vector<ActivityResult> activities;
   std::vector<CounterResult> counters;
+  std::vector<Remedy> may_help = {};  // beside those of activities and waits
   bool charged = false;  // it did something that is paid for: operations, items or accesses
 };
 

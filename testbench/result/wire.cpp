@@ -27,7 +27,7 @@ void serialize(Archive& a, CounterResult& r) {
 }
 template <class Archive>
 void serialize(Archive& a, UnitResult& r) {
-  a(r.name, r.activities, r.counters, r.charged);
+  a(r.name, r.activities, r.counters, r.may_help, r.charged);
 }
 template <class Archive>
 void serialize(Archive& a, Operations& r) {

@@ -35,6 +35,7 @@ std::vector<Remedy> remedies_of(const FrameResult& frame) {
       add(activity.remedy);
       for (const WaitResult& wait : activity.waits) add(wait.remedy);
     }
+    for (const Remedy& remedy : unit.may_help) add(remedy);
   }
   add(frame.memory.remedy);
   return all;

@@ -60,13 +60,19 @@ struct Base {
 
 class NothingLeftOut : public DataSheet {};
 
-// One frame of a variant. golden: the picture that all variants must give.
+std::vector<std::byte> golden_of(const Base& base, const RunConfig& config, const FrameJob& job) {
+  NothingLeftOut sheet;
+  return encode_frame(job.frame_format, config.design->golden(base.scene.stored, job, sheet).image);
+}
+
+// One frame of a variant. golden: the picture of the machine as it is. Few keys make another one
+// (of paper order the rays in flight, which break ties): the variant's own is drawn for these only.
 FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
-                const std::vector<std::byte>& golden) {
+                const std::vector<std::byte>& golden, const std::string& what) {
   const FrameJob job = config.design->job(base.scene.stored, camera);
   FrameResult frame = run_frame(*config.design, job, base.scene.stored.image, config.dram, {});
-  if (frame.frame != golden) {
-    throw std::runtime_error("the frame differs from the golden renderer's");
+  if (frame.frame != golden && frame.frame != golden_of(base, config, job)) {
+    throw std::runtime_error(what + ": the frame differs from the golden renderer's");
   }
   return frame;
 }
@@ -130,11 +136,9 @@ Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublin
 
 Json run_view(const Base& base, int number, const Camera& camera) {
   const RunConfig config = base.variant("");
-  const FrameJob job = config.design->job(base.scene.stored, camera);
-  NothingLeftOut sheet;
   const std::vector<std::byte> golden =
-      encode_frame(job.frame_format, config.design->golden(base.scene.stored, job, sheet).image);
-  const FrameResult frame = run(base, config, camera, golden);
+      golden_of(base, config, config.design->job(base.scene.stored, camera));
+  const FrameResult frame = run(base, config, camera, golden, "nothing doubled");
   const Outcome outcome = outcome_of(frame, base.technology);
   const Json resolved = Json::parse(base.resolved);
   std::vector<Doubling> doublings;
@@ -142,8 +146,9 @@ Json run_view(const Base& base, int number, const Camera& camera) {
     Doubling doubling(remedy, value_at(resolved, remedy.key));
     if (doubling.to == doubling.from) continue;  // it is as short as it can be
     try {
-      const RunConfig doubled = base.variant(fmt::format("{}={}", doubling.key, doubling.to));
-      doubling.outcome = outcome_of(run(base, doubled, camera, golden), base.technology);
+      const std::string what = fmt::format("{}={}", doubling.key, doubling.to);
+      const RunConfig doubled = base.variant(what);
+      doubling.outcome = outcome_of(run(base, doubled, camera, golden, what), base.technology);
     } catch (const InputError& error) {
       doubling.refused = error.what();
     }

@@ -36,6 +36,7 @@ class ClusterSchedule {
     std::uint64_t rows = 0;           // that the dispatcher took
     std::uint64_t row_cycles = 0;     // that it held them
     std::uint64_t finished = 0;       // sub-tiles
+    std::uint64_t lane_cycles = 0;    // that the lanes of the spans had splats
   };
 
   explicit ClusterSchedule(const RenderingConfig& config)
@@ -106,8 +107,9 @@ class ClusterSchedule {
     end_row();
     dispatched_ = row_end_ + 1;
     slot_free_[splats_++ % slot_free_.size()] = dispatched_;
-    return std::max(
-        {begin_ + 1, begin_ + config_.span_cycles(spans), slot_free_[splats_ % slot_free_.size()]});
+    const std::uint64_t lanes = std::max(1U, config_.span_cycles(spans));
+    counters_.lane_cycles += lanes;
+    return std::max(begin_ + lanes, slot_free_[splats_ % slot_free_.size()]);
   }
 
   // The cycle in which every splat is dispatched and every cluster is free again.
@@ -120,6 +122,11 @@ class ClusterSchedule {
     return last == finished_from_.end() ? 0 : *last;
   }
   const Counters& counters() const { return counters_; }
+  // That the mean cluster blended, or waited for the splat ahead.
+  std::uint64_t cluster_cycles() const {
+    return (counters_.blends * config_.cluster_interval_cycles() + counters_.hazard_cycles) /
+           config_.clusters;
+  }
 
  private:
   struct Cluster {

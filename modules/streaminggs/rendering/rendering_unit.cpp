@@ -291,7 +291,12 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.counter("contributors", "pixels", "blended with an alpha above 1/255",
                 counters_.contributors);
   publish_ledger(sheet);
-  sheet.remedy(blend_, "rendering.clusters");
+  // Both work at the same time, on different splats.
+  const bool by_lanes = clusters.lane_cycles > schedule_.cluster_cycles();
+  sheet.remedy(blend_, by_lanes ? "rendering.span_lanes" : "rendering.clusters");
+  for (const char* key : {"rendering.clusters", "rendering.span_lanes", "rendering.span_slots"}) {
+    sheet.may_help(key);
+  }
   sheet.remedy(drain_, "rendering.drain_pixels_per_cycle");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.sram(sram_uses(config_, built_for_));

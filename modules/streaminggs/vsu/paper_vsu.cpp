@@ -194,6 +194,9 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.port(node_memory);
   sheet.port(record_memory);
   sheet.remedy(traverse_, rays_.remedy());
+  for (const char* key : {"vsu.rays_in_flight", "vsu.step_lanes", "vsu.ray_lanes"}) {
+    sheet.may_help(key);
+  }
   sheet.remedy(node_memory, WaitFor::kReads, "vsu.node_cache_bytes");
   sheet.remedy(record_memory, WaitFor::kReads, "vsu.record_cache_bytes");
   sheet.sram(sram_uses(config_, built_for_));

@@ -37,10 +37,11 @@ TEST_CASE("what-if: every remedy of the data sheets and the memory, once") {
   const WaitResult input{WaitFor::kInput, "fifo", "", "", 5};
   frame.machine.units.push_back({"a", {{"x", "r", "", 1, {room, input}, "lanes"}}, {}});
   frame.machine.units.push_back({"b", {{"y", "r", "", 1, {room}, "lanes"}}, {}});
+  frame.machine.units.back().may_help = {"lanes", "slots"};
   frame.memory.remedy = "channels";
   std::string keys;
   for (const Remedy& remedy : remedies_of(frame)) keys += remedy.key + " ";
-  CHECK(keys == "lanes entries channels ");
+  CHECK(keys == "lanes entries slots channels ");
 }
 
 TEST_CASE("what-if: more of it, or half the cycles") {
