@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """What tuning gives back of quality, and what it does to the machine. For each scene: as given,
 tuned at the boundaries of voxels (paper order), for fewer bytes (exact order), and for codebooks;
-drawn by both machines. PSNR and SSIM are means over the test views of frames read back from the modelled
-DRAM, 8 bits a channel, beside the photographs before black, or beside the reference pictures of the
-scene as given where there are no photographs. A data set is trained first. Writes
+drawn by both machines. PSNR and SSIM are means over the test views of frames read back from the
+modelled DRAM, 8 bits a channel, beside the photographs before black, or beside the reference
+pictures of the scene as given where there are no photographs. A data set is trained first. Writes
 
   quality_table.md    a line for each scene and order, as the paper has it
   quality_machine.md  a line for each scene, order and tuning: quality, bytes, cycles, joules
@@ -139,8 +139,8 @@ def make_tables(arguments: argparse.Namespace) -> None:
     texts = arguments.scenes or subjects.DEFAULT_SUBJECTS
     rows, machine_rows, commits = [], [], []
     for subject in subjects.find_subjects(texts, arguments, kept):
-        targets = target_pictures(binary, kept.program, arguments.out / "targets", subject)
         voxel = tunings.voxel_of_preset(binary, subject)
+        targets = target_pictures(binary, kept.program, arguments.out / "targets", subject)
         stages = stages_of(subject, kept, calls, voxel, arguments.price)
         judged = JudgedFrames(binary, targets, arguments.side_by_side)
         runs = [

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """How a scene comes out of photographs: PSNR and SSIM of the test views over steps and wall time,
 for several seeds. Writes training_curves.md, a line for each look at the test views, and
-training_summary.md, a line for each data set; and both as .csv. Times are of the command with the
-machine for itself, looks included. A training that was interrupted goes on where it was; what is
-done is kept in fittings/ of the folder for tables.
+training_summary.md, a line for each data set; and both as .csv. One training at a time; its
+seconds have the looks in them. A training that was interrupted goes on where it was; what is done
+is kept in fittings/ of the folder for tables.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def summary_row(name: str, of_seeds: Sequence[Fitted], same_bits: str) -> tuple:
     if not all(fitted.log for fitted in of_seeds):
         raise ValueError(f"--minutes: {name} was stopped before its first look at the test views")
     last = [fitted.log[-1] for fitted in of_seeds]
-    speeds = [fitted.steps() / float(fitted.log[-1]["seconds"]) for fitted in of_seeds]
+    speeds = [fitted.steps() / fitted.seconds for fitted in of_seeds]
     return (
         name,
         len(of_seeds),
@@ -98,7 +98,7 @@ def make_tables(arguments: argparse.Namespace) -> None:
         folders[folder.name] = folder
     if not folders:
         raise ValueError("no data set is there, expected the folder of one")
-    kept = KeptFittings(arguments.streaminggs, arguments.out / "fittings", arguments.side_by_side)
+    kept = KeptFittings(arguments.streaminggs, arguments.out / "fittings", side_by_side=1)
     rows, summary = [], []
     for name, folder in folders.items():
 
@@ -126,7 +126,6 @@ def main() -> int:
         what="DATASET",
         forms=subjects.DATASET_FORMS,
     )
-    run_arguments.add_fittings_side_by_side(parser)
     subjects.add_training_arguments(parser)
     parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3], metavar="N", help="each")
     parser.add_argument(

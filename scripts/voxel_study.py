@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """What the size of a voxel is worth once the scene is tuned to it: quality, bytes, cycles and
-energy of paper order with raw second halves, before and after boundary-aware tuning, for sizes from half
-to four times the preset's. Frames are those of quality_table.py, and so is what they are compared
-with. Writes voxel_study.md and .csv. Everything is kept in fittings/ and targets/ of the folder for
-tables, and goes on where it ended.
+energy of paper order with raw second halves, before and after boundary-aware tuning, for sizes from
+half to four times the preset's. Frames are those of quality_table.py, and so is what they are
+compared with. Writes voxel_study.md and .csv. Everything is kept in fittings/ and targets/ of the
+folder for tables, and goes on where it ended.
 """
 
 from __future__ import annotations
@@ -61,8 +61,8 @@ def make_table(arguments: argparse.Namespace) -> None:
     texts = arguments.scenes or subjects.DEFAULT_SUBJECTS
     rows, commits = [], []
     for subject in subjects.find_subjects(texts, arguments, kept):
-        targets = target_pictures(binary, kept.program, arguments.out / "targets", subject)
         preset = tunings.voxel_of_preset(binary, subject)
+        targets = target_pictures(binary, kept.program, arguments.out / "targets", subject)
         voxels = [factor * preset for factor in arguments.voxels]
         tuned = kept.all([calls.boundary(subject, voxel, tunings.BETA) for voxel in voxels])
         judged = JudgedFrames(binary, targets, arguments.side_by_side)
