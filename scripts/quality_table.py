@@ -37,7 +37,7 @@ from subjects import Subject
 from target_pictures import target_pictures
 from tunings import EXACT, EXACT_VQ, PAPER, PAPER_VQ
 
-GIVEN, BOUNDARY, STREAMING = "as given", "boundary-aware", "for streaming"
+GIVEN, BOUNDARY = "as given", "boundary-aware"
 PACKED, QUANTISED = "packed", "quantisation-aware"
 
 HEAD = (
@@ -79,21 +79,25 @@ class Stage:
 
 
 def stages_of(
-    subject: Subject, kept: KeptFittings, calls: tunings.Tunings, voxel: float, price: float
+    subject: Subject,
+    kept: KeptFittings,
+    calls: tunings.Tunings,
+    voxel: float,
+    arguments: argparse.Namespace,
 ) -> list[Stage]:
     """Tunes what is not tuned yet. What is packed already says its voxels itself."""
     given, voxels = subject.scene, calls.voxel_words(voxel)
-    boundary, streaming, exact_vq = (
-        str(fitted.scene)
-        for fitted in kept.all(
-            [
-                calls.boundary(subject, voxel, tunings.BETA),
-                calls.streaming(subject, price),
-                calls.quantised(subject, given, EXACT_VQ, ()),
-            ]
-        )
-    )
+    first = [
+        calls.boundary(subject, voxel, arguments.beta),
+        calls.quantised(subject, given, EXACT_VQ, ()),
+        *(calls.streaming(subject, price) for price in arguments.prices),
+    ]
+    boundary, exact_vq, *streaming = (str(fitted.scene) for fitted in kept.all(first))
     (paper_vq,) = kept.all([calls.quantised(subject, boundary, PAPER_VQ, voxels)])
+    for_bytes = [
+        Stage("exact", f"for streaming, price {price:g}", EXACT, scene)
+        for price, scene in zip(arguments.prices, streaming)
+    ]
     return [
         Stage("paper", GIVEN, PAPER, given, voxels),
         Stage("paper", BOUNDARY, PAPER, boundary, voxels),
@@ -101,7 +105,7 @@ def stages_of(
         Stage("paper", QUANTISED, PAPER_VQ, str(paper_vq.scene), calls.paper_set),
         Stage("exact", GIVEN, EXACT, given),
         Stage("exact", BOUNDARY, EXACT, boundary),
-        Stage("exact", STREAMING, EXACT, streaming),
+        *for_bytes,
         Stage("exact", PACKED, EXACT_VQ, given),
         Stage("exact", QUANTISED, EXACT_VQ, exact_vq),
     ]
@@ -141,7 +145,7 @@ def make_tables(arguments: argparse.Namespace) -> None:
     for subject in subjects.find_subjects(texts, arguments, kept):
         voxel = tunings.voxel_of_preset(binary, subject)
         targets = target_pictures(binary, kept.program, arguments.out / "targets", subject)
-        stages = stages_of(subject, kept, calls, voxel, arguments.price)
+        stages = stages_of(subject, kept, calls, voxel, arguments)
         judged = JudgedFrames(binary, targets, arguments.side_by_side)
         runs = [
             judged.run(
@@ -167,8 +171,16 @@ def main() -> int:
     run_arguments.add_fittings_side_by_side(parser)
     subjects.add_arguments(parser)
     tunings.add_arguments(parser)
+    tunings.add_beta(parser)
     parser.add_argument("--quantised-steps", type=int, default=5_000, metavar="N", help="of tune")
-    parser.add_argument("--price", type=float, default=0.03, help="of what is fetched, of tune")
+    parser.add_argument(
+        "--prices",
+        nargs="+",
+        type=float,
+        default=[0.003, 0.03],
+        metavar="X",
+        help="of what is fetched, as of tune: a scene for each",
+    )
     parser.add_argument("--view", default="all", help="numbers of test views to draw, as in 0,2")
     return run_arguments.main_of_tables(make_tables, parser.parse_args())
 

@@ -16,7 +16,6 @@ from subjects import Subject
 PAPER, PAPER_VQ = "paper_no_vq", "paper"
 EXACT, EXACT_VQ = "exact", "exact_vq"
 TEST_EVERY = "500"  # steps
-BETA = 0.05  # the paper's
 
 
 @dataclasses.dataclass(frozen=True)
@@ -85,6 +84,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="KEY=VALUE",
         help="over the presets of paper order, where a scene is tuned and where it is drawn",
     )
+
+
+def add_beta(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--beta", type=float, default=0.05, help="of L_CBP; the paper's")
 
 
 def tunings_of(arguments: argparse.Namespace, quantised_steps: int = 5_000) -> Tunings:

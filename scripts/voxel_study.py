@@ -64,7 +64,7 @@ def make_table(arguments: argparse.Namespace) -> None:
         preset = tunings.voxel_of_preset(binary, subject)
         targets = target_pictures(binary, kept.program, arguments.out / "targets", subject)
         voxels = [factor * preset for factor in arguments.voxels]
-        tuned = kept.all([calls.boundary(subject, voxel, tunings.BETA) for voxel in voxels])
+        tuned = kept.all([calls.boundary(subject, voxel, arguments.beta) for voxel in voxels])
         judged = JudgedFrames(binary, targets, arguments.side_by_side)
         runs = [
             judged.run(
@@ -88,6 +88,7 @@ def main() -> int:
     run_arguments.add_fittings_side_by_side(parser)
     subjects.add_arguments(parser)
     tunings.add_arguments(parser)
+    tunings.add_beta(parser)
     parser.add_argument(
         "--voxels",
         nargs="+",

@@ -69,7 +69,7 @@ class WithTheCommand(InFolder):
             ),
             (
                 quality_table,
-                (*SMALL_TUNING, "--quantised-steps", "3"),
+                (*SMALL_TUNING, "--quantised-steps", "3", "--prices", "0.1"),
                 {"| truck | own pictures |": 2, "| truck | paper |": 4, "| truck | exact |": 5},
             ),
             (
@@ -96,7 +96,7 @@ class WithTheCommand(InFolder):
             ),
             (
                 quality_table,
-                ("--steps", "4", "--quantised-steps", "3", "--view", "0"),
+                ("--steps", "4", "--quantised-steps", "3", "--prices", "0.1", "--view", "0"),
                 {"| photographs | photographs |": 2, "| photographs | exact |": 5 + 1},
             ),
             (voxel_study, ("--steps", "4", "--voxels", "1"), {"| photographs | 1 |": 2}),

@@ -1,5 +1,5 @@
-"""Trainings and tunings: what is kept of them, how they are stopped and go on; and what the study of
-quality makes of logs and pictures. A program stands in for the command."""
+"""Trainings and tunings: what is kept of them, how they are stopped and go on; and what the study
+of quality makes of logs and pictures. A program stands in for the command."""
 
 import math
 import pathlib
@@ -67,7 +67,8 @@ class Keeping(InFolder):
         self.assertNotEqual(first.scene, second.scene)
         self.assertEqual(first.log, [{"step": "7", "seconds": "2.5"}])
         self.assertEqual(first.scene.read_text(), "whole")
-        self.assertEqual([line.split()[:2] for line in self.calls()], [["tune", "x.ply"], ["tune", "y.ply"]])
+        called = [line.split()[:2] for line in self.calls()]
+        self.assertEqual(called, [["tune", "x.ply"], ["tune", "y.ply"]])
         self.assertEqual(self.kept().all([one])[0], first)
         self.assertEqual(len(self.calls()), 2)
         self.kept().all([Fitting("a b", "tune", ("x.ply",), copy=1)])
