@@ -93,7 +93,8 @@ def stages_of(
         *(calls.streaming(subject, price) for price in arguments.prices),
     ]
     boundary, exact_vq, *streaming = (str(fitted.scene) for fitted in kept.all(first))
-    (paper_vq,) = kept.all([calls.quantised(subject, boundary, PAPER_VQ, voxels)])
+    settings = (*calls.tuned_in(), *tunings.set_words(voxels))
+    (paper_vq,) = kept.all([calls.quantised(subject, boundary, PAPER_VQ, settings)])
     for_bytes = [
         Stage("exact", f"for streaming, price {price:g}", EXACT, scene)
         for price, scene in zip(arguments.prices, streaming)

@@ -20,22 +20,28 @@ TEST_EVERY = "500"  # steps
 
 @dataclasses.dataclass(frozen=True)
 class Tunings:
-    """paper_set: KEY=VALUE over the presets of paper order."""
+    """precision: that paper order is drawn in while it is tuned for. paper_set: KEY=VALUE over the
+    presets of paper order."""
 
     steps: int
     quantised_steps: int
     misordered_in: str
     penalty_mean: str
     rate: float
+    precision: str
     paper_set: tuple[str, ...]
 
     def voxel_words(self, voxel: float) -> tuple[str, ...]:
         """For --set of paper order."""
         return (f"storage.voxel_size={voxel:g}", *self.paper_set)
 
+    def tuned_in(self) -> tuple[str, ...]:
+        """For --set of a tuning for paper order: a precision, and the memory that it needs."""
+        return set_words((f"rendering.precision={self.precision}", "sram.shared_bytes=0"))
+
     def boundary(self, subject: Subject, voxel: float, beta: float) -> Fitting:
         words = (subject.scene, "--boundary", "--config", PAPER)
-        words += set_words(self.voxel_words(voxel)) + subject.target_words()
+        words += (*self.tuned_in(), *set_words(self.voxel_words(voxel)), *subject.target_words())
         words += ("--steps", str(self.steps), "--beta", f"{beta:g}", "--rate", f"{self.rate:g}")
         words += ("--misordered-in", self.misordered_in, "--penalty-mean", self.penalty_mean)
         label = f"{subject.name} boundary voxels {voxel:g} beta {beta:g}"
@@ -44,8 +50,8 @@ class Tunings:
     def quantised(
         self, subject: Subject, given: str, config: str, settings: tuple[str, ...]
     ) -> Fitting:
-        """given: the scene to begin with."""
-        words = (given, "--quantise", "--config", config, *set_words(settings))
+        """given: the scene to begin with. settings: words for the command."""
+        words = (given, "--quantise", "--config", config, *settings)
         words += (*subject.target_words(given), "--steps", str(self.quantised_steps))
         label = f"{subject.name} quantise {config}"
         return Fitting(label, "tune", (*words, "--test-every", TEST_EVERY), ".sgs")
@@ -78,6 +84,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--rate", type=float, default=1, help="of boundary-aware tuning")
     parser.add_argument(
+        "--precision",
+        choices=("fp32", "fp16"),
+        default="fp32",
+        help="that paper order is drawn in while it is tuned for; fp16, as its presets have it, "
+        "takes several times as long to draw",
+    )
+    parser.add_argument(
         "--paper-set",
         action="append",
         default=[],
@@ -97,5 +110,6 @@ def tunings_of(arguments: argparse.Namespace, quantised_steps: int = 5_000) -> T
         arguments.misordered_in,
         arguments.penalty_mean,
         arguments.rate,
+        arguments.precision,
         tuple(arguments.paper_set),
     )
