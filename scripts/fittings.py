@@ -6,6 +6,7 @@ from __future__ import annotations
 import concurrent.futures
 import csv
 import dataclasses
+import fcntl
 import hashlib
 import json
 import pathlib
@@ -15,6 +16,7 @@ import sys
 import threading
 import time
 from collections.abc import Sequence
+from typing import IO
 
 import tables
 from run_digest import content_digest, program_digest
@@ -105,17 +107,36 @@ class KeptFittings:
         place = self.place(fitting)
         scene = place / f"scene{fitting.extension}"
         if not (place / DONE).exists():
-            print(f"{fitting.label}: in {place}", file=sys.stderr, flush=True)
             place.mkdir(parents=True, exist_ok=True)
-            seconds = self.run(fitting, scene, place / "seconds")
-            entry = {"words": fitting.words, "commit": self.commit, "seconds": seconds}
-            tables.write_text(place / DONE, json.dumps(entry) + "\n")
-            checkpoint_of(scene).unlink(missing_ok=True)
+            with (place / "lock").open("w") as lock:
+                self.wait_for(lock, fitting)
+                if not (place / DONE).exists():
+                    self.make(fitting, scene, place, lock)
         entry = json.loads((place / DONE).read_text())
         with (place / "log.csv").open() as log:
             return Fitted(fitting, scene, list(csv.DictReader(log)), entry["seconds"])
 
-    def run(self, fitting: Fitting, scene: pathlib.Path, clock: pathlib.Path) -> float:
+    def wait_for(self, lock: IO, fitting: Fitting) -> None:
+        """Until no other script has it under way, nor a call that such a one left behind."""
+        told = False
+        while not self.stopping:
+            try:
+                return fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                if not told:
+                    print(f"{fitting.label}: waits for another script", file=sys.stderr, flush=True)
+                told = True
+                time.sleep(0.5)
+        raise Failure("interrupted")
+
+    def make(self, fitting: Fitting, scene: pathlib.Path, place: pathlib.Path, lock: IO) -> None:
+        print(f"{fitting.label}: in {place}", file=sys.stderr, flush=True)
+        seconds = self.run(fitting, scene, place / "seconds", lock)
+        entry = {"words": fitting.words, "commit": self.commit, "seconds": seconds}
+        tables.write_text(place / DONE, json.dumps(entry) + "\n")
+        checkpoint_of(scene).unlink(missing_ok=True)
+
+    def run(self, fitting: Fitting, scene: pathlib.Path, clock: pathlib.Path, lock: IO) -> float:
         """Until its end. clock: file of the seconds that earlier parts took. Returns the sum."""
         words = [str(self.binary.absolute()), fitting.command, *fitting.words]
         words += ["--out", str(scene), "--log", str(scene.parent / "log.csv")]
@@ -125,7 +146,7 @@ class KeptFittings:
             words += ["--resume", str(checkpoint_of(scene))]
             earlier = float(clock.read_text()) if clock.exists() else 0.0
         began = time.monotonic()
-        done, timed_out = self.call(words, fitting.most_seconds, earlier)
+        done, timed_out = self.call(words, fitting.most_seconds, earlier, lock)
         seconds = earlier + time.monotonic() - began
         if done.returncode == 0 or (timed_out and done.returncode == INTERRUPTED):
             return seconds
@@ -136,10 +157,10 @@ class KeptFittings:
         raise Failure(f"{fitting.label}: {said(done)}")
 
     def call(
-        self, words: Sequence[str], most_seconds: float, earlier: float
+        self, words: Sequence[str], most_seconds: float, earlier: float, lock: IO
     ) -> tuple[subprocess.CompletedProcess[str], bool]:
         """How it ended, and whether that was for its time. In a session of its own: of Ctrl-C it
-        hears once, from stop()."""
+        hears once, from stop(). It holds the lock, too, should this script be killed."""
         with self.lock:
             if self.stopping:
                 raise Failure("interrupted")
@@ -151,6 +172,7 @@ class KeptFittings:
                     text=True,
                     errors="replace",
                     start_new_session=True,
+                    pass_fds=(lock.fileno(),),
                 )
             except OSError as error:
                 raise ValueError(f"{words[0]}: cannot be run: {error.strerror}") from error

@@ -1,6 +1,7 @@
 """Trainings and tunings: what is kept of them, how they are stopped and go on; and what the study
 of quality makes of logs and pictures. A program stands in for the command."""
 
+import concurrent.futures
 import math
 import pathlib
 import signal
@@ -110,6 +111,14 @@ class Keeping(InFolder):
         self.assertGreaterEqual(fitted.seconds, 1)
         self.assertEqual(list(self.folder.glob("fittings/*/*.checkpoint")), [])
         self.kept().all([fitted.fitting])
+        self.assertEqual(len(self.calls()), 1)
+
+    def test_two_scripts_do_not_make_the_same_at_once(self):
+        slow = Fitting("slow", "train", ("slow",), most_seconds=2)
+        with concurrent.futures.ThreadPoolExecutor() as pool:
+            both = [pool.submit(self.kept().all, [slow]) for _ in range(2)]
+            first, second = (one.result() for one in both)
+        self.assertEqual(first, second)
         self.assertEqual(len(self.calls()), 1)
 
     def test_ctrl_c_saves_and_the_next_start_goes_on(self):
