@@ -9,7 +9,7 @@ import json
 import pathlib
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from run_digest import program_digest, run_name
 from simulations import MOST_SIDE_BY_SIDE, Failure, Outcome, Run, simulate
@@ -36,10 +36,17 @@ def sums(activity: dict) -> dict:
 class KeptRuns:
     """Outcomes of runs, from the file where it has them. A file of another program is left alone:
     each line names what it was made with
-    (run_digest.py). failures: what ended badly, which is not kept."""
+    (run_digest.py). simulate: what makes an outcome of a run; a file is of one such.
+    failures: what ended badly, which is not kept."""
 
-    def __init__(self, binary: pathlib.Path, path: pathlib.Path, side_by_side: int):
-        self.binary, self.path = binary, path
+    def __init__(
+        self,
+        binary: pathlib.Path,
+        path: pathlib.Path,
+        side_by_side: int,
+        simulate: Callable[[pathlib.Path, Run], Outcome] = simulate,
+    ):
+        self.binary, self.path, self.simulate = binary, path, simulate
         self.workers = max(1, min(MOST_SIDE_BY_SIDE, side_by_side))
         self.program = program_digest(binary)
         self.known: dict[str, dict] = {}
@@ -71,7 +78,7 @@ class KeptRuns:
             return Outcome(run, tuple(entry["views"]), entry["refused"])
         try:
             with self.running:
-                outcome = simulate(self.binary, run)
+                outcome = self.simulate(self.binary, run)
         except Failure as failure:
             with self.writing:
                 self.failures.append(failure)

@@ -30,18 +30,26 @@ class Help(argparse.RawDescriptionHelpFormatter, argparse.ArgumentDefaultsHelpFo
         return super()._get_help_string(action)
 
 
+SCENE_FORMS = (
+    "builtin:NAME?n=COUNT, a real scene of ../shared by name, or a .ply file with its cameras "
+    "beside it (NAME.json)"
+)
+
+
 def parser(
-    about: str, without_scenes: str = "the built-in scenes and all real ones"
+    about: str,
+    without_scenes: str = "the built-in scenes and all real ones",
+    what: str = "SCENE",
+    forms: str = SCENE_FORMS,
 ) -> argparse.ArgumentParser:
     """SCENE..., the program to run them with, and a folder for tables. without_scenes: what is
-    taken where no scene is named, in words."""
+    taken where no scene is named, in words. what, forms: what is named, and how it may be."""
     made = argparse.ArgumentParser(description=about, formatter_class=Help, allow_abbrev=False)
     made.add_argument(
         "scenes",
         nargs="*",
-        metavar="SCENE",
-        help="builtin:NAME?n=COUNT, a real scene of ../shared by name, or a .ply file with its "
-        f"cameras beside it (NAME.json); default: {without_scenes}",
+        metavar=what,
+        help=f"{forms}; default: {without_scenes}",
     )
     made.add_argument(
         "--streaminggs",
@@ -67,6 +75,16 @@ def add_side_by_side(to: argparse.ArgumentParser) -> None:
         choices=range(1, simulations.MOST_SIDE_BY_SIDE + 1),
         default=simulations.MOST_SIDE_BY_SIDE,
         help="simulations at a time; 1 for wall times that nothing disturbs",
+    )
+
+
+def add_fittings_side_by_side(to: argparse.ArgumentParser) -> None:
+    to.add_argument(
+        "--side-by-side",
+        type=int,
+        choices=range(1, simulations.MOST_SIDE_BY_SIDE + 1),
+        default=1,
+        help="trainings, tunings or simulations at a time; each of the former takes all cores",
     )
 
 

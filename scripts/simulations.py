@@ -110,12 +110,17 @@ def simulate(binary: pathlib.Path, run: Run) -> Outcome:
     """Simulates a run. Raises Failure when it fails, or when the frame that the accelerator wrote
     is not the streaming renderer's, bit for bit."""
     with tempfile.TemporaryDirectory(prefix="streaminggs-") as out:
-        done = call(binary, [*run.arguments(), "--out", out])
-        if done.returncode == REFUSED:
-            return Outcome(run, refused=said(done))
-        if done.returncode != 0:
-            raise Failure(f"{run.label()}: {said(done)}")
-        report = json.loads((pathlib.Path(out) / "report.json").read_text())
+        return simulate_into(pathlib.Path(out), binary, run)
+
+
+def simulate_into(out: pathlib.Path, binary: pathlib.Path, run: Run) -> Outcome:
+    """The same, with the pictures left in a folder."""
+    done = call(binary, [*run.arguments(), "--out", str(out)])
+    if done.returncode == REFUSED:
+        return Outcome(run, refused=said(done))
+    if done.returncode != 0:
+        raise Failure(f"{run.label()}: {said(done)}")
+    report = json.loads((out / "report.json").read_text())
     return Outcome(run, views=tuple(report["views"]))
 
 

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,7 +39,8 @@ void check_arguments(const TuneArguments& arguments) {
   if (arguments.data.empty()) return;
   const std::pair<const char*, bool> of_cameras[] = {{"--cameras", !arguments.cameras_path.empty()},
                                                      {"--size", !arguments.size.empty()},
-                                                     {"--between", arguments.between > 0}};
+                                                     {"--between", arguments.between > 0},
+                                                     {"--target", !arguments.target.empty()}};
   for (const auto& [name, given] : of_cameras) {
     if (given) throw InputError(fmt::format("{}: the data set brings its views", name));
   }
@@ -45,12 +48,22 @@ void check_arguments(const TuneArguments& arguments) {
 
 TuningViews views_for(const TuneArguments& arguments, const Scene& scene) {
   if (!arguments.data.empty()) return views_of_dataset(arguments.data);
+  SceneArguments shown = arguments;
+  std::optional<Scene> other;
+  if (!arguments.target.empty()) {
+    shown.scene = arguments.target;
+    other = shown.load();
+  }
+  const Scene& target = other ? *other : scene;
   std::vector<Camera> cameras;
-  for (auto& [number, camera] : arguments.cameras(scene.cameras)) cameras.push_back(camera);
+  for (auto& [number, camera] : shown.cameras(target.cameras)) cameras.push_back(camera);
   if (arguments.between > 0 && cameras.size() < 2) {
     throw InputError("--between: got one camera, expected two or more");
   }
-  return views_of_scene(activate(scene.cloud), cameras, arguments.between, arguments.seed);
+  const std::string pictures =
+      other ? "reference pictures of " + arguments.target : "the scene's own reference pictures";
+  return views_of_scene(pictures, activate(target.cloud), cameras, arguments.between,
+                        arguments.seed);
 }
 
 int run(const TuneArguments& arguments, const Kinds& kinds) {
@@ -59,6 +72,7 @@ int run(const TuneArguments& arguments, const Kinds& kinds) {
   OutputPlan plan;
   arguments.add_inputs_to(plan);
   plan.add_input(arguments.config.path());
+  plan.add_input(arguments.target);
   arguments.FittingArguments::add_to(plan);
   plan.check();
   Scene scene = arguments.load();
@@ -134,6 +148,7 @@ std::string TuneArguments::work(const TuningConfig& tuning) const {
   for (const std::string& value : config.overrides) line += " --set " + value;
   if (data.empty()) {
     line += fmt::format(" --cameras {} --size {} --between {}", cameras_path, size, between);
+    if (!target.empty()) line += " --target " + target;
   } else {
     line += " --data " + data;
   }
@@ -159,6 +174,9 @@ SubCommand add_tune_command(CommandLine& line, const Kinds& kinds) {
   line.file("--data", arguments->data,
             "the folder of a data set; without, the scene's own "
             "reference pictures are what it is to look like");
+  line.text("--target", arguments->target,
+            "the scene whose reference pictures these are, where it is not SCENE itself: what "
+            "SCENE was before it was tuned");
   line.file("--cameras", arguments->cameras_path,
             "cameras.json of these pictures; built-in scenes bring their own");
   line.text("--size", arguments->size, "WIDTHxHEIGHT in px; scales the intrinsics");

@@ -24,7 +24,8 @@ namespace sgs {
 
 struct TuneArguments : SceneArguments, FittingArguments {
   bool boundary = false, quantise = false, streaming = false;
-  std::string data;  // folder of a data set; empty: the scene's own pictures
+  std::string data;    // folder of a data set; empty: the scene's own pictures
+  std::string target;  // scene whose pictures they are; empty: the one that is tuned
   std::uint32_t between = 0;
   ConfigSource config;
   std::uint32_t steps = 0;  // 0: as many as the paper takes

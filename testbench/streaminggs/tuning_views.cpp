@@ -31,8 +31,9 @@ TuningViews views_of_dataset(const std::string& folder) {
           std::move(says)};
 }
 
-TuningViews views_of_scene(const ActivatedCloud& cloud, const std::vector<Camera>& cameras,
-                           std::uint32_t between, std::uint64_t seed) {
+TuningViews views_of_scene(const std::string& pictures, const ActivatedCloud& cloud,
+                           const std::vector<Camera>& cameras, std::uint32_t between,
+                           std::uint64_t seed) {
   constexpr std::size_t kTestEvery = 8;
   std::vector<Camera> tune, test;
   if (between > 0) {
@@ -47,10 +48,9 @@ TuningViews views_of_scene(const ActivatedCloud& cloud, const std::vector<Camera
   TuningViews out{nullptr, tune, own_pictures(cloud, tune), own_pictures(cloud, test), ""};
   out.tune.load(1);
   out.test.load(1);
-  out.says = fmt::format(
-      "no photographs: the scene's own reference pictures, {} views{}, {} to "
-      "test with",
-      grouped(tune.size()), between > 0 ? " between the cameras" : "", grouped(test.size()));
+  out.says =
+      fmt::format("no photographs: {}, {} views{}, {} to test with", pictures, grouped(tune.size()),
+                  between > 0 ? " between the cameras" : "", grouped(test.size()));
   return out;
 }
 

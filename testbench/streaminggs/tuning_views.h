@@ -27,9 +27,10 @@ TuningViews views_of_dataset(const std::string& folder);
 // The pictures that `cloud` gives from `cameras` in the reference order: of every eighth, from the
 // first on, to test with and of the others to tune on; one camera serves for both. With
 // between > 0 all of them are to test with, and so many between them (own_pictures.h), drawn by
-// seed, are tuned on.
-TuningViews views_of_scene(const ActivatedCloud& cloud, const std::vector<Camera>& cameras,
-                           std::uint32_t between, std::uint64_t seed);
+// seed, are tuned on. pictures: what to call them on the terminal.
+TuningViews views_of_scene(const std::string& pictures, const ActivatedCloud& cloud,
+                           const std::vector<Camera>& cameras, std::uint32_t between,
+                           std::uint64_t seed);
 
 // Of the pictures that are tuned on.
 std::vector<PixelSize> frame_sizes(const TuningViews& views);

@@ -5,16 +5,23 @@ import unittest
 
 from in_folder import COMMAND, REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import binding_check
+import boundary_study
 import compare_variants
 import energy_tables
 import explore
 import fair_fight
 import paper_claims
+import quality_table
 import simulations
 import smallest_machine
 import timing
+import training_curves
+import voxel_study
 import work_precision
 from scenes import find_scene
+
+
+SMALL_TUNING = ("--size", "64x36", "--between", "0", "--steps", "4")
 
 
 @unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
@@ -55,12 +62,59 @@ class WithTheCommand(InFolder):
             (smallest_machine, ("--sizes", "64x36", "--fps", "100000"), {"| truck 0 |": 1}),
             (smallest_machine, ("--sizes", "64x36", "--fps", "1e9"), {"| none: truck has": 1}),
             (work_precision, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
+            (
+                boundary_study,
+                (*SMALL_TUNING, "--betas", "0", "0.5", "--voxels", "1", "0.5"),
+                {"| truck |": 4 * 2 + 4, "| 0.5 | 4 |": 2 + 2},
+            ),
+            (
+                quality_table,
+                (*SMALL_TUNING, "--quantised-steps", "3", "--prices", "0.1"),
+                {"| truck | own pictures |": 2, "| truck | paper |": 4, "| truck | exact |": 5},
+            ),
+            (
+                voxel_study,
+                (*SMALL_TUNING, "--voxels", "1", "2"),
+                {"| as given |": 2, "| tuned |": 2},
+            ),
         ):
             with self.subTest(script.__name__, arguments=arguments):
                 made = self.made(script, *arguments)
                 self.assertRegex(made, f"Made by `scripts/{script.__name__}.py ")
                 for text, count in lines.items():
                     self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+
+    def test_from_photographs_to_tables(self):
+        photographs = str(self.write_dataset())
+        training = ("--train-steps", "20", "--gaussians", "200")
+        for script, arguments, lines in (
+            (
+                training_curves,
+                ("--seeds", "1", "2", "--same-bits", "5"),
+                {"| photographs | 1 |": 20, "| photographs | 2 |": 20 + 1}
+                | {"| after 5 steps |": 1},
+            ),
+            (
+                quality_table,
+                ("--steps", "4", "--quantised-steps", "3", "--prices", "0.1", "--view", "0"),
+                {"| photographs | photographs |": 2, "| photographs | exact |": 5 + 1},
+            ),
+            (voxel_study, ("--steps", "4", "--voxels", "1"), {"| photographs | 1 |": 2}),
+        ):
+            with self.subTest(script.__name__):
+                status, line, made = self.ended(
+                    script,
+                    photographs,
+                    *("--streaminggs", COMMAND, "--out", str(self.folder / "out")),
+                    *training,
+                    *arguments,
+                )
+                self.assertEqual(status, 0, line)
+                for text, count in lines.items():
+                    self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+        # Two seeds, one of them twice for fewer steps; then three tunings of two, and no training.
+        self.assertEqual(len(list((self.folder / "out").glob("fittings/*_seed_*"))), 4)
+        self.assertEqual(len(list((self.folder / "out").glob("fittings/*/scene.*"))), 4 + 4)
 
     def test_every_counter_of_a_report_is_described(self):
         text = (REPOSITORY / "testbench" / "streaminggs" / "README.md").read_text()
@@ -104,6 +158,11 @@ class WithTheCommand(InFolder):
             (timing, ("--configs", "nope"), "streaminggs: .*nope"),
             (work_precision, ("--view", "7"), "--view: '7'"),
             (work_precision, ("--set", "nope=1"), "streaminggs: .*nope"),
+            (boundary_study, ("--size", "3"), "truck boundary .*--size: got '3'"),
+            (boundary_study, ("--betas", "-1"), "truck boundary .*--beta"),
+            (quality_table, ("--view", "7", *SMALL_TUNING), "--view: '7'"),
+            (voxel_study, ("--paper-set", "nope=1"), "truck boundary .*nope"),
+            (training_curves, (), "truck.ply: no data set; expected a folder"),
         ):
             with self.subTest(script.__name__, arguments=arguments):
                 status, said, made = self.ended(

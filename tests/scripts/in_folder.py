@@ -3,6 +3,8 @@ the command does. $STREAMINGGS names the command; it is empty where there is non
 
 import contextlib
 import io
+import json
+import math
 import os
 import pathlib
 import stat
@@ -11,6 +13,7 @@ import sys
 import tempfile
 import textwrap
 import unittest
+import zlib
 from unittest import mock
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
@@ -46,6 +49,30 @@ class InFolder(unittest.TestCase):
             """[{"id": 0, "img_name": "0", "width": 64, "height": 36, "fx": 60, "fy": 60,
                  "position": [0.5, 0.5, -2], "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}]"""
         )
+
+    def write_dataset(self) -> pathlib.Path:
+        """Nine small photographs of one colour, by cameras on an arc: two of them to test with."""
+        folder = self.folder / "photographs"
+        (folder / "images").mkdir(parents=True)
+        width, height = 24, 18
+        cameras = []
+        for i in range(9):
+            right, ahead = math.cos(i / 9), math.sin(i / 9)
+            camera = {"id": i, "img_name": f"{i}", "width": width, "height": height}
+            camera |= {"fx": 20, "fy": 20, "position": [2 * ahead, 0, -2 * right]}
+            camera["rotation"] = [[right, 0, -ahead], [0, 1, 0], [ahead, 0, right]]
+            cameras.append(camera)
+        (folder / "cameras.json").write_text(json.dumps(cameras))
+        rows = (b"\0" + bytes((200, 100, 50)) * width) * height
+        parts = ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)),)
+        parts += ((b"IDAT", zlib.compress(rows)), (b"IEND", b""))
+        png = b"\x89PNG\r\n\x1a\n" + b"".join(
+            struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+            for name, data in parts
+        )
+        for i in range(9):
+            (folder / "images" / f"{i}.png").write_bytes(png)
+        return folder
 
     def stand_in(self, body: str) -> pathlib.Path:
         """A program in the command's place. It has SET, the values of --set, and `finish()`, which

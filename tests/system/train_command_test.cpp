@@ -53,6 +53,42 @@ TEST_CASE("train: Ctrl-C saves, and says how to go on") {
   CHECK(made.err.find("to go on: --resume s.ply.checkpoint") != std::string::npos);
 }
 
+TEST_CASE("photographs: frames beside them are as near as the log of training says") {
+  const ScratchFolder scratch;
+  write_cameras_json(scratch.path("d"), made_scene());
+  const ShellOutcome made = shell(
+      scratch,
+      "$SG photographs d --out p && ls p && $SG train d --steps 60 --gaussians 300 "
+      "--out s.ply --log l.csv >t && $SG simulate s.ply --cameras p/cameras.json --view all "
+      "--set framebuffer=rgb32f --out o >t && for v in 0 1; do $SG compare "
+      "o/view_$v/frame.exr p/view_$v.exr; done && echo logged $(tail -n 1 l.csv | cut -d, -f5)");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK(made.out.find("2 test views written to p\ncameras.json\nview_0.exr\nview_1.exr\n") !=
+        std::string::npos);
+  const auto number_behind = [&](const std::string& word, std::size_t from) {
+    return std::stod(made.out.substr(made.out.find(word, from) + word.size()));
+  };
+  const std::size_t second = made.out.rfind("psnr_db ");
+  const double mean = (number_behind("psnr_db ", 0) + number_behind("psnr_db ", second)) / 2;
+  CHECK(mean == Approx(number_behind("logged ", 0)).margin(1e-3));
+}
+
+TEST_CASE("photographs: refusals") {
+  struct Row {
+    std::string line;
+    std::vector<std::string> words;
+  };
+  for (const Row& row :
+       std::vector<Row>{{"$SG photographs nofolder --out p", {"nofolder: no such folder"}},
+                        {"$SG photographs d --out d", {"d/cameras.json"}},
+                        {"$SG photographs d", {"--out"}}}) {
+    const ScratchFolder scratch;
+    write_cameras_json(scratch.path("d"), made_scene());
+    check_refused(scratch, row.line, row.words);
+  }
+}
+
 TEST_CASE("train: refusals") {
   struct Row {
     std::string line;

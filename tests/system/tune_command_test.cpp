@@ -56,6 +56,26 @@ TEST_CASE("tune: photographs of a data set as the target") {
   CHECK(made.out.find("photographs of d, ") != std::string::npos);
 }
 
+TEST_CASE("tune: the pictures of another scene as the target") {
+  const ScratchFolder scratch;
+  const ShellOutcome made = shell(
+      scratch,
+      "$SG tune $B --boundary --beta 9 --steps 30 --out t.ply >t && printf "
+      "'[{\"id\":0,\"img_name\":\"a\",\"width\":32,\"height\":18,\"position\":[0,0,-5],"
+      "\"rotation\":[[1,0,0],[0,1,0],[0,0,1]],\"fx\":32,\"fy\":32}]' >c.json && for target in "
+      "t.ply ${B%% *}; do $SG tune t.ply --boundary --cameras c.json --steps 1 --target "
+      "$target --out u.ply --log l.csv && sed -n 2p l.csv | cut -d, -f7; done");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK(made.out.find("reference pictures of t.ply, 1 views") != std::string::npos);
+  CHECK(made.out.find("reference pictures of builtin:object?n=300, 1 views") != std::string::npos);
+  // In the reference order the tuned scene is its own target, and not the given one.
+  const std::size_t first = made.out.find("kept\n") + 5, second = made.out.rfind("kept\n") + 5;
+  REQUIRE(first != second);
+  CHECK(std::stod(made.out.substr(first)) > 90);
+  CHECK(std::stod(made.out.substr(second)) < 60);
+}
+
 TEST_CASE("tune: codebooks learned, packed for the machine of the configuration") {
   for (const char* config : {"paper", "exact_vq", "exact_vq_packed"}) {
     const ScratchFolder scratch;
@@ -132,6 +152,8 @@ TEST_CASE("tune: refusals") {
            {"$SG tune $B --boundary --out t.txt", {"--out", "t.txt", ".ply"}},
            {"$SG tune $S --boundary --out t.ply --data nofolder", {"nofolder: no such folder"}},
            {"$SG tune $B --boundary --out t.ply --data d", {"--size", "data set"}},
+           {"$SG tune $S --boundary --out t.ply --data d --target $S", {"--target", "data set"}},
+           {"$SG tune $B --boundary --out t.ply --target nofile.ply", {"nofile.ply: no such file"}},
            {"$SG tune $B --boundary --out t.ply --config exact",
             {"--boundary", "machine exact", "paper order"}},
            {"$SG tune $B --boundary --out t.ply --beta -1", {"--beta", "-1"}},

@@ -1,0 +1,195 @@
+"""Runs of `streaminggs train` and `tune`, kept in folders, so that a script which is interrupted,
+or run again, goes on where it ended."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import csv
+import dataclasses
+import fcntl
+import hashlib
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Sequence
+from typing import IO
+
+import tables
+from run_digest import content_digest, program_digest
+from simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, program_version, said
+
+CHECKPOINT_EVERY = "500"  # steps; what is lost where a computer stops
+INTERRUPTED = 130  # exit status of the command: saved, to be resumed
+DONE = "made.json"  # written last: a folder that has it is whole
+
+
+@dataclasses.dataclass(frozen=True)
+class Fitting:
+    """One call of the command. words: without --out, --log, --checkpoint and --resume.
+    most_seconds: stopped there, as Ctrl-C does; 0: never. copy: another one is another run."""
+
+    label: str
+    command: str  # train, tune
+    words: tuple[str, ...]
+    extension: str = ".ply"
+    most_seconds: float = 0
+    copy: int = 0
+
+    def digest(self, program: str) -> str:
+        facts = [program, self.command, *self.words, self.extension]
+        facts += [str(self.most_seconds), str(self.copy)]
+        for word in self.words:
+            facts += [content_digest(path) for path in files_of(pathlib.Path(word))]
+        return hashlib.sha256("\n".join(facts).encode()).hexdigest()[:16]
+
+
+def files_of(path: pathlib.Path) -> list[pathlib.Path]:
+    """The file of that name, or all below the folder; none for what is neither."""
+    if path.is_dir():
+        return sorted(below for below in path.rglob("*") if below.is_file())
+    return [path] if path.is_file() else []
+
+
+@dataclasses.dataclass(frozen=True)
+class Fitted:
+    """What a fitting left: the scene that it wrote, its log, seconds at work in all its parts."""
+
+    fitting: Fitting
+    scene: pathlib.Path
+    log: list[dict[str, str]]
+    seconds: float
+
+    def steps(self) -> int:
+        return int(self.log[-1]["step"]) if self.log else 0
+
+
+class KeptFittings:
+    """Fittings below a folder, a folder each. In it lies what is still under way, too: the next
+    start resumes it. Each takes all cores; two side by side share them."""
+
+    def __init__(self, binary: pathlib.Path, folder: pathlib.Path, side_by_side: int):
+        self.binary, self.folder = binary, folder
+        self.workers = max(1, min(MOST_SIDE_BY_SIDE, side_by_side))
+        self.program = program_digest(binary)
+        self.commit = program_version(binary)
+        self.calls: set[subprocess.Popen] = set()
+        self.stopping = False
+        self.lock = threading.Lock()
+
+    def all(self, fittings: Sequence[Fitting]) -> list[Fitted]:
+        """In their order; one that is asked for twice is made once. Raises Failure, and ValueError
+        for what the command refuses. Whatever ends it, those under way are stopped and saved."""
+        pool = concurrent.futures.ThreadPoolExecutor(self.workers)
+        try:
+            waiting = {each: pool.submit(self.made, each) for each in dict.fromkeys(fittings)}
+            return [waiting[fitting].result() for fitting in fittings]
+        except BaseException:
+            self.stop()
+            raise
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+    def stop(self) -> None:
+        with self.lock:
+            self.stopping = True
+            for call in self.calls:
+                call.send_signal(signal.SIGINT)
+
+    def place(self, fitting: Fitting) -> pathlib.Path:
+        name = "".join(c if c.isalnum() or c in ".-" else "_" for c in fitting.label)
+        return self.folder / f"{name}_{fitting.digest(self.program)}"
+
+    def made(self, fitting: Fitting) -> Fitted:
+        place = self.place(fitting)
+        scene = place / f"scene{fitting.extension}"
+        if not (place / DONE).exists():
+            place.mkdir(parents=True, exist_ok=True)
+            with (place / "lock").open("w") as lock:
+                self.wait_for(lock, fitting)
+                if not (place / DONE).exists():
+                    self.make(fitting, scene, place, lock)
+        entry = json.loads((place / DONE).read_text())
+        with (place / "log.csv").open() as log:
+            return Fitted(fitting, scene, list(csv.DictReader(log)), entry["seconds"])
+
+    def wait_for(self, lock: IO, fitting: Fitting) -> None:
+        """Until no other script has it under way, nor a call that such a one left behind."""
+        told = False
+        while not self.stopping:
+            try:
+                return fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                if not told:
+                    print(f"{fitting.label}: waits for another script", file=sys.stderr, flush=True)
+                told = True
+                time.sleep(0.5)
+        raise Failure("interrupted")
+
+    def make(self, fitting: Fitting, scene: pathlib.Path, place: pathlib.Path, lock: IO) -> None:
+        print(f"{fitting.label}: in {place}", file=sys.stderr, flush=True)
+        seconds = self.run(fitting, scene, place / "seconds", lock)
+        entry = {"words": fitting.words, "commit": self.commit, "seconds": seconds}
+        tables.write_text(place / DONE, json.dumps(entry) + "\n")
+        checkpoint_of(scene).unlink(missing_ok=True)
+
+    def run(self, fitting: Fitting, scene: pathlib.Path, clock: pathlib.Path, lock: IO) -> float:
+        """Until its end. clock: file of the seconds that earlier parts took. Returns the sum."""
+        words = [str(self.binary.absolute()), fitting.command, *fitting.words]
+        words += ["--out", str(scene), "--log", str(scene.parent / "log.csv")]
+        words += ["--checkpoint", CHECKPOINT_EVERY]
+        earlier = 0.0
+        if checkpoint_of(scene).exists():
+            words += ["--resume", str(checkpoint_of(scene))]
+            earlier = float(clock.read_text()) if clock.exists() else 0.0
+        began = time.monotonic()
+        done, timed_out = self.call(words, fitting.most_seconds, earlier, lock)
+        seconds = earlier + time.monotonic() - began
+        if done.returncode == 0 or (timed_out and done.returncode == INTERRUPTED):
+            return seconds
+        if checkpoint_of(scene).exists():
+            tables.write_text(clock, f"{seconds:.1f}\n")
+        if done.returncode == REFUSED:
+            raise ValueError(f"{fitting.label}: {said(done)}")
+        raise Failure(f"{fitting.label}: {said(done)}")
+
+    def call(
+        self, words: Sequence[str], most_seconds: float, earlier: float, lock: IO
+    ) -> tuple[subprocess.CompletedProcess[str], bool]:
+        """How it ended, and whether that was for its time. In a session of its own: of Ctrl-C it
+        hears once, from stop(). It holds the lock, too, should this script be killed."""
+        with self.lock:
+            if self.stopping:
+                raise Failure("interrupted")
+            try:
+                call = subprocess.Popen(
+                    words,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE,
+                    text=True,
+                    errors="replace",
+                    start_new_session=True,
+                    pass_fds=(lock.fileno(),),
+                )
+            except OSError as error:
+                raise ValueError(f"{words[0]}: cannot be run: {error.strerror}") from error
+            self.calls.add(call)
+        timed_out = False
+        left = max(1.0, most_seconds - earlier) if most_seconds else None
+        try:
+            out, err = call.communicate(timeout=left)
+        except subprocess.TimeoutExpired:
+            timed_out = True
+            call.send_signal(signal.SIGINT)
+            out, err = call.communicate()
+        finally:
+            with self.lock:
+                self.calls.discard(call)
+        return subprocess.CompletedProcess(words, call.returncode, out, err), timed_out
+
+
+def checkpoint_of(scene: pathlib.Path) -> pathlib.Path:
+    return scene.with_name(scene.name + ".checkpoint")

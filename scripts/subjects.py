@@ -1,0 +1,108 @@
+"""What the study of quality is made on: trained scenes with their cameras, and data sets, of which
+the scene is trained here. The first are held to their own reference pictures, the others to their
+photographs."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import pathlib
+from collections.abc import Sequence
+
+from fittings import Fitting, KeptFittings
+from scenes import find_scene, shared_folder
+
+DEFAULT_SUBJECTS = ("lego", "desk", "truck", "platform", "yard")
+DATASET_FORMS = "a data set of ../shared by name, or the folder of one"
+SUBJECT_FORMS = (
+    f"{DATASET_FORMS}; a real scene of ../shared by name, or a .ply file with its cameras beside it"
+)
+LOOKS = 20  # at the test views, while a scene is trained
+
+
+@dataclasses.dataclass(frozen=True)
+class Subject:
+    """dataset: its folder; empty for a scene with cameras. scene: what the command takes."""
+
+    name: str
+    scene: str
+    cameras: str = ""
+    size: str = ""
+    between: int = 0
+    dataset: str = ""
+
+    def target_words(self, given: str = "") -> tuple[str, ...]:
+        """Arguments of `tune` that say what to compare with. given: what is tuned, where it is not
+        the scene itself."""
+        if self.dataset:
+            return ("--data", self.dataset)
+        words = ("--cameras", self.cameras) if self.cameras else ()
+        words += ("--size", self.size, "--between", str(self.between))
+        return (*words, "--target", self.scene) if given not in ("", self.scene) else words
+
+
+def datasets_there() -> list[str]:
+    """Names of the data sets of ../shared, sorted."""
+    return sorted(path.name for path in (shared_folder() / "data").glob("*") if path.is_dir())
+
+
+def dataset_folder(text: str) -> pathlib.Path | None:
+    """That a name or a path means, if any."""
+    if text in datasets_there():
+        return shared_folder() / "data" / text
+    return pathlib.Path(text) if pathlib.Path(text).is_dir() else None
+
+
+def training(
+    name: str, folder: pathlib.Path, seed: int, steps: int, gaussians: int, most_seconds: float = 0
+) -> Fitting:
+    words = (str(folder), "--seed", str(seed), "--steps", str(steps), "--gaussians", str(gaussians))
+    words += ("--test-every", str(max(1, steps // LOOKS)))
+    return Fitting(f"{name} seed {seed}", "train", words, most_seconds=most_seconds)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Of what the subjects are and how their scenes come about."""
+    parser.add_argument("--size", default="640x360", metavar="WxH", help="in px, of scenes")
+    parser.add_argument(
+        "--between",
+        type=int,
+        default=60,
+        metavar="N",
+        help="cameras between those of a scene, to tune on; 0: test with every eighth of them",
+    )
+    add_training_arguments(parser)
+    parser.add_argument("--seed", type=int, default=1, help="of the training of data sets")
+
+
+def add_training_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--train-steps", type=int, default=20_000, metavar="N", help="of data sets")
+    parser.add_argument(
+        "--gaussians", type=int, default=100_000, metavar="N", help="that data sets may have"
+    )
+
+
+def find_subjects(
+    texts: Sequence[str], arguments: argparse.Namespace, kept: KeptFittings
+) -> list[Subject]:
+    """By name of a data set or of a scene, or by path. Data sets are trained now. Raises
+    ValueError."""
+    folders = [dataset_folder(text) for text in texts]
+    scenes = {text: find_scene(text) for text, folder in zip(texts, folders) if folder is None}
+    trainings = [
+        training(folder.name, folder, arguments.seed, arguments.train_steps, arguments.gaussians)
+        for folder in folders
+        if folder is not None
+    ]
+    trained = iter(kept.all(trainings))
+    subjects = []
+    for text, folder in zip(texts, folders):
+        if folder is not None:
+            scene = str(next(trained).scene)
+            subjects.append(Subject(folder.name, scene, dataset=str(folder)))
+        else:
+            found = scenes[text]
+            subjects.append(
+                Subject(found.name, found.spec, found.cameras, arguments.size, arguments.between)
+            )
+    return subjects

@@ -1,0 +1,67 @@
+// streaminggs photographs DATASET --out FOLDER
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/image/image_io.h"
+#include "algorithm/input_error.h"
+#include "algorithm/output_plan.h"
+#include "algorithm/scene/cameras.h"
+#include "algorithm/train/photographs.h"
+#include "testbench/command_line/while_doing.h"
+#include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/numbers.h"
+
+namespace sgs {
+namespace {
+
+struct PhotographsArguments {
+  std::string dataset, out;
+
+  std::string file(const std::string& name) const {
+    return (std::filesystem::path(out) / name).string();
+  }
+  std::string cameras() const { return file("cameras.json"); }
+  std::string picture(std::size_t view) const { return file(fmt::format("view_{}.exr", view)); }
+};
+
+int run(const PhotographsArguments& arguments) {
+  const Dataset dataset =
+      while_doing("reading " + arguments.dataset, [&] { return open_dataset(arguments.dataset); });
+  Photographs test(dataset, Split::kTest);
+  if (test.size() == 0) throw InputError(arguments.dataset + ": has no view to test with");
+  OutputPlan plan;
+  for (const DatasetView& view : dataset.views) plan.add_input(view.image_path);
+  plan.add_input((std::filesystem::path(dataset.folder) / "cameras.json").string());
+  plan.add_output(arguments.cameras());
+  for (std::size_t at = 0; at < test.size(); ++at) plan.add_output(arguments.picture(at));
+  plan.check();
+  test.load(1);
+  std::vector<Camera> cameras;
+  for (std::size_t at = 0; at < test.size(); ++at) {
+    cameras.push_back(test.camera(at));
+    write_image(arguments.picture(at), test.before(at, glm::vec3(0)));
+  }
+  // Behind the pictures: whoever finds it finds them all.
+  write_cameras(arguments.cameras(), cameras);
+  fmt::print("{} test views written to {}\n", grouped(test.size()), arguments.out);
+  return 0;
+}
+
+}  // namespace
+
+SubCommand add_photographs_command(CommandLine& line, const Kinds&) {
+  auto arguments = std::make_shared<PhotographsArguments>();
+  line.file("DATASET", arguments->dataset, "the folder of a data set", Given::kAlways);
+  line.file("--out", arguments->out,
+            "folder for cameras.json of its test views and view_N.exr, the photographs before "
+            "black, as machines draw",
+            Given::kAlways);
+  return [arguments] { return run(*arguments); };
+}
+
+}  // namespace sgs

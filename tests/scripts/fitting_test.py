@@ -1,0 +1,225 @@
+"""Trainings and tunings: what is kept of them, how they are stopped and go on; and what the study
+of quality makes of logs and pictures. A program stands in for the command."""
+
+import concurrent.futures
+import math
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
+import boundary_study
+import judged_frames
+import simulations
+import subjects
+import training_curves
+from fittings import Fitted, Fitting, KeptFittings
+from subjects import Subject
+from tunings import Tunings
+
+BODY = """
+    if "--version" in sys.argv:
+        print("streaminggs 1.0 (abc)")
+        sys.exit(0)
+    def path(word):
+        return pathlib.Path(sys.argv[sys.argv.index(word) + 1])
+    with (HERE / "calls").open("a") as file:
+        print(*sys.argv[1:], file=file)
+    def leave(text):
+        path("--out").write_text(text)
+        path("--log").write_text("step,seconds\\n7,2.5\\n")
+    def stopped(*_):
+        pathlib.Path(f"{path('--out')}.checkpoint").write_text("half")
+        leave("half")
+        sys.exit(130)
+    signal.signal(signal.SIGINT, stopped)
+    if "refused" in sys.argv:
+        print("streaminggs: --steps: 0", file=sys.stderr)
+        sys.exit(2)
+    if "failing" in sys.argv:
+        print("streaminggs: step 3: not finite", file=sys.stderr)
+        sys.exit(1)
+    if "slow" in sys.argv and "--resume" not in sys.argv:
+        (HERE / "started").touch()
+        time.sleep(60)
+    leave("whole")
+    """
+
+
+class Keeping(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.program = self.stand_in(BODY)
+
+    def kept(self, side_by_side: int = 1) -> KeptFittings:
+        return KeptFittings(self.program, self.folder / "fittings", side_by_side)
+
+    def calls(self) -> list[str]:
+        path = self.folder / "calls"
+        return path.read_text().splitlines() if path.exists() else []
+
+    def test_what_is_done_is_not_done_again(self):
+        one, other = Fitting("a b", "tune", ("x.ply",)), Fitting("a b", "tune", ("y.ply",))
+        first, second, same = self.kept().all([one, other, one])
+        self.assertEqual(first.scene, same.scene)
+        self.assertNotEqual(first.scene, second.scene)
+        self.assertEqual(first.log, [{"step": "7", "seconds": "2.5"}])
+        self.assertEqual(first.scene.read_text(), "whole")
+        called = [line.split()[:2] for line in self.calls()]
+        self.assertEqual(called, [["tune", "x.ply"], ["tune", "y.ply"]])
+        self.assertEqual(self.kept().all([one])[0], first)
+        self.assertEqual(len(self.calls()), 2)
+        self.kept().all([Fitting("a b", "tune", ("x.ply",), copy=1)])
+        self.assertEqual(len(self.calls()), 3)
+
+    def test_whatever_it_reads_belongs_to_it(self):
+        photographs = self.folder / "photographs"
+        photographs.mkdir()
+        for path in (self.scene, photographs / "0.png"):
+            path.write_text("old")
+            fitting = Fitting("a", "tune", (str(self.scene), "--data", str(photographs)))
+            before = len(self.calls())
+            self.kept().all([fitting, fitting])
+            path.write_text("new")
+            self.kept().all([fitting])
+            with self.subTest(path.name):
+                self.assertEqual(len(self.calls()), before + 2)
+        self.program = self.stand_in(BODY + "\n    # changed\n")
+        self.kept().all([fitting])
+        self.assertEqual(len(self.calls()), 5)
+
+    def test_what_ends_badly_is_not_kept_and_stops_the_others(self):
+        cases = (
+            ("refused", ValueError, "^a: streaminggs: --steps: 0$"),
+            ("failing", simulations.Failure, "^a: streaminggs: step 3: not finite$"),
+        )
+        for number, (word, error, text) in enumerate(cases):
+            # Another one each time: it would be resumed.
+            slow = Fitting("slow", "train", ("slow",), copy=number)
+            began = time.monotonic()
+            with self.subTest(word), self.assertRaisesRegex(error, text):
+                self.kept(side_by_side=2).all([Fitting("a", "train", (word,)), slow])
+            self.assertLess(time.monotonic() - began, 30)
+        self.assertEqual(list(self.folder.glob("fittings/*/made.json")), [])
+
+    def test_stopped_when_its_time_is_over(self):
+        (fitted,) = self.kept().all([Fitting("slow", "train", ("slow",), most_seconds=1)])
+        self.assertEqual(fitted.scene.read_text(), "half")
+        self.assertGreaterEqual(fitted.seconds, 1)
+        self.assertEqual(list(self.folder.glob("fittings/*/*.checkpoint")), [])
+        self.kept().all([fitted.fitting])
+        self.assertEqual(len(self.calls()), 1)
+
+    def test_two_scripts_do_not_make_the_same_at_once(self):
+        slow = Fitting("slow", "train", ("slow",), most_seconds=2)
+        with concurrent.futures.ThreadPoolExecutor() as pool:
+            both = [pool.submit(self.kept().all, [slow]) for _ in range(2)]
+            first, second = (one.result() for one in both)
+        self.assertEqual(first, second)
+        self.assertEqual(len(self.calls()), 1)
+
+    def test_ctrl_c_saves_and_the_next_start_goes_on(self):
+        script = self.folder / "script.py"
+        script.write_text(f"""\
+import pathlib, sys
+sys.path.insert(0, {str(REPOSITORY / "scripts")!r})
+import run_arguments
+from fittings import Fitting, KeptFittings
+def work():
+    kept = KeptFittings(pathlib.Path({str(self.program)!r}), pathlib.Path("fittings"), 1)
+    kept.all([Fitting("slow", "train", ("slow",)), Fitting("next", "train", ("next",))])
+sys.exit(run_arguments.main(work))
+""")
+        words = [sys.executable, "-B", str(script)]
+        running = subprocess.Popen(words, cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        while not (self.folder / "started").exists():
+            self.assertIsNone(running.poll())
+            time.sleep(0.02)
+        running.send_signal(signal.SIGINT)
+        _, said = running.communicate(timeout=30)
+        self.assertEqual(running.returncode, 130, said)
+        self.assertRegex(said, "interrupted\n$")
+        (checkpoint,) = self.folder.glob("fittings/*/*.checkpoint")
+        self.assertEqual(len(self.calls()), 1)
+        subprocess.run(words, cwd=self.folder, stderr=subprocess.DEVNULL, check=True)
+        self.assertIn(f"--resume {checkpoint.relative_to(self.folder)}", self.calls()[1])
+        self.assertFalse(checkpoint.exists())
+        self.assertEqual(len(list(self.folder.glob("fittings/*/made.json"))), 2)
+
+
+class Words(InFolder):
+    CALLS = Tunings(3, 5, "group", "rendered", 1, "fp16", ("vsu.ray_step_px=1",))
+
+    def test_a_scene_that_was_tuned_is_held_to_what_it_was(self):
+        scene = Subject("a", "a.ply", "a.json", "64x36", 7)
+        photographed = Subject("b", "b.ply", dataset="b")
+        own = "--cameras a.json --size 64x36 --between 7"
+        for subject, given, text in (
+            (scene, "a.ply", own),
+            (scene, "t.ply", f"{own} --target a.ply"),
+            (photographed, "t.ply", "--data b"),
+        ):
+            words = self.CALLS.quantised(subject, given, "paper", ()).words
+            with self.subTest(given, subject=subject.name):
+                self.assertEqual(words[:4], (given, "--quantise", "--config", "paper"))
+                self.assertEqual(" ".join(words[4:-4]), text)
+
+    def test_settings_of_paper_order_reach_its_tuning_alone(self):
+        subject = Subject("b", "b.ply", dataset="b")
+        words = "--set rendering.precision=fp16 --set sram.shared_bytes=0 "
+        words += "--set storage.voxel_size=0.5 --set vsu.ray_step_px=1"
+        self.assertEqual(" ".join(self.CALLS.boundary(subject, 0.5, 0.05).words[4:12]), words)
+        self.assertNotIn("--set", self.CALLS.streaming(subject, 0.1).words)
+
+    def test_a_data_set_is_a_folder(self):
+        self.assertEqual(subjects.dataset_folder(str(self.folder)), self.folder)
+        self.assertIsNone(subjects.dataset_folder(str(self.scene)))
+
+
+class Numbers(InFolder):
+    def test_from_the_first_look_to_the_last(self):
+        keys = ("test_psnr_db", "reference_psnr_db", "misordered_gaussians", "misordered_pixels")
+        looks = [(0, 20, 40, 0.5, 0.2, 0.01), (9, 24, 30, 0.1, 0.1, 0)]
+        log = [dict(zip(("step", *keys, "l_cbp"), map(str, look))) for look in looks]
+        row = boundary_study.summary_row(
+            ("a", 0.4, 1, 0.05), Fitted(None, pathlib.Path(), log, 1.0)
+        )
+        self.assertEqual(row[4:9], (9, "40.00", "20.00", "24.00", "30.00"))
+        self.assertEqual(row[9:11], ("0.5000 .. 0.1000", "5.00"))
+        self.assertEqual(row[11:], ("0.2000 .. 0.1000", "2.00", "0.01 .. 0", ""))
+
+    def test_a_frame_that_equals_its_target(self):
+        def view(psnr_db):
+            return {"target": {"psnr_db": psnr_db}}
+
+        self.assertEqual(judged_frames.psnr_text([view(20.0), view(30.0)]), "25.00")
+        self.assertEqual(judged_frames.psnr_text([view(20.0), view(None)]), "equal")
+
+    def test_infinity_of_compare(self):
+        for text, psnr_db in (("inf", None), ("31.5", 31.5)):
+            program = self.stand_in(f"print('psnr_db {text}'); print('ssim 0.9')")
+            found = judged_frames.compared(program, self.scene, self.scene)
+            self.assertEqual(found, (psnr_db, 0.9))
+
+    def test_scenes_that_differ_are_a_failure(self):
+        def fitted(name, text):
+            (self.folder / name).write_text(text)
+            log = [{"step": "1500"}]
+            return Fitted(Fitting("lego", "train", ()), self.folder / name, log, 1.0)
+
+        same = [fitted("a", "bits"), fitted("b", "bits")]
+        self.assertEqual(training_curves.compared_bits(same), "after 1,500 steps")
+        with self.assertRaisesRegex(simulations.Failure, "lego: 1500 steps, twice: .* differ"):
+            training_curves.compared_bits([same[0], fitted("c", "bitz")])
+
+    def test_ends_of_a_span(self):
+        self.assertEqual(training_curves.span([2, 1.04, 3], 1), "1.0 .. 3.0")
+        self.assertEqual(training_curves.span([1.01, 1.04], 1), "1.0")
+        self.assertTrue(math.isinf(judged_frames.mean_psnr([{"target": {"psnr_db": None}}])))
+
+
+if __name__ == "__main__":
+    unittest.main()
