@@ -120,14 +120,9 @@ def make_tables(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = run_arguments.parser(
-        __doc__,
-        " ".join(subjects.DEFAULT_SUBJECTS),
-        forms=f"{subjects.DATASET_FORMS}; {run_arguments.SCENE_FORMS}",
+    parser = tunings.study_parser(
+        __doc__, f"{subjects.DATASET_FORMS}; {run_arguments.SCENE_FORMS}"
     )
-    run_arguments.add_fittings_side_by_side(parser)
-    subjects.add_arguments(parser)
-    tunings.add_arguments(parser)
     parser.add_argument(
         "--voxels",
         nargs="+",

@@ -166,12 +166,7 @@ def make_tables(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = run_arguments.parser(
-        __doc__, " ".join(subjects.DEFAULT_SUBJECTS), forms=subjects.SUBJECT_FORMS
-    )
-    run_arguments.add_fittings_side_by_side(parser)
-    subjects.add_arguments(parser)
-    tunings.add_arguments(parser)
+    parser = tunings.study_parser(__doc__, subjects.SUBJECT_FORMS)
     tunings.add_beta(parser)
     parser.add_argument("--quantised-steps", type=int, default=5_000, metavar="N", help="of tune")
     parser.add_argument(

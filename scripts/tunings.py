@@ -7,10 +7,12 @@ import argparse
 import dataclasses
 import pathlib
 
+import run_arguments
+import subjects
 from fittings import Fitting
 from objectives import value_at
-from simulations import Run, resolved_config
 from scenes import Scene
+from simulations import Run, resolved_config
 from subjects import Subject
 
 PAPER, PAPER_VQ = "paper_no_vq", "paper"
@@ -74,7 +76,11 @@ def voxel_of_preset(binary: pathlib.Path, subject: Subject) -> float:
     return float(value_at(resolved_config(binary, run), "storage.voxel_size"))
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def study_parser(doc: str | None, forms: str) -> argparse.ArgumentParser:
+    """Of a script that tunes. forms: what its subjects may be."""
+    parser = run_arguments.parser(doc, " ".join(subjects.DEFAULT_SUBJECTS), forms=forms)
+    run_arguments.add_fittings_side_by_side(parser)
+    subjects.add_arguments(parser)
     parser.add_argument("--steps", type=int, default=3_000, help="of tuning for an order")
     parser.add_argument(
         "--misordered-in", choices=("group", "pixel"), default="group", help="as of tune"
@@ -97,6 +103,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="KEY=VALUE",
         help="over the presets of paper order, where a scene is tuned and where it is drawn",
     )
+    return parser
 
 
 def add_beta(parser: argparse.ArgumentParser) -> None:

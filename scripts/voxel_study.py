@@ -82,12 +82,7 @@ def make_table(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = run_arguments.parser(
-        __doc__, " ".join(subjects.DEFAULT_SUBJECTS), forms=subjects.SUBJECT_FORMS
-    )
-    run_arguments.add_fittings_side_by_side(parser)
-    subjects.add_arguments(parser)
-    tunings.add_arguments(parser)
+    parser = tunings.study_parser(__doc__, subjects.SUBJECT_FORMS)
     tunings.add_beta(parser)
     parser.add_argument(
         "--voxels",

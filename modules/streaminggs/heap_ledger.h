@@ -52,9 +52,8 @@ struct HeapLedger {
       sheet.accesses(name_of(level).c_str(),
                      root + of.nodes_read + (ahead ? of.nodes_read_ahead : 0), passes);
       const double held = 8.0 * key_bytes + node_bits(entries, level);
-      const double chosen = 7 * 8.0 * key_bytes + static_cast<double>(words_chosen(
-                                                      entries, level, cycles_per_operation)) *
-                                                      node_bits(entries, level);
+      const double words = words_chosen(entries, level, cycles_per_operation);
+      const double chosen = 7 * 8.0 * key_bytes + words * node_bits(entries, level);
       registers += held;
       multiplexers += chosen;
       registered += held * static_cast<double>(passes);
