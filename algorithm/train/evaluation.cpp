@@ -6,12 +6,13 @@
 namespace sgs {
 
 std::vector<Quality> qualities(const ActivatedCloud& cloud, const Photographs& photographs,
-                               const glm::vec3& background) {
+                               const glm::vec3& background, const PictureSeen& seen) {
   std::vector<Quality> out;
   for (std::size_t at = 0; at < photographs.size(); ++at) {
     const auto view = make_view<float>(photographs.camera(at));
     const Image picture = draw(reference_sequences(view, cloud), background).image;
     const Image target = photographs.before(at, background);
+    if (seen) seen(at, picture);
     out.push_back({psnr_db(picture, target), ssim(picture, target)});
   }
   return out;

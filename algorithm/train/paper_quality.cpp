@@ -10,13 +10,14 @@ namespace sgs {
 
 PaperQuality paper_quality(const ActivatedCloud& cloud, const VoxelGrid& grid,
                            const PaperOrderConfig& order, const BoundaryPenaltyConfig& penalty,
-                           const Photographs& photographs) {
+                           const Photographs& photographs, const PictureSeen& seen) {
   std::vector<Quality> paper;
   std::uint64_t rendered = 0, misordered = 0, blends = 0, misordered_blends = 0;
   double penalties = 0;
   for (std::size_t at = 0; at < photographs.size(); ++at) {
     const auto view = make_view<float>(photographs.camera(at));
     const StreamingResult result = render_paper_order(view, cloud, grid, order);
+    if (seen) seen(at, result.frame.image);
     const Image target = photographs.before(at, order.background);
     paper.push_back({psnr_db(result.frame.image, target), ssim(result.frame.image, target)});
     blends += result.stats.contributors;

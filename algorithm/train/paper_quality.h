@@ -20,9 +20,9 @@ struct PaperQuality {
   double penalty;               // L_CBP
 };
 
-// grid: of this cloud, which is in storage order.
+// grid: of this cloud, which is in storage order. seen: is shown the pictures in paper order.
 PaperQuality paper_quality(const ActivatedCloud& cloud, const VoxelGrid& grid,
                            const PaperOrderConfig& order, const BoundaryPenaltyConfig& penalty,
-                           const Photographs& photographs);
+                           const Photographs& photographs, const PictureSeen& seen = {});
 
 }  // namespace sgs

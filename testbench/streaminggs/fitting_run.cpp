@@ -83,12 +83,14 @@ void FittingArguments::add_to(CommandLine& line, const char* scene_forms) {
   line.whole("--checkpoint", checkpoint_every, 0, 1'000'000,
              "steps: OUT.checkpoint is written; 0: when stopped by Ctrl-C only");
   line.file("--resume", resume, "a checkpoint of the same work, to go on from");
+  pictures.add_to(line);
 }
 
 void FittingArguments::add_to(OutputPlan& plan) const {
   plan.add_input(resume);
   plan.add_output(out);
   if (!log.empty()) plan.add_output(log);
+  pictures.add_to(plan);
 }
 
 std::optional<Checkpoint> FittingArguments::resumed(const std::string& command,

@@ -13,6 +13,7 @@
 #include "algorithm/train/fitting.h"
 #include "testbench/command_line/command_line.h"
 #include "testbench/streaminggs/fitting_log.h"
+#include "testbench/streaminggs/test_pictures.h"
 
 namespace sgs {
 
@@ -20,6 +21,7 @@ namespace sgs {
 struct FittingArguments {
   std::string out, log, resume;
   std::uint32_t test_every = 1'000, checkpoint_every = 0;
+  TestPictures pictures;
 
   // scene_forms: what --out may be.
   void add_to(CommandLine& line, const char* scene_forms);

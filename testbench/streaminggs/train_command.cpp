@@ -92,8 +92,10 @@ int run(const TrainArguments& arguments) {
   test.load(1);
   // As pictures of transparent objects are compared.
   const glm::vec3 background(test.transparent() ? 1.0F : 0.0F);
+  arguments.pictures.write_photographs(test, background);
   const auto look = [&] {
-    return Look{mean_quality(qualities(trainer.activated(), test, background)), {}};
+    const PictureSeen seen = arguments.pictures.behind(trainer.next_step());
+    return Look{mean_quality(qualities(trainer.activated(), test, background, seen)), {}};
   };
   const auto write = [&] { write_ply(arguments.out, trainer.cloud()); };
   const FittingTask task{"train", arguments.training(), trainer, {}, look, write};

@@ -71,13 +71,14 @@ class Judge {
   struct Verdict {
     Quality shown, reference;
   };
-  Verdict of(const ActivatedCloud& cloud, const StoredTable& table) const {
+  Verdict of(const ActivatedCloud& cloud, const StoredTable& table,
+             const PictureSeen& seen = {}) const {
     if (order_) {
       const PaperQuality quality =
-          paper_quality(cloud, std::get<VoxelGrid>(table), *order_, {}, test_);
+          paper_quality(cloud, std::get<VoxelGrid>(table), *order_, {}, test_, seen);
       return {quality.paper, quality.reference};
     }
-    const Quality shown = mean_quality(qualities(cloud, test_, glm::vec3(0)));
+    const Quality shown = mean_quality(qualities(cloud, test_, glm::vec3(0), seen));
     return {shown, shown};
   }
 
@@ -115,9 +116,12 @@ int tune_for_codebooks(const TuneArguments& arguments, const TuningJob& job) {
   const Judge judge(job, order);
   fmt::print("{:<26}PSNR {:.2f} dB, before codebooks\n", "as given",
              judge.of(activated, given.table).shown.psnr_db);
+  arguments.pictures.write_photographs(job.views.test,
+                                       order ? order->background : glm::vec3(0));
   const auto look = [&] {
     const StoredScene stored = tuner.stored(storage);
-    const Judge::Verdict verdict = judge.of(stored.decoded, stored.table);
+    const Judge::Verdict verdict = judge.of(stored.decoded, stored.table,
+                                            arguments.pictures.behind(tuner.next_step()));
     return Look{verdict.shown, {verdict.reference.psnr_db, tuner.reassigned()}};
   };
   const FittingTask task{"tune", work,

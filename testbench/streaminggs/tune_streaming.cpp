@@ -52,10 +52,12 @@ int tune_for_streaming(const TuneArguments& arguments, const TuningJob& job) {
   SceneTuner tuner = begun_tuner(arguments, job, config, reference_order(),
                                  streaming_loss(arguments.price, group), given.cloud, from);
   print_target(job, given.cloud.size());
+  arguments.pictures.write_photographs(job.views.test, glm::vec3(0));
   const auto look = [&] {
+    const PictureSeen seen = arguments.pictures.behind(tuner.next_step());
     const CloudInStorage now = in_storage(tuner.cloud(), job.config.storage);
     const ActivatedCloud cloud = activate(now.cloud);
-    return Look{mean_quality(qualities(cloud, job.views.test, glm::vec3(0))),
+    return Look{mean_quality(qualities(cloud, job.views.test, glm::vec3(0), seen)),
                 {static_cast<double>(cloud.size()), fetches_of(cloud, job.views.test, group)}};
   };
   const FittingTask task{"tune", work,

@@ -10,9 +10,17 @@ namespace sgs {
 namespace {
 
 // Below this share of the frame two gains are the same.
-constexpr double kSameGain = 0.005;
+constexpr double kSameGain = 0.001;
 
 double saved(double before, double after) { return before > 0 ? 1 - after / before : 0; }
+
+// That of what the binding names; null: nothing doubles it.
+const Doubling* named_by(const Binding& binding, const std::vector<Doubling>& doublings) {
+  const auto named = std::find_if(doublings.begin(), doublings.end(), [&](const Doubling& each) {
+    return each.key == binding.remedy.key;
+  });
+  return named == doublings.end() || !named->refused.empty() ? nullptr : &*named;
+}
 
 // Of whole cycles there is no half.
 double halved(double value) {
@@ -59,6 +67,13 @@ void rank(const Outcome& base, std::vector<Doubling>& doublings) {
   });
 }
 
+bool named_gains_most(const Outcome& base, const std::vector<Doubling>& doublings) {
+  const Doubling* named = named_by(base.binding, doublings);
+  return named != nullptr && time_saved(base, doublings.front().outcome) -
+                                     time_saved(base, named->outcome) <
+                                 kSameGain;
+}
+
 std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings) {
   const Binding& binding = base.binding;
   if (doublings.empty() || !doublings.front().refused.empty()) {
@@ -66,16 +81,15 @@ std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings)
   }
   const Doubling& best = doublings.front();
   const double most = time_saved(base, best.outcome);
-  const auto named =
-      std::find_if(doublings.begin(), doublings.end(),
-                   [&](const Doubling& doubling) { return doubling.key == binding.remedy.key; });
-  if (binding.remedy.key.empty() || named == doublings.end() || !named->refused.empty()) {
+  if (most < kSameGain) return "nothing doubled gains a thousandth of the time";
+  const Doubling* named = named_by(binding, doublings);
+  if (named == nullptr) {
     return fmt::format(
         "binding names {}, which no key doubles; {} gains most: {:.1f} % of the time",
         binding.holds, best.key, 100 * most);
   }
   const double gain = time_saved(base, named->outcome);
-  if (most - gain < kSameGain) {
+  if (named_gains_most(base, doublings)) {
     return fmt::format("binding names {}, and it gains most: {:.1f} % of the time", named->key,
                        100 * gain);
   }

@@ -38,6 +38,10 @@ double energy_saved(const Outcome& base, const Outcome& doubled);
 // Most time saved first, the cheaper of equals; what was refused comes last.
 void rank(const Outcome& base, std::vector<Doubling>& doublings);
 
+// Whether no other one gains more than that which the base's binding names, but for a thousandth of
+// the frame.
+bool named_gains_most(const Outcome& base, const std::vector<Doubling>& doublings);
+
 // Whether the resource that the base's binding names is the one that gains most, with the numbers;
 // where it is not, what holds the frame once it is doubled. doublings: ranked.
 std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings);

@@ -119,7 +119,10 @@ Json to_json(const Outcome& outcome) {
 }
 
 Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings) {
-  Json out = {{"view", view}, {"base", to_json(base)}, {"verdict", verdict(base, doublings)}};
+  Json out = {{"view", view},
+              {"base", to_json(base)},
+              {"named_gains_most", named_gains_most(base, doublings)},
+              {"verdict", verdict(base, doublings)}};
   for (const Doubling& d : doublings) {
     Json row = {{"key", d.key}, {"from", d.from}, {"to", d.to}};
     if (d.refused.empty()) {

@@ -191,6 +191,8 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.accesses("input", counters_.read, counters_.first_halves);
   sheet.queue(slices_, "slices");
   sheet.remedy(filter_, "hfu.cfu_lanes");
+  sheet.may_help("hfu.cfus");
+  sheet.may_help("hfus");
   sheet.remedy(memory, WaitFor::kReads, "hfu.input_slots");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.remedy(slices_, WaitFor::kRoom, "hfu.input_slots");

@@ -294,7 +294,8 @@ void RenderingUnit::publish(DataSheet& sheet) {
   // Both work at the same time, on different splats.
   const bool by_lanes = clusters.lane_cycles > schedule_.cluster_cycles();
   sheet.remedy(blend_, by_lanes ? "rendering.span_lanes" : "rendering.clusters");
-  for (const char* key : {"rendering.clusters", "rendering.span_lanes", "rendering.span_slots"}) {
+  for (const char* key : {"rendering.clusters", "rendering.cluster_lanes", "rendering.span_lanes",
+                          "rendering.span_slots"}) {
     sheet.may_help(key);
   }
   sheet.remedy(drain_, "rendering.drain_pixels_per_cycle");

@@ -365,7 +365,6 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.remedy(chunk_room_, WaitFor::kRoom, "vsu.queue_entries");
   sheet.remedy(node_room_, WaitFor::kRoom, "vsu.node_queue_entries");
   sheet.remedy(tester_.slots(), WaitFor::kRoom, "vsu.nodes_in_test");
-  sheet.remedy(tester_.pipeline(), WaitFor::kRoom, {"lane_latency_cycles", Turn::kDown});
   sheet.remedy(memory, WaitFor::kReads, "vsu.nodes_in_flight");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);
