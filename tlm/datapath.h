@@ -3,6 +3,7 @@
 // struct.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@ namespace sgs {
 struct BesideLanes {
   std::string kind;  // of the part that does them: a row of the technology table
   std::uint32_t operations = 0;
+  std::uint32_t built_for = 0;  // parts that stand in a copy at least: for items of other kinds
 };
 
 // What stands between the lanes of one copy and what is beside them: registers that hold values
@@ -47,7 +49,7 @@ struct Datapath {
     for (BesideLanes& part : beside) {
       if (part.kind == kind) return part;
     }
-    return beside.emplace_back(BesideLanes{kind, 0});
+    return beside.emplace_back(BesideLanes{kind, 0, 0});
   }
 
   std::uint64_t all_lanes() const { return std::uint64_t{lanes} * copies; }
@@ -59,12 +61,24 @@ struct Datapath {
   // pace with the lanes.
   std::uint64_t parts(const BesideLanes& of) const {
     const std::uint64_t at_full_rate = std::uint64_t{of.operations} * lanes;
-    return copies * ((at_full_rate + used_macs - 1) / used_macs);
+    return copies * std::max<std::uint64_t>(of.built_for, (at_full_rate + used_macs - 1) / used_macs);
+  }
+
+  // The same machine also takes items of another kind: what stands there is enough for both.
+  void build_also_for(const Datapath& other) {
+    for (const BesideLanes& of : other.beside) {
+      BesideLanes& own = part_of(of.kind);
+      const auto parts_of_copy = static_cast<std::uint32_t>(other.parts(of) / other.copies);
+      own.built_for = std::max(own.built_for, parts_of_copy);
+    }
+    between.registers = std::max(between.registers, other.between.registers);
+    between.multiplexers = std::max(between.multiplexers, other.between.multiplexers);
+    set_bits = std::max(set_bits, other.set_bits);
   }
 
   // Fewest cycles of so many items in all copies.
   std::uint64_t cycles(std::uint64_t items) const {
-    return (items * used_macs + all_lanes() - 1) / all_lanes();
+    return (items + copies - 1) / copies * interval_cycles();
   }
 };
 

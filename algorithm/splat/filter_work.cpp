@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
@@ -113,7 +114,7 @@ DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
 struct RenderingFlow {
   DataFlow flow;
   std::size_t spans_begun = 0, spanned = 0, in_base_2 = 0;
-  std::vector<std::uint32_t> state;
+  std::vector<std::uint32_t> state, edge;  // of a pixel; of the spans above the row
 };
 
 // An ellipse that leans, some 20 px wide, and a row through its middle: every step is taken.
@@ -130,6 +131,19 @@ SplatOf<Counting> leaning_splat(DataFlow& flow) {
 }
 constexpr int kFirstRowPx = 52;
 
+constexpr std::size_t kEdgeWords = 3;  // the last of RowSpans::carried()
+
+// A splat's beginning alone: what its rows take is what it is for.
+DataFlow spans_begin_flow() {
+  DataFlow flow;
+  RowSpans<Counting> spans(leaning_splat(flow));
+  spans.start(kFirstRowPx);
+  const auto carried = spans.carried();
+  static_assert(std::tuple_size_v<decltype(spans.carried())> == kBegunSpanWords);
+  for (const Counting& value : carried) keep(flow, {value});
+  return flow;
+}
+
 RenderingFlow rendering_flow(BlendPrecision precision) {
   RenderingFlow out;
   DataFlow& flow = out.flow;
@@ -142,7 +156,13 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   RowSpans<Counting> spans(splat);
   spans.start(kFirstRowPx);
   out.spans_begun = flow.size();
+  const auto above = spans.carried();
+  for (std::size_t i = above.size() - kEdgeWords; i < above.size(); ++i) {
+    if (above[i].flow != nullptr) out.edge.push_back(above[i].node);
+  }
   static_cast<void>(spans.next(kFirstRowPx + kSubtilePx));
+  const auto below = spans.carried();
+  for (std::size_t i = below.size() - kEdgeWords; i < below.size(); ++i) keep(flow, {below[i]});
   out.spanned = flow.size();
   static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
   out.in_base_2 = flow.size();
@@ -211,7 +231,8 @@ LongestPath fine_path(const FilterCase& tested, const FineRecord& record,
 RenderingWork rendering_work(BlendPrecision precision) {
   const RenderingFlow of = rendering_flow(precision);
   RenderingWork work;
-  work.spans_begin = of.flow.counts(0, of.spans_begun);
+  const DataFlow begin = spans_begin_flow();
+  work.spans_begin = begin.counts(0, begin.size());
   work.span = of.flow.counts(of.spans_begun, of.spanned);
   work.conic = of.flow.counts(of.spanned, of.in_base_2);
   work.subtile_blend = of.flow.counts(of.in_base_2, of.flow.size());
@@ -223,7 +244,9 @@ RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencie
   const RenderingFlow of = rendering_flow(precision);
   const OperationLatencies& blending = precision == BlendPrecision::kHalf ? half : single;
   RenderingPaths paths;
-  paths.spans = of.flow.longest_path(0, of.spanned, single);
+  const DataFlow begin = spans_begin_flow();
+  paths.spans_begin = begin.longest_path(0, begin.size(), single);
+  paths.span = of.flow.longest_path(of.spans_begun, of.spanned, single);
   paths.conic = of.flow.longest_path(of.spanned, of.in_base_2, single);
   paths.blend = of.flow.longest_path(of.in_base_2, of.flow.size(), blending);
   paths.state_loop = of.flow.longest_path_from(of.state, blending);
@@ -242,14 +265,14 @@ std::vector<LaneStep> fine_steps(const FilterCase& tested, const FineRecord& rec
   return lane_steps(flow, 0, flow.size(), latencies);
 }
 
-std::vector<LaneStep> span_steps(std::uint32_t rows, const OperationLatencies& single) {
-  DataFlow flow;
-  RowSpans<Counting> spans(leaning_splat(flow));
-  spans.start(kFirstRowPx);
-  for (std::uint32_t row = 1; row <= rows; ++row) {
-    static_cast<void>(spans.next(kFirstRowPx + static_cast<int>(row) * kSubtilePx));
-  }
+std::vector<LaneStep> spans_begin_steps(const OperationLatencies& single) {
+  const DataFlow flow = spans_begin_flow();
   return lane_steps(flow, 0, flow.size(), single);
+}
+
+std::vector<LaneStep> span_steps(const OperationLatencies& single) {
+  const RenderingFlow of = rendering_flow(BlendPrecision::kSingle);
+  return lane_steps(of.flow, of.spans_begun, of.spanned, single, {of.edge});
 }
 
 std::vector<LaneStep> conic_steps(const OperationLatencies& single) {

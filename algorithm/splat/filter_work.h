@@ -72,17 +72,22 @@ struct RenderingWork {
 };
 RenderingWork rendering_work(BlendPrecision precision);
 
-// Of a splat's spans with the first row's, of its conic, of a pixel's blend, and from a pixel's
+// Of a splat's spans until its first row can begin, of a row's, of its conic, of a pixel's blend, and from a pixel's
 // state to what is written back. Latencies of lanes in single and in half precision.
 struct RenderingPaths {
-  LongestPath spans, conic, blend, state_loop;
+  LongestPath spans_begin, span, conic, blend, state_loop;
 };
 RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencies& single,
                                const OperationLatencies& half);
 
-// Of a splat's spans, from their beginning to so many rows; of its beginning alone; of its conic;
-// of a sub-tile's blend, each pixel's state coming at once when it is needed.
-std::vector<LaneStep> span_steps(std::uint32_t rows, const OperationLatencies& single);
+// Words that a splat's rows take of its beginning.
+constexpr std::uint32_t kBegunSpanWords = 11;
+
+// Of the beginning of a splat's spans, to the words that its rows take; of a row's span, the edge
+// above it coming when it is needed, its own kept to the end, for the next; of the conic; of a
+// sub-tile's blend, each pixel's state coming at once when it is needed.
+std::vector<LaneStep> spans_begin_steps(const OperationLatencies& single);
+std::vector<LaneStep> span_steps(const OperationLatencies& single);
 std::vector<LaneStep> conic_steps(const OperationLatencies& single);
 std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLatencies& latencies);
 

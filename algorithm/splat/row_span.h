@@ -18,6 +18,7 @@
 // said: the span is the whole row.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "algorithm/splat/footprint.h"
@@ -56,6 +57,12 @@ class RowSpans {
 
   // Begins above the row that begins at pixel row y_px.
   void start(int y_px) { edge_ = edge_at(y_px); }
+
+  // All that a row takes of what was computed before it; the last three of the edge above it.
+  std::array<T, 11> carried() const {
+    return {x_,        y_,        slope_,   radicand_, bend_,      half_width_,
+            right_at_, slack_px_, edge_.dy, edge_.left, edge_.right};
+  }
 
   // The next row, of pixels up to y_px (exclusive): the pixels of x in the bounds may be visible.
   RowBounds<T> next(int y_px) {

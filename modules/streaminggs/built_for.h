@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/second_half.h"
+#include "algorithm/splat/fine_record.h"
 #include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/rects.h"
 #include "tlm/memory_port.h"
@@ -16,6 +18,7 @@ struct BuiltFor {
   FrameFormat frame_format = FrameFormat::kRgb8;
   SecondHalfFormat second_half;                               // the widest
   std::uint32_t first_half_bytes = 0, second_half_bytes = 0;  // the largest of any degree
+  std::vector<FineRecord> fine_records;                       // of every degree
   std::uint32_t chunk_gaussians = 0;                          // exact order: most in one chunk
   MemoryPortConfig memory_port;                               // of each unit's port
   OperationLatencies single, half{2, 1, 1};                   // of lanes of each precision

@@ -31,9 +31,9 @@ inline Datapath counted_datapath(const char* name, const char* component, const 
                  {"conversions", c.conversions},
                  {"index_adds", c.index_adds},
                  {"look_ups", c.look_ups}};
-  for (const auto& [kind, operations] :
-       {BesideLanes{"comparator", comparisons(c)}, BesideLanes{"small_table", seeds(c)},
-        BesideLanes{rows, c.look_ups}}) {
+  const std::pair<const char*, std::uint32_t> beside[] = {
+      {"comparator", comparisons(c)}, {"small_table", seeds(c)}, {rows, c.look_ups}};
+  for (const auto& [kind, operations] : beside) {
     if (operations > 0) path.part_of(kind).operations += operations;
   }
   return path;

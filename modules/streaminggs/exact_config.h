@@ -30,7 +30,8 @@ struct ExactConfig : StreamingConfig {
     rendering.cluster_lanes = 64;
     rendering.pixel_buffers = 1;
     rendering.input_fifo_entries = 20;  // splats in an FFU's pipeline, one every 18 cycles
-    rendering.span_lanes = 16;
+    rendering.begin_lanes = 11;
+    rendering.span_lanes = 10;
     rendering.span_slots = 48;  // in the pipeline of spans, one every few cycles
   }
 };

@@ -41,8 +41,12 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   const RenderingPaths paths = rendering_paths(rendering.precision, single, half);
   const bool in_half = rendering.precision == BlendPrecision::kHalf;
   const OperationLatencies& blending = in_half ? half : single;
+  // What begins a splat's spans is written to its slot, and read for its first row.
+  resolve_depth("rendering.begin_depth_cycles", rendering.begin_depth_cycles,
+                begin_pipeline(part, single), paths.spans_begin, single,
+                kWriteCycles + kReadCycles, chosen);
   resolve_depth("rendering.span_depth_cycles", rendering.span_depth_cycles,
-                span_pipeline(part, single), paths.spans, single, 0, chosen);
+                span_pipeline(part, single), paths.span, single, 0, chosen);
   // The conic's lanes stand ahead of the queues: what they take comes on top.
   const Datapath blend = blend_pipeline(part, blending);
   resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend, paths.blend, blending,

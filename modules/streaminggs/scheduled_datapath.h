@@ -45,9 +45,12 @@ inline void schedule(Datapath& path, const std::vector<LaneStep>& steps,
 }
 
 // Registers for the constants of the steps: of the group that is worked on and of the next, which is
-// set meanwhile. Those of the code itself, wires, are counted among them.
+// set meanwhile; each copy takes the one or the other, since items of both may be under way. Those
+// of the code itself, wires, are counted among them.
 inline void set_by_group(Datapath& path, const std::vector<LaneStep>& steps) {
-  path.set_bits = 2 * kSingleBits * constants_of(steps);
+  const std::uint32_t bits = kSingleBits * constants_of(steps);
+  path.set_bits = 2 * bits;
+  path.between.multiplexers += bits;
 }
 
 }  // namespace sgs

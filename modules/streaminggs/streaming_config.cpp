@@ -56,6 +56,7 @@ void check_parts(const StreamingConfig& c) {
   }
   for (const auto& [key, value] :
        {std::pair{"rendering.clusters", c.rendering.clusters},
+        {"rendering.begin_lanes", c.rendering.begin_lanes},
         {"rendering.span_lanes", c.rendering.span_lanes},
         {"rendering.drain_pixels_per_cycle", c.rendering.drain_pixels_per_cycle}}) {
     if (value % parts != 0) {
@@ -75,6 +76,7 @@ BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) 
     const RecordSplit split = split_of(storage.order, storage.widest_format(degree));
     out.first_half_bytes = std::max(out.first_half_bytes, split.first_bytes());
     out.second_half_bytes = std::max(out.second_half_bytes, split.second_bytes);
+    out.fine_records.push_back(split.fine_record(degree));
   }
   out.chunk_gaussians = storage.chunk_gaussians;
   out.memory_port = config.memory_port;
@@ -86,6 +88,7 @@ BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage) 
 RenderingConfig rendering_of_part(const StreamingConfig& c) {
   RenderingConfig part = c.rendering;
   part.clusters /= c.parts();
+  part.begin_lanes /= c.parts();
   part.span_lanes /= c.parts();
   part.span_slots = (part.span_slots + c.parts() - 1) / c.parts();
   part.drain_pixels_per_cycle /= c.parts();

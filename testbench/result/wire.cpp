@@ -59,7 +59,7 @@ void serialize(Archive& a, SramAccesses& r) {
 }
 template <class Archive>
 void serialize(Archive& a, BesideLanes& r) {
-  a(r.kind, r.operations);
+  a(r.kind, r.operations, r.built_for);
 }
 template <class Archive>
 void serialize(Archive& a, BetweenLanes& r) {

@@ -75,10 +75,12 @@ class Pipeline {
 
   void filter(std::size_t at, std::size_t count, Cycle data) {
     coarse_ = std::max(coarse_, data);
-    // A first half is read a cycle; each CFU begins when it is free.
-    std::vector<Cycle> free(config_.coarse_filter ? config_.cfus : 1, 0);
+    // A first half is read a cycle; each CFU begins when it is its turn, the first in cycle 0.
+    const Cycle cfus = config_.coarse_filter ? config_.cfus : 1;
     const Cycle of_test = config_.coarse_filter ? config_.cfu_interval_cycles() : 1;
-    Cycle owed = 0, next_read = 0, done = 0;
+    Cycle interval = of_test;
+    while (interval < cfus) interval += of_test;
+    Cycle owed = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (i % config_.cfus == 0) {
         if (finished(coarse_)) {
@@ -86,12 +88,8 @@ class Pipeline {
           break;
         }
       }
-      Cycle& cfu = free[i % free.size()];
-      const Cycle begins = std::max(next_read, cfu);
-      next_read = begins + 1;
-      cfu = begins + of_test;
-      owed += cfu - done;
-      done = cfu;
+      for (; (coarse_ + owed) % interval >= cfus; ++owed) ++times_.coarse_turns;
+      ++owed;
       times_.coarse_tests += config_.coarse_filter ? 1 : 0;
       if (!share_->passes[at + i]) continue;
       spend(owed);
@@ -185,8 +183,11 @@ class Pipeline {
     }
     const Cycle of_test =
         std::max<Cycle>(config_.ffu_interval_cycles(), decode_latency_ ? 0 : read_cycles());
-    fine_ += of_test;
-    times_.fine_busy += of_test;
+    Cycle turns = 0;
+    while ((fine_ + turns) % config_.ffu_interval_cycles() != 0) ++turns;
+    fine_ += turns + of_test;
+    times_.fine_busy += turns + of_test;
+    times_.fine_turns += turns;
     times_.tested.back()[gaussian] = true;
     ++times_.fine_tests;
   }

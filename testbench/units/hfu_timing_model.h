@@ -25,7 +25,9 @@ struct TimedShare {
 struct HfuTimes {
   std::vector<std::uint64_t> shares_done;  // [share] cycle in which its mark goes to sorting
   std::vector<std::vector<bool>> tested;   // [share][Gaussian] by the fine filter
+  // Busy cycles; turns: of these, those that a test waited for its turn at the lanes.
   std::uint64_t coarse_busy = 0, decode_busy = 0, fine_busy = 0;
+  std::uint64_t coarse_turns = 0, fine_turns = 0;
   std::uint64_t lines = 0;  // of the codebook buffer that were read
   std::uint64_t first_halves = 0, coarse_tests = 0, coarse_passed = 0;
   std::uint64_t second_halves = 0, decoded = 0, fine_tests = 0;

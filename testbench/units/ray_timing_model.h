@@ -98,8 +98,10 @@ class RayTimingModel {
     place.next = 0;
     place.chain = {};
     place.ended = place.without_room = false;
-    const std::uint64_t start = std::max(now, begin_free_);
-    begin_free_ = start + interval(pixel_ray_work(), config_.ray_lanes);
+    const std::uint64_t of_ray = interval(pixel_ray_work(), config_.ray_lanes);
+    std::uint64_t start = std::max(now, begin_free_);
+    while (start % of_ray != 0) ++start;
+    begin_free_ = start + of_ray;
     place.due = start + config_.ray_depth_cycles;
   }
 
@@ -180,14 +182,16 @@ class RayTimingModel {
   }
 
   void turns(std::uint64_t now) {
-    if (!steps_.empty() && now >= step_free_) {
+    const std::uint64_t of_step =
+        interval(ray_step_work(longest_step_case()), config_.step_lanes);
+    if (!steps_.empty() && now >= step_free_ && now % of_step == 0) {
       Place& place = places_[steps_.front()];
       const bool of_a_cell = event(place).index == 0;
       place.due =
           now + (of_a_cell ? config_.cell_step_depth_cycles : config_.step_depth_cycles) + 1;
       ++place.next;
       steps_.pop_front();
-      step_free_ = now + interval(ray_step_work(longest_step_case()), config_.step_lanes);
+      step_free_ = now + of_step;
     }
     if (look_ups_.empty()) return;
     const auto [k, has_come] = look_ups_.front();

@@ -26,7 +26,8 @@ struct Expected {
   std::vector<std::byte> frame;
   RenderingUnit::Counters counters;
   std::uint64_t functional_blends = 0;      // into unfinished sub-tiles
-  std::vector<RenderingTimes> times;        // [group]
+  std::vector<std::vector<RenderingToken>> tokens;  // [group]
+  std::vector<std::size_t> subtiles;                // [group]
   std::vector<std::uint64_t> drain_cycles;  // [group]
   std::vector<bool> saturated;              // [group]
 };
@@ -66,10 +67,10 @@ Expected expect(const RenderingPlan& plan) {
       tokens.emplace_back();  // a rejected key, or the end of a visit
     }
     tokens.emplace_back();  // the end of the group
-    out.times.push_back(step_rendering(plan.config, state.subtile_count(), tokens));
+    out.tokens.push_back(std::move(tokens));
+    out.subtiles.push_back(state.subtile_count());
     ++out.counters.groups;
     out.counters.groups_saturated += state.saturated() ? 1 : 0;
-    out.counters.splats_saturated += out.times.back().splats_dropped;
     out.counters.contributors += state.contributors();
     out.saturated.push_back(state.saturated());
     out.drain_cycles.push_back(static_cast<std::uint64_t>(pixels.height()) *
@@ -82,6 +83,7 @@ Expected expect(const RenderingPlan& plan) {
 }
 
 struct Times {
+  std::vector<RenderingTimes> groups;
   std::vector<std::uint64_t> blend_begins;  // [group]
   std::uint64_t end = 0;                    // of the frame
 };
@@ -115,7 +117,9 @@ Times expected_times(const RenderingPlan& plan, const Expected& expected,
     const std::size_t buffers = plan.config.pixel_buffers;
     if (g >= buffers) blend_end = std::max(blend_end, drained[g - buffers]);
     times.blend_begins.push_back(blend_end);
-    blend_end += expected.times[g].cycles;
+    times.groups.push_back(
+        step_rendering(plan.config, expected.subtiles[g], expected.tokens[g], blend_end));
+    blend_end += times.groups.back().cycles;
     std::uint64_t drain = blend_end + plan.config.depth_cycles + plan.config.drain_depth_cycles;
     if (g > 0) drain = std::max(drain, drained[g - 1]);
     drained.push_back(drained_at(plan, plan.job.groups[g], drain, port_free_from));
@@ -211,7 +215,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   std::uint64_t blend = 0, drain = 0, finishes = 0;
   RenderingTimes sum;
   for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
-    const RenderingTimes& group = expected.times[g];
+    const RenderingTimes& group = times.groups[g];
     const bool told = expected.saturated[g] && plan.config.saturation_feedback;
     checks.equal(feedback.cycles[g].size(), told ? 1U : 0U,
                  fmt::format("how often group {} was said to be finished", g));
@@ -236,7 +240,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   checks.equal(bench.busy_cycles("drain"), drain, "busy cycles of draining");
   // With stalls it depends on when splats come what is known of sub-tiles.
   if (!bench_config.still()) return;
-  bench.check_counter("splats_saturated", want.splats_saturated);
+  bench.check_counter("splats_saturated", sum.splats_dropped);
   bench.check_counter("splats_hidden", sum.splats_hidden);
   bench.check_counter("rows", sum.rows);
   bench.check_counter("subtile_blends", sum.blends);

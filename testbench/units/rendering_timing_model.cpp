@@ -16,6 +16,7 @@ struct Job {
 struct SlotModel {
   const RenderingToken* token;
   std::uint64_t taken;  // cycle
+  std::uint64_t row_from = 0;  // its first row begins; 0: it has no spans
 };
 
 struct ClusterModel {
@@ -26,8 +27,9 @@ struct ClusterModel {
 class GroupModel {
  public:
   GroupModel(const RenderingConfig& config, std::size_t subtiles,
-             const std::vector<RenderingToken>& tokens)
+             const std::vector<RenderingToken>& tokens, std::uint64_t from)
       : config_(config),
+        from_(from),
         tokens_(tokens),
         clusters_(config.clusters),
         loop_until_(subtiles, 0),
@@ -55,10 +57,10 @@ class GroupModel {
 
   void take(ClusterModel& cluster) {
     if (cluster.queue.empty() || cluster.queue.front().pushed == now_) return;
-    if (now_ < cluster.busy_until) return;
+    if (now_ < cluster.busy_until || !turn_of(config_.cluster_interval_cycles())) return;
     const SubtileReach subtile = cluster.queue.front().subtile;
     if (now_ < loop_until_[subtile.at]) {
-      ++times_.hazard_cycles;
+      times_.hazard_cycles += config_.cluster_interval_cycles();
       return;
     }
     cluster.queue.pop_front();
@@ -74,7 +76,11 @@ class GroupModel {
 
   // What leaves the FIFO in this cycle: into a slot, or dropped, or it is a mark.
   void take_token() {
-    if (now_ < lanes_busy_until_ || slots_.size() == config_.span_slots) return;
+    if (begins_ != nullptr) {
+      begin();
+      return;
+    }
+    if (now_ < next_from_ || slots_.size() == config_.span_slots) return;
     const RenderingToken& token = tokens_[next_];
     const auto is_known = [&](std::size_t at) { return known_[at] <= now_; };
     const bool dropped = std::all_of(token.footprint.begin(), token.footprint.end(), is_known);
@@ -86,20 +92,43 @@ class GroupModel {
       times_.spans += token.spans;
       times_.splats_spanned += token.spans > 0 ? 1 : 0;
       slots_.push_back({&token, now_});
-      lanes_busy_until_ = now_ + config_.span_cycles(token.spans);
+      if (token.spans > 0) {
+        begins_ = &slots_.back();
+        begin();
+      }
     }
     ++next_;
     tokens_end_ = now_ + 1;
   }
+
+  // The splat that was taken last begins its spans, in the lanes' turn; its rows follow, in theirs.
+  void begin() {
+    if (now_ < begins_free_ || !turn_of(config_.begin_interval_cycles())) return;
+    begins_free_ = now_ + config_.begin_interval_cycles();
+    std::uint64_t row = std::max(now_ + config_.begin_depth_cycles, rows_free_);
+    while ((from_ + row) % config_.span_interval_cycles() != 0) ++row;
+    begins_->row_from = row;
+    for (std::uint32_t at = 0; at < begins_->token->spans; at += config_.spans_at_once()) {
+      row += config_.span_interval_cycles();
+    }
+    rows_free_ = row;
+    begins_ = nullptr;
+    next_from_ = now_ + 1;
+    tokens_end_ = now_ + 1;
+  }
+
+  bool turn_of(std::uint64_t interval) const { return (from_ + now_) % interval == 0; }
 
   // What the dispatcher does in this cycle with the oldest splat.
   void dispatch() {
     const SlotModel& slot = slots_.front();
     const RenderingToken& token = *slot.token;
     if (!row_) {
-      const std::uint64_t spans_after =
-          token.spans == 0 ? 0 : config_.span_cycles(rows_ + 1) + config_.span_depth_cycles;
-      if (now_ < slot.taken + spans_after) return;
+      if (&slot == begins_) return;
+      const std::uint64_t known = slot.row_from +
+                                  rows_ / config_.spans_at_once() * config_.span_interval_cycles() +
+                                  config_.span_depth_cycles;
+      if (now_ < (token.spans == 0 ? slot.taken : known)) return;
       ++rows_;
       row_.emplace();
       for (const SubtileReach& subtile : token.reaches) {
@@ -138,12 +167,14 @@ class GroupModel {
   }
 
   const RenderingConfig& config_;
+  const std::uint64_t from_;
   const std::vector<RenderingToken>& tokens_;
   std::vector<ClusterModel> clusters_;
   std::vector<std::uint64_t> loop_until_, known_;  // [sub-tile]
   std::size_t next_ = 0;
   std::deque<SlotModel> slots_;
-  std::uint64_t lanes_busy_until_ = 0;
+  SlotModel* begins_ = nullptr;  // has been taken and not begun yet
+  std::uint64_t next_from_ = 0, begins_free_ = 0, rows_free_ = 0;
   std::uint32_t rows_ = 0;                        // of the splat ahead, taken so far
   std::optional<std::vector<SubtileReach>> row_;  // what is left of the one that is held
   std::uint64_t now_ = 0, tokens_end_ = 0, dispatched_ = 0;
@@ -153,8 +184,8 @@ class GroupModel {
 }  // namespace
 
 RenderingTimes step_rendering(const RenderingConfig& config, std::size_t subtiles,
-                              const std::vector<RenderingToken>& tokens) {
-  return GroupModel(config, subtiles, tokens).run();
+                              const std::vector<RenderingToken>& tokens, std::uint64_t from) {
+  return GroupModel(config, subtiles, tokens, from).run();
 }
 
 }  // namespace sgs::tb

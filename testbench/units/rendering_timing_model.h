@@ -32,8 +32,9 @@ struct RenderingTimes {
   std::uint64_t splats_dropped = 0;  // came when that was known
 };
 
-// One group of so many sub-tiles, its tokens there when they are asked for.
+// One group of so many sub-tiles that begins in cycle `from`, its tokens there when they are asked
+// for. Times are from then on.
 RenderingTimes step_rendering(const RenderingConfig& config, std::size_t subtiles,
-                              const std::vector<RenderingToken>& tokens);
+                              const std::vector<RenderingToken>& tokens, std::uint64_t from);
 
 }  // namespace sgs::tb

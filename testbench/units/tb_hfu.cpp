@@ -25,8 +25,8 @@ void directed(Case& test, const SceneShape& shape, const HfuConfig& config, std:
 }
 
 // n Gaussians behind the camera: none passes, so the mark is there after the time of the coarse
-// filter alone, written out here: FIFO 1, start of the read 1, memory, ceil(n / 4) intervals, depth
-// of the CFU, two FIFOs.
+// filter alone, written out here: FIFO 1, start of the read 1, memory, turns of the CFUs in the first
+// 4 of each 14 cycles, depth of the CFU, two FIFOs.
 void exact_coarse_time(Case& test, std::uint32_t n) {
   SceneShape shape;
   HfuPlan plan = plan_of(random_scene(test.random, shape));
@@ -56,9 +56,12 @@ void exact_coarse_time(Case& test, std::uint32_t n) {
     // The last transaction of the slice leaves so many cycles after the first.
     const std::uint64_t leaving =
         (kFirstHalfBytes * n - 1) / MemoryPortConfig{}.max_transaction_bytes;
-    const std::uint64_t behind_the_first = (n - 1) % 4;  // a CFU begins a cycle after the other
-    const std::uint64_t done = 1 + 1 + leaving + kLatency + behind_the_first +
-                               (n + 3) / 4 * kInterval + kDepth + 1 + 1 + kMarkCycles;
+    std::uint64_t begun = 1 + 1 + leaving + kLatency;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      while (begun % kInterval >= 4) ++begun;
+      ++begun;
+    }
+    const std::uint64_t done = begun + kDepth + 1 + 1 + kMarkCycles;
     bench.wait_until_just_before(done);
     bench.checks().that(!output.can_pop(), "done a cycle too soon");
     output.pop(activity);

@@ -15,7 +15,8 @@ RenderingPlan make_plan(int width_px, int height_px, const PixelSize& group, Fra
   plan.input_entries = 4096;
   plan.config.depth_cycles = 24;
   plan.config.state_loop_cycles = 5;
-  plan.config.span_depth_cycles = 40;
+  plan.config.begin_depth_cycles = 30;
+  plan.config.span_depth_cycles = 20;
   plan.config.drain_depth_cycles = 7;
   return plan;
 }
@@ -60,10 +61,12 @@ void random_case(Case& test) {
   plan.config.drain_pixels_per_cycle = 1 + static_cast<std::uint32_t>(random() % 16);
   plan.config.saturation_feedback = random() % 2 == 0;
   plan.config.ellipse_test = random() % 2 == 0;
+  plan.config.begin_lanes = 1 + static_cast<std::uint32_t>(random() % 100);
   plan.config.span_lanes = 1 + static_cast<std::uint32_t>(random() % 256);
   plan.config.cluster_lanes = 100 + static_cast<std::uint32_t>(random() % 500);
   plan.config.cluster_queue_entries = 1 + static_cast<std::uint32_t>(random() % 8);
   plan.config.state_loop_cycles = 1 + static_cast<std::uint32_t>(random() % 12);
+  plan.config.begin_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 60);
   plan.config.span_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 60);
   plan.config.span_slots = 1 + static_cast<std::uint32_t>(random() % 12);
   plan.config.drain_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 20);

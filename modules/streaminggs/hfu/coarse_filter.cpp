@@ -88,16 +88,17 @@ std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
          (std::size_t{slot} * config_.slice_gaussians + at) * std::size_t{record_bytes_};
 }
 
-// The CFUs take a Gaussian each at a time, one a cycle out of the input buffer; so they are done a
-// cycle apart, and a candidate a cycle goes on. Without the filter a Gaussian takes that cycle.
-// Simulated time is only let pass where somebody could see it: before a candidate is handed on, and
-// at the end.
+// The CFUs take a Gaussian each in their turns, a cycle after each other as these come out of the
+// input buffer; so they are done a cycle apart, and a candidate a cycle goes on. Without the filter
+// a Gaussian takes that cycle. Simulated time is only let pass where somebody could see it: before
+// a candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
   const RecordSplit& split = job_.layout.split;
-  const std::uint64_t interval = config_.coarse_filter ? tests_.interval_cycles() : 1;
-  const std::uint64_t turns = config_.coarse_filter ? tests_.copies : 1;
-  std::uint64_t done = 0, passed = 0;  // cycles of the slice
-  std::uint32_t open = 0;              // parts
+  const std::uint64_t cfus = config_.coarse_filter ? tests_.copies : 1;
+  const std::uint64_t of_test = config_.coarse_filter ? tests_.interval_cycles() : 1;
+  const std::uint64_t interval = cycles_for(cfus, of_test) * of_test;
+  std::uint64_t passed = filter_.clock().now_cycles(), cycle = passed;
+  std::uint32_t open = 0;  // parts
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
     if (i % tests_.copies == 0) {
       open = unfinished_parts(finished, slice.share.group);
@@ -106,7 +107,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
         break;
       }
     }
-    done = i / turns * std::max(interval, turns) + i % turns + interval;
+    cycle = next_turn_of_one(cycle, interval, cfus) + 1;
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
     const FirstHalfBound bound = bound_first_half(split, first, job_.view);
@@ -114,7 +115,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     if (parts == 0) continue;
     counters_.passed += count_parts(parts);
     ++counters_.candidates;
-    filter_.work(done - std::exchange(passed, done));
+    filter_.work(cycle - passed);
     FineCandidate candidate;
     candidate.group = slice.share.group;
     candidate.visit = slice.share.visit;
@@ -127,8 +128,9 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     candidate.carried = first.carried;
     candidate.reach = reach(bound, slice.share.group);
     in_turn(survivors, candidate.visit).push(candidate, filter_);
+    cycle = passed = filter_.clock().now_cycles();
   }
-  filter_.work(done - passed);
+  filter_.work(cycle - passed);
 }
 
 // The parts that the Gaussian may touch, of those that are open. A part without pixels is finished

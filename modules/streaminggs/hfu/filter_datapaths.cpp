@@ -56,4 +56,19 @@ Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
   return path;
 }
 
+Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
+                       const OperationLatencies& latencies,
+                       const std::vector<FineRecord>& records) {
+  Datapath path = fine_pipeline(config, record, latencies);
+  for (const FineRecord& other : records) {
+    if (other == record) continue;
+    HfuConfig of_other = config;
+    if (config.cost == FilterCost::kCounted) {
+      of_other.ffu_macs = fine_datapath(config, other).counted_macs;
+    }
+    path.build_also_for(fine_pipeline(of_other, other, latencies));
+  }
+  return path;
+}
+
 }  // namespace sgs

@@ -1,6 +1,8 @@
 // The lanes of the coarse and of the fine filter of one HFU, and what a test takes of them.
 #pragma once
 
+#include <vector>
+
 #include "algorithm/splat/coarse_bound_by.h"
 #include "algorithm/splat/fine_record.h"
 #include "algorithm/splat/longest_path.h"
@@ -18,6 +20,10 @@ Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::u
                          const OperationLatencies& latencies);
 Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies);
+// In a machine that takes any of `records`, each by its own schedule: registers and comparators of
+// the one that wants most; of multiplexers the same, as if the schedules chose alike where they can.
+Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
+                       const OperationLatencies& latencies, const std::vector<FineRecord>& records);
 
 // That of several HFUs.
 inline Datapath side_by_side(Datapath of_one, std::uint32_t hfus) {

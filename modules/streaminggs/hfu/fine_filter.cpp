@@ -7,6 +7,7 @@
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
+#include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
 namespace {
@@ -34,7 +35,7 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
       tests_(side_by_side(
           fine_pipeline(config,
                         context.job.layout.split.fine_record(context.job.layout.sh_degree()),
-                        context.built_for.single),
+                        context.built_for.single, context.built_for.fine_records),
           static_cast<std::uint32_t>(context.job.parts.size()))),
       record_bytes_(job_.layout.second_halves.record_bytes),
       test_cycles_(
@@ -171,7 +172,8 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
     reject(part, candidate);
     return;
   }
-  part.filter.work(test_cycles_);
+  const std::uint64_t now = part.filter.clock().now_cycles();
+  part.filter.work(next_turn(now, tests_.interval_cycles()) - now + test_cycles_);
   ++counters_.tests;
   SplatToken token;
   if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||

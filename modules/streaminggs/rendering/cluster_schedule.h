@@ -1,7 +1,8 @@
 // When the clusters of the rendering unit blend which sub-tile.
 //
-// A splat's rows of sub-tiles get their spans on `span_lanes`, `span_depth_cycles` late; as many
-// splats as there are `span_slots` are under way or wait there for a dispatcher. It takes them in
+// A splat's spans are begun on `begin_lanes`, `begin_depth_cycles` late; then its rows of sub-tiles
+// get theirs on `span_lanes`, `span_depth_cycles` late; both in their turns. As many splats as there
+// are `span_slots` are under way or wait there for a dispatcher. It takes them in
 // order, one row a cycle at most, with or without sub-tiles in it. It ands the row's span with that
 // row of the mask of finished sub-tiles, and each cluster's queue takes at most one sub-tile a
 // cycle of what is left: the first of its own. The row stands, and is anded again, until nothing is
@@ -9,8 +10,8 @@
 // takes one cycle of the lanes, no spans and no slot.
 //
 // Sub-tile (x, y) belongs to cluster (x + 2 y) mod clusters, whose bank holds its pixels:
-// neighbours lie in different banks. A cluster takes one sub-tile every `cluster_interval_cycles()`
-// out of its queue, in order, and not before the splat ahead of it on the same sub-tile has left
+// neighbours lie in different banks. A cluster takes one sub-tile in each of its turns, every
+// `cluster_interval_cycles()`, out of its queue, in order, and not before the splat ahead of it on the same sub-tile has left
 // the loop through the pixel state: a scoreboard says which sub-tiles are in it. That a sub-tile is
 // finished is known when the blend that finished it has left the pipeline; until then splats go on
 // being blended into it, which changes nothing and costs the same.
@@ -23,6 +24,7 @@
 
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/rendering/rendering_config.h"
+#include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
 
@@ -36,11 +38,16 @@ class ClusterSchedule {
     std::uint64_t rows = 0;           // that the dispatcher took
     std::uint64_t row_cycles = 0;     // that it held them
     std::uint64_t finished = 0;       // sub-tiles
-    std::uint64_t lane_cycles = 0;    // that the lanes of the spans had splats
+    std::uint64_t begin_cycles = 0;   // that the lanes that begin spans were taken
+    std::uint64_t span_cycles = 0;    // that the lanes of the rows were
   };
 
   explicit ClusterSchedule(const RenderingConfig& config)
       : config_(config),
+        begin_interval_(config.begin_interval_cycles()),
+        span_interval_(config.span_interval_cycles()),
+        spans_at_once_(config.spans_at_once()),
+        cluster_interval_(config.cluster_interval_cycles()),
         clusters_(config.clusters,
                   Cluster{0, 0, 0, std::vector<std::uint64_t>(config.cluster_queue_entries)}),
         slot_free_(config.span_slots, 0) {}
@@ -66,6 +73,12 @@ class ClusterSchedule {
     begin_ = now;
     spanned_ = spanned;
     rows_ = 0;
+    if (!spanned) return;
+    begin_ = next_turn(std::max(now, begins_free_), begin_interval_);
+    begins_free_ = begin_ + begin_interval_;
+    spans_from_ =
+        next_turn(std::max(begin_ + config_.begin_depth_cycles, spans_free_), span_interval_);
+    counters_.begin_cycles += begin_interval_;
   }
 
   // Sub-tiles that it reaches, row by row.
@@ -84,12 +97,12 @@ class ClusterSchedule {
       return;
     }
     cluster.next_push = room + 1;
-    const std::uint64_t free = std::max(room + 1, cluster.free_from);
-    const std::uint64_t taken = std::max(free, free_from_[subtile.at]);
+    const std::uint64_t free = next_turn(std::max(room + 1, cluster.free_from), cluster_interval_);
+    const std::uint64_t taken = next_turn(std::max(free, free_from_[subtile.at]), cluster_interval_);
     counters_.hazard_cycles += taken - free;
     slot = taken;
     ++cluster.jobs;
-    cluster.free_from = taken + config_.cluster_interval_cycles();
+    cluster.free_from = taken + cluster_interval_;
     free_from_[subtile.at] = taken + config_.state_loop_cycles;
     done_ = std::max(done_, cluster.free_from);
     if (subtile.finishes) {
@@ -100,16 +113,20 @@ class ClusterSchedule {
     counters_.late_blends += subtile.blends ? 0 : 1;
   }
 
-  // The cycle in which the next splat can be taken: the lanes are free, and a slot. rows: of this
-  // one, 1 or more, whose slot is free when its last row is dispatched; spans: of them, or 0.
+  // The cycle in which the next splat can be taken: this one has begun, and there is a slot. rows:
+  // of this one, 1 or more, whose slot is free when its last row is dispatched; spans: of them, or
+  // 0.
   std::uint64_t end_splat(std::uint32_t rows, std::uint32_t spans) {
     take_rows(rows);
     end_row();
     dispatched_ = row_end_ + 1;
     slot_free_[splats_++ % slot_free_.size()] = dispatched_;
-    const std::uint64_t lanes = std::max(1U, config_.span_cycles(spans));
-    counters_.lane_cycles += lanes;
-    return std::max(begin_ + lanes, slot_free_[splats_ % slot_free_.size()]);
+    if (spanned_) {
+      const std::uint64_t cycles = cycles_for(spans, spans_at_once_) * span_interval_;
+      spans_free_ = spans_from_ + cycles;
+      counters_.span_cycles += cycles;
+    }
+    return std::max(begin_ + 1, slot_free_[splats_ % slot_free_.size()]);
   }
 
   // The cycle in which every splat is dispatched and every cluster is free again.
@@ -124,7 +141,7 @@ class ClusterSchedule {
   const Counters& counters() const { return counters_; }
   // That the mean cluster blended, or waited for the splat ahead.
   std::uint64_t cluster_cycles() const {
-    return (counters_.blends * config_.cluster_interval_cycles() + counters_.hazard_cycles) /
+    return (counters_.blends * cluster_interval_ + counters_.hazard_cycles) /
            config_.clusters;
   }
 
@@ -143,7 +160,11 @@ class ClusterSchedule {
     for (; rows_ < rows; ++rows_) {
       if (rows_ > 0) end_row();
       const std::uint64_t free = rows_ > 0 ? row_end_ + 1 : dispatched_;
-      row_begin_ = std::max(free, begin_ + config_.spans_known_after(spanned_ ? rows_ + 1 : 0));
+      const std::uint64_t known =
+          spanned_ ? spans_from_ + rows_ / spans_at_once_ * span_interval_ +
+                         config_.span_depth_cycles
+                   : begin_;
+      row_begin_ = std::max(free, known);
       row_end_ = row_begin_;
     }
   }
@@ -153,6 +174,7 @@ class ClusterSchedule {
   }
 
   const RenderingConfig& config_;
+  const std::uint64_t begin_interval_, span_interval_, spans_at_once_, cluster_interval_;
   std::vector<Cluster> clusters_;
   std::vector<std::uint64_t> free_from_;      // [sub-tile] its state can be read again
   std::vector<std::uint64_t> finished_from_;  // [sub-tile] it is known to be finished
@@ -161,6 +183,8 @@ class ClusterSchedule {
   std::uint64_t splats_ = 0;
   // dispatched_: from when on the dispatcher is free for the next splat.
   std::uint64_t begin_ = 0, dispatched_ = 0, done_ = 0;
+  std::uint64_t begins_free_ = 0, spans_free_ = 0;  // the lanes
+  std::uint64_t spans_from_ = 0;                    // the splat's first row begins
   std::uint64_t row_begin_ = 0, row_end_ = 0;  // first and last cycle of the row that is held
   std::uint32_t rows_ = 0;                     // of the splat, taken so far
   bool spanned_ = false;

@@ -16,10 +16,9 @@ struct Counted {
   explicit Counted(BlendPrecision precision)
       : work(rendering_work(precision)),
         blend_macs(folded_macs(work.subtile_blend)),
-        begin_macs(folded_macs(work.spans_begin)),
         span_macs(folded_macs(work.span)) {}
   RenderingWork work;
-  std::uint32_t blend_macs, begin_macs, span_macs;
+  std::uint32_t blend_macs, span_macs;
 };
 
 const Counted& counted(BlendPrecision precision) {
@@ -27,37 +26,17 @@ const Counted& counted(BlendPrecision precision) {
   return precision == BlendPrecision::kHalf ? half : single;
 }
 
-// How the lanes of the spans take turns: a splat's beginning first, and beside it as many rows as
-// there are lanes left for; then `rows_at_once` each `row_cycles`.
-struct SpanTurns {
-  SpanTurns(const RenderingConfig& config, const Counted& work)
-      : begin_cycles(cycles_for(work.begin_macs, config.span_lanes)),
-        row_cycles(cycles_for(work.span_macs, config.span_lanes)),
-        rows_at_once(std::max(1U, config.span_lanes / work.span_macs)),
-        rows_beside((begin_cycles * config.span_lanes - work.begin_macs) / work.span_macs) {}
-  std::uint64_t begin_cycles, row_cycles;
-  std::uint64_t rows_at_once, rows_beside;
-
-  std::uint64_t cycles(std::uint64_t rows) const {
-    const std::uint64_t behind = rows - std::min(rows, rows_beside);
-    return begin_cycles + cycles_for(behind, rows_at_once) * row_cycles;
-  }
-  // That a schedule tells apart: the others take the way of these again.
-  std::uint32_t rows() const {
-    return static_cast<std::uint32_t>(rows_beside > 0 ? rows_beside : rows_at_once);
-  }
-};
-
-// A splat with so many rows, on the lanes' schedule.
-FoldedPipeline folded_spans(const Datapath& path, const SpanTurns& turns, std::uint32_t rows,
-                            const OperationLatencies& single) {
-  const auto interval = static_cast<std::uint32_t>(turns.cycles(turns.rows()));
-  return folded_pipeline(span_steps(rows, single), parts_of(path, interval), single);
+// Without schedule.
+Datapath begin_datapath(const RenderingConfig& config) {
+  Datapath path =
+      counted_datapath("spans_begin", "rendering", counted(config.precision).work.spans_begin);
+  path.lanes = config.begin_lanes;
+  return path;
 }
-
 Datapath span_datapath(const RenderingConfig& config) {
   Datapath path = counted_datapath("row_span", "rendering", counted(config.precision).work.span);
-  path.lanes = config.span_lanes;
+  path.copies = config.spans_at_once();
+  path.lanes = config.span_lanes / path.copies;
   return path;
 }
 
@@ -84,20 +63,19 @@ Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies&
   return path;
 }
 
-// An item of the registers' energy is a row more.
+Datapath begin_pipeline(const RenderingConfig& config, const OperationLatencies& single) {
+  Datapath path = begin_datapath(config);
+  schedule(path, spans_begin_steps(single), single);
+  return path;
+}
+
+// The edge above a row is that of the row before it, or of the beginning: three words selected.
 Datapath span_pipeline(const RenderingConfig& config, const OperationLatencies& single) {
+  constexpr std::uint32_t kEdgeBits = 3 * kSingleBits;
   Datapath path = span_datapath(config);
-  const SpanTurns turns(config, counted(config.precision));
-  const FoldedPipeline all = folded_spans(path, turns, turns.rows(), single);
-  const LaneWiring one = folded_spans(path, turns, 1, single).wiring;
-  const LaneWiring two = folded_spans(path, turns, 2, single).wiring;
-  path.between = between_lanes(all.wiring, kSingleBits);
-  const auto more = [](std::uint32_t of_two, std::uint32_t of_one) {
-    return kSingleBits * (std::max(of_two, of_one) - of_one);
-  };
-  path.between.written = more(two.words_written, one.words_written);
-  path.between.selected = more(two.words_selected, one.words_selected);
-  path.depth_cycles = all.schedule.cycles;
+  schedule(path, span_steps(single), single);
+  path.between.multiplexers += kEdgeBits;
+  path.between.selected += kEdgeBits;
   return path;
 }
 
@@ -110,25 +88,20 @@ Datapath drain_pipeline(const RenderingConfig& config, FrameFormat format,
   return path;
 }
 
-SpansBegin spans_begin(const RenderingConfig& config, const OperationLatencies& single) {
-  const OperationCounts& work = counted(config.precision).work.spans_begin;
-  const SpanTurns turns(config, counted(config.precision));
-  const LaneWiring none = folded_spans(span_datapath(config), turns, 0, single).wiring;
-  return {folded_macs(work), comparisons(work), seeds(work), kSingleBits * none.words_written,
-          kSingleBits * none.words_selected};
-}
-
 std::uint32_t RenderingConfig::cluster_interval_cycles() const {
   return static_cast<std::uint32_t>(cycles_for(counted(precision).blend_macs, cluster_lanes));
 }
 
-std::uint32_t RenderingConfig::span_cycles(std::uint32_t spans) const {
-  if (spans == 0) return 0;
-  return static_cast<std::uint32_t>(SpanTurns(*this, counted(precision)).cycles(spans));
+std::uint32_t RenderingConfig::begin_interval_cycles() const {
+  return static_cast<std::uint32_t>(begin_datapath(*this).interval_cycles());
 }
 
 std::uint32_t RenderingConfig::spans_at_once() const {
-  return static_cast<std::uint32_t>(cycles_for(span_lanes, counted(precision).span_macs));
+  return std::max(1U, span_lanes / counted(precision).span_macs);
+}
+
+std::uint32_t RenderingConfig::span_interval_cycles() const {
+  return static_cast<std::uint32_t>(span_datapath(*this).interval_cycles());
 }
 
 std::uint32_t RenderingConfig::subtiles_in_loop() const {
@@ -155,6 +128,8 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("depth_cycles", c.depth_cycles, in_range(0, 1000),
     "latency of a blend, by which drain and news of a finished group come later; 0: by its "
     "schedule");
+  v("begin_depth_cycles", c.begin_depth_cycles, in_range(0, 1000),
+    "latency of the beginning of a splat's spans; 0: by its schedule");
   v("span_depth_cycles", c.span_depth_cycles, in_range(0, 1000),
     "latency of a row's span; 0: by its schedule");
   v("drain_depth_cycles", c.drain_depth_cycles, in_range(0, 1000),
@@ -163,8 +138,10 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
     "finished pixels converted a cycle");
   v("ellipse_test", c.ellipse_test, "sub-tiles that a splat's ellipse cannot reach are skipped");
+  v("begin_lanes", c.begin_lanes, in_range(1, 4096),
+    "MAC lanes that begin to find the sub-tiles of an ellipse");
   v("span_lanes", c.span_lanes, in_range(1, 4096),
-    "MAC lanes that find the sub-tiles of an ellipse, row by row");
+    "MAC lanes that go on with it row by row, several rows at once where they are enough");
   v("span_slots", c.span_slots, in_range(1, 1024),
     "splats whose spans are under way or wait for the dispatcher");
   v("feedback_latency_cycles", c.feedback_latency_cycles, in_range(1, 1000),

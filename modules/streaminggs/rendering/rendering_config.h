@@ -21,12 +21,14 @@ struct RenderingConfig {
   // Of these from reading a pixel to having it written: a splat behind another on the same sub-tile
   // waits as long.
   std::uint32_t state_loop_cycles = 0;
-  std::uint32_t span_depth_cycles = 0;   // of a row's span, beside the lanes' time
+  std::uint32_t begin_depth_cycles = 0;  // of the beginning of a splat's spans
+  std::uint32_t span_depth_cycles = 0;   // of a row's span
   std::uint32_t drain_depth_cycles = 0;  // of a finished pixel's conversion
   std::uint32_t pixel_buffers = 2;       // groups whose pixels are on chip; 2: drain while blending
   std::uint32_t drain_pixels_per_cycle = 8;  // conversion to the frame's format
   bool ellipse_test = true;                  // skips sub-tiles that the ellipse cannot reach
-  std::uint32_t span_lanes = 64;             // multiply-accumulates for the spans of rows
+  // Multiply-accumulates that begin a splat's spans, and that give its rows theirs.
+  std::uint32_t begin_lanes = 24, span_lanes = 40;
   std::uint32_t span_slots = 16;             // splats that have begun and are not dispatched yet
   bool saturation_feedback = true;           // a finished group's visits are dropped upstream
   // A register where it leaves, a wire over at most the side of the die (2.3 mm, below a cycle at
@@ -36,15 +38,11 @@ struct RenderingConfig {
 
   // A cluster starts a sub-tile every so many cycles.
   std::uint32_t cluster_interval_cycles() const;
-  // That the lanes are busy with a splat's first `spans` rows, and from its beginning until these
-  // have their spans; 0 for none. A fixed schedule: whole rows in a cycle, or a row in whole
-  // cycles.
-  std::uint32_t span_cycles(std::uint32_t spans) const;
-  // Spans of rows that leave the lanes in one cycle, at most.
+  // From one splat's beginning to the next one's.
+  std::uint32_t begin_interval_cycles() const;
+  // Rows that begin at once, and from these to the next: several a cycle, or one in several.
   std::uint32_t spans_at_once() const;
-  std::uint32_t spans_known_after(std::uint32_t spans) const {
-    return spans == 0 ? 0 : span_cycles(spans) + span_depth_cycles;
-  }
+  std::uint32_t span_interval_cycles() const;
   // Sub-tiles of one cluster that can be in the loop through the pixel state at once.
   std::uint32_t subtiles_in_loop() const;
   // From a row of pixels of so many sub-tiles to the next, in draining: a bank gives one word a
@@ -56,20 +54,15 @@ struct RenderingConfig {
 
 // Counted by running the code (algorithm/splat/filter_work.h): the lanes that every splat passes
 // ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile; those
-// of the spans, an item a row. Scheduled on lanes of these latencies.
+// that begin a splat's spans, an item a splat; those of its rows. Scheduled on lanes of these
+// latencies.
 Datapath conic_pipeline(const OperationLatencies& single);
 Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies);
+Datapath begin_pipeline(const RenderingConfig& config, const OperationLatencies& single);
 Datapath span_pipeline(const RenderingConfig& config, const OperationLatencies& single);
 // An item a finished pixel: as many lanes as drain_pixels_per_cycle of them take.
 Datapath drain_pipeline(const RenderingConfig& config, FrameFormat format,
                         const OperationLatencies& single);
-
-// What a splat takes of the spans' lanes, comparators and tables beside its rows, and of the bits
-// between them.
-struct SpansBegin {
-  std::uint32_t macs, comparisons, look_ups, bits_written, bits_selected;
-};
-SpansBegin spans_begin(const RenderingConfig& config, const OperationLatencies& single);
 
 void visit(ConfigVisitor& v, RenderingConfig& config);
 

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::uint64_t kClearCycles = 1;
 constexpr std::uint32_t kSubtileNumberBytes = 2;
+constexpr const char* kBegunSpans = "begun spans";
+constexpr std::uint32_t kBegunSpanBytes = 4 * kBegunSpanWords;
 
 // Of each row of sub-tiles the first and the last that a splat reaches, or none: of rows that leave
 // the lanes at once each in a bank of its own, a row a cycle to the dispatcher.
@@ -177,6 +179,9 @@ SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor&
           sram_use("splats under way", kSharedSram,
                    {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
                    kOneOfEach),
+          sram_use(kBegunSpans, kSharedSram,
+                   {{config.span_slots, "slots"}, {kBegunSpanBytes, "B"}}, {8 * kBegunSpanBytes},
+                   kOneOfEach),
           spans_use(config, built_for.group),
           sram_use("cluster queues", kSharedSram,
                    {{config.clusters, "clusters"},
@@ -202,17 +207,11 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
   sheet.datapath(conic_pipeline(built_for_.single), counters_.splats_taken);
   sheet.datapath(blend_pipeline(config_, in_half ? built_for_.half : built_for_.single),
                  clusters.blends);
-  const Datapath spans = span_pipeline(config_, built_for_.single);
-  const SpansBegin begin = spans_begin(config_, built_for_.single);
-  sheet.datapath(spans, counters_.spans);
-  const auto spanned = static_cast<double>(counters_.splats_spanned);
-  sheet.operations("rendering", spans.lane.c_str(), spanned * begin.macs);
-  sheet.operations("rendering", "comparator", spanned * begin.comparisons);
+  sheet.datapath(begin_pipeline(config_, built_for_.single), counters_.splats_spanned);
+  sheet.datapath(span_pipeline(config_, built_for_.single), counters_.spans);
+  sheet.accesses(kBegunSpans, counters_.splats_spanned, counters_.splats_spanned);
   sheet.accesses("splats under way", counters_.splats_taken, counters_.splats_taken);
   sheet.accesses("spans", counters_.spans, counters_.spans);
-  sheet.operations("rendering", "small_table", spanned * begin.look_ups);
-  sheet.operations("rendering", "register_bit", spanned * begin.bits_written);
-  sheet.operations("rendering", "select_bit", spanned * begin.bits_selected);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
   publish_dispatcher(sheet);
   publish_pixels(sheet);
@@ -228,6 +227,10 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   const double of_row = row_comparators(built_for_.group, config_.clusters);
   // The head of a queue against all sub-tiles in the loop, in every cycle that it is looked at.
   const double of_loop = config_.subtiles_in_loop();
+  // The splat whose rows go out.
+  sheet.part("rendering", "register_bit", 8 * kSplatEntryBytes, 1);
+  sheet.operations("rendering", "register_bit",
+                   8 * kSplatEntryBytes * static_cast<double>(counters_.splats_taken));
   const auto looks = clusters.blends + clusters.hazard_cycles;
   sheet.part("rendering", "comparator", of_splat + of_row + config_.clusters * of_loop, 1);
   sheet.operations("rendering", "comparator",
@@ -291,11 +294,14 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.counter("contributors", "pixels", "blended with an alpha above 1/255",
                 counters_.contributors);
   publish_ledger(sheet);
-  // Both work at the same time, on different splats.
-  const bool by_lanes = clusters.lane_cycles > schedule_.cluster_cycles();
-  sheet.remedy(blend_, by_lanes ? "rendering.span_lanes" : "rendering.clusters");
-  for (const char* key : {"rendering.clusters", "rendering.cluster_lanes", "rendering.span_lanes",
-                          "rendering.span_slots"}) {
+  // All three work at the same time, on different splats.
+  const bool by_rows = clusters.span_cycles > clusters.begin_cycles;
+  const char* lanes = by_rows ? "rendering.span_lanes" : "rendering.begin_lanes";
+  const bool by_lanes =
+      std::max(clusters.span_cycles, clusters.begin_cycles) > schedule_.cluster_cycles();
+  sheet.remedy(blend_, by_lanes ? lanes : "rendering.clusters");
+  for (const char* key : {"rendering.clusters", "rendering.cluster_lanes", "rendering.begin_lanes",
+                          "rendering.span_lanes", "rendering.span_slots"}) {
     sheet.may_help(key);
   }
   sheet.remedy(drain_, "rendering.drain_pixels_per_cycle");

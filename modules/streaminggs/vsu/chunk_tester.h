@@ -1,5 +1,5 @@
 // The chunk test as a pipeline: several nodes are in it at a time. A node's children pass the lanes
-// one behind the other, each at the lanes' whole interval; when the last has left the pipeline what
+// one behind the other, each in the lanes' next turn; when the last has left the pipeline what
 // became of them can go into the queues. Nodes come out in the order in which they were put in.
 #pragma once
 
@@ -8,6 +8,7 @@
 
 #include "algorithm/order/walk_queue.h"
 #include "algorithm/voxel/chunk_node.h"
+#include "modules/streaminggs/work_rates.h"
 #include "tlm/datapath.h"
 #include "tlm/timed_fifo.h"
 
@@ -51,7 +52,8 @@ class ChunkTester {
   void run() {
     while (true) {
       const NodeInTest node = waiting_.pop(test_);
-      test_.work(node.record.children * lanes_.interval_cycles());
+      const std::uint64_t now = test_.clock().now_cycles(), interval = lanes_.interval_cycles();
+      test_.work(next_turn(now, interval) - now + node.record.children * interval);
       tests_ += node.record.children;
       ++nodes_;
       tested_.push(node, test_);

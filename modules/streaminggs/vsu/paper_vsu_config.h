@@ -9,7 +9,7 @@
 namespace sgs {
 
 struct PaperVsuConfig {
-  std::uint32_t rays_in_flight = 109;  // of a group, side by side
+  std::uint32_t rays_in_flight = 102;  // of a group, side by side
   std::uint32_t chain_entries = 3;     // voxels that a ray keeps until they are entered
   std::uint32_t step_lanes = 24;       // multiply-accumulates a cycle of the rays' steps
   std::uint32_t ray_lanes = 8;         // of their beginnings

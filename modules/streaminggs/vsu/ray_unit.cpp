@@ -37,6 +37,7 @@ std::uint64_t turn(std::uint64_t& free, std::uint64_t cycle, std::uint64_t cycle
   return start;
 }
 
+
 }  // namespace
 
 RayUnit::RayUnit(const PaperVsuConfig& c, const OperationLatencies& latencies,
@@ -57,17 +58,25 @@ void RayUnit::advance_to(std::uint64_t cycle) {
 
 void RayUnit::begin_pass() {
   activity_.works();
-  begins_free_ = steps_free_ = look_ups_free_ = table_free_ = now();
+  pass_from_ = begins_free_ = steps_free_ = look_ups_free_ = table_free_ = now();
+}
+
+// Of lanes, the same in their turns. No ray is under way when a pass begins, so that they count from
+// there.
+std::uint64_t RayUnit::turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle) {
+  const std::uint64_t interval = lanes.interval_cycles();
+  const std::uint64_t of_pass = next_turn(std::max(free, cycle) - pass_from_, interval);
+  return turn(free, pass_from_ + of_pass, interval);
 }
 
 std::uint64_t RayUnit::begin_ray(std::uint64_t cycle) {
   ++rays_;
-  return turn(begins_free_, cycle, begins_.interval_cycles()) + config.ray_depth_cycles;
+  return turn_of(begins_, begins_free_, cycle) + config.ray_depth_cycles;
 }
 
 std::uint64_t RayUnit::step(std::uint64_t cycle, std::uint32_t log2_block) {
   ++steps_taken_;
-  return turn(steps_free_, cycle, steps_.interval_cycles()) + config.step_cycles(log2_block) +
+  return turn_of(steps_, steps_free_, cycle) + config.step_cycles(log2_block) +
          kMaskCycles;
 }
 

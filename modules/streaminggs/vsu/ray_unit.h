@@ -80,12 +80,14 @@ class RayUnit {
   Remedy remedy() const;
 
  private:
+  std::uint64_t turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle);
   std::uint64_t cycles_since(const OrderingAccesses& all);
 
   const ClockDomain& clock_;
   Activity& activity_;
   MemoryPort& port_;
   const Datapath begins_, steps_;
+  std::uint64_t pass_from_ = 0;
   std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, table_free_ = 0;
   std::uint64_t rays_ = 0, steps_taken_ = 0, met_ = 0, entered_ = 0;
   OrderingAccesses accesses_;                            // of the table so far
