@@ -32,7 +32,7 @@ import tables
 from fair_fight_tables import FRONT_HEAD, assigned_document, found_table, front_rows, near_front
 from kept_runs import KeptRuns
 from machine_areas import Areas, area_mm2, start_of
-from machine_axes import ORDERS, Order
+from machine_axes import ORDERS, Machine, Order
 from machine_search import OBJECTIVES, Point, Search
 from machine_views import Contender, views_tables
 from scenes import Scene, find_scenes, shared_names
@@ -87,18 +87,22 @@ class Fight:
         outcomes = self.kept.outcomes(runs)
         return max(area_mm2(outcome.accepted()[0]) for outcome in outcomes)
 
-    def preset_db(self, order: Order) -> list[float]:
-        runs = [Run(s, "0", self.arguments.size, order.preset) for s in self.scenes]
-        views = [outcome.accepted()[0] for outcome in self.kept.outcomes(runs)]
-        return [decibels(view) - SAME_DB for view in views]
+    def preset_db(self, view: str) -> list[float]:
+        """Of each scene, the mean over these views."""
+        runs = [Run(s, view, self.arguments.size, BUDGET_PRESET) for s in self.scenes]
+        outcomes = self.kept.outcomes(runs)
+        return [statistics.fmean(map(decibels, o.accepted())) for o in outcomes]
 
     def best_of_all_views(self, search: Search) -> Point | None:
         """Of the points that do best on the first view the one that does best on all: the mean over
-        the scenes of the means over their views. None where there is no point."""
+        the scenes of the means over their views. Where pictures are kept, they must be so on this
+        mean, too. None where there is no point."""
         distinct = {(point.machine.at, point.storage): point for point in search.points}
         first = sorted(distinct.values(), key=lambda point: point.mean(search.value))
         if self.arguments.view == "none":
             return first[0] if first else None
+
+        least_db = self.preset_db(self.arguments.view) if search.least_db else []
 
         def mean(point: Point) -> float:
             runs = [search.run(point.machine, point.storage, n) for n in range(len(self.scenes))]
@@ -106,22 +110,26 @@ class Fight:
             drawn = self.kept.outcomes(runs)
             if any(outcome.refused for outcome in drawn):
                 return math.inf
+            db = [statistics.fmean(map(decibels, outcome.views)) for outcome in drawn]
+            if any(of < least - SAME_DB for of, least in zip(db, least_db)):
+                return math.inf
             return statistics.geometric_mean(
                 statistics.fmean(map(search.value, outcome.views)) for outcome in drawn
             )
 
-        return min(first[:CANDIDATES], key=mean, default=None)
+        means = [(mean(point), at) for at, point in enumerate(first[:CANDIDATES])]
+        best = min(means, default=(math.inf, 0))
+        return first[best[1]] if math.isfinite(best[0]) else None
 
     def search_all(self) -> None:
-        area = self.paper_area()
-        areas = Areas(self.kept)
+        arguments, area, areas = self.arguments, self.paper_area(), Areas(self.kept)
         for name in self.arguments.orders:
             order = ORDERS[name]
             machine, harm = start_of(order, self.kept), {}
-            storage = storage_at_start(order, self.kept, self.scenes, self.arguments.size)
-            least_db = self.preset_db(order) if order.keeps_picture else None
-            first, *others = self.arguments.objectives
-            smallest, *larger = self.arguments.budgets
+            storage = storage_at_start(order, self.kept, self.scenes, arguments.size)
+            least_db = [db - SAME_DB for db in self.preset_db("0")] if order.keeps_picture else None
+            first, *others = arguments.objectives
+            smallest, *larger = arguments.budgets
             for budget, objective, share in (
                 (smallest, first, 1.0),
                 # These begin where the first one ended, and have less to find.
@@ -131,14 +139,17 @@ class Fight:
                 search = Search(
                     areas,
                     self.scenes,
-                    self.arguments.size,
+                    arguments.size,
                     budget * area,
                     objective,
-                    round(share * self.arguments.most_runs),
+                    round(share * arguments.most_runs),
                     harm,
                     least_db,
                 )
                 search.best_from(machine, storage)
+                if other := self.best.get((order.begins_at, budget, objective)):
+                    search.runs_left = max(search.runs_left, round(share * arguments.most_runs))
+                    search.best_from(Machine(order, other.machine.at), other.storage)
                 point = self.best_of_all_views(search)
                 harm = harm or search.harm
                 self.points += search.points
@@ -161,7 +172,7 @@ class Fight:
         tables.write_text(out / "fair_fight_machines.md", found)
         for (order, budget, objective), point in self.best.items():
             name = f"fair_fight_{order}_{budget:g}_{objective}.json".replace(" ", "_")
-            document = assigned_document(point.overrides(0), point.views)
+            document = assigned_document(self.kept.binary, point.machine, point.views)
             tables.write_text(out / name, json.dumps(document, indent=2) + "\n")
 
     def contenders(self) -> list[Contender]:
@@ -205,7 +216,7 @@ def main() -> int:
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
     run_arguments.add_side_by_side(parser)
     parser.add_argument(
-        "--orders", nargs="+", choices=ORDERS, default=["exact", "paper", "paper, picture kept"]
+        "--orders", nargs="+", choices=ORDERS, default=list(ORDERS)
     )
     parser.add_argument(
         "--budgets", nargs="+", type=float, default=[1.0, 2.0], metavar="X", help="of paper's area"

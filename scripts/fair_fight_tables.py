@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import math
+import pathlib
 from collections.abc import Sequence
 
 import tables
 from machine_axes import Machine
 from machine_search import OBJECTIVES, Point
 from objectives import pareto_front
+from run_digest import data_folder
 from view_numbers import decibels, psnr_span
 
 # Points that are this close in everything count as one.
@@ -106,10 +109,12 @@ def json_value(text: str) -> object:
     return text
 
 
-def assigned_document(overrides: Sequence[str], views: Sequence[dict]) -> dict:
-    """A machine as a configuration, its memory as large as the views need."""
-    document: dict = {"machine": views[0]["config"]["machine"]}
-    for assignment in overrides:
+def assigned_document(binary: pathlib.Path, machine: Machine, views: Sequence[dict]) -> dict:
+    """A machine as a configuration, its memory as large as the views need. How a scene is stored
+    is as in the preset: that may be another for each."""
+    preset = data_folder(binary) / "presets" / f"{machine.order.preset}.json"
+    document: dict = json.loads(preset.read_text())
+    for assignment in machine.overrides():
         key, _, value = assignment.partition("=")
         *parents, last = key.split(".")
         part = document

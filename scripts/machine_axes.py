@@ -28,7 +28,8 @@ def axis(key: str, *values: object) -> Axis:
 class Order:
     """A preset with the axes of its machine, of which a search tries each setting of the first at
     its start; storage: what may be chosen for each scene; keeps_picture: no scene's may be worse than
-    the preset's."""
+    that of the preset `paper`; begins_at: another order, of the same axes, at whose best machine a
+    search begins as well."""
 
     name: str
     preset: str
@@ -36,6 +37,7 @@ class Order:
     axes: tuple[Axis, ...]
     storage: Axis
     keeps_picture: bool = False
+    begins_at: str = ""
 
     def with_blend(self, macs: int) -> Order:
         """With as many lanes in a cluster as blend a sub-tile in 8, 6, ... 1 cycles; what lies
@@ -109,10 +111,14 @@ COMMON = (
     axis("hfus", 1, 2, 3, 4, 6, 8, 9),
     axis("rendering.clusters", 1, 2, 4, 8),
     axis("rendering.cluster_lanes", 480),
-    axis("rendering.span_lanes", 16, 32, 64),
+    # As many as give an interval of whole cycles, or several rows at once.
+    axis("rendering.begin_lanes", 8, 11, 16, 25, 40, 76),
+    axis("rendering.span_lanes", 5, 8, 10, 20, 40, 60),
     axis("hfu.ffu_lanes", 4, 8, 12, 16, 20, 24, 32, 48, 64),
     axis("hfu.cfu_lanes", 1, 2, 3, 4, 6, 8, 12),
     axis("hfu.second_half_slots", 4, 6, 8, 16, 24, 32),
+    axis("hfu.candidate_fifo_entries", 7, 10, 16, 24),
+    axis("memory_port.max_outstanding", 8, 16, 32),
     axis("sorting_units", 1, 2, 4),
     axis("rendering.span_slots", 8, 16, 32, 48),
 )
@@ -170,5 +176,5 @@ PAPER = Order(
     axis("storage.voxel_size", 0.05, 0.1, 0.2, 0.4, 0.5, 1, 2, 4),
 )
 # Rays and voxels that miss more draw faster: with the picture held, the machine alone is compared.
-PAPER_KEPT = dataclasses.replace(PAPER, name="paper, picture kept", keeps_picture=True)
+PAPER_KEPT = dataclasses.replace(PAPER, name="paper, picture kept", keeps_picture=True, begins_at="paper")
 ORDERS = {order.name: order for order in (EXACT, EXACT_FP16, PAPER, PAPER_KEPT)}

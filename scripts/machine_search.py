@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from machine_areas import Areas, area_mm2
 from machine_axes import Machine
 from scenes import Scene
-from simulations import Run
+from simulations import Outcome, Run
 from view_numbers import decibels
 
 OBJECTIVES: dict[str, Callable[[dict], float]] = {
@@ -95,35 +95,62 @@ class Search:
         overrides = (*machine.overrides(), *stored)
         return Run(self.scenes[scene], "0", self.size, machine.order.preset, overrides)
 
+    def as_stored(
+        self, machine: Machine, storage: Sequence[int], scene: int, outcome: Outcome
+    ) -> tuple[int, dict] | None:
+        """How the scene is stored, and its view: as it was simulated or, where its picture is not
+        good enough so, as near to that as it is."""
+        if outcome.refused or not self.small(outcome.views[0]):
+            return None
+        at, views = storage[scene], outcome.views
+        others = sorted(
+            range(len(machine.order.storage.settings)), key=lambda to: abs(to - storage[scene])
+        )
+        while not views or not self.allowed(views[0], scene):
+            others.pop(0)
+            if not others or self.runs_left <= 0:
+                return None
+            at = others[0]
+            trial = [at if n == scene else s for n, s in enumerate(storage)]
+            self.runs_left -= 1
+            views = self.kept.outcome(self.run(machine, trial, scene)).views
+        return at, views[0]
+
     def measure(
         self, machine: Machine, storage: Sequence[int], against: Point | None
     ) -> tuple[float, Point | None]:
         """How much worse it is than another point: the mean logarithm of the ratio, over the scenes
         simulated before it was given up; and the point, if it was not. Infinite where a scene
-        is refused or the machine is larger on a scene than it may be."""
+        is refused, the machine is larger on a scene than it may be, or no storage gives the picture
+        that there must be."""
         views: list[dict] = []
+        chosen = list(storage)
         worse = 0.0
         for first in range(0, len(self.scenes), 2):
             numbers = range(first, min(first + 2, len(self.scenes)))
             self.runs_left -= len(numbers)
             outcomes = self.kept.outcomes([self.run(machine, storage, n) for n in numbers])
             for n, outcome in zip(numbers, outcomes):
-                if outcome.refused or not self.allowed(outcome.views[0], n):
+                if not (found := self.as_stored(machine, storage, n, outcome)):
                     return math.inf, None
-                views.append(outcome.views[0])
+                chosen[n] = found[0]
+                views.append(found[1])
             if against:
                 pairs = zip(views, against.views)
                 worse = statistics.fmean(math.log(self.value(a) / self.value(b)) for a, b in pairs)
                 # Others may still make up for these.
                 if len(views) < len(self.scenes) and worse > 0.06 / len(views):
                     return worse, None
-        point = Point(machine, tuple(storage), self.scenes, tuple(views))
+        point = Point(machine, tuple(chosen), self.scenes, tuple(views))
         self.points.append(point)
         return worse, point
 
+    def small(self, view: dict) -> bool:
+        return area_mm2(view) <= self.budget_mm2 * 1.0001
+
     def allowed(self, view: dict, scene: int) -> bool:
-        small = area_mm2(view) <= self.budget_mm2 * 1.0001
-        return small and not (self.least_db and decibels(view) < self.least_db[scene])
+        good = not self.least_db or decibels(view) >= self.least_db[scene]
+        return good and self.small(view)
 
     def frees(self, machine: Machine, best: Point) -> bool:
         area = self.areas.of(machine)
@@ -188,30 +215,34 @@ class Search:
         return best
 
     def stored_better(self, best: Point) -> Point:
-        """Each scene stored as it does best on this machine."""
+        """Each scene stored as it does best on this machine. Each way it is given up where two
+        settings in a row are no better."""
         settings = best.machine.order.storage.settings
         storage, views = list(best.storage), list(best.views)
         for step in (-1, 1):
-            moving = list(range(len(self.scenes)))
-            while moving and self.runs_left > 0:
-                moving = [n for n in moving if 0 <= storage[n] + step < len(settings)]
-                trial = [s + step if n in moving else s for n, s in enumerate(storage)]
-                self.runs_left -= len(moving)
-                outcomes = self.kept.outcomes([self.run(best.machine, trial, n) for n in moving])
-                found = {n: o.views[0] for n, o in zip(moving, outcomes) if o.views}
-                moving = [
-                    n
-                    for n, view in found.items()
-                    if self.value(view) < self.value(views[n]) * (1 - BETTER)
-                    and self.allowed(view, n)
-                ]
-                for n in moving:
-                    storage[n], views[n] = trial[n], found[n]
+            trial = list(storage)
+            misses = dict.fromkeys(range(len(self.scenes)), 0)
+            while misses and self.runs_left > 0:
+                trial = [s + step if n in misses else s for n, s in enumerate(trial)]
+                misses = {n: of for n, of in misses.items() if 0 <= trial[n] < len(settings)}
+                self.runs_left -= len(misses)
+                runs = [self.run(best.machine, trial, n) for n in misses]
+                for n, outcome in zip(list(misses), self.kept.outcomes(runs)):
+                    if self.is_better(outcome, views[n], n):
+                        storage[n], views[n], misses[n] = trial[n], outcome.views[0], 0
+                    else:
+                        misses[n] += 1
+                misses = {n: of for n, of in misses.items() if of < 2}
         if tuple(storage) == best.storage:
             return best
         point = Point(best.machine, tuple(storage), self.scenes, tuple(views))
         self.points.append(point)
         return point
+
+    def is_better(self, outcome: Outcome, than: dict, scene: int) -> bool:
+        if outcome.refused or not self.allowed(outcome.views[0], scene):
+            return False
+        return self.value(outcome.views[0]) < self.value(than) * (1 - BETTER)
 
     def best_from(self, machine: Machine, storage: Sequence[int]) -> Point | None:
         """The best point found from a start; None where nothing on the way to the area draws all

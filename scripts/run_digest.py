@@ -16,11 +16,15 @@ from simulations import Run
 DATA_FROM_BIN = pathlib.Path("..", "share", "streaminggs")
 
 
+def data_folder(binary: pathlib.Path) -> pathlib.Path:
+    return binary.resolve().parent / DATA_FROM_BIN
+
+
 def program_digest(binary: pathlib.Path) -> str:
     """Of the program and its data files. Raises ValueError when there is no program."""
     if not binary.is_file():
         raise ValueError(f"{binary}: not there; scripts/setup.sh builds it")
-    data = binary.resolve().parent / DATA_FROM_BIN
+    data = data_folder(binary)
     digest = hashlib.sha256(binary.read_bytes())
     # Folders of a build tree are links to the sources, which a recursive glob does not follow.
     for path in sorted(p for pattern in ("*", "*/*") for p in data.glob(pattern) if p.is_file()):

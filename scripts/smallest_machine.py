@@ -80,7 +80,7 @@ def found(
         return line, [d.view for d in before]
     machine, drawn = descent.smallest(grown, drawn, arguments.view)
     views = [d.view for d in drawn]
-    document = assigned_document(machine.overrides(), views)
+    document = assigned_document(kept.binary, machine, views)
     path = arguments.out / f"smallest_machine_{size}.json"
     tables.write_text(path, json.dumps(document, indent=2) + "\n")
     return row(size, arguments.fps, machine, drawn, before), views

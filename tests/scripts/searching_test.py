@@ -1,6 +1,8 @@
 """The search for machines: on a machine made up of formulas, and what it keeps of simulations."""
 
 import itertools
+import pathlib
+import tempfile
 import unittest
 
 from in_folder import InFolder  # isort: skip (finds the scripts)
@@ -53,6 +55,7 @@ class Formulas:
         if run.scene != SMALL:
             self.drawn.append((run.scene.name, run.overrides))
             view["frame"] = {"cycles": cycles(run.scene.name, s)}
+            view["image"] = {"psnr_db": 20.0 + 100 / s["storage.chunk"]}
         return simulations.Outcome(run, views=(view,))
 
     def outcomes(self, runs):
@@ -89,6 +92,32 @@ class Searching(unittest.TestCase):
                 stored = [point.stored(n) for n in (0, 1)]
                 self.assertEqual(stored, ["storage.chunk=16", "storage.chunk=32"])
 
+    def test_the_storage_that_keeps_the_picture(self):
+        formulas, largest = Formulas(), machine_axes.Machine(ORDER, (3, 3, 2, 2))
+        # Chunks of 16 at most for a; chunks of 8 for b, whatever it would do best with.
+        for least_db, stored in (((26, 30), ["16", "8"]), ((26, 40), None)):
+            search = Search(
+                Areas(formulas), self.SCENES, "", 6, "cycles", 400, least_db=least_db
+            )
+            point = search.best_from(largest, (2, 2))
+            found = point and [point.stored(n).partition("=")[2] for n in (0, 1)]
+            self.assertEqual(found, stored)
+
+    def test_storage_one_beyond_a_worse_one(self):
+        class Bumpy(Formulas):
+            def outcome(self, run):
+                found = super().outcome(run)
+                s = settings(run)
+                if found.views and "frame" in found.views[0]:
+                    by_chunk = {8: 50, 16: 100, 32: 80}[s["storage.chunk"]]
+                    found.views[0]["frame"]["cycles"] = by_chunk
+                return found
+
+        search = Search(Areas(Bumpy()), self.SCENES, "", 12, "cycles", 400)
+        machine = machine_axes.Machine(ORDER, (0, 0, 0, 0))
+        point = search.best_from(machine, (2, 2))
+        self.assertEqual(point.stored(0), "storage.chunk=8")
+
     def test_ends_when_it_has_had_its_runs(self):
         _, formulas = self.found(4, 30)
         self.assertLessEqual(len(formulas.drawn), 36)
@@ -107,14 +136,24 @@ class Searching(unittest.TestCase):
         self.assertEqual(fair_fight_tables.near_front(points), [False, True, True, False])
 
     def test_a_machine_as_a_configuration(self):
-        view = {"config": {"machine": "exact", "sram": {"input_bytes": 7, "shared_bytes": 9}}}
-        overrides = (*simulations.SRAM_AS_NEEDED, "hfu.lanes=8", "x=0.5", "fetch=split")
+        view = {"config": {"sram": {"input_bytes": 7, "shared_bytes": 9}}}
+        order = machine_axes.Order(
+            "toy", "toy", ("x=0.5", "fetch=split"), (machine_axes.axis("hfu.lanes", 8),), None
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            presets = pathlib.Path(folder, "share", "streaminggs", "presets")
+            presets.mkdir(parents=True)
+            pathlib.Path(folder, "bin").mkdir()
+            (presets / "toy.json").write_text('{"machine": "exact", "hfu": {"lanes": 2, "a": 1}}')
+            document = fair_fight_tables.assigned_document(
+                pathlib.Path(folder, "bin", "streaminggs"), machine_axes.Machine(order, (0,)), [view]
+            )
         self.assertEqual(
-            fair_fight_tables.assigned_document(overrides, [view]),
+            document,
             {
                 "machine": "exact",
                 "sram": {"input_bytes": 7, "shared_bytes": 9},
-                "hfu": {"lanes": 8},
+                "hfu": {"lanes": 8, "a": 1},
                 "x": 0.5,
                 "fetch": "split",
             },
