@@ -61,7 +61,8 @@ struct Datapath {
   // pace with the lanes.
   std::uint64_t parts(const BesideLanes& of) const {
     const std::uint64_t at_full_rate = std::uint64_t{of.operations} * lanes;
-    return copies * std::max<std::uint64_t>(of.built_for, (at_full_rate + used_macs - 1) / used_macs);
+    return copies *
+           std::max<std::uint64_t>(of.built_for, (at_full_rate + used_macs - 1) / used_macs);
   }
 
   // The same machine also takes items of another kind: what stands there is enough for both.

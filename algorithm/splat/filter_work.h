@@ -72,8 +72,9 @@ struct RenderingWork {
 };
 RenderingWork rendering_work(BlendPrecision precision);
 
-// Of a splat's spans until its first row can begin, of a row's, of its conic, of a pixel's blend, and from a pixel's
-// state to what is written back. Latencies of lanes in single and in half precision.
+// Of a splat's spans until its first row can begin, of a row's, of its conic, of a pixel's blend,
+// and from a pixel's state to what is written back. Latencies of lanes in single and in half
+// precision.
 struct RenderingPaths {
   LongestPath spans_begin, span, conic, blend, state_loop;
 };

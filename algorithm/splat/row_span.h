@@ -35,8 +35,7 @@ struct RowBounds {
 template <class T>
 class RowSpans {
  public:
-  explicit RowSpans(const SplatOf<T>& splat)
-      : x_(splat.x), y_(splat.y) {
+  explicit RowSpans(const SplatOf<T>& splat) : x_(splat.x), y_(splat.y) {
     const T a = splat.conic_a, b = splat.conic_b, c = splat.conic_c;
     const T determinant = T(a * c - b * b);
     const T trace = T(a + c);
@@ -60,7 +59,7 @@ class RowSpans {
 
   // All that a row takes of what was computed before it; the last three of the edge above it.
   std::array<T, 11> carried() const {
-    return {x_,        y_,        slope_,   radicand_, bend_,      half_width_,
+    return {x_,        y_,        slope_,   radicand_,  bend_,      half_width_,
             right_at_, slack_px_, edge_.dy, edge_.left, edge_.right};
   }
 

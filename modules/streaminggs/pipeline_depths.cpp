@@ -43,8 +43,8 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   const OperationLatencies& blending = in_half ? half : single;
   // What begins a splat's spans is written to its slot, and read for its first row.
   resolve_depth("rendering.begin_depth_cycles", rendering.begin_depth_cycles,
-                begin_pipeline(part, single), paths.spans_begin, single,
-                kWriteCycles + kReadCycles, chosen);
+                begin_pipeline(part, single), paths.spans_begin, single, kWriteCycles + kReadCycles,
+                chosen);
   resolve_depth("rendering.span_depth_cycles", rendering.span_depth_cycles,
                 span_pipeline(part, single), paths.span, single, 0, chosen);
   // The conic's lanes stand ahead of the queues: what they take comes on top.

@@ -44,9 +44,9 @@ inline void schedule(Datapath& path, const std::vector<LaneStep>& steps,
   path.loop_cycles = folded.schedule.loop_cycles;
 }
 
-// Registers for the constants of the steps: of the group that is worked on and of the next, which is
-// set meanwhile; each copy takes the one or the other, since items of both may be under way. Those
-// of the code itself, wires, are counted among them.
+// Registers for the constants of the steps: of the group that is worked on and of the next, which
+// is set meanwhile; each copy takes the one or the other, since items of both may be under way.
+// Those of the code itself, wires, are counted among them.
 inline void set_by_group(Datapath& path, const std::vector<LaneStep>& steps) {
   const std::uint32_t bits = kSingleBits * constants_of(steps);
   path.set_bits = 2 * bits;

@@ -33,8 +33,8 @@ void TestPictures::write_photographs(const Photographs& test, const glm::vec3& b
   if (folder.empty()) return;
   for (const int view : views) {
     if (view < 0 || static_cast<std::size_t>(view) >= test.size()) {
-      throw InputError(fmt::format("--picture-views: got {}, expected 0 .. {}, the test views", view,
-                                   test.size() - 1));
+      throw InputError(fmt::format("--picture-views: got {}, expected 0 .. {}, the test views",
+                                   view, test.size() - 1));
     }
   }
   for (const int view : views) {

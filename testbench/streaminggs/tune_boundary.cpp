@@ -57,9 +57,9 @@ int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
   arguments.pictures.write_photographs(job.views.test, order.background);
   const auto look = [&] {
     const CloudInStorage now = in_storage(tuner.cloud(), storage);
-    const PaperQuality quality = paper_quality(activate(now.cloud), std::get<VoxelGrid>(now.table),
-                                               order, penalty, job.views.test,
-                                               arguments.pictures.behind(tuner.next_step()));
+    const PaperQuality quality =
+        paper_quality(activate(now.cloud), std::get<VoxelGrid>(now.table), order, penalty,
+                      job.views.test, arguments.pictures.behind(tuner.next_step()));
     return Look{quality.paper,
                 {quality.reference.psnr_db, quality.misordered_gaussians, quality.misordered_pixels,
                  quality.penalty}};

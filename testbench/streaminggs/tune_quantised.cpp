@@ -116,12 +116,11 @@ int tune_for_codebooks(const TuneArguments& arguments, const TuningJob& job) {
   const Judge judge(job, order);
   fmt::print("{:<26}PSNR {:.2f} dB, before codebooks\n", "as given",
              judge.of(activated, given.table).shown.psnr_db);
-  arguments.pictures.write_photographs(job.views.test,
-                                       order ? order->background : glm::vec3(0));
+  arguments.pictures.write_photographs(job.views.test, order ? order->background : glm::vec3(0));
   const auto look = [&] {
     const StoredScene stored = tuner.stored(storage);
-    const Judge::Verdict verdict = judge.of(stored.decoded, stored.table,
-                                            arguments.pictures.behind(tuner.next_step()));
+    const Judge::Verdict verdict =
+        judge.of(stored.decoded, stored.table, arguments.pictures.behind(tuner.next_step()));
     return Look{verdict.shown, {verdict.reference.psnr_db, tuner.reassigned()}};
   };
   const FittingTask task{"tune", work,

@@ -69,9 +69,8 @@ void rank(const Outcome& base, std::vector<Doubling>& doublings) {
 
 bool named_gains_most(const Outcome& base, const std::vector<Doubling>& doublings) {
   const Doubling* named = named_by(base.binding, doublings);
-  return named != nullptr && time_saved(base, doublings.front().outcome) -
-                                     time_saved(base, named->outcome) <
-                                 kSameGain;
+  return named != nullptr &&
+         time_saved(base, doublings.front().outcome) - time_saved(base, named->outcome) < kSameGain;
 }
 
 std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings) {

@@ -24,7 +24,7 @@ struct Doubling {
 
   std::string key;
   double from = 0, to = 0;  // twice, or half where the remedy turns down
-  std::string refused;  // why it cannot be; empty: it was simulated
+  std::string refused;      // why it cannot be; empty: it was simulated
   Outcome outcome;
 };
 

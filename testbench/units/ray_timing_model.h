@@ -182,8 +182,7 @@ class RayTimingModel {
   }
 
   void turns(std::uint64_t now) {
-    const std::uint64_t of_step =
-        interval(ray_step_work(longest_step_case()), config_.step_lanes);
+    const std::uint64_t of_step = interval(ray_step_work(longest_step_case()), config_.step_lanes);
     if (!steps_.empty() && now >= step_free_ && now % of_step == 0) {
       Place& place = places_[steps_.front()];
       const bool of_a_cell = event(place).index == 0;

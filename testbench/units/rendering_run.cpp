@@ -25,11 +25,11 @@ std::uint64_t row_cycles(const RenderingPlan& plan, std::uint64_t width) {
 struct Expected {
   std::vector<std::byte> frame;
   RenderingUnit::Counters counters;
-  std::uint64_t functional_blends = 0;      // into unfinished sub-tiles
+  std::uint64_t functional_blends = 0;              // into unfinished sub-tiles
   std::vector<std::vector<RenderingToken>> tokens;  // [group]
   std::vector<std::size_t> subtiles;                // [group]
-  std::vector<std::uint64_t> drain_cycles;  // [group]
-  std::vector<bool> saturated;              // [group]
+  std::vector<std::uint64_t> drain_cycles;          // [group]
+  std::vector<bool> saturated;                      // [group]
 };
 
 // Blends a splat and says what of the group it reaches.

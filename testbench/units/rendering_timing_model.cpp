@@ -15,7 +15,7 @@ struct Job {
 // A splat in one of the slots, from when it is taken until it is dispatched.
 struct SlotModel {
   const RenderingToken* token;
-  std::uint64_t taken;  // cycle
+  std::uint64_t taken;         // cycle
   std::uint64_t row_from = 0;  // its first row begins; 0: it has no spans
 };
 

@@ -25,8 +25,8 @@ void directed(Case& test, const SceneShape& shape, const HfuConfig& config, std:
 }
 
 // n Gaussians behind the camera: none passes, so the mark is there after the time of the coarse
-// filter alone, written out here: FIFO 1, start of the read 1, memory, turns of the CFUs in the first
-// 4 of each 14 cycles, depth of the CFU, two FIFOs.
+// filter alone, written out here: FIFO 1, start of the read 1, memory, turns of the CFUs in the
+// first 4 of each 14 cycles, depth of the CFU, two FIFOs.
 void exact_coarse_time(Case& test, std::uint32_t n) {
   SceneShape shape;
   HfuPlan plan = plan_of(random_scene(test.random, shape));

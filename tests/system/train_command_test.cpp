@@ -29,6 +29,24 @@ TEST_CASE("train: a scene, a log with a line for each look at the test views") {
   }
 }
 
+TEST_CASE("train and tune: pictures of test views as it goes") {
+  const ScratchFolder scratch;
+  make_dataset(scratch);
+  const ShellOutcome made =
+      shell(scratch,
+            kTrain + std::string("--out s.ply --pictures p --picture-views 1 >t && ls p && for "
+                                 "way in '--boundary' '--quantise' '--streaming --config exact'; "
+                                 "do e=ply; [ \"$way\" = --quantise ] && e=sgs; $SG tune s.ply "
+                                 "$way --data d --steps 4 --test-every 2 --out t.$e "
+                                 "--set storage.vq.dc_entries=32 --pictures q >t; done; ls q"));
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK(made.out ==
+        "view_1_photograph.png\nview_1_step_000020.png\nview_1_step_000040.png\n"
+        "view_0_photograph.png\nview_0_step_000000.png\nview_0_step_000002.png\n"
+        "view_0_step_000004.png\n");
+}
+
 TEST_CASE("train: what is resumed ends as what was never stopped, bit for bit") {
   const ScratchFolder scratch;
   make_dataset(scratch);
@@ -100,6 +118,9 @@ TEST_CASE("train: refusals") {
            {"$SG train d --out ''", {"--out", "got nothing"}},
            {"$SG train d --out s.ply --steps 0", {"--steps", "0"}},
            {"$SG train d --out s.ply --growth none", {"--growth", "none"}},
+           {"$SG train d --out s.ply --picture-views 1", {"--picture-views", "--pictures"}},
+           {"$SG train d --out s.ply --pictures p --picture-views 9",
+            {"--picture-views", "got 9", "expected 0 .."}},
            {"$SG train d --out s.ply --resume nofile", {"nofile: cannot be opened"}},
            {"$SG train d --out s.ply --resume d/transforms_train.json",
             {"d/transforms_train.json", "expected a checkpoint"}},

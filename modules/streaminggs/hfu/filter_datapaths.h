@@ -21,7 +21,8 @@ Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::u
 Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies);
 // In a machine that takes any of `records`, each by its own schedule: registers and comparators of
-// the one that wants most; of multiplexers the same, as if the schedules chose alike where they can.
+// the one that wants most; of multiplexers the same, as if the schedules chose alike where they
+// can.
 Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies, const std::vector<FineRecord>& records);
 

@@ -1,20 +1,21 @@
 // When the clusters of the rendering unit blend which sub-tile.
 //
 // A splat's spans are begun on `begin_lanes`, `begin_depth_cycles` late; then its rows of sub-tiles
-// get theirs on `span_lanes`, `span_depth_cycles` late; both in their turns. As many splats as there
-// are `span_slots` are under way or wait there for a dispatcher. It takes them in
-// order, one row a cycle at most, with or without sub-tiles in it. It ands the row's span with that
-// row of the mask of finished sub-tiles, and each cluster's queue takes at most one sub-tile a
-// cycle of what is left: the first of its own. The row stands, and is anded again, until nothing is
-// left of it. A splat whose whole footprint is finished when it comes, which the mask says at once,
-// takes one cycle of the lanes, no spans and no slot.
+// get theirs on `span_lanes`, `span_depth_cycles` late; both in their turns. As many splats as
+// there are `span_slots` are under way or wait there for a dispatcher. It takes them in order, one
+// row a cycle at most, with or without sub-tiles in it. It ands the row's span with that row of the
+// mask of finished sub-tiles, and each cluster's queue takes at most one sub-tile a cycle of what
+// is left: the first of its own. The row stands, and is anded again, until nothing is left of it. A
+// splat whose whole footprint is finished when it comes, which the mask says at once, takes one
+// cycle of the lanes, no spans and no slot.
 //
 // Sub-tile (x, y) belongs to cluster (x + 2 y) mod clusters, whose bank holds its pixels:
 // neighbours lie in different banks. A cluster takes one sub-tile in each of its turns, every
-// `cluster_interval_cycles()`, out of its queue, in order, and not before the splat ahead of it on the same sub-tile has left
-// the loop through the pixel state: a scoreboard says which sub-tiles are in it. That a sub-tile is
-// finished is known when the blend that finished it has left the pipeline; until then splats go on
-// being blended into it, which changes nothing and costs the same.
+// `cluster_interval_cycles()`, out of its queue, in order, and not before the splat ahead of it on
+// the same sub-tile has left the loop through the pixel state: a scoreboard says which sub-tiles
+// are in it. That a sub-tile is finished is known when the blend that finished it has left the
+// pipeline; until then splats go on being blended into it, which changes nothing and costs the
+// same.
 #pragma once
 
 #include <algorithm>
@@ -98,7 +99,8 @@ class ClusterSchedule {
     }
     cluster.next_push = room + 1;
     const std::uint64_t free = next_turn(std::max(room + 1, cluster.free_from), cluster_interval_);
-    const std::uint64_t taken = next_turn(std::max(free, free_from_[subtile.at]), cluster_interval_);
+    const std::uint64_t taken =
+        next_turn(std::max(free, free_from_[subtile.at]), cluster_interval_);
     counters_.hazard_cycles += taken - free;
     slot = taken;
     ++cluster.jobs;
@@ -141,8 +143,7 @@ class ClusterSchedule {
   const Counters& counters() const { return counters_; }
   // That the mean cluster blended, or waited for the splat ahead.
   std::uint64_t cluster_cycles() const {
-    return (counters_.blends * cluster_interval_ + counters_.hazard_cycles) /
-           config_.clusters;
+    return (counters_.blends * cluster_interval_ + counters_.hazard_cycles) / config_.clusters;
   }
 
  private:
@@ -160,10 +161,9 @@ class ClusterSchedule {
     for (; rows_ < rows; ++rows_) {
       if (rows_ > 0) end_row();
       const std::uint64_t free = rows_ > 0 ? row_end_ + 1 : dispatched_;
-      const std::uint64_t known =
-          spanned_ ? spans_from_ + rows_ / spans_at_once_ * span_interval_ +
-                         config_.span_depth_cycles
-                   : begin_;
+      const std::uint64_t known = spanned_ ? spans_from_ + rows_ / spans_at_once_ * span_interval_ +
+                                                 config_.span_depth_cycles
+                                           : begin_;
       row_begin_ = std::max(free, known);
       row_end_ = row_begin_;
     }
@@ -185,8 +185,8 @@ class ClusterSchedule {
   std::uint64_t begin_ = 0, dispatched_ = 0, done_ = 0;
   std::uint64_t begins_free_ = 0, spans_free_ = 0;  // the lanes
   std::uint64_t spans_from_ = 0;                    // the splat's first row begins
-  std::uint64_t row_begin_ = 0, row_end_ = 0;  // first and last cycle of the row that is held
-  std::uint32_t rows_ = 0;                     // of the splat, taken so far
+  std::uint64_t row_begin_ = 0, row_end_ = 0;       // first and last cycle of the row that is held
+  std::uint32_t rows_ = 0;                          // of the splat, taken so far
   bool spanned_ = false;
   Counters counters_;
 };

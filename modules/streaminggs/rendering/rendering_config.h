@@ -29,9 +29,9 @@ struct RenderingConfig {
   bool ellipse_test = true;                  // skips sub-tiles that the ellipse cannot reach
   // Multiply-accumulates that begin a splat's spans, and that give its rows theirs.
   std::uint32_t begin_lanes = 24, span_lanes = 40;
-  std::uint32_t span_slots = 16;             // splats that have begun and are not dispatched yet
-  bool saturation_feedback = true;           // a finished group's visits are dropped upstream
-  // A register where it leaves, a wire over at most the side of the die (2.3 mm, below a cycle at
+  std::uint32_t span_slots = 16;    // splats that have begun and are not dispatched yet
+  bool saturation_feedback = true;  // a finished group's visits are dropped upstream
+  // A register where it leaves, a wire over at most the side of the die (2.5 mm, below a cycle at
   // 32 nm), a register where it arrives.
   std::uint32_t feedback_latency_cycles = 2;
   std::uint32_t input_fifo_entries = 8;  // sorted splats waiting, for each sorting unit

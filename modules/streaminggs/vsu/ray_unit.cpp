@@ -37,7 +37,6 @@ std::uint64_t turn(std::uint64_t& free, std::uint64_t cycle, std::uint64_t cycle
   return start;
 }
 
-
 }  // namespace
 
 RayUnit::RayUnit(const PaperVsuConfig& c, const OperationLatencies& latencies,
@@ -61,8 +60,8 @@ void RayUnit::begin_pass() {
   pass_from_ = begins_free_ = steps_free_ = look_ups_free_ = table_free_ = now();
 }
 
-// Of lanes, the same in their turns. No ray is under way when a pass begins, so that they count from
-// there.
+// Of lanes, the same in their turns. No ray is under way when a pass begins, so that they count
+// from there.
 std::uint64_t RayUnit::turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle) {
   const std::uint64_t interval = lanes.interval_cycles();
   const std::uint64_t of_pass = next_turn(std::max(free, cycle) - pass_from_, interval);
@@ -76,8 +75,7 @@ std::uint64_t RayUnit::begin_ray(std::uint64_t cycle) {
 
 std::uint64_t RayUnit::step(std::uint64_t cycle, std::uint32_t log2_block) {
   ++steps_taken_;
-  return turn_of(steps_, steps_free_, cycle) + config.step_cycles(log2_block) +
-         kMaskCycles;
+  return turn_of(steps_, steps_free_, cycle) + config.step_cycles(log2_block) + kMaskCycles;
 }
 
 std::uint64_t RayUnit::look_up(std::uint64_t cycle) { return turn(look_ups_free_, cycle, 1); }

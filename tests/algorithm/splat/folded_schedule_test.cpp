@@ -38,8 +38,7 @@ std::vector<Work> all_work() {
   }
   const RenderingWork work = rendering_work(BlendPrecision::kSingle);
   const RenderingPaths paths = rendering_paths(BlendPrecision::kSingle, kLatencies, kLatencies);
-  all.push_back(
-      {"beginning", spans_begin_steps(kLatencies), work.spans_begin, paths.spans_begin});
+  all.push_back({"beginning", spans_begin_steps(kLatencies), work.spans_begin, paths.spans_begin});
   all.push_back({"span", span_steps(kLatencies), work.span, paths.span});
   all.push_back({"conic", conic_steps(kLatencies), work.conic, paths.conic});
   all.push_back(

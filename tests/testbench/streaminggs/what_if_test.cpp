@@ -67,23 +67,23 @@ TEST_CASE("what-if: ranked by time saved, the smaller of equals first, the refus
 }
 
 TEST_CASE("what-if: the verdict on what binding names") {
-  const std::vector<Doubling> doublings = {doubling("lanes", outcome(500, 6)),
-                                           doubling("entries", outcome(500, 7)),
-                                           doubling("slots", outcome(502, 6)),
-                                           doubling("channels", outcome(900, 5)), refused("banks")};
+  const std::vector<Doubling> doublings = {
+      doubling("lanes", outcome(500, 6)), doubling("entries", outcome(500, 7)),
+      doubling("slots", outcome(502, 6)), doubling("channels", outcome(900, 5)), refused("banks")};
   struct Row {
     const char* named;
     const char* says;
   };
-  for (const Row& row : {Row{"lanes", "binding names lanes, and it gains most: 50.0 %"},
-                         Row{"entries", "binding names entries, and it gains most: 50.0 %"},
-                         Row{"slots", "binding names slots, which gains 49.8 % of the time; lanes gains"},
-                         Row{"channels",
-                             "binding names channels, which gains 10.0 % of the time; "
-                             "lanes gains most: 50.0 %. With channels=2, unit "
-                             "holds the frame: unit works 70 %"},
-                         Row{"banks", "which no key doubles; lanes gains most"},
-                         Row{"", "binding names unit, which no key doubles"}}) {
+  for (const Row& row :
+       {Row{"lanes", "binding names lanes, and it gains most: 50.0 %"},
+        Row{"entries", "binding names entries, and it gains most: 50.0 %"},
+        Row{"slots", "binding names slots, which gains 49.8 % of the time; lanes gains"},
+        Row{"channels",
+            "binding names channels, which gains 10.0 % of the time; "
+            "lanes gains most: 50.0 %. With channels=2, unit "
+            "holds the frame: unit works 70 %"},
+        Row{"banks", "which no key doubles; lanes gains most"},
+        Row{"", "binding names unit, which no key doubles"}}) {
     INFO(row.named);
     const Outcome base = outcome(1000, 5, row.named);
     const std::string says = verdict(base, doublings);
