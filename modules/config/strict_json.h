@@ -73,7 +73,7 @@ class ConfigWriter : public ConfigVisitor {
 std::unique_ptr<ConfigWriter> make_json_writer();
 std::unique_ptr<ConfigWriter> make_listing_writer();
 
-// The resolved configuration as indented JSON: what --print-config prints, readable again.
+// A configuration as indented JSON: what --print-config prints, readable again.
 template <class Struct>
 std::string config_to_json(Struct config) {
   const std::unique_ptr<ConfigWriter> writer = make_json_writer();
