@@ -44,8 +44,8 @@ void resolve(RunConfig& config);
 // Fits the machine to the scene's records. Throws InputError.
 void adapt(RunConfig& config, const SecondHalfFormat& format);
 
-// The same for a packed scene, which brings its storage. path: what errors name. preset: the file
-// of a shipped configuration, whose storage gives way; empty for none. Throws InputError when the
+// The same for a packed scene, which brings its storage. path: what errors name. preset: the origin
+// that is a shipped configuration, whose storage gives way; empty for none. Throws InputError when the
 // machine cannot read the scene, and when whatever else was said of storage is not as the file has
 // it.
 void resolve(RunConfig& config, const PackedScene& packed, const std::string& path,

@@ -147,7 +147,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   std::optional<PackedScene> packed = arguments.load_packed();
   config.design->fit_frames([&] { return arguments.frame_sizes(); });
   if (packed) {
-    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
+    resolve(config, *packed, arguments.scene, arguments.config.preset_in_words());
   } else {
     resolve(config);
   }

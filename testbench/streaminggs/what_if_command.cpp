@@ -173,7 +173,7 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   Json document = Json::parse(to_json(config));
   config.design->fit_frames([&] { return arguments.frame_sizes(); });
   if (packed) {
-    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
+    resolve(config, *packed, arguments.scene, arguments.config.preset_in_words());
   } else {
     resolve(config);
   }

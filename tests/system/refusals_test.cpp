@@ -36,10 +36,20 @@ void check_set_refused(const std::string& order, const Arguments& settings,
 
 TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
   check_set_refused("paper", {"group_width_px=128", "group_height_px=128"},
-                    {"sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
+                    {"streaminggs: preset paper with --set group_height_px=128 --set "
+                     "group_width_px=128: sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
                      "1 groups x 128 px x 128 px x 8 B"});
   check_set_refused("paper", {"hfu.slice_gaussians=1024"},
                     {"sram.input_bytes: 16384 bytes are there", "2 slots x 1024 Gaussians"});
+  check_set_refused("exact", {"hfus=8"},
+                    {"streaminggs: preset exact with --set hfus=8: sram.input_bytes: 3840 bytes "
+                     "are there, 7680 are needed: ",
+                     "; expected at least 7680, or 0: as large as must be\n"});
+  check_set_refused("exact", {"sram.input_bytes=100", "hfus=8"},
+                    {"streaminggs: --set sram.input_bytes=100: sram.input_bytes: 100 bytes"});
+  check_set_refused("paper", {"storage.vq.iterations=0", "sram.codebook_bytes=9"},
+                    {"streaminggs: --set sram.codebook_bytes=9: sram.codebook_bytes: 9 bytes",
+                     "; expected at least "});
   check_set_refused("exact",
                     {"group_width_px=128", "group_height_px=128", "sram.shared_bytes=10000"},
                     {"sram.shared_bytes: 10000", "pixel state"});
