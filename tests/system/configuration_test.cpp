@@ -74,6 +74,24 @@ TEST_CASE("configuration: what is printed and read again is the same machine, an
   }
 }
 
+TEST_CASE("configuration: a machine's name alone is the preset of its name, or as little away") {
+  const ScratchFolder scratch;
+  for (const auto& [machine, differs] : std::vector<std::pair<std::string, const char*>>{
+           {"exact", ""},
+           {"paper", R"(, "rendering": {"cluster_lanes": 174}, "storage": {"encoding": "vq"})"}}) {
+    const auto print = [&](const std::string& config) {
+      return run_streaminggs({"simulate", "builtin:object?n=500", "--config", config,
+                              "--print-config"})
+          .out;
+    };
+    const std::string text = R"({"machine": ")" + machine + R"(")" + differs + "}";
+    INFO(text);
+    const std::string of_preset = print(machine);
+    CHECK_FALSE(of_preset.empty());
+    CHECK(print(scratch.write("config.json", text)) == of_preset);
+  }
+}
+
 // A scene of three views, of which the second is a frame of 2.4 MB, and a memory of `rows` rows of
 // 128 KiB in all channels.
 struct TightMemory {
