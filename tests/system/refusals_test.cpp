@@ -55,6 +55,30 @@ TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
                     {"sram.shared_bytes: 10000", "pixel state"});
 }
 
+TEST_CASE("refusals: a pipeline shorter than the longest path through it") {
+  struct Row {
+    const char *order, *key;
+    int least;
+  };
+  for (const auto& [order, key, least] :
+       {Row{"exact", "rendering.begin_depth_cycles", 88}, {"exact", "rendering.depth_cycles", 47},
+        {"exact", "rendering.state_loop_cycles", 9}, {"exact", "rendering.span_depth_cycles", 41},
+        {"exact", "rendering.drain_depth_cycles", 11}, {"exact", "hfu.cfu_depth_cycles", 84},
+        {"exact", "hfu.ffu_depth_cycles", 173}, {"exact", "vsu.test_depth_cycles", 194},
+        {"paper_no_vq", "vsu.step_depth_cycles", 46},
+        {"paper_no_vq", "vsu.cell_step_depth_cycles", 13},
+        {"paper_no_vq", "vsu.ray_depth_cycles", 82}}) {
+    const auto set = [key = key](int depth) { return key + ("=" + std::to_string(depth)); };
+    check_set_refused(order, {set(least - 1)},
+                      {"streaminggs: --set " + set(least - 1) + ": ",
+                       "expected " + std::to_string(least) + " or more, the longest path of ",
+                       ", or 0: by its schedule\n"});
+    CHECK(run_streaminggs({"simulate", "builtin:object?n=100", "--config", order, "--set",
+                           set(least), "--print-config"})
+              .status == 0);
+  }
+}
+
 TEST_CASE("refusals: none of a unit") {
   for (const char* order : {"paper", "exact"}) {
     check_set_refused(order, {"hfus=0"}, {"hfus", "0"});
