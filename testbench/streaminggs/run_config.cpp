@@ -113,7 +113,9 @@ void resolve_machine(RunConfig& config) {
 void check_codebook_keys(const RunConfig& config) {
   if (SecondHalfFormat{config.storage.encoding, 0, {}}.quantised()) return;
   for (const ConfigOrigin& value : config.origins) {
-    if (value.path.rfind("storage.vq.", 0) != 0 || !is_override(value)) continue;
+    const bool of_codebooks =
+        value.path.rfind("storage.vq.", 0) == 0 || value.path.rfind("codebook.", 0) == 0;
+    if (!of_codebooks || !is_override(value)) continue;
     throw InputError(fmt::format(
         "{}: got it with storage.encoding {}, which has no codebooks, expected vq or "
         "vq_packed",

@@ -38,7 +38,7 @@ std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order
 RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds);
 
 // Makes it the resolved, valid configuration. Throws InputError, also for what --set says of
-// codebooks that the encoding has not.
+// codebooks, or of their buffer, that the encoding has not.
 void resolve(RunConfig& config);
 
 // Fits the machine to the scene's records. Throws InputError.

@@ -117,6 +117,8 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
                     {"hfus: got 3 with fetch shared", "square number"});
   check_set_refused("paper", {"fetch=shared", "rendering.clusters=2"},
                     {"rendering.clusters: got 2", "multiple of hfus 4"});
+  check_set_refused("paper", {"vsu.ray_step_px=65"},
+                    {"--set vsu.ray_step_px=65: vsu.ray_step_px: got 65, expected at most 64"});
   check_set_refused("paper", {"fetch=shared", "sorting_units=3"},
                     {"sorting_units: got 3", "divisor or a multiple of hfus 4"});
   check_set_refused("paper", {"dram.memspec=ddr9"},
