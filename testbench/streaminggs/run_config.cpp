@@ -176,6 +176,7 @@ void resolve(RunConfig& config, const PackedScene& packed, const std::string& pa
   }
   config.storage_source = compared(config, packed, path, preset);
   config.storage = packed.storage;
+  check_codebook_keys(config);
   resolve_machine(config);
 }
 
