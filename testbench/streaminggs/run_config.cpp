@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "algorithm/input_error.h"
@@ -83,23 +84,6 @@ std::string place_of(const ConfigOrigin& value, const RunConfig& config) {
   return value.origin + (overrides.empty() ? "" : " with") + overrides;
 }
 
-// Does it; what refuses a key by its path then also says where that key's value is from.
-template <class Do>
-void naming_origins(const RunConfig& config, const Do& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    const std::string key = message.substr(0, message.find(": "));
-    for (const ConfigOrigin& value : config.origins) {
-      if (value.path == key) {
-        throw InputError(fmt::format("{}: {}", place_of(value, config), message));
-      }
-    }
-    throw;
-  }
-}
-
 void resolve_machine(RunConfig& config) {
   naming_origins(config, [&] {
     config.dram.validate();
@@ -124,6 +108,22 @@ void check_codebook_keys(const RunConfig& config) {
 }
 
 }  // namespace
+
+void naming_origins(const RunConfig& config, const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const std::string key = message.substr(0, message.find(": "));
+    for (const char* section : {"", "storage."}) {
+      for (const ConfigOrigin& value : config.origins) {
+        if (value.path != section + key) continue;
+        throw InputError(fmt::format("{}: {}{}", place_of(value, config), section, message));
+      }
+    }
+    throw;
+  }
+}
 
 void RunConfig::add_choices(const std::vector<StorageChoice>& choices) {
   for (const StorageChoice& choice : choices) {

@@ -2,6 +2,7 @@
 // document holds them: `machine` names the kind, whose keys stand beside it; `storage`; `dram`.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,10 @@ std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order
 
 // As the document says; what is left to the model is not resolved yet. Throws InputError.
 RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds);
+
+// Does it. What refuses a key, by its path or by that below `storage`, then also says where its value
+// is from.
+void naming_origins(const RunConfig& config, const std::function<void()>& act);
 
 // Makes it the resolved, valid configuration. Throws InputError, also for what --set says of
 // codebooks, or of their buffer, that the encoding has not.

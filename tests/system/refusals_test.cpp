@@ -127,7 +127,10 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
 }
 
 TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
-  check_set_refused("paper", {"storage.voxel_size=0.0000001"}, {"voxel_size", "2^20", "at least"});
+  check_set_refused("paper", {"storage.voxel_size=0.0000001"},
+                    {"streaminggs: --set storage.voxel_size=0.0000001: storage.voxel_size: 1e-07 "
+                     "divides",
+                     "2^20", "at least"});
 }
 
 TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
@@ -137,7 +140,13 @@ TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
   check_refused({"simulate", "builtin:object?n=0"}, {"n="});
   check_refused({"simulate", "builtin:object?n=100", "--cameras", "/no/such/cameras.json"},
                 {"/no/such/cameras.json"});
-  check_refused({"simulate", "builtin:object?n=100", "--view", "99"}, {"--view", "99"});
+  check_refused({"simulate", "builtin:object?n=100", "--view", "99"},
+                {"--view: got '99', expected all"});
+  check_refused({"simulate", "builtin:object?n=100", "--view", "0,99"},
+                {"--view 0,99: got '99', expected all"});
+  check_refused({"simulate", SGS_TECHNOLOGY},
+                {"got the extension \".json\", expected a .ply file, builtin:NAME?n=COUNT, or a "
+                 ".sgs file made by pack"});
   check_refused({"simulate", "builtin:object?n=100", "--size", "64"}, {"--size", "WIDTHxHEIGHT"});
   check_refused({"simulate", "builtin:object?n=100", "--size", "0x64"}, {"--size"});
 }
