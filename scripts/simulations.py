@@ -98,14 +98,6 @@ def program_version(binary: pathlib.Path) -> str:
     return said(call(binary, [], "--version")).rpartition("(")[2].rstrip(")")
 
 
-def resolved_config(binary: pathlib.Path, run: Run) -> dict:
-    """Every key of the run's configuration. Raises ValueError when it is refused."""
-    done = call(binary, [run.scene.spec, *run.configuration_arguments(), "--print-config"])
-    if done.returncode != 0:
-        raise ValueError(said(done))
-    return json.loads(done.stdout)
-
-
 def simulate(binary: pathlib.Path, run: Run) -> Outcome:
     """Simulates a run. Raises Failure when it fails, or when the frame that the accelerator wrote
     is not the streaming renderer's, bit for bit."""
@@ -122,6 +114,12 @@ def simulate_into(out: pathlib.Path, binary: pathlib.Path, run: Run) -> Outcome:
         raise Failure(f"{run.label()}: {said(done)}")
     report = json.loads((out / "report.json").read_text())
     return Outcome(run, views=tuple(report["views"]))
+
+
+def resolved_config(binary: pathlib.Path, run: Run) -> dict:
+    """Every key of the run's configuration, with what was chosen where it leaves one open: as the
+    report of its first view has it. Raises ValueError when it is refused, Failure when it fails."""
+    return simulate(binary, run).accepted()[0]["config"]
 
 
 def simulate_all(binary: pathlib.Path, runs: Sequence[Run], side_by_side: int) -> Iterator[Outcome]:

@@ -10,10 +10,8 @@ import pathlib
 import run_arguments
 import subjects
 from fittings import Fitting
-from objectives import value_at
-from scenes import Scene
-from simulations import Run, resolved_config
 from subjects import Subject
+from target_pictures import make
 
 PAPER, PAPER_VQ = "paper_no_vq", "paper"
 EXACT, EXACT_VQ = "exact", "exact_vq"
@@ -72,8 +70,9 @@ def set_words(settings: tuple[str, ...]) -> tuple[str, ...]:
 def voxel_of_preset(binary: pathlib.Path, subject: Subject) -> float:
     """World units that the preset of paper order takes for the scene as given. Tuned, a scene would
     get others by the preset's rule."""
-    run = Run(Scene(subject.name, subject.scene, subject.cameras), size=subject.size, config=PAPER)
-    return float(value_at(resolved_config(binary, run), "storage.voxel_size"))
+    lines = make(binary, "info", [subject.scene]).splitlines()
+    (voxel,) = (line.split()[2] for line in lines if line.startswith("voxel size "))
+    return float(voxel)
 
 
 def study_parser(doc: str | None, forms: str) -> argparse.ArgumentParser:

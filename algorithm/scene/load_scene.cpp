@@ -12,14 +12,18 @@
 
 namespace sgs {
 
-Scene load_scene(const std::string& path, const PlyReadOptions& options) {
-  const std::filesystem::path file(path);
-  std::string extension = file.extension().string();
+bool is_scene_file(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".ply") {
-    throw InputError(
-        fmt::format("{}: got the extension \"{}\", expected a .ply file", path, extension));
+  return extension == ".ply";
+}
+
+Scene load_scene(const std::string& path, const PlyReadOptions& options) {
+  const std::filesystem::path file(path);
+  if (!is_scene_file(path)) {
+    throw InputError(fmt::format("{}: got the extension \"{}\", expected a .ply file", path,
+                                 file.extension().string()));
   }
   PlyReadResult read = read_ply(path, options);
   return {file.stem().string(), std::move(read.cloud), {}, read.dropped_invalid};

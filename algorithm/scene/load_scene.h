@@ -18,6 +18,9 @@ struct Scene {
   std::uint64_t dropped_invalid = 0;  // Gaussians left out, see PlyReadOptions
 };
 
+// Whether its name ends as that of one that load_scene() takes.
+bool is_scene_file(const std::string& path);
+
 // Loads a .ply file. Throws InputError as read_ply does, and for any other extension.
 Scene load_scene(const std::string& path, const PlyReadOptions& options = {});
 

@@ -201,8 +201,8 @@ ConfigDocument::~ConfigDocument() = default;
 ConfigDocument::ConfigDocument(ConfigDocument&&) noexcept = default;
 ConfigDocument& ConfigDocument::operator=(ConfigDocument&&) noexcept = default;
 
-void ConfigDocument::add_file(const std::string& path) {
-  content_->merge(content_->root, object_of(read_json(path), path), "", path);
+void ConfigDocument::add_file(const std::string& path, const std::string& origin) {
+  content_->merge(content_->root, object_of(read_json(path), path), "", origin);
 }
 
 void ConfigDocument::add_text(const std::string& text, const std::string& origin) {

@@ -26,7 +26,8 @@ class ConfigDocument {
 
   // Adds a file's, or a text's, object: objects are merged key by key, all else replaces. `origin`
   // stands for the file in messages. InputError as in input_json.h, and for what is no object.
-  void add_file(const std::string& path);
+  void add_file(const std::string& path) { add_file(path, path); }
+  void add_file(const std::string& path, const std::string& origin);
   void add_text(const std::string& text, const std::string& origin);
 
   // Sets one value: "key.path=value", the value being JSON or, failing that, a plain string.
@@ -73,7 +74,7 @@ class ConfigWriter : public ConfigVisitor {
 std::unique_ptr<ConfigWriter> make_json_writer();
 std::unique_ptr<ConfigWriter> make_listing_writer();
 
-// The resolved configuration as indented JSON: what --print-config prints, readable again.
+// A configuration as indented JSON: what --print-config prints, readable again.
 template <class Struct>
 std::string config_to_json(Struct config) {
   const std::unique_ptr<ConfigWriter> writer = make_json_writer();

@@ -42,7 +42,7 @@ struct DramConfig {
   double front_end_ns = 10;
   double back_end_ns = 10;
 
-  RefreshMode refresh = RefreshMode::kAllBank;
+  RefreshMode refresh = RefreshMode::kPerBank;  // LPDDR has it; the other banks go on
   std::uint32_t refresh_postpone_max = 0;      // refresh commands that may be owed
   std::uint32_t power_down_idle_cycles = 0;    // of a rank, until power-down; 0: never
   std::uint32_t self_refresh_idle_cycles = 0;  // of a rank, until self-refresh; 0: never

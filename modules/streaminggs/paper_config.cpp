@@ -35,6 +35,13 @@ void check(const PaperConfig& c) {
   }
 }
 
+void check_rays(const PaperConfig& c) {
+  const std::uint32_t longer = std::max(c.group_width_px, c.group_height_px);
+  if (c.vsu.ray_step_px <= longer) return;
+  throw InputError(fmt::format("vsu.ray_step_px: got {}, expected at most {}, a group's longer side",
+                               c.vsu.ray_step_px, longer));
+}
+
 PaperFifos::PaperFifos(const PaperConfig& c)
     : candidates{"candidates",
                  "candidates",

@@ -40,8 +40,10 @@ struct PaperConfig : StreamingConfig {
 
 void visit(ConfigVisitor& v, PaperConfig& config);
 
-// Throws InputError for what cannot be built.
+// Throw InputError: what cannot be built; rays farther apart than a group is long, once it has a
+// size.
 void check(const PaperConfig& config);
+void check_rays(const PaperConfig& config);
 
 // FIFOs between its units, beside those of visits.
 struct PaperFifos {

@@ -51,6 +51,7 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   resolve_rendering_depths(config_, chosen);
   resolve_sram(
       config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);
+  check_rays(config_);
 }
 
 void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) {

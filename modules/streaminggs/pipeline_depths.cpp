@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "algorithm/input_error.h"
 #include "algorithm/splat/filter_work.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 #include "modules/streaminggs/hfu/fine_filter.h"
@@ -15,7 +16,13 @@ namespace {
 void take(const char* key, std::uint32_t& depth_cycles, std::uint32_t scheduled,
           const std::string& of, const LongestPath& path, const OperationLatencies& latencies,
           std::uint32_t beside, std::vector<AutoChoice>& chosen) {
-  if (depth_cycles > 0) return;
+  const std::uint32_t least = path.cycles(latencies) + beside;
+  if (depth_cycles >= least) return;
+  if (depth_cycles > 0) {
+    throw InputError(fmt::format(
+        "{}: got {}, expected {} or more, the longest path of {}, or 0: by its schedule", key,
+        depth_cycles, least, of));
+  }
   depth_cycles = scheduled + beside;
   std::string why = fmt::format(
       "schedule of {}; its longest path is {}: {} on lanes, {} on comparators, {} look-ups", of,

@@ -18,15 +18,15 @@ constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
 
 // A depth that is 0 becomes that of the pipeline and `beside` more, and is said in `chosen`, with
 // the longest path that bounds it; one that is given stays. beside: cycles of what is not in the
-// schedule, as reading and writing.
+// schedule, as reading and writing. Throws InputError for one that is less than path and `beside`.
 void resolve_depth(const char* key, std::uint32_t& depth_cycles, const Datapath& pipeline,
                    const LongestPath& path, const OperationLatencies& latencies,
                    std::uint32_t beside, std::vector<AutoChoice>& chosen);
 
-// Of rendering: what its memories are large enough for depends on them.
+// Of rendering: what its memories are large enough for depends on them. Throws likewise.
 void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& chosen);
 // Of the filters, on records of this split and SH degree; each reads its record first, a word a
-// cycle.
+// cycle. Throws likewise.
 void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, int sh_degree,
                            std::vector<AutoChoice>& chosen);
 

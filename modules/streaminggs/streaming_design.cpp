@@ -25,7 +25,7 @@ void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& 
   }
   resolve_filter_depths(config, split, format.sh_degree, chosen);
   check_sram("sram.codebook_bytes", config.sram.codebook_bytes,
-             CodebookBuffer::sram_uses(config.codebook, format), kCodebookSram);
+             CodebookBuffer::sram_uses(config.codebook, format), kCodebookSram, "");
 }
 
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {

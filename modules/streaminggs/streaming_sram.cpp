@@ -48,7 +48,7 @@ void size(const char* key, std::uint32_t& bytes, const SramUses& uses, const std
     bytes = static_cast<std::uint32_t>(sram_bytes(uses, memory));
     chosen.push_back({key, static_cast<double>(bytes), sram_sum(uses, memory)});
   }
-  check_sram(key, bytes, uses, memory);
+  check_sram(key, bytes, uses, memory, ", or 0: as large as must be");
 }
 
 }  // namespace
@@ -71,11 +71,11 @@ SramUses streaming_sram_uses(const StreamingConfig& c, const BuiltFor& built_for
 }
 
 void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
-                const std::string& memory) {
+                const std::string& memory, const char* otherwise) {
   const std::uint64_t needed = sram_bytes(uses, memory);
   if (needed <= available) return;
-  throw InputError(fmt::format("{}: {} bytes are there, {} are needed: {}", key, available, needed,
-                               sram_sum(uses, memory)));
+  throw InputError(fmt::format("{}: {} bytes are there, {} are needed: {}; expected at least {}{}",
+                               key, available, needed, sram_sum(uses, memory), needed, otherwise));
 }
 
 void resolve_sram(StreamingConfig& config, const StorageConfig& storage,

@@ -39,8 +39,8 @@ inline void fit_memories(StreamingConfig& config) {
 }
 
 // Throws InputError, with the sum, when more is used of `memory` than there is; key: what says how
-// much there is.
+// much there is; otherwise: what else than enough it may be, ", or ...", empty: nothing.
 void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
-                const std::string& memory);
+                const std::string& memory, const char* otherwise);
 
 }  // namespace sgs

@@ -29,7 +29,11 @@ std::string ConfigSource::name() const { return std::filesystem::path(path()).st
 
 ConfigDocument ConfigSource::document() const {
   ConfigDocument document;
-  if (!config.empty()) document.add_file(path());
+  if (is_preset()) {
+    document.add_file(path(), preset_in_words());
+  } else if (!config.empty()) {
+    document.add_file(path());
+  }
   const std::string machine = document.text_at("machine");
   for (const std::string& assignment : overrides) document.add_override(assignment);
   const std::string other = document.text_at("machine");

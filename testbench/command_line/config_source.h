@@ -20,8 +20,8 @@ struct ConfigSource {
   std::string path() const;
 
   bool is_preset() const;
-  // path() of a preset, else empty.
-  std::string preset_path() const { return is_preset() ? path() : ""; }
+  // What messages call a preset, "preset exact"; empty where it is none.
+  std::string preset_in_words() const { return is_preset() ? "preset " + config : ""; }
 
   // What it is called: the preset's name or the file's without folder and extension; empty without
   // one.

@@ -21,8 +21,9 @@ std::optional<double> number(const Json& row, const char* key) {
 
 StreamBench bench_of(const Json& row, bool four_channels, std::uint64_t most_requests) {
   StreamBench bench;
-  // The others time the devices, not the way to them, and charge no I/O.
+  // The others time the devices, not the way to them, refresh all banks at once, and charge no I/O.
   bench.dram.front_end_ns = bench.dram.back_end_ns = 0;
+  bench.dram.refresh = RefreshMode::kAllBank;
   bench.dram.io_pj_per_bit = 0;
   const std::string pattern = row.at("pattern");
   bench.stream.pattern = pattern == "sequential" ? Pattern::kSequential

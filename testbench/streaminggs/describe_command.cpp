@@ -121,9 +121,9 @@ SubCommand add_describe_command(CommandLine& line, const Kinds& kinds) {
   arguments->add_to(line);
   return [arguments, &kinds] {
     RunConfig config = read_run_config(arguments->document(), kinds);
-    resolve(config);
     const std::unique_ptr<ConfigWriter> keys = make_listing_writer();
     visit(static_cast<ConfigVisitor&>(*keys), config);
+    resolve(config);
     fmt::print("{}", keys->text());
     print_sheets(sheets_of(config));
     return 0;

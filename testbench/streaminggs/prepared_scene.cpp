@@ -29,9 +29,11 @@ PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>&
   ActivatedCloud cloud = activate(scene.cloud);
   choose_storage(cloud, config);
   const ProgressLine progress;
-  PreparedScene prepared{
-      std::move(scene.name), scene.dropped_invalid,
-      store_scene(std::move(cloud), config.storage, weighing, progress.of_quantisation())};
+  PreparedScene prepared{std::move(scene.name), scene.dropped_invalid, {}};
+  naming_origins(config, [&] {
+    prepared.stored =
+        store_scene(std::move(cloud), config.storage, weighing, progress.of_quantisation());
+  });
   adapt(config, prepared.stored.image.layout.second_half);
   return prepared;
 }

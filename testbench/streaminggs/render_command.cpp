@@ -69,7 +69,7 @@ void render_golden_picture(const RenderArguments& arguments, const Kinds& kinds)
   Scene scene;
   PreparedScene prepared;
   if (auto packed = arguments.load_packed()) {
-    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
+    resolve(config, *packed, arguments.scene, arguments.config.preset_in_words());
     prepared = prepare(std::move(*packed), arguments.scene, config);
   } else {
     resolve(config);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "algorithm/input_error.h"
@@ -65,25 +66,22 @@ std::string compared(const RunConfig& config, const PackedScene& packed, const s
     }
     differs += (differs.empty() ? "" : ", ") + (key == "encoding" ? got : key + " " + got);
   }
-  const std::string name = std::filesystem::path(preset).stem().string();
   return fmt::format("storage from {}: {}{}", std::filesystem::path(path).filename().string(),
                      in_words(packed.storage),
-                     differs.empty() ? "" : fmt::format(" (preset {}: {})", name, differs));
+                     differs.empty() ? "" : fmt::format(" ({}: {})", preset, differs));
 }
 
-// Does it; what refuses a key by its path then also says where that key's value is from.
-template <class Do>
-void naming_origins(const RunConfig& config, const Do& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    const std::string key = message.substr(0, message.find(": "));
-    for (const ConfigOrigin& value : config.origins) {
-      if (value.path == key) throw InputError(fmt::format("{}: {}", value.origin, message));
-    }
-    throw;
+bool is_override(const ConfigOrigin& value) { return value.origin.rfind("--set ", 0) == 0; }
+
+// Where a value is from that does not go with the others: what stands in a file was right before
+// the overrides.
+std::string place_of(const ConfigOrigin& value, const RunConfig& config) {
+  if (is_override(value)) return value.origin;
+  std::string overrides;
+  for (const ConfigOrigin& other : config.origins) {
+    if (is_override(other)) overrides += " " + other.origin;
   }
+  return value.origin + (overrides.empty() ? "" : " with") + overrides;
 }
 
 void resolve_machine(RunConfig& config) {
@@ -99,7 +97,9 @@ void resolve_machine(RunConfig& config) {
 void check_codebook_keys(const RunConfig& config) {
   if (SecondHalfFormat{config.storage.encoding, 0, {}}.quantised()) return;
   for (const ConfigOrigin& value : config.origins) {
-    if (value.path.rfind("storage.vq.", 0) != 0 || value.origin.rfind("--set ", 0) != 0) continue;
+    const bool of_codebooks =
+        value.path.rfind("storage.vq.", 0) == 0 || value.path.rfind("codebook.", 0) == 0;
+    if (!of_codebooks || !is_override(value)) continue;
     throw InputError(fmt::format(
         "{}: got it with storage.encoding {}, which has no codebooks, expected vq or "
         "vq_packed",
@@ -108,6 +108,22 @@ void check_codebook_keys(const RunConfig& config) {
 }
 
 }  // namespace
+
+void naming_origins(const RunConfig& config, const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const std::string key = message.substr(0, message.find(": "));
+    for (const char* section : {"", "storage."}) {
+      for (const ConfigOrigin& value : config.origins) {
+        if (value.path != section + key) continue;
+        throw InputError(fmt::format("{}: {}{}", place_of(value, config), section, message));
+      }
+    }
+    throw;
+  }
+}
 
 void RunConfig::add_choices(const std::vector<StorageChoice>& choices) {
   for (const StorageChoice& choice : choices) {
@@ -160,6 +176,7 @@ void resolve(RunConfig& config, const PackedScene& packed, const std::string& pa
   }
   config.storage_source = compared(config, packed, path, preset);
   config.storage = packed.storage;
+  check_codebook_keys(config);
   resolve_machine(config);
 }
 

@@ -2,6 +2,7 @@
 // document holds them: `machine` names the kind, whose keys stand beside it; `storage`; `dram`.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,15 +38,19 @@ std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order
 // As the document says; what is left to the model is not resolved yet. Throws InputError.
 RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds);
 
+// Does it. What refuses a key, by its path or by that below `storage`, then also says where its value
+// is from.
+void naming_origins(const RunConfig& config, const std::function<void()>& act);
+
 // Makes it the resolved, valid configuration. Throws InputError, also for what --set says of
-// codebooks that the encoding has not.
+// codebooks, or of their buffer, that the encoding has not.
 void resolve(RunConfig& config);
 
 // Fits the machine to the scene's records. Throws InputError.
 void adapt(RunConfig& config, const SecondHalfFormat& format);
 
-// The same for a packed scene, which brings its storage. path: what errors name. preset: the file
-// of a shipped configuration, whose storage gives way; empty for none. Throws InputError when the
+// The same for a packed scene, which brings its storage. path: what errors name. preset: the origin
+// that is a shipped configuration, whose storage gives way; empty for none. Throws InputError when the
 // machine cannot read the scene, and when whatever else was said of storage is not as the file has
 // it.
 void resolve(RunConfig& config, const PackedScene& packed, const std::string& path,

@@ -62,8 +62,8 @@ std::vector<int> chosen_numbers(const std::string& view, int count) {
     if (!read_int(part, number) || number < 0 || number >= count ||
         std::find(numbers.begin(), numbers.end(), number) != numbers.end()) {
       throw InputError(fmt::format(
-          "--view: '{}': got '{}', expected all, or numbers from 0 to {}, each once, as in 0,2",
-          view, part, count - 1));
+          "--view{}: got '{}', expected all, or numbers from 0 to {}, each once, as in 0,2",
+          part == view ? "" : " " + view, part, count - 1));
     }
     numbers.push_back(number);
   }
@@ -114,6 +114,10 @@ Scene SceneArguments::load() const {
   }
   if (std::filesystem::is_directory(scene, unknown)) {
     throw InputError(fmt::format("{}: got a folder, expected {}", scene, scene_forms));
+  }
+  if (!is_builtin_scene(scene) && !is_scene_file(scene)) {
+    throw InputError(fmt::format("{}: got the extension \"{}\", expected {}", scene,
+                                 std::filesystem::path(scene).extension().string(), scene_forms));
   }
   Scene loaded = while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
   if (loaded.dropped_invalid > 0 && loaded.cloud.size() == 0) {

@@ -147,7 +147,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   std::optional<PackedScene> packed = arguments.load_packed();
   config.design->fit_frames([&] { return arguments.frame_sizes(); });
   if (packed) {
-    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
+    resolve(config, *packed, arguments.scene, arguments.config.preset_in_words());
   } else {
     resolve(config);
   }
@@ -157,7 +157,10 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     } else {
       adapt(config, arguments.load());
     }
-    fmt::print("{}\n", to_json(config));
+    // What was left open stays so: it follows from what else a reader of this may change.
+    RunConfig as_read = read_run_config(arguments.config.document(), kinds);
+    if (packed) as_read.storage = packed->storage;
+    fmt::print("{}\n", to_json(as_read));
     return 0;
   }
   const ResultFolder out(arguments.out.empty() ? arguments.default_out(arguments.config.name())
@@ -206,7 +209,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.whole(
       "--process-order", build.process_order, 0, kMostSeed,
       "seed that shuffles in which order the processes of an instant act; changes no number");
-  line.flag("--print-config", arguments->print_config, "show the resolved configuration");
+  line.flag("--print-config", arguments->print_config, "show every key of the configuration: what --config takes; 0 where it is left open");
   return [arguments, &kinds] {
     arguments->command = command_line();
     return run(*arguments, kinds);

@@ -57,6 +57,11 @@ double energy_saved(const Outcome& base, const Outcome& doubled) {
   return saved(base.joules, doubled.joules);
 }
 
+std::string change_in_words(double saved) {
+  const double tenths = std::round(-1000 * saved);
+  return tenths == 0 ? "0.0 %" : fmt::format("{:+.1f} %", tenths / 10);
+}
+
 void rank(const Outcome& base, std::vector<Doubling>& doublings) {
   std::stable_sort(doublings.begin(), doublings.end(), [&](const Doubling& a, const Doubling& b) {
     if (a.refused.empty() != b.refused.empty()) return a.refused.empty();

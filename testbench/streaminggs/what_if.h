@@ -35,6 +35,9 @@ std::vector<Remedy> remedies_of(const FrameResult& frame);
 double time_saved(const Outcome& base, const Outcome& doubled);
 double energy_saved(const Outcome& base, const Outcome& doubled);
 
+// "-11.4 %" of what 0.114 is saved of, "0.0 %" of what stays.
+std::string change_in_words(double saved);
+
 // Most time saved first, the cheaper of equals; what was refused comes last.
 void rank(const Outcome& base, std::vector<Doubling>& doublings);
 

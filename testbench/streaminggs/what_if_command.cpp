@@ -60,9 +60,9 @@ struct Base {
 
 class NothingLeftOut : public DataSheet {};
 
-std::vector<std::byte> golden_of(const Base& base, const RunConfig& config, const FrameJob& job) {
+GoldenFrame golden_of(const Base& base, const RunConfig& config, const FrameJob& job) {
   NothingLeftOut sheet;
-  return encode_frame(job.frame_format, config.design->golden(base.scene.stored, job, sheet).image);
+  return config.design->golden(base.scene.stored, job, sheet);
 }
 
 // One frame of a variant. golden: the picture of the machine as it is. Few keys make another one
@@ -71,7 +71,8 @@ FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
                 const std::vector<std::byte>& golden, const std::string& what) {
   const FrameJob job = config.design->job(base.scene.stored, camera);
   FrameResult frame = run_frame(*config.design, job, base.scene.stored.image, config.dram, {});
-  if (frame.frame != golden && frame.frame != golden_of(base, config, job)) {
+  if (frame.frame != golden &&
+      frame.frame != encode_frame(job.frame_format, golden_of(base, config, job).image)) {
     throw std::runtime_error(what + ": the frame differs from the golden renderer's");
   }
   return frame;
@@ -95,15 +96,15 @@ void print(const Outcome& base, const std::vector<Doubling>& doublings) {
              "", base.cycles, "", "", base.mm2, "", "", base.binding.holds);
   for (const Doubling& d : doublings) {
     if (!d.refused.empty()) continue;
-    const double time = 100 * time_saved(base, d.outcome);
-    const double energy = 100 * energy_saved(base, d.outcome);
+    const double time = time_saved(base, d.outcome);
+    const double energy = energy_saved(base, d.outcome);
     const double mm2 = d.outcome.mm2 - base.mm2;
     const auto per_mm2 = [&](double gain) {
-      return mm2 > 0 ? fmt::format("{:+.1f} %", -gain / mm2) : std::string("-");
+      return mm2 > 0 ? change_in_words(gain / mm2) : std::string("-");
     };
-    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>+6.1f} % {:>+6.1f} % {:>+9.3f} {:>10} {:>10}   {}\n",
-               d.key, d.from, d.to, d.outcome.cycles, -time, -energy, mm2, per_mm2(time),
-               per_mm2(energy), d.outcome.binding.holds);
+    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>10} {:>10}   {}\n", d.key, d.from,
+               d.to, d.outcome.cycles, change_in_words(time), change_in_words(energy), mm2,
+               per_mm2(time), per_mm2(energy), d.outcome.binding.holds);
   }
   for (const Doubling& d : doublings) {
     if (!d.refused.empty()) fmt::print("{}={}: cannot be: {}\n", d.key, d.to, d.refused);
@@ -118,11 +119,13 @@ Json to_json(const Outcome& outcome) {
           {"holds_key", outcome.binding.remedy.key}};
 }
 
-Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings) {
+Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings,
+             const std::string& verdict) {
   Json out = {{"view", view},
               {"base", to_json(base)},
               {"named_gains_most", named_gains_most(base, doublings)},
-              {"verdict", verdict(base, doublings)}};
+              {"verdict", verdict},
+              {"doubled", Json::array()}};
   for (const Doubling& d : doublings) {
     Json row = {{"key", d.key}, {"from", d.from}, {"to", d.to}};
     if (d.refused.empty()) {
@@ -139,10 +142,16 @@ Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublin
 
 Json run_view(const Base& base, int number, const Camera& camera) {
   const RunConfig config = base.variant("");
-  const std::vector<std::byte> golden =
-      golden_of(base, config, config.design->job(base.scene.stored, camera));
+  const FrameJob job = config.design->job(base.scene.stored, camera);
+  const GoldenFrame drawn = golden_of(base, config, job);
+  const std::vector<std::byte> golden = encode_frame(job.frame_format, drawn.image);
   const FrameResult frame = run(base, config, camera, golden, "nothing doubled");
-  const Outcome outcome = outcome_of(frame, base.technology);
+  Outcome outcome = outcome_of(frame, base.technology);
+  if (drawn.contributing == 0) {
+    outcome.binding = without_advice(outcome.binding);
+    fmt::print("\nview {}: {}\n", number, outcome.binding.sentence());
+    return to_json(number, outcome, {}, outcome.binding.advice);
+  }
   const Json resolved = Json::parse(base.resolved);
   std::vector<Doubling> doublings;
   for (const Remedy& remedy : remedies_of(frame)) {
@@ -160,9 +169,10 @@ Json run_view(const Base& base, int number, const Camera& camera) {
   rank(outcome, doublings);
   fmt::print("\nview {}: {}\n", number, outcome.binding.sentence());
   print(outcome, doublings);
-  fmt::print("{}\n", verdict(outcome, doublings));
+  const std::string says = verdict(outcome, doublings);
+  fmt::print("{}\n", says);
   std::fflush(stdout);
-  return to_json(number, outcome, doublings);
+  return to_json(number, outcome, doublings, says);
 }
 
 int run(const WhatIfArguments& arguments, const Kinds& kinds) {
@@ -173,7 +183,7 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   Json document = Json::parse(to_json(config));
   config.design->fit_frames([&] { return arguments.frame_sizes(); });
   if (packed) {
-    resolve(config, *packed, arguments.scene, arguments.config.preset_path());
+    resolve(config, *packed, arguments.scene, arguments.config.preset_in_words());
   } else {
     resolve(config);
   }

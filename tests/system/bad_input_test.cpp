@@ -182,6 +182,10 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
            {"$SG simulate $B --out o --set storage.vq.sh_entries=9",
             2,
             {"--set storage.vq.sh_entries=9: got it with storage.encoding raw"}},
+           {"$SG simulate $B --out o --set codebook.preloaded=true",
+            2,
+            {"--set codebook.preloaded=true: got it with storage.encoding raw, which has no "
+             "codebooks, expected vq or vq_packed"}},
            {"$SG simulate $B --out o --set group_width_px=30",
             2,
             {"--set group_width_px=30: group_width_px: got 30, expected a multiple of 4"}},

@@ -34,6 +34,64 @@ TEST_CASE("configuration: what a file leaves out has defaults that fit each othe
   }
 }
 
+TEST_CASE("configuration: what is printed and read again is the same machine, and as open") {
+  const Arguments scene = {"builtin:object?n=3000", "--size", "96x54"};
+  for (const auto& [preset, open] : std::vector<std::pair<std::string, const char*>>{
+           {"exact", "/vsu/test_depth_cycles"}, {"paper_no_vq", "/storage/voxel_size"}}) {
+    INFO(preset);
+    const auto print = [&](const std::string& config) {
+      const Outcome shown =
+          run_streaminggs(joined({"simulate"}, joined(scene, {"--config", config,
+                                                              "--print-config"})));
+      REQUIRE(shown.status == 0);
+      return shown.out;
+    };
+    const std::string printed = print(preset);
+    const Json keys = Json::parse(printed);
+    for (const char* key : {"/hfu/cfu_macs", "/hfu/ffu_macs", "/hfu/cfu_depth_cycles",
+                            "/hfu/ffu_depth_cycles", "/rendering/depth_cycles",
+                            "/rendering/state_loop_cycles", open}) {
+      INFO(key);
+      CHECK(keys[Json::json_pointer(key)] == 0);
+    }
+    const ScratchFolder scratch;
+    const std::string file = scratch.write("mine.json", printed);
+    CHECK(print(file) == printed);
+    std::vector<std::uint64_t> cycles;
+    for (const char* set : {"lane_latency_cycles=3", "lane_latency_cycles=8"}) {
+      INFO(set);
+      const auto run = [&](const std::string& config) {
+        return Simulation(with_settings(joined(scene, {"--config", config}), {set})).views()[0];
+      };
+      const Json of_preset = run(preset), of_printed = run(file);
+      for (const char* same : {"frame", "config", "chosen", "area_mm2"}) {
+        INFO(same);
+        CHECK(of_printed[same] == of_preset[same]);
+      }
+      cycles.push_back(of_printed["frame"]["cycles"]);
+    }
+    CHECK(cycles[0] < cycles[1]);
+  }
+}
+
+TEST_CASE("configuration: a machine's name alone is the preset of its name, or as little away") {
+  const ScratchFolder scratch;
+  for (const auto& [machine, differs] : std::vector<std::pair<std::string, const char*>>{
+           {"exact", ""},
+           {"paper", R"(, "rendering": {"cluster_lanes": 174}, "storage": {"encoding": "vq"})"}}) {
+    const auto print = [&](const std::string& config) {
+      return run_streaminggs({"simulate", "builtin:object?n=500", "--config", config,
+                              "--print-config"})
+          .out;
+    };
+    const std::string text = R"({"machine": ")" + machine + R"(")" + differs + "}";
+    INFO(text);
+    const std::string of_preset = print(machine);
+    CHECK_FALSE(of_preset.empty());
+    CHECK(print(scratch.write("config.json", text)) == of_preset);
+  }
+}
+
 // A scene of three views, of which the second is a frame of 2.4 MB, and a memory of `rows` rows of
 // 128 KiB in all channels.
 struct TightMemory {

@@ -371,7 +371,7 @@ TEST_CASE("pack: --print-config shows what the image decides") {
   CHECK(config["storage"]["encoding"] == "vq_packed");
   CHECK(config["storage"]["chunk_gaussians"] == 24);
   CHECK(config["storage"]["vq"]["rotation_entries"] == 70);
-  CHECK(config["hfu"]["ffu_macs"] != 427);
+  CHECK(config["hfu"]["ffu_macs"] == 0);  // of the machine, which leaves it open
 }
 
 }  // namespace

@@ -80,9 +80,9 @@ std::vector<Arguments> variants(const std::string& machine) {
              {"--weigh-by", "0"});
   const Arguments few_banks = joined(quantised, settings({"codebook.banks=2"}));
   const Arguments narrow = settings({"memory_port.max_outstanding=1", "dram.channels=1"});
-  const Arguments hasty = settings({"rendering.feedback_latency_cycles=1", "hfu.cfu_depth_cycles=1",
-                                    "hfu.ffu_depth_cycles=1", "rendering.depth_cycles=1",
-                                    "lane_latency_cycles=1", "rendering.span_slots=1"});
+  const Arguments hasty =
+      settings({"rendering.feedback_latency_cycles=1", "lane_latency_cycles=1",
+                "half_lane_latency_cycles=1", "rendering.span_slots=1"});
   std::vector<Arguments> out = {
       {},
       kStalls,

@@ -36,13 +36,47 @@ void check_set_refused(const std::string& order, const Arguments& settings,
 
 TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
   check_set_refused("paper", {"group_width_px=128", "group_height_px=128"},
-                    {"sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
+                    {"streaminggs: preset paper with --set group_height_px=128 --set "
+                     "group_width_px=128: sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
                      "1 groups x 128 px x 128 px x 8 B"});
   check_set_refused("paper", {"hfu.slice_gaussians=1024"},
                     {"sram.input_bytes: 16384 bytes are there", "2 slots x 1024 Gaussians"});
+  check_set_refused("exact", {"hfus=8"},
+                    {"streaminggs: preset exact with --set hfus=8: sram.input_bytes: 3840 bytes "
+                     "are there, 7680 are needed: ",
+                     "; expected at least 7680, or 0: as large as must be\n"});
+  check_set_refused("exact", {"sram.input_bytes=100", "hfus=8"},
+                    {"streaminggs: --set sram.input_bytes=100: sram.input_bytes: 100 bytes"});
+  check_set_refused("paper", {"storage.vq.iterations=0", "sram.codebook_bytes=9"},
+                    {"streaminggs: --set sram.codebook_bytes=9: sram.codebook_bytes: 9 bytes",
+                     "; expected at least "});
   check_set_refused("exact",
                     {"group_width_px=128", "group_height_px=128", "sram.shared_bytes=10000"},
                     {"sram.shared_bytes: 10000", "pixel state"});
+}
+
+TEST_CASE("refusals: a pipeline shorter than the longest path through it") {
+  struct Row {
+    const char *order, *key;
+    int least;
+  };
+  for (const auto& [order, key, least] :
+       {Row{"exact", "rendering.begin_depth_cycles", 88}, {"exact", "rendering.depth_cycles", 47},
+        {"exact", "rendering.state_loop_cycles", 9}, {"exact", "rendering.span_depth_cycles", 41},
+        {"exact", "rendering.drain_depth_cycles", 11}, {"exact", "hfu.cfu_depth_cycles", 84},
+        {"exact", "hfu.ffu_depth_cycles", 173}, {"exact", "vsu.test_depth_cycles", 194},
+        {"paper_no_vq", "vsu.step_depth_cycles", 46},
+        {"paper_no_vq", "vsu.cell_step_depth_cycles", 13},
+        {"paper_no_vq", "vsu.ray_depth_cycles", 82}}) {
+    const auto set = [key = key](int depth) { return key + ("=" + std::to_string(depth)); };
+    check_set_refused(order, {set(least - 1)},
+                      {"streaminggs: --set " + set(least - 1) + ": ",
+                       "expected " + std::to_string(least) + " or more, the longest path of ",
+                       ", or 0: by its schedule\n"});
+    CHECK(run_streaminggs({"simulate", "builtin:object?n=100", "--config", order, "--set",
+                           set(least), "--print-config"})
+              .status == 0);
+  }
 }
 
 TEST_CASE("refusals: none of a unit") {
@@ -83,6 +117,8 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
                     {"hfus: got 3 with fetch shared", "square number"});
   check_set_refused("paper", {"fetch=shared", "rendering.clusters=2"},
                     {"rendering.clusters: got 2", "multiple of hfus 4"});
+  check_set_refused("paper", {"vsu.ray_step_px=65"},
+                    {"--set vsu.ray_step_px=65: vsu.ray_step_px: got 65, expected at most 64"});
   check_set_refused("paper", {"fetch=shared", "sorting_units=3"},
                     {"sorting_units: got 3", "divisor or a multiple of hfus 4"});
   check_set_refused("paper", {"dram.memspec=ddr9"},
@@ -91,7 +127,10 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
 }
 
 TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
-  check_set_refused("paper", {"storage.voxel_size=0.0000001"}, {"voxel_size", "2^20", "at least"});
+  check_set_refused("paper", {"storage.voxel_size=0.0000001"},
+                    {"streaminggs: --set storage.voxel_size=0.0000001: storage.voxel_size: 1e-07 "
+                     "divides",
+                     "2^20", "at least"});
 }
 
 TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
@@ -101,7 +140,13 @@ TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
   check_refused({"simulate", "builtin:object?n=0"}, {"n="});
   check_refused({"simulate", "builtin:object?n=100", "--cameras", "/no/such/cameras.json"},
                 {"/no/such/cameras.json"});
-  check_refused({"simulate", "builtin:object?n=100", "--view", "99"}, {"--view", "99"});
+  check_refused({"simulate", "builtin:object?n=100", "--view", "99"},
+                {"--view: got '99', expected all"});
+  check_refused({"simulate", "builtin:object?n=100", "--view", "0,99"},
+                {"--view 0,99: got '99', expected all"});
+  check_refused({"simulate", SGS_TECHNOLOGY},
+                {"got the extension \".json\", expected a .ply file, builtin:NAME?n=COUNT, or a "
+                 ".sgs file made by pack"});
   check_refused({"simulate", "builtin:object?n=100", "--size", "64"}, {"--size", "WIDTHxHEIGHT"});
   check_refused({"simulate", "builtin:object?n=100", "--size", "0x64"}, {"--size"});
 }

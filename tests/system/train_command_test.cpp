@@ -34,11 +34,11 @@ TEST_CASE("train and tune: pictures of test views as it goes") {
   make_dataset(scratch);
   const ShellOutcome made =
       shell(scratch,
-            kTrain + std::string("--out s.ply --pictures p --picture-views 1 >t && ls p && for "
-                                 "way in '--boundary' '--quantise' '--streaming --config exact'; "
-                                 "do e=ply; [ \"$way\" = --quantise ] && e=sgs; $SG tune s.ply "
-                                 "$way --data d --steps 4 --test-every 2 --out t.$e "
-                                 "--set storage.vq.dc_entries=32 --pictures q >t; done; ls q"));
+            kTrain + std::string("--out s.ply --pictures p --picture-views 1 >t && ls p && "
+                                 "for way in '--boundary --out t.ply' '--streaming --config exact "
+                                 "--out t.ply' '--quantise --set storage.vq.dc_entries=32 --out "
+                                 "t.sgs'; do $SG tune s.ply $way --data d --steps 4 "
+                                 "--test-every 2 --pictures q >t || exit 1; done; ls q"));
   INFO(made.out << made.err);
   REQUIRE(made.status == 0);
   CHECK(made.out ==

@@ -208,7 +208,7 @@ TEST_CASE("blocking transport: bytes against a mirror, commands against the devi
     }
   }
   configs.emplace_back();
-  configs.back().refresh = RefreshMode::kPerBank;
+  configs.back().refresh = RefreshMode::kAllBank;
   configs.back().ranks = 2;
   configs.emplace_back();
   configs.back().power_down_idle_cycles = 20;

@@ -26,6 +26,7 @@ constexpr double kSelfRefreshPj = 2.25 * 0.5 + 1.5 * 1.8;
 DramConfig one_channel() {
   DramConfig c;
   c.channels = 1;
+  c.refresh = RefreshMode::kAllBank;
   return c;
 }
 

@@ -51,6 +51,15 @@ TEST_CASE("what-if: more of it, or half the cycles") {
   CHECK(Doubling({"front_end_ns", Turn::kDown}, 2.5).to == 1.25);
 }
 
+TEST_CASE("what-if: what is saved is a change, and nothing has no sign") {
+  for (const auto& [saved, says] :
+       {std::pair{0.114, "-11.4 %"}, {-0.5, "+50.0 %"}, {0.0, "0.0 %"}, {-0.0, "0.0 %"},
+        {0.0004, "0.0 %"}, {-0.0004, "0.0 %"}, {0.0006, "-0.1 %"}}) {
+    INFO(saved);
+    CHECK(change_in_words(saved) == says);
+  }
+}
+
 TEST_CASE("what-if: ranked by time saved, the smaller of equals first, the refused last") {
   const Outcome base = outcome(1000, 5);
   std::vector<Doubling> doublings = {refused("impossible"), doubling("slower", outcome(1100, 6)),
