@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "algorithm/input_error.h"
+#include "algorithm/part_files.h"
 
 namespace sgs {
 namespace {
@@ -73,12 +74,14 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), made_folders_
       refuse(path_, fmt::format("cannot be made ({})", std::strerror(errno)), "a writable place");
     }
   }
+  remember_part(temporary_path_.c_str());
   file_ = ::fdopen(descriptor, "wb");
 }
 
 OutputFile::~OutputFile() {
   if (file_ != nullptr) std::fclose(file_);
   if (!committed_ && ::getpid() == made_folders_.owner) ::unlink(temporary_path_.c_str());
+  forget_part(temporary_path_.c_str());
 }
 
 OutputFile::MadeFolders::~MadeFolders() {

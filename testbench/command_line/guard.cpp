@@ -6,12 +6,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
 #include <new>
 
 #include "algorithm/input_error.h"
+#include "algorithm/part_files.h"
 
 namespace sgs {
 namespace {
@@ -46,6 +48,8 @@ int run_and_catch(const std::string& program, const std::function<int()>& body) 
 
 int run_guarded(const std::string& program, const std::function<int()>& body) {
   occupy_standard_streams();
+  remove_parts_on_signals();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is one that cannot be written
   const int status = run_and_catch(program, body);
   std::cout.flush();
   errno = 0;

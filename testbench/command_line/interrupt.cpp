@@ -6,19 +6,20 @@ namespace sgs {
 namespace {
 
 volatile std::sig_atomic_t wished_now = 0;
+void (*before)(int) = SIG_DFL;  // what SIGINT did
 
 extern "C" void note_wish(int) {
   wished_now = 1;
-  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGINT, before);
 }
 
 }  // namespace
 
 Interrupt::Interrupt() {
   wished_now = 0;
-  std::signal(SIGINT, note_wish);
+  before = std::signal(SIGINT, note_wish);
 }
-Interrupt::~Interrupt() { std::signal(SIGINT, SIG_DFL); }
+Interrupt::~Interrupt() { std::signal(SIGINT, before); }
 bool Interrupt::wished() const { return wished_now != 0; }
 
 }  // namespace sgs

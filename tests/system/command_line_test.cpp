@@ -188,6 +188,15 @@ TEST_CASE("command line: of two runs with one trace, one is there whole") {
        {"no violation", "\nt\n"}});
 }
 
+TEST_CASE("command line: a process that is interrupted leaves nothing at all") {
+  for (const auto& [signal, status] : {std::pair{"INT", "130"}, {"TERM", "143"}}) {
+    check({"set -m; $SG simulate 'builtin:object?n=60000' --vcd a.vcd --dram-trace t >/dev/null & "
+           "until [ $(ls | grep -c part) = 2 ]; do sleep 0.05; done; kill -" +
+               std::string(signal) + " $!; wait $!; [ $? = " + status + " ] && [ -z \"$(ls)\" ]",
+           {}});
+  }
+}
+
 TEST_CASE("command line: a process that is killed leaves nothing under an output's name") {
   check(
       {"$TB --transactions 100000000 --vcd a.vcd --dram-trace t >/dev/null & sleep 0.5; kill -9 "

@@ -25,7 +25,7 @@ ShellOutcome shell(const ScratchFolder& scratch, const std::string& line) {
       outside.write("script", "cd '" + scratch.path("") +
                                   "'\nSG='" SGS_BIN "/streaminggs'\nTB='" SGS_BIN
                                   "/tb_dram'\nS='builtin:object?n=300'\nB=\"$S --size 32x18\"\n"
-                                  "FULL() { (trap '' XFSZ; ulimit -f 8; \"$@\"); }\n" +
+                                  "FULL() { (ulimit -f 8; \"$@\"); }\n" +
                                   line + "\n");
   const std::string command = "timeout -k 1 60 bash '" + script + "' >'" + outside.path("out") +
                               "' 2>'" + outside.path("err") + "' </dev/null";

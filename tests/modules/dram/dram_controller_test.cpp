@@ -210,6 +210,7 @@ TEST_CASE("dram controller: blocking and non-blocking requests do not mix") {
 TEST_CASE("dram controller: time, bandwidth and refreshes of idle time are accounted") {
   DramConfig config;
   config.front_end_ns = config.back_end_ns = 0;
+  config.refresh = RefreshMode::kAllBank;
   run(config, [](Initiator& i, DramController& dram) {
     i.begin(i.make(tlm::TLM_READ_COMMAND, 0, 256));
     sc_core::wait(39000, SC_NS);  // ten refresh intervals

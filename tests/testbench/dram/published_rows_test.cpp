@@ -58,6 +58,7 @@ TEST_CASE("published rows: grouped writes cost the two turn-arounds a batch pair
   StreamBench bench;
   bench.dram.channels = 1;
   bench.dram.front_end_ns = bench.dram.back_end_ns = 0;
+  bench.dram.refresh = RefreshMode::kAllBank;
   bench.dram.mapping = "row:rank:bank:column:channel";
   bench.stream.pattern = Pattern::kSequential;
   bench.stream.request_bytes = 64;
