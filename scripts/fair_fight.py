@@ -149,7 +149,7 @@ class Fight:
                 search.best_from(machine, storage)
                 if other := self.best.get((order.begins_at, budget, objective)):
                     search.runs_left = max(search.runs_left, round(share * arguments.most_runs))
-                    search.best_from(Machine(order, other.machine.at), other.storage)
+                    search.best_from(Machine(machine.order, other.machine.at), other.storage)
                 point = self.best_of_all_views(search)
                 harm = harm or search.harm
                 self.points += search.points
