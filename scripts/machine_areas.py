@@ -5,7 +5,7 @@ from __future__ import annotations
 from kept_runs import KeptRuns
 from machine_axes import Machine, Order
 from scenes import Scene
-from simulations import Run, resolved_config
+from simulations import Run
 
 # Area is that of the machine, whatever it draws: the smallest frame there is tells it.
 SMALL = Scene("area", "builtin:object?n=500")
@@ -23,7 +23,7 @@ def start_of(order: Order, kept: KeptRuns) -> Machine:
     run = Run(SMALL, size=SMALL_SIZE, config=order.preset, overrides=order.fixed)
     (view,) = kept.outcome(run).accepted()
     blend = view["datapath"]["subtile_blend"]["used"]["macs"]
-    return order.with_blend(blend).start(resolved_config(kept.binary, run))
+    return order.with_blend(blend).start(view["config"])
 
 
 class Areas:

@@ -209,11 +209,16 @@ class Reports(unittest.TestCase):
                 self.assertEqual(energy_tables.table_bytes({"vsu": {}}, keys), ())
 
     def test_whether_the_named_resource_gains_most(self):
-        for gains, most in (((0.2, 0.1), True), ((0.1, 0.2), False), ((0.1999, 0.2), True)):
+        for gains, most in (((0.2, 0.1), True), ((0.1, 0.2), False)):
             doubled = [{"key": k, "time_saved": g} for k, g in zip("ab", gains)]
-            answer = {"base": {"holds_key": "a"}, "doubled": doubled}
+            base = {"cycles": 1e6, "holds_key": "a"}
+            answer = {"view": 0, "base": base, "doubled": doubled}
+            answer |= {"named_gains_most": most, "verdict": "why"}
             with self.subTest(gains):
-                self.assertEqual(binding_check.Answer("x", answer).named_gains_most(), most)
+                row = binding_check.Answer("x", answer).row()
+                named, best = f"{gains[0]:.1%}", f"{max(gains):.1%}"
+                self.assertEqual(row[4], named)
+                self.assertEqual(row[6:], (best, *(("yes", "") if most else ("no", "why"))))
 
     def test_where_a_table_comes_from(self):
         words = ["explore.py", "truck", "--out", "x", "--side-by-side=1", "--streaminggs", "y"]

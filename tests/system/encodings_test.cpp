@@ -109,16 +109,18 @@ TEST_CASE("encodings: codebooks that an earlier frame left cost no traffic and n
     Arguments common = encoded(order, "vq");
     // Following all rays of the first group takes as long as loading.
     if (order == std::string("paper")) common = with_settings(common, {"vsu.ray_step_px=16"});
+    // So many that others wait for what is loaded.
+    common = with_settings(common, {"storage.vq.sh_entries=512"});
     const Simulation first(common), next(with_settings(common, {"codebook.preloaded=true"}));
     first.check();
     next.check();
     CHECK(next.frame(0) == first.frame(0));
     CHECK(cycles(next) < cycles(first));
-    // 64 x 12 + 100 x 16 + 200 x 12 + 32 x 180 B
-    CHECK(region_bytes(first.views()[0], "codebooks", "read") == 10528);
-    CHECK(first.views()[0]["sram"]["codebook_bytes"] == 10528);
+    // 64 x 12 + 100 x 16 + 200 x 12 + 512 x 180 B
+    CHECK(region_bytes(first.views()[0], "codebooks", "read") == 96928);
+    CHECK(first.views()[0]["sram"]["codebook_bytes"] == 96928);
     CHECK(total(next.views()[0], "loaded_at_cycle") == 0);
-    CHECK(total(first.views()[0], "loaded_at_cycle") > 10528 / 26);  // 25.6 B a cycle at most
+    CHECK(total(first.views()[0], "loaded_at_cycle") > 96928 / 26);  // 25.6 B a cycle at most
   }
 }
 
