@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "algorithm/memory/splat_record.h"
+#include "algorithm/splat/filter_work.h"
 #include "modules/streaminggs/work_rates.h"
 
 namespace sgs {
