@@ -215,9 +215,7 @@ def main() -> int:
     parser = run_arguments.parser(__doc__)
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
     run_arguments.add_side_by_side(parser)
-    parser.add_argument(
-        "--orders", nargs="+", choices=ORDERS, default=list(ORDERS)
-    )
+    parser.add_argument("--orders", nargs="+", choices=ORDERS, default=list(ORDERS))
     parser.add_argument(
         "--budgets", nargs="+", type=float, default=[1.0, 2.0], metavar="X", help="of paper's area"
     )

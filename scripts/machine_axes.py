@@ -176,5 +176,7 @@ PAPER = Order(
     axis("storage.voxel_size", 0.05, 0.1, 0.2, 0.4, 0.5, 1, 2, 4),
 )
 # Rays and voxels that miss more draw faster: with the picture held, the machine alone is compared.
-PAPER_KEPT = dataclasses.replace(PAPER, name="paper, picture kept", keeps_picture=True, begins_at="paper")
+PAPER_KEPT = dataclasses.replace(
+    PAPER, name="paper, picture kept", keeps_picture=True, begins_at="paper"
+)
 ORDERS = {order.name: order for order in (EXACT, EXACT_FP16, PAPER, PAPER_KEPT)}
