@@ -3,8 +3,9 @@
 blending early), another pixel group or another chunk costs in quality, traffic and cycles.
 
 Frames are written as floats (framebuffer=rgb32f), so that PSNR sees every error; that is 12 B a
-pixel in DRAM. Every combination gets the shared on-chip memory that it needs; the column `shared
-SRAM B` says what that is.
+pixel in DRAM. The coarse filters' FIFOs hold the survivors of as many whole chunks as in the preset:
+with less room a larger chunk would be measured by its wait. Every combination gets the shared
+on-chip memory that it needs; the column `shared SRAM B` says what that is.
 """
 
 from __future__ import annotations
@@ -79,11 +80,13 @@ def combinations(preset: dict, cross: bool) -> list[tuple]:
     return list(dict.fromkeys(points))
 
 
-def overrides(point: tuple) -> tuple[str, ...]:
+def overrides(point: tuple, preset: dict) -> tuple[str, ...]:
     shape, chunk, entries, on_overflow = point
+    chunks_waiting = preset["hfu"]["candidate_fifo_entries"] / preset["storage"]["chunk_gaussians"]
     return (
         *assignments(shape),
         f"storage.chunk_gaussians={chunk}",
+        f"hfu.candidate_fifo_entries={max(1, round(chunks_waiting * chunk))}",
         f"merge.entries={entries}",
         f"merge.on_overflow={on_overflow}",
         "framebuffer=rgb32f",
@@ -139,7 +142,7 @@ def make_table(arguments: argparse.Namespace) -> None:
     base = (*SRAM_AS_NEEDED, *arguments.set)
     preset = resolved_config(arguments.streaminggs, Run(scenes[0], overrides=base))
     runs = [
-        Run(scene, arguments.view, overrides=(*base, *overrides(point)))
+        Run(scene, arguments.view, overrides=(*base, *overrides(point, preset)))
         for scene in scenes
         for point in combinations(preset, arguments.cross)
     ]
