@@ -124,25 +124,23 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
 
   using FifoReadIf<T>::pop;
   T pop(Activity& reader, WaitFor what) override {
-    clock_.jitter();
-    reader_ = &reader;
-    stall(reader_stalls_, reader, what);
-    if (!can_pop()) {
-      reader.waits_for(what, *this);
-      reader_waits_ = true;
-      while (fill_ == 0) sc_core::wait(filled_);
-      reader_waits_ = false;
-      const sc_core::sc_time& ready = entries_[head_].ready;
-      if (ready > sc_core::sc_time_stamp()) sc_core::wait(ready - sc_core::sc_time_stamp());
-      clock_.jitter();
-      reader.works();
-    }
+    wait_for_front(reader, what);
     T value = std::move(entries_[head_].value);
+    remove_front();
+    return value;
+  }
+
+  // For a reader that leaves the oldest entry where it is until it has its turn: blocks as pop()
+  // does; the entry stays, and is valid, until remove_front().
+  const T& front(Activity& reader) {
+    wait_for_front(reader, WaitFor::kInput);
+    return entries_[head_].value;
+  }
+  void remove_front() {
     head_ = wrapped(head_ + 1);
     --fill_;
     pops_.count();
     if (writer_waits_) room_.notify(sc_core::SC_ZERO_TIME);
-    return value;
   }
 
   bool can_pop() const override {
@@ -160,6 +158,21 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
     T value{};
     sc_core::sc_time ready;
   };
+
+  void wait_for_front(Activity& reader, WaitFor what) {
+    clock_.jitter();
+    reader_ = &reader;
+    stall(reader_stalls_, reader, what);
+    if (can_pop()) return;
+    reader.waits_for(what, *this);
+    reader_waits_ = true;
+    while (fill_ == 0) sc_core::wait(filled_);
+    reader_waits_ = false;
+    const sc_core::sc_time& ready = entries_[head_].ready;
+    if (ready > sc_core::sc_time_stamp()) sc_core::wait(ready - sc_core::sc_time_stamp());
+    clock_.jitter();
+    reader.works();
+  }
 
   std::uint32_t wrapped(std::uint32_t at) const {
     return at < entries_.size() ? at : at - static_cast<std::uint32_t>(entries_.size());

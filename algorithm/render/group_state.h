@@ -134,7 +134,7 @@ class GroupState {
     RowSpans<float> spans(splat);
     spans.start(reach.y0 * kSubtilePx);
     for (int y = reach.y0; y < reach.y1; ++y) {
-      const RowBounds<float> bounds = spans.next((y + 1) * kSubtilePx);
+      const RowBounds<float> bounds = spans.next(y * kSubtilePx, (y + 1) * kSubtilePx);
       ++work.spans;
       blend_row(y, std::max<int>(reach.x0, subtile_at(std::ceil(bounds.low))),
                 std::min<int>(reach.x1, subtile_at(bounds.high) + 1), blend_into, work);

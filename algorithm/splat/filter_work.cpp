@@ -131,7 +131,7 @@ SplatOf<Counting> leaning_splat(DataFlow& flow) {
 }
 constexpr int kFirstRowPx = 52;
 
-constexpr std::size_t kEdgeWords = 3;  // the last of RowSpans::carried()
+constexpr std::size_t kEdgeWords = 2;  // the last of RowSpans::carried()
 
 // A splat's beginning alone: what its rows take is what it is for.
 DataFlow spans_begin_flow() {
@@ -160,7 +160,7 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   for (std::size_t i = above.size() - kEdgeWords; i < above.size(); ++i) {
     if (above[i].flow != nullptr) out.edge.push_back(above[i].node);
   }
-  static_cast<void>(spans.next(kFirstRowPx + kSubtilePx));
+  static_cast<void>(spans.next(kFirstRowPx, kFirstRowPx + kSubtilePx));
   const auto below = spans.carried();
   for (std::size_t i = below.size() - kEdgeWords; i < below.size(); ++i) keep(flow, {below[i]});
   out.spanned = flow.size();

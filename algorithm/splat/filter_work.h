@@ -82,7 +82,7 @@ RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencie
                                const OperationLatencies& half);
 
 // Words that a splat's rows take of its beginning.
-constexpr std::uint32_t kBegunSpanWords = 11;
+constexpr std::uint32_t kBegunSpanWords = 10;
 
 // Of the beginning of a splat's spans, to the words that its rows take; of a row's span, the edge
 // above it coming when it is needed, its own kept to the end, for the next; of the conic; of a

@@ -55,21 +55,24 @@ class RowSpans {
   }
 
   // Begins above the row that begins at pixel row y_px.
-  void start(int y_px) { edge_ = edge_at(y_px); }
+  void start(int y_px) { edge_ = edge_at(dy_at(y_px)); }
 
-  // All that a row takes of what was computed before it; the last three of the edge above it.
-  std::array<T, 11> carried() const {
-    return {x_,        y_,        slope_,   radicand_,  bend_,      half_width_,
-            right_at_, slack_px_, edge_.dy, edge_.left, edge_.right};
+  // All that a row takes of what was computed before it; the last two of the edge above it.
+  std::array<T, 10> carried() const {
+    return {x_,          y_,        slope_,    radicand_,  bend_,
+            half_width_, right_at_, slack_px_, edge_.left, edge_.right};
   }
 
-  // The next row, of pixels up to y_px (exclusive): the pixels of x in the bounds may be visible.
-  RowBounds<T> next(int y_px) {
+  // The next row, of the pixel rows from top_px to bottom_px (exclusive): its pixels of x in the
+  // bounds may be visible. Where its top lies it computes anew: hardware that has several rows
+  // under way wants that before the row above has it.
+  RowBounds<T> next(int top_px, int bottom_px) {
     if (!bounded_) return {-T(kEverywhere), T(kEverywhere)};
     const Edge above = edge_;
-    edge_ = edge_at(y_px);
-    const T right = farthest(above.right, edge_.right, above.dy, edge_.dy, right_at_);
-    const T left = farthest(-above.left, -edge_.left, above.dy, edge_.dy, T(-right_at_));
+    const T top = dy_at(top_px), bottom = dy_at(bottom_px);
+    edge_ = edge_at(bottom);
+    const T right = farthest(above.right, edge_.right, top, bottom, right_at_);
+    const T left = farthest(-above.left, -edge_.left, top, bottom, T(-right_at_));
     return {T(x_ - left - slack_px_), T(x_ + right + slack_px_)};
   }
 
@@ -77,17 +80,19 @@ class RowSpans {
   static constexpr float kEverywhere = 1e30F;
 
   struct Edge {
-    T dy, left, right;  // relative to the centre; +-kEverywhere where the line misses the ellipse
+    T left, right;  // relative to the centre; +-kEverywhere where the line misses the ellipse
   };
 
-  // The line half a pixel above pixel row y_px: it bounds the pixel centres on both of its sides.
-  Edge edge_at(int y_px) const {
+  // The line half a pixel above pixel row y_px, from the centre: it bounds the pixel centres on
+  // both of its sides.
+  T dy_at(int y_px) const { return T(T(static_cast<float>(y_px) - 0.5F) - y_); }
+
+  Edge edge_at(const T& dy) const {
     if (!bounded_) return {};
-    const T dy = T(T(static_cast<float>(y_px) - 0.5F) - y_);
     const T radicand = T(radicand_ - bend_ * dy * dy);
-    if (!(radicand >= T(0.0F))) return {dy, T(kEverywhere), T(-kEverywhere)};
+    if (!(radicand >= T(0.0F))) return {T(kEverywhere), T(-kEverywhere)};
     const T middle = T(slope_ * dy), half = sqrt_of(radicand);
-    return {dy, T(middle - half), T(middle + half)};
+    return {T(middle - half), T(middle + half)};
   }
 
   // Greatest bound over the band between two edges; extreme_at: where it is half_width_.

@@ -38,13 +38,12 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   const OperationLatencies latencies = config_.single_latencies();
   // A step reads the ray's context and writes it.
   constexpr std::uint32_t kContext = kReadCycles + kWriteCycles;
-  for (const auto& [key, depth, step] :
-       {std::tuple("vsu.step_depth_cycles", &config_.vsu.step_depth_cycles, longest_step_case()),
-        std::tuple("vsu.cell_step_depth_cycles", &config_.vsu.cell_step_depth_cycles,
-                   cell_step_case())}) {
-    resolve_depth(key, *depth, ray_step_pipeline(config_.vsu, step, latencies),
-                  ray_step_path(step, latencies), latencies, kContext, chosen);
-  }
+  resolve_depth("vsu.step_depth_cycles", config_.vsu.step_depth_cycles,
+                ray_step_pipeline(config_.vsu, latencies),
+                ray_step_path(longest_step_case(), latencies), latencies, kContext, chosen);
+  resolve_depth("vsu.cell_step_depth_cycles", config_.vsu.cell_step_depth_cycles,
+                cell_step_pipeline(config_.vsu, latencies),
+                ray_step_path(cell_step_case(), latencies), latencies, kContext, chosen);
   resolve_depth("vsu.ray_depth_cycles", config_.vsu.ray_depth_cycles,
                 pixel_ray_pipeline(config_.vsu, latencies), pixel_ray_path(latencies), latencies,
                 kWriteCycles, chosen);

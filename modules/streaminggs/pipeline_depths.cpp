@@ -16,14 +16,15 @@ namespace {
 void take(const char* key, std::uint32_t& depth_cycles, std::uint32_t scheduled,
           const std::string& of, const LongestPath& path, const OperationLatencies& latencies,
           std::uint32_t beside, std::vector<AutoChoice>& chosen) {
-  const std::uint32_t least = path.cycles(latencies) + beside;
+  const std::uint32_t least = scheduled + beside;
   if (depth_cycles >= least) return;
   if (depth_cycles > 0) {
-    throw InputError(fmt::format(
-        "{}: got {}, expected {} or more, the longest path of {}, or 0: by its schedule", key,
-        depth_cycles, least, of));
+    throw InputError(
+        fmt::format("{}: got {}, expected {} or more, the end of the schedule of {}, "
+                    "or 0: that",
+                    key, depth_cycles, least, of));
   }
-  depth_cycles = scheduled + beside;
+  depth_cycles = least;
   std::string why = fmt::format(
       "schedule of {}; its longest path is {}: {} on lanes, {} on comparators, {} look-ups", of,
       path.cycles(latencies), path.lane, path.comparator, path.look_ups);
@@ -61,6 +62,13 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   take("rendering.state_loop_cycles", rendering.state_loop_cycles, blend.loop_cycles,
        "subtile_blend, from a pixel's state on", paths.state_loop, blending,
        kReadCycles + kWriteCycles, chosen);
+  if (rendering.state_loop_cycles > rendering.depth_cycles) {
+    throw InputError(
+        fmt::format("rendering.state_loop_cycles: got {}, expected at most {}, "
+                    "rendering.depth_cycles, of which "
+                    "the loop is a part",
+                    rendering.state_loop_cycles, rendering.depth_cycles));
+  }
   resolve_depth("rendering.drain_depth_cycles", rendering.drain_depth_cycles,
                 drain_pipeline(part, config.framebuffer, single),
                 pixel_path(config.framebuffer, single), single, 0, chosen);
@@ -70,10 +78,18 @@ void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, in
                            std::vector<AutoChoice>& chosen) {
   const OperationLatencies single = config.single_latencies();
   const auto across = static_cast<std::uint32_t>(std::lround(std::sqrt(config.parts())));
-  resolve_depth("hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
-                coarse_pipeline(config.hfu, split.bound_by, config.parts(), single),
-                coarse_path(split.bound_by, longest_case(), across, single), single, kReadCycles,
-                chosen);
+  if (has_cfus(config.hfu, split.bound_by)) {
+    resolve_depth("hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
+                  coarse_pipeline(config.hfu, split.bound_by, config.parts(), single),
+                  coarse_path(split.bound_by, longest_case(), across, single), single, kReadCycles,
+                  chosen);
+  } else if (config.hfu.cfu_depth_cycles > 0) {
+    throw InputError(fmt::format(
+        "hfu.cfu_depth_cycles: got {} with hfu.coarse_filter=false, which has no CFUs, expected 0",
+        config.hfu.cfu_depth_cycles));
+  } else {
+    config.hfu.cfu_depth_cycles = kReadCycles;
+  }
   resolve_depth("hfu.ffu_depth_cycles", config.hfu.ffu_depth_cycles,
                 fine_pipeline(config.hfu, split.fine_record(sh_degree), single),
                 fine_path(longest_case(), split.fine_record(sh_degree), single), single,

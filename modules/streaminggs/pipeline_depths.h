@@ -18,7 +18,7 @@ constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
 
 // A depth that is 0 becomes that of the pipeline and `beside` more, and is said in `chosen`, with
 // the longest path that bounds it; one that is given stays. beside: cycles of what is not in the
-// schedule, as reading and writing. Throws InputError for one that is less than path and `beside`.
+// schedule, as reading and writing. Throws InputError for one that is less than that.
 void resolve_depth(const char* key, std::uint32_t& depth_cycles, const Datapath& pipeline,
                    const LongestPath& path, const OperationLatencies& latencies,
                    std::uint32_t beside, std::vector<AutoChoice>& chosen);

@@ -14,12 +14,12 @@ constexpr double kSameGain = 0.001;
 
 double saved(double before, double after) { return before > 0 ? 1 - after / before : 0; }
 
-// That of what the binding names; null: nothing doubles it.
+// That of what the binding names, which may have been refused; null: nothing doubles it.
 const Doubling* named_by(const Binding& binding, const std::vector<Doubling>& doublings) {
   const auto named = std::find_if(doublings.begin(), doublings.end(), [&](const Doubling& each) {
     return each.key == binding.remedy.key;
   });
-  return named == doublings.end() || !named->refused.empty() ? nullptr : &*named;
+  return named == doublings.end() ? nullptr : &*named;
 }
 
 // Of whole cycles there is no half.
@@ -74,7 +74,7 @@ void rank(const Outcome& base, std::vector<Doubling>& doublings) {
 
 bool named_gains_most(const Outcome& base, const std::vector<Doubling>& doublings) {
   const Doubling* named = named_by(base.binding, doublings);
-  return named != nullptr &&
+  return named != nullptr && named->refused.empty() &&
          time_saved(base, doublings.front().outcome) - time_saved(base, named->outcome) < kSameGain;
 }
 
@@ -91,6 +91,10 @@ std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings)
     return fmt::format(
         "binding names {}, which no key doubles; {} gains most: {:.1f} % of the time",
         binding.holds, best.key, 100 * most);
+  }
+  if (!named->refused.empty()) {
+    return fmt::format("binding names {}, but {} is refused; {} gains most: {:.1f} % of the time",
+                       named->key, named->to, best.key, 100 * most);
   }
   const double gain = time_saved(base, named->outcome);
   if (named_gains_most(base, doublings)) {

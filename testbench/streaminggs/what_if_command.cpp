@@ -99,8 +99,10 @@ void print(const Outcome& base, const std::vector<Doubling>& doublings) {
     const double time = time_saved(base, d.outcome);
     const double energy = energy_saved(base, d.outcome);
     const double mm2 = d.outcome.mm2 - base.mm2;
+    // Of the memory most stands beside the chip, where its area is not counted.
+    const bool counted = d.key.rfind("dram.", 0) != 0;
     const auto per_mm2 = [&](double gain) {
-      return mm2 > 0 ? change_in_words(gain / mm2) : std::string("-");
+      return counted && mm2 > 0 ? change_in_words(gain / mm2) : std::string("-");
     };
     fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>10} {:>10}   {}\n", d.key, d.from,
                d.to, d.outcome.cycles, change_in_words(time), change_in_words(energy), mm2,

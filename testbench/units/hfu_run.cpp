@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "algorithm/memory/splat_record.h"
+#include "modules/streaminggs/hfu/filter_datapaths.h"
 #include "testbench/units/hfu_timing_model.h"
 #include "testbench/units/random_splats.h"
 
@@ -71,8 +72,12 @@ void check_counters(UnitBench& bench, const HfuPlan& plan, const HfuTimes& times
                     bool still) {
   Checks& checks = bench.checks();
   const bool quantised = plan.scene.job.layout.second_half.quantised();
-  bench.check_operations("coarse", "fp32_lane",
-                         bench.counter("coarse_tests") * plan.config.cfu_macs);
+  // Where they do not filter they find depths all the same.
+  const std::uint64_t coarse = has_cfus(plan.config, plan.scene.job.layout.split.bound_by)
+                                   ? bench.accesses("input").first
+                                   : 0;
+  if (plan.config.coarse_filter) bench.check_counter("coarse_tests", coarse);
+  if (coarse > 0) bench.check_operations("coarse", "fp32_lane", coarse * plan.config.cfu_macs);
   bench.check_operations("fine", "fp32_lane", bench.counter("fine_tests") * plan.config.ffu_macs);
   // Every half that was fetched went into its buffer, in words of 32 B the second ones.
   const std::uint64_t halves = bench.counter("first_halves");
@@ -92,11 +97,10 @@ void check_counters(UnitBench& bench, const HfuPlan& plan, const HfuTimes& times
       const char* what;
       std::uint64_t cycles, turns, most;  // most: that the tests could wait for their turns
     };
-    for (const Busy& busy :
-         {Busy{"coarse", times.coarse_busy, times.coarse_turns,
-               times.coarse_tests * (plan.config.cfu_interval_cycles() + plan.config.cfus)},
-          Busy{"fine", times.fine_busy, times.fine_turns,
-               times.fine_tests * (plan.config.ffu_interval_cycles() - 1)}}) {
+    for (const Busy& busy : {Busy{"coarse", times.coarse_busy, times.coarse_turns,
+                                  coarse * (plan.config.cfu_interval_cycles() + plan.config.cfus)},
+                             Busy{"fine", times.fine_busy, times.fine_turns,
+                                  times.fine_tests * (plan.config.ffu_interval_cycles() - 1)}}) {
       const std::uint64_t cycles = bench.busy_cycles(busy.what);
       const std::string of = fmt::format("busy cycles, {}", busy.what);
       if (still) {
@@ -172,7 +176,8 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
   }
   std::optional<std::uint32_t> decode_latency;
   if (codebooks) decode_latency = plan.codebook.latency_cycles;
-  const HfuTimes times = hfu_times(plan.config, timed, bench_config.latency_cycles, decode_latency);
+  const HfuTimes times = hfu_times(plan.config, plan.scene.job.layout.split.bound_by, timed,
+                                   bench_config.latency_cycles, decode_latency);
   std::uint64_t splats = 0;
   for (std::size_t k = 0; k < plan.shares.size(); ++k) {
     expected[k].splats = of_tested(expected[k].splats, plan.shares[k], times.tested[k]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "modules/streaminggs/hfu/codebook_config.h"
+#include "modules/streaminggs/hfu/filter_datapaths.h"
 #include "tlm/memory_port.h"
 
 namespace sgs::tb {
@@ -26,8 +27,12 @@ Cycle port_cycles(const RecordArray& records, std::uint64_t first, std::size_t c
 
 class Pipeline {
  public:
-  Pipeline(const HfuConfig& config, Cycle latency, std::optional<std::uint32_t> decode_latency)
-      : config_(config), latency_(latency), decode_latency_(decode_latency) {}
+  Pipeline(const HfuConfig& config, CoarseBoundBy bound_by, Cycle latency,
+           std::optional<std::uint32_t> decode_latency)
+      : config_(config),
+        has_cfus_(has_cfus(config, bound_by)),
+        latency_(latency),
+        decode_latency_(decode_latency) {}
 
   void share(const TimedShare& share) {
     share_ = &share;
@@ -76,8 +81,8 @@ class Pipeline {
   void filter(std::size_t at, std::size_t count, Cycle data) {
     coarse_ = std::max(coarse_, data);
     // A first half is read a cycle; each CFU begins when it is its turn, the first in cycle 0.
-    const Cycle cfus = config_.coarse_filter ? config_.cfus : 1;
-    const Cycle of_test = config_.coarse_filter ? config_.cfu_interval_cycles() : 1;
+    const Cycle cfus = has_cfus_ ? config_.cfus : 1;
+    const Cycle of_test = has_cfus_ ? config_.cfu_interval_cycles() : 1;
     Cycle interval = of_test;
     while (interval < cfus) interval += of_test;
     Cycle owed = 0;
@@ -126,33 +131,54 @@ class Pipeline {
       ++fetch_;
     }
     fetch_ = std::max(fetch_, before(fetched_taken_, config_.second_half_slots + 1));
-    // The thread behind the fetches: the decode stage where there is one, else the FFU.
-    Cycle& taker = decode_latency_ ? decode_ : fine_;
-    taker = std::max(taker, fetch_ + 1);
-    fetched_taken_.push_back(taker);
-    if (gaussian != nullptr) {
-      taker = std::max(taker, data);
-      if (decode_latency_ && !finished(taker)) {
-        read_lines(share_->lines[*gaussian]);
-      } else if (decode_latency_) {
-        ++decode_;
-        ++times_.decode_busy;
-      }
-      slot_free_.push_back(taker + read_cycles());
-    }
     if (decode_latency_) {
-      if (gaussian == nullptr) {
-        ++decode_;
-        ++times_.decode_busy;
-      }
-      hand_on();
-    }
-    if (gaussian != nullptr) {
-      test(*gaussian);
+      decode(gaussian, data);
     } else {
-      ++fine_;
-      ++times_.fine_busy;
+      take(gaussian, data);
     }
+  }
+
+  // The decode stage; what it has in hand stays in the FIFO behind the fetches until it is done.
+  void decode(const std::size_t* gaussian, Cycle data) {
+    decode_ = std::max({decode_, fetch_ + 1, data});
+    if (gaussian != nullptr && !finished(decode_)) {
+      read_lines(share_->lines[*gaussian]);
+    } else {
+      ++decode_;
+      ++times_.decode_busy;
+    }
+    if (gaussian != nullptr) slot_free_.push_back(decode_ + read_cycles());
+    fetched_taken_.push_back(decode_);
+    decode_ = std::max(decode_, before(decoded_taken_, kDecodedEntries));
+    fine_ = std::max(fine_, decode_ + *decode_latency_);
+    if (gaussian == nullptr) {
+      decoded_taken_.push_back(fine_);
+      pass_mark();
+      return;
+    }
+    const bool wanted = wait_for_turn();
+    decoded_taken_.push_back(fine_);
+    test(*gaussian, wanted);
+  }
+
+  // The FFU itself, straight from the slots.
+  void take(const std::size_t* gaussian, Cycle data) {
+    fine_ = std::max(fine_, fetch_ + 1);
+    if (gaussian == nullptr) {
+      fetched_taken_.push_back(fine_);
+      pass_mark();
+      return;
+    }
+    fine_ = std::max(fine_, data);
+    const bool wanted = wait_for_turn();
+    slot_free_.push_back(fine_ + read_cycles());
+    fetched_taken_.push_back(fine_);
+    test(*gaussian, wanted);
+  }
+
+  void pass_mark() {
+    ++fine_;
+    ++times_.fine_busy;
   }
 
   // A record, a word of the port's width a cycle.
@@ -167,15 +193,19 @@ class Pipeline {
     ++times_.decoded;
   }
 
-  // From the decode stage to the FFU.
-  void hand_on() {
-    decode_ = std::max(decode_, before(decoded_taken_, kDecodedEntries));
-    fine_ = std::max(fine_, decode_ + *decode_latency_);
-    decoded_taken_.push_back(fine_);
+  // False for what a finished group does not want: it takes no turn.
+  bool wait_for_turn() {
+    if (finished(fine_)) return false;
+    while (fine_ % config_.ffu_interval_cycles() != 0) {
+      ++fine_;
+      ++times_.fine_busy;
+      ++times_.fine_turns;
+    }
+    return true;
   }
 
-  void test(std::size_t gaussian) {
-    if (finished(fine_)) {
+  void test(std::size_t gaussian, bool wanted) {
+    if (!wanted) {
       ++times_.dropped;
       ++fine_;
       ++times_.fine_busy;
@@ -183,16 +213,14 @@ class Pipeline {
     }
     const Cycle of_test =
         std::max<Cycle>(config_.ffu_interval_cycles(), decode_latency_ ? 0 : read_cycles());
-    Cycle turns = 0;
-    while ((fine_ + turns) % config_.ffu_interval_cycles() != 0) ++turns;
-    fine_ += turns + of_test;
-    times_.fine_busy += turns + of_test;
-    times_.fine_turns += turns;
+    fine_ += of_test;
+    times_.fine_busy += of_test;
     times_.tested.back()[gaussian] = true;
     ++times_.fine_tests;
   }
 
   const HfuConfig& config_;
+  const bool has_cfus_;
   const Cycle latency_;
   const std::optional<std::uint32_t> decode_latency_;
   const TimedShare* share_ = nullptr;
@@ -205,10 +233,10 @@ class Pipeline {
 
 }  // namespace
 
-HfuTimes hfu_times(const HfuConfig& config, const std::vector<TimedShare>& shares,
-                   std::uint64_t latency_cycles,
+HfuTimes hfu_times(const HfuConfig& config, CoarseBoundBy bound_by,
+                   const std::vector<TimedShare>& shares, std::uint64_t latency_cycles,
                    std::optional<std::uint32_t> decode_latency_cycles) {
-  Pipeline pipeline(config, latency_cycles, decode_latency_cycles);
+  Pipeline pipeline(config, bound_by, latency_cycles, decode_latency_cycles);
   for (const TimedShare& share : shares) pipeline.share(share);
   return pipeline.times();
 }

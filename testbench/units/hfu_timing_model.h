@@ -39,8 +39,8 @@ struct HfuTimes {
 // decode_latency_cycles: of the stage that quantised second halves pass before the FFU; the
 // codebook buffer is full from the start and has no other reader. None where they are not
 // quantised.
-HfuTimes hfu_times(const HfuConfig& config, const std::vector<TimedShare>& shares,
-                   std::uint64_t latency_cycles,
+HfuTimes hfu_times(const HfuConfig& config, CoarseBoundBy bound_by,
+                   const std::vector<TimedShare>& shares, std::uint64_t latency_cycles,
                    std::optional<std::uint32_t> decode_latency_cycles);
 
 }  // namespace sgs::tb

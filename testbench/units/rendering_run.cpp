@@ -233,6 +233,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
     sum.splats_dropped += group.splats_dropped;
     finishes += group.subtiles_finished;
     sum.splats_spanned += group.splats_spanned;
+    sum.begun_span_reads += group.begun_span_reads;
     sum.late_blends += group.late_blends;
     sum.hazard_cycles += group.hazard_cycles;
     sum.queue_cycles += group.queue_cycles;
@@ -283,10 +284,12 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   }
   bench.check_accesses("pixel state", reads, writes);
   const std::uint64_t bits = 8 * mask_use(plan.group).total_bytes();
-  bench.check_accesses("finished sub-tiles", bits * (dropped + sum.splats_spanned + sum.row_cycles),
+  bench.check_accesses("finished sub-tiles",
+                       bits * (dropped + bench.counter("splats_taken") + sum.row_cycles),
                        finishes + bits * plan.groups.size());
   bench.check_accesses("sub-tiles in the loop", looks, sum.blends);
   bench.check_accesses("cluster queues", sum.blends, sum.blends);
+  bench.check_accesses("begun spans", sum.begun_span_reads, sum.splats_spanned);
   bench.check_accesses("spans", bench.counter("spans"), bench.counter("spans"));
   bench.check_accesses("splats under way", bench.counter("splats_taken"),
                        bench.counter("splats_taken"));

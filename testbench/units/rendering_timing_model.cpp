@@ -110,6 +110,7 @@ class GroupModel {
     begins_->row_from = row;
     for (std::uint32_t at = 0; at < begins_->token->spans; at += config_.spans_at_once()) {
       row += config_.span_interval_cycles();
+      ++times_.begun_span_reads;
     }
     rows_free_ = row;
     begins_ = nullptr;

@@ -25,7 +25,7 @@ struct RenderingTimes {
   std::optional<std::uint64_t>
       finished;  // every sub-tile is known to be finished from this cycle on
   std::uint64_t blends = 0, late_blends = 0, hazard_cycles = 0, queue_cycles = 0;
-  std::uint64_t spans = 0, splats_spanned = 0;
+  std::uint64_t spans = 0, splats_spanned = 0, begun_span_reads = 0;
   std::uint64_t rows = 0, row_cycles = 0;
   std::uint64_t splats_hidden = 0;  // came when their whole footprint was finished
   std::uint64_t subtiles_finished = 0;

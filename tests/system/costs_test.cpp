@@ -146,16 +146,17 @@ void check_binding(const Json& view) {
 
 TEST_CASE("costs: the rays' remedy is more of what they share and wait for, else more rays") {
   struct Row {
-    const char *ray_lanes, *step_lanes, *key;
+    const char *ray_lanes, *step_lanes, *table_bytes, *key;
   };
-  for (const auto& [ray_lanes, step_lanes, key] :
-       {Row{"63", "24", "vsu.rays_in_flight"}, Row{"63", "2", "vsu.step_lanes"},
-        Row{"1", "24", "vsu.ray_lanes"}}) {
+  for (const auto& [ray_lanes, step_lanes, table_bytes, key] :
+       {Row{"63", "24", "4096", "vsu.rays_in_flight"}, Row{"63", "2", "4096", "vsu.step_lanes"},
+        Row{"1", "24", "4096", "vsu.ray_lanes"}, Row{"63", "24", "16", "vsu.table_bytes"}}) {
     CAPTURE(key);
     const Simulation simulation(
         with_settings({"builtin:object?n=3000", "--size", "96x54", "--config", "paper"},
                       {"storage.encoding=raw", std::string("vsu.ray_lanes=") + ray_lanes,
-                       std::string("vsu.step_lanes=") + step_lanes}));
+                       std::string("vsu.step_lanes=") + step_lanes,
+                       std::string("vsu.table_bytes=") + table_bytes}));
     CHECK(simulation.views()[0]["units"]["vsu"]["activities"]["traverse"]["key"] == key);
   }
 }

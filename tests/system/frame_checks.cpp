@@ -203,8 +203,12 @@ void check_bounds(const Json& view) {
   const Json& config = view["config"];
   const std::uint64_t frame = frame_cycles(view);
   const Json& hfu = config["hfu"];
+  // In paper order without the filter there are no CFUs.
+  const Json& datapath = view["datapath"];
   const std::uint64_t coarse_interval =
-      ceil_div(count(view["datapath"]["coarse"]["used"]["macs"]), count(hfu["cfu_lanes"]));
+      datapath.contains("coarse")
+          ? ceil_div(count(datapath["coarse"]["used"]["macs"]), count(hfu["cfu_lanes"]))
+          : 1;
   const std::uint64_t fine_interval = ceil_div(count(hfu["ffu_macs"]), count(hfu["ffu_lanes"]));
   const std::uint64_t parts = parts_of(config);
   const std::uint64_t clusters = count(config["rendering"]["clusters"]) / parts;

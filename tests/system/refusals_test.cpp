@@ -37,8 +37,8 @@ void check_set_refused(const std::string& order, const Arguments& settings,
 TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
   check_set_refused("paper", {"group_width_px=128", "group_height_px=128"},
                     {"streaminggs: preset paper with --set group_height_px=128 --set "
-                     "group_width_px=128: sram.shared_bytes: 91136 bytes are there", "are needed", "pixel state",
-                     "1 groups x 128 px x 128 px x 8 B"});
+                     "group_width_px=128: sram.shared_bytes: 91136 bytes are there",
+                     "are needed", "pixel state", "1 groups x 128 px x 128 px x 8 B"});
   check_set_refused("paper", {"hfu.slice_gaussians=1024"},
                     {"sram.input_bytes: 16384 bytes are there", "2 slots x 1024 Gaussians"});
   check_set_refused("exact", {"hfus=8"},
@@ -55,28 +55,36 @@ TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
                     {"sram.shared_bytes: 10000", "pixel state"});
 }
 
-TEST_CASE("refusals: a pipeline shorter than the longest path through it") {
+TEST_CASE("refusals: a pipeline shorter than its schedule, a loop longer than its pipeline") {
   struct Row {
     const char *order, *key;
     int least;
   };
-  for (const auto& [order, key, least] :
-       {Row{"exact", "rendering.begin_depth_cycles", 88}, {"exact", "rendering.depth_cycles", 47},
-        {"exact", "rendering.state_loop_cycles", 9}, {"exact", "rendering.span_depth_cycles", 41},
-        {"exact", "rendering.drain_depth_cycles", 11}, {"exact", "hfu.cfu_depth_cycles", 84},
-        {"exact", "hfu.ffu_depth_cycles", 173}, {"exact", "vsu.test_depth_cycles", 194},
-        {"paper_no_vq", "vsu.step_depth_cycles", 46},
-        {"paper_no_vq", "vsu.cell_step_depth_cycles", 13},
-        {"paper_no_vq", "vsu.ray_depth_cycles", 82}}) {
+  for (const auto& [order, key, least] : {Row{"exact", "rendering.begin_depth_cycles", 91},
+                                          {"exact", "rendering.depth_cycles", 50},
+                                          {"exact", "rendering.state_loop_cycles", 10},
+                                          {"exact", "rendering.span_depth_cycles", 41},
+                                          {"exact", "rendering.drain_depth_cycles", 11},
+                                          {"exact", "hfu.cfu_depth_cycles", 131},
+                                          {"exact", "hfu.ffu_depth_cycles", 198},
+                                          {"exact", "vsu.test_depth_cycles", 198},
+                                          {"paper_no_vq", "vsu.step_depth_cycles", 46},
+                                          {"paper_no_vq", "vsu.cell_step_depth_cycles", 13},
+                                          {"paper_no_vq", "vsu.ray_depth_cycles", 91}}) {
     const auto set = [key = key](int depth) { return key + ("=" + std::to_string(depth)); };
-    check_set_refused(order, {set(least - 1)},
-                      {"streaminggs: --set " + set(least - 1) + ": ",
-                       "expected " + std::to_string(least) + " or more, the longest path of ",
-                       ", or 0: by its schedule\n"});
+    check_set_refused(
+        order, {set(least - 1)},
+        {"streaminggs: --set " + set(least - 1) + ": ",
+         "expected " + std::to_string(least) + " or more, the end of the schedule of ",
+         ", or 0: that\n"});
     CHECK(run_streaminggs({"simulate", "builtin:object?n=100", "--config", order, "--set",
                            set(least), "--print-config"})
               .status == 0);
   }
+  check_set_refused("exact", {"rendering.depth_cycles=60", "rendering.state_loop_cycles=61"},
+                    {"rendering.state_loop_cycles: got 61, expected at most 60"});
+  check_set_refused("paper_no_vq", {"hfu.coarse_filter=false", "hfu.cfu_depth_cycles=99"},
+                    {"hfu.cfu_depth_cycles: got 99 with hfu.coarse_filter=false", "expected 0"});
 }
 
 TEST_CASE("refusals: none of a unit") {

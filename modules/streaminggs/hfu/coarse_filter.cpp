@@ -19,6 +19,7 @@ CoarseFilter::CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig&
                                           static_cast<std::uint32_t>(context.job.parts.size()),
                                           context.built_for.single),
                           static_cast<std::uint32_t>(context.job.parts.size()))),
+      has_cfus_(has_cfus(config, context.job.layout.split.bound_by)),
       job_(context.job),
       record_bytes_(job_.layout.first_halves.record_bytes),
       load_("load", context.clock),
@@ -89,13 +90,13 @@ std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
 }
 
 // The CFUs take a Gaussian each in their turns, a cycle after each other as these come out of the
-// input buffer; so they are done a cycle apart, and a candidate a cycle goes on. Without the filter
-// a Gaussian takes that cycle. Simulated time is only let pass where somebody could see it: before
+// input buffer; so they are done a cycle apart, and a candidate a cycle goes on. Without CFUs a
+// Gaussian takes that cycle. Simulated time is only let pass where somebody could see it: before
 // a candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
   const RecordSplit& split = job_.layout.split;
-  const std::uint64_t cfus = config_.coarse_filter ? tests_.copies : 1;
-  const std::uint64_t of_test = config_.coarse_filter ? tests_.interval_cycles() : 1;
+  const std::uint64_t cfus = has_cfus_ ? tests_.copies : 1;
+  const std::uint64_t of_test = has_cfus_ ? tests_.interval_cycles() : 1;
   const std::uint64_t interval = cycles_for(cfus, of_test) * of_test;
   std::uint64_t passed = filter_.clock().now_cycles(), cycle = passed;
   std::uint32_t open = 0;  // parts
@@ -185,15 +186,17 @@ void CoarseFilter::publish(DataSheet& sheet) {
                 counters_.candidates);
   sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
                 counters_.dropped_saturated);
-  sheet.datapath(tests_, counters_.tests);
+  if (has_cfus_) sheet.datapath(tests_, counters_.read);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");
   sheet.port(memory);
   sheet.sram(sram_uses(config_, built_for_));
   sheet.accesses("input", counters_.read, counters_.first_halves);
   sheet.queue(slices_, "slices");
-  sheet.remedy(filter_, "hfu.cfu_lanes");
-  sheet.may_help("hfu.cfus");
+  if (has_cfus_) {
+    sheet.remedy(filter_, "hfu.cfu_lanes");
+    sheet.may_help("hfu.cfus");
+  }
   sheet.may_help("hfus");
   sheet.remedy(memory, WaitFor::kReads, "hfu.input_slots");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");

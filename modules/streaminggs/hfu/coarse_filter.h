@@ -67,6 +67,7 @@ class CoarseFilter : public sc_core::sc_module {
   const HfuConfig config_;
   const BuiltFor built_for_;
   const Datapath tests_;
+  const bool has_cfus_;
   const StreamingJob& job_;
   const std::uint32_t record_bytes_;
   Activity load_, filter_;

@@ -11,6 +11,12 @@
 
 namespace sgs {
 
+// Whether there are CFUs: a machine of exact order has them whether they filter or not, since they
+// find the depth that is a Gaussian's key.
+inline bool has_cfus(const HfuConfig& config, CoarseBoundBy bound_by) {
+  return config.coarse_filter || bound_by == CoarseBoundBy::kExtents;
+}
+
 // parts: of a group that one test tells apart, a square number. cfu_macs are of a group in one.
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts);
 Datapath fine_datapath(const HfuConfig& config, const FineRecord& record);

@@ -109,27 +109,12 @@ void FineFilter::drop_saturated(const FineCandidate& candidate) {
   for (const auto& part : parts_) part->fetched.push(rejected, fetch_);
 }
 
-// The next candidate in order, its second half read from what was fetched.
-FineFilter::Decoded FineFilter::take_fetched(Part& part, Activity& activity) {
-  Decoded out;
-  out.candidate = part.fetched.pop(activity);
-  const FineCandidate& candidate = out.candidate;
-  if (candidate.mark != Mark::kNone) return out;
-  await(memory, activity, candidate.ticket);
-  const SecondHalfFormat& format = job_.layout.second_half;
-  const RecordSplit& split = job_.layout.split;
-  const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
-  ++counters_.taken;
-  if (part.stage && finished[static_cast<int>(part.index)]->finished(candidate.group)) {
-    activity.work(1);
-  } else if (part.stage) {
-    codebooks->read_entries(place_.reader + part.index,
-                            read_indices(split, format, candidate.carried, record), activity);
-  }
-  out.second = read_record(split, format, {candidate.mean_x, candidate.mean_y, candidate.mean_z},
-                           candidate.carried, record, part.stage ? codebooks->bytes() : nullptr);
-  free_slot(candidate.buffer, activity);
-  return out;
+// What a slot holds, with what the first half had of it.
+DecodedGaussian FineFilter::read_slot(const Part& part, const FineCandidate& candidate) const {
+  return read_record(job_.layout.split, job_.layout.second_half,
+                     {candidate.mean_x, candidate.mean_y, candidate.mean_z}, candidate.carried,
+                     second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_,
+                     part.stage ? codebooks->bytes() : nullptr);
 }
 
 // By one of the parts that want what is in it, when its last word has been read.
@@ -138,42 +123,111 @@ void FineFilter::free_slot(std::uint32_t slot, Activity& activity) {
 }
 
 void FineFilter::run_decode(Part& part) {
-  DecodeStage& stage = *part.stage;
+  Activity& decode = part.stage->decode;
   while (true) {
-    const Decoded next = take_fetched(part, stage.decode);
-    if (next.candidate.mark != Mark::kNone) stage.decode.work(1);
-    stage.decoded.push(next, stage.decode);
+    Decoded next;
+    next.candidate = part.fetched.front(decode);
+    const FineCandidate& candidate = next.candidate;
+    if (candidate.mark != Mark::kNone) {
+      decode.work(1);
+    } else {
+      await(memory, decode, candidate.ticket);
+      ++counters_.taken;
+      if (finished[static_cast<int>(part.index)]->finished(candidate.group)) {
+        decode.work(1);
+      } else {
+        const std::byte* record =
+            second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_;
+        codebooks->read_entries(
+            place_.reader + part.index,
+            read_indices(job_.layout.split, job_.layout.second_half, candidate.carried, record),
+            decode);
+      }
+      next.second = read_slot(part, candidate);
+      free_slot(candidate.buffer, decode);
+    }
+    part.fetched.remove_front();
+    part.stage->decoded.push(next, decode);
   }
 }
 
 void FineFilter::run_filter(Part& part) {
   while (true) {
-    const Decoded next =
-        part.stage ? part.stage->decoded.pop(part.filter) : take_fetched(part, part.filter);
-    if (next.candidate.mark == Mark::kNone) {
-      test(part, next);
-      continue;
+    if (part.stage) {
+      filter_decoded(part);
+    } else {
+      filter_fetched(part);
     }
-    part.filter.work(1);
-    SplatToken end;
-    end.group = next.candidate.group;
-    end.visit = next.candidate.visit;
-    end.mark = next.candidate.mark;
-    to_sorting(part, end.visit).push(end, part.filter);
   }
+}
+
+void FineFilter::filter_decoded(Part& part) {
+  const Decoded& front = part.stage->decoded.front(part.filter);
+  const bool wanted = is_wanted(part, front.candidate);
+  if (wanted) wait_for_turn(part.filter);
+  const Decoded next = front;
+  part.stage->decoded.remove_front();
+  if (next.candidate.mark != Mark::kNone) {
+    pass_mark(part, next.candidate);
+  } else if (wanted) {
+    test(part, next);
+  } else {
+    drop(part, next.candidate);
+  }
+}
+
+void FineFilter::filter_fetched(Part& part) {
+  Decoded next;
+  next.candidate = part.fetched.front(part.filter);
+  if (next.candidate.mark != Mark::kNone) {
+    part.fetched.remove_front();
+    pass_mark(part, next.candidate);
+    return;
+  }
+  await(memory, part.filter, next.candidate.ticket);
+  ++counters_.taken;
+  const bool wanted = is_wanted(part, next.candidate);
+  if (wanted) wait_for_turn(part.filter);
+  next.second = read_slot(part, next.candidate);
+  free_slot(next.candidate.buffer, part.filter);
+  part.fetched.remove_front();
+  if (wanted) {
+    test(part, next);
+  } else {
+    drop(part, next.candidate);
+  }
+}
+
+bool FineFilter::is_wanted(const Part& part, const FineCandidate& candidate) const {
+  return candidate.mark == Mark::kNone &&
+         !finished[static_cast<int>(part.index)]->finished(candidate.group);
+}
+
+// What waits for its turn stays where it is until then.
+void FineFilter::wait_for_turn(Activity& filter) const {
+  const std::uint64_t now = filter.clock().now_cycles();
+  filter.work(next_turn(now, tests_.interval_cycles()) - now);
+}
+
+void FineFilter::pass_mark(Part& part, const FineCandidate& candidate) {
+  part.filter.work(1);
+  SplatToken end;
+  end.group = candidate.group;
+  end.visit = candidate.visit;
+  end.mark = candidate.mark;
+  to_sorting(part, end.visit).push(end, part.filter);
+}
+
+void FineFilter::drop(Part& part, const FineCandidate& candidate) {
+  ++counters_.dropped_saturated;
+  ++counters_.dropped_fetched;
+  part.filter.work(1);
+  reject(part, candidate);
 }
 
 void FineFilter::test(Part& part, const Decoded& decoded) {
   const FineCandidate& candidate = decoded.candidate;
-  if (finished[static_cast<int>(part.index)]->finished(candidate.group)) {
-    ++counters_.dropped_saturated;
-    ++counters_.dropped_fetched;
-    part.filter.work(1);
-    reject(part, candidate);
-    return;
-  }
-  const std::uint64_t now = part.filter.clock().now_cycles();
-  part.filter.work(next_turn(now, tests_.interval_cycles()) - now + test_cycles_);
+  part.filter.work(test_cycles_);
   ++counters_.tests;
   SplatToken token;
   if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||

@@ -101,9 +101,15 @@ class FineFilter : public sc_core::sc_module {
   void run_decode(Part& part);  // thread: codebook entries of quantised ones
   void run_filter(Part& part);  // thread: FFU
   void fetch(FineCandidate candidate);
-  Decoded take_fetched(Part& part, Activity& activity);
+  DecodedGaussian read_slot(const Part& part, const FineCandidate& candidate) const;
   void free_slot(std::uint32_t slot, Activity& activity);
   void name_holder_of_slots();
+  void filter_fetched(Part& part);
+  void filter_decoded(Part& part);
+  bool is_wanted(const Part& part, const FineCandidate& candidate) const;
+  void wait_for_turn(Activity& filter) const;
+  void drop(Part& part, const FineCandidate& candidate);
+  void pass_mark(Part& part, const FineCandidate& candidate);
   void test(Part& part, const Decoded& decoded);
   void reject(Part& part, const FineCandidate& candidate);
   void drop_saturated(const FineCandidate& candidate);

@@ -108,6 +108,7 @@ void RenderingUnit::blend_splat(const Splat& splat, std::uint32_t group, GroupSt
     if (subtile.finishes) tell_finished(group, subtile.at, now);
   });
   counters_.spans += work.spans;
+  counters_.begun_span_reads += cycles_for(work.spans, config_.spans_at_once());
   counters_.splats_spanned += work.spans > 0 ? 1 : 0;
   counters_.splats += work.blended > 0 ? 1 : 0;
   // The last transmittance is known when the blend has left the pipeline.
@@ -209,7 +210,7 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
                  clusters.blends);
   sheet.datapath(begin_pipeline(config_, built_for_.single), counters_.splats_spanned);
   sheet.datapath(span_pipeline(config_, built_for_.single), counters_.spans);
-  sheet.accesses(kBegunSpans, counters_.splats_spanned, counters_.splats_spanned);
+  sheet.accesses(kBegunSpans, counters_.begun_span_reads, counters_.splats_spanned);
   sheet.accesses("splats under way", counters_.splats_taken, counters_.splats_taken);
   sheet.accesses("spans", counters_.spans, counters_.spans);
   sheet.accesses("cluster queues", clusters.blends, clusters.blends);
@@ -220,8 +221,7 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
 
 void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   const ClusterSchedule::Counters& clusters = schedule_.counters();
-  // Whether a splat's footprint is finished is asked of all rows at once: with its first row or,
-  // where it has spans to wait for, before it.
+  // Whether a splat's footprint is finished is asked of all rows at once, when it is taken.
   const std::uint64_t dropped = counters_.splats_hidden + counters_.splats_saturated;
   const double of_splat = mask_comparators(built_for_.group);
   const double of_row = row_comparators(built_for_.group, config_.clusters);
@@ -239,7 +239,7 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
                        of_loop * static_cast<double>(looks));
   const std::uint64_t bits = mask_bits(built_for_.group);
   sheet.accesses("finished sub-tiles",
-                 bits * (dropped + counters_.splats_spanned + clusters.row_cycles),
+                 bits * (dropped + counters_.splats_taken + clusters.row_cycles),
                  clusters.finished + bits * counters_.groups);
   sheet.accesses("sub-tiles in the loop", looks, clusters.blends);
 }

@@ -48,6 +48,7 @@ class RenderingUnit : public sc_core::sc_module {
     std::uint64_t splats_hidden = 0;     // when all sub-tiles of their footprint were
     std::uint64_t splats_spanned = 0;    // on more sub-tiles than a few
     std::uint64_t spans = 0;             // of rows of sub-tiles
+    std::uint64_t begun_span_reads = 0;  // for these, those that come at once sharing one
     std::uint64_t contributors = 0;      // (splat, pixel) blends
     std::uint64_t groups_saturated = 0;
   };

@@ -41,8 +41,13 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
 }
 
 void PaperVsu::run_traverse() {
-  for (current_group_ = 0; current_group_ < job_.groups.size(); ++current_group_) {
-    const GroupVisits visits = order_group(job_.groups[current_group_]);
+  const ClockDomain& clock = traverse_.clock();
+  for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
+    current_group_ = group;
+    const std::uint64_t from = clock.now_cycles();
+    const GroupVisits visits = order_group(job_.groups[group]);
+    const std::uint64_t cycles = clock.now_cycles() - from;
+    (visits.overflows > 0 ? cycles_of_full_tables_ : cycles_of_others_) += cycles;
     if (visits.voxels.empty()) ++counters_.groups_empty;
     counters_.rays += visits.rays;
     counters_.steps += visits.steps;
@@ -193,8 +198,11 @@ void PaperVsu::publish(DataSheet& sheet) {
                  counters_.visits_saturated, "their Gaussians are not streamed");
   sheet.port(node_memory);
   sheet.port(record_memory);
-  sheet.remedy(traverse_, rays_.remedy());
-  for (const char* key : {"vsu.rays_in_flight", "vsu.step_lanes", "vsu.ray_lanes"}) {
+  // Where the table is full a group's rays are followed again.
+  sheet.remedy(traverse_, cycles_of_full_tables_ > cycles_of_others_ ? Remedy("vsu.table_bytes")
+                                                                     : rays_.remedy());
+  for (const char* key :
+       {"vsu.rays_in_flight", "vsu.step_lanes", "vsu.ray_lanes", "vsu.table_bytes"}) {
     sheet.may_help(key);
   }
   sheet.remedy(node_memory, WaitFor::kReads, "vsu.node_cache_bytes");

@@ -75,6 +75,7 @@ class PaperVsu : public sc_core::sc_module {
   OrderingTable table_;
   TimedFifo<std::shared_ptr<OrderedPass>> ordered_;
   Counters counters_;
+  std::uint64_t cycles_of_full_tables_ = 0, cycles_of_others_ = 0;  // of groups
   std::uint32_t next_visit_ = 0;
   std::uint32_t current_group_ = 0, current_voxel_ = 0;  // for the waveform
 };

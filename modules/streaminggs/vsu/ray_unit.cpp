@@ -49,7 +49,7 @@ RayUnit::RayUnit(const PaperVsuConfig& c, const OperationLatencies& latencies,
       activity_(activity),
       port_(port),
       begins_(pixel_ray_pipeline(c, latencies)),
-      steps_(ray_step_pipeline(c, longest_step_case(), latencies)) {}
+      steps_(ray_step_pipeline(c, latencies)) {}
 
 void RayUnit::advance_to(std::uint64_t cycle) {
   if (cycle > now()) clock_.wait_cycles(cycle - now());

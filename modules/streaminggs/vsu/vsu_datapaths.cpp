@@ -22,8 +22,7 @@ Datapath pipeline(const char* name, const OperationCounts& work, std::uint32_t l
 Datapath chunk_test_pipeline(const ExactVsuConfig& config, const OperationLatencies& latencies) {
   const ChunkCase longest = longest_chunk_case();
   const auto steps = chunk_steps(longest, latencies);
-  Datapath path =
-      pipeline("chunk_test", chunk_work(longest), config.test_lanes, steps, latencies);
+  Datapath path = pipeline("chunk_test", chunk_work(longest), config.test_lanes, steps, latencies);
   set_by_group(path, steps);
   return path;
 }
@@ -33,8 +32,16 @@ Datapath pixel_ray_pipeline(const PaperVsuConfig& config, const OperationLatenci
                   latencies);
 }
 
-Datapath ray_step_pipeline(const PaperVsuConfig& config, const StepCase& step,
-                           const OperationLatencies& latencies) {
+Datapath ray_step_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies) {
+  const StepCase step = longest_step_case();
+  return pipeline("ray_step", ray_step_work(step), config.step_lanes,
+                  ray_step_steps(step, latencies), latencies);
+}
+
+Datapath cell_step_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies) {
+  Datapath block = ray_step_pipeline(config, latencies);
+  if (block.interval_cycles() > 1) return block;
+  const StepCase step = cell_step_case();
   return pipeline("ray_step", ray_step_work(step), config.step_lanes,
                   ray_step_steps(step, latencies), latencies);
 }

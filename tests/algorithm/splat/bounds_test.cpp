@@ -64,7 +64,7 @@ std::vector<RowBounds<float>> rows_of(const Projected<float>& p, float opacity,
   spans.start(footprint.y0 * kSubtilePx);
   std::vector<RowBounds<float>> rows;
   for (int y = footprint.y0; y < footprint.y1; ++y) {
-    rows.push_back(spans.next((y + 1) * kSubtilePx));
+    rows.push_back(spans.next(y * kSubtilePx, (y + 1) * kSubtilePx));
   }
   return rows;
 }

@@ -1,9 +1,17 @@
 // Turns at lanes that work by a fixed schedule.
 #include "modules/streaminggs/work_rates.h"
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <map>
 #include <random>
+#include <tuple>
+
+#include "algorithm/splat/folded_pipeline.h"
+#include "algorithm/voxel/ray_work.h"
+#include "modules/streaminggs/scheduled_datapath.h"
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs::test {
 
@@ -30,6 +38,44 @@ TEST_CASE("turns: what one lane-set begins, begins whole intervals apart") {
         now = begins + 1 + random() % 3 * (random() % 20);
       }
     }
+  }
+}
+
+// In a cycle of the interval each item under way takes what its own kind takes there: the worst is
+// the larger of the two kinds for each item.
+TEST_CASE("turns: steps of rays out of blocks and out of cells meet on no lane") {
+  constexpr OperationLatencies latencies{3, 1, 1};
+  for (const std::uint32_t lanes : {24U, 30U, 48U}) {
+    INFO(lanes << " lanes");
+    PaperVsuConfig config;
+    config.step_lanes = lanes;
+    const Datapath block = ray_step_pipeline(config, latencies);
+    REQUIRE(block.interval_cycles() == 1);
+    CHECK(cell_step_pipeline(config, latencies).depth_cycles < block.depth_cycles);
+    const FoldedParts parts = parts_of(block, 1);
+    // [part, cycle of an item]: by an item of each kind
+    std::map<std::tuple<StepBy, std::uint32_t>, std::array<std::uint32_t, 2>> taken;
+    int kind = 0;
+    for (const StepCase& step : {longest_step_case(), cell_step_case()}) {
+      const auto steps = ray_step_steps(step, latencies);
+      const FoldedSchedule schedule = folded_pipeline(steps, parts, latencies).schedule;
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (steps[i].by != StepBy::kOutside) ++taken[{steps[i].by, schedule.begins[i]}][kind];
+      }
+      ++kind;
+    }
+    std::map<StepBy, std::uint32_t> most;
+    for (const auto& [of, by_kind] : taken) {
+      most[std::get<StepBy>(of)] += std::max(by_kind[0], by_kind[1]);
+    }
+    for (const auto& [by, count] : most) CHECK(count <= parts.of(by));
+  }
+  for (const std::uint32_t lanes : {1U, 4U, 8U, 12U, 23U}) {
+    INFO(lanes << " lanes");
+    PaperVsuConfig config;
+    config.step_lanes = lanes;
+    CHECK(cell_step_pipeline(config, latencies).depth_cycles ==
+          ray_step_pipeline(config, latencies).depth_cycles);
   }
 }
 

@@ -91,7 +91,7 @@ TEST_CASE("what-if: the verdict on what binding names") {
             "binding names channels, which gains 10.0 % of the time; "
             "lanes gains most: 50.0 %. With channels=2, unit "
             "holds the frame: unit works 70 %"},
-        Row{"banks", "which no key doubles; lanes gains most"},
+        Row{"banks", "binding names banks, but 2 is refused; lanes gains most"},
         Row{"", "binding names unit, which no key doubles"}}) {
     INFO(row.named);
     const Outcome base = outcome(1000, 5, row.named);
