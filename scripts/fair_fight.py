@@ -76,7 +76,7 @@ class Fight:
 
     def __init__(self, arguments: argparse.Namespace, kept: KeptRuns, scenes: Sequence[Scene]):
         self.arguments, self.kept, self.scenes = arguments, kept, scenes
-        self.points: list[Point] = []
+        self.searches: dict[tuple[str, float, str], Search] = {}
         self.best: dict[tuple[str, float, str], Point] = {}
 
     def paper_area(self) -> float:
@@ -121,6 +121,19 @@ class Fight:
         best = min(means, default=(math.inf, 0))
         return first[best[1]] if math.isfinite(best[0]) else None
 
+    def check_views(self) -> None:
+        """What the tables show last is drawn first: views and sizes that cannot be are refused
+        before the search, not behind it."""
+        if self.arguments.view == "none":
+            return
+        drawn = [
+            Run(scene, self.arguments.view, size, PRESETS[0])
+            for scene in self.scenes
+            for size in self.arguments.view_sizes
+        ]
+        for outcome in self.kept.outcomes(drawn):
+            outcome.accepted()
+
     def search_all(self) -> None:
         arguments, area, areas = self.arguments, self.paper_area(), Areas(self.kept)
         for name in self.arguments.orders:
@@ -147,24 +160,40 @@ class Fight:
                     least_db,
                 )
                 search.best_from(machine, storage)
-                if other := self.best.get((order.begins_at, budget, objective)):
-                    search.runs_left = max(search.runs_left, round(share * arguments.most_runs))
-                    search.best_from(Machine(machine.order, other.machine.at), other.storage)
-                point = self.best_of_all_views(search)
                 harm = harm or search.harm
-                self.points += search.points
-                if point:
-                    self.best[name, budget, objective] = point
-                    if objective == first:
-                        machine, storage = point.machine, point.storage
+                of = (name, budget, objective)
+                self.searches[of] = search
+                self.take_best(of)
+                beside = (order.begins_at, budget, objective)
+                self.begin_at(of, beside, machine.order)
+                if beside in self.searches:
+                    self.begin_at(beside, of, start_of(ORDERS[order.begins_at], self.kept).order)
+                if objective == first and (point := self.best.get(of)):
+                    machine, storage = point.machine, point.storage
                 self.write()
+
+    def take_best(self, of: tuple[str, float, str]) -> None:
+        if point := self.best_of_all_views(self.searches[of]):
+            self.best[of] = point
+
+    def begin_at(
+        self, of: tuple[str, float, str], other: tuple[str, float, str], order: Order
+    ) -> None:
+        """Searches once more, from the best machine of another search; order: of the first, with
+        its own lanes."""
+        if begin := self.best.get(other):
+            search = self.searches[of]
+            search.runs_left = max(search.runs_left, round(0.4 * self.arguments.most_runs))
+            search.best_from(Machine(order, begin.machine.at), begin.storage)
+            self.take_best(of)
 
     def write(self) -> None:
         """What has been found so far."""
         out = self.arguments.out
-        front = near_front(self.points)
-        made = run_arguments.how_made(view for p in self.points for view in p.views)
-        rows = front_rows(self.points, front)
+        points = [point for search in self.searches.values() for point in search.points]
+        front = near_front(points)
+        made = run_arguments.how_made(view for p in points for view in p.views)
+        rows = front_rows(points, front)
         text = made + tables.markdown(FRONT_HEAD[:-1], [row[:-1] for row in rows if row[-1]])
         tables.write_text(out / "fair_fight_front.csv", tables.csv_text(FRONT_HEAD, rows))
         tables.write_text(out / "fair_fight_front.md", text)
@@ -192,12 +221,17 @@ class Fight:
 
 
 def fight(arguments: argparse.Namespace) -> None:
-    for what, given in (("budgets", arguments.budgets), ("area", [arguments.area or 1])):
+    for what, given in (
+        ("budgets", arguments.budgets),
+        ("area", [arguments.area or 1]),
+        ("most-runs", [arguments.most_runs]),
+    ):
         if bad := [n for n in given if n <= 0]:
             raise ValueError(f"--{what}: {bad[0]:g}, expected more than 0")
     scenes = scenes_in_turn(arguments.scenes)
     kept = KeptRuns(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.side_by_side)
     made = Fight(arguments, kept, scenes)
+    made.check_views()
     made.search_all()
     for name in ("fair_fight_machines", "fair_fight_front"):
         print((arguments.out / f"{name}.md").read_text())
@@ -229,7 +263,7 @@ def main() -> int:
         "--most-runs",
         type=int,
         default=400,
-        help="simulations in the first search of an order; the others get 0.4 times as many",
+        help="simulations in the first search of an order; each other gets 0.4 times as many",
     )
     parser.add_argument("--size", default="640x360", metavar="WxH", help="of the search")
     parser.add_argument("--view", default="all", help="that all machines draw in the end, or none")

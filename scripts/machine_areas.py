@@ -34,9 +34,9 @@ class Areas:
         self.steps: dict[tuple, tuple[int, float] | None] = {}
 
     def of(self, machine: Machine) -> float | None:
-        """None: there is no such machine."""
-        settings = machine.order.storage.settings
-        overrides = (*machine.overrides(), *settings[len(settings) // 2])
+        """Where storage takes least of it; what a scene's own takes, its views tell. None: there is
+        no such machine."""
+        overrides = (*machine.overrides(), *machine.order.storage.settings[0])
         run = Run(SMALL, size=SMALL_SIZE, config=machine.order.preset, overrides=overrides)
         views = self.kept.outcome(run).views
         return area_mm2(views[0]) if views else None

@@ -28,8 +28,8 @@ def axis(key: str, *values: object) -> Axis:
 class Order:
     """A preset with the axes of its machine, of which a search tries each setting of the first at
     its start; storage: what may be chosen for each scene; keeps_picture: no scene's may be worse than
-    that of the preset `paper`; begins_at: another order, of the same axes, at whose best machine a
-    search begins as well."""
+    that of the preset `paper`; begins_at: another order, of the same axes: each of the two is begun
+    at the other's best machine as well."""
 
     name: str
     preset: str
@@ -112,15 +112,15 @@ COMMON = (
     axis("rendering.clusters", 1, 2, 4, 8),
     axis("rendering.cluster_lanes", 480),
     # As many as give an interval of whole cycles, or several rows at once.
-    axis("rendering.begin_lanes", 8, 11, 16, 25, 40, 76),
+    axis("rendering.begin_lanes", 6, 8, 11, 16, 25, 40, 76),
     axis("rendering.span_lanes", 5, 8, 10, 20, 40, 60),
     axis("hfu.ffu_lanes", 4, 8, 12, 16, 20, 24, 32, 48, 64),
     axis("hfu.cfu_lanes", 1, 2, 3, 4, 6, 8, 12),
-    axis("hfu.second_half_slots", 4, 6, 8, 16, 24, 32),
-    axis("hfu.candidate_fifo_entries", 7, 10, 16, 24),
-    axis("memory_port.max_outstanding", 8, 16, 32),
+    axis("hfu.second_half_slots", 4, 6, 8, 16, 24, 32, 48),
+    axis("hfu.candidate_fifo_entries", 7, 10, 16, 24, 32),
+    axis("memory_port.max_outstanding", 4, 8, 16, 32),
     axis("sorting_units", 1, 2, 4),
-    axis("rendering.span_slots", 8, 16, 32, 48),
+    axis("rendering.span_slots", 8, 16, 32, 48, 64),
 )
 # In both orders second halves are raw, since what codebooks cost and gain is a matter of its own,
 # and a filter's test takes what was counted on the code that runs it.
@@ -134,17 +134,20 @@ EXACT = Order(
         groups(*SHAPES),
         axis("merge.entries", 128, 256, 512, 768, 1024, 1536, 2048, 3072),
         axis("vsu.test_lanes", 16, 32, 64, 128),
-        axis("vsu.nodes_in_flight", 2, 4, 8),
+        axis("vsu.nodes_in_flight", 1, 2, 4, 8),
         axis("vsu.queue_entries", 128, 256, 512, 768),
-        axis("hfu.input_slots", 3, 5, 8),
-        axis("rendering.input_fifo_entries", 8, 14, 20),
+        axis("hfu.input_slots", 2, 3, 5, 8),
+        axis("rendering.input_fifo_entries", 8, 14, 20, 32, 64),
         *COMMON,
     ),
-    axis("storage.chunk_gaussians", 8, 16, 32, 64),
+    axis("storage.chunk_gaussians", 4, 8, 16, 32, 64),
 )
 # Half precision in blending and pixels: lanes a quarter as large, and not the reference's picture.
 EXACT_FP16 = dataclasses.replace(
-    EXACT, name="exact fp16", fixed=(*ALIKE, "rendering.precision=fp16")
+    EXACT,
+    name="exact fp16",
+    fixed=(*ALIKE, "rendering.precision=fp16"),
+    begins_at="exact",
 )
 
 
@@ -159,21 +162,21 @@ PAPER = Order(
     (
         groups(*SHAPES),
         axis("fetch", "split", "shared"),
-        axis("hfu.slice_gaussians", 32, 64, 128, 256, 512),
-        axis("hfu.input_slots", 2, 3),
-        axis("sorting.input_fifo_entries", 4, 7, 12),
+        axis("hfu.slice_gaussians", 16, 32, 64, 128, 256, 512),
+        axis("hfu.input_slots", 2, 3, 4),
+        axis("sorting.input_fifo_entries", 4, 7, 12, 20, 32),
         Axis(
             "lists",
             (lists(64, 64), lists(128, 128), lists(256, 256), lists(512, 512), lists(0, 1024)),
         ),
-        axis("vsu.rays_in_flight", 16, 32, 48, 64, 96, 128),
+        axis("vsu.rays_in_flight", 16, 32, 48, 64, 96, 128, 192),
         axis("vsu.step_lanes", 8, 12, 24),
         axis("vsu.ray_step_px", 4, 2, 1),
         axis("vsu.table_bytes", 2048, 4096, 8192, 16384, 32768),
         axis("vsu.node_cache_bytes", 2112, 4224, 8448, 16896, 33792),
         *COMMON,
     ),
-    axis("storage.voxel_size", 0.05, 0.1, 0.2, 0.4, 0.5, 1, 2, 4),
+    axis("storage.voxel_size", 0.05, 0.1, 0.2, 0.4, 0.5, 1, 2, 4, 8),
 )
 # Rays and voxels that miss more draw faster: with the picture held, the machine alone is compared.
 PAPER_KEPT = dataclasses.replace(

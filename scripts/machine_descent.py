@@ -12,9 +12,11 @@ from machine_axes import Machine
 from scenes import Scene
 from simulations import Run
 
+LEAST_GAIN = 1.003  # in frames a second: what a step is worth taking for
+
 
 class TooSlow(Exception):
-    """No machine on the axes is fast enough; the text says what more of was wanted."""
+    """No machine that steps on the axes lead to is fast enough; the text says where they end."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,17 +64,37 @@ class Descent:
         return slowest
 
     def grown(self, machine: Machine, view: str) -> tuple[Machine, list[Drawn]]:
-        """With more of what binds the slowest view, until that is fast enough. Raises TooSlow where
-        no axis has more of it."""
+        """With more of what speeds up the slowest view, until that is fast enough. Raises TooSlow
+        where no axis does."""
         while (drawn := self.draw_all(machine, view))[0].fps() < self.wanted_fps:
-            key = drawn[0].view["binding"].get("key", "")
-            names = [a.name for a in machine.order.axes]
-            more = machine.moved(names.index(key), 1) if key in names else None
-            if more is None:
-                name = drawn[0].scene.name
-                raise TooSlow(f"none: {name} has {drawn[0].fps():.1f} fps, no more of '{key}'")
-            machine = more
+            machine = self.faster(machine, drawn[0])
         return machine, drawn
+
+    def faster(self, machine: Machine, slowest: Drawn) -> Machine:
+        """One step further: on the axis that the view's binding names, or where that has no more or
+        gains nothing, on the one that gains most for its area."""
+        ahead = {
+            axis.name: more
+            for which, axis in enumerate(machine.order.axes)
+            if (more := self.areas.neighbour(machine, which, 1))
+        }
+        key = slowest.view["binding"].get("key", "")
+        for names in ([key] if key in ahead else [], list(ahead)):
+            number = str(slowest.view["view"])
+            views = [(slowest.scene, number)]
+            runs = [run for name in names for run in self.runs(ahead[name], views)]
+            worth = {}
+            for name, outcome in zip(names, self.kept.outcomes(runs)):
+                fps = outcome.views[0]["frame"]["fps"] if outcome.views else 0
+                if fps >= slowest.fps() * LEAST_GAIN:
+                    taken = max(self.areas.of(ahead[name]) - self.areas.of(machine), 1e-3)
+                    worth[name] = math.log(fps / slowest.fps()) / taken
+            if worth:
+                return ahead[max(worth, key=lambda name: worth[name])]
+        raise TooSlow(
+            f"none: {slowest.scene.name} has {slowest.fps():.1f} fps, and one step on any axis gains "
+            f"less than {LEAST_GAIN - 1:.1%}"
+        )
 
     def shrunk(self, machine: Machine) -> Machine:
         """No step back holds the rate on the hardest views."""

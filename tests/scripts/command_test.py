@@ -60,7 +60,6 @@ class WithTheCommand(InFolder):
                 | {"| truck | preset paper |": 1, "| truck | exact, best cycles |": 1},
             ),
             (smallest_machine, ("--sizes", "64x36", "--fps", "100000"), {"| truck 0 |": 1}),
-            (smallest_machine, ("--sizes", "64x36", "--fps", "1e9"), {"| none: truck has": 1}),
             (work_precision, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
             (
                 boundary_study,
@@ -152,6 +151,8 @@ class WithTheCommand(InFolder):
             (binding_check, ("--view", "7"), "--view: got '7'"),
             (energy_tables, ("--size", "3"), "--size: got '3'"),
             (fair_fight, ("--size", "3"), "--size: got '3'"),
+            (fair_fight, ("--view-sizes", "3"), "--size: got '3'"),
+            (fair_fight, ("--view", "99"), "--view: got '99'"),
             (smallest_machine, ("--sizes", "3"), "--size: got '3'"),
             (compare_variants, ("--view", "x"), "--view: got 'x'"),
             (timing, ("--view", "7"), "--view: got '7'"),

@@ -114,6 +114,7 @@ class Ends(InFolder):
             ),
             (fair_fight, ("--budgets", "1", "0"), "--budgets: 0, expected more than 0$"),
             (fair_fight, ("--area", "-1"), "--area: -1, expected more than 0$"),
+            (fair_fight, ("--most-runs", "0"), "--most-runs: 0, expected more than 0$"),
             (smallest_machine, ("--fps", "0"), "--fps: 0, expected a number above 0$"),
             (smallest_machine, ("--fps", "nan"), "--fps: nan, expected a number above 0$"),
             (smallest_machine, ("--fps", "inf"), "--fps: inf, expected a number above 0$"),

@@ -1,5 +1,6 @@
 """The search for machines: on a machine made up of formulas, and what it keeps of simulations."""
 
+import dataclasses
 import itertools
 import pathlib
 import tempfile
@@ -11,6 +12,7 @@ import machine_axes
 import simulations
 from kept_runs import KeptRuns
 from machine_areas import SMALL, Areas
+from machine_descent import Descent, TooSlow
 from machine_search import Point, Search
 from scenes import Scene
 
@@ -54,7 +56,8 @@ class Formulas:
         view = {"area_mm2": {"total": area(s)}, "binding": {"key": "hfu.lanes"}}
         if run.scene != SMALL:
             self.drawn.append((run.scene.name, run.overrides))
-            view["frame"] = {"cycles": cycles(run.scene.name, s)}
+            of = cycles(run.scene.name, s)
+            view |= {"view": 0, "frame": {"cycles": of, "fps": 1e4 / of}}
             view["image"] = {"psnr_db": 20.0 + 100 / s["storage.chunk"]}
         return simulations.Outcome(run, views=(view,))
 
@@ -117,6 +120,20 @@ class Searching(unittest.TestCase):
         machine = machine_axes.Machine(ORDER, (0, 0, 0, 0))
         point = search.best_from(machine, (2, 2))
         self.assertEqual(point.stored(0), "storage.chunk=8")
+
+    def test_growing_until_it_is_fast_enough(self):
+        """Its binding names lanes, which are all there are from the start on."""
+        order = dataclasses.replace(ORDER, fixed=("storage.chunk=16",))
+        small = machine_axes.Machine(order, (0, 3, 0, 0))
+        descent = Descent(Formulas(), self.SCENES, "", 60)
+        before = descent.draw_all(small, "0")[0].fps()
+        grown, drawn = descent.grown(small, "0")
+        self.assertLess(before, 60)
+        self.assertGreaterEqual(drawn[0].fps(), 60)
+        self.assertEqual(grown.at[1], 3)
+        descent = Descent(Formulas(), self.SCENES, "", 1e9)
+        with self.assertRaisesRegex(TooSlow, "^none: . has .* fps, and one step on any axis"):
+            descent.grown(small, "0")
 
     def test_ends_when_it_has_had_its_runs(self):
         _, formulas = self.found(4, 30)
