@@ -154,7 +154,8 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
     return of_pixel;
   };
   RowSpans<Counting> spans(splat);
-  spans.start(kFirstRowPx);
+  // The edge above is that of another line, or the graph would find there where the row's top lies.
+  spans.start(kFirstRowPx - 1);
   out.spans_begun = flow.size();
   const auto above = spans.carried();
   for (std::size_t i = above.size() - kEdgeWords; i < above.size(); ++i) {
