@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algorithm/memory/regions.h"
+#include "algorithm/splat/coarse_bound_by.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
 
 namespace sgs::tb {
