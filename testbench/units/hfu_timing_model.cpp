@@ -49,7 +49,7 @@ class Pipeline {
       const Cycle data = load(at, count);
       coarse_ = std::max(coarse_, loaded_ + 1);  // FIFO of slices
       slice_taken_.push_back(coarse_);
-      if (count > 0) filter(at, count, data);
+      if (count > 0) filter(at, count, data, at + count == end);
       half_free_.push_back(coarse_);
       at += count;
     } while (at < end);
@@ -78,13 +78,15 @@ class Pipeline {
     return data;
   }
 
-  void filter(std::size_t at, std::size_t count, Cycle data) {
+  // last: of its share, so that a mark follows.
+  void filter(std::size_t at, std::size_t count, Cycle data, bool last) {
     coarse_ = std::max(coarse_, data);
     // A first half is read a cycle; each CFU begins when it is its turn, the first in cycle 0.
     const Cycle cfus = has_cfus_ ? config_.cfus : 1;
     const Cycle of_test = has_cfus_ ? config_.cfu_interval_cycles() : 1;
     Cycle interval = of_test;
     while (interval < cfus) interval += of_test;
+    const Cycle began = coarse_;
     Cycle owed = 0;
     for (std::size_t i = 0; i < count; ++i) {
       if (i % config_.cfus == 0) {
@@ -102,6 +104,7 @@ class Pipeline {
       const std::size_t gaussian = at + i;
       candidate(&gaussian);
     }
+    if (coarse_ + owed == began && !last) ++owed;
     spend(owed);
   }
 

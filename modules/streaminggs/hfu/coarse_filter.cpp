@@ -98,7 +98,8 @@ void CoarseFilter::filter_slice(const Slice& slice) {
   const std::uint64_t cfus = has_cfus_ ? tests_.copies : 1;
   const std::uint64_t of_test = has_cfus_ ? tests_.interval_cycles() : 1;
   const std::uint64_t interval = cycles_for(cfus, of_test) * of_test;
-  std::uint64_t passed = filter_.clock().now_cycles(), cycle = passed;
+  const std::uint64_t began = filter_.clock().now_cycles();
+  std::uint64_t passed = began, cycle = began;
   std::uint32_t open = 0;  // parts
   for (std::uint32_t i = 0; i < slice.share.count; ++i) {
     if (i % tests_.copies == 0) {
@@ -131,6 +132,8 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     in_turn(survivors, candidate.visit).push(candidate, filter_);
     cycle = passed = filter_.clock().now_cycles();
   }
+  // A slice of a finished group is taken in a cycle of its own, if no mark behind it has one.
+  if (cycle == began && slice.share.mark == Mark::kNone) ++cycle;
   filter_.work(cycle - passed);
 }
 
