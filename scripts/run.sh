@@ -11,6 +11,7 @@ out=out/first_frame
 build/release/bin/streaminggs simulate 'builtin:object?n=60000' --view 0 --out "$out"
 # The waveform of a whole frame is large: a small one is enough to look at.
 build/release/bin/streaminggs simulate 'builtin:object?n=3000' --view 0 --size 64x36 \
+  --set group_width_px=32 --set group_height_px=12 \
   --vcd "$out/small_frame.vcd" --out "$out/small_frame" >/dev/null
 cat <<TEXT
 
