@@ -11,12 +11,12 @@ namespace sgs {
 
 // The geometric part. False where nothing of g can be seen in the frame: behind the near plane,
 // never visible, off the frame, or a centre or covariance that overflows float (a splat farther or
-// wider than 10^19 px).
+// wider than 10^19 px). p: what of the projection a splat does not keep.
 template <class T>
-bool make_geometry(const View<T>& view, const Gaussian<T>& g, SplatOf<T>& out) {
+bool make_geometry(const View<T>& view, const Gaussian<T>& g, SplatOf<T>& out, Projected<T>& p) {
   const glm::vec<3, T> v = to_camera(view, g.mean);
   if (!(v.z > constant<T>(kNearPlane))) return false;
-  const Projected<T> p = project(view, g, v);
+  p = project(view, g, v);
   using std::isfinite;
   if (!isfinite(T(p.cov_a + p.cov_c)) || !isfinite(T(p.x + p.y))) return false;
   if (!isfinite(p.depth)) return false;  // nothing can be in order with it
@@ -29,6 +29,11 @@ bool make_geometry(const View<T>& view, const Gaussian<T>& g, SplatOf<T>& out) {
   out.depth = p.depth;
   out.footprint = footprint(p, g.opacity, view.width, view.height);
   return !out.footprint.empty();
+}
+template <class T>
+bool make_geometry(const View<T>& view, const Gaussian<T>& g, SplatOf<T>& out) {
+  Projected<T> p;
+  return make_geometry(view, g, out, p);
 }
 
 // Pixels of a footprint, cut to `within`.

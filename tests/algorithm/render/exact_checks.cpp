@@ -15,7 +15,6 @@
 #include "tests/support/shared_inputs.h"
 
 namespace sgs::test {
-namespace {
 
 std::string first_difference(const RenderResult& got, const RenderResult& expected) {
   for (std::size_t i = 0; i < expected.image.pixels.size(); ++i) {
@@ -33,8 +32,6 @@ std::string first_difference(const RenderResult& got, const RenderResult& expect
   }
   return {};
 }
-
-}  // namespace
 
 std::string difference_from_reference(const View<float>& view, const ActivatedCloud& cloud,
                                       const ChunkTree& tree, const ExactOrderConfig& config) {

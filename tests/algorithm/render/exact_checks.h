@@ -9,7 +9,10 @@
 namespace sgs::test {
 
 // Empty where picture, transmittance and contributors of both are the same to the bit; else where
-// they differ first. cloud: in storage order.
+// they differ first.
+std::string first_difference(const RenderResult& got, const RenderResult& expected);
+
+// The same of exact order and the reference. cloud: in storage order.
 std::string difference_from_reference(const View<float>& view, const ActivatedCloud& cloud,
                                       const ChunkTree& tree, const ExactOrderConfig& config);
 

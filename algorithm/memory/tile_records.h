@@ -1,0 +1,72 @@
+// What a tile-centric machine keeps in memory between projection and rendering: the projected
+// Gaussian, and the entries of the tiles' lists.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "algorithm/splat/splat.h"
+
+namespace sgs {
+
+enum class NumberFormat : std::uint8_t { kSingle, kHalf };
+
+// Projected Gaussians. kSingle: x, y, conic, opacity, colour as 32-bit floats. kHalf: x and y so (a
+// half counts places above 512 px by halves of one), then conic, opacity and colour as halves, the
+// conic over a power of two of its own, whose exponent is the last byte: wide splats do not vanish
+// among the subnormal. A place is whole bursts, since records are read one here, one there.
+constexpr std::uint32_t record_bytes(NumberFormat format) {
+  return format == NumberFormat::kHalf ? 24 : 36;
+}
+constexpr std::uint32_t record_place_bytes(NumberFormat format) {
+  return format == NumberFormat::kHalf ? 32 : 64;
+}
+void encode_projected(NumberFormat format, const Splat& splat, std::byte* out);
+// Without depth, index and footprint, which the lists hold.
+Splat decode_projected(NumberFormat format, const std::byte* bytes);
+
+// The depth as a key, larger for what is farther: its bits, of the float or of the nearest half.
+std::uint32_t depth_key(NumberFormat format, float depth);
+
+struct TileEntry {
+  std::uint32_t key = 0;
+  std::uint32_t record = 0;  // number of the projected Gaussian
+  std::uint32_t bitmap = 0;  // of parts of the tile
+};
+
+// Key, then the record's number with the bitmap above it; a bitmap of 16 bits stands behind.
+struct EntryFormat {
+  NumberFormat keys = NumberFormat::kHalf;
+  int subtiles_across = 2;
+
+  std::uint32_t key_bytes() const { return keys == NumberFormat::kHalf ? 2 : 4; }
+  std::uint32_t bytes() const { return key_bytes() + (subtiles_across > 2 ? 6 : 4); }
+  // Most records that an entry tells apart.
+  std::uint64_t records() const { return std::uint64_t{1} << (subtiles_across > 2 ? 32 : 28); }
+};
+void encode_entry(const EntryFormat& format, const TileEntry& entry, std::byte* out);
+TileEntry decode_entry(const EntryFormat& format, const std::byte* bytes);
+
+// Lists lie in blocks of lines. A line begins with a link, which in the first line of a block is
+// the number of the next; then come whole entries.
+constexpr std::uint32_t kLinkBytes = 4;
+struct BlockFormat {
+  EntryFormat entry;
+  std::uint32_t line_bytes = 64, block_lines = 8;
+
+  std::uint32_t line_entries() const { return (line_bytes - kLinkBytes) / entry.bytes(); }
+  std::uint32_t block_entries() const { return block_lines * line_entries(); }
+  std::uint32_t block_bytes() const { return block_lines * line_bytes; }
+  // Of an entry, from the beginning of its block; `at` counts entries of the list.
+  std::uint32_t offset(std::uint64_t at) const {
+    const auto in_block = static_cast<std::uint32_t>(at % block_entries());
+    return in_block / line_entries() * line_bytes + kLinkBytes +
+           in_block % line_entries() * entry.bytes();
+  }
+  // Bytes of a block that holds so many entries, to the end of the last.
+  std::uint32_t used_bytes(std::uint32_t entries) const {
+    return entries == 0 ? 0 : offset(entries - 1) + entry.bytes();
+  }
+};
+
+}  // namespace sgs

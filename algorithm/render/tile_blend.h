@@ -1,0 +1,27 @@
+// One entry of a tile's list blended into the tile: the parts of the tile whose bits are set.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/render/group_state.h"
+#include "algorithm/splat/tile_boxes.h"
+
+namespace sgs {
+
+// Calls blend(splat) with a footprint for each part of the tile (in tiles of the frame) whose bit is
+// set.
+template <class Blend>
+void for_each_part(const TileRules& rules, int tile_x, int tile_y, std::uint32_t bitmap,
+                   Splat splat, const Blend& blend) {
+  const int across = rules.subtiles_across, side = kSubtilesPerTile / across;
+  const auto of_frame = [](int at) { return static_cast<std::uint16_t>(at); };
+  for (int part = 0; part < across * across; ++part) {
+    if ((bitmap >> part & 1U) == 0) continue;
+    const int x = tile_x * kSubtilesPerTile + part % across * side;
+    const int y = tile_y * kSubtilesPerTile + part / across * side;
+    splat.footprint = {of_frame(x), of_frame(y), of_frame(x + side), of_frame(y + side)};
+    blend(static_cast<const Splat&>(splat), part);
+  }
+}
+
+}  // namespace sgs

@@ -1,0 +1,196 @@
+// Projection by blocks of the cloud, lists in its order, then a task a tile.
+#include "algorithm/render/tile_renderer.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "algorithm/input_error.h"
+#include "algorithm/render/blend_watch.h"
+#include "algorithm/render/tile_blend.h"
+#include "algorithm/splat/coarse_bound.h"
+
+namespace sgs {
+namespace {
+
+struct TileSplat {
+  Splat splat;  // as its record gives it back; depth and index of the Gaussian
+  TileBoxes boxes;
+  std::uint32_t key;
+};
+
+Splat through_record(NumberFormat format, const Splat& splat) {
+  std::byte bytes[record_place_bytes(NumberFormat::kSingle)];
+  encode_projected(format, splat, bytes);
+  Splat out = decode_projected(format, bytes);
+  out.depth = splat.depth;
+  out.index = splat.index;
+  return out;
+}
+
+std::vector<TileSplat> project_block(const View<float>& view, const ActivatedCloud& cloud,
+                                     const TileOrderConfig& config, std::size_t begin,
+                                     std::size_t end, TileStats& stats) {
+  std::vector<TileSplat> out;
+  for (std::size_t i = begin; i != end; ++i) {
+    const Gaussian<float>& g = cloud.gaussians[i];
+    const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
+    if (!may_touch_frame(view, g.mean, scale_max)) {
+      ++stats.culled;
+      continue;
+    }
+    TileSplat made;
+    if (!make_tile_geometry(view, g, config.rules, made.splat, made.boxes)) continue;
+    add_colour(view, cloud.sh_degree, g.mean, cloud.sh(i), made.splat);
+    made.splat.index = static_cast<std::uint32_t>(i);
+    made.key = depth_key(config.keys, made.splat.depth);
+    made.splat = through_record(config.features, made.splat);
+    out.push_back(made);
+  }
+  return out;
+}
+
+struct ListEntry {
+  std::uint32_t key, splat, bitmap;
+};
+
+class Lists {
+ public:
+  Lists(const View<float>& view, const TileRules& rules)
+      : rules_(rules), columns_((view.width + kTilePx - 1) / kTilePx) {
+    lists_.resize(static_cast<std::size_t>(columns_) * ((view.height + kTilePx - 1) / kTilePx));
+  }
+  void add(const TileSplat& s, std::uint32_t number, TileStats& stats) {
+    const auto parts = static_cast<std::uint32_t>(rules_.subtiles_across * rules_.subtiles_across);
+    bool listed = false;
+    for (int y = s.boxes.tiles.y0; y < s.boxes.tiles.y1; ++y) {
+      for (int x = s.boxes.tiles.x0; x < s.boxes.tiles.x1; ++x) {
+        ++stats.tile_tests;
+        stats.subtile_tests += parts;
+        const std::uint32_t bitmap = tile_bitmap(s.boxes, rules_, x, y);
+        if (bitmap == 0) continue;
+        listed = true;
+        ++stats.pairs;
+        stats.parts += static_cast<std::uint32_t>(__builtin_popcount(bitmap));
+        lists_[static_cast<std::size_t>(y) * columns_ + x].push_back({s.key, number, bitmap});
+      }
+    }
+    stats.projected += listed ? 1 : 0;
+  }
+  std::vector<ListEntry>& operator[](std::size_t tile) { return lists_[tile]; }
+  std::size_t size() const { return lists_.size(); }
+  int columns() const { return columns_; }
+
+ private:
+  const TileRules rules_;
+  const int columns_;
+  std::vector<std::vector<ListEntry>> lists_;
+};
+
+void render_tile(const View<float>& view, const TileOrderConfig& config, int tile_x, int tile_y,
+                 const std::vector<TileSplat>& splats, std::vector<ListEntry>& list,
+                 Flags& contributing, TileStats& stats, RenderResult& frame) {
+  std::stable_sort(list.begin(), list.end(),
+                   [](const ListEntry& a, const ListEntry& b) { return a.key < b.key; });
+  const PixelRect pixels = intersection(
+      PixelRect{tile_x * kTilePx, tile_y * kTilePx, (tile_x + 1) * kTilePx, (tile_y + 1) * kTilePx},
+      PixelRect{0, 0, view.width, view.height});
+  GroupState state(pixels, view.width, view.height, config.precision, SubtileTest::kBox);
+  BlendWatch watch(state.subtile_count());
+  for (const ListEntry& entry : list) {
+    if (state.saturated()) break;
+    ++stats.entries_taken;
+    const Splat& splat = splats[entry.splat].splat;
+    const auto observe = [&](const SubtileBlend& blend) {
+      if (watch.see(blend, splat.depth)) contributing.set(splat.index);
+    };
+    for_each_part(config.rules, tile_x, tile_y, entry.bitmap, splat,
+                  [&](const Splat& part, int) {
+                    stats.subtile_blends += state.blend(part, observe).blended;
+                  });
+  }
+  const auto chunks = [&](std::uint64_t entries) {
+    return (entries + config.chunk_entries - 1) / config.chunk_entries;
+  };
+  stats.list_max = list.size();
+  stats.chunks = chunks(list.size());
+  stats.chunks_taken = chunks(stats.entries_taken);
+  stats.tiles_finished = state.saturated() ? 1 : 0;
+  stats.contributors = state.contributors();
+  stats.misordered = watch.misordered();
+  state.store(config.background, frame);
+}
+
+}  // namespace
+
+TileStats& TileStats::operator+=(const TileStats& o) {
+  gaussians += o.gaussians;
+  culled += o.culled;
+  projected += o.projected;
+  tile_tests += o.tile_tests;
+  subtile_tests += o.subtile_tests;
+  pairs += o.pairs;
+  parts += o.parts;
+  list_max = std::max(list_max, o.list_max);
+  entries_taken += o.entries_taken;
+  chunks += o.chunks;
+  chunks_taken += o.chunks_taken;
+  tiles_finished += o.tiles_finished;
+  subtile_blends += o.subtile_blends;
+  contributors += o.contributors;
+  contributing += o.contributing;
+  misordered += o.misordered;
+  return *this;
+}
+
+bool may_touch_frame(const View<float>& view, const glm::vec3& mean, float scale_max) {
+  const CoarseBound bound = coarse_bound(view, mean, scale_max);
+  return bound.in_front && touches(bound, PixelRect{0, 0, view.width, view.height});
+}
+
+TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,
+                        const TileOrderConfig& config) {
+  constexpr std::size_t kBlock = 8192;
+  const std::size_t count = cloud.size(), blocks = (count + kBlock - 1) / kBlock;
+  std::vector<std::vector<TileSplat>> of_block(blocks);
+  std::vector<TileStats> block_stats(blocks);
+  tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    of_block[b] = project_block(view, cloud, config, b * kBlock,
+                                std::min(count, (b + 1) * kBlock), block_stats[b]);
+  });
+  TileResult out;
+  out.stats.gaussians = count;
+  std::vector<TileSplat> splats;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    out.stats += block_stats[b];
+    splats.insert(splats.end(), of_block[b].begin(), of_block[b].end());
+    of_block[b] = {};
+  }
+  const std::uint64_t most = EntryFormat{config.keys, config.rules.subtiles_across}.records();
+  if (splats.size() >= most) {
+    throw InputError(fmt::format("scene: {} Gaussians projected, expected fewer than {}",
+                                 splats.size(), most));
+  }
+  Lists lists(view, config.rules);
+  for (std::uint32_t s = 0; s < splats.size(); ++s) lists.add(splats[s], s, out.stats);
+
+  const auto pixels = static_cast<std::size_t>(view.width) * view.height;
+  out.frame.image = Image(view.width, view.height);
+  out.frame.transmittance.resize(pixels);
+  out.frame.contributors.resize(pixels);
+  std::vector<TileStats> tile_stats(lists.size());
+  Flags contributing(cloud.size());
+  tbb::parallel_for(std::size_t{0}, lists.size(), [&](std::size_t t) {
+    const int column = static_cast<int>(t) % lists.columns();
+    const int row = static_cast<int>(t) / lists.columns();
+    render_tile(view, config, column, row, splats, lists[t], contributing, tile_stats[t],
+                out.frame);
+  });
+  for (const TileStats& stats : tile_stats) out.stats += stats;
+  out.stats.contributing = contributing.count();
+  return out;
+}
+
+}  // namespace sgs

@@ -1,0 +1,70 @@
+// Tile-centric renderer: every Gaussian is projected and listed in the tiles that its boxes touch;
+// each tile's list is sorted by depth and blended. With boxes that reach what is visible, in single
+// precision, the picture is the reference's, bit for bit; each approximation is a choice of its
+// own.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/memory/tile_records.h"
+#include "algorithm/render/render_result.h"
+#include "algorithm/splat/blend.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/tile_boxes.h"
+#include "algorithm/splat/view.h"
+
+namespace sgs {
+
+struct TileOrderConfig {
+  TileRules rules;
+  NumberFormat features = NumberFormat::kHalf;  // of projected Gaussians
+  NumberFormat keys = NumberFormat::kHalf;      // equal ones stay in the order of the cloud
+  BlendPrecision precision = BlendPrecision::kHalf;
+  std::uint32_t chunk_entries = 256;  // sorted at once; counts whole chunks of sorted lists
+  glm::vec3 background{0.0F};
+
+  // What loses nothing.
+  static TileOrderConfig lossless() {
+    TileOrderConfig config;
+    config.rules.reach = TileReach::kVisible;
+    config.features = config.keys = NumberFormat::kSingle;
+    config.precision = BlendPrecision::kSingle;
+    return config;
+  }
+};
+
+struct TileStats {
+  std::uint64_t gaussians = 0;
+  std::uint64_t culled = 0;         // by centre and largest scale: they cannot touch the frame
+  std::uint64_t projected = 0;      // that are listed in a tile
+  std::uint64_t tile_tests = 0;     // (Gaussian, tile) candidates
+  std::uint64_t subtile_tests = 0;  // parts of tiles tested
+  std::uint64_t pairs = 0;          // (Gaussian, tile) entries of lists
+  std::uint64_t parts = 0;          // of their bits, that are set
+  std::uint64_t list_max = 0;       // longest list
+  std::uint64_t entries_taken = 0;  // of lists, until their tile was finished
+  std::uint64_t chunks = 0;         // of sorted lists
+  std::uint64_t chunks_taken = 0;   // of these begun before their tile was finished
+  std::uint64_t tiles_finished = 0;
+  std::uint64_t subtile_blends = 0;  // (entry, 4x4 sub-tile): 16 fragments each
+  std::uint64_t contributors = 0;    // (splat, pixel) blends
+  std::uint64_t contributing = 0;    // Gaussians blended into at least one pixel of the frame
+  std::uint64_t misordered = 0;      // blends behind a splat that is farther, at the same pixel
+
+  TileStats& operator+=(const TileStats& other);
+};
+
+struct TileResult {
+  RenderResult frame;
+  TileStats stats;
+};
+
+// Whether a Gaussian may touch the frame, of which only the centre and the largest scale are known.
+bool may_touch_frame(const View<float>& view, const glm::vec3& mean, float scale_max);
+
+// Deterministic whatever the number of threads. Throws InputError when more Gaussians are projected
+// than an entry can tell apart.
+TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,
+                        const TileOrderConfig& config);
+
+}  // namespace sgs
