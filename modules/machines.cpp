@@ -1,6 +1,7 @@
 // The machines of this project. Nothing else outside their rooms names one, but tests.
 #include "modules/machines.h"
 
+#include "modules/gscore/gscore_design.h"
 #include "modules/streaminggs/exact_design.h"
 #include "modules/streaminggs/paper_design.h"
 
@@ -20,6 +21,8 @@ const std::vector<MachineKind>& machine_kinds() {
        &make<ExactDesign>},
       {"paper", "voxels in topological order of the rays (StreamingGS, DAC 2025)",
        &make<PaperDesign>},
+      {"gscore", "tile-centric: lists of all tiles in memory (GSCore, ASPLOS 2024)",
+       &make<gscore::GscoreDesign>},
   };
   return kinds;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "modules/streaminggs/hfu/filter_datapaths.h"
-#include "modules/streaminggs/work_rates.h"
+#include "modules/datapath/work_rates.h"
 
 namespace sgs {
 

@@ -6,8 +6,8 @@
 #include "algorithm/splat/filter_work.h"
 #include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/visible_extents.h"
-#include "modules/streaminggs/counted_datapath.h"
-#include "modules/streaminggs/scheduled_datapath.h"
+#include "modules/datapath/counted_datapath.h"
+#include "modules/datapath/scheduled_datapath.h"
 
 namespace sgs {
 namespace {

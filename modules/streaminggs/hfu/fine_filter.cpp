@@ -7,7 +7,7 @@
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
-#include "modules/streaminggs/work_rates.h"
+#include "modules/datapath/work_rates.h"
 
 namespace sgs {
 namespace {

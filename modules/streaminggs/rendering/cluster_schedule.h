@@ -25,7 +25,7 @@
 
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/rendering/rendering_config.h"
-#include "modules/streaminggs/work_rates.h"
+#include "modules/datapath/work_rates.h"
 
 namespace sgs {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "algorithm/splat/filter_work.h"
-#include "modules/streaminggs/counted_datapath.h"
-#include "modules/streaminggs/scheduled_datapath.h"
-#include "modules/streaminggs/work_rates.h"
+#include "modules/datapath/counted_datapath.h"
+#include "modules/datapath/scheduled_datapath.h"
+#include "modules/datapath/work_rates.h"
 
 namespace sgs {
 

@@ -5,7 +5,7 @@
 
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/filter_work.h"
-#include "modules/streaminggs/work_rates.h"
+#include "modules/datapath/work_rates.h"
 
 namespace sgs {
 namespace {

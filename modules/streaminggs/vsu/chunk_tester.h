@@ -8,7 +8,7 @@
 
 #include "algorithm/order/walk_queue.h"
 #include "algorithm/voxel/chunk_node.h"
-#include "modules/streaminggs/work_rates.h"
+#include "modules/datapath/work_rates.h"
 #include "tlm/datapath.h"
 #include "tlm/timed_fifo.h"
 

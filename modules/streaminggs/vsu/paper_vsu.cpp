@@ -7,7 +7,7 @@
 #include "algorithm/voxel/ray_sampling.h"
 #include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/vsu/rays_in_flight.h"
-#include "modules/streaminggs/work_rates.h"
+#include "modules/datapath/work_rates.h"
 
 namespace sgs {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "algorithm/voxel/chunk_work.h"
 #include "algorithm/voxel/ray_work.h"
-#include "modules/streaminggs/counted_datapath.h"
-#include "modules/streaminggs/scheduled_datapath.h"
+#include "modules/datapath/counted_datapath.h"
+#include "modules/datapath/scheduled_datapath.h"
 
 namespace sgs {
 namespace {

@@ -1,0 +1,112 @@
+// Conversion and tile tests run with the counting scalar.
+#include "algorithm/splat/tile_work.h"
+
+#include <array>
+#include <initializer_list>
+
+#include "algorithm/splat/counting.h"
+#include "algorithm/splat/counting_half.h"
+#include "algorithm/splat/make_splat.h"
+
+namespace sgs {
+namespace {
+
+// Words that go along with a Gaussian: its number; with a tile: the key.
+constexpr std::size_t kBesideTileWork = 1;
+
+glm::vec<3, Counting> from_outside(DataFlow& flow, const glm::vec3& v) {
+  return {input(flow, v.x), input(flow, v.y), input(flow, v.z)};
+}
+
+template <class Value>
+void keep_values(DataFlow& flow, std::initializer_list<Value> values) {
+  for (const Value& value : values) {
+    if (value.flow != nullptr) flow.keep(value.node);
+  }
+}
+
+void keep_box(DataFlow& flow, const TileBoxesOf<Counting>& b) {
+  for (const PixelRectOf<CountingIndex>* rect : {&b.tiles, &b.parts}) {
+    keep_values(flow, {rect->x0, rect->y0, rect->x1, rect->y1});
+  }
+  keep_values(flow, {b.box.x, b.box.y, b.box.axis_x, b.box.axis_y});
+  for (const BoxLimits<Counting>* limits : {&b.tile, &b.part}) {
+    keep_values(flow, {limits->screen_x, limits->screen_y, limits->along, limits->across});
+  }
+}
+
+BoxLimits<Counting> wide_limits(DataFlow& flow) {
+  constexpr float kWide = 1000;
+  return {input(flow, kWide), input(flow, kWide), input(flow, kWide), input(flow, kWide)};
+}
+
+}  // namespace
+
+FilterCase longest_tile_case() {
+  FilterCase out = longest_case();
+  out.gaussian.scale = {0.5F, 0.04F, 0.11F};
+  return out;
+}
+
+DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records) {
+  DataFlow flow;
+  const FilterCase of = longest_tile_case();
+  const auto view = make_view<Counting>(of.camera);
+  Gaussian<Counting> g{};
+  g.mean = from_outside(flow, of.gaussian.mean);
+  g.scale = from_outside(flow, of.gaussian.scale);
+  for (std::size_t k = 0; k < g.quat.size(); ++k) g.quat[k] = input(flow, of.gaussian.quat[k]);
+  g.opacity = input(flow, of.gaussian.opacity);
+  std::array<glm::vec<3, Counting>, 16> sh;
+  for (auto& coefficient : sh) coefficient = from_outside(flow, glm::vec3(1.0F));
+  flow.pass_beside(kBesideTileWork);
+
+  SplatOf<Counting> s{};
+  TileBoxesOf<Counting> boxes{};
+  if (!make_tile_geometry(view, g, rules, s, boxes)) return flow;
+  add_colour(view, sh_degree, g.mean, sh.data(), s);
+  keep_values(flow, {s.x, s.y});
+  keep_box(flow, boxes);
+  if (!half_records) {
+    keep_values(flow, {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z,
+                       s.depth});
+    return flow;
+  }
+  // The conic over a power of two: that of the larger of its diagonal.
+  static_cast<void>(max_of(s.conic_a, s.conic_c));
+  constexpr float kPowerOfTwo = 4;
+  for (const Counting& value :
+       {scaled_by(s.conic_a, kPowerOfTwo), scaled_by(s.conic_b, kPowerOfTwo),
+        scaled_by(s.conic_c, kPowerOfTwo), s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth}) {
+    keep_values(flow, {narrowed<CountingHalf>(value).counting()});
+  }
+  return flow;
+}
+
+DataFlow tile_test_flow(const TileRules& rules) {
+  DataFlow flow;
+  constexpr int kFar = 100;
+  TileBoxesOf<Counting> boxes{};
+  boxes.tiles = {input_index(flow, 0), input_index(flow, 0), input_index(flow, kFar),
+                 input_index(flow, kFar)};
+  boxes.parts = {input_index(flow, 0), input_index(flow, 0), input_index(flow, kFar),
+                 input_index(flow, kFar)};
+  boxes.box.used = rules.test == TileTest::kOriented;
+  boxes.box.x = input(flow, 100.5F);
+  boxes.box.y = input(flow, 90.25F);
+  boxes.box.axis_x = input(flow, 0.8F);
+  boxes.box.axis_y = input(flow, 0.6F);
+  boxes.tile = wide_limits(flow);
+  boxes.part = wide_limits(flow);
+  flow.pass_beside(kBesideTileWork);
+  const CountingIndex x = input_index(flow, 3), y = input_index(flow, 5);
+  static_cast<void>(tile_bitmap(boxes, rules, x, y));
+  // The next tile of its row, or the first of the next row.
+  const CountingIndex next_x = x + CountingIndex(1), next_y = y + CountingIndex(1);
+  static_cast<void>(next_x < boxes.tiles.x1);
+  static_cast<void>(next_y < boxes.tiles.y1);
+  keep_values(flow, {next_x, next_y});
+  return flow;
+}
+
+}  // namespace sgs

@@ -1,0 +1,26 @@
+// What projecting a Gaussian for lists of tiles executes, and testing a tile, counted by running
+// it. Values of the camera are constants, as in filter_work.h.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "algorithm/splat/data_flow.h"
+#include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/lane_steps.h"
+#include "algorithm/splat/operation_counts.h"
+#include "algorithm/splat/tile_boxes.h"
+
+namespace sgs {
+
+// An ellipse that is long enough for a box along its axes: longest_case() with other scales.
+FilterCase longest_tile_case();
+
+// To the screen, boxes, colour; with half_records rounded to what its record and key hold. Of the
+// longest way: a Gaussian whose box along its axes is asked.
+DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records);
+
+// Of one tile and its parts, all of which are touched.
+DataFlow tile_test_flow(const TileRules& rules);
+
+}  // namespace sgs

@@ -1,0 +1,80 @@
+// Culling and conversion unit: fetches the first halves of its share of the scene, drops what
+// cannot touch the frame, fetches the second halves of what is left, projects and colours it, and
+// says which tiles list it.
+// Timing: each of the three datapaths begins an item in its turn; slices in turn over the CCUs.
+// Function: may_touch_frame(), make_tile_geometry(), tile_bitmap().
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "modules/gscore/gscore_job.h"
+#include "modules/gscore/messages.h"
+#include "tlm/data_sheet.h"
+#include "tlm/memory_access.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs::gscore {
+
+class Ccu : public sc_core::sc_module {
+ public:
+  FifoIn<Pass> passes{"passes"};
+  FifoOut<ListedTile> listed{"listed"};
+  MemoryPort first_memory, second_memory;  // first halves, second halves
+
+  SC_HAS_PROCESS(Ccu);
+  // index: of all CCUs: slice s belongs to CCU s mod config.ccus.
+  Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitContext& context);
+
+  struct Counters {
+    std::uint64_t first_halves = 0, culled = 0;
+    std::uint64_t second_halves = 0, converted = 0;
+    std::uint64_t unseen = 0;  // converted, and on no tile
+    std::uint64_t tile_tests = 0, listed = 0, gaussians_listed = 0;
+  };
+
+  static SramUses sram_uses(const GscoreConfig& config);
+  void publish(DataSheet& sheet);
+
+ private:
+  struct Slice {
+    static constexpr std::uint32_t kSramBytes = 8;  // first, count
+    std::uint32_t first = 0, count = 0, slot = 0;
+    bool over = false;
+    std::uint64_t ticket = 0;
+  };
+
+  void run_load();     // thread
+  void run_cull();     // thread
+  void run_fetch();    // thread
+  void run_convert();  // thread
+  void run_list();     // thread
+
+  void load_pass();
+  void convert(const Candidate& candidate);
+  void list_tiles(const Converted& gaussian);
+  std::byte* input(std::uint32_t slot, std::uint32_t at);
+  // In the next turn of a pipeline, `interval` cycles long.
+  static void work_in_turn(Activity& activity, std::uint64_t interval);
+
+  const std::uint32_t index_;
+  const GscoreConfig config_;
+  const GscoreJob& job_;
+  const Datapath cull_path_, convert_path_, tile_path_;
+  const std::uint32_t second_bytes_;
+  const std::uint64_t slices_of_pass_;  // that are this CCU's
+  Activity load_, cull_, fetch_, convert_, list_;
+  std::vector<std::byte> input_, second_halves_;
+  TimedFifo<Slice> slices_;
+  TimedFifo<std::uint32_t> free_input_;
+  TimedFifo<Candidate> culled_, fetched_;
+  TimedFifo<std::uint32_t> free_second_;
+  TimedFifo<Converted> converted_;
+  Pass pass_;  // that is listed
+  TimedFifo<Pass> list_passes_;
+  Counters counters_;
+};
+
+}  // namespace sgs::gscore

@@ -1,0 +1,100 @@
+// What can be chosen about the tile-centric machine.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/tile_records.h"
+#include "algorithm/render/tile_renderer.h"
+#include "algorithm/splat/longest_path.h"
+#include "modules/config/config_visitor.h"
+#include "tlm/memory_port.h"
+#include "tlm/sram_use.h"
+
+namespace sgs::gscore {
+
+// How a Gaussian comes to its tiles, and in which numbers.
+struct TilesConfig {
+  TileReach reach = TileReach::kThreeSigma;
+  TileTest test = TileTest::kOriented;
+  int subtiles_across = 2;
+  NumberFormat features = NumberFormat::kHalf, keys = NumberFormat::kHalf;
+
+  TileRules rules() const { return {reach, test, subtiles_across}; }
+};
+
+struct CcuConfig {
+  // Multiply-accumulates of one CCU that cull, convert, and test tiles.
+  std::uint32_t cull_lanes = 4, convert_lanes = 24, tile_lanes = 4;
+  std::uint32_t slice_gaussians = 8;    // first halves read at once
+  std::uint32_t input_slots = 4;        // slices on their way or waiting
+  std::uint32_t second_half_slots = 8;  // second halves on their way or waiting
+  std::uint32_t output_entries = 8;     // listed tiles that wait for the lister
+};
+
+struct ListsConfig {
+  std::uint32_t tiles = 4096;  // of a pass at most: a frame with more takes several
+  std::uint32_t lines = 2048;  // in which entries of a tile are combined
+  std::uint32_t line_bytes = 64, block_lines = 8;
+  std::uint64_t pool_bytes = 268435456;  // of lists in memory
+};
+
+struct SortingConfig {
+  std::uint32_t list_entries = 1024;  // of a list on chip; longer ones are split in memory
+  std::uint32_t list_buffers = 2;     // such lists in a core
+  std::uint32_t chunk_entries = 256;  // that the network sorts
+};
+
+struct RenderingConfig {
+  BlendPrecision precision = BlendPrecision::kHalf;  // of blending and of the pixels on chip
+  std::uint32_t core_lanes = 0;        // multiply-accumulates of the 16 VRUs; 0: a pixel a cycle each
+  std::uint32_t sorted_entries = 256;  // that wait for their records
+  std::uint32_t record_slots = 16;     // records on their way or waiting
+  std::uint32_t pixel_buffers = 2;     // tiles whose pixels are in a core
+  std::uint32_t drain_pixels_per_cycle = 4;
+  bool skip_finished = true;  // parts of a tile in which every pixel is finished
+  std::uint32_t feedback_latency_cycles = 2;
+};
+
+struct SramConfig {
+  std::uint32_t buffer_bytes = 8 * 34 * 1024;
+};
+
+struct GscoreConfig {
+  double clock_mhz = 1000;
+  std::uint32_t lane_latency_cycles = 3, half_lane_latency_cycles = 2;
+  FrameFormat framebuffer = FrameFormat::kRgb8;
+  std::uint32_t ccus = 4, cores = 4;
+  TilesConfig tiles;
+  SramConfig sram;
+  CcuConfig ccu;
+  ListsConfig lists;
+  SortingConfig sorting;
+  RenderingConfig rendering;
+  MemoryPortConfig memory_port;
+
+  OperationLatencies single() const { return {lane_latency_cycles, 1, 1}; }
+  OperationLatencies half() const { return {half_lane_latency_cycles, 1, 1}; }
+  OperationLatencies blending() const {
+    return rendering.precision == BlendPrecision::kHalf ? half() : single();
+  }
+  EntryFormat entries() const { return {tiles.keys, tiles.subtiles_across}; }
+  BlockFormat blocks() const { return {entries(), lists.line_bytes, lists.block_lines}; }
+  TileOrderConfig order() const;
+  std::uint32_t pool_blocks() const {
+    return static_cast<std::uint32_t>(lists.pool_bytes / blocks().block_bytes());
+  }
+};
+
+void visit(ConfigVisitor& v, GscoreConfig& config);
+
+// The one on-chip memory.
+constexpr const char* kBuffer = "buffer";
+
+// Of the whole machine.
+SramUses sram_uses(const GscoreConfig& config);
+
+// Combinations that cannot be built. Throws InputError.
+void check(const GscoreConfig& config);
+
+}  // namespace sgs::gscore

@@ -1,0 +1,102 @@
+// Counts and schedules.
+#include "modules/gscore/gscore_datapaths.h"
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/lane_macs.h"
+#include "algorithm/splat/tile_work.h"
+#include "modules/datapath/counted_datapath.h"
+#include "modules/datapath/scheduled_datapath.h"
+
+namespace sgs::gscore {
+namespace {
+
+constexpr int kMostDegree = 3;
+
+// Frame constants are the same for all copies: set once a frame.
+void set_by_frame(Datapath& path, const std::vector<LaneStep>& steps) {
+  path.set_bits = kSingleBits * constants_of(steps);
+}
+
+Datapath counted(const char* name, const char* component, const DataFlow& flow,
+                 std::uint32_t lanes, const OperationLatencies& latencies) {
+  Datapath path = counted_datapath(name, component, flow.counts(0, flow.size()));
+  path.lanes = lanes;
+  const std::vector<LaneStep> steps = lane_steps(flow, 0, flow.size(), latencies);
+  schedule(path, steps, latencies);
+  set_by_frame(path, steps);
+  return path;
+}
+
+Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
+  const DataFlow flow =
+      convert_flow(config.tiles.rules(), sh_degree, config.tiles.features == NumberFormat::kHalf);
+  return counted("convert", "ccu", flow, config.ccu.convert_lanes, config.single());
+}
+
+}  // namespace
+
+Datapath cull_pipeline(const GscoreConfig& config) {
+  constexpr auto kBy = CoarseBoundBy::kLargestScale;
+  Datapath path = counted_datapath("cull", "ccu", coarse_work(kBy, longest_case()));
+  path.lanes = config.ccu.cull_lanes;
+  const auto steps = coarse_steps(kBy, longest_case(), 1, config.single());
+  schedule(path, steps, config.single());
+  set_by_frame(path, steps);
+  return path;
+}
+
+// Scheduling takes longest of all, and every CCU, the budget and the report ask.
+Datapath convert_pipeline(const GscoreConfig& config, int sh_degree) {
+  using Key = std::tuple<TileReach, TileTest, int, NumberFormat, std::uint32_t, std::uint32_t, int>;
+  static std::map<Key, Datapath> known;
+  const TilesConfig& tiles = config.tiles;
+  const Key key{tiles.reach,    tiles.test,  tiles.subtiles_across,
+                tiles.features, config.ccu.convert_lanes, config.lane_latency_cycles,
+                sh_degree};
+  if (const auto at = known.find(key); at != known.end()) return at->second;
+  Datapath path = convert_of_degree(config, sh_degree);
+  for (int degree = 0; degree <= kMostDegree; ++degree) {
+    if (degree != sh_degree) path.build_also_for(convert_of_degree(config, degree));
+  }
+  known.emplace(key, path);
+  return path;
+}
+
+Datapath tile_test_pipeline(const GscoreConfig& config) {
+  return counted("tile_test", "ccu", tile_test_flow(config.tiles.rules()), config.ccu.tile_lanes,
+                 config.single());
+}
+
+Datapath conic_pipeline(const GscoreConfig& config) {
+  Datapath path =
+      counted_datapath("conic", "rendering", rendering_work(BlendPrecision::kSingle).conic);
+  path.lanes = path.used_macs;
+  schedule(path, conic_steps(config.single()), config.single());
+  return path;
+}
+
+Datapath blend_pipeline(const GscoreConfig& config) {
+  const BlendPrecision precision = config.rendering.precision;
+  const bool in_half = precision == BlendPrecision::kHalf;
+  Datapath path = counted_datapath("blend", "rendering", rendering_work(precision).subtile_blend,
+                                   in_half ? "exp2_table_half" : "exp2_table");
+  if (in_half) path.lane = "fp16_lane";
+  path.lanes = config.rendering.core_lanes > 0 ? config.rendering.core_lanes : path.used_macs;
+  schedule(path, blend_steps(precision, config.blending()), config.blending(),
+           in_half ? kHalfBits : kSingleBits);
+  return path;
+}
+
+Datapath drain_pipeline(const GscoreConfig& config) {
+  Datapath path = counted_datapath("drain", "rendering", pixel_work(config.framebuffer));
+  path.lanes = path.used_macs;
+  path.copies = config.rendering.drain_pixels_per_cycle;
+  schedule(path, pixel_steps(config.framebuffer, config.single()), config.single());
+  return path;
+}
+
+}  // namespace sgs::gscore

@@ -1,0 +1,20 @@
+// The lanes of the tile-centric machine, counted by running the code and scheduled.
+#pragma once
+
+#include "modules/gscore/gscore_config.h"
+#include "tlm/datapath.h"
+
+namespace sgs::gscore {
+
+// Of one CCU. convert: built for every SH degree, items of this one.
+Datapath cull_pipeline(const GscoreConfig& config);
+Datapath convert_pipeline(const GscoreConfig& config, int sh_degree);
+Datapath tile_test_pipeline(const GscoreConfig& config);
+
+// Of the VRUs of one core: log2(e) into a splat's conic; 16 pixels, one for each VRU; finished
+// pixels to the frame's format.
+Datapath conic_pipeline(const GscoreConfig& config);
+Datapath blend_pipeline(const GscoreConfig& config);
+Datapath drain_pipeline(const GscoreConfig& config);
+
+}  // namespace sgs::gscore

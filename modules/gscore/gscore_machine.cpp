@@ -1,0 +1,139 @@
+// Wiring of the tile-centric machine.
+#include "modules/gscore/gscore_machine.h"
+
+#include "modules/construction.h"
+#include "modules/datapath/work_rates.h"
+#include "modules/gscore/gscore_datapaths.h"
+
+namespace sgs::gscore {
+namespace {
+
+constexpr const char *kPasses = "passes", *kListed = "listed tiles", *kRequests = "tile requests",
+                     *kJobs = "tile jobs", *kSorted = "sorted entries", *kDone = "passes done";
+
+// With room for what is in the tile tests' pipeline.
+std::uint32_t listed_entries(const GscoreConfig& c) {
+  const Datapath tests = tile_test_pipeline(c);
+  return static_cast<std::uint32_t>(c.ccu.output_entries +
+                                    cycles_for(tests.depth_cycles, tests.interval_cycles()));
+}
+
+SramUse times(SramUse use, std::uint32_t count) {
+  use.count = count;
+  return use;
+}
+
+}  // namespace
+
+SramUses queue_uses(const GscoreConfig& c) {
+  return {times(fifo_use<Pass>(kPasses, kBuffer, 1, "passes"), c.ccus),
+          times(fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c), "tiles"), c.ccus),
+          times(fifo_use<TileRequest>(kRequests, kBuffer, 1, "requests"), c.cores),
+          times(fifo_use<TileJob>(kJobs, kBuffer, 1, "jobs"), c.cores),
+          times(fifo_use<SortedEntry>(kSorted, kBuffer, c.rendering.sorted_entries, "entries"),
+                c.cores),
+          times(fifo_use<PassDone>(kDone, kBuffer, 1, "passes"), c.cores)};
+}
+
+GscoreMachine::GscoreMachine(const sc_core::sc_module_name& name, const GscoreConfig& config,
+                             const GscoreJob& job, const BuildOptions& options)
+    : Machine(name),
+      config_(config),
+      job_(job),
+      clock_(config.clock_mhz, options.process_order),
+      ccus_(config.ccus),
+      sorters_(config.cores),
+      renderers_(config.cores) {
+  add_all_fifos(options);
+  for (std::uint32_t c = 0; c < config.cores; ++c) {
+    finished_.push_back(std::make_unique<FinishedTiles>(
+        fmt::format("finished_tiles{}", c).c_str(), clock_, job.tile_count,
+        config.rendering.feedback_latency_cycles));
+  }
+  make_units(options);
+  bind();
+  connect_memory();
+}
+
+void GscoreMachine::add_all_fifos(const BuildOptions& options) {
+  const Datapath tests = tile_test_pipeline(config_);
+  add_fifos(passes_, "passes_to_ccu", config_.ccus, 1, 1, options);
+  add_fifos(listed_, "listed_by_ccu", config_.ccus, listed_entries(config_), tests.depth_cycles,
+            options);
+  add_fifos(requests_, "requests_of_core", config_.cores, 1, 1, options);
+  add_fifos(jobs_, "jobs_of_core", config_.cores, 1, 1, options);
+  add_fifos(sorted_, "sorted_of_core", config_.cores, config_.rendering.sorted_entries, 1,
+            options);
+  add_fifos(done_, "done_by_core", config_.cores, 1, 1, options);
+}
+
+void GscoreMachine::make_units(const BuildOptions& options) {
+  const UnitContext context{clock_, job_, config_};
+  Construction units;
+  for (std::uint32_t c = 0; c < config_.ccus; ++c) {
+    units.push_back(
+        [=] { ccus_[c] = std::make_unique<Ccu>(fmt::format("ccu{}", c).c_str(), c, context); });
+  }
+  units.push_back([=] {
+    lister_ = std::make_unique<TileLister>("lister", context, [this] { finish_frame(); });
+  });
+  for (std::uint32_t c = 0; c < config_.cores; ++c) {
+    units.push_back([=] {
+      sorters_[c] = std::make_unique<TileSorter>(fmt::format("sorter{}", c).c_str(), c, context,
+                                                 *finished_[c]);
+    });
+    units.push_back([=] {
+      renderers_[c] = std::make_unique<RenderCore>(fmt::format("rendering{}", c).c_str(), context,
+                                                   *finished_[c]);
+    });
+  }
+  construct(std::move(units), options.process_order);
+}
+
+void GscoreMachine::bind() {
+  for (std::uint32_t c = 0; c < config_.ccus; ++c) {
+    lister_->passes(*passes_[c]);
+    ccus_[c]->passes(*passes_[c]);
+    ccus_[c]->listed(*listed_[c]);
+    lister_->listed(*listed_[c]);
+  }
+  for (std::uint32_t c = 0; c < config_.cores; ++c) {
+    sorters_[c]->requests(*requests_[c]);
+    lister_->requests(*requests_[c]);
+    lister_->jobs(*jobs_[c]);
+    sorters_[c]->jobs(*jobs_[c]);
+    sorters_[c]->sorted(*sorted_[c]);
+    renderers_[c]->sorted(*sorted_[c]);
+    renderers_[c]->done(*done_[c]);
+    lister_->done(*done_[c]);
+  }
+}
+
+template <class T>
+void GscoreMachine::publish_queues(DataSheet& sheet, const Fifos<T>& fifos, const char* use,
+                                   const char* key) {
+  for (const auto& fifo : fifos) {
+    sheet.queue(*fifo, use);
+    sheet.remedy(*fifo, WaitFor::kRoom, key);
+  }
+}
+
+void GscoreMachine::publish(DataSheet& sheet) {
+  for (const auto& ccu : ccus_) ccu->publish(sheet);
+  lister_->publish(sheet);
+  for (std::uint32_t c = 0; c < config_.cores; ++c) {
+    sorters_[c]->publish(sheet);
+    renderers_[c]->publish(sheet);
+  }
+  sheet.unit(*this);
+  sheet.sram(queue_uses(config_));
+  publish_queues(sheet, passes_, kPasses, "ccus");
+  publish_queues(sheet, listed_, kListed, "ccu.output_entries");
+  publish_queues(sheet, requests_, kRequests, "cores");
+  publish_queues(sheet, jobs_, kJobs, "sorting.list_buffers");
+  publish_queues(sheet, sorted_, kSorted, "rendering.sorted_entries");
+  publish_queues(sheet, done_, kDone, "cores");
+  sheet.sram_available(kBuffer, config_.sram.buffer_bytes);
+}
+
+}  // namespace sgs::gscore

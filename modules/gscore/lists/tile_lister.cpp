@@ -1,0 +1,251 @@
+// The thread of the tile lister.
+#include "modules/gscore/lists/tile_lister.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "modules/datapath/work_rates.h"
+
+namespace sgs::gscore {
+namespace {
+
+constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists", *kTags = "tiles of lines",
+                     *kRecords = "records to write", *kWrites = "list writes";
+// Lines are written by words of 64 bits and read by bursts, so that an entry spans two banks.
+constexpr std::uint32_t kLineWordBytes = 8, kLineBanks = kPortBytes / kLineWordBytes;
+constexpr std::uint32_t kTagBytes = 4;  // tile, and what of the line is new
+// Beside the memories: whose line it is, whether line and block are full, whether the pool is.
+constexpr std::uint32_t kComparators = 4;
+
+std::uint32_t words(std::uint32_t begin, std::uint32_t bytes) {
+  return (begin + bytes - 1) / kLineWordBytes - begin / kLineWordBytes + 1;
+}
+
+// Of records that are written at once: what a transaction takes, at least one.
+std::uint32_t records_at_once(const GscoreConfig& config) {
+  return std::max(1U, config.memory_port.max_transaction_bytes /
+                          record_place_bytes(config.tiles.features));
+}
+
+}  // namespace
+
+TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& context,
+                       std::function<void()> on_done)
+    : sc_module(name),
+      memory("memory", context.config.memory_port, context.clock.period()),
+      config_(context.config),
+      job_(context.job),
+      blocks_(config_.blocks()),
+      on_done_(std::move(on_done)),
+      list_("list", context.clock),
+      ends_(config_.lists.tiles),
+      lines_(config_.lists.lines, Line{LineBuffer(blocks_.line_bytes)}),
+      records_(std::size_t{records_at_once(config_)} * record_place_bytes(config_.tiles.features)) {
+  SC_THREAD(run);
+}
+
+// A pass that has overflowed is made again with half of its tiles.
+void TileLister::run() {
+  asked_ = std::make_unique<FifoSelector<TileRequest>>(requests);
+  std::uint32_t most = std::min(config_.lists.tiles, job_.tile_count);
+  for (Pass pass; pass.first < job_.tile_count;) {
+    pass.end = std::min(pass.first + most, job_.tile_count);
+    ++counters_.passes;
+    if (!project(pass)) {
+      ++counters_.overflowed;
+      most = (pass.end - pass.first + 1) / 2;
+      continue;
+    }
+    hand_out(pass);
+    pass.first = pass.end;
+  }
+  Pass over;
+  over.over = true;
+  for (int c = 0; c < passes.size(); ++c) passes[c]->push(over, list_);
+  list_.idles();
+  on_done_();
+}
+
+bool TileLister::project(const Pass& pass) {
+  const std::uint32_t tiles = pass.end - pass.first;
+  for (int c = 0; c < passes.size(); ++c) passes[c]->push(pass, list_);
+  // The table is cleared while the first Gaussians are on their way; a row of it a cycle.
+  list_.work(tiles);
+  std::fill(ends_.begin(), ends_.begin() + tiles, ListEnd{});
+  counters_.table_writes += tiles;
+  for (Line& line : lines_) line.tile = 0;
+  next_block_ = tiles;
+  overflowed_ = tiles > config_.pool_blocks();
+  record_number_ = 0;
+  const std::uint64_t slices =
+      cycles_for(job_.layout.gaussian_count(), config_.ccu.slice_gaussians);
+  for (std::uint64_t s = 0; s < slices; ++s) {
+    FifoReadIf<ListedTile>& ccu = in_turn(listed, s);
+    for (ListedTile next = ccu.pop(list_); !next.end; next = ccu.pop(list_)) take(next, pass);
+    list_.work(1);
+    ++counters_.slices;
+  }
+  // Every line is looked at, whether there is something new in it.
+  for (Line& line : lines_) {
+    if (line.tile != 0 && line.buffer.holds_new()) flush_line(line);
+  }
+  list_.work(lines_.size());
+  counters_.line_looks += lines_.size();
+  flush_records();
+  await_all(memory, list_);
+  return !overflowed_;
+}
+
+void TileLister::take(const ListedTile& tile, const Pass& pass) {
+  list_.work(1);
+  ++counters_.pairs;
+  if (tile.first) put_record(tile.splat);
+  put_entry(tile.tile - pass.first, {tile.key, record_number_ - 1, tile.bitmap});
+}
+
+void TileLister::put_record(const Splat& splat) {
+  const std::uint32_t place = record_place_bytes(config_.tiles.features);
+  encode_projected(config_.tiles.features, splat,
+                   records_.data() + std::size_t{waiting_records_} * place);
+  ++record_number_;
+  ++waiting_records_;
+  ++counters_.records;
+  counters_.record_words += cycles_for(place, kPortBytes);
+  if (waiting_records_ == records_at_once(config_)) flush_records();
+}
+
+void TileLister::flush_records() {
+  if (waiting_records_ == 0) return;
+  const std::uint32_t bytes = waiting_records_ * record_place_bytes(config_.tiles.features);
+  start_write(memory, list_, job_.projected.address(record_number_ - waiting_records_),
+              records_.data(), bytes, job_.projected.region);
+  waiting_records_ = 0;
+}
+
+// Of the first block of tile t the number is t; the link to the next must be there when the first
+// line leaves, so that block is taken now.
+void TileLister::put_entry(std::uint32_t tile, const TileEntry& entry) {
+  ListEnd& end = ends_[tile];
+  ++counters_.table_reads;
+  ++counters_.table_writes;
+  ++counters_.line_looks;
+  if (overflowed_) return;
+  if (end.entries % blocks_.block_entries() == 0) {
+    if (next_block_ == config_.pool_blocks()) {
+      overflowed_ = true;
+      return;
+    }
+    end.block = end.entries == 0 ? tile : end.next;
+    end.next = next_block_++;
+    ++counters_.blocks;
+  }
+  const EntryPlace place = place_of(blocks_, end.block, end.entries);
+  Line& line = lines_[tile % lines_.size()];
+  if (line.tile != tile + 1) {
+    if (line.tile != 0 && line.buffer.holds_new()) {
+      ++counters_.lines_displaced;
+      flush_line(line);
+    }
+    line.tile = tile + 1;
+    line.buffer.begin(place.line, place.begins_line ? 0 : place.at);
+  } else if (place.begins_line) {
+    line.buffer.begin(place.line, 0);
+  }
+  if (place.begins_block) {
+    std::byte link[kLinkBytes];
+    std::memcpy(link, &end.next, kLinkBytes);
+    line.buffer.put(0, link, kLinkBytes);
+    ++counters_.line_writes;
+  }
+  std::byte bytes[16];
+  encode_entry(blocks_.entry, entry, bytes);
+  line.buffer.put(place.at, bytes, blocks_.entry.bytes());
+  counters_.line_writes += words(place.at, blocks_.entry.bytes());
+  ++counters_.line_changes;
+  ++end.entries;
+  if (!place.ends_line) return;
+  ++counters_.lines_full;
+  flush_line(line);
+}
+
+void TileLister::flush_line(Line& line) {
+  const std::uint64_t at = line.buffer.address(blocks_.line_bytes);
+  const std::uint32_t bytes = line.buffer.new_byte_count();
+  counters_.line_reads += words(static_cast<std::uint32_t>(at % blocks_.line_bytes), bytes);
+  start_write(memory, list_, job_.lists.base + at, line.buffer.new_bytes(), bytes,
+              job_.lists.region);
+  line.buffer.written();
+}
+
+// One request of each core is answered by the end of the pass.
+void TileLister::hand_out(const Pass& pass) {
+  const auto any = [](int) { return true; };
+  for (std::uint32_t tile = pass.first; tile < pass.end; ++tile) {
+    const int core = asked_->select(list_, any);
+    requests[core]->pop(list_);
+    list_.work(1);
+    ++counters_.table_reads;
+    ++counters_.tiles;
+    const ListEnd& end = ends_[tile - pass.first];
+    counters_.tiles_empty += end.entries == 0 ? 1 : 0;
+    counters_.list_max = std::max<std::uint64_t>(counters_.list_max, end.entries);
+    jobs[core]->push({TileMark::kTile, tile, tile - pass.first, end.entries}, list_);
+  }
+  const TileMark mark = pass.end == job_.tile_count ? TileMark::kEndOfFrame : TileMark::kEndOfPass;
+  std::vector<bool> told(static_cast<std::size_t>(requests.size()));
+  for (int c = 0; c < requests.size(); ++c) {
+    const int core =
+        asked_->select(list_, [&](int index) { return !told[static_cast<std::size_t>(index)]; });
+    told[static_cast<std::size_t>(core)] = true;
+    requests[core]->pop(list_);
+    list_.work(1);
+    jobs[core]->push({mark, 0, 0, 0}, list_);
+  }
+  for (int c = 0; c < done.size(); ++c) done[c]->pop(list_);
+}
+
+SramUses TileLister::sram_uses(const GscoreConfig& c) {
+  const BlockFormat blocks = c.blocks();
+  const std::uint32_t place = record_place_bytes(c.tiles.features);
+  return {sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {ListEnd::kBytes, "B"}},
+                   {8 * ListEnd::kBytes}, kOneOfEach),
+          sram_use(kLines, kBuffer, {{c.lists.lines, "lines"}, {blocks.line_bytes, "B"}},
+                   {8 * kLineWordBytes, SramPorts::kReadAndWrite, kLineBanks},
+                   {kLineBanks, kLineBanks}),
+          sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {kTagBytes, "B"}}, {8 * kTagBytes},
+                   kOneOfEach),
+          sram_use(kRecords, kBuffer, {{records_at_once(c), "records"}, {place, "B"}},
+                   {8 * kPortBytes}, kOneOfEach),
+          outstanding_table(kBuffer, c.memory_port),
+          unanswered_writes(kWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
+}
+
+void TileLister::publish(DataSheet& sheet) {
+  sheet.unit(*this);
+  sheet.activity(list_, "listing", "lists Gaussians in tiles, then hands tiles out");
+  sheet.counter("passes", "passes", "over the scene", counters_.passes);
+  sheet.counter("passes_overflowed", "passes", "of these made again: the pool was too small",
+                counters_.overflowed);
+  sheet.counter("slices", "slices", "of Gaussians taken", counters_.slices);
+  sheet.counter("pairs", "entries", "a Gaussian in a tile each", counters_.pairs);
+  sheet.counter("records", "Gaussians", "projected, written", counters_.records);
+  sheet.counter("blocks", "blocks", "of lists begun", counters_.blocks);
+  sheet.counter("lines_full", "lines", "written when they were full", counters_.lines_full);
+  sheet.counter("lines_displaced", "lines", "written when another tile took their place",
+                counters_.lines_displaced);
+  sheet.counter("list_entries_max", "entries", "of the longest list", counters_.list_max);
+  sheet.counter("tiles", "tiles", "handed out", counters_.tiles);
+  sheet.counter("tiles_empty", "tiles", "of these without a Gaussian", counters_.tiles_empty);
+  sheet.sram(sram_uses(config_));
+  sheet.accesses(kEnds, counters_.table_reads, counters_.table_writes);
+  sheet.accesses(kLines, counters_.line_reads, counters_.line_writes);
+  sheet.accesses(kTags, counters_.line_looks, counters_.line_changes);
+  sheet.accesses(kRecords, counters_.record_words, counters_.record_words);
+  sheet.part("lists", "comparator", kComparators, 1);
+  sheet.operations("lists", "comparator", static_cast<double>(kComparators * counters_.pairs));
+  sheet.port(memory, kWrites);
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_writes");
+  sheet.may_help("lists.lines");
+}
+
+}  // namespace sgs::gscore

@@ -1,0 +1,82 @@
+// Tile lister and control: numbers and writes the projected Gaussians, enters them in the lists of
+// their tiles, and when a pass is projected hands its tiles out to the cores.
+// Timing: a listed tile a cycle; entries of a tile are combined in a line, which is written when it
+// is full or another tile takes its place. Tiles are handed out one a cycle, as they are asked for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "modules/gscore/gscore_job.h"
+#include "modules/gscore/line_buffer.h"
+#include "modules/gscore/messages.h"
+#include "tlm/data_sheet.h"
+#include "tlm/fifo_selector.h"
+#include "tlm/memory_access.h"
+
+namespace sgs::gscore {
+
+class TileLister : public sc_core::sc_module {
+ public:
+  FifoOuts<Pass> passes{"passes"};           // one a CCU
+  FifoIns<ListedTile> listed{"listed"};      // one a CCU
+  FifoIns<TileRequest> requests{"requests"};  // one a core
+  FifoOuts<TileJob> jobs{"jobs"};            // one a core
+  FifoIns<PassDone> done{"done"};            // one a core
+  MemoryPort memory;
+
+  SC_HAS_PROCESS(TileLister);
+  TileLister(const sc_core::sc_module_name& name, const UnitContext& context,
+             std::function<void()> on_done);
+
+  static SramUses sram_uses(const GscoreConfig& config);
+  void publish(DataSheet& sheet);
+
+ private:
+  struct Line {
+    LineBuffer buffer;
+    std::uint32_t tile = 0;  // of the pass, from 1 on; 0: none
+  };
+
+  void run();  // thread
+  // Whether all lists of the pass are in memory; if not, the pool was too small.
+  bool project(const Pass& pass);
+  void take(const ListedTile& tile, const Pass& pass);
+  void put_record(const Splat& splat);
+  void flush_records();
+  void put_entry(std::uint32_t tile, const TileEntry& entry);
+  void flush_line(Line& line);
+  void hand_out(const Pass& pass);
+
+  const GscoreConfig config_;
+  const GscoreJob& job_;
+  const BlockFormat blocks_;
+  const std::function<void()> on_done_;
+  Activity list_;
+  std::unique_ptr<FifoSelector<TileRequest>> asked_;  // made by the thread
+  std::vector<ListEnd> ends_;  // [tile of the pass]
+  std::vector<Line> lines_;
+  std::vector<std::byte> records_;  // that wait until there are enough for a transaction
+  std::uint32_t waiting_records_ = 0;
+  std::uint32_t next_block_ = 0;  // free pointer
+  bool overflowed_ = false;
+  std::uint32_t record_number_ = 0;  // of the next one
+
+  struct Counters {
+    std::uint64_t passes = 0, overflowed = 0;
+    std::uint64_t slices = 0, pairs = 0, records = 0;
+    std::uint64_t lines_full = 0, lines_displaced = 0;
+    std::uint64_t blocks = 0;
+    std::uint64_t list_max = 0, tiles = 0, tiles_empty = 0;
+    std::uint64_t line_reads = 0, line_writes = 0;  // words
+    std::uint64_t record_words = 0;
+    std::uint64_t table_reads = 0, table_writes = 0;
+    std::uint64_t line_looks = 0, line_changes = 0;
+  } counters_;
+};
+
+}  // namespace sgs::gscore

@@ -1,0 +1,72 @@
+// What travels between the units of the tile-centric machine. kSramBytes: what hardware keeps of
+// one that waits.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/memory/record_split.h"
+#include "algorithm/memory/tile_records.h"
+#include "algorithm/splat/tile_boxes.h"
+
+namespace sgs::gscore {
+
+// Lister -> CCU: project the scene for tiles [first, end), row by row; or the frame is over.
+struct Pass {
+  static constexpr std::uint32_t kSramBytes = 8;
+  std::uint32_t first = 0, end = 0;
+  bool over = false;
+};
+
+// Within a CCU, and to the lister: a Gaussian, or the end of a slice.
+struct Candidate {
+  static constexpr std::uint32_t kSramBytes = 20;  // slot, centre, largest scale
+  std::uint32_t slot = 0;
+  SplitFirstHalf first{};
+  bool end = false, over = false;
+  std::uint64_t ticket = 0;  // of the second half's read
+  std::uint32_t buffer = 0;  // where it lands
+};
+struct Converted {
+  static constexpr std::uint32_t kSramBytes = 108;  // record, key, tiles, parts, box, its limits
+  Splat splat{};
+  TileBoxes boxes{};
+  bool end = false, over = false;
+};
+
+// CCU -> lister: a tile that a Gaussian is listed in; with its first one comes the record.
+struct ListedTile {
+  static constexpr std::uint32_t kSramBytes = 46;  // record, tile, key, bitmap
+  Splat splat{};
+  std::uint32_t tile = 0, key = 0, bitmap = 0;
+  bool first = false;
+  bool end = false;  // of a slice
+};
+
+// Sorter -> lister: a tile is wanted.
+struct TileRequest {
+  static constexpr std::uint32_t kSramBytes = 1;
+};
+enum class TileMark : std::uint8_t { kTile, kEndOfPass, kEndOfFrame };
+// Lister -> sorter.
+struct TileJob {
+  static constexpr std::uint32_t kSramBytes = 12;
+  TileMark mark = TileMark::kTile;
+  std::uint32_t tile = 0;         // of the frame
+  std::uint32_t first_block = 0;  // of the pool
+  std::uint32_t entries = 0;      // of its list
+};
+
+// Sorter -> rendering: entries of a tile in order, then its end.
+enum class EntryMark : std::uint8_t { kEntry, kEndOfTile, kEndOfPass, kEndOfFrame };
+struct SortedEntry {
+  static constexpr std::uint32_t kSramBytes = 8;  // record, bitmap, tile, mark
+  EntryMark mark = EntryMark::kEntry;
+  std::uint32_t tile = 0, record = 0, bitmap = 0;
+};
+
+// Rendering -> lister: the last tile of the pass is in memory.
+struct PassDone {
+  static constexpr std::uint32_t kSramBytes = 1;
+};
+
+}  // namespace sgs::gscore

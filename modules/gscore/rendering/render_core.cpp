@@ -1,0 +1,289 @@
+// The three threads of a rendering core.
+#include "modules/gscore/rendering/render_core.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "algorithm/render/tile_blend.h"
+#include "modules/datapath/work_rates.h"
+#include "modules/gscore/gscore_datapaths.h"
+
+namespace sgs::gscore {
+namespace {
+
+constexpr const char *kRecords = "records", *kFetched = "fetched entries", *kPixels = "pixel state",
+                     *kPixelWrites = "pixel writes", *kMask = "finished parts";
+constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
+constexpr std::uint32_t kTilePixels = kTilePx * kTilePx;
+
+// R, G, B and transmittance.
+std::uint32_t state_bytes(const GscoreConfig& config) {
+  return config.rendering.precision == BlendPrecision::kHalf ? 8 : 16;
+}
+
+std::uint32_t parts_of(const GscoreConfig& config) {
+  return static_cast<std::uint32_t>(config.tiles.subtiles_across * config.tiles.subtiles_across);
+}
+
+// The sub-tiles of 4 px of a part.
+GroupReach reach_of(int part, const TileRules& rules) {
+  const int side = kSubtilesPerTile / rules.subtiles_across;
+  const auto at = [](int index) { return static_cast<std::uint8_t>(index); };
+  const int x = part % rules.subtiles_across * side, y = part / rules.subtiles_across * side;
+  return {at(x), at(y), at(x + side - 1), at(y + side - 1)};
+}
+
+std::uint32_t record_words(const GscoreConfig& config) {
+  return static_cast<std::uint32_t>(cycles_for(record_bytes(config.tiles.features), kPortBytes));
+}
+
+}  // namespace
+
+RenderCore::RenderCore(const sc_core::sc_module_name& name, const UnitContext& context,
+                       FinishedTiles& finished)
+    : sc_module(name),
+      record_memory("record_memory", context.config.memory_port, context.clock.period()),
+      pixel_memory("pixel_memory", context.config.memory_port, context.clock.period()),
+      config_(context.config),
+      job_(context.job),
+      finished_(finished),
+      conic_path_(conic_pipeline(config_)),
+      blend_path_(blend_pipeline(config_)),
+      drain_path_(drain_pipeline(config_)),
+      record_bytes_(record_bytes(config_.tiles.features)),
+      fetch_("fetch", context.clock),
+      blend_("blend", context.clock),
+      drain_("drain", context.clock),
+      records_(std::size_t{config_.rendering.record_slots} * record_bytes_),
+      fetched_("fetched", context.clock, config_.rendering.record_slots + 1),
+      free_records_("free_records", context.clock, config_.rendering.record_slots, 0),
+      finished_states_("finished_states", context.clock, config_.rendering.pixel_buffers + 1,
+                       conic_path_.depth_cycles + blend_path_.depth_cycles + kReadCycles +
+                           kWriteCycles + drain_path_.depth_cycles),
+      free_pixels_("free_pixels", context.clock, config_.rendering.pixel_buffers, 0),
+      free_from_(kBlocks),
+      finished_from_(parts_of(config_)) {
+  SC_THREAD(run_fetch);
+  SC_THREAD(run_blend);
+  SC_THREAD(run_drain);
+}
+
+void RenderCore::run_fetch() {
+  for (std::uint32_t s = 0; s < config_.rendering.record_slots; ++s) free_records_.push(s, fetch_);
+  for (EntryMark mark = EntryMark::kEntry; mark != EntryMark::kEndOfFrame;) {
+    Fetched next;
+    next.entry = sorted->pop(fetch_);
+    mark = next.entry.mark;
+    if (mark == EntryMark::kEntry && finished_.finished(next.entry.tile)) {
+      fetch_.work(1);
+      ++counters_.dropped;
+      continue;
+    }
+    if (mark == EntryMark::kEntry) next.slot = free_records_.pop(fetch_, WaitFor::kRoom);
+    fetch_.work(1);
+    if (mark == EntryMark::kEntry) {
+      next.ticket = start_read(record_memory, fetch_, job_.projected.address(next.entry.record),
+                               records_.data() + std::size_t{next.slot} * record_bytes_,
+                               record_bytes_, job_.projected.region);
+      ++counters_.records;
+    }
+    fetched_.push(next, fetch_);
+  }
+  fetch_.idles();
+}
+
+void RenderCore::run_blend() {
+  for (EntryMark mark = EntryMark::kEntry; mark != EntryMark::kEndOfFrame;) {
+    const Fetched next = fetched_.pop(blend_);
+    mark = next.entry.mark;
+    if (mark == EntryMark::kEndOfPass || mark == EntryMark::kEndOfFrame) {
+      blend_.work(1);
+      finished_states_.push({mark, nullptr}, blend_);
+      continue;
+    }
+    if (!in_tile_) begin_tile(next.entry.tile);
+    if (mark == EntryMark::kEntry) {
+      await(record_memory, blend_, next.ticket);
+      const Splat splat =
+          decode_projected(config_.tiles.features,
+                           records_.data() + std::size_t{next.slot} * record_bytes_);
+      blend(next.entry, splat);
+      free_records_.push(next.slot, blend_);
+      continue;
+    }
+    ++counters_.tiles;
+    counters_.tiles_finished += state_->saturated() ? 1 : 0;
+    counters_.contributors += state_->contributors();
+    in_tile_ = false;
+    blend_.work(1);
+    finished_states_.push({mark, std::move(state_)}, blend_);
+  }
+  blend_.idles();
+}
+
+// Parts outside the frame are finished from the start.
+void RenderCore::begin_tile(std::uint32_t tile) {
+  free_pixels_.pop(blend_, WaitFor::kRoom);
+  in_tile_ = true;
+  told_ = false;
+  tile_ = tile;
+  const PixelRect pixels = job_.pixels(tile);
+  state_ = std::make_shared<GroupState>(pixels, job_.view.width, job_.view.height,
+                                        config_.rendering.precision, SubtileTest::kBox);
+  std::fill(free_from_.begin(), free_from_.end(), 0);
+  const int across = config_.tiles.subtiles_across, side = kTilePx / across;
+  for (int part = 0; part < across * across; ++part) {
+    const bool outside = part % across * side >= pixels.width() ||
+                         part / across * side >= pixels.height();
+    finished_from_[static_cast<std::size_t>(part)] = outside ? 0 : kNever;
+  }
+}
+
+void RenderCore::blend(const SortedEntry& entry, const Splat& splat) {
+  const std::uint64_t now = blend_.clock().now_cycles();
+  if (finished_.finished(entry.tile)) {
+    ++counters_.dropped_fetched;
+    blend_.work(1);
+    return;
+  }
+  ++counters_.splats;
+  const TileRules rules = config_.tiles.rules();
+  const int side = kSubtilesPerTile / rules.subtiles_across;
+  const std::uint64_t interval = blend_path_.interval_cycles();
+  const std::uint64_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
+  const std::uint64_t depth = conic_path_.depth_cycles + blend_path_.depth_cycles + kReadCycles +
+                              kWriteCycles;
+  std::uint64_t begin = next_turn(now, interval);
+  for_each_part(rules, job_.tile_x(entry.tile), job_.tile_y(entry.tile), entry.bitmap, splat,
+                [&](const Splat& in_part, int part) {
+    std::uint64_t& known = finished_from_[static_cast<std::size_t>(part)];
+    if (known <= now && (config_.rendering.skip_finished || known == 0)) {
+      ++counters_.parts_finished;
+      return;
+    }
+    ++counters_.parts;
+    const int first_x = part % rules.subtiles_across * side;
+    const int first_y = part / rules.subtiles_across * side;
+    for (int block = 0; block < side * side; ++block) {
+      const auto at = static_cast<std::size_t>((first_y + block / side) * kSubtilesPerTile +
+                                               first_x + block % side);
+      const std::uint64_t free = next_turn(std::max(begin, free_from_[at]), interval);
+      counters_.hazard_cycles += free - begin;
+      free_from_[at] = free + loop;
+      begin = free + interval;
+      ++counters_.blocks;
+    }
+    state_->blend(in_part);
+    if (known == kNever && !state_->any_unfinished(reach_of(part, rules))) known = begin + depth;
+  });
+  if (state_->saturated() && !told_) {
+    told_ = true;
+    finished_.finish(entry.tile, begin - now + depth);
+  }
+  blend_.work(std::max<std::uint64_t>(begin - now, 1));
+}
+
+void RenderCore::run_drain() {
+  for (std::uint32_t b = 0; b < config_.rendering.pixel_buffers; ++b) free_pixels_.push(b, drain_);
+  for (EntryMark mark = EntryMark::kEndOfTile; mark != EntryMark::kEndOfFrame;) {
+    const Finished next = finished_states_.pop(drain_);
+    mark = next.mark;
+    if (mark == EntryMark::kEndOfTile) {
+      write_tile(*next.state);
+      free_pixels_.push(0, drain_);
+      continue;
+    }
+    await_all(pixel_memory, drain_);
+    drain_.work(1);
+    done->push({}, drain_);
+  }
+  drain_.idles();
+}
+
+// Each pixel is cleared as it is read.
+void RenderCore::write_tile(const GroupState& state) {
+  const PixelRect& pixels = state.pixels();
+  const auto width = static_cast<std::uint32_t>(pixels.width());
+  const std::uint32_t bytes = pixel_bytes(job_.frame_format);
+  std::vector<std::byte> row(std::size_t{width} * bytes);
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    for (int x = pixels.x0; x < pixels.x1; ++x) {
+      encode_pixel(job_.frame_format, state.colour(x, y, job_.background),
+                   row.data() + static_cast<std::size_t>(x - pixels.x0) * bytes);
+    }
+    drain_.work(cycles_for(width, config_.rendering.drain_pixels_per_cycle));
+    start_write(pixel_memory, drain_, job_.pixel_address(pixels.x0, y), row.data(),
+                static_cast<std::uint32_t>(row.size()), job_.frame_buffer.region);
+    counters_.pixels += width;
+  }
+}
+
+// A memory for each place of a pixel among 16, in each buffer: a blend reads and writes 16 at once.
+SramUses RenderCore::sram_uses(const GscoreConfig& c) {
+  const std::uint32_t banks = kSubtilePixels * c.rendering.pixel_buffers;
+  SramUses uses = {
+      sram_use(kRecords, kBuffer,
+               {{c.rendering.record_slots, "slots"}, {record_bytes(c.tiles.features), "B"}},
+               {8 * std::min(kPortBytes, record_bytes(c.tiles.features))}, kOneOfEach),
+      fifo_use<Fetched>(kFetched, kBuffer, c.rendering.record_slots + 1, "entries"),
+      sram_use(kPixels, kBuffer,
+               {{c.rendering.pixel_buffers, "tiles"}, {kTilePixels, "px"}, {state_bytes(c), "B"}},
+               {8 * state_bytes(c), SramPorts::kReadAndWrite, banks}, {banks, banks}),
+      sram_use(kMask, kBuffer, {{parts_of(c), "parts"}, {1, "B"}}, {8 * parts_of(c)}, kOneOfEach),
+      unanswered_writes(kPixelWrites, kBuffer, c.memory_port, kTilePx * pixel_bytes(c.framebuffer))};
+  add(uses, outstanding_table(kBuffer, c.memory_port), 2);
+  return uses;
+}
+
+void RenderCore::publish(DataSheet& sheet) {
+  const Counters& n = counters_;
+  sheet.unit(*this);
+  sheet.activity(fetch_, "record fetch", "asks for records of sorted entries");
+  sheet.activity(blend_, "rendering", "blends them into a tile");
+  sheet.activity(drain_, "drain", "writes finished pixels");
+  sheet.counter("tiles", "tiles", "rendered", n.tiles);
+  sheet.counter("tiles_finished", "tiles", "of these with every pixel finished early",
+                n.tiles_finished);
+  sheet.counter("records", "Gaussians", "fetched, once for each tile", n.records);
+  sheet.counter("dropped", "entries", "of finished tiles, without a record", n.dropped);
+  sheet.counter("dropped_fetched", "entries", "of finished tiles, with their record",
+                n.dropped_fetched);
+  sheet.counter("splats", "entries", "blended or looked at", n.splats);
+  sheet.counter("parts", "parts", "of tiles, blended", n.parts);
+  sheet.counter("parts_finished", "parts", "that were finished or outside the frame",
+                n.parts_finished);
+  sheet.counter("blocks", "blocks", "of 16 px, one for each VRU", n.blocks);
+  sheet.counter("hazard_cycles", "cycles", "waiting for the splat ahead on the same pixels",
+                n.hazard_cycles);
+  sheet.counter("contributors", "pixels", "blended with an alpha above 1/255", n.contributors);
+  sheet.counter("pixels", "pixels", "written", n.pixels);
+  sheet.datapath(conic_path_, n.splats);
+  sheet.datapath(blend_path_, n.blocks);
+  sheet.datapath(drain_path_, n.pixels);
+  sheet.sram(sram_uses(config_));
+  const std::uint64_t words = record_words(config_);
+  const std::uint64_t looked_at = n.splats + n.dropped_fetched;
+  sheet.accesses(kRecords, looked_at * words, n.records * words);
+  sheet.accesses(kPixels, kSubtilePixels * n.blocks + n.pixels,
+                 kSubtilePixels * n.blocks + n.pixels);
+  sheet.accesses(kMask, n.splats, n.splats);
+  sheet.queue(fetched_, kFetched);
+  sheet.queue(finished_states_, kPixels);
+  sheet.port(record_memory);
+  sheet.port(pixel_memory, kPixelWrites);
+  sheet.left_out("records_of_finished_tiles", "their tile finished before they were fetched",
+                 n.dropped, "their records");
+  sheet.remedy(blend_, "cores");
+  sheet.remedy(drain_, "rendering.drain_pixels_per_cycle");
+  sheet.remedy(record_memory, WaitFor::kReads, "rendering.record_slots");
+  sheet.remedy(record_memory, WaitFor::kPort, "memory_port.max_outstanding");
+  sheet.remedy(pixel_memory, WaitFor::kPort, "memory_port.max_outstanding");
+  sheet.remedy(fetched_, WaitFor::kRoom, "rendering.record_slots");
+  sheet.remedy(free_records_, WaitFor::kRoom, "rendering.record_slots");
+  sheet.remedy(finished_states_, WaitFor::kRoom, "rendering.pixel_buffers");
+  sheet.remedy(free_pixels_, WaitFor::kRoom, "rendering.pixel_buffers");
+  sheet.signal("tile", tile_);
+}
+
+}  // namespace sgs::gscore

@@ -1,0 +1,85 @@
+// 16 volume rendering units: fetch the records of sorted entries, blend them into a tile, write its
+// pixels.
+// Timing: 16 pixels begin in each turn of the blending lanes, so a part of 8 x 8 px takes 4, each
+// not before the splat ahead of it on the same pixels has left the loop through their state; a
+// splat takes a cycle at least. Function: GroupState.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "algorithm/render/group_state.h"
+#include "modules/gscore/finished_tiles.h"
+#include "modules/gscore/gscore_job.h"
+#include "modules/gscore/messages.h"
+#include "tlm/data_sheet.h"
+#include "tlm/memory_access.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs::gscore {
+
+class RenderCore : public sc_core::sc_module {
+ public:
+  FifoIn<SortedEntry> sorted{"sorted"};
+  FifoOut<PassDone> done{"done"};
+  MemoryPort record_memory, pixel_memory;
+
+  SC_HAS_PROCESS(RenderCore);
+  RenderCore(const sc_core::sc_module_name& name, const UnitContext& context,
+             FinishedTiles& finished);
+
+  static SramUses sram_uses(const GscoreConfig& config);
+  void publish(DataSheet& sheet);
+
+ private:
+  struct Fetched {
+    static constexpr std::uint32_t kSramBytes = SortedEntry::kSramBytes;
+    SortedEntry entry;
+    std::uint32_t slot = 0;
+    std::uint64_t ticket = 0;
+  };
+  // A finished tile, or a mark of the pass.
+  struct Finished {
+    EntryMark mark = EntryMark::kEndOfTile;
+    std::shared_ptr<GroupState> state;
+  };
+  static constexpr int kBlocks = kSubtilesPerTile * kSubtilesPerTile;  // of 16 px
+
+  void run_fetch();  // thread
+  void run_blend();  // thread
+  void run_drain();  // thread
+  void begin_tile(std::uint32_t tile);
+  void blend(const SortedEntry& entry, const Splat& splat);
+  void write_tile(const GroupState& state);
+
+  const GscoreConfig config_;
+  const GscoreJob& job_;
+  FinishedTiles& finished_;
+  const Datapath conic_path_, blend_path_, drain_path_;
+  const std::uint32_t record_bytes_;
+  Activity fetch_, blend_, drain_;
+  std::vector<std::byte> records_;
+  TimedFifo<Fetched> fetched_;
+  TimedFifo<std::uint32_t> free_records_;
+  TimedFifo<Finished> finished_states_;
+  TimedFifo<std::uint32_t> free_pixels_;
+
+  std::shared_ptr<GroupState> state_;  // of the tile that is blended
+  bool in_tile_ = false;
+  bool told_ = false;                                  // that it is finished
+  std::vector<std::uint64_t> free_from_;               // [16 px] cycle
+  std::vector<std::uint64_t> finished_from_;           // [part] cycle
+  std::uint32_t tile_ = 0;                             // for the waveform too
+
+  struct Counters {
+    std::uint64_t tiles = 0, tiles_finished = 0;
+    std::uint64_t records = 0, dropped = 0, dropped_fetched = 0;
+    std::uint64_t splats = 0, parts = 0, parts_finished = 0, blocks = 0, hazard_cycles = 0;
+    std::uint64_t contributors = 0, pixels = 0;
+  } counters_;
+};
+
+}  // namespace sgs::gscore

@@ -1,0 +1,419 @@
+// The two threads of a sorter.
+#include "modules/gscore/sorting/tile_sorter.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "modules/datapath/work_rates.h"
+#include "modules/gscore/sorting/bitonic_cost.h"
+
+namespace sgs::gscore {
+namespace {
+
+constexpr const char *kStages = "list blocks", *kLists = "lists on chip", *kPlaces = "keys of subsets",
+                     *kSubsetLines = "lines of subsets", *kSubsetEnds = "ends of subsets",
+                     *kChunkKeys = "chunk keys", *kChunkPlaces = "chunk places",
+                     *kWrites = "subset writes", *kLoaded = "loaded lists";
+constexpr std::uint32_t kStageBlocks = 2;
+constexpr std::uint32_t kPlaceBytes = 2;       // of an entry in a list, of one in a chunk
+constexpr std::uint32_t kLineWordBytes = 8, kLineBanks = kPortBytes / kLineWordBytes;
+constexpr std::uint32_t kLoadedBytes = 16;     // tile, count, keys
+
+std::uint32_t line_words(std::uint32_t begin, std::uint32_t bytes) {
+  return (begin + bytes - 1) / kLineWordBytes - begin / kLineWordBytes + 1;
+}
+
+// Each QSU: the pivots, and the least and the greatest key.
+constexpr std::uint32_t kQsuComparators = kPivots + 2;
+
+// What a compare-exchange compares and moves: key and place.
+std::uint32_t compared_bits(const GscoreConfig& config) {
+  return 8 * (config.entries().key_bytes() + kPlaceBytes);
+}
+std::uint32_t comparators_of_exchange(const GscoreConfig& config) {
+  constexpr std::uint32_t kComparatorBits = 32;
+  return (compared_bits(config) + kComparatorBits - 1) / kComparatorBits;
+}
+
+}  // namespace
+
+TileSorter::TileSorter(const sc_core::sc_module_name& name, std::uint32_t index,
+                       const UnitContext& context, const FinishedTiles& finished)
+    : sc_module(name),
+      memory("memory", context.config.memory_port, context.clock.period()),
+      config_(context.config),
+      job_(context.job),
+      finished_(finished),
+      blocks_(config_.blocks()),
+      stack_(job_.subsets.part(job_.subsets.bytes / config_.cores * index,
+                               job_.subsets.bytes / config_.cores)),
+      load_("load", context.clock),
+      sort_("sort", context.clock),
+      stages_(std::size_t{kStageBlocks} * blocks_.block_bytes()),
+      loaded_("loaded", context.clock, config_.sorting.list_buffers + 2),
+      free_lists_("free_lists", context.clock, config_.sorting.list_buffers, 0) {
+  SC_THREAD(run_load);
+  SC_THREAD(run_sort);
+}
+
+void TileSorter::run_load() {
+  for (std::uint32_t b = 0; b < config_.sorting.list_buffers; ++b) free_lists_.push(b, load_);
+  for (TileMark mark = TileMark::kTile; mark != TileMark::kEndOfFrame;) {
+    requests->push({}, load_);
+    const TileJob job = jobs->pop(load_);
+    mark = job.mark;
+    Loaded end;
+    end.tile = job.tile;
+    if (mark == TileMark::kTile) {
+      ++counters_.tiles;
+      next_block_ = 0;
+      Chain list;
+      list.region = job_.lists;
+      list.block = job.first_block;
+      list.entries = job.entries;
+      load(job.tile, list, 0);
+      end.mark = EntryMark::kEndOfTile;
+    } else {
+      end.mark = mark == TileMark::kEndOfPass ? EntryMark::kEndOfPass : EntryMark::kEndOfFrame;
+    }
+    load_.work(1);
+    loaded_.push(end, load_);
+  }
+  load_.idles();
+}
+
+// A list of one key is in order, however long.
+void TileSorter::load(std::uint32_t tile, const Chain& list, std::uint32_t level) {
+  if (list.entries == 0) return;
+  if (finished_.finished(tile)) {
+    counters_.dropped_unread += list.entries;
+    return;
+  }
+  const bool in_order = list.ranged && list.keys.single();
+  if (list.entries > config_.sorting.list_entries && !in_order) {
+    split_in_memory(tile, list, level);
+    return;
+  }
+  std::vector<TileEntry> held;
+  KeyRange keys;
+  free_lists_.pop(load_, WaitFor::kRoom);
+  bool open = true;
+  const auto hand_on = [&] {
+    load_on_chip(tile, held, keys);
+    held.clear();
+    keys = {};
+    open = false;
+  };
+  read_chain(list, [&](std::vector<TileEntry>& entries) {
+    for (const TileEntry& entry : entries) {
+      if (!open) {
+        free_lists_.pop(load_, WaitFor::kRoom);
+        open = true;
+      }
+      held.push_back(entry);
+      keys.take(entry.key);
+      if (held.size() == config_.sorting.list_entries) hand_on();
+    }
+    load_.work(entries.size());
+    counters_.entries_loaded += entries.size();
+  });
+  if (open) hand_on();
+}
+
+void TileSorter::load_on_chip(std::uint32_t tile, const std::vector<TileEntry>& entries,
+                              const KeyRange& keys) {
+  loaded_.push({EntryMark::kEntry, tile, entries, keys}, load_);
+}
+
+TileSorter::Block TileSorter::ask_for(const Chain& list, std::uint32_t block,
+                                      std::uint32_t entries, std::size_t stage) {
+  Block asked;
+  asked.entries = std::min(entries, blocks_.block_entries());
+  const std::uint32_t bytes = blocks_.used_bytes(asked.entries);
+  const std::uint32_t head = std::min(bytes, blocks_.line_bytes);
+  const std::uint64_t at = list.region.base + std::uint64_t{block} * blocks_.block_bytes();
+  std::byte* into = stages_.data() + stage * blocks_.block_bytes();
+  load_.work(1);
+  asked.head = start_read(memory, load_, at, into, head, list.region.region);
+  asked.rest = asked.head;
+  if (bytes > head) {
+    asked.rest =
+        start_read(memory, load_, at + head, into + head, bytes - head, list.region.region);
+  }
+  counters_.stage_words += cycles_for(bytes, kPortBytes);
+  return asked;
+}
+
+void TileSorter::read_chain(const Chain& list,
+                            const std::function<void(std::vector<TileEntry>&)>& take) {
+  std::uint32_t unasked = list.entries;
+  std::size_t stage = 0;
+  Block next = ask_for(list, list.block, unasked, stage);
+  unasked -= next.entries;
+  std::vector<TileEntry> entries;
+  while (next.entries > 0) {
+    const Block block = next;
+    const std::byte* bytes = stages_.data() + stage * blocks_.block_bytes();
+    await(memory, load_, block.head);
+    next = {};
+    if (unasked > 0) {
+      std::uint32_t link;
+      std::memcpy(&link, bytes, sizeof link);
+      stage = (stage + 1) % kStageBlocks;
+      next = ask_for(list, link, unasked, stage);
+      unasked -= next.entries;
+    }
+    await(memory, load_, block.rest);
+    entries.clear();
+    for (std::uint32_t e = 0; e < block.entries; ++e) {
+      entries.push_back(decode_entry(blocks_.entry, bytes + blocks_.offset(e)));
+    }
+    counters_.entries_read += entries.size();
+    counters_.keys_compared += entries.size();
+    take(entries);
+  }
+}
+
+// Into 8 chains on the stack; when all are read its blocks are free again.
+void TileSorter::split_in_memory(std::uint32_t tile, const Chain& list, std::uint32_t level) {
+  const std::uint32_t mark = next_block_;
+  std::array<Chain, kSubsets> subsets;
+  std::array<ListEnd, kSubsets> ends{};
+  std::vector<LineBuffer> lines(kSubsets, LineBuffer(blocks_.line_bytes));
+  Pivots pivots{};
+  bool chosen = level > 0 && list.ranged;
+  if (chosen) pivots = ranged_pivots(list.keys);
+  ++counters_.lists_split;
+  read_chain(list, [&](std::vector<TileEntry>& entries) {
+    if (!chosen) pivots = sampled_pivots(entries, entries.size());
+    chosen = true;
+    for (const TileEntry& entry : entries) {
+      const std::uint32_t s = subset_of(pivots, entry.key);
+      subsets[s].keys.take(entry.key);
+      load_.work(1);
+      put_subset(entry, ends[s], lines[s], subsets[s].block);
+    }
+    counters_.entries_split += entries.size();
+  });
+  for (LineBuffer& line : lines) {
+    if (line.holds_new()) flush(line);
+  }
+  await_all(memory, load_);
+  for (std::size_t s = 0; s < kSubsets; ++s) {
+    subsets[s].region = stack_;
+    subsets[s].entries = ends[s].entries;
+    subsets[s].ranged = true;
+    load(tile, subsets[s], level + 1);
+  }
+  next_block_ = mark;
+}
+
+void TileSorter::put_subset(const TileEntry& entry, ListEnd& end, LineBuffer& line,
+                            std::uint32_t& first) {
+  if (end.entries % blocks_.block_entries() == 0) {
+    end.block = end.entries == 0 ? next_block_++ : end.next;
+    if (end.entries == 0) first = end.block;
+    end.next = next_block_++;
+  }
+  const EntryPlace place = place_of(blocks_, end.block, end.entries);
+  if (place.begins_line) line.begin(place.line, 0);
+  if (place.begins_block) {
+    std::byte link[kLinkBytes];
+    std::memcpy(link, &end.next, kLinkBytes);
+    line.put(0, link, kLinkBytes);
+    ++counters_.line_writes;
+  }
+  std::byte bytes[16];
+  encode_entry(blocks_.entry, entry, bytes);
+  line.put(place.at, bytes, blocks_.entry.bytes());
+  counters_.line_writes += line_words(place.at, blocks_.entry.bytes());
+  ++end.entries;
+  if (place.ends_line) flush(line);
+}
+
+void TileSorter::flush(LineBuffer& line) {
+  const std::uint64_t at = line.address(blocks_.line_bytes);
+  counters_.line_reads +=
+      line_words(static_cast<std::uint32_t>(at % blocks_.line_bytes), line.new_byte_count());
+  ++counters_.subset_lines;
+  start_write(memory, load_, stack_.base + at, line.new_bytes(), line.new_byte_count(),
+              stack_.region);
+  line.written();
+}
+
+void TileSorter::run_sort() {
+  for (EntryMark mark = EntryMark::kEntry; mark != EntryMark::kEndOfFrame;) {
+    Loaded list = loaded_.pop(sort_);
+    mark = list.mark;
+    if (mark == EntryMark::kEntry) {
+      sort(list.tile, std::move(list.entries), 0, list.keys);
+      free_lists_.push(0, sort_);
+      continue;
+    }
+    sort_.work(1);
+    sorted->push({mark, list.tile, 0, 0}, sort_);
+  }
+  sort_.idles();
+}
+
+void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::uint32_t level,
+                      const KeyRange& keys) {
+  if (finished_.finished(tile)) {
+    counters_.dropped_loaded += entries.size();
+    return;
+  }
+  if (keys.single()) {
+    counters_.in_order += entries.size();
+    emit(tile, entries);
+    return;
+  }
+  if (entries.size() <= config_.sorting.chunk_entries) {
+    sort_chunk(tile, entries, level);
+    return;
+  }
+  // Once through the QSU for the subsets' sizes, once more to their places.
+  const Pivots pivots =
+      level == 0 ? sampled_pivots(entries, entries.size()) : ranged_pivots(keys);
+  std::array<std::vector<TileEntry>, kSubsets> subsets;
+  std::array<KeyRange, kSubsets> ranges;
+  for (const TileEntry& entry : entries) {
+    const std::uint32_t s = subset_of(pivots, entry.key);
+    subsets[s].push_back(entry);
+    ranges[s].take(entry.key);
+  }
+  ++counters_.splits;
+  counters_.split_entries += entries.size();
+  counters_.keys_compared += 2 * entries.size();
+  (level == 0 ? counters_.list_reads : counters_.places_read) += 2 * entries.size();
+  counters_.places_written += entries.size();
+  sort_.work(2 * entries.size());
+  for (std::size_t s = 0; s < kSubsets; ++s) {
+    if (!subsets[s].empty()) sort(tile, std::move(subsets[s]), level + 1, ranges[s]);
+  }
+}
+
+// A list's keys lie side by side, and so do those of a subset with their places, so that 16 come to
+// the network's memory at once.
+void TileSorter::sort_chunk(std::uint32_t tile, std::vector<TileEntry>& entries,
+                            std::uint32_t level) {
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const TileEntry& a, const TileEntry& b) { return a.key < b.key; });
+  const BitonicCost cost = bitonic_cost(entries.size());
+  sort_.work(cycles_for(entries.size(), kNetworkWidth) + cost.cycles);
+  ++counters_.chunks;
+  counters_.chunk_entries += entries.size();
+  counters_.compare_exchanges += cost.compare_exchanges;
+  counters_.moves += cost.moves;
+  (level == 0 ? counters_.list_reads : counters_.places_read) += entries.size();
+  emit(tile, entries);
+}
+
+void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries) {
+  for (const TileEntry& entry : entries) {
+    sort_.work(1);
+    sorted->push({EntryMark::kEntry, tile, entry.record, entry.bitmap}, sort_);
+  }
+  counters_.emitted += entries.size();
+  counters_.list_reads += entries.size();
+}
+
+SramUses TileSorter::sram_uses(const GscoreConfig& c) {
+  const BlockFormat blocks = c.blocks();
+  constexpr auto kPorts = SramPorts::kReadAndWrite;
+  const std::uint32_t key_bits = compared_bits(c);
+  return {
+      sram_use(kStages, kBuffer, {{kStageBlocks, "blocks"}, {blocks.block_bytes(), "B"}},
+               {8 * kPortBytes}, kOneOfEach),
+      // 16 entries go to the network at once.
+      sram_use(kLists, kBuffer,
+               {{c.sorting.list_buffers, "lists"},
+                {c.sorting.list_entries, "entries"},
+                {blocks.entry.bytes(), "B"}},
+               {8 * blocks.entry.bytes(), kPorts, kNetworkWidth}, {kNetworkWidth, 1}),
+      sram_use(kPlaces, kBuffer,
+               {{2, "lists"}, {c.sorting.list_entries, "keys"}, {key_bits / 8, "B"}},
+               {key_bits, kPorts, kNetworkWidth}, {kNetworkWidth, 1}),
+      sram_use(kSubsetLines, kBuffer, {{kSubsets, "subsets"}, {blocks.line_bytes, "B"}},
+               {8 * kLineWordBytes, kPorts, kLineBanks}, {kLineBanks, kLineBanks}),
+      sram_use(kSubsetEnds, kBuffer, {{kSubsets, "subsets"}, {ListEnd::kBytes, "B"}},
+               {8 * ListEnd::kBytes}, kOneOfEach),
+      sram_use(kChunkKeys, kBuffer, {{c.sorting.chunk_entries, "keys"}, {key_bits / 8, "B"}},
+               {key_bits, kPorts, kNetworkWidth}, {kNetworkWidth, kNetworkWidth}),
+      sram_use(kChunkPlaces, kBuffer,
+               {{2, "lists"}, {c.sorting.chunk_entries, "places"}, {kPlaceBytes, "B"}},
+               {8 * kPlaceBytes, kPorts, kNetworkWidth}, {kNetworkWidth, kNetworkWidth}),
+      sram_use(kLoaded, kBuffer,
+               {{c.sorting.list_buffers + 2, "lists"}, {kLoadedBytes, "B"}}, {8 * kLoadedBytes},
+               kOneOfEach),
+      outstanding_table(kBuffer, c.memory_port),
+      unanswered_writes(kWrites, kBuffer, c.memory_port, blocks.line_bytes)};
+}
+
+void TileSorter::publish(DataSheet& sheet) {
+  const Counters& n = counters_;
+  sheet.unit(*this);
+  sheet.activity(load_, "list loading", "reads lists of tiles, splits what is too long");
+  sheet.activity(sort_, "sorting", "splits lists into chunks and sorts these");
+  sheet.counter("tiles", "tiles", "taken", n.tiles);
+  sheet.counter("entries_read", "entries", "of lists and of subsets in memory", n.entries_read);
+  sheet.counter("entries_loaded", "entries", "that came to lists on chip", n.entries_loaded);
+  sheet.counter("lists_split", "lists", "too long for the chip, split in memory", n.lists_split);
+  sheet.counter("entries_split", "entries", "of these, written to subsets", n.entries_split);
+  sheet.counter("splits", "lists", "split on chip", n.splits);
+  sheet.counter("split_entries", "entries", "of these", n.split_entries);
+  sheet.counter("chunks", "chunks", "sorted by the network", n.chunks);
+  sheet.counter("chunk_entries", "entries", "of these", n.chunk_entries);
+  sheet.counter("entries_in_order", "entries", "of lists with one key", n.in_order);
+  sheet.counter("entries_sorted", "entries", "handed on", n.emitted);
+  sheet.counter("dropped_unread", "entries", "of finished tiles, still in memory",
+                n.dropped_unread);
+  sheet.counter("dropped_loaded", "entries", "of finished tiles, on chip", n.dropped_loaded);
+  sheet.counter("compare_exchanges", "operations", "of the network", n.compare_exchanges);
+  sheet.counter("moves", "entries", "through the network, once for each pass", n.moves);
+
+  const double of_exchange = comparators_of_exchange(config_);
+  const double there = kNetworkExchanges, done = static_cast<double>(n.compare_exchanges);
+  sheet.part("bsu", "comparator", of_exchange * there, 1);
+  sheet.operations("bsu", "comparator", of_exchange * done);
+  sheet.part("bsu", "exchange_bit", compared_bits(config_) * there, 1);
+  sheet.operations("bsu", "exchange_bit", compared_bits(config_) * done);
+  // To its place before the network a key passes four multiplexers of two.
+  constexpr std::uint32_t kSelections = 4;
+  sheet.part("bsu", "select_bit", double{kMergeWidth} * (kNetworkWidth - 1) * compared_bits(config_),
+             1);
+  sheet.operations("bsu", "select_bit",
+                   double{kSelections} * compared_bits(config_) * static_cast<double>(n.moves));
+  constexpr std::uint32_t kQsus = 2;
+  const double pivot_bits = 8.0 * config_.entries().key_bytes() * kPivots;
+  sheet.part("qsu", "comparator", kQsus * kQsuComparators, 1);
+  sheet.operations("qsu", "comparator",
+                   double{kQsuComparators} * static_cast<double>(n.keys_compared));
+  sheet.part("qsu", "register_bit", kQsus * pivot_bits, 1);
+  sheet.operations("qsu", "register_bit",
+                   pivot_bits * static_cast<double>(n.splits + n.lists_split));
+
+  sheet.sram(sram_uses(config_));
+  sheet.accesses(kStages, n.stage_words, n.stage_words);
+  sheet.accesses(kLists, n.list_reads, n.entries_loaded);
+  sheet.accesses(kPlaces, n.places_read, n.places_written);
+  sheet.accesses(kSubsetLines, n.line_reads, n.line_writes);
+  sheet.accesses(kSubsetEnds, n.entries_split, n.entries_split);
+  sheet.accesses(kChunkKeys, n.moves, n.chunk_entries);
+  sheet.accesses(kChunkPlaces, n.moves + n.chunk_entries, n.moves);
+  sheet.accesses(kLoaded, loaded_.popped(), loaded_.pushed());
+  sheet.queue(loaded_, kLoaded);
+  sheet.port(memory, kWrites);
+  sheet.left_out("entries_of_finished_tiles", "their tile finished before their chunk was sorted",
+                 n.dropped_unread + n.dropped_loaded, "sorting, records, blending");
+  sheet.left_out("reads_of_finished_tiles", "subsets in memory of a finished tile",
+                 n.dropped_unread, "reading them back");
+  sheet.remedy(sort_, "cores");
+  sheet.remedy(load_, "cores");
+  sheet.remedy(memory, WaitFor::kReads, "lists.block_lines");
+  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
+  sheet.remedy(loaded_, WaitFor::kRoom, "sorting.list_buffers");
+  sheet.remedy(free_lists_, WaitFor::kRoom, "sorting.list_buffers");
+}
+
+}  // namespace sgs::gscore

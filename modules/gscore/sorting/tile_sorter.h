@@ -1,0 +1,105 @@
+// Sorter of one core: reads a tile's list, splits it into ordered subsets until these are chunks,
+// and sorts chunk by chunk, nearest first. What is left of a finished tile is dropped.
+// Timing: an entry a cycle through each QSU (the one where lists come in, which also splits lists
+// that are too long for the chip, and the one at the lists on chip); a chunk through the network as
+// bitonic_cost() says; an entry a cycle out. Blocks of a list are asked for one ahead.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <systemc>
+#include <vector>
+
+#include "modules/gscore/finished_tiles.h"
+#include "modules/gscore/gscore_job.h"
+#include "modules/gscore/line_buffer.h"
+#include "modules/gscore/messages.h"
+#include "modules/gscore/sorting/pivots.h"
+#include "tlm/data_sheet.h"
+#include "tlm/memory_access.h"
+#include "tlm/timed_fifo.h"
+
+namespace sgs::gscore {
+
+class TileSorter : public sc_core::sc_module {
+ public:
+  FifoOut<TileRequest> requests{"requests"};
+  FifoIn<TileJob> jobs{"jobs"};
+  FifoOut<SortedEntry> sorted{"sorted"};
+  MemoryPort memory;
+
+  SC_HAS_PROCESS(TileSorter);
+  // index: of the core; finished: told by the rendering of the same core.
+  TileSorter(const sc_core::sc_module_name& name, std::uint32_t index, const UnitContext& context,
+             const FinishedTiles& finished);
+
+  static SramUses sram_uses(const GscoreConfig& config);
+  void publish(DataSheet& sheet);
+
+ private:
+  // A list in memory: of a tile, or a subset of one.
+  struct Chain {
+    RegionSpan region;
+    std::uint32_t block = 0;  // the first
+    std::uint32_t entries = 0;
+    KeyRange keys;
+    bool ranged = false;  // keys are known
+  };
+  // A list on chip, or a mark; its bytes lie in the buffer.
+  struct Loaded {
+    EntryMark mark = EntryMark::kEntry;
+    std::uint32_t tile = 0;
+    std::vector<TileEntry> entries;
+    KeyRange keys;
+  };
+  // A block on its way.
+  struct Block {
+    std::uint64_t head = 0, rest = 0;  // tickets
+    std::uint32_t entries = 0;
+  };
+
+  void run_load();  // thread
+  void run_sort();  // thread
+
+  void load(std::uint32_t tile, const Chain& list, std::uint32_t level);
+  void load_on_chip(std::uint32_t tile, const std::vector<TileEntry>& entries,
+                    const KeyRange& keys);
+  void split_in_memory(std::uint32_t tile, const Chain& list, std::uint32_t level);
+  // Hands entries on as they come, block by block.
+  void read_chain(const Chain& list, const std::function<void(std::vector<TileEntry>&)>& take);
+  Block ask_for(const Chain& list, std::uint32_t block, std::uint32_t entries, std::size_t stage);
+  void put_subset(const TileEntry& entry, ListEnd& end, LineBuffer& line, std::uint32_t& first);
+  void flush(LineBuffer& line);
+
+  void sort(std::uint32_t tile, std::vector<TileEntry> entries, std::uint32_t level,
+            const KeyRange& keys);
+  void sort_chunk(std::uint32_t tile, std::vector<TileEntry>& entries, std::uint32_t level);
+  void emit(std::uint32_t tile, const std::vector<TileEntry>& entries);
+
+  const GscoreConfig config_;
+  const GscoreJob& job_;
+  const FinishedTiles& finished_;
+  const BlockFormat blocks_;
+  const RegionSpan stack_;  // of blocks for subsets
+  Activity load_, sort_;
+  std::vector<std::byte> stages_;  // [2] blocks
+  std::uint32_t next_block_ = 0;   // of the stack
+  TimedFifo<Loaded> loaded_;
+  TimedFifo<std::uint32_t> free_lists_;
+
+  struct Counters {
+    std::uint64_t tiles = 0, entries_read = 0, entries_loaded = 0, entries_split = 0;
+    std::uint64_t lists_split = 0, subset_lines = 0;
+    std::uint64_t splits = 0, split_entries = 0;
+    std::uint64_t chunks = 0, chunk_entries = 0, in_order = 0;
+    std::uint64_t dropped_unread = 0, dropped_loaded = 0;
+    std::uint64_t emitted = 0;
+    std::uint64_t compare_exchanges = 0, moves = 0;
+    std::uint64_t stage_words = 0, line_reads = 0, line_writes = 0;
+    std::uint64_t places_read = 0, places_written = 0, list_reads = 0;
+    std::uint64_t keys_compared = 0;  // by the QSUs
+  } counters_;
+};
+
+}  // namespace sgs::gscore
