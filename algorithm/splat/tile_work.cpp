@@ -91,7 +91,7 @@ DataFlow tile_test_flow(const TileRules& rules) {
                  input_index(flow, kFar)};
   boxes.parts = {input_index(flow, 0), input_index(flow, 0), input_index(flow, kFar),
                  input_index(flow, kFar)};
-  boxes.box.used = rules.test == TileTest::kOriented;
+  boxes.box.used = true;
   boxes.box.x = input(flow, 100.5F);
   boxes.box.y = input(flow, 90.25F);
   boxes.box.axis_x = input(flow, 0.8F);

@@ -20,7 +20,8 @@ FilterCase longest_tile_case();
 // longest way: a Gaussian whose box along its axes is asked.
 DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records);
 
-// Of one tile and its parts, all of which are touched.
+// Of one tile and its parts, all of which are touched, by a box along the ellipse's axes: the
+// tester is the same where a Gaussian, or the machine, has none.
 DataFlow tile_test_flow(const TileRules& rules);
 
 }  // namespace sgs

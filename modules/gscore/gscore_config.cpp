@@ -40,15 +40,16 @@ void visit(ConfigVisitor& v, SramConfig& c) {
 void visit(ConfigVisitor& v, CcuConfig& c) {
   v("cull_lanes", c.cull_lanes, in_range(1, 256), "MAC lanes that test centres");
   v("convert_lanes", c.convert_lanes, in_range(1, 1024), "MAC lanes that project and colour");
-  v("tile_lanes", c.tile_lanes, in_range(1, 1024), "MAC lanes that test tiles and their parts");
   v("slice_gaussians", c.slice_gaussians, in_range(1, 256), "first halves read at once");
   v("input_slots", c.input_slots, in_range(1, 64), "slices on their way or waiting");
   v("second_half_slots", c.second_half_slots, in_range(1, 256),
     "second halves on their way or waiting");
-  v("output_entries", c.output_entries, in_range(1, 1024), "listed tiles that wait");
+  v("output_entries", c.output_entries, in_range(1, 1024), "converted Gaussians that wait");
 }
 
 void visit(ConfigVisitor& v, ListsConfig& c) {
+  v("tile_lanes", c.tile_lanes, in_range(1, 1024), "MAC lanes that test tiles and their parts");
+  v("tested_entries", c.tested_entries, in_range(1, 1024), "listed tiles that wait");
   v("tiles", c.tiles, in_range(1, 1 << 20), "of one pass; a frame with more takes several passes");
   v("lines", c.lines, in_range(1, 1 << 20), "of lists that are combined on chip");
   v("line_bytes", c.line_bytes, in_range(32, 256), "of a line, a power of two");

@@ -24,17 +24,19 @@ struct TilesConfig {
 };
 
 struct CcuConfig {
-  // Multiply-accumulates of one CCU that cull, convert, and test tiles.
-  std::uint32_t cull_lanes = 4, convert_lanes = 24, tile_lanes = 4;
+  // Multiply-accumulates of one CCU that cull and that convert.
+  std::uint32_t cull_lanes = 8, convert_lanes = 16;
   std::uint32_t slice_gaussians = 8;    // first halves read at once
   std::uint32_t input_slots = 4;        // slices on their way or waiting
   std::uint32_t second_half_slots = 8;  // second halves on their way or waiting
-  std::uint32_t output_entries = 8;     // listed tiles that wait for the lister
+  std::uint32_t output_entries = 4;     // converted Gaussians that wait for the lister
 };
 
 struct ListsConfig {
+  std::uint32_t tile_lanes = 32;     // multiply-accumulates that test tiles for all CCUs
+  std::uint32_t tested_entries = 4;  // listed tiles that wait for the lines
   std::uint32_t tiles = 4096;  // of a pass at most: a frame with more takes several
-  std::uint32_t lines = 2048;  // in which entries of a tile are combined
+  std::uint32_t lines = 1024;  // in which entries of a tile are combined
   std::uint32_t line_bytes = 64, block_lines = 8;
   std::uint64_t pool_bytes = 268435456;  // of lists in memory
 };

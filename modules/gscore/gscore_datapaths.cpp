@@ -67,8 +67,8 @@ Datapath convert_pipeline(const GscoreConfig& config, int sh_degree) {
 }
 
 Datapath tile_test_pipeline(const GscoreConfig& config) {
-  return counted("tile_test", "ccu", tile_test_flow(config.tiles.rules()), config.ccu.tile_lanes,
-                 config.single());
+  return counted("tile_test", "lists", tile_test_flow(config.tiles.rules()),
+                 config.lists.tile_lanes, config.single());
 }
 
 Datapath conic_pipeline(const GscoreConfig& config) {

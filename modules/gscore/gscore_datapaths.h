@@ -9,6 +9,7 @@ namespace sgs::gscore {
 // Of one CCU. convert: built for every SH degree, items of this one.
 Datapath cull_pipeline(const GscoreConfig& config);
 Datapath convert_pipeline(const GscoreConfig& config, int sh_degree);
+// Of all CCUs, before the lists: a tile and its parts.
 Datapath tile_test_pipeline(const GscoreConfig& config);
 
 // Of the VRUs of one core: log2(e) into a splat's conic; 16 pixels, one for each VRU; finished

@@ -24,11 +24,4 @@ class GscoreDesign : public MachineDesign {
   GscoreConfig config_;
 };
 
-// Tiles and working regions of a job that has passed as a FrameJob.
-GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job);
-
-// Adds the working regions of a frame behind the scene's. Throws InputError where the pool of lists
-// cannot hold every Gaussian in one tile.
-void add_regions(const GscoreConfig& config, FrameJob& job);
-
 }  // namespace sgs::gscore

@@ -26,6 +26,13 @@ struct GscoreJob : FrameJob {
   int tile_y(std::uint32_t tile) const { return static_cast<int>(tile / columns); }
 };
 
+// Adds the working regions of a frame behind the scene's. Throws InputError where the pool of lists
+// cannot hold every Gaussian in one tile.
+void add_regions(const GscoreConfig& config, FrameJob& job);
+
+// Tiles and regions of a job that has passed as a FrameJob.
+GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job);
+
 // Clock and job outlive the units.
 struct UnitContext {
   const ClockDomain& clock;

@@ -1,6 +1,8 @@
 // Wiring of the tile-centric machine.
 #include "modules/gscore/gscore_machine.h"
 
+#include <algorithm>
+
 #include "modules/construction.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
@@ -8,14 +10,21 @@
 namespace sgs::gscore {
 namespace {
 
-constexpr const char *kPasses = "passes", *kListed = "listed tiles", *kRequests = "tile requests",
+constexpr const char *kPasses = "passes", *kConverted = "converted Gaussians", *kRequests = "tile requests",
                      *kJobs = "tile jobs", *kSorted = "sorted entries", *kDone = "passes done";
 
-// With room for what is in the tile tests' pipeline.
-std::uint32_t listed_entries(const GscoreConfig& c) {
-  const Datapath tests = tile_test_pipeline(c);
-  return static_cast<std::uint32_t>(c.ccu.output_entries +
-                                    cycles_for(tests.depth_cycles, tests.interval_cycles()));
+// With room for what is in the conversion's pipeline.
+std::uint32_t converted_entries(const GscoreConfig& c, const Datapath& conversion) {
+  return static_cast<std::uint32_t>(
+      c.ccu.output_entries + cycles_for(conversion.depth_cycles, conversion.interval_cycles()));
+}
+// For scenes of any SH degree.
+std::uint32_t most_converted_entries(const GscoreConfig& c) {
+  std::uint32_t most = 0;
+  for (int degree = 0; degree <= 3; ++degree) {
+    most = std::max(most, converted_entries(c, convert_pipeline(c, degree)));
+  }
+  return most;
 }
 
 SramUse times(SramUse use, std::uint32_t count) {
@@ -27,7 +36,8 @@ SramUse times(SramUse use, std::uint32_t count) {
 
 SramUses queue_uses(const GscoreConfig& c) {
   return {times(fifo_use<Pass>(kPasses, kBuffer, 1, "passes"), c.ccus),
-          times(fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c), "tiles"), c.ccus),
+          times(fifo_use<Converted>(kConverted, kBuffer, most_converted_entries(c), "Gaussians"),
+                c.ccus),
           times(fifo_use<TileRequest>(kRequests, kBuffer, 1, "requests"), c.cores),
           times(fifo_use<TileJob>(kJobs, kBuffer, 1, "jobs"), c.cores),
           times(fifo_use<SortedEntry>(kSorted, kBuffer, c.rendering.sorted_entries, "entries"),
@@ -56,10 +66,10 @@ GscoreMachine::GscoreMachine(const sc_core::sc_module_name& name, const GscoreCo
 }
 
 void GscoreMachine::add_all_fifos(const BuildOptions& options) {
-  const Datapath tests = tile_test_pipeline(config_);
+  const Datapath conversion = convert_pipeline(config_, job_.layout.sh_degree());
   add_fifos(passes_, "passes_to_ccu", config_.ccus, 1, 1, options);
-  add_fifos(listed_, "listed_by_ccu", config_.ccus, listed_entries(config_), tests.depth_cycles,
-            options);
+  add_fifos(converted_, "converted_by_ccu", config_.ccus, converted_entries(config_, conversion),
+            conversion.depth_cycles, options);
   add_fifos(requests_, "requests_of_core", config_.cores, 1, 1, options);
   add_fifos(jobs_, "jobs_of_core", config_.cores, 1, 1, options);
   add_fifos(sorted_, "sorted_of_core", config_.cores, config_.rendering.sorted_entries, 1,
@@ -94,8 +104,8 @@ void GscoreMachine::bind() {
   for (std::uint32_t c = 0; c < config_.ccus; ++c) {
     lister_->passes(*passes_[c]);
     ccus_[c]->passes(*passes_[c]);
-    ccus_[c]->listed(*listed_[c]);
-    lister_->listed(*listed_[c]);
+    ccus_[c]->converted(*converted_[c]);
+    lister_->converted(*converted_[c]);
   }
   for (std::uint32_t c = 0; c < config_.cores; ++c) {
     sorters_[c]->requests(*requests_[c]);
@@ -128,7 +138,7 @@ void GscoreMachine::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.sram(queue_uses(config_));
   publish_queues(sheet, passes_, kPasses, "ccus");
-  publish_queues(sheet, listed_, kListed, "ccu.output_entries");
+  publish_queues(sheet, converted_, kConverted, "ccu.output_entries");
   publish_queues(sheet, requests_, kRequests, "cores");
   publish_queues(sheet, jobs_, kJobs, "sorting.list_buffers");
   publish_queues(sheet, sorted_, kSorted, "rendering.sorted_entries");

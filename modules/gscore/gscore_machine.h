@@ -54,7 +54,7 @@ class GscoreMachine : public Machine {
   const GscoreJob job_;
   const ClockDomain clock_;
   Fifos<Pass> passes_;           // [CCU]
-  Fifos<ListedTile> listed_;     // [CCU]
+  Fifos<Converted> converted_;   // [CCU]
   Fifos<TileRequest> requests_;  // [core]
   Fifos<TileJob> jobs_;          // [core]
   Fifos<SortedEntry> sorted_;    // [core]

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "algorithm/memory/tile_records.h"
+#include "tlm/memory_port.h"
 
 namespace sgs::gscore {
 
-// Where the end of a list is. What hardware keeps of one: two numbers of blocks, a count.
+// Where the end of a list is: two numbers of blocks, a count.
 struct ListEnd {
-  static constexpr std::uint32_t kBytes = 12;
+  static constexpr std::uint32_t kBytes = 9;  // 24 bits each
   std::uint32_t block = 0, next = 0;  // that it writes in, and will when that is full
   std::uint32_t entries = 0;
 };
@@ -44,6 +45,13 @@ class LineBuffer {
   std::uint64_t line_ = 0;
   std::uint32_t begin_ = 0, end_ = 0;
 };
+
+// Lines are written by words of 64 bits and read by bursts: an entry spans two banks at most.
+constexpr std::uint32_t kLineWordBytes = 8, kLineBanks = kPortBytes / kLineWordBytes;
+// Words of a line that these bytes of it lie in.
+constexpr std::uint32_t line_words(std::uint32_t begin, std::uint32_t bytes) {
+  return (begin + bytes - 1) / kLineWordBytes - begin / kLineWordBytes + 1;
+}
 
 // Places of a list's entries, for whoever appends.
 struct EntryPlace {

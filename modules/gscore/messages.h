@@ -17,7 +17,7 @@ struct Pass {
   bool over = false;
 };
 
-// Within a CCU, and to the lister: a Gaussian, or the end of a slice.
+// Within a CCU: a Gaussian that may touch the frame, or the end of a slice.
 struct Candidate {
   static constexpr std::uint32_t kSramBytes = 20;  // slot, centre, largest scale
   std::uint32_t slot = 0;
@@ -26,20 +26,13 @@ struct Candidate {
   std::uint64_t ticket = 0;  // of the second half's read
   std::uint32_t buffer = 0;  // where it lands
 };
+
+// CCU -> lister: a Gaussian with its boxes, or the end of a slice.
 struct Converted {
   static constexpr std::uint32_t kSramBytes = 108;  // record, key, tiles, parts, box, its limits
   Splat splat{};
   TileBoxes boxes{};
-  bool end = false, over = false;
-};
-
-// CCU -> lister: a tile that a Gaussian is listed in; with its first one comes the record.
-struct ListedTile {
-  static constexpr std::uint32_t kSramBytes = 46;  // record, tile, key, bitmap
-  Splat splat{};
-  std::uint32_t tile = 0, key = 0, bitmap = 0;
-  bool first = false;
-  bool end = false;  // of a slice
+  bool end = false;
 };
 
 // Sorter -> lister: a tile is wanted.

@@ -12,15 +12,7 @@ namespace sgs::gscore {
 namespace {
 
 constexpr const char *kInput = "first halves", *kSecondHalves = "second halves",
-                     *kSlices = "slices", *kCulled = "candidates", *kFetched = "fetched candidates",
-                     *kConverted = "converted Gaussians", *kPasses = "passes to list";
-constexpr std::uint32_t kConvertedEntries = 2, kPassEntries = 1;
-
-// Slices of the scene that are this CCU's.
-std::uint64_t own_slices(std::uint64_t gaussians, const GscoreConfig& config, std::uint32_t index) {
-  const std::uint64_t slices = cycles_for(gaussians, config.ccu.slice_gaussians);
-  return slices > index ? cycles_for(slices - index, config.ccus) : 0;
-}
+                     *kSlices = "slices", *kCulled = "candidates", *kFetched = "fetched candidates";
 
 std::uint32_t words_of(std::uint32_t bytes) {
   return static_cast<std::uint32_t>(cycles_for(bytes, kPortBytes));
@@ -37,14 +29,11 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
       job_(context.job),
       cull_path_(cull_pipeline(config_)),
       convert_path_(convert_pipeline(config_, job_.layout.sh_degree())),
-      tile_path_(tile_test_pipeline(config_)),
       second_bytes_(job_.layout.second_halves.record_bytes),
-      slices_of_pass_(own_slices(job_.layout.gaussian_count(), config_, index)),
       load_("load", context.clock),
       cull_("cull", context.clock),
       fetch_("fetch", context.clock),
       convert_("convert", context.clock),
-      list_("list", context.clock),
       input_(std::size_t{config_.ccu.input_slots} * config_.ccu.slice_gaussians * kFirstHalfBytes),
       second_halves_(std::size_t{config_.ccu.second_half_slots} * second_bytes_),
       slices_("slices", context.clock, config_.ccu.input_slots),
@@ -55,18 +44,11 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
                   2 + cycles_for(cull_path_.depth_cycles, cull_path_.interval_cycles())),
               cull_path_.depth_cycles),
       fetched_("fetched", context.clock, config_.ccu.second_half_slots + 1),
-      free_second_("free_second", context.clock, config_.ccu.second_half_slots, 0),
-      converted_("converted", context.clock,
-                 static_cast<std::uint32_t>(
-                     kConvertedEntries +
-                     cycles_for(convert_path_.depth_cycles, convert_path_.interval_cycles())),
-                 convert_path_.depth_cycles),
-      list_passes_("list_passes", context.clock, kPassEntries) {
+      free_second_("free_second", context.clock, config_.ccu.second_half_slots, 0) {
   SC_THREAD(run_load);
   SC_THREAD(run_cull);
   SC_THREAD(run_fetch);
   SC_THREAD(run_convert);
-  SC_THREAD(run_list);
 }
 
 std::byte* Ccu::input(std::uint32_t slot, std::uint32_t at) {
@@ -82,8 +64,6 @@ void Ccu::work_in_turn(Activity& activity, std::uint64_t interval) {
 void Ccu::run_load() {
   for (std::uint32_t s = 0; s < config_.ccu.input_slots; ++s) free_input_.push(s, load_);
   for (Pass pass = passes->pop(load_); !pass.over; pass = passes->pop(load_)) {
-    if (slices_of_pass_ == 0) continue;
-    list_passes_.push(pass, load_);
     load_pass();
   }
   Slice over;
@@ -130,6 +110,7 @@ void Ccu::run_cull() {
     culled_.push(mark, cull_);
   }
   mark.over = true;
+  cull_.work(1);
   culled_.push(mark, cull_);
   cull_.idles();
 }
@@ -137,9 +118,9 @@ void Ccu::run_cull() {
 void Ccu::run_fetch() {
   for (std::uint32_t s = 0; s < config_.ccu.second_half_slots; ++s) free_second_.push(s, fetch_);
   for (Candidate next = culled_.pop(fetch_);; next = culled_.pop(fetch_)) {
+    if (!next.end) next.buffer = free_second_.pop(fetch_, WaitFor::kRoom);
+    fetch_.work(1);
     if (!next.end) {
-      next.buffer = free_second_.pop(fetch_, WaitFor::kRoom);
-      fetch_.work(1);
       next.ticket =
           start_read(second_memory, fetch_, job_.layout.second_halves.address(next.slot),
                      second_halves_.data() + std::size_t{next.buffer} * second_bytes_,
@@ -155,6 +136,7 @@ void Ccu::run_fetch() {
 void Ccu::run_convert() {
   while (true) {
     const Candidate candidate = fetched_.pop(convert_);
+    if (candidate.over) break;
     if (!candidate.end) {
       convert(candidate);
       continue;
@@ -162,9 +144,7 @@ void Ccu::run_convert() {
     convert_.work(1);
     Converted mark;
     mark.end = true;
-    mark.over = candidate.over;
-    converted_.push(mark, convert_);
-    if (mark.over) break;
+    converted->push(mark, convert_);
   }
   convert_.idles();
 }
@@ -188,67 +168,14 @@ void Ccu::convert(const Candidate& candidate) {
     return;
   }
   add_colour(job_.view, job_.layout.sh_degree(), g.gaussian.mean, g.sh, out.splat);
-  converted_.push(out, convert_);
-}
-
-void Ccu::run_list() {
-  std::uint64_t ended = slices_of_pass_;
-  ListedTile mark;
-  mark.end = true;
-  for (Converted next = converted_.pop(list_); !next.over; next = converted_.pop(list_)) {
-    if (ended == slices_of_pass_) {
-      pass_ = list_passes_.pop(list_);
-      ended = 0;
-    }
-    if (next.end) {
-      ++ended;
-      list_.work(1);
-      listed->push(mark, list_);
-    } else {
-      list_tiles(next);
-    }
-  }
-  list_.idles();
-}
-
-// Tiles of rows that the pass has.
-void Ccu::list_tiles(const Converted& gaussian) {
-  const auto columns = static_cast<int>(job_.columns);
-  const PixelRect& tiles = gaussian.boxes.tiles;
-  const int first_row = static_cast<int>(pass_.first) / columns;
-  const int end_row = static_cast<int>(cycles_for(pass_.end, job_.columns));
-  ListedTile out;
-  out.splat = gaussian.splat;
-  out.key = depth_key(config_.tiles.keys, gaussian.splat.depth);
-  out.first = true;
-  for (int y = std::max(tiles.y0, first_row); y < std::min(tiles.y1, end_row); ++y) {
-    for (int x = tiles.x0; x < tiles.x1; ++x) {
-      work_in_turn(list_, tile_path_.interval_cycles());
-      ++counters_.tile_tests;
-      out.tile = static_cast<std::uint32_t>(y * columns + x);
-      if (out.tile < pass_.first || out.tile >= pass_.end) continue;
-      out.bitmap = tile_bitmap(gaussian.boxes, config_.tiles.rules(), x, y);
-      if (out.bitmap == 0) continue;
-      ++counters_.listed;
-      counters_.gaussians_listed += out.first ? 1 : 0;
-      listed->push(out, list_);
-      out.first = false;
-    }
-  }
+  converted->push(out, convert_);
 }
 
 SramUses Ccu::sram_uses(const GscoreConfig& config) {
   const CcuConfig& c = config.ccu;
   const Datapath cull = cull_pipeline(config);
-  const auto behind = [](const Datapath& path, std::uint32_t more) {
-    return static_cast<std::uint32_t>(more + cycles_for(path.depth_cycles, path.interval_cycles()));
-  };
   // What comes from memory in a cycle is two first halves.
   constexpr std::uint32_t kBanks = kPortBytes / kFirstHalfBytes;
-  std::uint32_t converted = 0;
-  for (int degree = 0; degree <= 3; ++degree) {
-    converted = std::max(converted, behind(convert_pipeline(config, degree), kConvertedEntries));
-  }
   SramUses uses = {
       sram_use(kInput, kBuffer,
                {{c.input_slots, "slots"}, {c.slice_gaussians, "Gaussians"}, {kFirstHalfBytes, "B"}},
@@ -257,10 +184,11 @@ SramUses Ccu::sram_uses(const GscoreConfig& config) {
                {{c.second_half_slots, "slots"}, {kMaxSecondHalfBytes, "B"}}, {8 * kPortBytes},
                kOneOfEach),
       fifo_use<Slice>(kSlices, kBuffer, c.input_slots, "slices"),
-      fifo_use<Candidate>(kCulled, kBuffer, behind(cull, 2), "candidates"),
-      fifo_use<Candidate>(kFetched, kBuffer, c.second_half_slots + 1, "candidates"),
-      fifo_use<Converted>(kConverted, kBuffer, converted, "Gaussians"),
-      fifo_use<Pass>(kPasses, kBuffer, kPassEntries, "passes")};
+      fifo_use<Candidate>(kCulled, kBuffer,
+                          static_cast<std::uint32_t>(
+                              2 + cycles_for(cull.depth_cycles, cull.interval_cycles())),
+                          "candidates"),
+      fifo_use<Candidate>(kFetched, kBuffer, c.second_half_slots + 1, "candidates")};
   add(uses, outstanding_table(kBuffer, config.memory_port), 2);
   return uses;
 }
@@ -271,19 +199,13 @@ void Ccu::publish(DataSheet& sheet) {
   sheet.activity(cull_, "ccu cull", "drops what cannot touch the frame");
   sheet.activity(fetch_, "ccu fetch", "asks for second halves");
   sheet.activity(convert_, "ccu convert", "projects and colours");
-  sheet.activity(list_, "ccu tiles", "tests tiles and their parts");
   sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
   sheet.counter("culled", "Gaussians", "of these, that cannot touch the frame", counters_.culled);
   sheet.counter("second_halves", "Gaussians", "fetched", counters_.second_halves);
   sheet.counter("converted", "Gaussians", "projected and coloured", counters_.converted);
   sheet.counter("unseen", "Gaussians", "of these on no tile", counters_.unseen);
-  sheet.counter("tile_tests", "tiles", "tested, once for each Gaussian", counters_.tile_tests);
-  sheet.counter("tiles_listed", "tiles", "of these in whose list it goes", counters_.listed);
-  sheet.counter("gaussians_listed", "Gaussians", "in a list of the pass",
-                counters_.gaussians_listed);
   sheet.datapath(cull_path_, counters_.first_halves);
   sheet.datapath(convert_path_, counters_.converted);
-  sheet.datapath(tile_path_, counters_.tile_tests);
   sheet.sram(sram_uses(config_));
   sheet.accesses(kInput, counters_.first_halves, counters_.first_halves);
   const std::uint64_t words = words_of(second_bytes_);
@@ -291,15 +213,12 @@ void Ccu::publish(DataSheet& sheet) {
   sheet.queue(slices_, kSlices);
   sheet.queue(culled_, kCulled);
   sheet.queue(fetched_, kFetched);
-  sheet.queue(converted_, kConverted);
-  sheet.queue(list_passes_, kPasses);
   sheet.port(first_memory);
   sheet.port(second_memory);
   sheet.left_out("gaussians_off_frame", "centre and largest scale: they cannot touch the frame",
                  counters_.culled, "second halves and conversion");
   sheet.remedy(cull_, "ccu.cull_lanes");
   sheet.remedy(convert_, "ccu.convert_lanes");
-  sheet.remedy(list_, "ccu.tile_lanes");
   sheet.remedy(first_memory, WaitFor::kReads, "ccu.input_slots");
   sheet.remedy(second_memory, WaitFor::kReads, "ccu.second_half_slots");
   sheet.remedy(first_memory, WaitFor::kPort, "memory_port.max_outstanding");

@@ -1,8 +1,8 @@
 // Culling and conversion unit: fetches the first halves of its share of the scene, drops what
-// cannot touch the frame, fetches the second halves of what is left, projects and colours it, and
-// says which tiles list it.
-// Timing: each of the three datapaths begins an item in its turn; slices in turn over the CCUs.
-// Function: may_touch_frame(), make_tile_geometry(), tile_bitmap().
+// cannot touch the frame, fetches the second halves of what is left, projects and colours it, with
+// the boxes that say which tiles it may touch.
+// Timing: both datapaths begin an item in their turns; slices in turn over the CCUs.
+// Function: may_touch_frame(), make_tile_geometry().
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace sgs::gscore {
 class Ccu : public sc_core::sc_module {
  public:
   FifoIn<Pass> passes{"passes"};
-  FifoOut<ListedTile> listed{"listed"};
+  FifoOut<Converted> converted{"converted"};
   MemoryPort first_memory, second_memory;  // first halves, second halves
 
   SC_HAS_PROCESS(Ccu);
@@ -32,7 +32,6 @@ class Ccu : public sc_core::sc_module {
     std::uint64_t first_halves = 0, culled = 0;
     std::uint64_t second_halves = 0, converted = 0;
     std::uint64_t unseen = 0;  // converted, and on no tile
-    std::uint64_t tile_tests = 0, listed = 0, gaussians_listed = 0;
   };
 
   static SramUses sram_uses(const GscoreConfig& config);
@@ -50,11 +49,9 @@ class Ccu : public sc_core::sc_module {
   void run_cull();     // thread
   void run_fetch();    // thread
   void run_convert();  // thread
-  void run_list();     // thread
 
   void load_pass();
   void convert(const Candidate& candidate);
-  void list_tiles(const Converted& gaussian);
   std::byte* input(std::uint32_t slot, std::uint32_t at);
   // In the next turn of a pipeline, `interval` cycles long.
   static void work_in_turn(Activity& activity, std::uint64_t interval);
@@ -62,18 +59,14 @@ class Ccu : public sc_core::sc_module {
   const std::uint32_t index_;
   const GscoreConfig config_;
   const GscoreJob& job_;
-  const Datapath cull_path_, convert_path_, tile_path_;
+  const Datapath cull_path_, convert_path_;
   const std::uint32_t second_bytes_;
-  const std::uint64_t slices_of_pass_;  // that are this CCU's
-  Activity load_, cull_, fetch_, convert_, list_;
+  Activity load_, cull_, fetch_, convert_;
   std::vector<std::byte> input_, second_halves_;
   TimedFifo<Slice> slices_;
   TimedFifo<std::uint32_t> free_input_;
   TimedFifo<Candidate> culled_, fetched_;
   TimedFifo<std::uint32_t> free_second_;
-  TimedFifo<Converted> converted_;
-  Pass pass_;  // that is listed
-  TimedFifo<Pass> list_passes_;
   Counters counters_;
 };
 

@@ -1,24 +1,26 @@
-// The thread of the tile lister.
+// The threads of the tile lister.
 #include "modules/gscore/lists/tile_lister.h"
 
 #include <algorithm>
 #include <cstring>
 
 #include "modules/datapath/work_rates.h"
+#include "modules/gscore/gscore_datapaths.h"
 
 namespace sgs::gscore {
 namespace {
 
 constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists", *kTags = "tiles of lines",
-                     *kRecords = "records to write", *kWrites = "list writes";
-// Lines are written by words of 64 bits and read by bursts, so that an entry spans two banks.
-constexpr std::uint32_t kLineWordBytes = 8, kLineBanks = kPortBytes / kLineWordBytes;
+                     *kWaitingRecords = "records to write", *kListWrites = "list writes",
+                     *kTestPasses = "passes to test", *kListed = "listed tiles";
 constexpr std::uint32_t kTagBytes = 4;  // tile, and what of the line is new
 // Beside the memories: whose line it is, whether line and block are full, whether the pool is.
 constexpr std::uint32_t kComparators = 4;
 
-std::uint32_t words(std::uint32_t begin, std::uint32_t bytes) {
-  return (begin + bytes - 1) / kLineWordBytes - begin / kLineWordBytes + 1;
+// With room for what is in the pipeline.
+std::uint32_t listed_entries(const GscoreConfig& config, const Datapath& tests) {
+  return static_cast<std::uint32_t>(config.lists.tested_entries +
+                                    cycles_for(tests.depth_cycles, tests.interval_cycles()));
 }
 
 // Of records that are written at once: what a transaction takes, at least one.
@@ -37,15 +39,71 @@ TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& c
       job_(context.job),
       blocks_(config_.blocks()),
       on_done_(std::move(on_done)),
+      tile_path_(tile_test_pipeline(config_)),
+      test_("test", context.clock),
       list_("list", context.clock),
+      test_passes_("test_passes", context.clock, 1),
+      listed_("listed", context.clock, listed_entries(config_, tile_path_),
+              tile_path_.depth_cycles),
       ends_(config_.lists.tiles),
       lines_(config_.lists.lines, Line{LineBuffer(blocks_.line_bytes)}),
       records_(std::size_t{records_at_once(config_)} * record_place_bytes(config_.tiles.features)) {
-  SC_THREAD(run);
+  SC_THREAD(run_test);
+  SC_THREAD(run_list);
+}
+
+void TileLister::run_test() {
+  const std::uint64_t slices =
+      cycles_for(job_.layout.gaussian_count(), config_.ccu.slice_gaussians);
+  for (Pass pass = test_passes_.pop(test_); !pass.over; pass = test_passes_.pop(test_)) {
+    for (std::uint64_t s = 0; s < slices; ++s) {
+      FifoReadIf<Converted>& ccu = in_turn(converted, s);
+      for (Converted next = ccu.pop(test_); !next.end; next = ccu.pop(test_)) {
+        test_tiles(next, pass);
+      }
+      test_.work(1);
+      ++counters_.slices;
+    }
+    ListedTile end;
+    end.end = true;
+    listed_.push(end, test_);
+  }
+  test_.idles();
+}
+
+// Tiles of rows that the pass has, each in a turn of the lanes.
+void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
+  const auto columns = static_cast<int>(job_.columns);
+  const PixelRect& tiles = gaussian.boxes.tiles;
+  const int first_row = static_cast<int>(pass.first) / columns;
+  const int end_row = static_cast<int>(cycles_for(pass.end, job_.columns));
+  if (tiles.y0 >= end_row || tiles.y1 <= first_row) {
+    test_.work(1);
+    ++counters_.off_pass;
+    return;
+  }
+  ListedTile out;
+  out.splat = gaussian.splat;
+  out.key = depth_key(config_.tiles.keys, gaussian.splat.depth);
+  out.first = true;
+  for (int y = std::max(tiles.y0, first_row); y < std::min(tiles.y1, end_row); ++y) {
+    for (int x = tiles.x0; x < tiles.x1; ++x) {
+      const std::uint64_t interval = tile_path_.interval_cycles();
+      const std::uint64_t now = test_.clock().now_cycles();
+      test_.work(next_turn(now, interval) - now + interval);
+      ++counters_.tile_tests;
+      out.tile = static_cast<std::uint32_t>(y * columns + x);
+      if (out.tile < pass.first || out.tile >= pass.end) continue;
+      out.bitmap = tile_bitmap(gaussian.boxes, config_.tiles.rules(), x, y);
+      if (out.bitmap == 0) continue;
+      listed_.push(out, test_);
+      out.first = false;
+    }
+  }
 }
 
 // A pass that has overflowed is made again with half of its tiles.
-void TileLister::run() {
+void TileLister::run_list() {
   asked_ = std::make_unique<FifoSelector<TileRequest>>(requests);
   std::uint32_t most = std::min(config_.lists.tiles, job_.tile_count);
   for (Pass pass; pass.first < job_.tile_count;) {
@@ -62,6 +120,7 @@ void TileLister::run() {
   Pass over;
   over.over = true;
   for (int c = 0; c < passes.size(); ++c) passes[c]->push(over, list_);
+  test_passes_.push(over, list_);
   list_.idles();
   on_done_();
 }
@@ -69,6 +128,7 @@ void TileLister::run() {
 bool TileLister::project(const Pass& pass) {
   const std::uint32_t tiles = pass.end - pass.first;
   for (int c = 0; c < passes.size(); ++c) passes[c]->push(pass, list_);
+  test_passes_.push(pass, list_);
   // The table is cleared while the first Gaussians are on their way; a row of it a cycle.
   list_.work(tiles);
   std::fill(ends_.begin(), ends_.begin() + tiles, ListEnd{});
@@ -77,13 +137,8 @@ bool TileLister::project(const Pass& pass) {
   next_block_ = tiles;
   overflowed_ = tiles > config_.pool_blocks();
   record_number_ = 0;
-  const std::uint64_t slices =
-      cycles_for(job_.layout.gaussian_count(), config_.ccu.slice_gaussians);
-  for (std::uint64_t s = 0; s < slices; ++s) {
-    FifoReadIf<ListedTile>& ccu = in_turn(listed, s);
-    for (ListedTile next = ccu.pop(list_); !next.end; next = ccu.pop(list_)) take(next, pass);
-    list_.work(1);
-    ++counters_.slices;
+  for (ListedTile next = listed_.pop(list_); !next.end; next = listed_.pop(list_)) {
+    take(next, pass);
   }
   // Every line is looked at, whether there is something new in it.
   for (Line& line : lines_) {
@@ -160,7 +215,7 @@ void TileLister::put_entry(std::uint32_t tile, const TileEntry& entry) {
   std::byte bytes[16];
   encode_entry(blocks_.entry, entry, bytes);
   line.buffer.put(place.at, bytes, blocks_.entry.bytes());
-  counters_.line_writes += words(place.at, blocks_.entry.bytes());
+  counters_.line_writes += line_words(place.at, blocks_.entry.bytes());
   ++counters_.line_changes;
   ++end.entries;
   if (!place.ends_line) return;
@@ -171,7 +226,7 @@ void TileLister::put_entry(std::uint32_t tile, const TileEntry& entry) {
 void TileLister::flush_line(Line& line) {
   const std::uint64_t at = line.buffer.address(blocks_.line_bytes);
   const std::uint32_t bytes = line.buffer.new_byte_count();
-  counters_.line_reads += words(static_cast<std::uint32_t>(at % blocks_.line_bytes), bytes);
+  counters_.line_reads += line_words(static_cast<std::uint32_t>(at % blocks_.line_bytes), bytes);
   start_write(memory, list_, job_.lists.base + at, line.buffer.new_bytes(), bytes,
               job_.lists.region);
   line.buffer.written();
@@ -214,19 +269,25 @@ SramUses TileLister::sram_uses(const GscoreConfig& c) {
                    {kLineBanks, kLineBanks}),
           sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {kTagBytes, "B"}}, {8 * kTagBytes},
                    kOneOfEach),
-          sram_use(kRecords, kBuffer, {{records_at_once(c), "records"}, {place, "B"}},
+          sram_use(kWaitingRecords, kBuffer, {{records_at_once(c), "records"}, {place, "B"}},
                    {8 * kPortBytes}, kOneOfEach),
+          fifo_use<Pass>(kTestPasses, kBuffer, 1, "passes"),
+          fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c, tile_test_pipeline(c)), "tiles"),
           outstanding_table(kBuffer, c.memory_port),
-          unanswered_writes(kWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
+          unanswered_writes(kListWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
 }
 
 void TileLister::publish(DataSheet& sheet) {
   sheet.unit(*this);
+  sheet.activity(test_, "tile tests", "tests tiles and their parts");
   sheet.activity(list_, "listing", "lists Gaussians in tiles, then hands tiles out");
   sheet.counter("passes", "passes", "over the scene", counters_.passes);
   sheet.counter("passes_overflowed", "passes", "of these made again: the pool was too small",
                 counters_.overflowed);
   sheet.counter("slices", "slices", "of Gaussians taken", counters_.slices);
+  sheet.counter("tile_tests", "tiles", "tested, once for each Gaussian", counters_.tile_tests);
+  sheet.counter("gaussians_off_pass", "Gaussians", "that have tiles in other passes only",
+                counters_.off_pass);
   sheet.counter("pairs", "entries", "a Gaussian in a tile each", counters_.pairs);
   sheet.counter("records", "Gaussians", "projected, written", counters_.records);
   sheet.counter("blocks", "blocks", "of lists begun", counters_.blocks);
@@ -240,10 +301,15 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.accesses(kEnds, counters_.table_reads, counters_.table_writes);
   sheet.accesses(kLines, counters_.line_reads, counters_.line_writes);
   sheet.accesses(kTags, counters_.line_looks, counters_.line_changes);
-  sheet.accesses(kRecords, counters_.record_words, counters_.record_words);
+  sheet.accesses(kWaitingRecords, counters_.record_words, counters_.record_words);
   sheet.part("lists", "comparator", kComparators, 1);
   sheet.operations("lists", "comparator", static_cast<double>(kComparators * counters_.pairs));
-  sheet.port(memory, kWrites);
+  sheet.datapath(tile_path_, counters_.tile_tests);
+  sheet.queue(test_passes_, kTestPasses);
+  sheet.queue(listed_, kListed);
+  sheet.port(memory, kListWrites);
+  sheet.remedy(test_, "lists.tile_lanes");
+  sheet.remedy(listed_, WaitFor::kRoom, "lists.tested_entries");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_writes");
   sheet.may_help("lists.lines");
 }

@@ -1,6 +1,7 @@
-// Tile lister and control: numbers and writes the projected Gaussians, enters them in the lists of
-// their tiles, and when a pass is projected hands its tiles out to the cores.
-// Timing: a listed tile a cycle; entries of a tile are combined in a line, which is written when it
+// Tile lister and control: tests the tiles of projected Gaussians, in the order of the scene, numbers
+// and writes those that touch any, enters them in the lists of their tiles, and when a pass is
+// projected hands its tiles out to the cores.
+// Timing: a tile is tested in each turn of the lanes, listed in a cycle; entries of a tile are combined in a line, which is written when it
 // is full or another tile takes its place. Tiles are handed out one a cycle, as they are asked for.
 #pragma once
 
@@ -17,16 +18,17 @@
 #include "tlm/data_sheet.h"
 #include "tlm/fifo_selector.h"
 #include "tlm/memory_access.h"
+#include "tlm/timed_fifo.h"
 
 namespace sgs::gscore {
 
 class TileLister : public sc_core::sc_module {
  public:
-  FifoOuts<Pass> passes{"passes"};           // one a CCU
-  FifoIns<ListedTile> listed{"listed"};      // one a CCU
+  FifoOuts<Pass> passes{"passes"};            // one a CCU
+  FifoIns<Converted> converted{"converted"};  // one a CCU
   FifoIns<TileRequest> requests{"requests"};  // one a core
-  FifoOuts<TileJob> jobs{"jobs"};            // one a core
-  FifoIns<PassDone> done{"done"};            // one a core
+  FifoOuts<TileJob> jobs{"jobs"};             // one a core
+  FifoIns<PassDone> done{"done"};             // one a core
   MemoryPort memory;
 
   SC_HAS_PROCESS(TileLister);
@@ -42,7 +44,17 @@ class TileLister : public sc_core::sc_module {
     std::uint32_t tile = 0;  // of the pass, from 1 on; 0: none
   };
 
-  void run();  // thread
+  // A tile that a Gaussian is listed in; with its first one comes the record. Or the end of a pass.
+  struct ListedTile {
+    static constexpr std::uint32_t kSramBytes = 46;  // record, tile, key, bitmap
+    Splat splat{};
+    std::uint32_t tile = 0, key = 0, bitmap = 0;
+    bool first = false, end = false;
+  };
+
+  void run_test();  // thread
+  void run_list();  // thread
+  void test_tiles(const Converted& gaussian, const Pass& pass);
   // Whether all lists of the pass are in memory; if not, the pool was too small.
   bool project(const Pass& pass);
   void take(const ListedTile& tile, const Pass& pass);
@@ -56,7 +68,10 @@ class TileLister : public sc_core::sc_module {
   const GscoreJob& job_;
   const BlockFormat blocks_;
   const std::function<void()> on_done_;
-  Activity list_;
+  const Datapath tile_path_;
+  Activity test_, list_;
+  TimedFifo<Pass> test_passes_;
+  TimedFifo<ListedTile> listed_;
   std::unique_ptr<FifoSelector<TileRequest>> asked_;  // made by the thread
   std::vector<ListEnd> ends_;  // [tile of the pass]
   std::vector<Line> lines_;
@@ -68,7 +83,7 @@ class TileLister : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t passes = 0, overflowed = 0;
-    std::uint64_t slices = 0, pairs = 0, records = 0;
+    std::uint64_t slices = 0, tile_tests = 0, off_pass = 0, pairs = 0, records = 0;
     std::uint64_t lines_full = 0, lines_displaced = 0;
     std::uint64_t blocks = 0;
     std::uint64_t list_max = 0, tiles = 0, tiles_empty = 0;

@@ -11,7 +11,7 @@
 namespace sgs::gscore {
 namespace {
 
-constexpr const char *kRecords = "records", *kFetched = "fetched entries", *kPixels = "pixel state",
+constexpr const char *kRecordSlots = "records", *kFetchedEntries = "fetched entries", *kPixels = "pixel state",
                      *kPixelWrites = "pixel writes", *kMask = "finished parts";
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
@@ -223,10 +223,10 @@ void RenderCore::write_tile(const GroupState& state) {
 SramUses RenderCore::sram_uses(const GscoreConfig& c) {
   const std::uint32_t banks = kSubtilePixels * c.rendering.pixel_buffers;
   SramUses uses = {
-      sram_use(kRecords, kBuffer,
+      sram_use(kRecordSlots, kBuffer,
                {{c.rendering.record_slots, "slots"}, {record_bytes(c.tiles.features), "B"}},
                {8 * std::min(kPortBytes, record_bytes(c.tiles.features))}, kOneOfEach),
-      fifo_use<Fetched>(kFetched, kBuffer, c.rendering.record_slots + 1, "entries"),
+      fifo_use<Fetched>(kFetchedEntries, kBuffer, c.rendering.record_slots + 1, "entries"),
       sram_use(kPixels, kBuffer,
                {{c.rendering.pixel_buffers, "tiles"}, {kTilePixels, "px"}, {state_bytes(c), "B"}},
                {8 * state_bytes(c), SramPorts::kReadAndWrite, banks}, {banks, banks}),
@@ -264,11 +264,11 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.sram(sram_uses(config_));
   const std::uint64_t words = record_words(config_);
   const std::uint64_t looked_at = n.splats + n.dropped_fetched;
-  sheet.accesses(kRecords, looked_at * words, n.records * words);
+  sheet.accesses(kRecordSlots, looked_at * words, n.records * words);
   sheet.accesses(kPixels, kSubtilePixels * n.blocks + n.pixels,
                  kSubtilePixels * n.blocks + n.pixels);
   sheet.accesses(kMask, n.splats, n.splats);
-  sheet.queue(fetched_, kFetched);
+  sheet.queue(fetched_, kFetchedEntries);
   sheet.queue(finished_states_, kPixels);
   sheet.port(record_memory);
   sheet.port(pixel_memory, kPixelWrites);

@@ -14,15 +14,10 @@ namespace {
 constexpr const char *kStages = "list blocks", *kLists = "lists on chip", *kPlaces = "keys of subsets",
                      *kSubsetLines = "lines of subsets", *kSubsetEnds = "ends of subsets",
                      *kChunkKeys = "chunk keys", *kChunkPlaces = "chunk places",
-                     *kWrites = "subset writes", *kLoaded = "loaded lists";
+                     *kSubsetWrites = "subset writes", *kLoaded = "loaded lists";
 constexpr std::uint32_t kStageBlocks = 2;
 constexpr std::uint32_t kPlaceBytes = 2;       // of an entry in a list, of one in a chunk
-constexpr std::uint32_t kLineWordBytes = 8, kLineBanks = kPortBytes / kLineWordBytes;
 constexpr std::uint32_t kLoadedBytes = 16;     // tile, count, keys
-
-std::uint32_t line_words(std::uint32_t begin, std::uint32_t bytes) {
-  return (begin + bytes - 1) / kLineWordBytes - begin / kLineWordBytes + 1;
-}
 
 // Each QSU: the pivots, and the least and the greatest key.
 constexpr std::uint32_t kQsuComparators = kPivots + 2;
@@ -347,7 +342,7 @@ SramUses TileSorter::sram_uses(const GscoreConfig& c) {
                {{c.sorting.list_buffers + 2, "lists"}, {kLoadedBytes, "B"}}, {8 * kLoadedBytes},
                kOneOfEach),
       outstanding_table(kBuffer, c.memory_port),
-      unanswered_writes(kWrites, kBuffer, c.memory_port, blocks.line_bytes)};
+      unanswered_writes(kSubsetWrites, kBuffer, c.memory_port, blocks.line_bytes)};
 }
 
 void TileSorter::publish(DataSheet& sheet) {
@@ -403,7 +398,7 @@ void TileSorter::publish(DataSheet& sheet) {
   sheet.accesses(kChunkPlaces, n.moves + n.chunk_entries, n.moves);
   sheet.accesses(kLoaded, loaded_.popped(), loaded_.pushed());
   sheet.queue(loaded_, kLoaded);
-  sheet.port(memory, kWrites);
+  sheet.port(memory, kSubsetWrites);
   sheet.left_out("entries_of_finished_tiles", "their tile finished before their chunk was sorted",
                  n.dropped_unread + n.dropped_loaded, "sorting, records, blending");
   sheet.left_out("reads_of_finished_tiles", "subsets in memory of a finished tile",

@@ -1,5 +1,5 @@
 // Turns at lanes that work by a fixed schedule.
-#include "modules/streaminggs/work_rates.h"
+#include "modules/datapath/work_rates.h"
 
 #include <algorithm>
 #include <array>
