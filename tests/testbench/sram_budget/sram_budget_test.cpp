@@ -56,10 +56,15 @@ std::uint64_t available(const MachineResult& machine, const std::string& memory)
 // A memory that is left open becomes as large as the check of the configuration says that it must
 // be, before anything is built: so large is what the units then publish.
 void check_sums(const std::string& preset, Settings settings) {
-  settings.insert(settings.end(), {"sram.shared_bytes=0", "sram.input_bytes=0"});
+  const bool tiles = preset == "gscore" || preset == "gscore_lossless";
+  const std::vector<std::string> memories =
+      tiles ? std::vector<std::string>{"buffer"} : std::vector<std::string>{"input", "shared"};
+  for (const std::string& memory : memories) {
+    settings.push_back("sram." + memory + "_bytes=0");
+  }
   INFO(preset << " " << settings.front());
   const MachineResult machine = sheets_of(preset, settings);
-  for (const char* memory : {"input", "shared"}) {
+  for (const std::string& memory : memories) {
     INFO(memory << ": " << sram_sum(machine.sram_uses, memory));
     CHECK(available(machine, memory) > 0);
     CHECK(sram_bytes(machine.sram_uses, memory) == available(machine, memory));
@@ -68,7 +73,8 @@ void check_sums(const std::string& preset, Settings settings) {
 
 TEST_CASE("sram budget: units publish what the configuration was checked with, queues included") {
   for (const char* preset : {"exact", "exact_wide", "exact_half", "exact_vq", "exact_vq_packed",
-                             "paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf"}) {
+                             "paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf", "gscore",
+                             "gscore_lossless"}) {
     check_sums(preset, {});
   }
 }
@@ -89,6 +95,7 @@ TEST_CASE("sram budget: the same for machines that are no preset") {
   }
   check_sums("exact", {"merge.on_overflow=blend_early", "storage.chunk_gaussians=0"});
   check_sums("paper", {"vsu.groups_ahead=3", "sorting.spill_block_entries=2"});
+  check_sums("gscore", {"ccus=3", "cores=5", "tiles.subtiles_across=4", "framebuffer=rgb32f"});
 }
 
 TEST_CASE("sram budget: shipped machines fit, of one total") {
@@ -100,7 +107,8 @@ TEST_CASE("sram budget: shipped machines fit, of one total") {
                                                           {"paper", kPaper},
                                                           {"paper_no_vq", kPaper},
                                                           {"paper_no_cgf", kPaper},
-                                                          {"paper_no_vq_cgf", kPaper}};
+                                                          {"paper_no_vq_cgf", kPaper},
+                                                          {"gscore", 8 * 34 * 1024}};
   for (const auto& [preset, bytes] : totals) {
     for (const char* pixels : {"framebuffer=rgb8", "framebuffer=rgb32f"}) {
       INFO(preset << " " << pixels);

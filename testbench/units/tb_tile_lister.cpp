@@ -1,0 +1,218 @@
+// Tile lister alone: Gaussians with their boxes of several CCUs in; projected records and chained lists in memory,
+// tiles handed out. Checked by walking the chains; busy cycles against closed forms.
+#include <cstring>
+#include <optional>
+
+#include "modules/datapath/work_rates.h"
+#include "modules/gscore/gscore_datapaths.h"
+#include "modules/gscore/lists/tile_lister.h"
+#include "testbench/units/gscore_bench.h"
+#include "testbench/units/uniform.h"
+
+namespace sgs::tb {
+namespace {
+
+struct Plan {
+  GscoreConfig config;
+  int columns = 4, rows = 3;
+  std::vector<Converted> gaussians;
+};
+
+// Boxes of up to tiles_each x tiles_each tiles.
+Plan make_plan(const GscoreConfig& config, std::mt19937_64& random, std::size_t gaussians,
+               int tiles_each) {
+  Plan plan;
+  plan.config = config;
+  plan.gaussians.resize(gaussians);
+  for (Converted& g : plan.gaussians) {
+    g.splat.x = uniform(random, -50, 50);
+    g.splat.conic_a = g.splat.conic_c = 0.5F;
+    g.splat.opacity = 0.5F;
+    g.splat.depth = uniform(random, 1, 9);
+    PixelRect& tiles = g.boxes.tiles;
+    tiles.x0 = whole(random, 0, plan.columns - 1);
+    tiles.y0 = whole(random, 0, plan.rows - 1);
+    tiles.x1 = std::min(plan.columns, tiles.x0 + whole(random, 1, tiles_each));
+    tiles.y1 = std::min(plan.rows, tiles.y0 + whole(random, 1, tiles_each));
+    // A part of the first tile is not touched.
+    g.boxes.parts = {4 * tiles.x0 + whole(random, 0, 2), 4 * tiles.y0, 4 * tiles.x1, 4 * tiles.y1};
+  }
+  return plan;
+}
+
+// Its tiles in the pass, in order, with their bits.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> tiles_of(const Converted& g,
+                                                              const GscoreConfig& config,
+                                                              const GscoreJob& job,
+                                                              const Pass& pass) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  for (int y = g.boxes.tiles.y0; y < g.boxes.tiles.y1; ++y) {
+    for (int x = g.boxes.tiles.x0; x < g.boxes.tiles.x1; ++x) {
+      const auto tile = static_cast<std::uint32_t>(y) * job.columns + static_cast<std::uint32_t>(x);
+      if (tile < pass.first || tile >= pass.end) continue;
+      const std::uint32_t bits = tile_bitmap(g.boxes, config.tiles.rules(), x, y);
+      if (bits != 0) out.emplace_back(tile, bits);
+    }
+  }
+  return out;
+}
+
+void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
+  UnitBench bench(test, bench_config);
+  Checks& checks = bench.checks();
+  GscoreConfig& config = plan.config;
+  FrameJob frame;
+  frame.view.width = plan.columns * kTilePx;
+  frame.view.height = plan.rows * kTilePx;
+  frame.layout = empty_layout(static_cast<std::uint32_t>(plan.gaussians.size()));
+  const GscoreJob job = gscore_frame(config, bench, frame);
+  const BlockFormat blocks = config.blocks();
+  auto passes = bench.add_fifos<Pass>("passes", config.ccus, 1, 1);
+  auto converted = bench.add_fifos<Converted>("converted", config.ccus, 4, 1);
+  auto requests = bench.add_fifos<TileRequest>("requests", config.cores, 1, 1);
+  auto jobs = bench.add_fifos<TileJob>("jobs", config.cores, 1, 1);
+  auto done = bench.add_fifos<PassDone>("done", config.cores, 1, 1);
+  bool frame_done = false;
+  TileLister unit("lister", {bench.clock(), job, config}, [&] { frame_done = true; });
+  for (auto* fifo : passes) unit.passes(*fifo);
+  for (auto* fifo : converted) unit.converted(*fifo);
+  for (auto* fifo : requests) unit.requests(*fifo);
+  for (auto* fifo : jobs) unit.jobs(*fifo);
+  for (auto* fifo : done) unit.done(*fifo);
+  bench.add_unit(unit);
+
+  std::uint64_t pairs = 0;
+  std::optional<Pass> current;
+  for (std::uint32_t c = 0; c < config.ccus; ++c) {
+    bench.add_thread(fmt::format("ccu{}", c), [&, c](Activity& activity) {
+      const std::size_t size = config.ccu.slice_gaussians;
+      for (Pass pass = passes[c]->pop(activity); !pass.over; pass = passes[c]->pop(activity)) {
+        current = pass;
+        for (std::size_t first = c * size; first < plan.gaussians.size();
+             first += config.ccus * size) {
+          for (std::size_t i = first; i < std::min(first + size, plan.gaussians.size()); ++i) {
+            pairs += tiles_of(plan.gaussians[i], config, job, pass).size();
+            converted[c]->push(plan.gaussians[i], activity);
+          }
+          Converted end;
+          end.end = true;
+          converted[c]->push(end, activity);
+        }
+      }
+    });
+  }
+
+  // Of the pass: records in the order of the scene, each list in the order of its records.
+  std::vector<bool> seen(job.tile_count);
+  const auto check_tile = [&](const TileJob& tile) {
+    checks.that(!seen[tile.tile], "a tile once");
+    seen[tile.tile] = true;
+    std::uint32_t record = 0, entry = 0, block = tile.first_block;
+    std::vector<std::byte> bytes;
+    for (const Converted& g : plan.gaussians) {
+      const auto tiles = tiles_of(g, config, job, *current);
+      if (tiles.empty()) continue;
+      const std::uint32_t number = record++;
+      for (const auto& [listed_tile, bits] : tiles) {
+        if (listed_tile != tile.tile) continue;
+        if (entry % blocks.block_entries() == 0) {
+          if (entry > 0) std::memcpy(&block, bytes.data(), sizeof block);
+          bytes = bench.read_back(job.lists.base + std::uint64_t{block} * blocks.block_bytes(),
+                                  blocks.block_bytes());
+        }
+        const TileEntry got = decode_entry(blocks.entry, bytes.data() + blocks.offset(entry));
+        ++entry;
+        checks.that(got.key == depth_key(config.tiles.keys, g.splat.depth) &&
+                        got.record == number && got.bitmap == bits,
+                    fmt::format("entry {} of tile {}", entry, tile.tile));
+      }
+      const auto at = bench.read_back(job.projected.address(number),
+                                      record_bytes(config.tiles.features));
+      checks.that(decode_projected(config.tiles.features, at.data()).x == g.splat.x, "a record");
+    }
+    checks.equal(tile.entries, entry, "entries of a list");
+  };
+  for (std::uint32_t c = 0; c < config.cores; ++c) {
+    bench.add_thread(fmt::format("core{}", c), [&, c](Activity& activity) {
+      for (TileMark mark = TileMark::kTile; mark != TileMark::kEndOfFrame;) {
+        requests[c]->push({}, activity);
+        const TileJob tile = jobs[c]->pop(activity);
+        mark = tile.mark;
+        if (mark == TileMark::kTile) {
+          check_tile(tile);
+        } else {
+          done[c]->push({}, activity);
+        }
+      }
+    });
+  }
+  bench.run();
+
+  checks.that(frame_done, "the frame is done");
+  for (const bool tile : seen) checks.that(tile, "every tile handed out");
+  bench.check_counter("pairs", pairs);
+  bench.check_counter("tiles", job.tile_count);
+  const std::uint64_t slices = bench.counter("slices");
+  const std::uint64_t made = bench.counter("passes");
+  checks.equal(slices, made * cycles_for(plan.gaussians.size(), config.ccu.slice_gaussians),
+               "slices");
+  const std::uint64_t interval = tile_test_pipeline(config).interval_cycles();
+  const std::uint64_t tests = slices + bench.counter("gaussians_off_pass") +
+                              bench.counter("tile_tests") * interval;
+  checks.that(bench.busy_cycles("tile tests") >= tests, "bound of tile tests");
+  if (interval == 1) checks.equal(bench.busy_cycles("tile tests"), tests, "cycles of tile tests");
+  // A listed tile, a tile and each core's end a cycle; a line and a row of the table each pass.
+  const std::uint64_t good = made - bench.counter("passes_overflowed");
+  const std::uint64_t table = bench.accesses("ends of lists").second - pairs;
+  checks.equal(bench.busy_cycles("listing"),
+               pairs + job.tile_count + good * config.cores + made * config.lists.lines +
+                   table,
+               "cycles of listing");
+  if (made == 1) {
+    checks.equal(bench.counter("records") * record_place_bytes(config.tiles.features) <=
+                     bench.bytes_written(),
+                 true, "records written");
+  }
+}
+
+void random_case(Case& test) {
+  std::mt19937_64& random = test.random;
+  GscoreConfig config = random_gscore(random);
+  config.ccus = 1 + static_cast<std::uint32_t>(random() % 4);
+  config.cores = 1 + static_cast<std::uint32_t>(random() % 4);
+  constexpr std::size_t kCounts[] = {0, 1, 9, 100, 400};
+  const std::size_t gaussians = kCounts[random() % 5];
+  if (random() % 3 == 0) {  // hardly more than one tile needs
+    const BlockFormat blocks = config.blocks();
+    config.lists.pool_bytes = std::max<std::uint64_t>(
+        4096, (gaussians / blocks.block_entries() + 3) * blocks.block_bytes());
+  }
+  run_plan(test, random_bench(random, kGscoreMemoryBytes),
+           make_plan(config, random, gaussians, 1 + static_cast<int>(random() % 4)));
+}
+
+}  // namespace
+}  // namespace sgs::tb
+
+int sc_main(int argc, char* argv[]) {
+  using namespace sgs;
+  using namespace sgs::tb;
+  CaseRunner runner("tb_tile_lister", "Tile lister alone, against chains walked in memory");
+  const auto directed = [&](const char* name, std::size_t gaussians, int tiles_each,
+                            std::uint32_t tiles, std::uint32_t lines, std::uint64_t pool_bytes) {
+    runner.add_directed(name, [=](Case& test) {
+      GscoreConfig config;
+      config.lists.tiles = tiles;
+      config.lists.lines = lines;
+      config.lists.pool_bytes = pool_bytes;
+      run_plan(test, still_gscore(), make_plan(config, test.random, gaussians, tiles_each));
+    });
+  };
+  directed("no Gaussian", 0, 1, 64, 64, 1 << 20);
+  directed("lists of many blocks", 500, 4, 64, 64, 1 << 20);
+  directed("tiles that share lines", 300, 3, 64, 3, 1 << 20);
+  directed("a pass of few tiles", 100, 2, 5, 64, 1 << 20);
+  directed("a pool that overflows", 500, 4, 64, 64, 10 << 10);
+  runner.set_random(random_case);
+  return runner.run(argc, argv);
+}
