@@ -10,7 +10,7 @@
 
 #include "algorithm/splat/folded_pipeline.h"
 #include "algorithm/voxel/ray_work.h"
-#include "modules/streaminggs/scheduled_datapath.h"
+#include "modules/datapath/scheduled_datapath.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs::test {
