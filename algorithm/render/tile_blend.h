@@ -8,8 +8,8 @@
 
 namespace sgs {
 
-// Calls blend(splat) with a footprint for each part of the tile (in tiles of the frame) whose bit is
-// set.
+// Calls blend(splat) with a footprint for each part of the tile (in tiles of the frame) whose bit
+// is set.
 template <class Blend>
 void for_each_part(const TileRules& rules, int tile_x, int tile_y, std::uint32_t bitmap,
                    Splat splat, const Blend& blend) {

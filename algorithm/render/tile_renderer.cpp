@@ -106,10 +106,9 @@ void render_tile(const View<float>& view, const TileOrderConfig& config, int til
     const auto observe = [&](const SubtileBlend& blend) {
       if (watch.see(blend, splat.depth)) contributing.set(splat.index);
     };
-    for_each_part(config.rules, tile_x, tile_y, entry.bitmap, splat,
-                  [&](const Splat& part, int) {
-                    stats.subtile_blends += state.blend(part, observe).blended;
-                  });
+    for_each_part(config.rules, tile_x, tile_y, entry.bitmap, splat, [&](const Splat& part, int) {
+      stats.subtile_blends += state.blend(part, observe).blended;
+    });
   }
   const auto chunks = [&](std::uint64_t entries) {
     return (entries + config.chunk_entries - 1) / config.chunk_entries;
@@ -157,8 +156,8 @@ TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,
   std::vector<std::vector<TileSplat>> of_block(blocks);
   std::vector<TileStats> block_stats(blocks);
   tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-    of_block[b] = project_block(view, cloud, config, b * kBlock,
-                                std::min(count, (b + 1) * kBlock), block_stats[b]);
+    of_block[b] = project_block(view, cloud, config, b * kBlock, std::min(count, (b + 1) * kBlock),
+                                block_stats[b]);
   });
   TileResult out;
   out.stats.gaussians = count;
@@ -170,8 +169,8 @@ TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,
   }
   const std::uint64_t most = EntryFormat{config.keys, config.rules.subtiles_across}.records();
   if (splats.size() >= most) {
-    throw InputError(fmt::format("scene: {} Gaussians projected, expected fewer than {}",
-                                 splats.size(), most));
+    throw InputError(
+        fmt::format("scene: {} Gaussians projected, expected fewer than {}", splats.size(), most));
   }
   Lists lists(view, config.rules);
   for (std::uint32_t s = 0; s < splats.size(); ++s) lists.add(splats[s], s, out.stats);

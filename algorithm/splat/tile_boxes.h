@@ -84,8 +84,8 @@ std::uint32_t tile_bitmap(const TileBoxesOf<T>& boxes, const TileRules& rules, I
                           IndexOf<T> tile_y) {
   using Index = IndexOf<T>;
   if (boxes.box.used) {
-    const auto offset = box_offset(boxes.box, Index(tile_x * kTilePx), Index(tile_y * kTilePx),
-                                   kTilePx);
+    const auto offset =
+        box_offset(boxes.box, Index(tile_x * kTilePx), Index(tile_y * kTilePx), kTilePx);
     if (!touches(boxes.tile, offset)) return 0;
   }
   if (rules.subtiles_across == 1) return 1;
@@ -97,9 +97,8 @@ std::uint32_t tile_bitmap(const TileBoxesOf<T>& boxes, const TileRules& rules, I
     const bool in_box = x < boxes.parts.x1 && y < boxes.parts.y1 && boxes.parts.x0 < x + in_part &&
                         boxes.parts.y0 < y + in_part;
     if (!in_box) continue;
-    if (boxes.box.used &&
-        !touches(boxes.part, box_offset(boxes.box, Index(x * kSubtilePx), Index(y * kSubtilePx),
-                                        part_px(rules)))) {
+    if (boxes.box.used && !touches(boxes.part, box_offset(boxes.box, Index(x * kSubtilePx),
+                                                          Index(y * kSubtilePx), part_px(rules)))) {
       continue;
     }
     bits |= 1U << part;

@@ -68,8 +68,8 @@ DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records) 
   keep_values(flow, {s.x, s.y});
   keep_box(flow, boxes);
   if (!half_records) {
-    keep_values(flow, {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z,
-                       s.depth});
+    keep_values(flow,
+                {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth});
     return flow;
   }
   // The conic over a power of two: that of the larger of its diagonal.

@@ -35,8 +35,8 @@ struct CcuConfig {
 struct ListsConfig {
   std::uint32_t tile_lanes = 32;     // multiply-accumulates that test tiles for all CCUs
   std::uint32_t tested_entries = 4;  // listed tiles that wait for the lines
-  std::uint32_t tiles = 4096;  // of a pass at most: a frame with more takes several
-  std::uint32_t lines = 1024;  // in which entries of a tile are combined
+  std::uint32_t tiles = 4096;        // of a pass at most: a frame with more takes several
+  std::uint32_t lines = 1024;        // in which entries of a tile are combined
   std::uint32_t line_bytes = 64, block_lines = 8;
   std::uint64_t pool_bytes = 268435456;  // of lists in memory
 };
@@ -49,7 +49,7 @@ struct SortingConfig {
 
 struct RenderingConfig {
   BlendPrecision precision = BlendPrecision::kHalf;  // of blending and of the pixels on chip
-  std::uint32_t core_lanes = 0;        // multiply-accumulates of the 16 VRUs; 0: a pixel a cycle each
+  std::uint32_t core_lanes = 0;  // multiply-accumulates of the 16 VRUs; 0: a pixel a cycle each
   std::uint32_t sorted_entries = 256;  // that wait for their records
   std::uint32_t record_slots = 16;     // records on their way or waiting
   std::uint32_t pixel_buffers = 2;     // tiles whose pixels are in a core

@@ -21,8 +21,8 @@ void set_by_frame(Datapath& path, const std::vector<LaneStep>& steps) {
   path.set_bits = kSingleBits * constants_of(steps);
 }
 
-Datapath counted(const char* name, const char* component, const DataFlow& flow,
-                 std::uint32_t lanes, const OperationLatencies& latencies) {
+Datapath counted(const char* name, const char* component, const DataFlow& flow, std::uint32_t lanes,
+                 const OperationLatencies& latencies) {
   Datapath path = counted_datapath(name, component, flow.counts(0, flow.size()));
   path.lanes = lanes;
   const std::vector<LaneStep> steps = lane_steps(flow, 0, flow.size(), latencies);
@@ -54,8 +54,12 @@ Datapath convert_pipeline(const GscoreConfig& config, int sh_degree) {
   using Key = std::tuple<TileReach, TileTest, int, NumberFormat, std::uint32_t, std::uint32_t, int>;
   static std::map<Key, Datapath> known;
   const TilesConfig& tiles = config.tiles;
-  const Key key{tiles.reach,    tiles.test,  tiles.subtiles_across,
-                tiles.features, config.ccu.convert_lanes, config.lane_latency_cycles,
+  const Key key{tiles.reach,
+                tiles.test,
+                tiles.subtiles_across,
+                tiles.features,
+                config.ccu.convert_lanes,
+                config.lane_latency_cycles,
                 sh_degree};
   if (const auto at = known.find(key); at != known.end()) return at->second;
   Datapath path = convert_of_degree(config, sh_degree);

@@ -21,8 +21,7 @@ void GscoreDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>
   const std::uint64_t needed = sram_bytes(uses, kBuffer);
   if (config_.sram.buffer_bytes == 0) {
     config_.sram.buffer_bytes = static_cast<std::uint32_t>(needed);
-    chosen.push_back(
-        {"sram.buffer_bytes", static_cast<double>(needed), sram_sum(uses, kBuffer)});
+    chosen.push_back({"sram.buffer_bytes", static_cast<double>(needed), sram_sum(uses, kBuffer)});
   }
   if (needed > config_.sram.buffer_bytes) {
     throw InputError(fmt::format(

@@ -53,12 +53,11 @@ void add_regions(const GscoreConfig& config, FrameJob& job) {
   // A list is split once a level, into 8.
   const bool splits = count > config.sorting.list_entries;
   const std::uint64_t of_level = blocks_for(blocks, count, kSubsets);
-  regions.add(kSubsetLists, splits ? config.cores * most_levels(config.tiles.keys) * of_level *
-                                         blocks.block_bytes()
-                                   : 0);
-  job.frame_buffer =
-      regions.add("frame_buffer", std::uint64_t{pixel_bytes(job.frame_format)} * job.view.width *
-                                      job.view.height);
+  regions.add(
+      kSubsetLists,
+      splits ? config.cores * most_levels(config.tiles.keys) * of_level * blocks.block_bytes() : 0);
+  job.frame_buffer = regions.add("frame_buffer", std::uint64_t{pixel_bytes(job.frame_format)} *
+                                                     job.view.width * job.view.height);
 }
 
 GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job) {
@@ -67,9 +66,9 @@ GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job) {
   out.columns = static_cast<std::uint32_t>(cycles_for(job.view.width, kTilePx));
   out.tile_count = out.columns * static_cast<std::uint32_t>(cycles_for(job.view.height, kTilePx));
   const Regions& regions = job.layout.regions;
-  out.projected = span_of(regions, kProjected)
-                      .records(0, record_place_bytes(config.tiles.features),
-                               job.layout.gaussian_count());
+  out.projected =
+      span_of(regions, kProjected)
+          .records(0, record_place_bytes(config.tiles.features), job.layout.gaussian_count());
   out.lists = span_of(regions, kTileLists);
   out.subsets = span_of(regions, kSubsetLists);
   return out;

@@ -10,8 +10,9 @@
 namespace sgs::gscore {
 namespace {
 
-constexpr const char *kPasses = "passes", *kConverted = "converted Gaussians", *kRequests = "tile requests",
-                     *kJobs = "tile jobs", *kSorted = "sorted entries", *kDone = "passes done";
+constexpr const char *kPasses = "passes", *kConverted = "converted Gaussians",
+                     *kRequests = "tile requests", *kJobs = "tile jobs",
+                     *kSorted = "sorted entries", *kDone = "passes done";
 
 // With room for what is in the conversion's pipeline.
 std::uint32_t converted_entries(const GscoreConfig& c, const Datapath& conversion) {
@@ -56,9 +57,9 @@ GscoreMachine::GscoreMachine(const sc_core::sc_module_name& name, const GscoreCo
       renderers_(config.cores) {
   add_all_fifos(options);
   for (std::uint32_t c = 0; c < config.cores; ++c) {
-    finished_.push_back(std::make_unique<FinishedTiles>(
-        fmt::format("finished_tiles{}", c).c_str(), clock_, job.tile_count,
-        config.rendering.feedback_latency_cycles));
+    finished_.push_back(std::make_unique<FinishedTiles>(fmt::format("finished_tiles{}", c).c_str(),
+                                                        clock_, job.tile_count,
+                                                        config.rendering.feedback_latency_cycles));
   }
   make_units(options);
   bind();
@@ -72,8 +73,7 @@ void GscoreMachine::add_all_fifos(const BuildOptions& options) {
             conversion.depth_cycles, options);
   add_fifos(requests_, "requests_of_core", config_.cores, 1, 1, options);
   add_fifos(jobs_, "jobs_of_core", config_.cores, 1, 1, options);
-  add_fifos(sorted_, "sorted_of_core", config_.cores, config_.rendering.sorted_entries, 1,
-            options);
+  add_fifos(sorted_, "sorted_of_core", config_.cores, config_.rendering.sorted_entries, 1, options);
   add_fifos(done_, "done_by_core", config_.cores, 1, 1, options);
 }
 

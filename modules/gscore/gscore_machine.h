@@ -53,12 +53,12 @@ class GscoreMachine : public Machine {
   const GscoreConfig config_;
   const GscoreJob job_;
   const ClockDomain clock_;
-  Fifos<Pass> passes_;           // [CCU]
-  Fifos<Converted> converted_;   // [CCU]
-  Fifos<TileRequest> requests_;  // [core]
-  Fifos<TileJob> jobs_;          // [core]
-  Fifos<SortedEntry> sorted_;    // [core]
-  Fifos<PassDone> done_;         // [core]
+  Fifos<Pass> passes_;                                    // [CCU]
+  Fifos<Converted> converted_;                            // [CCU]
+  Fifos<TileRequest> requests_;                           // [core]
+  Fifos<TileJob> jobs_;                                   // [core]
+  Fifos<SortedEntry> sorted_;                             // [core]
+  Fifos<PassDone> done_;                                  // [core]
   std::vector<std::unique_ptr<FinishedTiles>> finished_;  // [core]
   std::vector<std::unique_ptr<Ccu>> ccus_;
   std::unique_ptr<TileLister> lister_;

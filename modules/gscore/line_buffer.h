@@ -15,7 +15,7 @@ namespace sgs::gscore {
 // Where the end of a list is: two numbers of blocks, a count.
 struct ListEnd {
   static constexpr std::uint32_t kBytes = 9;  // 24 bits each
-  std::uint32_t block = 0, next = 0;  // that it writes in, and will when that is full
+  std::uint32_t block = 0, next = 0;          // that it writes in, and will when that is full
   std::uint32_t entries = 0;
 };
 
@@ -55,8 +55,8 @@ constexpr std::uint32_t line_words(std::uint32_t begin, std::uint32_t bytes) {
 
 // Places of a list's entries, for whoever appends.
 struct EntryPlace {
-  std::uint64_t line;    // of the region
-  std::uint32_t at;      // in the line
+  std::uint64_t line;  // of the region
+  std::uint32_t at;    // in the line
   bool begins_line, begins_block, ends_line;
 };
 inline EntryPlace place_of(const BlockFormat& format, std::uint32_t block, std::uint32_t entry) {

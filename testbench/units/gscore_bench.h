@@ -43,8 +43,8 @@ inline GscoreConfig random_gscore(std::mt19937_64& random) {
   return c;
 }
 
-// A frame of this size with the machine's regions behind what is in `layout`; the ports hold nothing
-// back that the bench does not.
+// A frame of this size with the machine's regions behind what is in `layout`; the ports hold
+// nothing back that the bench does not.
 inline GscoreJob gscore_frame(GscoreConfig& config, const UnitBench& bench, FrameJob job) {
   config.memory_port = bench.context({}).built_for.memory_port;
   job.frame_format = config.framebuffer;

@@ -21,8 +21,7 @@ struct Plan {
 
 // What must come out of one slice.
 std::vector<Converted> expected_of(const TestScene& scene, const GscoreJob& job,
-                                   const GscoreConfig& config, std::size_t first,
-                                   std::size_t end) {
+                                   const GscoreConfig& config, std::size_t first, std::size_t end) {
   std::vector<Converted> out;
   const ActivatedCloud& cloud = scene.cloud;
   for (std::size_t i = first; i < end; ++i) {
@@ -94,11 +93,11 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   checks.equal(bench.counter("culled") + bench.counter("second_halves"), count * plan.passes,
                "culled and fetched");
   bench.check_counter("converted", bench.counter("second_halves"));
-  checks.equal(bench.bytes_read(),
-               kFirstHalfBytes * count * plan.passes +
-                   std::uint64_t{job.layout.second_halves.record_bytes} *
-                       bench.counter("second_halves"),
-               "bytes read");
+  checks.equal(
+      bench.bytes_read(),
+      kFirstHalfBytes * count * plan.passes +
+          std::uint64_t{job.layout.second_halves.record_bytes} * bench.counter("second_halves"),
+      "bytes read");
   if (config.ccus > 1) return;
   // Each datapath begins an item in its turns.
   const auto bound = [&](const char* resource, std::uint64_t items, const Datapath& path) {
@@ -131,8 +130,8 @@ int sc_main(int argc, char* argv[]) {
   using namespace sgs;
   using namespace sgs::tb;
   CaseRunner runner("tb_ccu", "Culling and conversion units alone");
-  const auto directed = [&](const char* name, std::size_t gaussians, int degree,
-                            std::uint32_t ccus, std::uint32_t passes) {
+  const auto directed = [&](const char* name, std::size_t gaussians, int degree, std::uint32_t ccus,
+                            std::uint32_t passes) {
     runner.add_directed(name, [=](Case& test) {
       Plan plan;
       plan.config.ccus = ccus;

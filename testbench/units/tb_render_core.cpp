@@ -1,6 +1,6 @@
-// Rendering core of the tile-centric machine alone: sorted entries in, records and a frame buffer in
-// memory. Checked against GroupState; busy cycles against closed forms, to the cycle where no splat
-// waits for another.
+// Rendering core of the tile-centric machine alone: sorted entries in, records and a frame buffer
+// in memory. Checked against GroupState; busy cycles against closed forms, to the cycle where no
+// splat waits for another.
 #include "algorithm/render/tile_blend.h"
 #include "modules/gscore/gscore_datapaths.h"
 #include "modules/gscore/rendering/render_core.h"
@@ -32,8 +32,7 @@ Plan make_plan(const GscoreConfig& config, std::mt19937_64& random, int width_px
   frame.view.width = width_px;
   frame.view.height = height_px;
   const auto groups = pixel_groups(width_px, height_px, square_of(kTilePx));
-  const std::uint32_t parts =
-      1U << (config.tiles.subtiles_across * config.tiles.subtiles_across);
+  const std::uint32_t parts = 1U << (config.tiles.subtiles_across * config.tiles.subtiles_across);
   for (std::uint32_t t = 0; t < plan.tiles.size(); ++t) {
     for (std::size_t e = 0; e < entries; ++e) {
       const auto number = static_cast<std::uint32_t>(plan.records.size());
@@ -59,8 +58,8 @@ Expected expect(const Plan& plan, const GscoreJob& job) {
   frame.transmittance.resize(frame.image.pixels.size());
   frame.contributors.resize(frame.image.pixels.size());
   for (std::uint32_t t = 0; t < plan.tiles.size(); ++t) {
-    GroupState state(job.pixels(t), plan.width_px, plan.height_px,
-                     plan.config.rendering.precision, SubtileTest::kBox);
+    GroupState state(job.pixels(t), plan.width_px, plan.height_px, plan.config.rendering.precision,
+                     SubtileTest::kBox);
     for (const SortedEntry& entry : plan.tiles[t]) {
       std::byte bytes[64];
       encode_projected(format, plan.records[entry.record], bytes);
@@ -118,10 +117,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
   bench.check_counter("tiles_finished", expected.finished);
   bench.check_counter("tiles", plan.tiles.size());
   checks.equal(bench.counter("records") + bench.counter("dropped"), entries, "entries taken");
-  checks.equal(bench.counter("splats") + bench.counter("dropped_fetched"),
-               bench.counter("records"), "records looked at");
-  checks.equal(bench.bytes_read(),
-               std::uint64_t{record_bytes(format)} * bench.counter("records"), "bytes read");
+  checks.equal(bench.counter("splats") + bench.counter("dropped_fetched"), bench.counter("records"),
+               "records looked at");
+  checks.equal(bench.bytes_read(), std::uint64_t{record_bytes(format)} * bench.counter("records"),
+               "bytes read");
   const std::uint64_t blocks = bench.counter("blocks");
   const std::uint64_t interval = blend_pipeline(plan.config).interval_cycles();
   checks.that(bench.busy_cycles("rendering") >= blocks * interval, "rendering's bound");
@@ -137,7 +136,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
   GscoreConfig config = random_gscore(random);
-  if (random() % 2 == 0) config.rendering.core_lanes = 40 + static_cast<std::uint32_t>(random() % 200);
+  if (random() % 2 == 0)
+    config.rendering.core_lanes = 40 + static_cast<std::uint32_t>(random() % 200);
   constexpr float kOpacities[] = {0.02F, 0.5F, 1.0F};
   run_plan(test, random_bench(random, kGscoreMemoryBytes),
            make_plan(config, random, 1 + static_cast<int>(random() % 70),

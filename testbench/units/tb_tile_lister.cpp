@@ -1,5 +1,6 @@
-// Tile lister alone: Gaussians with their boxes of several CCUs in; projected records and chained lists in memory,
-// tiles handed out. Checked by walking the chains; busy cycles against closed forms.
+// Tile lister alone: Gaussians with their boxes of several CCUs in; projected records and chained
+// lists in memory, tiles handed out. Checked by walking the chains; busy cycles against closed
+// forms.
 #include <cstring>
 #include <optional>
 
@@ -126,8 +127,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
                         got.record == number && got.bitmap == bits,
                     fmt::format("entry {} of tile {}", entry, tile.tile));
       }
-      const auto at = bench.read_back(job.projected.address(number),
-                                      record_bytes(config.tiles.features));
+      const auto at =
+          bench.read_back(job.projected.address(number), record_bytes(config.tiles.features));
       checks.that(decode_projected(config.tiles.features, at.data()).x == g.splat.x, "a record");
     }
     checks.equal(tile.entries, entry, "entries of a list");
@@ -157,16 +158,15 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   checks.equal(slices, made * cycles_for(plan.gaussians.size(), config.ccu.slice_gaussians),
                "slices");
   const std::uint64_t interval = tile_test_pipeline(config).interval_cycles();
-  const std::uint64_t tests = slices + bench.counter("gaussians_off_pass") +
-                              bench.counter("tile_tests") * interval;
+  const std::uint64_t tests =
+      slices + bench.counter("gaussians_off_pass") + bench.counter("tile_tests") * interval;
   checks.that(bench.busy_cycles("tile tests") >= tests, "bound of tile tests");
   if (interval == 1) checks.equal(bench.busy_cycles("tile tests"), tests, "cycles of tile tests");
   // A listed tile, a tile and each core's end a cycle; a line and a row of the table each pass.
   const std::uint64_t good = made - bench.counter("passes_overflowed");
   const std::uint64_t table = bench.accesses("ends of lists").second - pairs;
   checks.equal(bench.busy_cycles("listing"),
-               pairs + job.tile_count + good * config.cores + made * config.lists.lines +
-                   table,
+               pairs + job.tile_count + good * config.cores + made * config.lists.lines + table,
                "cycles of listing");
   if (made == 1) {
     checks.equal(bench.counter("records") * record_place_bytes(config.tiles.features) <=

@@ -1,6 +1,6 @@
-// Sorter of a core of the tile-centric machine alone: chained lists in memory and jobs in, entries in
-// order out. Checked against std::stable_sort; busy cycles against closed forms, in one chunk to the
-// cycle.
+// Sorter of a core of the tile-centric machine alone: chained lists in memory and jobs in, entries
+// in order out. Checked against std::stable_sort; busy cycles against closed forms, in one chunk to
+// the cycle.
 #include <algorithm>
 
 #include "modules/datapath/work_rates.h"
@@ -114,7 +114,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   if (plan.finish_after < 0) bench.check_counter("dropped_loaded", 0);
   if (plan.finish_after < 0) checks.that(bench.counter("lists_split") >= split, "lists_split");
   // An entry a cycle through the QSU where lists come in, and out.
-  checks.that(bench.busy_cycles("list loading") >= bench.counter("entries_read"), "loading's bound");
+  checks.that(bench.busy_cycles("list loading") >= bench.counter("entries_read"),
+              "loading's bound");
   const std::uint64_t least = taken + 2 * bench.counter("split_entries") +
                               cycles_for(bench.counter("moves"), kNetworkWidth);
   checks.that(bench.busy_cycles("sorting") >= least, "sorting's bound");

@@ -27,8 +27,7 @@ void check_bytes(const Json& view) {
   CHECK(region_bytes(view, "first_halves", "read") == 16 * total(view, "first_halves"));
   CHECK(region_bytes(view, "second_halves", "read") ==
         count(view["scene"]["second_half_bytes"]) * total(view, "second_halves"));
-  CHECK(region_bytes(view, "projected", "write") ==
-        place * counter(view, "lister", "records"));
+  CHECK(region_bytes(view, "projected", "write") == place * counter(view, "lister", "records"));
   CHECK(region_bytes(view, "projected", "read") ==
         record * counter_of_all(view, "rendering", "records"));
   const std::uint64_t pairs = counter(view, "lister", "pairs");
@@ -61,10 +60,9 @@ void check_flow(const Json& view) {
             counter_of_all(view, "rendering", "dropped_fetched"));
   CHECK(counter_of_all(view, "rendering", "contributors") == count(view["image"]["blends"]));
   if (counter(view, "lister", "passes_overflowed") == 0) {
-    CHECK(counter(view, "lister", "pairs") ==
-          counter_of_all(view, "sorter", "entries_sorted") +
-              counter_of_all(view, "sorter", "dropped_unread") +
-              counter_of_all(view, "sorter", "dropped_loaded"));
+    CHECK(counter(view, "lister", "pairs") == counter_of_all(view, "sorter", "entries_sorted") +
+                                                  counter_of_all(view, "sorter", "dropped_unread") +
+                                                  counter_of_all(view, "sorter", "dropped_loaded"));
   }
 }
 
@@ -79,9 +77,12 @@ void check_bounds(const Json& view) {
     const std::uint64_t of = count(lanes);
     return (macs + of - 1) / of;
   };
-  CHECK(total(view, "first_halves") * interval("cull", config["ccu"]["cull_lanes"]) <= ccus * frame);
-  CHECK(total(view, "converted") * interval("convert", config["ccu"]["convert_lanes"]) <= ccus * frame);
-  CHECK(counter(view, "lister", "tile_tests") * interval("tile_test", config["lists"]["tile_lanes"]) <=
+  CHECK(total(view, "first_halves") * interval("cull", config["ccu"]["cull_lanes"]) <=
+        ccus * frame);
+  CHECK(total(view, "converted") * interval("convert", config["ccu"]["convert_lanes"]) <=
+        ccus * frame);
+  CHECK(counter(view, "lister", "tile_tests") *
+            interval("tile_test", config["lists"]["tile_lanes"]) <=
         frame);
   CHECK(counter_of_all(view, "rendering", "blocks") <= cores * frame);
   CHECK(counter_of_all(view, "sorter", "entries_read") <= cores * frame);
@@ -113,9 +114,10 @@ const std::vector<Variant>& variants() {
       {"lists split in memory", {"sorting.list_entries=16", "sorting.chunk_entries=16"}},
       {"lists split on chip", {"sorting.chunk_entries=16"}},
       {"a pool that overflows", {"lists.pool_bytes=21504"}},
-      {"one of each", {"ccus=1", "cores=1", "rendering.record_slots=1", "ccu.input_slots=1",
-                       "ccu.second_half_slots=1", "sorting.list_buffers=1",
-                       "rendering.pixel_buffers=1", "rendering.sorted_entries=1"}},
+      {"one of each",
+       {"ccus=1", "cores=1", "rendering.record_slots=1", "ccu.input_slots=1",
+        "ccu.second_half_slots=1", "sorting.list_buffers=1", "rendering.pixel_buffers=1",
+        "rendering.sorted_entries=1"}},
       {"other numbers", {"ccus=3", "cores=5", "clock_mhz=733", "rendering.core_lanes=64"}},
       {"narrow memory", {"memory_port.max_outstanding=1", "dram.channels=1"}},
       {"finished parts are blended", {"rendering.skip_finished=false"}},
@@ -144,8 +146,8 @@ TEST_CASE("gscore: every variant, with stalls and in every order of processes") 
       INFO(order);
       const Simulation other(joined(run_of(variant), {"--process-order", order}));
       CHECK(without_host(other.views()[0]) == without_host(plain.views()[0]));
-      const Simulation both(joined(
-          run_of(variant), {"--stalls", "0.2", "--seed", "3", "--process-order", order}));
+      const Simulation both(
+          joined(run_of(variant), {"--stalls", "0.2", "--seed", "3", "--process-order", order}));
       CHECK(without_host(both.views()[0]) == without_host(stalled.views()[0]));
     }
   }
@@ -193,8 +195,13 @@ TEST_CASE("gscore: frames and scenes of every size") {
 }
 
 TEST_CASE("gscore: a real scene") {
-  const Arguments truck = {shared_scene("truck"), "--cameras", shared_path("cameras/truck.json"),
-                           "--size", "160x90", "--config", "gscore"};
+  const Arguments truck = {shared_scene("truck"),
+                           "--cameras",
+                           shared_path("cameras/truck.json"),
+                           "--size",
+                           "160x90",
+                           "--config",
+                           "gscore"};
   const Simulation plain(truck);
   check_gscore(plain);
   CHECK(plain.views()[0]["image"]["psnr_db"] > 35.0);
@@ -203,9 +210,9 @@ TEST_CASE("gscore: a real scene") {
 TEST_CASE("gscore: what cannot be built is refused") {
   const ScratchFolder scratch;
   const auto refused = [&](const char* setting) {
-    const Outcome outcome = run_streaminggs(
-        {"simulate", "builtin:object?n=3000", "--size", "64x48", "--config", "gscore", "--set",
-         setting, "--out", scratch.path("out")});
+    const Outcome outcome =
+        run_streaminggs({"simulate", "builtin:object?n=3000", "--size", "64x48", "--config",
+                         "gscore", "--set", setting, "--out", scratch.path("out")});
     CHECK(outcome.status == 2);
     return outcome.err;
   };

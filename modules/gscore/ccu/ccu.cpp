@@ -121,10 +121,9 @@ void Ccu::run_fetch() {
     if (!next.end) next.buffer = free_second_.pop(fetch_, WaitFor::kRoom);
     fetch_.work(1);
     if (!next.end) {
-      next.ticket =
-          start_read(second_memory, fetch_, job_.layout.second_halves.address(next.slot),
-                     second_halves_.data() + std::size_t{next.buffer} * second_bytes_,
-                     second_bytes_, job_.layout.second_halves.region);
+      next.ticket = start_read(second_memory, fetch_, job_.layout.second_halves.address(next.slot),
+                               second_halves_.data() + std::size_t{next.buffer} * second_bytes_,
+                               second_bytes_, job_.layout.second_halves.region);
       ++counters_.second_halves;
     }
     fetched_.push(next, fetch_);
@@ -153,9 +152,9 @@ void Ccu::run_convert() {
 void Ccu::convert(const Candidate& candidate) {
   await(second_memory, convert_, candidate.ticket);
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * second_bytes_;
-  const DecodedGaussian g = read_record(job_.layout.split, job_.layout.second_half,
-                                        candidate.first.mean, candidate.first.carried, record,
-                                        nullptr);
+  const DecodedGaussian g =
+      read_record(job_.layout.split, job_.layout.second_half, candidate.first.mean,
+                  candidate.first.carried, record, nullptr);
   ++counters_.converted;
   const std::uint64_t interval = convert_path_.interval_cycles();
   const std::uint64_t now = convert_.clock().now_cycles();
@@ -180,14 +179,13 @@ SramUses Ccu::sram_uses(const GscoreConfig& config) {
       sram_use(kInput, kBuffer,
                {{c.input_slots, "slots"}, {c.slice_gaussians, "Gaussians"}, {kFirstHalfBytes, "B"}},
                {8 * kFirstHalfBytes, SramPorts::kReadAndWrite, kBanks}, {1, kBanks}),
-      sram_use(kSecondHalves, kBuffer,
-               {{c.second_half_slots, "slots"}, {kMaxSecondHalfBytes, "B"}}, {8 * kPortBytes},
-               kOneOfEach),
+      sram_use(kSecondHalves, kBuffer, {{c.second_half_slots, "slots"}, {kMaxSecondHalfBytes, "B"}},
+               {8 * kPortBytes}, kOneOfEach),
       fifo_use<Slice>(kSlices, kBuffer, c.input_slots, "slices"),
-      fifo_use<Candidate>(kCulled, kBuffer,
-                          static_cast<std::uint32_t>(
-                              2 + cycles_for(cull.depth_cycles, cull.interval_cycles())),
-                          "candidates"),
+      fifo_use<Candidate>(
+          kCulled, kBuffer,
+          static_cast<std::uint32_t>(2 + cycles_for(cull.depth_cycles, cull.interval_cycles())),
+          "candidates"),
       fifo_use<Candidate>(kFetched, kBuffer, c.second_half_slots + 1, "candidates")};
   add(uses, outstanding_table(kBuffer, config.memory_port), 2);
   return uses;

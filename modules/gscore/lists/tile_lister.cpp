@@ -10,9 +10,10 @@
 namespace sgs::gscore {
 namespace {
 
-constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists", *kTags = "tiles of lines",
-                     *kWaitingRecords = "records to write", *kListWrites = "list writes",
-                     *kTestPasses = "passes to test", *kListed = "listed tiles";
+constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists",
+                     *kTags = "tiles of lines", *kWaitingRecords = "records to write",
+                     *kListWrites = "list writes", *kTestPasses = "passes to test",
+                     *kListed = "listed tiles";
 constexpr std::uint32_t kTagBytes = 4;  // tile, and what of the line is new
 // Beside the memories: whose line it is, whether line and block are full, whether the pool is.
 constexpr std::uint32_t kComparators = 4;
@@ -25,8 +26,8 @@ std::uint32_t listed_entries(const GscoreConfig& config, const Datapath& tests) 
 
 // Of records that are written at once: what a transaction takes, at least one.
 std::uint32_t records_at_once(const GscoreConfig& config) {
-  return std::max(1U, config.memory_port.max_transaction_bytes /
-                          record_place_bytes(config.tiles.features));
+  return std::max(
+      1U, config.memory_port.max_transaction_bytes / record_place_bytes(config.tiles.features));
 }
 
 }  // namespace
@@ -262,19 +263,20 @@ void TileLister::hand_out(const Pass& pass) {
 SramUses TileLister::sram_uses(const GscoreConfig& c) {
   const BlockFormat blocks = c.blocks();
   const std::uint32_t place = record_place_bytes(c.tiles.features);
-  return {sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {ListEnd::kBytes, "B"}},
-                   {8 * ListEnd::kBytes}, kOneOfEach),
-          sram_use(kLines, kBuffer, {{c.lists.lines, "lines"}, {blocks.line_bytes, "B"}},
-                   {8 * kLineWordBytes, SramPorts::kReadAndWrite, kLineBanks},
-                   {kLineBanks, kLineBanks}),
-          sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {kTagBytes, "B"}}, {8 * kTagBytes},
-                   kOneOfEach),
-          sram_use(kWaitingRecords, kBuffer, {{records_at_once(c), "records"}, {place, "B"}},
-                   {8 * kPortBytes}, kOneOfEach),
-          fifo_use<Pass>(kTestPasses, kBuffer, 1, "passes"),
-          fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c, tile_test_pipeline(c)), "tiles"),
-          outstanding_table(kBuffer, c.memory_port),
-          unanswered_writes(kListWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
+  return {
+      sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {ListEnd::kBytes, "B"}},
+               {8 * ListEnd::kBytes}, kOneOfEach),
+      sram_use(kLines, kBuffer, {{c.lists.lines, "lines"}, {blocks.line_bytes, "B"}},
+               {8 * kLineWordBytes, SramPorts::kReadAndWrite, kLineBanks},
+               {kLineBanks, kLineBanks}),
+      sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {kTagBytes, "B"}}, {8 * kTagBytes},
+               kOneOfEach),
+      sram_use(kWaitingRecords, kBuffer, {{records_at_once(c), "records"}, {place, "B"}},
+               {8 * kPortBytes}, kOneOfEach),
+      fifo_use<Pass>(kTestPasses, kBuffer, 1, "passes"),
+      fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c, tile_test_pipeline(c)), "tiles"),
+      outstanding_table(kBuffer, c.memory_port),
+      unanswered_writes(kListWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
 }
 
 void TileLister::publish(DataSheet& sheet) {

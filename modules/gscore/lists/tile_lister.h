@@ -1,8 +1,8 @@
-// Tile lister and control: tests the tiles of projected Gaussians, in the order of the scene, numbers
-// and writes those that touch any, enters them in the lists of their tiles, and when a pass is
-// projected hands its tiles out to the cores.
-// Timing: a tile is tested in each turn of the lanes, listed in a cycle; entries of a tile are combined in a line, which is written when it
-// is full or another tile takes its place. Tiles are handed out one a cycle, as they are asked for.
+// Tile lister and control: tests the tiles of projected Gaussians, in the order of the scene,
+// numbers and writes those that touch any, enters them in the lists of their tiles, and when a pass
+// is projected hands its tiles out to the cores. Timing: a tile is tested in each turn of the
+// lanes, listed in a cycle; entries of a tile are combined in a line, which is written when it is
+// full or another tile takes its place. Tiles are handed out one a cycle, as they are asked for.
 #pragma once
 
 #include <cstddef>
@@ -73,7 +73,7 @@ class TileLister : public sc_core::sc_module {
   TimedFifo<Pass> test_passes_;
   TimedFifo<ListedTile> listed_;
   std::unique_ptr<FifoSelector<TileRequest>> asked_;  // made by the thread
-  std::vector<ListEnd> ends_;  // [tile of the pass]
+  std::vector<ListEnd> ends_;                         // [tile of the pass]
   std::vector<Line> lines_;
   std::vector<std::byte> records_;  // that wait until there are enough for a transaction
   std::uint32_t waiting_records_ = 0;

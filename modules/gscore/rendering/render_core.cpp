@@ -11,8 +11,9 @@
 namespace sgs::gscore {
 namespace {
 
-constexpr const char *kRecordSlots = "records", *kFetchedEntries = "fetched entries", *kPixels = "pixel state",
-                     *kPixelWrites = "pixel writes", *kMask = "finished parts";
+constexpr const char *kRecordSlots = "records", *kFetchedEntries = "fetched entries",
+                     *kPixels = "pixel state", *kPixelWrites = "pixel writes",
+                     *kMask = "finished parts";
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
 constexpr std::uint32_t kTilePixels = kTilePx * kTilePx;
@@ -105,9 +106,8 @@ void RenderCore::run_blend() {
     if (!in_tile_) begin_tile(next.entry.tile);
     if (mark == EntryMark::kEntry) {
       await(record_memory, blend_, next.ticket);
-      const Splat splat =
-          decode_projected(config_.tiles.features,
-                           records_.data() + std::size_t{next.slot} * record_bytes_);
+      const Splat splat = decode_projected(
+          config_.tiles.features, records_.data() + std::size_t{next.slot} * record_bytes_);
       blend(next.entry, splat);
       free_records_.push(next.slot, blend_);
       continue;
@@ -134,8 +134,8 @@ void RenderCore::begin_tile(std::uint32_t tile) {
   std::fill(free_from_.begin(), free_from_.end(), 0);
   const int across = config_.tiles.subtiles_across, side = kTilePx / across;
   for (int part = 0; part < across * across; ++part) {
-    const bool outside = part % across * side >= pixels.width() ||
-                         part / across * side >= pixels.height();
+    const bool outside =
+        part % across * side >= pixels.width() || part / across * side >= pixels.height();
     finished_from_[static_cast<std::size_t>(part)] = outside ? 0 : kNever;
   }
 }
@@ -152,31 +152,32 @@ void RenderCore::blend(const SortedEntry& entry, const Splat& splat) {
   const int side = kSubtilesPerTile / rules.subtiles_across;
   const std::uint64_t interval = blend_path_.interval_cycles();
   const std::uint64_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
-  const std::uint64_t depth = conic_path_.depth_cycles + blend_path_.depth_cycles + kReadCycles +
-                              kWriteCycles;
+  const std::uint64_t depth =
+      conic_path_.depth_cycles + blend_path_.depth_cycles + kReadCycles + kWriteCycles;
   std::uint64_t begin = next_turn(now, interval);
   for_each_part(rules, job_.tile_x(entry.tile), job_.tile_y(entry.tile), entry.bitmap, splat,
                 [&](const Splat& in_part, int part) {
-    std::uint64_t& known = finished_from_[static_cast<std::size_t>(part)];
-    if (known <= now && (config_.rendering.skip_finished || known == 0)) {
-      ++counters_.parts_finished;
-      return;
-    }
-    ++counters_.parts;
-    const int first_x = part % rules.subtiles_across * side;
-    const int first_y = part / rules.subtiles_across * side;
-    for (int block = 0; block < side * side; ++block) {
-      const auto at = static_cast<std::size_t>((first_y + block / side) * kSubtilesPerTile +
-                                               first_x + block % side);
-      const std::uint64_t free = next_turn(std::max(begin, free_from_[at]), interval);
-      counters_.hazard_cycles += free - begin;
-      free_from_[at] = free + loop;
-      begin = free + interval;
-      ++counters_.blocks;
-    }
-    state_->blend(in_part);
-    if (known == kNever && !state_->any_unfinished(reach_of(part, rules))) known = begin + depth;
-  });
+                  std::uint64_t& known = finished_from_[static_cast<std::size_t>(part)];
+                  if (known <= now && (config_.rendering.skip_finished || known == 0)) {
+                    ++counters_.parts_finished;
+                    return;
+                  }
+                  ++counters_.parts;
+                  const int first_x = part % rules.subtiles_across * side;
+                  const int first_y = part / rules.subtiles_across * side;
+                  for (int block = 0; block < side * side; ++block) {
+                    const auto at = static_cast<std::size_t>(
+                        (first_y + block / side) * kSubtilesPerTile + first_x + block % side);
+                    const std::uint64_t free = next_turn(std::max(begin, free_from_[at]), interval);
+                    counters_.hazard_cycles += free - begin;
+                    free_from_[at] = free + loop;
+                    begin = free + interval;
+                    ++counters_.blocks;
+                  }
+                  state_->blend(in_part);
+                  if (known == kNever && !state_->any_unfinished(reach_of(part, rules)))
+                    known = begin + depth;
+                });
   if (state_->saturated() && !told_) {
     told_ = true;
     finished_.finish(entry.tile, begin - now + depth);
@@ -231,7 +232,8 @@ SramUses RenderCore::sram_uses(const GscoreConfig& c) {
                {{c.rendering.pixel_buffers, "tiles"}, {kTilePixels, "px"}, {state_bytes(c), "B"}},
                {8 * state_bytes(c), SramPorts::kReadAndWrite, banks}, {banks, banks}),
       sram_use(kMask, kBuffer, {{parts_of(c), "parts"}, {1, "B"}}, {8 * parts_of(c)}, kOneOfEach),
-      unanswered_writes(kPixelWrites, kBuffer, c.memory_port, kTilePx * pixel_bytes(c.framebuffer))};
+      unanswered_writes(kPixelWrites, kBuffer, c.memory_port,
+                        kTilePx * pixel_bytes(c.framebuffer))};
   add(uses, outstanding_table(kBuffer, c.memory_port), 2);
   return uses;
 }

@@ -69,10 +69,10 @@ class RenderCore : public sc_core::sc_module {
 
   std::shared_ptr<GroupState> state_;  // of the tile that is blended
   bool in_tile_ = false;
-  bool told_ = false;                                  // that it is finished
-  std::vector<std::uint64_t> free_from_;               // [16 px] cycle
-  std::vector<std::uint64_t> finished_from_;           // [part] cycle
-  std::uint32_t tile_ = 0;                             // for the waveform too
+  bool told_ = false;                         // that it is finished
+  std::vector<std::uint64_t> free_from_;      // [16 px] cycle
+  std::vector<std::uint64_t> finished_from_;  // [part] cycle
+  std::uint32_t tile_ = 0;                    // for the waveform too
 
   struct Counters {
     std::uint64_t tiles = 0, tiles_finished = 0;

@@ -11,13 +11,14 @@
 namespace sgs::gscore {
 namespace {
 
-constexpr const char *kStages = "list blocks", *kLists = "lists on chip", *kPlaces = "keys of subsets",
-                     *kSubsetLines = "lines of subsets", *kSubsetEnds = "ends of subsets",
-                     *kChunkKeys = "chunk keys", *kChunkPlaces = "chunk places",
-                     *kSubsetWrites = "subset writes", *kLoaded = "loaded lists";
+constexpr const char *kStages = "list blocks", *kLists = "lists on chip",
+                     *kPlaces = "keys of subsets", *kSubsetLines = "lines of subsets",
+                     *kSubsetEnds = "ends of subsets", *kChunkKeys = "chunk keys",
+                     *kChunkPlaces = "chunk places", *kSubsetWrites = "subset writes",
+                     *kLoaded = "loaded lists";
 constexpr std::uint32_t kStageBlocks = 2;
-constexpr std::uint32_t kPlaceBytes = 2;       // of an entry in a list, of one in a chunk
-constexpr std::uint32_t kLoadedBytes = 16;     // tile, count, keys
+constexpr std::uint32_t kPlaceBytes = 2;    // of an entry in a list, of one in a chunk
+constexpr std::uint32_t kLoadedBytes = 16;  // tile, count, keys
 
 // Each QSU: the pivots, and the least and the greatest key.
 constexpr std::uint32_t kQsuComparators = kPivots + 2;
@@ -121,8 +122,8 @@ void TileSorter::load_on_chip(std::uint32_t tile, const std::vector<TileEntry>& 
   loaded_.push({EntryMark::kEntry, tile, entries, keys}, load_);
 }
 
-TileSorter::Block TileSorter::ask_for(const Chain& list, std::uint32_t block,
-                                      std::uint32_t entries, std::size_t stage) {
+TileSorter::Block TileSorter::ask_for(const Chain& list, std::uint32_t block, std::uint32_t entries,
+                                      std::size_t stage) {
   Block asked;
   asked.entries = std::min(entries, blocks_.block_entries());
   const std::uint32_t bytes = blocks_.used_bytes(asked.entries);
@@ -268,8 +269,7 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
     return;
   }
   // Once through the QSU for the subsets' sizes, once more to their places.
-  const Pivots pivots =
-      level == 0 ? sampled_pivots(entries, entries.size()) : ranged_pivots(keys);
+  const Pivots pivots = level == 0 ? sampled_pivots(entries, entries.size()) : ranged_pivots(keys);
   std::array<std::vector<TileEntry>, kSubsets> subsets;
   std::array<KeyRange, kSubsets> ranges;
   for (const TileEntry& entry : entries) {
@@ -317,32 +317,30 @@ SramUses TileSorter::sram_uses(const GscoreConfig& c) {
   const BlockFormat blocks = c.blocks();
   constexpr auto kPorts = SramPorts::kReadAndWrite;
   const std::uint32_t key_bits = compared_bits(c);
-  return {
-      sram_use(kStages, kBuffer, {{kStageBlocks, "blocks"}, {blocks.block_bytes(), "B"}},
-               {8 * kPortBytes}, kOneOfEach),
-      // 16 entries go to the network at once.
-      sram_use(kLists, kBuffer,
-               {{c.sorting.list_buffers, "lists"},
-                {c.sorting.list_entries, "entries"},
-                {blocks.entry.bytes(), "B"}},
-               {8 * blocks.entry.bytes(), kPorts, kNetworkWidth}, {kNetworkWidth, 1}),
-      sram_use(kPlaces, kBuffer,
-               {{2, "lists"}, {c.sorting.list_entries, "keys"}, {key_bits / 8, "B"}},
-               {key_bits, kPorts, kNetworkWidth}, {kNetworkWidth, 1}),
-      sram_use(kSubsetLines, kBuffer, {{kSubsets, "subsets"}, {blocks.line_bytes, "B"}},
-               {8 * kLineWordBytes, kPorts, kLineBanks}, {kLineBanks, kLineBanks}),
-      sram_use(kSubsetEnds, kBuffer, {{kSubsets, "subsets"}, {ListEnd::kBytes, "B"}},
-               {8 * ListEnd::kBytes}, kOneOfEach),
-      sram_use(kChunkKeys, kBuffer, {{c.sorting.chunk_entries, "keys"}, {key_bits / 8, "B"}},
-               {key_bits, kPorts, kNetworkWidth}, {kNetworkWidth, kNetworkWidth}),
-      sram_use(kChunkPlaces, kBuffer,
-               {{2, "lists"}, {c.sorting.chunk_entries, "places"}, {kPlaceBytes, "B"}},
-               {8 * kPlaceBytes, kPorts, kNetworkWidth}, {kNetworkWidth, kNetworkWidth}),
-      sram_use(kLoaded, kBuffer,
-               {{c.sorting.list_buffers + 2, "lists"}, {kLoadedBytes, "B"}}, {8 * kLoadedBytes},
-               kOneOfEach),
-      outstanding_table(kBuffer, c.memory_port),
-      unanswered_writes(kSubsetWrites, kBuffer, c.memory_port, blocks.line_bytes)};
+  return {sram_use(kStages, kBuffer, {{kStageBlocks, "blocks"}, {blocks.block_bytes(), "B"}},
+                   {8 * kPortBytes}, kOneOfEach),
+          // 16 entries go to the network at once.
+          sram_use(kLists, kBuffer,
+                   {{c.sorting.list_buffers, "lists"},
+                    {c.sorting.list_entries, "entries"},
+                    {blocks.entry.bytes(), "B"}},
+                   {8 * blocks.entry.bytes(), kPorts, kNetworkWidth}, {kNetworkWidth, 1}),
+          sram_use(kPlaces, kBuffer,
+                   {{2, "lists"}, {c.sorting.list_entries, "keys"}, {key_bits / 8, "B"}},
+                   {key_bits, kPorts, kNetworkWidth}, {kNetworkWidth, 1}),
+          sram_use(kSubsetLines, kBuffer, {{kSubsets, "subsets"}, {blocks.line_bytes, "B"}},
+                   {8 * kLineWordBytes, kPorts, kLineBanks}, {kLineBanks, kLineBanks}),
+          sram_use(kSubsetEnds, kBuffer, {{kSubsets, "subsets"}, {ListEnd::kBytes, "B"}},
+                   {8 * ListEnd::kBytes}, kOneOfEach),
+          sram_use(kChunkKeys, kBuffer, {{c.sorting.chunk_entries, "keys"}, {key_bits / 8, "B"}},
+                   {key_bits, kPorts, kNetworkWidth}, {kNetworkWidth, kNetworkWidth}),
+          sram_use(kChunkPlaces, kBuffer,
+                   {{2, "lists"}, {c.sorting.chunk_entries, "places"}, {kPlaceBytes, "B"}},
+                   {8 * kPlaceBytes, kPorts, kNetworkWidth}, {kNetworkWidth, kNetworkWidth}),
+          sram_use(kLoaded, kBuffer, {{c.sorting.list_buffers + 2, "lists"}, {kLoadedBytes, "B"}},
+                   {8 * kLoadedBytes}, kOneOfEach),
+          outstanding_table(kBuffer, c.memory_port),
+          unanswered_writes(kSubsetWrites, kBuffer, c.memory_port, blocks.line_bytes)};
 }
 
 void TileSorter::publish(DataSheet& sheet) {
@@ -375,8 +373,8 @@ void TileSorter::publish(DataSheet& sheet) {
   sheet.operations("bsu", "exchange_bit", compared_bits(config_) * done);
   // To its place before the network a key passes four multiplexers of two.
   constexpr std::uint32_t kSelections = 4;
-  sheet.part("bsu", "select_bit", double{kMergeWidth} * (kNetworkWidth - 1) * compared_bits(config_),
-             1);
+  sheet.part("bsu", "select_bit",
+             double{kMergeWidth} * (kNetworkWidth - 1) * compared_bits(config_), 1);
   sheet.operations("bsu", "select_bit",
                    double{kSelections} * compared_bits(config_) * static_cast<double>(n.moves));
   constexpr std::uint32_t kQsus = 2;

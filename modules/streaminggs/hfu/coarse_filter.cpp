@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "modules/streaminggs/hfu/filter_datapaths.h"
 #include "modules/datapath/work_rates.h"
+#include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
 

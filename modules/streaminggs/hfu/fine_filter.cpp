@@ -6,8 +6,8 @@
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
-#include "modules/streaminggs/hfu/filter_datapaths.h"
 #include "modules/datapath/work_rates.h"
+#include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
 namespace {

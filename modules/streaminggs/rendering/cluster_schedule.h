@@ -24,8 +24,8 @@
 #include <vector>
 
 #include "algorithm/render/group_state.h"
-#include "modules/streaminggs/rendering/rendering_config.h"
 #include "modules/datapath/work_rates.h"
+#include "modules/streaminggs/rendering/rendering_config.h"
 
 namespace sgs {
 

@@ -6,8 +6,8 @@
 #include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
 #include "algorithm/voxel/voxel_cuts.h"
-#include "modules/streaminggs/vsu/rays_in_flight.h"
 #include "modules/datapath/work_rates.h"
+#include "modules/streaminggs/vsu/rays_in_flight.h"
 
 namespace sgs {
 namespace {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "algorithm/voxel/ray_path.h"
+#include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
-#include "modules/datapath/work_rates.h"
 
 namespace sgs {
 namespace {

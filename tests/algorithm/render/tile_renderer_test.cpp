@@ -76,7 +76,8 @@ TEST_CASE("tile-centric equals the reference: needles across the frame") {
     for (float& logit : cloud.opacity_logits) logit = 3;
     for (const TileOrderConfig& config : lossless_configs()) {
       CAPTURE(seed);
-      check_lossless(make_view<float>(test::forward_camera(200, 150, 150)), activate(cloud), config);
+      check_lossless(make_view<float>(test::forward_camera(200, 150, 150)), activate(cloud),
+                     config);
     }
   }
 }
