@@ -10,7 +10,7 @@
 #include "algorithm/input_error.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/tile_blend.h"
-#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/frame_sides.h"
 
 namespace sgs {
 namespace {
@@ -34,10 +34,11 @@ std::vector<TileSplat> project_block(const View<float>& view, const ActivatedClo
                                      const TileOrderConfig& config, std::size_t begin,
                                      std::size_t end, TileStats& stats) {
   std::vector<TileSplat> out;
+  const FrameSides<float> sides = frame_sides(view);
   for (std::size_t i = begin; i != end; ++i) {
     const Gaussian<float>& g = cloud.gaussians[i];
     const float scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
-    if (!may_touch_frame(view, g.mean, scale_max)) {
+    if (!may_touch_frame(view, sides, g.mean, scale_max)) {
       ++stats.culled;
       continue;
     }
@@ -142,11 +143,6 @@ TileStats& TileStats::operator+=(const TileStats& o) {
   contributing += o.contributing;
   misordered += o.misordered;
   return *this;
-}
-
-bool may_touch_frame(const View<float>& view, const glm::vec3& mean, float scale_max) {
-  const CoarseBound bound = coarse_bound(view, mean, scale_max);
-  return bound.in_front && touches(bound, PixelRect{0, 0, view.width, view.height});
 }
 
 TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,

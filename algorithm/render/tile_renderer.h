@@ -35,7 +35,7 @@ struct TileOrderConfig {
 
 struct TileStats {
   std::uint64_t gaussians = 0;
-  std::uint64_t culled = 0;         // by centre and largest scale: they cannot touch the frame
+  std::uint64_t culled = 0;         // by frame_sides.h: they cannot touch the frame
   std::uint64_t projected = 0;      // that are listed in a tile
   std::uint64_t tile_tests = 0;     // (Gaussian, tile) candidates
   std::uint64_t subtile_tests = 0;  // parts of tiles tested
@@ -58,9 +58,6 @@ struct TileResult {
   RenderResult frame;
   TileStats stats;
 };
-
-// Whether a Gaussian may touch the frame, of which only the centre and the largest scale are known.
-bool may_touch_frame(const View<float>& view, const glm::vec3& mean, float scale_max);
 
 // Deterministic whatever the number of threads. Throws InputError when more Gaussians are projected
 // than an entry can tell apart.

@@ -6,6 +6,7 @@
 
 #include "algorithm/splat/counting.h"
 #include "algorithm/splat/counting_half.h"
+#include "algorithm/splat/frame_sides.h"
 #include "algorithm/splat/make_splat.h"
 
 namespace sgs {
@@ -46,6 +47,18 @@ FilterCase longest_tile_case() {
   FilterCase out = longest_case();
   out.gaussian.scale = {0.5F, 0.04F, 0.11F};
   return out;
+}
+
+DataFlow cull_flow() {
+  DataFlow flow;
+  const FilterCase of = longest_case();
+  const auto view = make_view<Counting>(of.camera);
+  const auto mean = from_outside(flow, of.gaussian.mean);
+  const Counting scale = input(flow, 0.35F);
+  flow.pass_beside(kBesideTileWork);
+  static_cast<void>(may_touch_frame(view, frame_sides(view), mean, scale));
+  keep_values(flow, {mean.x, mean.y, mean.z, scale});
+  return flow;
 }
 
 DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records) {

@@ -16,6 +16,9 @@ namespace sgs {
 // An ellipse that is long enough for a box along its axes: longest_case() with other scales.
 FilterCase longest_tile_case();
 
+// What drops a Gaussian that cannot touch the frame, of one that may.
+DataFlow cull_flow();
+
 // To the screen, boxes, colour; with half_records rounded to what its record and key hold. Of the
 // longest way: a Gaussian whose box along its axes is asked.
 DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records);

@@ -42,6 +42,7 @@ void visit(ConfigVisitor& v, CcuConfig& c) {
   v("convert_lanes", c.convert_lanes, in_range(1, 1024), "MAC lanes that project and colour");
   v("slice_gaussians", c.slice_gaussians, in_range(1, 256), "first halves read at once");
   v("input_slots", c.input_slots, in_range(1, 64), "slices on their way or waiting");
+  v("candidates", c.candidates, in_range(1, 1024), "that wait for their second halves");
   v("second_half_slots", c.second_half_slots, in_range(1, 256),
     "second halves on their way or waiting");
   v("output_entries", c.output_entries, in_range(1, 1024), "converted Gaussians that wait");

@@ -28,8 +28,9 @@ struct CcuConfig {
   std::uint32_t cull_lanes = 8, convert_lanes = 16;
   std::uint32_t slice_gaussians = 8;    // first halves read at once
   std::uint32_t input_slots = 4;        // slices on their way or waiting
+  std::uint32_t candidates = 32;        // that wait for their second halves to be asked for
   std::uint32_t second_half_slots = 8;  // second halves on their way or waiting
-  std::uint32_t output_entries = 4;     // converted Gaussians that wait for the lister
+  std::uint32_t output_entries = 8;     // converted Gaussians that wait for the lister
 };
 
 struct ListsConfig {

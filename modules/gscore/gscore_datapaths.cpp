@@ -40,13 +40,7 @@ Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
 }  // namespace
 
 Datapath cull_pipeline(const GscoreConfig& config) {
-  constexpr auto kBy = CoarseBoundBy::kLargestScale;
-  Datapath path = counted_datapath("cull", "ccu", coarse_work(kBy, longest_case()));
-  path.lanes = config.ccu.cull_lanes;
-  const auto steps = coarse_steps(kBy, longest_case(), 1, config.single());
-  schedule(path, steps, config.single());
-  set_by_frame(path, steps);
-  return path;
+  return counted("cull", "ccu", cull_flow(), config.ccu.cull_lanes, config.single());
 }
 
 // Scheduling takes longest of all, and every CCU, the budget and the report ask.

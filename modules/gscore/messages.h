@@ -17,22 +17,25 @@ struct Pass {
   bool over = false;
 };
 
-// Within a CCU: a Gaussian that may touch the frame, or the end of a slice.
+// Within a CCU: a Gaussian that may touch the frame, or the end of a slice whose last Gaussian
+// cannot.
 struct Candidate {
   static constexpr std::uint32_t kSramBytes = 20;  // slot, centre, largest scale
+  bool there = false;                              // a Gaussian
+  bool last = false;                               // of its slice
+  bool over = false;                               // no more slices
   std::uint32_t slot = 0;
   SplitFirstHalf first{};
-  bool end = false, over = false;
   std::uint64_t ticket = 0;  // of the second half's read
   std::uint32_t buffer = 0;  // where it lands
 };
 
-// CCU -> lister: a Gaussian with its boxes, or the end of a slice.
+// CCU -> lister: a Gaussian with its boxes, or the end of a slice whose last Gaussian has none.
 struct Converted {
   static constexpr std::uint32_t kSramBytes = 108;  // record, key, tiles, parts, box, its limits
+  bool there = false, last = false;
   Splat splat{};
   TileBoxes boxes{};
-  bool end = false;
 };
 
 // Sorter -> lister: a tile is wanted.

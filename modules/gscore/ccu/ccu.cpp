@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "algorithm/render/tile_renderer.h"
 #include "algorithm/splat/make_splat.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
@@ -18,6 +17,12 @@ std::uint32_t words_of(std::uint32_t bytes) {
   return static_cast<std::uint32_t>(cycles_for(bytes, kPortBytes));
 }
 
+// Behind a pipeline a FIFO has room for what is in it.
+std::uint32_t candidates_of(const GscoreConfig& config, const Datapath& cull) {
+  return static_cast<std::uint32_t>(config.ccu.candidates +
+                                    cycles_for(cull.depth_cycles, cull.interval_cycles()));
+}
+
 }  // namespace
 
 Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitContext& context)
@@ -27,6 +32,7 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
       index_(index),
       config_(context.config),
       job_(context.job),
+      sides_(frame_sides(job_.view)),
       cull_path_(cull_pipeline(config_)),
       convert_path_(convert_pipeline(config_, job_.layout.sh_degree())),
       second_bytes_(job_.layout.second_halves.record_bytes),
@@ -38,13 +44,10 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
       second_halves_(std::size_t{config_.ccu.second_half_slots} * second_bytes_),
       slices_("slices", context.clock, config_.ccu.input_slots),
       free_input_("free_input", context.clock, config_.ccu.input_slots, 0),
-      // Behind a pipeline a FIFO has room for what is in it.
-      culled_("culled", context.clock,
-              static_cast<std::uint32_t>(
-                  2 + cycles_for(cull_path_.depth_cycles, cull_path_.interval_cycles())),
-              cull_path_.depth_cycles),
+      culled_("culled", context.clock, candidates_of(config_, cull_path_), cull_path_.depth_cycles),
       fetched_("fetched", context.clock, config_.ccu.second_half_slots + 1),
-      free_second_("free_second", context.clock, config_.ccu.second_half_slots, 0) {
+      free_second_("free_second", context.clock, config_.ccu.second_half_slots,
+                   words_of(second_bytes_)) {
   SC_THREAD(run_load);
   SC_THREAD(run_cull);
   SC_THREAD(run_fetch);
@@ -56,9 +59,9 @@ std::byte* Ccu::input(std::uint32_t slot, std::uint32_t at) {
          (std::size_t{slot} * config_.ccu.slice_gaussians + at) * std::size_t{kFirstHalfBytes};
 }
 
-void Ccu::work_in_turn(Activity& activity, std::uint64_t interval) {
+void Ccu::wait_for_turn(Activity& activity, std::uint64_t interval) {
   const std::uint64_t now = activity.clock().now_cycles();
-  activity.work(next_turn(now, interval) - now + interval);
+  activity.work(next_turn(now, interval) - now);
 }
 
 void Ccu::run_load() {
@@ -89,38 +92,38 @@ void Ccu::load_pass() {
   }
 }
 
+// The end of a slice goes with its last Gaussian, in its place if that is dropped.
 void Ccu::run_cull() {
-  Candidate mark;
-  mark.end = true;
+  const std::uint64_t interval = cull_path_.interval_cycles();
   for (Slice slice = slices_.pop(cull_); !slice.over; slice = slices_.pop(cull_)) {
     await(first_memory, cull_, slice.ticket);
     for (std::uint32_t i = 0; i < slice.count; ++i) {
-      work_in_turn(cull_, cull_path_.interval_cycles());
+      wait_for_turn(cull_, interval);
+      cull_.work(interval);
       Candidate candidate;
       candidate.slot = slice.first + i;
       candidate.first = read_first_half(job_.layout.split, input(slice.slot, i));
-      if (may_touch_frame(job_.view, candidate.first.mean, candidate.first.extents.scale_max)) {
-        culled_.push(candidate, cull_);
-      } else {
-        ++counters_.culled;
-      }
+      candidate.there = may_touch_frame(job_.view, sides_, candidate.first.mean,
+                                        candidate.first.extents.scale_max);
+      candidate.last = i + 1 == slice.count;
+      counters_.culled += candidate.there ? 0 : 1;
+      if (candidate.there || candidate.last) culled_.push(candidate, cull_);
     }
     free_input_.push(slice.slot, cull_);
-    cull_.work(1);
-    culled_.push(mark, cull_);
   }
-  mark.over = true;
+  Candidate over;
+  over.over = true;
   cull_.work(1);
-  culled_.push(mark, cull_);
+  culled_.push(over, cull_);
   cull_.idles();
 }
 
 void Ccu::run_fetch() {
   for (std::uint32_t s = 0; s < config_.ccu.second_half_slots; ++s) free_second_.push(s, fetch_);
   for (Candidate next = culled_.pop(fetch_);; next = culled_.pop(fetch_)) {
-    if (!next.end) next.buffer = free_second_.pop(fetch_, WaitFor::kRoom);
+    if (next.there) next.buffer = free_second_.pop(fetch_, WaitFor::kRoom);
     fetch_.work(1);
-    if (!next.end) {
+    if (next.there) {
       next.ticket = start_read(second_memory, fetch_, job_.layout.second_halves.address(next.slot),
                                second_halves_.data() + std::size_t{next.buffer} * second_bytes_,
                                second_bytes_, job_.layout.second_halves.region);
@@ -133,41 +136,42 @@ void Ccu::run_fetch() {
 }
 
 void Ccu::run_convert() {
-  while (true) {
-    const Candidate candidate = fetched_.pop(convert_);
-    if (candidate.over) break;
-    if (!candidate.end) {
-      convert(candidate);
-      continue;
+  while (!fetched_.front(convert_).over) {
+    Converted out;
+    out.last = fetched_.front(convert_).last;
+    if (fetched_.front(convert_).there) {
+      convert(out);
+    } else {
+      fetched_.remove_front();
+      convert_.work(1);
     }
-    convert_.work(1);
-    Converted mark;
-    mark.end = true;
-    converted->push(mark, convert_);
+    if (out.there || out.last) converted->push(out, convert_);
   }
+  fetched_.remove_front();
   convert_.idles();
 }
 
-// A record leaves its buffer a word a cycle while it is converted.
-void Ccu::convert(const Candidate& candidate) {
+// What waits for its turn stays where it is until then. A record leaves its buffer a word a cycle.
+void Ccu::convert(Converted& out) {
+  const Candidate candidate = fetched_.front(convert_);
   await(second_memory, convert_, candidate.ticket);
+  const std::uint64_t interval = convert_path_.interval_cycles();
+  wait_for_turn(convert_, interval);
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * second_bytes_;
   const DecodedGaussian g =
       read_record(job_.layout.split, job_.layout.second_half, candidate.first.mean,
                   candidate.first.carried, record, nullptr);
-  ++counters_.converted;
-  const std::uint64_t interval = convert_path_.interval_cycles();
-  const std::uint64_t now = convert_.clock().now_cycles();
-  convert_.work(next_turn(now, interval) - now +
-                std::max<std::uint64_t>(interval, words_of(second_bytes_)));
+  fetched_.remove_front();
   free_second_.push(candidate.buffer, convert_);
-  Converted out;
-  if (!make_tile_geometry(job_.view, g.gaussian, config_.tiles.rules(), out.splat, out.boxes)) {
+  ++counters_.converted;
+  convert_.work(std::max<std::uint64_t>(interval, words_of(second_bytes_)));
+  out.there =
+      make_tile_geometry(job_.view, g.gaussian, config_.tiles.rules(), out.splat, out.boxes);
+  if (!out.there) {
     ++counters_.unseen;
     return;
   }
   add_colour(job_.view, job_.layout.sh_degree(), g.gaussian.mean, g.sh, out.splat);
-  converted->push(out, convert_);
 }
 
 SramUses Ccu::sram_uses(const GscoreConfig& config) {
@@ -182,10 +186,7 @@ SramUses Ccu::sram_uses(const GscoreConfig& config) {
       sram_use(kSecondHalves, kBuffer, {{c.second_half_slots, "slots"}, {kMaxSecondHalfBytes, "B"}},
                {8 * kPortBytes}, kOneOfEach),
       fifo_use<Slice>(kSlices, kBuffer, c.input_slots, "slices"),
-      fifo_use<Candidate>(
-          kCulled, kBuffer,
-          static_cast<std::uint32_t>(2 + cycles_for(cull.depth_cycles, cull.interval_cycles())),
-          "candidates"),
+      fifo_use<Candidate>(kCulled, kBuffer, candidates_of(config, cull), "candidates"),
       fifo_use<Candidate>(kFetched, kBuffer, c.second_half_slots + 1, "candidates")};
   add(uses, outstanding_table(kBuffer, config.memory_port), 2);
   return uses;
@@ -223,6 +224,7 @@ void Ccu::publish(DataSheet& sheet) {
   sheet.remedy(second_memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.remedy(slices_, WaitFor::kRoom, "ccu.input_slots");
   sheet.remedy(free_input_, WaitFor::kRoom, "ccu.input_slots");
+  sheet.remedy(culled_, WaitFor::kRoom, "ccu.candidates");
   sheet.remedy(fetched_, WaitFor::kRoom, "ccu.second_half_slots");
   sheet.remedy(free_second_, WaitFor::kRoom, "ccu.second_half_slots");
   sheet.may_help("ccus");

@@ -10,6 +10,7 @@
 #include <systemc>
 #include <vector>
 
+#include "algorithm/splat/frame_sides.h"
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/messages.h"
 #include "tlm/data_sheet.h"
@@ -51,14 +52,15 @@ class Ccu : public sc_core::sc_module {
   void run_convert();  // thread
 
   void load_pass();
-  void convert(const Candidate& candidate);
+  void convert(Converted& out);
   std::byte* input(std::uint32_t slot, std::uint32_t at);
-  // In the next turn of a pipeline, `interval` cycles long.
-  static void work_in_turn(Activity& activity, std::uint64_t interval);
+  // Of a pipeline: `interval` cycles long.
+  static void wait_for_turn(Activity& activity, std::uint64_t interval);
 
   const std::uint32_t index_;
   const GscoreConfig config_;
   const GscoreJob& job_;
+  const FrameSides<float> sides_;
   const Datapath cull_path_, convert_path_;
   const std::uint32_t second_bytes_;
   Activity load_, cull_, fetch_, convert_;

@@ -59,14 +59,20 @@ void TileLister::run_test() {
   for (Pass pass = test_passes_.pop(test_); !pass.over; pass = test_passes_.pop(test_)) {
     for (std::uint64_t s = 0; s < slices; ++s) {
       FifoReadIf<Converted>& ccu = in_turn(converted, s);
-      for (Converted next = ccu.pop(test_); !next.end; next = ccu.pop(test_)) {
-        test_tiles(next, pass);
+      for (bool last = false; !last;) {
+        const Converted next = ccu.pop(test_);
+        last = next.last;
+        if (next.there) {
+          test_tiles(next, pass);
+        } else {
+          test_.work(1);
+          ++counters_.ends_alone;
+        }
       }
-      test_.work(1);
-      ++counters_.slices;
     }
     ListedTile end;
     end.end = true;
+    test_.work(1);
     listed_.push(end, test_);
   }
   test_.idles();
@@ -74,6 +80,7 @@ void TileLister::run_test() {
 
 // Tiles of rows that the pass has, each in a turn of the lanes.
 void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
+  ++counters_.gaussians;
   const auto columns = static_cast<int>(job_.columns);
   const PixelRect& tiles = gaussian.boxes.tiles;
   const int first_row = static_cast<int>(pass.first) / columns;
@@ -286,9 +293,10 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.counter("passes", "passes", "over the scene", counters_.passes);
   sheet.counter("passes_overflowed", "passes", "of these made again: the pool was too small",
                 counters_.overflowed);
-  sheet.counter("slices", "slices", "of Gaussians taken", counters_.slices);
+  sheet.counter("ends_alone", "slices", "whose last Gaussian is on no tile", counters_.ends_alone);
   sheet.counter("tile_tests", "tiles", "tested, once for each Gaussian", counters_.tile_tests);
-  sheet.counter("gaussians_off_pass", "Gaussians", "that have tiles in other passes only",
+  sheet.counter("gaussians", "Gaussians", "taken, once for each pass", counters_.gaussians);
+  sheet.counter("gaussians_off_pass", "Gaussians", "of these with tiles in other passes only",
                 counters_.off_pass);
   sheet.counter("pairs", "entries", "a Gaussian in a tile each", counters_.pairs);
   sheet.counter("records", "Gaussians", "projected, written", counters_.records);
@@ -306,6 +314,10 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.accesses(kWaitingRecords, counters_.record_words, counters_.record_words);
   sheet.part("lists", "comparator", kComparators, 1);
   sheet.operations("lists", "comparator", static_cast<double>(kComparators * counters_.pairs));
+  // The Gaussian whose tiles are tested.
+  constexpr double kTestedBits = 8.0 * Converted::kSramBytes;
+  sheet.part("lists", "register_bit", kTestedBits, 1);
+  sheet.operations("lists", "register_bit", kTestedBits * static_cast<double>(counters_.gaussians));
   sheet.datapath(tile_path_, counters_.tile_tests);
   sheet.queue(test_passes_, kTestPasses);
   sheet.queue(listed_, kListed);

@@ -83,7 +83,8 @@ class TileLister : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t passes = 0, overflowed = 0;
-    std::uint64_t slices = 0, tile_tests = 0, off_pass = 0, pairs = 0, records = 0;
+    std::uint64_t gaussians = 0, ends_alone = 0, tile_tests = 0, off_pass = 0, pairs = 0,
+                  records = 0;
     std::uint64_t lines_full = 0, lines_displaced = 0;
     std::uint64_t blocks = 0;
     std::uint64_t list_max = 0, tiles = 0, tiles_empty = 0;

@@ -96,22 +96,20 @@ void RenderCore::run_fetch() {
 
 void RenderCore::run_blend() {
   for (EntryMark mark = EntryMark::kEntry; mark != EntryMark::kEndOfFrame;) {
-    const Fetched next = fetched_.pop(blend_);
+    const Fetched next = fetched_.front(blend_);
     mark = next.entry.mark;
     if (mark == EntryMark::kEndOfPass || mark == EntryMark::kEndOfFrame) {
+      fetched_.remove_front();
       blend_.work(1);
       finished_states_.push({mark, nullptr}, blend_);
       continue;
     }
     if (!in_tile_) begin_tile(next.entry.tile);
     if (mark == EntryMark::kEntry) {
-      await(record_memory, blend_, next.ticket);
-      const Splat splat = decode_projected(
-          config_.tiles.features, records_.data() + std::size_t{next.slot} * record_bytes_);
-      blend(next.entry, splat);
-      free_records_.push(next.slot, blend_);
+      take(next);
       continue;
     }
+    fetched_.remove_front();
     ++counters_.tiles;
     counters_.tiles_finished += state_->saturated() ? 1 : 0;
     counters_.contributors += state_->contributors();
@@ -140,13 +138,26 @@ void RenderCore::begin_tile(std::uint32_t tile) {
   }
 }
 
+// What waits for its turn stays where it is until then.
+void RenderCore::take(const Fetched& next) {
+  await(record_memory, blend_, next.ticket);
+  if (finished_.finished(next.entry.tile)) {
+    ++counters_.dropped_fetched;
+    fetched_.remove_front();
+    blend_.work(1);
+  } else {
+    const std::uint64_t now = blend_.clock().now_cycles();
+    blend_.work(next_turn(now, blend_path_.interval_cycles()) - now);
+    fetched_.remove_front();
+    blend(next.entry, decode_projected(config_.tiles.features,
+                                       records_.data() + std::size_t{next.slot} * record_bytes_));
+  }
+  free_records_.push(next.slot, blend_);
+}
+
+// In its turn.
 void RenderCore::blend(const SortedEntry& entry, const Splat& splat) {
   const std::uint64_t now = blend_.clock().now_cycles();
-  if (finished_.finished(entry.tile)) {
-    ++counters_.dropped_fetched;
-    blend_.work(1);
-    return;
-  }
   ++counters_.splats;
   const TileRules rules = config_.tiles.rules();
   const int side = kSubtilesPerTile / rules.subtiles_across;
@@ -154,7 +165,7 @@ void RenderCore::blend(const SortedEntry& entry, const Splat& splat) {
   const std::uint64_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
   const std::uint64_t depth =
       conic_path_.depth_cycles + blend_path_.depth_cycles + kReadCycles + kWriteCycles;
-  std::uint64_t begin = next_turn(now, interval);
+  std::uint64_t begin = now;
   for_each_part(rules, job_.tile_x(entry.tile), job_.tile_y(entry.tile), entry.bitmap, splat,
                 [&](const Splat& in_part, int part) {
                   std::uint64_t& known = finished_from_[static_cast<std::size_t>(part)];
@@ -182,7 +193,7 @@ void RenderCore::blend(const SortedEntry& entry, const Splat& splat) {
     told_ = true;
     finished_.finish(entry.tile, begin - now + depth);
   }
-  blend_.work(std::max<std::uint64_t>(begin - now, 1));
+  blend_.work(std::max<std::uint64_t>(begin - now, record_words(config_)));
 }
 
 void RenderCore::run_drain() {

@@ -52,6 +52,7 @@ class RenderCore : public sc_core::sc_module {
   void run_blend();  // thread
   void run_drain();  // thread
   void begin_tile(std::uint32_t tile);
+  void take(const Fetched& next);
   void blend(const SortedEntry& entry, const Splat& splat);
   void write_tile(const GroupState& state);
 

@@ -102,6 +102,7 @@ void TileSorter::load(std::uint32_t tile, const Chain& list, std::uint32_t level
     open = false;
   };
   read_chain(list, [&](std::vector<TileEntry>& entries) {
+    load_.work(entries.size());
     for (const TileEntry& entry : entries) {
       if (!open) {
         free_lists_.pop(load_, WaitFor::kRoom);
@@ -111,7 +112,6 @@ void TileSorter::load(std::uint32_t tile, const Chain& list, std::uint32_t level
       keys.take(entry.key);
       if (held.size() == config_.sorting.list_entries) hand_on();
     }
-    load_.work(entries.size());
     counters_.entries_loaded += entries.size();
   });
   if (open) hand_on();

@@ -1,12 +1,13 @@
-// The bounds of footprint.h, coarse_bound.h and extent_bound.h never remove a pixel whose computed
-// alpha is visible: seeded random Gaussians, needles of ratio 10^10, giants and the near plane
-// among them.
+// The bounds of footprint.h, coarse_bound.h, extent_bound.h and frame_sides.h never remove a pixel
+// whose computed alpha is visible: seeded random Gaussians, needles of ratio 10^10, giants and the
+// near plane among them.
 #include <catch2/catch.hpp>
 #include <vector>
 
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/extent_bound.h"
+#include "algorithm/splat/frame_sides.h"
 #include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/row_span.h"
@@ -48,6 +49,7 @@ struct Counts {
   long spanned = 0;      // of the footprint's, in the spans of their rows
   long coarse_kept = 0;  // Gaussians that the coarse bound keeps in the frame
   long extent_kept = 0;  // and the bound on extents
+  long sides_kept = 0;   // and the frame's sides
 };
 
 // Bounds of each row of sub-tiles of a footprint.
@@ -95,6 +97,8 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
   REQUIRE(by_extents.depth == bound.depth);
   counts.coarse_kept += touches(bound, frame_of(view));
   counts.extent_kept += touches(by_extents, frame_of(view));
+  const bool beside = !may_touch_frame(view, frame_sides(view), g.mean, scale_max);
+  counts.sides_kept += !beside;
   const auto p = project(view, g, v);
   const PixelRect tiles = tile_rect(p.x, p.y, p.radius, view.width, view.height);
   const SubtileRect cut = footprint(p, g.opacity, view.width, view.height);
@@ -113,6 +117,7 @@ void check_gaussian(const View<float>& view, const Gaussian<float>& g, Counts& c
       drawn = true;
       ++counts.visible_px;
       hit[subtile(x / kSubtilePx, y / kSubtilePx)] = 1;
+      if (beside) fail("the frame's sides", p, g.opacity, x, y);
       if (!holds(cut, x, y)) fail("the footprint", p, g.opacity, x, y);
       const auto row = rows[static_cast<std::size_t>(y / kSubtilePx - cut.y0)];
       const auto column = static_cast<float>(x);
@@ -160,7 +165,7 @@ void run(unsigned seed, double skew) {
     for (int i = 0; i < 1000; ++i) check_gaussian(view, random.gaussian(camera), counts);
   }
   CAPTURE(counts.drawn, counts.ill, counts.visible_px, counts.kept, counts.hit, counts.spanned,
-          counts.coarse_kept, counts.extent_kept);
+          counts.coarse_kept, counts.extent_kept, counts.sides_kept);
   // The test has seen what it is for, and the bounds are of use: most of what they keep is visible.
   CHECK(counts.drawn > 10000);
   CHECK(counts.ill > 300);
@@ -168,6 +173,7 @@ void run(unsigned seed, double skew) {
   CHECK(static_cast<double>(counts.hit) > 0.8 * static_cast<double>(counts.spanned));
   CHECK(counts.drawn > counts.coarse_kept / 2);
   CHECK(counts.extent_kept < counts.coarse_kept);
+  CHECK(static_cast<double>(counts.sides_kept) < 1.25 * static_cast<double>(counts.coarse_kept));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "algorithm/scene/gaussian_limits.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/extent_bound.h"
+#include "algorithm/splat/frame_sides.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
 #include "tests/algorithm/splat/random_gaussian.h"
@@ -79,6 +80,7 @@ TEST_CASE("within the limits of parameters nothing leaves float") {
       const auto scale_max = std::max({g.scale.x, g.scale.y, g.scale.z});
       const PixelRect frame{0, 0, view.width, view.height};
       REQUIRE(touches(coarse_bound(view, g.mean, scale_max), frame));
+      REQUIRE(may_touch_frame(view, frame_sides(view), g.mean, scale_max));
       const VisibleExtents known = decode_extents(encode_extents(visible_extents(g)));
       REQUIRE(touches(extent_bound(view, g.mean, known.extent, known.scale_max), frame));
     }
