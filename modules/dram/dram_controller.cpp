@@ -42,6 +42,9 @@ DramController::DramController(const sc_core::sc_module_name& name, const DramCo
   SC_METHOD(send_answers);
   sensitive << answers_waiting_;
   dont_initialize();
+  SC_METHOD(retry_all);
+  sensitive << room_;
+  dont_initialize();
 }
 
 void DramController::end_of_elaboration() { initiators_.resize(socket.size()); }
@@ -213,8 +216,19 @@ void DramController::on_wake(std::uint32_t index) {
     t.done = std::max(t.done, completion.cycle);
     if (--t.remaining == 0 && t.next >= t.end) finish(t);
   }
-  if (channel.blocked > 0) retry_blocked(index, cycle);
   schedule(index);
+  if (channel.blocked == 0) return;
+  channel.may_have_room = true;
+  room_.notify(sc_core::SC_ZERO_TIME);
+}
+
+void DramController::retry_all() {
+  for (std::uint32_t index = 0; index < channels_.size(); ++index) {
+    if (!channels_[index].may_have_room) continue;
+    channels_[index].may_have_room = false;
+    retry_blocked(index, now());
+    schedule(index);
+  }
 }
 
 void DramController::retry_blocked(std::uint32_t index, std::uint64_t cycle) {

@@ -98,6 +98,7 @@ class DramController : public sc_core::sc_module, public CommandSource {
     sc_core::sc_event wake;
     std::uint64_t wake_at = kNever;  // cycle of the earliest notification that is pending
     std::uint32_t blocked = 0;       // initiators that wait for room in it
+    bool may_have_room = false;      // for these: it has woken at this instant
     Channel(const DramConfig& config, const Memspec& memspec, std::uint8_t index, CommandSink& sink)
         : queued(config, memspec, index, sink), arrival_order(config, memspec, index, sink) {}
   };
@@ -129,6 +130,7 @@ class DramController : public sc_core::sc_module, public CommandSource {
   ChannelRequest next_request(Transaction& transaction, std::uint32_t& channel) const;
   bool feed(Transaction& transaction, std::uint64_t cycle);
   void on_wake(std::uint32_t channel);
+  void retry_all();  // method: the channels that have woken, whichever was first, in their order
   void retry_blocked(std::uint32_t channel, std::uint64_t cycle);
   void schedule(std::uint32_t channel);
   void finish(Transaction& transaction);
@@ -153,7 +155,7 @@ class DramController : public sc_core::sc_module, public CommandSource {
   std::vector<Initiator> initiators_;
   std::size_t next_retry_ = 0;  // initiator that is offered room first
   tlm_utils::peq_with_cb_and_phase<DramController> delayed_;  // requests with an annotated delay
-  sc_core::sc_event answers_waiting_;
+  sc_core::sc_event answers_waiting_, room_;
   std::deque<Transaction> transactions_;  // all ever made
   std::vector<Transaction*> free_transactions_;
   Transport transport_ = Transport::kUnused;

@@ -80,11 +80,15 @@ std::vector<Arguments> variants(const std::string& machine) {
              {"--weigh-by", "0"});
   const Arguments few_banks = joined(quantised, settings({"codebook.banks=2"}));
   const Arguments narrow = settings({"memory_port.max_outstanding=1", "dram.channels=1"});
-  const Arguments hasty =
-      settings({"rendering.feedback_latency_cycles=1", "lane_latency_cycles=1",
-                "half_lane_latency_cycles=1", "rendering.span_slots=1"});
+  const Arguments hasty = settings({"rendering.feedback_latency_cycles=1", "lane_latency_cycles=1",
+                                    "half_lane_latency_cycles=1", "rendering.span_slots=1"});
+  // So many reads at once that channels hold several ports back.
+  const Arguments crowded =
+      settings({"memory_port.max_outstanding=64", "hfu.second_half_slots=64", "hfu.input_slots=16",
+                "sram.shared_bytes=1073741824", "sram.input_bytes=1073741824"});
   std::vector<Arguments> out = {
       {},
+      crowded,
       kStalls,
       few_banks,
       joined(few_banks, kStalls),
