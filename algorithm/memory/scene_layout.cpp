@@ -1,6 +1,7 @@
 // Placing of a scene's regions.
 #include "algorithm/memory/scene_layout.h"
 
+#include "algorithm/memory/records.h"
 #include "algorithm/voxel/chunk_node.h"
 #include "algorithm/voxel/voxel_cuts.h"
 
@@ -19,7 +20,11 @@ void place_records(const SecondHalfFormat& format, const RecordSplit& split,
 }  // namespace
 
 RecordSplit split_of(StorageOrder order, const SecondHalfFormat& format) {
-  return order == StorageOrder::kChunks ? burst_split(format) : published_split(format);
+  const RecordSplit bursts = burst_split(format);
+  const bool every_first_half = order == StorageOrder::kFile;
+  const bool published = order == StorageOrder::kVoxels ||
+                         (every_first_half && bursts.first_bytes() > kFirstHalfBytes);
+  return published ? published_split(format) : bursts;
 }
 
 SceneLayout lay_out_voxels(const SecondHalfFormat& format, std::uint32_t gaussians,

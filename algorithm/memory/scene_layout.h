@@ -15,7 +15,8 @@ namespace sgs {
 // its layout: ../storage/storage_scheme.h.
 enum class StorageOrder : std::uint8_t { kVoxels, kChunks, kFile };
 
-// By chunks whole bursts count; by voxels and by file the halves are the paper's.
+// By voxels the halves are the paper's; by chunks whole bursts count, and by file, where every
+// first half is read, those that leave the first halves as short.
 RecordSplit split_of(StorageOrder order, const SecondHalfFormat& format);
 
 struct VoxelTableLayout {

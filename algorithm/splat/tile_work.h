@@ -19,8 +19,8 @@ FilterCase longest_tile_case();
 // What drops a Gaussian that cannot touch the frame, of one that may.
 DataFlow cull_flow();
 
-// To the screen, boxes, colour; with half_records rounded to what its record and key hold. Of the
-// longest way: a Gaussian whose box along its axes is asked.
+// From a record to the screen, boxes, colour; with half_records rounded to what its record and key
+// hold. Of the longest way: a Gaussian whose box along its axes is asked.
 DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records);
 
 // Of one tile and its parts, all of which are touched, by a box along the ellipse's axes: the

@@ -13,6 +13,8 @@
 
 namespace sgs::gscore {
 
+constexpr int kMostDegree = 3;  // of SH
+
 // How a Gaussian comes to its tiles, and in which numbers.
 struct TilesConfig {
   TileReach reach = TileReach::kThreeSigma;
@@ -25,19 +27,19 @@ struct TilesConfig {
 
 struct CcuConfig {
   // Multiply-accumulates of one CCU that cull and that convert.
-  std::uint32_t cull_lanes = 8, convert_lanes = 16;
-  std::uint32_t slice_gaussians = 8;    // first halves read at once
-  std::uint32_t input_slots = 4;        // slices on their way or waiting
-  std::uint32_t candidates = 32;        // that wait for their second halves to be asked for
-  std::uint32_t second_half_slots = 8;  // second halves on their way or waiting
-  std::uint32_t output_entries = 8;     // converted Gaussians that wait for the lister
+  std::uint32_t cull_lanes = 8, convert_lanes = 14;
+  std::uint32_t slice_gaussians = 8;     // first halves read at once
+  std::uint32_t input_slots = 4;         // slices on their way or waiting
+  std::uint32_t candidates = 16;         // that wait for their second halves to be asked for
+  std::uint32_t second_half_slots = 16;  // second halves on their way or waiting
+  std::uint32_t output_entries = 16;     // converted Gaussians that wait for the lister
 };
 
 struct ListsConfig {
   std::uint32_t tile_lanes = 32;     // multiply-accumulates that test tiles for all CCUs
   std::uint32_t tested_entries = 4;  // listed tiles that wait for the lines
   std::uint32_t tiles = 4096;        // of a pass at most: a frame with more takes several
-  std::uint32_t lines = 1024;        // in which entries of a tile are combined
+  std::uint32_t lines = 512;         // in which entries of a tile are combined
   std::uint32_t line_bytes = 64, block_lines = 8;
   std::uint64_t pool_bytes = 268435456;  // of lists in memory
 };
@@ -52,7 +54,7 @@ struct RenderingConfig {
   BlendPrecision precision = BlendPrecision::kHalf;  // of blending and of the pixels on chip
   std::uint32_t core_lanes = 0;  // multiply-accumulates of the 16 VRUs; 0: a pixel a cycle each
   std::uint32_t sorted_entries = 256;  // that wait for their records
-  std::uint32_t record_slots = 16;     // records on their way or waiting
+  std::uint32_t record_slots = 48;     // records on their way or waiting
   std::uint32_t pixel_buffers = 2;     // tiles whose pixels are in a core
   std::uint32_t drain_pixels_per_cycle = 4;
   bool skip_finished = true;  // parts of a tile in which every pixel is finished

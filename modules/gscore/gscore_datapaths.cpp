@@ -14,8 +14,6 @@
 namespace sgs::gscore {
 namespace {
 
-constexpr int kMostDegree = 3;
-
 // Frame constants are the same for all copies: set once a frame.
 void set_by_frame(Datapath& path, const std::vector<LaneStep>& steps) {
   path.set_bits = kSingleBits * constants_of(steps);

@@ -22,7 +22,7 @@ std::uint32_t converted_entries(const GscoreConfig& c, const Datapath& conversio
 // For scenes of any SH degree.
 std::uint32_t most_converted_entries(const GscoreConfig& c) {
   std::uint32_t most = 0;
-  for (int degree = 0; degree <= 3; ++degree) {
+  for (int degree = 0; degree <= kMostDegree; ++degree) {
     most = std::max(most, converted_entries(c, convert_pipeline(c, degree)));
   }
   return most;

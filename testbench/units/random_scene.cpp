@@ -90,10 +90,18 @@ TestScene random_scene(std::mt19937_64& random, const SceneShape& shape) {
   job.parts = {job.groups};
   // Records as the order has them, in the order of the grid; the tree's nodes are not read.
   constexpr std::uint32_t kChunkGaussians = 16;
-  scene.image =
-      shape.order == StorageOrder::kChunks
-          ? build_memory_image(encoded, arrange_by_chunks(encoded.decoded, kChunkGaussians).table)
-          : build_memory_image(encoded, scene.grid);
+  switch (shape.order) {
+    case StorageOrder::kVoxels:
+      scene.image = build_memory_image(encoded, scene.grid);
+      break;
+    case StorageOrder::kChunks:
+      scene.image =
+          build_memory_image(encoded, arrange_by_chunks(encoded.decoded, kChunkGaussians).table);
+      break;
+    case StorageOrder::kFile:
+      scene.image = build_memory_image(encoded, NoTable{});
+      break;
+  }
   scene.cloud = std::move(encoded.decoded);
   place(scene.image.layout, 0, job);
   return scene;

@@ -54,6 +54,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
   GscoreConfig& config = plan.config;
+  plan.shape.order = StorageOrder::kFile;
   const TestScene scene = random_scene(test.random, plan.shape);
   FrameJob frame = scene.job;
   frame.layout = scene.image.layout;
@@ -98,7 +99,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   bench.check_counter("converted", bench.counter("second_halves"));
   checks.equal(
       bench.bytes_read(),
-      kFirstHalfBytes * count * plan.passes +
+      std::uint64_t{job.layout.first_halves.record_bytes} * count * plan.passes +
           std::uint64_t{job.layout.second_halves.record_bytes} * bench.counter("second_halves"),
       "bytes read");
   if (config.ccus > 1) return;

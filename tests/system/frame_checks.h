@@ -9,6 +9,9 @@ namespace sgs::test {
 // activity accounts for all cycles, bytes add up, and the bus moves no more than it can.
 void check_any_machine(const nlohmann::json& view);
 
+// Of a view of a machine that fetches halves of Gaussians: their bytes are counters times sizes.
+void check_halves(const nlohmann::json& view);
+
 // Of a view of a streaming machine, all of that and: in exact order the frame is the reference
 // picture of what second halves decode to; bytes are visits times sizes; units hand on what they
 // take; and no unit does more than the frame has cycles for. The view's report holds its `config`.

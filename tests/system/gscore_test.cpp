@@ -24,9 +24,6 @@ void check_bytes(const Json& view) {
   const std::uint64_t record = half ? 24 : 36, place = half ? 32 : 64;
   const std::uint64_t entry =
       (tiles["keys"] == "fp16" ? 2 : 4) + (tiles["subtiles_across"] == 4 ? 6 : 4);
-  CHECK(region_bytes(view, "first_halves", "read") == 16 * total(view, "first_halves"));
-  CHECK(region_bytes(view, "second_halves", "read") ==
-        count(view["scene"]["second_half_bytes"]) * total(view, "second_halves"));
   CHECK(region_bytes(view, "projected", "write") == place * counter(view, "lister", "records"));
   CHECK(region_bytes(view, "projected", "read") ==
         record * counter_of_all(view, "rendering", "records"));
@@ -91,6 +88,7 @@ void check_bounds(const Json& view) {
 void check_gscore(const Simulation& simulation) {
   for (const Json& view : simulation.views()) {
     check_any_machine(view);
+    check_halves(view);
     check_bytes(view);
     check_flow(view);
     check_bounds(view);
@@ -133,7 +131,9 @@ Arguments run_of(const Variant& variant) {
                        settings);
 }
 
+// Stalls may bring tiles to other cores and accesses into a better order: a frame may end earlier.
 TEST_CASE("gscore: every variant, with stalls and in every order of processes") {
+  std::uint64_t cycles = 0, stalled_cycles = 0;
   for (const Variant& variant : variants()) {
     INFO(variant.name);
     const Simulation plain(run_of(variant));
@@ -141,7 +141,8 @@ TEST_CASE("gscore: every variant, with stalls and in every order of processes") 
     const Simulation stalled(joined(run_of(variant), {"--stalls", "0.2", "--seed", "3"}));
     check_gscore(stalled);
     CHECK(stalled.frame(0) == plain.frame(0));
-    CHECK(frame_cycles(stalled.views()[0]) > frame_cycles(plain.views()[0]));
+    cycles += frame_cycles(plain.views()[0]);
+    stalled_cycles += frame_cycles(stalled.views()[0]);
     for (const char* order : {"1", "2"}) {
       INFO(order);
       const Simulation other(joined(run_of(variant), {"--process-order", order}));
@@ -151,6 +152,7 @@ TEST_CASE("gscore: every variant, with stalls and in every order of processes") 
       CHECK(without_host(both.views()[0]) == without_host(stalled.views()[0]));
     }
   }
+  CHECK(stalled_cycles > cycles);
 }
 
 TEST_CASE("gscore: variants do what they are for") {

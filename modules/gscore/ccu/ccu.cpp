@@ -17,6 +17,11 @@ std::uint32_t words_of(std::uint32_t bytes) {
   return static_cast<std::uint32_t>(cycles_for(bytes, kPortBytes));
 }
 
+// Of any scene that it takes.
+std::uint32_t most_second_half_bytes() {
+  return split_of(StorageOrder::kFile, {SecondHalfEncoding::kRaw, kMostDegree, {}}).second_bytes;
+}
+
 // Behind a pipeline a FIFO has room for what is in it.
 std::uint32_t candidates_of(const GscoreConfig& config, const Datapath& cull) {
   return static_cast<std::uint32_t>(config.ccu.candidates +
@@ -177,14 +182,15 @@ void Ccu::convert(Converted& out) {
 SramUses Ccu::sram_uses(const GscoreConfig& config) {
   const CcuConfig& c = config.ccu;
   const Datapath cull = cull_pipeline(config);
-  // What comes from memory in a cycle is two first halves.
-  constexpr std::uint32_t kBanks = kPortBytes / kFirstHalfBytes;
+  // What comes from memory in a cycle: so many banks take it.
+  const auto come = static_cast<std::uint32_t>(cycles_for(kPortBytes, kFirstHalfBytes));
   SramUses uses = {
       sram_use(kInput, kBuffer,
                {{c.input_slots, "slots"}, {c.slice_gaussians, "Gaussians"}, {kFirstHalfBytes, "B"}},
-               {8 * kFirstHalfBytes, SramPorts::kReadAndWrite, kBanks}, {1, kBanks}),
-      sram_use(kSecondHalves, kBuffer, {{c.second_half_slots, "slots"}, {kMaxSecondHalfBytes, "B"}},
-               {8 * kPortBytes}, kOneOfEach),
+               {8 * kFirstHalfBytes, SramPorts::kReadAndWrite, come}, {1, come}),
+      sram_use(kSecondHalves, kBuffer,
+               {{c.second_half_slots, "slots"}, {most_second_half_bytes(), "B"}}, {8 * kPortBytes},
+               kOneOfEach),
       fifo_use<Slice>(kSlices, kBuffer, c.input_slots, "slices"),
       fifo_use<Candidate>(kCulled, kBuffer, candidates_of(config, cull), "candidates"),
       fifo_use<Candidate>(kFetched, kBuffer, c.second_half_slots + 1, "candidates")};
