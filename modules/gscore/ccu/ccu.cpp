@@ -11,7 +11,8 @@ namespace sgs::gscore {
 namespace {
 
 constexpr const char *kInput = "first halves", *kSecondHalves = "second halves",
-                     *kSlices = "slices", *kCulled = "candidates", *kFetched = "fetched candidates";
+                     *kSlices = "slices", *kCulled = "candidates",
+                     *kGathered = "candidates of a slice", *kFetched = "fetched candidates";
 
 std::uint32_t words_of(std::uint32_t bytes) {
   return static_cast<std::uint32_t>(cycles_for(bytes, kPortBytes));
@@ -125,19 +126,44 @@ void Ccu::run_cull() {
 
 void Ccu::run_fetch() {
   for (std::uint32_t s = 0; s < config_.ccu.second_half_slots; ++s) free_second_.push(s, fetch_);
-  for (Candidate next = culled_.pop(fetch_);; next = culled_.pop(fetch_)) {
-    if (next.there) next.buffer = free_second_.pop(fetch_, WaitFor::kRoom);
+  std::vector<Candidate> slice;
+  for (bool over = false; !over;) {
+    slice.push_back(culled_.pop(fetch_));
     fetch_.work(1);
-    if (next.there) {
-      next.ticket = start_read(second_memory, fetch_, job_.layout.second_halves.address(next.slot),
-                               second_halves_.data() + std::size_t{next.buffer} * second_bytes_,
-                               second_bytes_, job_.layout.second_halves.region);
-      ++counters_.second_halves;
-    }
-    fetched_.push(next, fetch_);
-    if (next.over) break;
+    over = slice.back().over;
+    if (!over && !slice.back().last) continue;
+    for (std::size_t first = 0; first < slice.size();) first = fetch_run(slice, first);
+    counters_.gathered += slice.size();
+    slice.clear();
   }
   fetch_.idles();
+}
+
+// Slots are taken and given back in turn.
+std::size_t Ccu::fetch_run(std::vector<Candidate>& slice, std::size_t first) {
+  std::size_t end = first + 1;
+  if (slice[first].there) {
+    slice[first].buffer = free_second_.pop(fetch_, WaitFor::kRoom);
+    const std::uint32_t room = config_.ccu.second_half_slots - slice[first].buffer;
+    const auto follows = [&] {
+      return end < slice.size() && slice[end].there && end - first < room &&
+             slice[end].slot == slice[end - 1].slot + 1;
+    };
+    for (; follows(); ++end) slice[end].buffer = free_second_.pop(fetch_, WaitFor::kRoom);
+    const auto count = static_cast<std::uint32_t>(end - first);
+    const std::uint64_t ticket =
+        start_read(second_memory, fetch_, job_.layout.second_halves.address(slice[first].slot),
+                   second_halves_.data() + std::size_t{slice[first].buffer} * second_bytes_,
+                   count * second_bytes_, job_.layout.second_halves.region);
+    for (std::size_t k = first; k < end; ++k) slice[k].ticket = ticket;
+    counters_.second_halves += count;
+    ++counters_.runs;
+  }
+  for (std::size_t k = first; k < end; ++k) {
+    fetched_.push(slice[k], fetch_);
+    fetch_.work(1);
+  }
+  return end;
 }
 
 void Ccu::run_convert() {
@@ -193,6 +219,9 @@ SramUses Ccu::sram_uses(const GscoreConfig& config) {
                kOneOfEach),
       fifo_use<Slice>(kSlices, kBuffer, c.input_slots, "slices"),
       fifo_use<Candidate>(kCulled, kBuffer, candidates_of(config, cull), "candidates"),
+      sram_use(kGathered, kBuffer,
+               {{c.slice_gaussians, "candidates"}, {Candidate::kSramBytes, "B"}},
+               {8 * Candidate::kSramBytes}, kOneOfEach),
       fifo_use<Candidate>(kFetched, kBuffer, c.second_half_slots + 1, "candidates")};
   add(uses, outstanding_table(kBuffer, config.memory_port), 2);
   return uses;
@@ -207,6 +236,7 @@ void Ccu::publish(DataSheet& sheet) {
   sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
   sheet.counter("culled", "Gaussians", "of these, that cannot touch the frame", counters_.culled);
   sheet.counter("second_halves", "Gaussians", "fetched", counters_.second_halves);
+  sheet.counter("runs", "reads", "of these, of neighbours in memory at once", counters_.runs);
   sheet.counter("converted", "Gaussians", "projected and coloured", counters_.converted);
   sheet.counter("unseen", "Gaussians", "of these on no tile", counters_.unseen);
   sheet.datapath(cull_path_, counters_.first_halves);
@@ -215,6 +245,7 @@ void Ccu::publish(DataSheet& sheet) {
   sheet.accesses(kInput, counters_.first_halves, counters_.first_halves);
   const std::uint64_t words = words_of(second_bytes_);
   sheet.accesses(kSecondHalves, counters_.converted * words, counters_.second_halves * words);
+  sheet.accesses(kGathered, counters_.gathered, counters_.gathered);
   sheet.queue(slices_, kSlices);
   sheet.queue(culled_, kCulled);
   sheet.queue(fetched_, kFetched);

@@ -32,7 +32,8 @@ class Ccu : public sc_core::sc_module {
   struct Counters {
     std::uint64_t first_halves = 0, culled = 0;
     std::uint64_t second_halves = 0, converted = 0;
-    std::uint64_t unseen = 0;  // converted, and on no tile
+    std::uint64_t gathered = 0, runs = 0;  // candidates and ends of slices; reads
+    std::uint64_t unseen = 0;              // converted, and on no tile
   };
 
   static SramUses sram_uses(const GscoreConfig& config);
@@ -52,6 +53,9 @@ class Ccu : public sc_core::sc_module {
   void run_convert();  // thread
 
   void load_pass();
+  // Asks for the second halves of neighbours at once, from the candidate `first` of a slice on;
+  // returns where the next ones begin.
+  std::size_t fetch_run(std::vector<Candidate>& slice, std::size_t first);
   void convert(Converted& out);
   std::byte* input(std::uint32_t slot, std::uint32_t at);
   // Of a pipeline: `interval` cycles long.
