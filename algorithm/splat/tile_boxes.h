@@ -77,17 +77,20 @@ bool make_tile_geometry(const View<T>& view, const Gaussian<T>& g, const TileRul
   return true;
 }
 
-// A bit for each part of the tile, row by row, that the splat may touch; 0: not in this tile's
-// list. Of a tile among boxes.tiles.
+// Whether a tile among boxes.tiles is touched by the box along the ellipse, where there is one.
 template <class T>
-std::uint32_t tile_bitmap(const TileBoxesOf<T>& boxes, const TileRules& rules, IndexOf<T> tile_x,
+bool touches_tile(const TileBoxesOf<T>& boxes, IndexOf<T> tile_x, IndexOf<T> tile_y) {
+  using Index = IndexOf<T>;
+  if (!boxes.box.used) return true;
+  return touches(boxes.tile,
+                 box_offset(boxes.box, Index(tile_x * kTilePx), Index(tile_y * kTilePx), kTilePx));
+}
+
+// Of such a tile: a bit for each part, row by row, that the splat may touch.
+template <class T>
+std::uint32_t part_bitmap(const TileBoxesOf<T>& boxes, const TileRules& rules, IndexOf<T> tile_x,
                           IndexOf<T> tile_y) {
   using Index = IndexOf<T>;
-  if (boxes.box.used) {
-    const auto offset =
-        box_offset(boxes.box, Index(tile_x * kTilePx), Index(tile_y * kTilePx), kTilePx);
-    if (!touches(boxes.tile, offset)) return 0;
-  }
   if (rules.subtiles_across == 1) return 1;
   const int across = rules.subtiles_across, in_part = kSubtilesPerTile / across;
   std::uint32_t bits = 0;
@@ -104,6 +107,13 @@ std::uint32_t tile_bitmap(const TileBoxesOf<T>& boxes, const TileRules& rules, I
     bits |= 1U << part;
   }
   return bits;
+}
+
+// The same of any tile among boxes.tiles; 0: not in this tile's list.
+template <class T>
+std::uint32_t tile_bitmap(const TileBoxesOf<T>& boxes, const TileRules& rules, IndexOf<T> tile_x,
+                          IndexOf<T> tile_y) {
+  return touches_tile(boxes, tile_x, tile_y) ? part_bitmap(boxes, rules, tile_x, tile_y) : 0;
 }
 
 }  // namespace sgs

@@ -36,6 +36,22 @@ void keep_box(DataFlow& flow, const TileBoxesOf<Counting>& b) {
   }
 }
 
+// Of a box along the ellipse's axes, without its limits.
+TileBoxesOf<Counting> boxes_from_outside(DataFlow& flow) {
+  constexpr int kFar = 100;
+  TileBoxesOf<Counting> boxes{};
+  for (PixelRectOf<CountingIndex>* rect : {&boxes.tiles, &boxes.parts}) {
+    *rect = {input_index(flow, 0), input_index(flow, 0), input_index(flow, kFar),
+             input_index(flow, kFar)};
+  }
+  boxes.box.used = true;
+  boxes.box.x = input(flow, 100.5F);
+  boxes.box.y = input(flow, 90.25F);
+  boxes.box.axis_x = input(flow, 0.8F);
+  boxes.box.axis_y = input(flow, 0.6F);
+  return boxes;
+}
+
 BoxLimits<Counting> wide_limits(DataFlow& flow) {
   constexpr float kWide = 1000;
   return {input(flow, kWide), input(flow, kWide), input(flow, kWide), input(flow, kWide)};
@@ -96,29 +112,32 @@ DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records) 
   return flow;
 }
 
-DataFlow tile_test_flow(const TileRules& rules) {
+DataFlow tile_test_flow(int tiles_at_once) {
   DataFlow flow;
-  constexpr int kFar = 100;
-  TileBoxesOf<Counting> boxes{};
-  boxes.tiles = {input_index(flow, 0), input_index(flow, 0), input_index(flow, kFar),
-                 input_index(flow, kFar)};
-  boxes.parts = {input_index(flow, 0), input_index(flow, 0), input_index(flow, kFar),
-                 input_index(flow, kFar)};
-  boxes.box.used = true;
-  boxes.box.x = input(flow, 100.5F);
-  boxes.box.y = input(flow, 90.25F);
-  boxes.box.axis_x = input(flow, 0.8F);
-  boxes.box.axis_y = input(flow, 0.6F);
+  TileBoxesOf<Counting> boxes = boxes_from_outside(flow);
   boxes.tile = wide_limits(flow);
-  boxes.part = wide_limits(flow);
-  flow.pass_beside(kBesideTileWork);
   const CountingIndex x = input_index(flow, 3), y = input_index(flow, 5);
-  static_cast<void>(tile_bitmap(boxes, rules, x, y));
-  // The next tile of its row, or the first of the next row.
-  const CountingIndex next_x = x + CountingIndex(1), next_y = y + CountingIndex(1);
+  for (int k = 0; k < tiles_at_once; ++k) {
+    static_cast<void>(touches_tile(boxes, k == 0 ? x : x + CountingIndex(k), y));
+  }
+  // The next tiles of the row, or the first of the next row.
+  const CountingIndex next_x = x + CountingIndex(tiles_at_once), next_y = y + CountingIndex(1);
   static_cast<void>(next_x < boxes.tiles.x1);
   static_cast<void>(next_y < boxes.tiles.y1);
-  keep_values(flow, {next_x, next_y});
+  keep_box(flow, boxes);
+  keep_values(flow, {x, y, next_x, next_y});
+  flow.pass_beside(kBesideTileWork);
+  return flow;
+}
+
+DataFlow part_test_flow(const TileRules& rules) {
+  DataFlow flow;
+  TileBoxesOf<Counting> boxes = boxes_from_outside(flow);
+  boxes.part = wide_limits(flow);
+  const CountingIndex x = input_index(flow, 3), y = input_index(flow, 5);
+  static_cast<void>(part_bitmap(boxes, rules, x, y));
+  keep_values(flow, {x, y});
+  flow.pass_beside(kBesideTileWork);
   return flow;
 }
 

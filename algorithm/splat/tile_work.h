@@ -23,8 +23,11 @@ DataFlow cull_flow();
 // hold. Of the longest way: a Gaussian whose box along its axes is asked.
 DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records);
 
-// Of one tile and its parts, all of which are touched, by a box along the ellipse's axes: the
-// tester is the same where a Gaussian, or the machine, has none.
-DataFlow tile_test_flow(const TileRules& rules);
+// Of so many neighbours in a row of tiles, and where the next ones are, by a box along the
+// ellipse's axes: the tester is the same where a Gaussian, or the machine, has none.
+DataFlow tile_test_flow(int tiles_at_once);
+
+// Of the parts of one tile, two or four in a row, all of which are touched.
+DataFlow part_test_flow(const TileRules& rules);
 
 }  // namespace sgs

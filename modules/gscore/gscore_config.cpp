@@ -49,7 +49,9 @@ void visit(ConfigVisitor& v, CcuConfig& c) {
 }
 
 void visit(ConfigVisitor& v, ListsConfig& c) {
-  v("tile_lanes", c.tile_lanes, in_range(1, 1024), "MAC lanes that test tiles and their parts");
+  v("tiles_at_once", c.tiles_at_once, in_range(1, 16), "neighbours in a row, tested together");
+  v("tile_lanes", c.tile_lanes, in_range(1, 1024), "MAC lanes that test these");
+  v("part_lanes", c.part_lanes, in_range(1, 1024), "MAC lanes that test the parts of a tile");
   v("tested_entries", c.tested_entries, in_range(1, 1024), "listed tiles that wait");
   v("tiles", c.tiles, in_range(1, 1 << 20), "of one pass; a frame with more takes several passes");
   v("lines", c.lines, in_range(1, 1 << 20), "of lists that are combined on chip");

@@ -36,10 +36,12 @@ struct CcuConfig {
 };
 
 struct ListsConfig {
-  std::uint32_t tile_lanes = 32;     // multiply-accumulates that test tiles for all CCUs
+  std::uint32_t tiles_at_once = 4;  // neighbours in a row that are tested together
+  // Multiply-accumulates that test tiles, and the parts of one, for all CCUs.
+  std::uint32_t tile_lanes = 20, part_lanes = 24;
   std::uint32_t tested_entries = 4;  // listed tiles that wait for the lines
   std::uint32_t tiles = 4096;        // of a pass at most: a frame with more takes several
-  std::uint32_t lines = 1024;         // in which entries of a tile are combined
+  std::uint32_t lines = 1024;        // in which entries of a tile are combined
   std::uint32_t line_bytes = 64, block_lines = 8;
   std::uint64_t pool_bytes = 268435456;  // of lists in memory
 };

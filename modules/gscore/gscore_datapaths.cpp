@@ -63,8 +63,13 @@ Datapath convert_pipeline(const GscoreConfig& config, int sh_degree) {
 }
 
 Datapath tile_test_pipeline(const GscoreConfig& config) {
-  return counted("tile_test", "lists", tile_test_flow(config.tiles.rules()),
+  return counted("tile_test", "lists", tile_test_flow(static_cast<int>(config.lists.tiles_at_once)),
                  config.lists.tile_lanes, config.single());
+}
+
+Datapath part_test_pipeline(const GscoreConfig& config) {
+  return counted("part_test", "lists", part_test_flow(config.tiles.rules()),
+                 config.lists.part_lanes, config.single());
 }
 
 Datapath conic_pipeline(const GscoreConfig& config) {

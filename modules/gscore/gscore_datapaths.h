@@ -9,8 +9,10 @@ namespace sgs::gscore {
 // Of one CCU. convert: built for every SH degree, items of this one.
 Datapath cull_pipeline(const GscoreConfig& config);
 Datapath convert_pipeline(const GscoreConfig& config, int sh_degree);
-// Of all CCUs, before the lists: a tile and its parts.
+// Of all CCUs, before the lists: neighbours in a row of tiles; the parts of one that is touched,
+// where tiles have parts.
 Datapath tile_test_pipeline(const GscoreConfig& config);
+Datapath part_test_pipeline(const GscoreConfig& config);
 
 // Of the VRUs of one core: log2(e) into a splat's conic; 16 pixels, one for each VRU; finished
 // pixels to the frame's format.

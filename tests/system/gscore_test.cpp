@@ -47,7 +47,8 @@ void check_bytes(const Json& view) {
 void check_flow(const Json& view) {
   CHECK(total(view, "first_halves") == total(view, "culled") + total(view, "second_halves"));
   CHECK(total(view, "second_halves") == total(view, "converted"));
-  CHECK(counter(view, "lister", "pairs") <= counter(view, "lister", "tile_tests"));
+  CHECK(counter(view, "lister", "pairs") <= counter(view, "lister", "part_tests"));
+  CHECK(counter(view, "lister", "part_tests") <= counter(view, "lister", "tile_tests"));
   CHECK(counter(view, "lister", "tiles") == counter_of_all(view, "rendering", "tiles"));
   CHECK(counter_of_all(view, "sorter", "entries_sorted") ==
         counter_of_all(view, "rendering", "records") +
@@ -78,9 +79,15 @@ void check_bounds(const Json& view) {
         ccus * frame);
   CHECK(total(view, "converted") * interval("convert", config["ccu"]["convert_lanes"]) <=
         ccus * frame);
-  CHECK(counter(view, "lister", "tile_tests") *
-            interval("tile_test", config["lists"]["tile_lanes"]) <=
+  const Json& lists = config["lists"];
+  CHECK(counter(view, "lister", "tile_steps") * interval("tile_test", lists["tile_lanes"]) <=
         frame);
+  CHECK(counter(view, "lister", "tile_steps") * count(lists["tiles_at_once"]) >=
+        counter(view, "lister", "tile_tests"));
+  if (view["datapath"].contains("part_test")) {
+    CHECK(counter(view, "lister", "part_tests") * interval("part_test", lists["part_lanes"]) <=
+          frame);
+  }
   CHECK(counter_of_all(view, "rendering", "blocks") <= cores * frame);
   CHECK(counter_of_all(view, "sorter", "entries_read") <= cores * frame);
 }
@@ -116,7 +123,9 @@ const std::vector<Variant>& variants() {
        {"ccus=1", "cores=1", "rendering.record_slots=1", "ccu.input_slots=1",
         "ccu.second_half_slots=1", "sorting.list_buffers=1", "rendering.pixel_buffers=1",
         "rendering.sorted_entries=1"}},
-      {"other numbers", {"ccus=3", "cores=5", "clock_mhz=733", "rendering.core_lanes=64"}},
+      {"other numbers",
+       {"ccus=3", "cores=5", "clock_mhz=733", "rendering.core_lanes=64", "lists.tiles_at_once=3",
+        "lists.tile_lanes=5"}},
       {"narrow memory", {"memory_port.max_outstanding=1", "dram.channels=1"}},
       {"finished parts are blended", {"rendering.skip_finished=false"}},
       {"second halves of 16 bits", {"storage.encoding=half"}},

@@ -18,10 +18,26 @@ constexpr std::uint32_t kTagBytes = 4;  // tile, and what of the line is new
 // Beside the memories: whose line it is, whether line and block are full, whether the pool is.
 constexpr std::uint32_t kComparators = 4;
 
-// With room for what is in the pipeline.
-std::uint32_t listed_entries(const GscoreConfig& config, const Datapath& tests) {
+bool has_parts(const GscoreConfig& config) { return config.tiles.subtiles_across > 1; }
+
+// Of a tile and its parts.
+struct TestPipelines {
+  std::uint64_t depth_cycles, part_interval_cycles;
+};
+TestPipelines test_pipelines(const GscoreConfig& config) {
+  TestPipelines out{tile_test_pipeline(config).depth_cycles, 1};
+  if (!has_parts(config)) return out;
+  const Datapath parts = part_test_pipeline(config);
+  out.depth_cycles += parts.depth_cycles;
+  out.part_interval_cycles = parts.interval_cycles();
+  return out;
+}
+
+// With room for what is in the pipelines.
+std::uint32_t listed_entries(const GscoreConfig& config) {
+  const TestPipelines tests = test_pipelines(config);
   return static_cast<std::uint32_t>(config.lists.tested_entries +
-                                    cycles_for(tests.depth_cycles, tests.interval_cycles()));
+                                    cycles_for(tests.depth_cycles, tests.part_interval_cycles));
 }
 
 // Of records that are written at once: what a transaction takes, at least one.
@@ -41,11 +57,12 @@ TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& c
       blocks_(config_.blocks()),
       on_done_(std::move(on_done)),
       tile_path_(tile_test_pipeline(config_)),
+      part_path_(has_parts(config_) ? std::optional(part_test_pipeline(config_)) : std::nullopt),
       test_("test", context.clock),
       list_("list", context.clock),
       test_passes_("test_passes", context.clock, 1),
-      listed_("listed", context.clock, listed_entries(config_, tile_path_),
-              tile_path_.depth_cycles),
+      listed_("listed", context.clock, listed_entries(config_),
+              static_cast<std::uint32_t>(test_pipelines(config_).depth_cycles)),
       ends_(config_.lists.tiles),
       lines_(config_.lists.lines, Line{LineBuffer(blocks_.line_bytes)}),
       records_(std::size_t{records_at_once(config_)} * record_place_bytes(config_.tiles.features)) {
@@ -78,7 +95,13 @@ void TileLister::run_test() {
   test_.idles();
 }
 
-// Tiles of rows that the pass has, each in a turn of the lanes.
+void TileLister::wait_for_turn(std::uint64_t interval) {
+  const std::uint64_t now = test_.clock().now_cycles();
+  test_.work(next_turn(now, interval) - now);
+}
+
+// Tiles of rows that the pass has: neighbours in a turn of their lanes, then the parts of each that
+// is touched, one after the other.
 void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
   ++counters_.gaussians;
   const auto columns = static_cast<int>(job_.columns);
@@ -90,22 +113,32 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
     ++counters_.off_pass;
     return;
   }
+  const auto at_once = static_cast<int>(config_.lists.tiles_at_once);
+  const std::uint64_t part_interval = part_path_ ? part_path_->interval_cycles() : 1;
   ListedTile out;
   out.splat = gaussian.splat;
   out.key = depth_key(config_.tiles.keys, gaussian.splat.depth);
   out.first = true;
   for (int y = std::max(tiles.y0, first_row); y < std::min(tiles.y1, end_row); ++y) {
-    for (int x = tiles.x0; x < tiles.x1; ++x) {
-      const std::uint64_t interval = tile_path_.interval_cycles();
-      const std::uint64_t now = test_.clock().now_cycles();
-      test_.work(next_turn(now, interval) - now + interval);
-      ++counters_.tile_tests;
-      out.tile = static_cast<std::uint32_t>(y * columns + x);
-      if (out.tile < pass.first || out.tile >= pass.end) continue;
-      out.bitmap = tile_bitmap(gaussian.boxes, config_.tiles.rules(), x, y);
-      if (out.bitmap == 0) continue;
-      listed_.push(out, test_);
-      out.first = false;
+    for (int x = tiles.x0; x < tiles.x1; x += at_once) {
+      wait_for_turn(tile_path_.interval_cycles());
+      const std::uint64_t begun = test_.clock().now_cycles();
+      ++counters_.tile_steps;
+      for (int k = x; k < std::min(x + at_once, tiles.x1); ++k) {
+        ++counters_.tile_tests;
+        out.tile = static_cast<std::uint32_t>(y * columns + k);
+        if (out.tile < pass.first || out.tile >= pass.end) continue;
+        if (!touches_tile(gaussian.boxes, k, y)) continue;
+        wait_for_turn(part_interval);
+        test_.work(part_interval);
+        ++counters_.part_tests;
+        out.bitmap = part_bitmap(gaussian.boxes, config_.tiles.rules(), k, y);
+        if (out.bitmap == 0) continue;
+        listed_.push(out, test_);
+        out.first = false;
+      }
+      const std::uint64_t taken = test_.clock().now_cycles() - begun;
+      if (taken < tile_path_.interval_cycles()) test_.work(tile_path_.interval_cycles() - taken);
     }
   }
 }
@@ -281,7 +314,7 @@ SramUses TileLister::sram_uses(const GscoreConfig& c) {
       sram_use(kWaitingRecords, kBuffer, {{records_at_once(c), "records"}, {place, "B"}},
                {8 * kPortBytes}, kOneOfEach),
       fifo_use<Pass>(kTestPasses, kBuffer, 1, "passes"),
-      fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c, tile_test_pipeline(c)), "tiles"),
+      fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c), "tiles"),
       outstanding_table(kBuffer, c.memory_port),
       unanswered_writes(kListWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
 }
@@ -295,6 +328,9 @@ void TileLister::publish(DataSheet& sheet) {
                 counters_.overflowed);
   sheet.counter("ends_alone", "slices", "whose last Gaussian is on no tile", counters_.ends_alone);
   sheet.counter("tile_tests", "tiles", "tested, once for each Gaussian", counters_.tile_tests);
+  sheet.counter("tile_steps", "steps", "of neighbours in a row, tested together",
+                counters_.tile_steps);
+  sheet.counter("part_tests", "tiles", "touched, whose parts are tested", counters_.part_tests);
   sheet.counter("gaussians", "Gaussians", "taken, once for each pass", counters_.gaussians);
   sheet.counter("gaussians_off_pass", "Gaussians", "of these with tiles in other passes only",
                 counters_.off_pass);
@@ -318,11 +354,12 @@ void TileLister::publish(DataSheet& sheet) {
   constexpr double kTestedBits = 8.0 * Converted::kSramBytes;
   sheet.part("lists", "register_bit", kTestedBits, 1);
   sheet.operations("lists", "register_bit", kTestedBits * static_cast<double>(counters_.gaussians));
-  sheet.datapath(tile_path_, counters_.tile_tests);
+  sheet.datapath(tile_path_, counters_.tile_steps);
+  if (part_path_) sheet.datapath(*part_path_, counters_.part_tests);
   sheet.queue(test_passes_, kTestPasses);
   sheet.queue(listed_, kListed);
   sheet.port(memory, kListWrites);
-  sheet.remedy(test_, "lists.tile_lanes");
+  sheet.remedy(test_, "lists.tiles_at_once");
   sheet.remedy(listed_, WaitFor::kRoom, "lists.tested_entries");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_writes");
   sheet.may_help("lists.lines");

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -55,6 +56,7 @@ class TileLister : public sc_core::sc_module {
   void run_test();  // thread
   void run_list();  // thread
   void test_tiles(const Converted& gaussian, const Pass& pass);
+  void wait_for_turn(std::uint64_t interval);
   // Whether all lists of the pass are in memory; if not, the pool was too small.
   bool project(const Pass& pass);
   void take(const ListedTile& tile, const Pass& pass);
@@ -69,6 +71,7 @@ class TileLister : public sc_core::sc_module {
   const BlockFormat blocks_;
   const std::function<void()> on_done_;
   const Datapath tile_path_;
+  const std::optional<Datapath> part_path_;  // where tiles have parts
   Activity test_, list_;
   TimedFifo<Pass> test_passes_;
   TimedFifo<ListedTile> listed_;
@@ -83,8 +86,8 @@ class TileLister : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t passes = 0, overflowed = 0;
-    std::uint64_t gaussians = 0, ends_alone = 0, tile_tests = 0, off_pass = 0, pairs = 0,
-                  records = 0;
+    std::uint64_t gaussians = 0, ends_alone = 0, tile_steps = 0, tile_tests = 0, part_tests = 0,
+                  off_pass = 0, pairs = 0, records = 0;
     std::uint64_t lines_full = 0, lines_displaced = 0;
     std::uint64_t blocks = 0;
     std::uint64_t list_max = 0, tiles = 0, tiles_empty = 0;
