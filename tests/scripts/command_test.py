@@ -118,7 +118,7 @@ class WithTheCommand(InFolder):
     def test_every_counter_of_a_report_is_described(self):
         text = (REPOSITORY / "testbench" / "streaminggs" / "README.md").read_text()
         scene = find_scene(str(self.scene))
-        for config in ("exact", "paper"):
+        for config in ("exact", "paper", "gscore"):
             (view,) = simulations.simulate(
                 pathlib.Path(COMMAND), simulations.Run(scene, config=config)
             ).accepted()

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/system/frame_checks.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
@@ -103,17 +104,22 @@ void check_activity(const std::string& vcd, const std::map<std::string, std::str
   }
 }
 
-void check_waveform(const std::string& machine) {
+struct Shown {
+  const char* machine;
+  const char* view;                 // in traces/
+  std::vector<std::string> moving;  // signals that change often
+};
+
+void check_waveform(const Shown& shown) {
+  const std::string machine = shown.machine;
   const ScratchFolder scratch;
   const std::string vcd = scratch.path("wave.vcd");
   const Simulation run(
       {"builtin:object?n=1000", "--size", "48x27", "--config", machine, "--vcd", vcd});
-  run.check();
+  check_any_machine(run.views()[0]);
   const auto signals = signals_of(vcd);
   CHECK(signals.size() > 100);
-  const auto view =
-      signals_in_view(std::string(SGS_SOURCE_DIR) + "/traces/" +
-                      (machine == "paper" ? "accelerator_paper.gtkw" : "accelerator.gtkw"));
+  const auto view = signals_in_view(std::string(SGS_SOURCE_DIR) + "/traces/" + shown.view);
   std::set<std::string> in_view, in_file;
   for (const auto& [shown_as, signal] : view) in_view.insert(signal);
   for (const auto& [signal, code] : signals) in_file.insert(signal);
@@ -135,10 +141,7 @@ void check_waveform(const std::string& machine) {
   }
   CHECK(row_hits == run.views()[0]["dram"]["row_hits"]);
   // Bytes were on their way, FIFOs filled, rows were hit.
-  for (const std::string& name :
-       {std::string("accelerator.hfu0.coarse.memory.bytes_outstanding[63:0]"),
-        std::string("accelerator.visits_to_hfu0.fill[31:0]"),
-        std::string("dram.channel0.row_hits[63:0]")}) {
+  for (const std::string& name : shown.moving) {
     const std::string code = signals.at("SystemC." + name);
     INFO(name);
     std::size_t changes = 0;
@@ -151,8 +154,21 @@ void check_waveform(const std::string& machine) {
   CHECK(text.size() < 4'000'000);  // a picture to look at, not a dump
 }
 
-TEST_CASE("waveform: exact order") { check_waveform("exact"); }
-TEST_CASE("waveform: paper order") { check_waveform("paper"); }
+TEST_CASE("waveform: every machine, in its saved view") {
+  const std::vector<std::string> streaming = {
+      "accelerator.hfu0.coarse.memory.bytes_outstanding[63:0]",
+      "accelerator.visits_to_hfu0.fill[31:0]", "dram.channel0.row_hits[63:0]"};
+  for (const Shown& shown :
+       {Shown{"exact", "accelerator.gtkw", streaming},
+        Shown{"paper", "accelerator_paper.gtkw", streaming},
+        Shown{"gscore",
+              "accelerator_gscore.gtkw",
+              {"accelerator.ccu0.second_memory.bytes_outstanding[63:0]",
+               "accelerator.sorted_of_core0.fill[31:0]", "dram.channel0.row_hits[63:0]"}}}) {
+    INFO(shown.machine);
+    check_waveform(shown);
+  }
+}
 
 TEST_CASE("waveform: quantised scenes show the codebook buffer and what decodes") {
   for (const char* machine : {"exact", "paper"}) {
@@ -187,7 +203,7 @@ TEST_CASE("waveform: quantised scenes show the codebook buffer and what decodes"
 
 TEST_CASE("waveform: tracing changes nothing") {
   const ScratchFolder scratch;
-  for (const char* machine : {"exact", "paper"}) {
+  for (const char* machine : {"exact", "paper", "gscore"}) {
     const Arguments plain = {"builtin:object?n=1000", "--size", "48x27", "--config", machine};
     const Simulation a(plain), b(joined(plain, {"--vcd", scratch.path("wave.vcd")}));
     CHECK(a.views()[0]["frame"] == b.views()[0]["frame"]);
