@@ -27,7 +27,7 @@ struct TilesConfig {
 
 struct CcuConfig {
   // Multiply-accumulates of one CCU that cull and that convert.
-  std::uint32_t cull_lanes = 8, convert_lanes = 14;
+  std::uint32_t cull_lanes = 8, convert_lanes = 18;
   std::uint32_t slice_gaussians = 8;     // first halves read at once
   std::uint32_t input_slots = 4;         // slices on their way or waiting
   std::uint32_t candidates = 16;         // that wait for their second halves to be asked for
