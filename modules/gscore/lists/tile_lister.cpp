@@ -1,4 +1,4 @@
-// The threads of the tile lister.
+// Construction of the tile lister, its listing thread, and what it publishes.
 #include "modules/gscore/lists/tile_lister.h"
 
 #include <algorithm>
@@ -68,79 +68,6 @@ TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& c
       records_(std::size_t{records_at_once(config_)} * record_place_bytes(config_.tiles.features)) {
   SC_THREAD(run_test);
   SC_THREAD(run_list);
-}
-
-void TileLister::run_test() {
-  const std::uint64_t slices =
-      cycles_for(job_.layout.gaussian_count(), config_.ccu.slice_gaussians);
-  for (Pass pass = test_passes_.pop(test_); !pass.over; pass = test_passes_.pop(test_)) {
-    for (std::uint64_t s = 0; s < slices; ++s) {
-      FifoReadIf<Converted>& ccu = in_turn(converted, s);
-      for (bool last = false; !last;) {
-        const Converted next = ccu.pop(test_);
-        last = next.last;
-        if (next.there) {
-          test_tiles(next, pass);
-        } else {
-          test_.work(1);
-          ++counters_.ends_alone;
-        }
-      }
-    }
-    ListedTile end;
-    end.end = true;
-    test_.work(1);
-    listed_.push(end, test_);
-  }
-  test_.idles();
-}
-
-void TileLister::wait_for_turn(std::uint64_t interval) {
-  const std::uint64_t now = test_.clock().now_cycles();
-  test_.work(next_turn(now, interval) - now);
-}
-
-// Tiles of rows that the pass has: neighbours in a turn of their lanes, then the parts of each that
-// is touched, one after the other.
-void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
-  ++counters_.gaussians;
-  const auto columns = static_cast<int>(job_.columns);
-  const PixelRect& tiles = gaussian.boxes.tiles;
-  const int first_row = static_cast<int>(pass.first) / columns;
-  const int end_row = static_cast<int>(cycles_for(pass.end, job_.columns));
-  if (tiles.y0 >= end_row || tiles.y1 <= first_row) {
-    test_.work(1);
-    ++counters_.off_pass;
-    return;
-  }
-  const auto at_once = static_cast<int>(config_.lists.tiles_at_once);
-  const std::uint64_t part_interval = part_path_ ? part_path_->interval_cycles() : 1;
-  ListedTile out;
-  out.splat = gaussian.splat;
-  out.key = depth_key(config_.tiles.keys, gaussian.splat.depth);
-  out.first = true;
-  for (int y = std::max(tiles.y0, first_row); y < std::min(tiles.y1, end_row); ++y) {
-    for (int x = tiles.x0; x < tiles.x1; x += at_once) {
-      wait_for_turn(tile_path_.interval_cycles());
-      const std::uint64_t begun = test_.clock().now_cycles();
-      ++counters_.tile_steps;
-      for (int k = x; k < std::min(x + at_once, tiles.x1); ++k) {
-        ++counters_.tile_tests;
-        out.tile = static_cast<std::uint32_t>(y * columns + k);
-        if (out.tile < pass.first || out.tile >= pass.end) continue;
-        if (!touches_tile(gaussian.boxes, k, y)) continue;
-        wait_for_turn(part_interval);
-        test_.work(part_interval);
-        ++counters_.part_tests;
-        out.bitmap = part_bitmap(gaussian.boxes, config_.tiles.rules(), k, y);
-        if (out.bitmap == 0) continue;
-        listed_.push(out, test_);
-        out.first = false;
-      }
-      const std::uint64_t taken = test_.clock().now_cycles() - begun;
-      if (taken < tile_path_.interval_cycles()) test_.work(tile_path_.interval_cycles() - taken);
-    }
-  }
 }
 
 // A pass that has overflowed is made again with half of its tiles.

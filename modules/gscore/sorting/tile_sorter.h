@@ -59,6 +59,8 @@ class TileSorter : public sc_core::sc_module {
     std::uint32_t entries = 0;
   };
 
+  static constexpr std::uint32_t kStageBlocks = 2;  // under way or read
+
   void run_load();  // thread
   void run_sort();  // thread
 
