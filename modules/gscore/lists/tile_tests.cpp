@@ -1,4 +1,4 @@
-// The testing thread of the tile lister: which tiles of the pass a Gaussian touches, and which parts.
+// The testing thread of the tile lister: which tiles of the pass a Gaussian touches, which parts.
 #include <algorithm>
 
 #include "modules/datapath/work_rates.h"
