@@ -5,10 +5,10 @@
 // payload. The first half holds x, y, z, then (by extents) the code of the visible extents, then
 // the first words of the payload; the second half holds the rest.
 //   published   the paper's halves: x, y, z and the largest scale; the second half as encoded.
-//   by bursts   for storage by chunks, and by file where first halves stay as short. Second halves are fetched one here, one there,
-//   and a burst
-//               is moved whole: what counts is how many bursts of 32 B a record touches. Each takes
-//               whole bursts, or a power of two below one. From the table, in bytes:
+//   by bursts   for storage by chunks, and by file where first halves stay as short. Second halves
+//               are fetched one here, one there, and a burst is moved whole: what counts is how
+//               many bursts of 32 B a record touches. Each takes whole bursts, or a power of two
+//               below one. From the table, in bytes:
 //
 //     encoding, degree  published     by bursts  why
 //     raw 0             16 + 40 (64)  24 + 32    56 B with extents: one word of the quaternion is
