@@ -10,6 +10,7 @@
 #include "algorithm/input_error.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/tile_blend.h"
+#include "algorithm/render/warp_watch.h"
 #include "algorithm/splat/frame_sides.h"
 
 namespace sgs {
@@ -100,16 +101,19 @@ void render_tile(const View<float>& view, const TileOrderConfig& config, int til
       PixelRect{0, 0, view.width, view.height});
   GroupState state(pixels, view.width, view.height, config.precision, SubtileTest::kBox);
   BlendWatch watch(state.subtile_count());
+  WarpWatch warps(pixels);
   for (const ListEntry& entry : list) {
     if (state.saturated()) break;
     ++stats.entries_taken;
     const Splat& splat = splats[entry.splat].splat;
     const auto observe = [&](const SubtileBlend& blend) {
       if (watch.see(blend, splat.depth)) contributing.set(splat.index);
+      warps.see(blend);
     };
     for_each_part(config.rules, tile_x, tile_y, entry.bitmap, splat, [&](const Splat& part, int) {
       stats.subtile_blends += state.blend(part, observe).blended;
     });
+    warps.end_entry();
   }
   const auto chunks = [&](std::uint64_t entries) {
     return (entries + config.chunk_entries - 1) / config.chunk_entries;
@@ -119,6 +123,8 @@ void render_tile(const View<float>& view, const TileOrderConfig& config, int til
   stats.chunks_taken = chunks(stats.entries_taken);
   stats.tiles_finished = state.saturated() ? 1 : 0;
   stats.contributors = state.contributors();
+  stats.warp_entries = warps.entries();
+  stats.warp_blends = warps.blended();
   stats.misordered = watch.misordered();
   state.store(config.background, frame);
 }
@@ -140,6 +146,8 @@ TileStats& TileStats::operator+=(const TileStats& o) {
   tiles_finished += o.tiles_finished;
   subtile_blends += o.subtile_blends;
   contributors += o.contributors;
+  warp_entries += o.warp_entries;
+  warp_blends += o.warp_blends;
   contributing += o.contributing;
   misordered += o.misordered;
   return *this;

@@ -48,6 +48,8 @@ struct TileStats {
   std::uint64_t tiles_finished = 0;
   std::uint64_t subtile_blends = 0;  // (entry, 4x4 sub-tile): 16 fragments each
   std::uint64_t contributors = 0;    // (splat, pixel) blends
+  std::uint64_t warp_entries = 0;    // (entry, 16 x 2 px) with an unfinished pixel (warp_watch.h)
+  std::uint64_t warp_blends = 0;     // of these with a pixel that it is blended into
   std::uint64_t contributing = 0;    // Gaussians blended into at least one pixel of the frame
   std::uint64_t misordered = 0;      // blends behind a splat that is farther, at the same pixel
 

@@ -26,6 +26,7 @@ int run_command_line(int argc, char* argv[], const Kinds& kinds) {
   add("render", "write one golden image", add_render_command);
   add("compare", "PSNR, SSIM and largest error of two images", add_compare_command);
   add("photographs", "write the test views of a data set as files", add_photographs_command);
+  add("gpu", "model the original rasteriser on a mobile GPU", add_gpu_command);
   add("info", "print what a scene holds", add_info_command);
   add("describe", "print the data sheets and the configuration of a machine", add_describe_command);
   return run_program(line, argc, argv, [&] {
