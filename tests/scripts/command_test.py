@@ -6,6 +6,7 @@ import unittest
 from in_folder import COMMAND, REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import binding_check
 import boundary_study
+import compare_machines
 import compare_variants
 import energy_tables
 import explore
@@ -37,6 +38,13 @@ class WithTheCommand(InFolder):
     def test_every_script_makes_its_tables(self):
         for script, arguments, lines in (
             (binding_check, ("--size", "64x36"), {"| truck | 0 |": 1, "of 1 views": 1}),
+            (
+                compare_machines,
+                ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4")
+                + ("--machines", "gscore", "exact", "--view", "0"),
+                {"| truck | 64x36 | 25.6 | gscore |": 1, "| truck | 64x36 |  | GPU, modelled |": 1}
+                | {"| 25.6 | exact | gscore | 1 |": 1, "| truck | 64x36 | GPU, modelled |": 1},
+            ),
             (compare_variants, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
             (
                 energy_tables,
