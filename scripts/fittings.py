@@ -8,6 +8,7 @@ import csv
 import dataclasses
 import fcntl
 import hashlib
+import io
 import json
 import pathlib
 import signal
@@ -25,6 +26,7 @@ from simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, program_version, sa
 CHECKPOINT_EVERY = "500"  # steps; what is lost where a computer stops
 INTERRUPTED = 130  # exit status of the command: saved, to be resumed
 DONE = "made.json"  # written last: a folder that has it is whole
+LOG_HEAD = b"step,seconds"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -137,14 +139,16 @@ class KeptFittings:
         checkpoint_of(scene).unlink(missing_ok=True)
 
     def run(self, fitting: Fitting, scene: pathlib.Path, clock: pathlib.Path, lock: IO) -> float:
-        """Until its end. clock: file of the seconds that earlier parts took. Returns the sum."""
+        """Until its end. clock: file of the seconds that earlier parts took, which a script that
+        was killed could not write. Returns the sum."""
         words = [str(self.binary.absolute()), fitting.command, *fitting.words]
         words += ["--out", str(scene), "--log", str(scene.parent / "log.csv")]
         words += ["--checkpoint", CHECKPOINT_EVERY]
         earlier = 0.0
         if checkpoint_of(scene).exists():
             words += ["--resume", str(checkpoint_of(scene))]
-            earlier = float(clock.read_text()) if clock.exists() else 0.0
+            told = float(clock.read_text()) if clock.exists() else 0.0
+            earlier = max(told, logged_seconds(checkpoint_of(scene)))
         began = time.monotonic()
         done, timed_out = self.call(words, fitting.most_seconds, earlier, lock)
         seconds = earlier + time.monotonic() - began
@@ -193,3 +197,15 @@ class KeptFittings:
 
 def checkpoint_of(scene: pathlib.Path) -> pathlib.Path:
     return scene.with_name(scene.name + ".checkpoint")
+
+
+def logged_seconds(checkpoint: pathlib.Path) -> float:
+    """Of the last look in the log that a checkpoint has, a text behind its length as 64 bits; 0
+    where there was none yet."""
+    saved = checkpoint.read_bytes()
+    begin = saved.find(LOG_HEAD)
+    if begin < 8:
+        return 0.0
+    size = int.from_bytes(saved[begin - 8 : begin], "little")
+    log = csv.DictReader(io.StringIO(saved[begin : begin + size].decode()))
+    return max((float(look["seconds"]) for look in log), default=0.0)
