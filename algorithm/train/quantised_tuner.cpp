@@ -205,16 +205,17 @@ FittingStep QuantisedTuner::step() {
   const ActivatedCloud drawn = encode_quantised(exact_, quantised_, config_.encoding).decoded;
   const GaussianCloud parameters = parameters_of(drawn);
   const GroupSequences sequences = order_.sequences(at, view, drawn);
-  const Comparison found =
+  const double loss =
       compare_with(photographs_.before(at, order_.background), view, parameters, drawn, sequences,
-                   order_.background, order_.precision, config_.ssim_share, gradient_);
-  check_finite(next_step_, found.loss, gradient_);
+                   order_.background, order_.precision, config_.comparison, gradient_);
+  check_finite(next_step_, loss, gradient_);
   const LearningRates rates = config_.rates_at(next_step_);
   entries_.step(gradient_, rates, quantised_);
   to_own_parameters(gradient_);
-  adam_.step(gradient_, rates, own_);
+  const auto beyond = adam_.step(gradient_, rates, own_);
   refresh(gradient_.indices);
-  const FittingStep done{next_step_++, at, found.loss, found.l1, found.ssim, gradient_.size()};
+  check_limits(next_step_, beyond);
+  const FittingStep done{next_step_++, at, loss};
   if (next_step_ % config_.reassign_every == 0 && next_step_ < config_.steps) reassign();
   return done;
 }

@@ -31,9 +31,9 @@ struct TrainArguments : FittingArguments {
   // What a checkpoint must have been made with.
   std::string training() const {
     return fmt::format(
-        "{} --steps {} --gaussians {} --seed {} --sh-degree {} --growth {} "
-        "--background {}",
-        dataset, steps, gaussians, seed, sh_degree, growth, background);
+        "train {} --steps {} --gaussians {} --seed {} --sh-degree {} --growth {} "
+        "--background {} --gradients {}",
+        dataset, steps, gaussians, seed, sh_degree, growth, background, gradients);
   }
 };
 
@@ -44,6 +44,7 @@ TrainingConfig training_config(const TrainArguments& arguments) {
   config.most_gaussians = arguments.gaussians;
   config.start_gaussians = std::min<std::size_t>(config.start_gaussians, arguments.gaussians);
   config.sh_degree = static_cast<int>(arguments.sh_degree);
+  config.comparison.gradients = arguments.gradient_rule();
   if (arguments.growth == "original") {
     config.growth = Growth::kOriginal;
     config.start.opacity = 0.1;
@@ -77,6 +78,7 @@ Trainer begun(const std::optional<Checkpoint>& from, const Dataset& dataset,
 }
 
 int run(const TrainArguments& arguments) {
+  arguments.check_extension(".ply");
   OutputPlan plan;
   arguments.add_to(plan);
   plan.check();
@@ -86,8 +88,13 @@ int run(const TrainArguments& arguments) {
     throw InputError(arguments.dataset + ": has no view to test with");
   }
   const TrainingConfig config = training_config(arguments);
-  const std::optional<Checkpoint> from = arguments.resumed("train", arguments.training());
+  const std::optional<Checkpoint> from = arguments.resumed(arguments.training());
   Photographs train(dataset, Split::kTrain), test(dataset, Split::kTest);
+  if (config.background != Background::kRandom && !train.transparent()) {
+    throw InputError(
+        fmt::format("--background: got {}, but nothing is seen behind opaque photographs",
+                    arguments.background));
+  }
   Trainer trainer = begun(from, dataset, config, train);
   test.load(1);
   // As pictures of transparent objects are compared.
@@ -98,8 +105,8 @@ int run(const TrainArguments& arguments) {
     return Look{mean_quality(qualities(trainer.activated(), test, background, seen)), {}};
   };
   const auto write = [&] { write_ply(arguments.out, trainer.cloud()); };
-  const FittingTask task{"train", arguments.training(), trainer, {}, look, write};
-  return run_fitting(arguments, task, from ? from->log : "", false);
+  const FittingTask task{arguments.training(), trainer, {}, look, write};
+  return run_fitting(arguments, task, from, false);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,11 +30,7 @@ void check_arguments(const TuneArguments& arguments) {
         fmt::format("tune: got {} to tune for, expected one of --boundary, --quantise, --streaming",
                     purposes == 0 ? "nothing" : "several things"));
   }
-  const char* extension = arguments.quantise ? kImageFileExtension : ".ply";
-  if (std::filesystem::path(arguments.out).extension() != extension) {
-    throw InputError(
-        fmt::format("--out: {}, expected a name that ends in {}", arguments.out, extension));
-  }
+  arguments.check_extension(arguments.quantise ? kImageFileExtension : ".ply");
   if (arguments.data.empty()) return;
   const std::pair<const char*, bool> of_cameras[] = {{"--cameras", !arguments.cameras_path.empty()},
                                                      {"--size", !arguments.size.empty()},
@@ -101,8 +96,18 @@ CloudInStorage given_in_storage(const TuneArguments& arguments, const TuningJob&
   return given;
 }
 
-std::optional<PaperOrderConfig> tuned_order(const RunConfig& config) {
+std::optional<PaperOrderConfig> tuned_order(const TuneArguments& arguments,
+                                            const RunConfig& config) {
   std::optional<PaperOrderConfig> order = config.design->paper_order();
+  if (!order && !config.design->draws_reference()) {
+    throw InputError(fmt::format(
+        "--{}: machine {} as it is configured draws neither paper order nor the reference "
+        "picture, expected rendering.precision fp32 and nothing that is given up",
+        arguments.purpose(), config.machine()));
+  }
+  if (!order && arguments.visit_memory_mb != TuneArguments::kVisitMemoryMb) {
+    throw InputError("--visit-memory: only paper order has visits");
+  }
   if (order && order->parts > 1 && order->precision == BlendPrecision::kHalf) {
     throw InputError(
         "fetch: shared with rendering.precision fp16 filters each part of a group by itself, "
@@ -141,10 +146,11 @@ void TuneArguments::set(TuningConfig& tuning, int own_steps, double own_rate) co
   tuning.steps = steps > 0 ? static_cast<int>(steps) : own_steps;
   tuning.rate = rate > 0 ? rate : own_rate;
   tuning.seed = seed;
+  tuning.comparison.gradients = gradient_rule();
 }
 
 std::string TuneArguments::work(const TuningConfig& tuning) const {
-  std::string line = fmt::format("{} --{} --config {}", scene, purpose(), config.config);
+  std::string line = fmt::format("tune {} --{} --config {}", scene, purpose(), config.config);
   for (const std::string& value : config.overrides) line += " --set " + value;
   if (data.empty()) {
     line += fmt::format(" --cameras {} --size {} --between {}", cameras_path, size, between);
@@ -152,7 +158,8 @@ std::string TuneArguments::work(const TuningConfig& tuning) const {
   } else {
     line += " --data " + data;
   }
-  line += fmt::format(" --steps {} --seed {} --rate {}", tuning.steps, seed, tuning.rate);
+  line += fmt::format(" --steps {} --seed {} --rate {} --gradients {}", tuning.steps, seed,
+                      tuning.rate, gradients);
   if (quantise) return line + fmt::format(" --reassign-every {}", reassign_every);
   if (streaming) return line + fmt::format(" --price {}", price);
   return line + fmt::format(" --beta {} --misordered-in {} --penalty-mean {}", beta, misordered_in,

@@ -35,7 +35,8 @@ struct TuneArguments : SceneArguments, FittingArguments {
   std::string misordered_in = "group", penalty_mean = "rendered";
   std::uint32_t reassign_every = 100;
   double price = 0.01;
-  std::uint32_t visit_memory_mb = 1024;
+  static constexpr std::uint32_t kVisitMemoryMb = 1024;
+  std::uint32_t visit_memory_mb = kVisitMemoryMb;
 
   std::size_t visit_bytes() const { return std::size_t{visit_memory_mb} * 1'000'000; }
   const char* purpose() const {
@@ -63,9 +64,10 @@ CloudInStorage in_storage(const GaussianCloud& cloud, const StorageConfig& stora
 // The scene as given. Throws InputError where nothing of it is stored.
 CloudInStorage given_in_storage(const TuneArguments& arguments, const TuningJob& job);
 
-// How the machine renders where that is in paper order. Throws InputError for what is not tuned
-// for.
-std::optional<PaperOrderConfig> tuned_order(const RunConfig& config);
+// How the machine renders: in paper order, or, where nothing is returned, as the reference does.
+// Throws InputError for what is not tuned for.
+std::optional<PaperOrderConfig> tuned_order(const TuneArguments& arguments,
+                                            const RunConfig& config);
 
 // A tuner of what is written as .ply, at its beginning or from a checkpoint. given: in storage
 // order. Throws InputError where the checkpoint is of another scene.

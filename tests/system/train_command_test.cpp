@@ -58,17 +58,36 @@ TEST_CASE("train: what is resumed ends as what was never stopped, bit for bit") 
   CHECK(made.status == 0);
 }
 
-TEST_CASE("train: Ctrl-C saves, and says how to go on") {
+TEST_CASE("train: Ctrl-C and a request to end save, and say how to go on") {
+  for (const std::string signal : {"INT", "TERM"}) {
+    const ScratchFolder scratch;
+    make_dataset(scratch);
+    const ShellOutcome made =
+        shell(scratch,
+              "$SG train d --out s.ply --gaussians 300 --steps 100000 & p=$!; sleep 3; "
+              "kill -" +
+                  signal + " $p; wait $p; echo status $?; ls");
+    INFO(made.out << made.err);
+    CHECK(made.out.find("status 130") != std::string::npos);
+    CHECK(made.out.find("s.ply\ns.ply.checkpoint\n") != std::string::npos);
+    CHECK(made.err.find("to go on: --resume s.ply.checkpoint") != std::string::npos);
+  }
+}
+
+TEST_CASE("train: what fails on the way leaves a checkpoint that ends as what never failed") {
   const ScratchFolder scratch;
   make_dataset(scratch);
+  const std::string train = kTrain;
   const ShellOutcome made =
-      shell(scratch,
-            "$SG train d --out s.ply --gaussians 300 --steps 100000 & p=$!; sleep 3; kill -INT $p; "
-            "wait $p; echo status $?; ls");
+      shell(scratch, "mkdir -p p/view_0_step_000020.png; " + train +
+                         "--out a.ply --pictures p; echo status $?; " + train +
+                         "--out a.ply --resume a.ply.checkpoint >t && " + train +
+                         "--out b.ply >t && cmp a.ply b.ply && echo same");
   INFO(made.out << made.err);
-  CHECK(made.out.find("status 130") != std::string::npos);
-  CHECK(made.out.find("s.ply\ns.ply.checkpoint\n") != std::string::npos);
-  CHECK(made.err.find("to go on: --resume s.ply.checkpoint") != std::string::npos);
+  CHECK(made.out.find("status 1\n") != std::string::npos);
+  CHECK(made.out.find("same\n") != std::string::npos);
+  CHECK(made.err.find("p/view_0_step_000020.png") != std::string::npos);
+  CHECK(made.err.find("; the last good state is in a.ply.checkpoint") != std::string::npos);
 }
 
 TEST_CASE("photographs: frames beside them are as near as the log of training says") {
@@ -116,6 +135,9 @@ TEST_CASE("train: refusals") {
   for (const Row& row : std::vector<Row>{
            {"$SG train nofolder --out s.ply", {"nofolder: no such folder"}},
            {"$SG train d --out ''", {"--out", "got nothing"}},
+           {"$SG train d --out s.sgs", {"--out", "s.sgs", ".ply"}},
+           {"$SG train d --out s.ply --log s.ply.checkpoint", {"s.ply.checkpoint"}},
+           {"mkdir s.ply.checkpoint; $SG train d --out s.ply", {"s.ply.checkpoint", "folder"}},
            {"$SG train d --out s.ply --steps 0", {"--steps", "0"}},
            {"$SG train d --out s.ply --growth none", {"--growth", "none"}},
            {"$SG train d --out s.ply --picture-views 1", {"--picture-views", "--pictures"}},
@@ -128,11 +150,13 @@ TEST_CASE("train: refusals") {
             {"c: was cut off or changed"}},
            {checkpoint + "$SG train d --steps 41 --out t.ply --resume s.ply.checkpoint",
             {"s.ply.checkpoint: is of 'train d --steps 40", "expected 'train d --steps 41"}},
+           {"$SG train opaque --out s.ply --background white", {"--background", "white", "opaque"}},
            {checkpoint + kTrain + "--out s.ply.checkpoint --resume s.ply.checkpoint",
             {"s.ply.checkpoint"}},
        }) {
     const ScratchFolder scratch;
     make_dataset(scratch);
+    write_colmap_text(scratch.path("opaque"), made_scene());
     check_refused(scratch, row.line, row.words);
   }
 }

@@ -123,6 +123,20 @@ TEST_CASE("tune: what is resumed ends as what was never stopped, bit for bit") {
   }
 }
 
+TEST_CASE("tune: what would leave the limits of scenes stops it, and what is left can be read") {
+  const ScratchFolder scratch;
+  const ShellOutcome made =
+      shell(scratch,
+            "$SG tune $B --boundary --rate 1000 --steps 300 --out t.ply --log l.csv; echo status "
+            "$?; ls; cat l.csv");
+  INFO(made.out << made.err);
+  CHECK(made.out.find("status 1\n") != std::string::npos);
+  CHECK(made.out.find("t.ply.checkpoint\n") != std::string::npos);
+  CHECK(made.out.find("step,seconds") != std::string::npos);
+  CHECK(made.err.find("than a scene may hold; the last good state is in t.ply.checkpoint") !=
+        std::string::npos);
+}
+
 TEST_CASE("tune: Ctrl-C saves, and says how to go on") {
   const ScratchFolder scratch;
   const ShellOutcome made = shell(
@@ -156,6 +170,13 @@ TEST_CASE("tune: refusals") {
            {"$SG tune $B --boundary --out t.ply --target nofile.ply", {"nofile.ply: no such file"}},
            {"$SG tune $B --boundary --out t.ply --config exact",
             {"--boundary", "machine exact", "paper order"}},
+           {"$SG tune $B --quantise --out t.sgs --config exact_vq --set rendering.precision=fp16",
+            {"--quantise", "machine exact", "rendering.precision fp32"}},
+           {"$SG tune $B --streaming --out t.ply --config exact --set "
+            "merge.on_overflow=blend_early",
+            {"--streaming", "machine exact", "rendering.precision fp32"}},
+           {"$SG tune $B --streaming --out t.ply --config exact --visit-memory 9",
+            {"--visit-memory", "paper order"}},
            {"$SG tune $B --boundary --out t.ply --beta -1", {"--beta", "-1"}},
            {"$SG tune $B --boundary --out t.ply --misordered-in x", {"--misordered-in", "x"}},
            {ply_of({"0 0 5"}) + "; $SG tune a.ply --boundary --out t.ply",
