@@ -8,7 +8,6 @@ import csv
 import dataclasses
 import fcntl
 import hashlib
-import io
 import json
 import pathlib
 import signal
@@ -26,7 +25,6 @@ from simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, program_version, sa
 CHECKPOINT_EVERY = "500"  # steps; what is lost where a computer stops
 INTERRUPTED = 130  # exit status of the command: saved, to be resumed
 DONE = "made.json"  # written last: a folder that has it is whole
-LOG_HEAD = b"step,seconds"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -148,7 +146,7 @@ class KeptFittings:
         if checkpoint_of(scene).exists():
             words += ["--resume", str(checkpoint_of(scene))]
             told = float(clock.read_text()) if clock.exists() else 0.0
-            earlier = max(told, logged_seconds(checkpoint_of(scene)))
+            earlier = max(told, logged_seconds(scene.parent / "log.csv"))
         began = time.monotonic()
         done, timed_out = self.call(words, fitting.most_seconds, earlier, lock)
         seconds = earlier + time.monotonic() - began
@@ -199,13 +197,9 @@ def checkpoint_of(scene: pathlib.Path) -> pathlib.Path:
     return scene.with_name(scene.name + ".checkpoint")
 
 
-def logged_seconds(checkpoint: pathlib.Path) -> float:
-    """Of the last look in the log that a checkpoint has, a text behind its length as 64 bits; 0
-    where there was none yet."""
-    saved = checkpoint.read_bytes()
-    begin = saved.find(LOG_HEAD)
-    if begin < 8:
+def logged_seconds(log: pathlib.Path) -> float:
+    """Of the last look, whatever looks a checkpoint is behind; 0 where there was none yet."""
+    if not log.exists():
         return 0.0
-    size = int.from_bytes(saved[begin - 8 : begin], "little")
-    log = csv.DictReader(io.StringIO(saved[begin : begin + size].decode()))
-    return max((float(look["seconds"]) for look in log), default=0.0)
+    with log.open(newline="") as file:
+        return max((float(look["seconds"]) for look in csv.DictReader(file)), default=0.0)
