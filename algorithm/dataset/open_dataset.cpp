@@ -93,7 +93,7 @@ Dataset open_dataset(const std::string& folder, double downscale) {
     dataset.views.push_back(complete_view(view));
     DatasetView& added = dataset.views.back();
     added.camera.id = number;
-    added.camera = downscaled_camera(added, downscale);
+    if (downscale != 1) added.camera = downscaled_camera(added, downscale);
     if (stated.split_by == SplitBy::kEveryEighth) {
       added.split = number % kTestEvery == 0 ? Split::kTest : Split::kTrain;
     }
