@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algorithm/image/image_io.h"
+#include "algorithm/input_error.h"
 #include "algorithm/output_plan.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/train/photographs.h"
@@ -35,6 +36,12 @@ int run(const PhotographsArguments& arguments) {
   plan.add_output(arguments.cameras());
   for (std::size_t at = 0; at < test.size(); ++at) plan.add_output(arguments.picture(at));
   plan.check();
+  std::error_code not_there;
+  if (std::filesystem::equivalent(arguments.out, dataset.folder, not_there)) {
+    throw InputError("--out: " + arguments.out +
+                     " is the data set itself, which cameras.json would give a second layout, "
+                     "expected another folder");
+  }
   test.load(1);
   std::vector<Camera> cameras;
   for (std::size_t at = 0; at < test.size(); ++at) {

@@ -140,10 +140,12 @@ TEST_CASE("photographs: refusals") {
   for (const Row& row :
        std::vector<Row>{{"$SG photographs nofolder --out p", {"nofolder: no such folder"}},
                         {"$SG photographs d --out d", {"d/cameras.json"}},
+                        {"$SG photographs n --out ./n/", {"./n/ is the data set itself"}},
                         {"$SG photographs d --out p --downscale 0.5", {"--downscale", "0.5"}},
                         {"$SG photographs d", {"--out"}}}) {
     const ScratchFolder scratch;
     write_cameras_json(scratch.path("d"), made_scene());
+    write_nerf_synthetic(scratch.path("n"), made_scene());
     check_refused(scratch, row.line, row.words);
   }
 }
