@@ -7,20 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/dataset/open_dataset.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_plan.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/train/trainer.h"
-#include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/dataset_arguments.h"
 #include "testbench/streaminggs/fitting_run.h"
+#include "testbench/streaminggs/numbers.h"
 
 namespace sgs {
 namespace {
 
 struct TrainArguments : FittingArguments {
-  std::string dataset;
+  DatasetArguments data;
   std::string growth = "mcmc";
   std::string background = "random";
   std::uint32_t steps = 20'000;
@@ -33,7 +33,7 @@ struct TrainArguments : FittingArguments {
     return fmt::format(
         "train {} --steps {} --gaussians {} --seed {} --sh-degree {} --growth {} "
         "--background {} --gradients {}",
-        dataset, steps, gaussians, seed, sh_degree, growth, background, gradients);
+        data.work(), steps, gaussians, seed, sh_degree, growth, background, gradients);
   }
 };
 
@@ -64,10 +64,12 @@ std::vector<Camera> training_cameras(const Dataset& dataset) {
 }
 
 GaussianCloud start_of(const Dataset& dataset, const TrainingConfig& config) {
-  const auto points = dataset.points.empty()
-                          ? random_points(box_to_fill(dataset), config.start_gaussians, config.seed)
-                          : dataset.points;
-  return start_at_points(points, config.start_gaussians, config.start, config.seed);
+  const auto points = points_to_start_at(dataset, config.start_gaussians, config.seed);
+  GaussianCloud cloud = start_at_points(points, config.start_gaussians, config.start, config.seed);
+  fmt::print("{:<26}{} of {} {}\n", "start", grouped(cloud.size()), grouped(points.size()),
+             dataset.points.empty() ? "random points, the data set brings none"
+                                    : "points of the data set");
+  return cloud;
 }
 
 Trainer begun(const std::optional<Checkpoint>& from, const Dataset& dataset,
@@ -82,21 +84,17 @@ int run(const TrainArguments& arguments) {
   OutputPlan plan;
   arguments.add_to(plan);
   plan.check();
-  const Dataset dataset =
-      while_doing("reading " + arguments.dataset, [&] { return open_dataset(arguments.dataset); });
-  if (views_of(dataset, Split::kTest).empty()) {
-    throw InputError(arguments.dataset + ": has no view to test with");
-  }
+  const Dataset dataset = arguments.data.open(plan);
   const TrainingConfig config = training_config(arguments);
   const std::optional<Checkpoint> from = arguments.resumed(arguments.training());
   Photographs train(dataset, Split::kTrain), test(dataset, Split::kTest);
-  if (config.background != Background::kRandom && !train.transparent()) {
+  Trainer trainer = begun(from, dataset, config, train);
+  test.load(1);
+  if (config.background != Background::kRandom && !test.transparent()) {
     throw InputError(
         fmt::format("--background: got {}, but nothing is seen behind opaque photographs",
                     arguments.background));
   }
-  Trainer trainer = begun(from, dataset, config, train);
-  test.load(1);
   // As pictures of transparent objects are compared.
   const glm::vec3 background(test.transparent() ? 1.0F : 0.0F);
   arguments.pictures.write_photographs(test, background);
@@ -113,7 +111,8 @@ int run(const TrainArguments& arguments) {
 
 SubCommand add_train_command(CommandLine& line, const Kinds&) {
   auto arguments = std::make_shared<TrainArguments>();
-  line.file("DATASET", arguments->dataset, "the folder of a data set", Given::kAlways);
+  line.file("DATASET", arguments->data.folder, "the folder of a data set", Given::kAlways);
+  arguments->data.add_downscale_to(line);
   arguments->add_to(line, "scene to write: .ply");
   line.whole("--steps", arguments->steps, 1, 1'000'000, "of training, a photograph each");
   line.whole("--gaussians", arguments->gaussians, 1, 100'000'000, "at most");

@@ -31,7 +31,7 @@ void check_arguments(const TuneArguments& arguments) {
                     purposes == 0 ? "nothing" : "several things"));
   }
   arguments.check_extension(arguments.quantise ? kImageFileExtension : ".ply");
-  if (arguments.data.empty()) return;
+  if (arguments.data.folder.empty()) return;
   const std::pair<const char*, bool> of_cameras[] = {{"--cameras", !arguments.cameras_path.empty()},
                                                      {"--size", !arguments.size.empty()},
                                                      {"--between", arguments.between > 0},
@@ -41,8 +41,8 @@ void check_arguments(const TuneArguments& arguments) {
   }
 }
 
-TuningViews views_for(const TuneArguments& arguments, const Scene& scene) {
-  if (!arguments.data.empty()) return views_of_dataset(arguments.data);
+TuningViews views_for(const TuneArguments& arguments, const Scene& scene, OutputPlan& plan) {
+  if (!arguments.data.folder.empty()) return views_of_dataset(arguments.data.open(plan));
   SceneArguments shown = arguments;
   std::optional<Scene> other;
   if (!arguments.target.empty()) {
@@ -71,7 +71,7 @@ int run(const TuneArguments& arguments, const Kinds& kinds) {
   arguments.FittingArguments::add_to(plan);
   plan.check();
   Scene scene = arguments.load();
-  TuningViews views = views_for(arguments, scene);
+  TuningViews views = views_for(arguments, scene, plan);
   TuningJob job{std::move(scene), std::move(views), std::move(config)};
   job.config.design->fit_frames([&] { return frame_sizes(job.views); });
   resolve(job.config);
@@ -152,11 +152,11 @@ void TuneArguments::set(TuningConfig& tuning, int own_steps, double own_rate) co
 std::string TuneArguments::work(const TuningConfig& tuning) const {
   std::string line = fmt::format("tune {} --{} --config {}", scene, purpose(), config.config);
   for (const std::string& value : config.overrides) line += " --set " + value;
-  if (data.empty()) {
+  if (data.folder.empty()) {
     line += fmt::format(" --cameras {} --size {} --between {}", cameras_path, size, between);
     if (!target.empty()) line += " --target " + target;
   } else {
-    line += " --data " + data;
+    line += " --data " + data.work();
   }
   line += fmt::format(" --steps {} --seed {} --rate {} --gradients {}", tuning.steps, seed,
                       tuning.rate, gradients);
@@ -178,17 +178,22 @@ SubCommand add_tune_command(CommandLine& line, const Kinds& kinds) {
   line.flag("--streaming", arguments->streaming,
             "for fewer bytes in exact order: Gaussians pay for what they are fetched for; centres "
             "rest");
-  line.file("--data", arguments->data,
+  line.file("--data", arguments->data.folder,
             "the folder of a data set; without, the scene's own "
             "reference pictures are what it is to look like");
+  arguments->data.add_downscale_to(line);
+  line.needs("--downscale", "--data");
   line.text("--target", arguments->target,
             "the scene whose reference pictures these are, where it is not SCENE itself: what "
             "SCENE was before it was tuned");
-  line.file("--cameras", arguments->cameras_path,
-            "cameras.json of these pictures; built-in scenes bring their own");
+  line.file(
+      "--cameras", arguments->cameras_path,
+      "cameras.json of these pictures, every eighth to test with; built-in scenes bring their "
+      "own, others need it: none are made out of nothing");
   line.text("--size", arguments->size, "WIDTHxHEIGHT in px; scales the intrinsics");
   line.whole("--between", arguments->between, 0, 100'000,
-             "so many cameras between the given ones to tune on, which then are to test with");
+             "so many cameras made to tune on, those given all to test with: each between two of "
+             "them drawn by lot, on the line between the centres, turned the shortest way");
   arguments->config.add_to(line);
   arguments->FittingArguments::add_to(line, "scene to write: .sgs with --quantise, else .ply");
   line.whole("--steps", arguments->steps, 0, 1'000'000,

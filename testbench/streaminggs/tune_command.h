@@ -15,6 +15,7 @@
 #include "algorithm/train/tuning_config.h"
 #include "algorithm/tune/visit_plan.h"
 #include "testbench/command_line/config_source.h"
+#include "testbench/streaminggs/dataset_arguments.h"
 #include "testbench/streaminggs/fitting_run.h"
 #include "testbench/streaminggs/run_config.h"
 #include "testbench/streaminggs/scene_arguments.h"
@@ -24,8 +25,8 @@ namespace sgs {
 
 struct TuneArguments : SceneArguments, FittingArguments {
   bool boundary = false, quantise = false, streaming = false;
-  std::string data;    // folder of a data set; empty: the scene's own pictures
-  std::string target;  // scene whose pictures they are; empty: the one that is tuned
+  DatasetArguments data;  // no folder: the scene's own pictures
+  std::string target;     // scene whose pictures they are; empty: the one that is tuned
   std::uint32_t between = 0;
   ConfigSource config;
   std::uint32_t steps = 0;  // 0: as many as the paper takes

@@ -90,6 +90,47 @@ TEST_CASE("train: what fails on the way leaves a checkpoint that ends as what ne
   CHECK(made.err.find("; the last good state is in a.ply.checkpoint") != std::string::npos);
 }
 
+TEST_CASE("train, tune, photographs: pictures and cameras smaller than the files") {
+  const ScratchFolder scratch;
+  make_dataset(scratch);
+  const std::string half = "--downscale 2 ";
+  const ShellOutcome made = shell(
+      scratch,
+      "$SG photographs d --downscale 2.5 --out p && grep -o '\"width\": *[0-9]*\\|\"height\": "
+      "*[0-9]*\\|\"fx\": *[0-9.]*' p/cameras.json | tr -d ' ' | sort | uniq -c && " +
+          std::string(kTrain) + half +
+          "--out s.ply --checkpoint 25 --pictures q && cp "
+          "s.ply.checkpoint mid && " +
+          kTrain + half +
+          "--out t.ply --resume mid && cmp s.ply "
+          "t.ply && head -c 24 q/view_0_step_000040.png | tail -c 8 | od -An -tu1 && $SG tune "
+          "s.ply --boundary --data d " +
+          half + "--steps 4 --out u.ply --checkpoint 2 && $SG tune s.ply --boundary --data d " +
+          half + "--steps 4 --out v.ply --resume u.ply.checkpoint && cmp u.ply v.ply");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  for (const char* words :
+       {"3 \"width\":26\n", "3 \"height\":19\n", "3 \"fx\":24.375\n", "0  32   0   0   0  24\n"}) {
+    INFO(words);
+    CHECK(made.out.find(words) != std::string::npos);
+  }
+}
+
+TEST_CASE("train: what it starts from is said") {
+  const ScratchFolder scratch;
+  make_dataset(scratch);
+  write_colmap_text(scratch.path("c"), made_scene());
+  const ShellOutcome made =
+      shell(scratch, std::string(kTrain) +
+                         "--background white --out s.ply && $SG train c --steps 5 --gaussians 300 "
+                         "--out t.ply");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK(made.out.find(" 300 of 300 random points, the data set brings none\n") !=
+        std::string::npos);
+  CHECK(made.out.find(" 5 of 5 points of the data set\n") != std::string::npos);
+}
+
 TEST_CASE("photographs: frames beside them are as near as the log of training says") {
   const ScratchFolder scratch;
   write_cameras_json(scratch.path("d"), made_scene());
@@ -119,9 +160,12 @@ TEST_CASE("photographs: refusals") {
   for (const Row& row :
        std::vector<Row>{{"$SG photographs nofolder --out p", {"nofolder: no such folder"}},
                         {"$SG photographs d --out d", {"d/cameras.json"}},
+                        {"$SG photographs n --out ./n/", {"./n/ is the data set itself"}},
+                        {"$SG photographs d --out p --downscale 0.5", {"--downscale", "0.5"}},
                         {"$SG photographs d", {"--out"}}}) {
     const ScratchFolder scratch;
     write_cameras_json(scratch.path("d"), made_scene());
+    write_nerf_synthetic(scratch.path("n"), made_scene());
     check_refused(scratch, row.line, row.words);
   }
 }
@@ -139,6 +183,17 @@ TEST_CASE("train: refusals") {
            {"$SG train d --out s.ply --log s.ply.checkpoint", {"s.ply.checkpoint"}},
            {"mkdir s.ply.checkpoint; $SG train d --out s.ply", {"s.ply.checkpoint", "folder"}},
            {"$SG train d --out s.ply --steps 0", {"--steps", "0"}},
+           {"$SG train d --out s.ply --downscale 0.99", {"--downscale", "0.99"}},
+           {"$SG train d --out s.ply --log d/transforms_test.json",
+            {"d/transforms_test.json: is the same file as the input"}},
+           {"$SG train d --out s.ply --log ./d/transforms_val.json",
+            {"d/transforms_val.json: is the same file as the input"}},
+           {"$SG train d --out s.ply --log d/train/shot_04.png",
+            {"d/train/shot_04.png: is the same file as the input"}},
+           {"sed -i 's/\"frames\": \\[/\"frames\": [], \"was\": [/' d/transforms_test.json; $SG "
+            "train d "
+            "--out s.ply",
+            {"d/transforms_test.json: frames: got none, expected one view or more to test with"}},
            {"$SG train d --out s.ply --growth none", {"--growth", "none"}},
            {"$SG train d --out s.ply --picture-views 1", {"--picture-views", "--pictures"}},
            {"$SG train d --out s.ply --pictures p --picture-views 9",
@@ -150,12 +205,15 @@ TEST_CASE("train: refusals") {
             {"c: was cut off or changed"}},
            {checkpoint + "$SG train d --steps 41 --out t.ply --resume s.ply.checkpoint",
             {"s.ply.checkpoint: is of 'train d --steps 40", "expected 'train d --steps 41"}},
+           {checkpoint + kTrain + "--downscale 2 --out t.ply --resume s.ply.checkpoint",
+            {"expected 'train d --downscale 2 --steps 40"}},
            {"$SG train opaque --out s.ply --background white", {"--background", "white", "opaque"}},
            {checkpoint + kTrain + "--out s.ply.checkpoint --resume s.ply.checkpoint",
             {"s.ply.checkpoint"}},
        }) {
     const ScratchFolder scratch;
     make_dataset(scratch);
+    scratch.write("d/transforms_val.json", "{}");
     write_colmap_text(scratch.path("opaque"), made_scene());
     check_refused(scratch, row.line, row.words);
   }

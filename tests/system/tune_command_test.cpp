@@ -167,6 +167,9 @@ TEST_CASE("tune: refusals") {
            {"$SG tune $S --boundary --out t.ply --data nofolder", {"nofolder: no such folder"}},
            {"$SG tune $B --boundary --out t.ply --data d", {"--size", "data set"}},
            {"$SG tune $S --boundary --out t.ply --data d --target $S", {"--target", "data set"}},
+           {"$SG tune $S --boundary --out t.ply --data d --log d/transforms_train.json",
+            {"d/transforms_train.json: is the same file as the input"}},
+           {"$SG tune $B --boundary --out t.ply --downscale 2", {"--downscale", "--data"}},
            {"$SG tune $B --boundary --out t.ply --target nofile.ply", {"nofile.ply: no such file"}},
            {"$SG tune $B --boundary --out t.ply --config exact",
             {"--boundary", "machine exact", "paper order"}},
@@ -192,6 +195,7 @@ TEST_CASE("tune: refusals") {
            {checkpoint + kQuantise + "--out t.sgs --resume s.ply.checkpoint",
             {"is of 'tune builtin:object?n=300", "--boundary", "expected", "--quantise"}}}) {
     const ScratchFolder scratch;
+    write_nerf_synthetic(scratch.path("d"), made_scene());
     check_refused(scratch, row.line, row.words);
   }
 }
