@@ -13,7 +13,8 @@ namespace sgs {
 
 template <class Archive>
 void serialize(Archive& archive, Checkpoint& checkpoint) {
-  archive(checkpoint.work, checkpoint.log, checkpoint.seconds, checkpoint.state);
+  archive(checkpoint.work, checkpoint.contents, checkpoint.log, checkpoint.seconds,
+          checkpoint.state);
 }
 
 namespace {

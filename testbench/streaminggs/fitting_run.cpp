@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
@@ -10,6 +11,7 @@
 #include "algorithm/output_file.h"
 #include "testbench/command_line/guard.h"
 #include "testbench/command_line/interrupt.h"
+#include "testbench/streaminggs/provenance.h"
 
 namespace sgs {
 namespace {
@@ -59,8 +61,8 @@ class FittingRun {
   }
 
   void save() const {
-    write_checkpoint(arguments_.checkpoint(),
-                     {task_.work, log_.csv(), log_.seconds(), task_.fitting.saved()});
+    write_checkpoint(arguments_.checkpoint(), {task_.work, task_.contents, log_.csv(),
+                                               log_.seconds(), task_.fitting.saved()});
   }
 
   // Says where the state is, or why it is nowhere.
@@ -117,11 +119,23 @@ void FittingArguments::add_to(OutputPlan& plan) const {
   pictures.add_to(plan);
 }
 
-std::optional<Checkpoint> FittingArguments::resumed(const std::string& work) const {
+std::string FittingArguments::contents(const OutputPlan& plan) const {
+  std::vector<std::string> files = plan.inputs();
+  files.erase(std::remove(files.begin(), files.end(), resume), files.end());
+  return digest_of_files(files);
+}
+
+std::optional<Checkpoint> FittingArguments::resumed(const std::string& work,
+                                                    const std::string& contents) const {
   if (resume.empty()) return {};
   Checkpoint checkpoint = read_checkpoint(resume);
   if (checkpoint.work != work) {
     throw InputError(fmt::format("{}: is of '{}', expected '{}'", resume, checkpoint.work, work));
+  }
+  if (checkpoint.contents != contents) {
+    throw InputError(fmt::format(
+        "{}: a file that it was made from holds something else now, expected what '{}' read then",
+        resume, work));
   }
   return checkpoint;
 }

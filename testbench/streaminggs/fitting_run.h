@@ -34,12 +34,15 @@ struct FittingArguments {
   }
   // Throws InputError where the scene's name does not end so.
   void check_extension(const char* extension) const;
-  // The one to go on from, if any. work: what it must have been made by. Throws InputError.
-  std::optional<Checkpoint> resumed(const std::string& work) const;
+  // Digest of the files that the fitting reads: the inputs of the plan, but for a checkpoint.
+  std::string contents(const OutputPlan& plan) const;
+  // The one to go on from, if any. work, contents: what it must have been made by. Throws
+  // InputError.
+  std::optional<Checkpoint> resumed(const std::string& work, const std::string& contents) const;
 };
 
 struct FittingTask {
-  std::string work;  // as Checkpoint::work
+  std::string work, contents;  // as in Checkpoint
   Fitting& fitting;
   std::vector<LogColumn> more;  // that look() fills in
   std::function<Look()> look;

@@ -86,7 +86,8 @@ int run(const TrainArguments& arguments) {
   plan.check();
   const Dataset dataset = arguments.data.open(plan);
   const TrainingConfig config = training_config(arguments);
-  const std::optional<Checkpoint> from = arguments.resumed(arguments.training());
+  const std::string contents = arguments.contents(plan);
+  const std::optional<Checkpoint> from = arguments.resumed(arguments.training(), contents);
   Photographs train(dataset, Split::kTrain), test(dataset, Split::kTest);
   Trainer trainer = begun(from, dataset, config, train);
   test.load(1);
@@ -103,7 +104,7 @@ int run(const TrainArguments& arguments) {
     return Look{mean_quality(qualities(trainer.activated(), test, background, seen)), {}};
   };
   const auto write = [&] { write_ply(arguments.out, trainer.cloud()); };
-  const FittingTask task{arguments.training(), trainer, {}, look, write};
+  const FittingTask task{arguments.training(), contents, trainer, {}, look, write};
   return run_fitting(arguments, task, from, false);
 }
 

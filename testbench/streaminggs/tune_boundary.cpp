@@ -45,7 +45,7 @@ int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
   const PaperOrderConfig order = paper_order_of(arguments, job.config);
   const StorageConfig& storage = job.config.storage;
   const std::string work = arguments.work(config);
-  const std::optional<Checkpoint> from = arguments.resumed(work);
+  const std::optional<Checkpoint> from = arguments.resumed(work, job.contents);
 
   const CloudInStorage given = given_in_storage(arguments, job);
   VisitPlan plan(std::get<VoxelGrid>(given.table), order, arguments.visit_bytes());
@@ -65,6 +65,7 @@ int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
                  quality.penalty}};
   };
   const FittingTask task{work,
+                         job.contents,
                          tuner,
                          {{"reference_psnr_db", "reference"},
                           {"misordered_gaussians", "misordered"},

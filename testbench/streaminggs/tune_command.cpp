@@ -72,7 +72,7 @@ int run(const TuneArguments& arguments, const Kinds& kinds) {
   plan.check();
   Scene scene = arguments.load();
   TuningViews views = views_for(arguments, scene, plan);
-  TuningJob job{std::move(scene), std::move(views), std::move(config)};
+  TuningJob job{std::move(scene), std::move(views), std::move(config), arguments.contents(plan)};
   job.config.design->fit_frames([&] { return frame_sizes(job.views); });
   resolve(job.config);
   adapt(job.config, job.scene);

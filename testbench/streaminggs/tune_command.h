@@ -54,6 +54,7 @@ struct TuningJob {
   Scene scene;
   TuningViews views;
   RunConfig config;
+  std::string contents;  // digest of what was read
 };
 
 // A scene's Gaussians in the order of their storage, less those that are not stored.

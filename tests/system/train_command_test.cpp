@@ -208,6 +208,9 @@ TEST_CASE("train: refusals") {
            {checkpoint + kTrain + "--downscale 2 --out t.ply --resume s.ply.checkpoint",
             {"expected 'train d --downscale 2 --steps 40"}},
            {"$SG train opaque --out s.ply --background white", {"--background", "white", "opaque"}},
+           {checkpoint + "cp d/train/shot_04.png d/train/shot_03.png; " + kTrain +
+                "--out t.ply --resume s.ply.checkpoint",
+            {"s.ply.checkpoint: a file that it was made from holds something else"}},
            {checkpoint + kTrain + "--out s.ply.checkpoint --resume s.ply.checkpoint",
             {"s.ply.checkpoint"}},
        }) {

@@ -192,6 +192,11 @@ TEST_CASE("tune: refusals") {
            {"$SG tune $B --boundary --out t.ply --resume nofile", {"nofile: cannot be opened"}},
            {checkpoint + "$SG tune $B --boundary --steps 31 --out t.ply --resume s.ply.checkpoint",
             {"is of 'tune builtin:object?n=300", "--steps 30", "expected", "--steps 31"}},
+           {"echo '{\"machine\":\"paper\"}' >m.json; " + std::string(kTune) +
+                "--config m.json --out s.ply --checkpoint 20 >t && echo "
+                "'{\"machine\":\"paper\",\"hfu\":{}}' >m.json; " +
+                kTune + "--config m.json --out t.ply --resume s.ply.checkpoint",
+            {"s.ply.checkpoint: a file that it was made from holds something else"}},
            {checkpoint + kQuantise + "--out t.sgs --resume s.ply.checkpoint",
             {"is of 'tune builtin:object?n=300", "--boundary", "expected", "--quantise"}}}) {
     const ScratchFolder scratch;
