@@ -67,9 +67,11 @@ class MachineDesign {
   virtual GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                              DataSheet& sheet) const = 0;
 
-  // What scenes can be tuned for: how it renders, where that is in paper order; the group of pixels
-  // that a Gaussian is fetched for, 0 x 0 where there are none.
+  // What scenes can be tuned for: how it renders, where that is in paper order; whether it draws
+  // the reference picture of a scene as it is stored, bit for bit; the group of pixels that a
+  // Gaussian is fetched for, 0 x 0 where there are none.
   virtual std::optional<PaperOrderConfig> paper_order() const { return {}; }
+  virtual bool draws_reference() const { return false; }
   virtual PixelSize group() const { return {}; }
 
   virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,

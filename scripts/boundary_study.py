@@ -4,7 +4,8 @@ the pictures come to their targets, every 500 steps, for sizes of voxels and wei
 data set is trained first, and held to its photographs; a scene is held to its own reference
 pictures. Writes boundary_study.md, a line for each look at the test views, and
 boundary_summary.md, from the first step to the last; and both as .csv. A tuning that was
-interrupted goes on where it was; what is done is kept in fittings/ of the folder for tables.
+interrupted goes on where it was; what is done is kept in fittings/ of the folder for tables. With
+--misordered-in pixel the tables are boundary_pixel_study and boundary_pixel.
 """
 
 from __future__ import annotations
@@ -49,6 +50,12 @@ SUMMARY_HEAD = (
     "L_CBP",
     "times less  ",
 )
+
+# By --misordered-in: of the looks, and from the first to the last.
+TABLES = {
+    "group": ("boundary_study", "boundary_summary"),
+    "pixel": ("boundary_pixel_study", "boundary_pixel"),
+}
 
 Case = tuple[str, float, float, float]  # scene, size of voxels, of the preset's, beta
 
@@ -102,10 +109,11 @@ def summary_row(case: Case, fitted: Fitted) -> tuple:
 
 def make_tables(arguments: argparse.Namespace) -> None:
     kept = KeptFittings(arguments.streaminggs, arguments.out / "fittings", arguments.side_by_side)
-    texts = arguments.scenes or subjects.DEFAULT_SUBJECTS
+    sources = subjects.find_sources(arguments.scenes or subjects.DEFAULT_SUBJECTS)
     calls = tunings.tunings_of(arguments)
+    tunings.check_settings(arguments.streaminggs, calls, (tunings.PAPER,))
     cases, fittings = [], []
-    for subject in subjects.find_subjects(texts, arguments, kept):
+    for subject in subjects.find_subjects(sources, arguments, kept):
         preset = tunings.voxel_of_preset(arguments.streaminggs, subject)
         for factor in arguments.voxels:
             for beta in arguments.betas:
@@ -115,8 +123,9 @@ def make_tables(arguments: argparse.Namespace) -> None:
     made = run_arguments.how_made([{"provenance": {"commit": kept.commit}}])
     rows = [row for case, each in zip(cases, fitted) for row in rows_of(case, each)]
     summary = [summary_row(case, each) for case, each in zip(cases, fitted)]
-    tables.write(arguments.out, "boundary_study", made, HEAD, rows)
-    tables.write(arguments.out, "boundary_summary", made, SUMMARY_HEAD, summary)
+    looks, ends = TABLES[arguments.misordered_in]
+    tables.write(arguments.out, looks, made, HEAD, rows)
+    tables.write(arguments.out, ends, made, SUMMARY_HEAD, summary)
 
 
 def main() -> int:

@@ -137,14 +137,16 @@ class KeptFittings:
         checkpoint_of(scene).unlink(missing_ok=True)
 
     def run(self, fitting: Fitting, scene: pathlib.Path, clock: pathlib.Path, lock: IO) -> float:
-        """Until its end. clock: file of the seconds that earlier parts took. Returns the sum."""
+        """Until its end. clock: file of the seconds that earlier parts took, which a script that
+        was killed could not write. Returns the sum."""
         words = [str(self.binary.absolute()), fitting.command, *fitting.words]
         words += ["--out", str(scene), "--log", str(scene.parent / "log.csv")]
         words += ["--checkpoint", CHECKPOINT_EVERY]
         earlier = 0.0
         if checkpoint_of(scene).exists():
             words += ["--resume", str(checkpoint_of(scene))]
-            earlier = float(clock.read_text()) if clock.exists() else 0.0
+            told = float(clock.read_text()) if clock.exists() else 0.0
+            earlier = max(told, logged_seconds(scene.parent / "log.csv"))
         began = time.monotonic()
         done, timed_out = self.call(words, fitting.most_seconds, earlier, lock)
         seconds = earlier + time.monotonic() - began
@@ -193,3 +195,11 @@ class KeptFittings:
 
 def checkpoint_of(scene: pathlib.Path) -> pathlib.Path:
     return scene.with_name(scene.name + ".checkpoint")
+
+
+def logged_seconds(log: pathlib.Path) -> float:
+    """Of the last look, whatever looks a checkpoint is behind; 0 where there was none yet."""
+    if not log.exists():
+        return 0.0
+    with log.open(newline="") as file:
+        return max((float(look["seconds"]) for look in csv.DictReader(file)), default=0.0)

@@ -67,8 +67,9 @@ def mean(views: Sequence[dict], value: Callable[[dict], float]) -> float:
 
 
 def mean_psnr(views: Sequence[dict], key: str = "psnr_db") -> float:
-    """In dB; infinite where any view equals its target."""
-    return mean(views, lambda v: math.inf if v["target"][key] is None else v["target"][key])
+    """In dB, of the views that differ from their targets; infinite where none does."""
+    found = [view["target"][key] for view in views]
+    return statistics.fmean([psnr_db for psnr_db in found if psnr_db is not None] or [math.inf])
 
 
 def psnr_text(views: Sequence[dict], key: str = "psnr_db") -> str:

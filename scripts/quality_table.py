@@ -9,8 +9,10 @@ pictures of the scene as given where there are no photographs. A data set is tra
   quality_machine.md  a line for each scene, order and tuning: quality, bytes, cycles, joules
 
 and both as .csv. `packed` is the scene with codebooks as `pack` makes them, tuned for nothing
-further. Everything is kept in fittings/ and targets/ of the folder for tables, and goes on where it
-ended.
+further. Steps alone bring a scene nearer to photographs. So a data set has one line more, of order
+`reference`: reference pictures of the same scene after as many steps at the same rates in that order,
+for no price and without codebooks. Everything is kept in fittings/ and targets/ of the folder for
+tables, and goes on where it ended.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ import run_arguments
 import subjects
 import tables
 import tunings
-from fittings import KeptFittings
+from fittings import Fitting, KeptFittings
 from judged_frames import (
     MACHINE_HEAD,
     JudgedFrames,
@@ -34,7 +36,7 @@ from judged_frames import (
     psnr_text,
 )
 from subjects import Subject
-from target_pictures import target_pictures
+from target_pictures import check_views, target_pictures
 from tunings import EXACT, EXACT_VQ, PAPER, PAPER_VQ
 
 GIVEN, BOUNDARY = "as given", "boundary-aware"
@@ -78,6 +80,25 @@ class Stage:
     overrides: tuple[str, ...] = ()
 
 
+def prices_of(subject: Subject, prices: Sequence[float]) -> list[float]:
+    """Beside photographs also none: what the steps alone do."""
+    return list(dict.fromkeys((0.0, *prices) if subject.dataset else prices))
+
+
+def steps_alone(subject: Subject, calls: tunings.Tunings) -> dict[str, Fitting]:
+    """By name. Own pictures need none: a scene shows them as it is."""
+    if not subject.dataset:
+        return {}
+    return {
+        as_long_as(BOUNDARY): calls.as_long_as_boundary(subject),
+        as_long_as(QUANTISED): calls.as_long_as_quantised(subject),
+    }
+
+
+def as_long_as(tuning: str) -> str:
+    return f"as long as {tuning}"
+
+
 def stages_of(
     subject: Subject,
     kept: KeptFittings,
@@ -87,17 +108,19 @@ def stages_of(
 ) -> list[Stage]:
     """Tunes what is not tuned yet. What is packed already says its voxels itself."""
     given, voxels = subject.scene, calls.voxel_words(voxel)
+    prices, alone = prices_of(subject, arguments.prices), steps_alone(subject, calls)
     first = [
         calls.boundary(subject, voxel, arguments.beta),
         calls.quantised(subject, given, EXACT_VQ, ()),
-        *(calls.streaming(subject, price) for price in arguments.prices),
+        *(calls.streaming(subject, price) for price in prices),
+        *alone.values(),
     ]
-    boundary, exact_vq, *streaming = (str(fitted.scene) for fitted in kept.all(first))
+    boundary, exact_vq, *others = (str(fitted.scene) for fitted in kept.all(first))
     settings = (*calls.tuned_in(), *tunings.set_words(voxels))
     (paper_vq,) = kept.all([calls.quantised(subject, boundary, PAPER_VQ, settings)])
-    for_bytes = [
-        Stage("exact", f"for streaming, price {price:g}", EXACT, scene)
-        for price, scene in zip(arguments.prices, streaming)
+    named = [*(f"for streaming, price {price:g}" for price in prices), *alone]
+    in_reference_order = [
+        Stage("exact", tuned, EXACT, scene) for tuned, scene in zip(named, others)
     ]
     return [
         Stage("paper", GIVEN, PAPER, given, voxels),
@@ -106,7 +129,7 @@ def stages_of(
         Stage("paper", QUANTISED, PAPER_VQ, str(paper_vq.scene), calls.paper_set),
         Stage("exact", GIVEN, EXACT, given),
         Stage("exact", BOUNDARY, EXACT, boundary),
-        *for_bytes,
+        *in_reference_order,
         Stage("exact", PACKED, EXACT_VQ, given),
         Stage("exact", QUANTISED, EXACT_VQ, exact_vq),
     ]
@@ -126,6 +149,17 @@ def quality_row(subject: Subject, order: str, by_tuning: dict[str, Sequence[dict
     return (subject.name, held_to, order, *cells)
 
 
+def steps_alone_row(subject: Subject, exact: dict[str, Sequence[dict]]) -> tuple:
+    """Each beside the tuning that it took as long as."""
+    given, boundary, quantised = (
+        quality(exact[tuned], "reference_")
+        for tuned in (GIVEN, as_long_as(BOUNDARY), as_long_as(QUANTISED))
+    )
+    nothing = ("", "")
+    cells = (*given, *nothing, *boundary, *nothing, *quantised)
+    return (subject.name, "photographs", "reference", *cells)
+
+
 def machine_row(subject: Subject, stage: Stage, views: Sequence[dict]) -> tuple:
     return (
         subject.name,
@@ -141,9 +175,11 @@ def machine_row(subject: Subject, stage: Stage, views: Sequence[dict]) -> tuple:
 def make_tables(arguments: argparse.Namespace) -> None:
     binary, calls = arguments.streaminggs, tunings.tunings_of(arguments, arguments.quantised_steps)
     kept = KeptFittings(binary, arguments.out / "fittings", arguments.side_by_side)
-    texts = arguments.scenes or subjects.DEFAULT_SUBJECTS
+    sources = subjects.find_sources(arguments.scenes or subjects.DEFAULT_SUBJECTS)
+    tunings.check_settings(binary, calls, (PAPER, PAPER_VQ))
+    check_views(binary, sources, arguments.view)
     rows, machine_rows, commits = [], [], []
-    for subject in subjects.find_subjects(texts, arguments, kept):
+    for subject in subjects.find_subjects(sources, arguments, kept):
         voxel = tunings.voxel_of_preset(binary, subject)
         targets = target_pictures(binary, kept.program, arguments.out / "targets", subject)
         stages = stages_of(subject, kept, calls, voxel, arguments)
@@ -160,6 +196,8 @@ def make_tables(arguments: argparse.Namespace) -> None:
             machine_rows.append(machine_row(subject, stage, views))
             commits += views
         rows += [quality_row(subject, order, of) for order, of in by_order.items()]
+        if subject.dataset:
+            rows.append(steps_alone_row(subject, by_order["exact"]))
     made = run_arguments.how_made(commits)
     tables.write(arguments.out, "quality_table", made, HEAD, rows)
     tables.write(arguments.out, "quality_machine", made, MACHINE_TABLE_HEAD, machine_rows)
@@ -175,7 +213,7 @@ def main() -> int:
         type=float,
         default=[0.003, 0.03],
         metavar="X",
-        help="of what is fetched, as of tune: a scene for each",
+        help="of what is fetched, as of tune: a scene for each; beside photographs also for 0",
     )
     parser.add_argument("--view", default="all", help="numbers of test views to draw, as in 0,2")
     return run_arguments.main_of_tables(make_tables, parser.parse_args())

@@ -10,7 +10,7 @@ import pathlib
 from collections.abc import Sequence
 
 from fittings import Fitting, KeptFittings
-from scenes import find_scene, shared_folder
+from scenes import Scene, find_scene, shared_folder
 
 DEFAULT_SUBJECTS = ("lego", "desk", "truck", "platform", "yard")
 DATASET_FORMS = "a data set of ../shared by name, or the folder of one"
@@ -18,6 +18,8 @@ SUBJECT_FORMS = (
     f"{DATASET_FORMS}; a real scene of ../shared by name, or a .ply file with its cameras beside it"
 )
 LOOKS = 20  # at the test views, while a scene is trained
+
+Source = pathlib.Path | Scene  # the folder of a data set, or a scene
 
 
 @dataclasses.dataclass(frozen=True)
@@ -82,27 +84,27 @@ def add_training_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def find_sources(texts: Sequence[str]) -> list[Source]:
+    """By name of a data set or of a scene, or by path. Raises ValueError."""
+    return [dataset_folder(text) or find_scene(text) for text in texts]
+
+
 def find_subjects(
-    texts: Sequence[str], arguments: argparse.Namespace, kept: KeptFittings
+    sources: Sequence[Source], arguments: argparse.Namespace, kept: KeptFittings
 ) -> list[Subject]:
-    """By name of a data set or of a scene, or by path. Data sets are trained now. Raises
-    ValueError."""
-    folders = [dataset_folder(text) for text in texts]
-    scenes = {text: find_scene(text) for text, folder in zip(texts, folders) if folder is None}
+    """Data sets are trained now. Raises Failure, ValueError."""
     trainings = [
-        training(folder.name, folder, arguments.seed, arguments.train_steps, arguments.gaussians)
-        for folder in folders
-        if folder is not None
+        training(source.name, source, arguments.seed, arguments.train_steps, arguments.gaussians)
+        for source in sources
+        if not isinstance(source, Scene)
     ]
     trained = iter(kept.all(trainings))
     subjects = []
-    for text, folder in zip(texts, folders):
-        if folder is not None:
-            scene = str(next(trained).scene)
-            subjects.append(Subject(folder.name, scene, dataset=str(folder)))
+    for source in sources:
+        if isinstance(source, Scene):
+            own = (source.spec, source.cameras, arguments.size, arguments.between)
+            subjects.append(Subject(source.name, *own))
         else:
-            found = scenes[text]
-            subjects.append(
-                Subject(found.name, found.spec, found.cameras, arguments.size, arguments.between)
-            )
+            scene = str(next(trained).scene)
+            subjects.append(Subject(source.name, scene, dataset=str(source)))
     return subjects

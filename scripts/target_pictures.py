@@ -12,8 +12,9 @@ from collections.abc import Sequence
 import tables
 from fittings import files_of
 from run_digest import content_digest
+from scenes import Scene
 from simulations import REFUSED, Failure, call, said
-from subjects import Subject
+from subjects import Source, Subject
 
 DONE = "made.json"  # written last
 
@@ -31,12 +32,36 @@ class TargetPictures:
         return self.folder / f"view_{view}.exr"
 
 
+def check_views(binary: pathlib.Path, sources: Sequence[Source], view: str) -> None:
+    """Whether each has these test views, before anything is trained. Raises ValueError."""
+    for source in sources:
+        last = test_views(binary, source) - 1
+        seen: set[int] = set()
+        for word in view.split(",") if view != "all" else ():
+            number = int(word) if word.isdecimal() else -1
+            if not 0 <= number <= last or number in seen:
+                raise ValueError(
+                    f"--view: got '{word}', expected all, or numbers from 0 to {last}, each once, "
+                    f"as in 0,2: test views of {source.name}"
+                )
+            seen.add(number)
+
+
+def test_views(binary: pathlib.Path, source: Source) -> int:
+    if isinstance(source, Scene):
+        if not source.cameras:
+            raise ValueError(f"{source.name}: brings its own cameras, expected a file of them")
+        return len(json.loads(pathlib.Path(source.cameras).read_text()))
+    lines = make(binary, "info", [str(source)]).splitlines()
+    (count,) = (line.split()[3] for line in lines if line.startswith("to test with "))
+    return int(count)
+
+
 def target_pictures(
     binary: pathlib.Path, program: str, folder: pathlib.Path, subject: Subject
 ) -> TargetPictures:
-    """Made below the folder, once. Raises ValueError, Failure."""
-    if not subject.dataset and not subject.cameras:
-        raise ValueError(f"{subject.name}: brings its own cameras, expected a file of them")
+    """Made below the folder, once, of a subject that check_views() takes. Raises ValueError,
+    Failure."""
     sources = [subject.dataset] if subject.dataset else [subject.scene, subject.cameras]
     facts = [program, subject.dataset, subject.size]
     facts += [content_digest(file) for text in sources for file in files_of(pathlib.Path(text))]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import pathlib
+from collections.abc import Sequence
 
 import run_arguments
 import subjects
@@ -16,6 +17,7 @@ from target_pictures import make
 PAPER, PAPER_VQ = "paper_no_vq", "paper"
 EXACT, EXACT_VQ = "exact", "exact_vq"
 TEST_EVERY = "500"  # steps
+OWN_RATE = 0.2  # of `tune --quantise` and `--streaming`, where none is given
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,14 +59,37 @@ class Tunings:
         return Fitting(label, "tune", (*words, "--test-every", TEST_EVERY), ".sgs")
 
     def streaming(self, subject: Subject, price: float) -> Fitting:
-        words = (subject.scene, "--streaming", "--config", EXACT, *subject.target_words())
-        words += ("--steps", str(self.steps), "--price", f"{price:g}")
-        label = f"{subject.name} streaming price {price:g}"
-        return Fitting(label, "tune", (*words, "--test-every", TEST_EVERY))
+        return in_reference_order(subject, price, self.steps, OWN_RATE)
+
+    def as_long_as_boundary(self, subject: Subject) -> Fitting:
+        """What its steps alone do, seen in the reference order."""
+        return in_reference_order(subject, 0, self.steps, self.rate)
+
+    def as_long_as_quantised(self, subject: Subject) -> Fitting:
+        return in_reference_order(subject, 0, self.quantised_steps, OWN_RATE)
+
+
+def in_reference_order(subject: Subject, price: float, steps: int, rate: float) -> Fitting:
+    """Without codebooks; with a price of 0 it is for no machine at all."""
+    words = (subject.scene, "--streaming", "--config", EXACT, *subject.target_words())
+    words += ("--steps", str(steps), "--price", f"{price:g}", "--test-every", TEST_EVERY)
+    label = f"{subject.name} streaming price {price:g}"
+    if rate != OWN_RATE:
+        words += ("--rate", f"{rate:g}")
+        label += f" rate {rate:g}"
+    return Fitting(label, "tune", words)
 
 
 def set_words(settings: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(word for setting in settings for word in ("--set", setting))
+
+
+def check_settings(binary: pathlib.Path, calls: Tunings, configs: Sequence[str]) -> None:
+    """Whether these presets of paper order take --paper-set, before anything is trained. Raises
+    ValueError."""
+    for config in configs:
+        words = ["builtin:object?n=1", "--config", config, *set_words(calls.paper_set)]
+        make(binary, "simulate", [*words, "--print-config"])
 
 
 def voxel_of_preset(binary: pathlib.Path, subject: Subject) -> float:

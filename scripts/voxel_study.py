@@ -25,7 +25,7 @@ from judged_frames import (
     misordered_text,
     psnr_text,
 )
-from target_pictures import target_pictures
+from target_pictures import check_views, target_pictures
 
 HEAD = (
     "scene",
@@ -58,9 +58,11 @@ def row(name: str, factor: float, state: str, views: Sequence[dict]) -> tuple:
 def make_table(arguments: argparse.Namespace) -> None:
     binary, calls = arguments.streaminggs, tunings.tunings_of(arguments)
     kept = KeptFittings(binary, arguments.out / "fittings", arguments.side_by_side)
-    texts = arguments.scenes or subjects.DEFAULT_SUBJECTS
+    sources = subjects.find_sources(arguments.scenes or subjects.DEFAULT_SUBJECTS)
+    tunings.check_settings(binary, calls, (tunings.PAPER,))
+    check_views(binary, sources, arguments.view)
     rows, commits = [], []
-    for subject in subjects.find_subjects(texts, arguments, kept):
+    for subject in subjects.find_subjects(sources, arguments, kept):
         preset = tunings.voxel_of_preset(binary, subject)
         targets = target_pictures(binary, kept.program, arguments.out / "targets", subject)
         voxels = [factor * preset for factor in arguments.voxels]

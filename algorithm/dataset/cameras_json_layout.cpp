@@ -25,6 +25,7 @@ StatedDataset read_cameras_json(const std::string& folder) {
   const std::string path = file_in(folder).string();
   const std::vector<std::string> places = {(fs::path(folder) / "images").string(), folder};
   StatedDataset dataset;
+  dataset.files = {path};
   for (const Camera& camera : read_cameras(path)) {
     const std::string where = fmt::format("{}: camera {}", path, dataset.views.size());
     const FoundImage found = find_image(places, camera.name, where);

@@ -7,6 +7,7 @@
 
 #include "algorithm/dataset/colmap_model.h"
 #include "algorithm/dataset/pose.h"
+#include "algorithm/dataset/sfm_point.h"
 #include "algorithm/input_error.h"
 #include "algorithm/input_file.h"
 
@@ -149,7 +150,7 @@ void read_points(ByteReader& file, ColmapModel& model) {
                blue = file.read<std::uint8_t>("a colour");
     file.read<double>("an error");
     file.skip(kTrackBytes * file.count(kTrackBytes, "images of a point"));
-    model.points.push_back(colmap_point(position, {red, green, blue}, file.entry("point", i)));
+    model.points.push_back(sfm_point(position, {red, green, blue}, file.entry("point", i)));
   }
   file.expect_end();
 }

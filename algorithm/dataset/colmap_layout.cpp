@@ -38,6 +38,10 @@ StatedDataset read_colmap(const std::string& folder) {
   ColmapModel model = place.binary ? read_colmap_binary(place.folder.string())
                                    : read_colmap_text(place.folder.string());
   StatedDataset dataset;
+  for (const char* name : {"cameras", "images", "points3D"}) {
+    dataset.files.push_back(
+        (place.folder / (name + std::string(place.binary ? ".bin" : ".txt"))).string());
+  }
   dataset.points = std::move(model.points);
   const std::string images = (fs::path(folder) / "images").string();
   for (const ColmapImage& image : model.images) {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "algorithm/input_error.h"
-#include "algorithm/scene/gaussian_limits.h"
 
 namespace sgs {
 
@@ -41,17 +40,6 @@ void add_colmap_camera(ColmapModel& model, std::uint32_t id, const Intrinsics& c
   if (!model.cameras.emplace(id, camera).second) {
     throw InputError(fmt::format("{}: camera id {} a second time, expected each once", where, id));
   }
-}
-
-SfmPoint colmap_point(const glm::dvec3& position, const glm::u8vec3& colour,
-                      const std::string& where) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(std::abs(position[axis]) <= kMaxCoordinate)) {
-      throw InputError(fmt::format("{}: position: got {}, expected finite numbers of at most {}",
-                                   where, position[axis], kMaxCoordinate));
-    }
-  }
-  return {glm::vec3(position), glm::vec3(colour) / 255.0f};
 }
 
 }  // namespace sgs

@@ -46,8 +46,4 @@ Intrinsics colmap_intrinsics(std::uint64_t width, std::uint64_t height,
 void add_colmap_camera(ColmapModel& model, std::uint32_t id, const Intrinsics& camera,
                        const std::string& where);
 
-// Refuses coordinates that are not finite or too large.
-SfmPoint colmap_point(const glm::dvec3& position, const glm::u8vec3& colour,
-                      const std::string& where);
-
 }  // namespace sgs

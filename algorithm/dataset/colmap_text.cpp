@@ -6,6 +6,7 @@
 
 #include "algorithm/dataset/colmap_model.h"
 #include "algorithm/dataset/pose.h"
+#include "algorithm/dataset/sfm_point.h"
 #include "algorithm/dataset/text_fields.h"
 #include "algorithm/input_file.h"
 
@@ -97,7 +98,7 @@ void read_points(Lines& lines, ColmapModel& model) {
     for (int i = 0; i < 3; ++i) {
       colour[i] = static_cast<std::uint8_t>(fields.whole_number("a colour", 255));
     }
-    model.points.push_back(colmap_point(position, colour, where));
+    model.points.push_back(sfm_point(position, colour, where));
   }
 }
 

@@ -91,6 +91,7 @@ DatasetView complete_view(const StatedView& view) {
   out.image_path = view.image_path;
   out.file = view.image;
   out.crop_px = {x.first, y.first};
+  out.used_px = {x.size, y.size};
   out.split = view.split;
   out.camera.name = view.name;
   out.camera.width = x.size;

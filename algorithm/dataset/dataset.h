@@ -22,11 +22,12 @@ struct DatasetView {
   std::string name;        // path of the image as the data set has it, without extension
   std::string image_path;  // PNG or JPEG
   ImageHeader file;        // as the image lies in its file
-  // Of the image as it is used: at the size of the file, whatever size the data set states, less
-  // the pixels that were cut off to have the principal point in the middle. camera.id is the view's
-  // number in Dataset::views, camera.name its name.
+  // Of what is used of the file, whatever size the data set states, as many times smaller as the
+  // data set was opened. camera.id is the view's number in Dataset::views, camera.name its name.
   Camera camera;
-  glm::ivec2 crop_px{0};  // top left pixel of what is used
+  // What is used of the file: all but the pixels that are cut off to have the principal point in
+  // the middle. Its top left pixel and its width and height.
+  glm::ivec2 crop_px{0}, used_px{0};
   Split split = Split::kTrain;
 };
 
@@ -39,8 +40,10 @@ struct SfmPoint {
 struct Dataset {
   std::string folder;
   std::string layout;              // for people: "COLMAP", "NSVF", ...
+  std::vector<std::string> files;  // its own, but the images
   std::vector<DatasetView> views;  // by name; one or more of Split::kTrain
   SplitBy split_by = SplitBy::kDataset;
+  std::string tests_from;        // file and entry that name the test views, where it has a split
   int left_out = 0;              // views that are neither for training nor for testing: validation
   std::vector<SfmPoint> points;  // empty where the layout brings none
   std::optional<Extent> bounds;  // of what is to be seen, world frame, where the layout states them

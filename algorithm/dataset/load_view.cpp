@@ -32,8 +32,8 @@ RgbaImage load_view(const DatasetView& view, double downscale) {
                                  view.image_path, image.width, image.height, view.file.width,
                                  view.file.height));
   }
-  if (view.camera.width != image.width || view.camera.height != image.height) {
-    image = cropped(image, view.crop_px.x, view.crop_px.y, view.camera.width, view.camera.height);
+  if (view.used_px.x != image.width || view.used_px.y != image.height) {
+    image = cropped(image, view.crop_px.x, view.crop_px.y, view.used_px.x, view.used_px.y);
   }
   if (image.width == camera.width && image.height == camera.height) return image;
   return area_averaged(image, camera.width, camera.height);

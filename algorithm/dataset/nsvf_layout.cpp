@@ -102,10 +102,11 @@ char prefix_of(const std::string& name) {
 }
 
 // Which prefix is which split. 0_ trains; 2_ tests and 1_ is for validation, or, where there is no
-// 2_, 1_ tests.
+// 2_, 1_ tests. Nothing where all are alike: without a prefix, or with 0_ alone.
 std::map<char, Split> splits_of(const std::vector<std::string>& names, const std::string& folder) {
   std::set<char> prefixes;
   for (const std::string& name : names) prefixes.insert(prefix_of(name));
+  if (prefixes == std::set<char>{'0'}) return {};
   if (prefixes.count('\0') == 0) {
     return {{'0', Split::kTrain}, {prefixes.count('2') > 0 ? '2' : '1', Split::kTest}};
   }
@@ -128,18 +129,21 @@ bool holds_nsvf(const std::string& folder) {
 
 StatedDataset read_nsvf(const std::string& folder) {
   const fs::path root(folder);
-  const Intrinsics stated = read_intrinsics((root / "intrinsics.txt").string());
+  const std::string intrinsics_path = (root / "intrinsics.txt").string();
+  const Intrinsics stated = read_intrinsics(intrinsics_path);
   const std::vector<std::string> names = names_in(root / "pose");
   const std::map<char, Split> splits = splits_of(names, folder);
   StatedDataset dataset;
+  dataset.files = {intrinsics_path};
   dataset.split_by = splits.empty() ? SplitBy::kEveryEighth : SplitBy::kDataset;
   for (const std::string& name : names) {
+    const std::string pose = (root / "pose" / (name + ".txt")).string();
+    dataset.files.push_back(pose);
     const auto split = splits.find(prefix_of(name));
     if (!splits.empty() && split == splits.end()) {
       ++dataset.left_out;
       continue;
     }
-    const std::string pose = (root / "pose" / (name + ".txt")).string();
     const FoundImage found = find_image({(root / "rgb").string()}, name, pose);
     Intrinsics intrinsics = stated;
     if (stated.width == 0) {
@@ -151,7 +155,10 @@ StatedDataset read_nsvf(const std::string& folder) {
   }
   const std::string bounds = (root / "bbox.txt").string();
   std::error_code unknown;
-  if (fs::exists(bounds, unknown)) dataset.bounds = read_bounds(bounds);
+  if (fs::exists(bounds, unknown)) {
+    dataset.bounds = read_bounds(bounds);
+    dataset.files.push_back(bounds);
+  }
   return dataset;
 }
 

@@ -9,6 +9,7 @@
 
 #include "algorithm/dataset/complete_view.h"
 #include "algorithm/dataset/layouts.h"
+#include "algorithm/dataset/load_view.h"
 #include "algorithm/input_error.h"
 #include "algorithm/join.h"
 
@@ -70,7 +71,7 @@ std::vector<int> views_of(const Dataset& dataset, Split split) {
   return numbers;
 }
 
-Dataset open_dataset(const std::string& folder) {
+Dataset open_dataset(const std::string& folder, double downscale) {
   constexpr int kTestEvery = 8;
   const Layout& layout = layout_of(folder);
   StatedDataset stated = layout.read(folder);
@@ -81,7 +82,9 @@ Dataset open_dataset(const std::string& folder) {
   Dataset dataset;
   dataset.folder = folder;
   dataset.layout = layout.name;
+  dataset.files = std::move(stated.files);
   dataset.split_by = stated.split_by;
+  dataset.tests_from = std::move(stated.tests_from);
   dataset.left_out = stated.left_out;
   dataset.points = std::move(stated.points);
   dataset.bounds = stated.bounds;
@@ -90,6 +93,7 @@ Dataset open_dataset(const std::string& folder) {
     dataset.views.push_back(complete_view(view));
     DatasetView& added = dataset.views.back();
     added.camera.id = number;
+    if (downscale != 1) added.camera = downscaled_camera(added, downscale);
     if (stated.split_by == SplitBy::kEveryEighth) {
       added.split = number % kTestEvery == 0 ? Split::kTest : Split::kTrain;
     }
@@ -100,6 +104,12 @@ Dataset open_dataset(const std::string& folder) {
                     dataset.views.size(), layout.name));
   }
   return dataset;
+}
+
+void require_test_views(const Dataset& dataset) {
+  if (!views_of(dataset, Split::kTest).empty()) return;
+  throw InputError(
+      fmt::format("{}: got none, expected one view or more to test with", dataset.tests_from));
 }
 
 }  // namespace sgs

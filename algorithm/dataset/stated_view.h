@@ -34,8 +34,10 @@ struct StatedView {
 };
 
 struct StatedDataset {
+  std::vector<std::string> files;  // of the data set, but its images
   std::vector<StatedView> views;
   SplitBy split_by = SplitBy::kEveryEighth;
+  std::string tests_from;  // file and entry that name the test views, where there is a split
   int left_out = 0;
   std::vector<SfmPoint> points;
   std::optional<Extent> bounds;

@@ -7,6 +7,7 @@
 
 #include "algorithm/dataset/find_image.h"
 #include "algorithm/dataset/layouts.h"
+#include "algorithm/dataset/points_ply.h"
 #include "algorithm/dataset/pose.h"
 #include "algorithm/dataset/transforms_frame.h"
 #include "algorithm/input_error.h"
@@ -35,6 +36,8 @@ class TransformsFile {
     }
   }
 
+  const std::string& path() const { return path_; }
+
   // Calls use(path of the image as written, view) for each frame.
   template <class Use>
   void for_frames(const Use& use) const {
@@ -47,19 +50,32 @@ class TransformsFile {
     }
   }
 
-  // The paths of images under `key`, if it is there.
-  std::optional<std::set<std::string>> paths(const char* key) const {
+  // The file of points that goes with the frames, if it is named.
+  std::optional<std::string> points_path() const {
+    const auto found = json_.find("ply_file_path");
+    if (found == json_.end()) return {};
+    if (!found->is_string()) {
+      throw InputError(
+          fmt::format("{}: ply_file_path: got {}, expected a path", path_, shown(*found)));
+    }
+    return file_in(folder_, found->get<std::string>().c_str()).lexically_normal().string();
+  }
+
+  // The names of views under `key`, if it is there: all of them of frames.
+  std::optional<std::set<std::string>> names(const char* key) const {
     const auto found = json_.find(key);
     if (found == json_.end()) return {};
-    std::set<std::string> paths;
+    std::set<std::string> of_frames, names;
+    for_frames([&](const std::string& file, const auto&) { of_frames.insert(view_name(file)); });
     for (const Json& path : *found) {
-      if (!path.is_string()) {
-        throw InputError(
-            fmt::format("{}: {}: got {}, expected paths of images", path_, key, shown(path)));
+      const std::string name = path.is_string() ? view_name(path.get<std::string>()) : "";
+      if (of_frames.count(name) == 0) {
+        throw InputError(fmt::format("{}: {}: got {}, expected paths of images as frames have them",
+                                     path_, key, shown(path)));
       }
-      paths.insert(view_name(path.get<std::string>()));
+      names.insert(name);
     }
-    return paths;
+    return names;
   }
 
  private:
@@ -87,15 +103,19 @@ bool holds_split_transforms(const std::string& folder) {
 StatedDataset read_split_transforms(const std::string& folder) {
   StatedDataset dataset;
   const auto add = [&](const char* name, Split split) {
-    TransformsFile(folder, name).for_frames([&](const std::string&, const auto& view) {
-      dataset.views.push_back(view(split));
-    });
+    const TransformsFile file(folder, name);
+    dataset.files.push_back(file.path());
+    file.for_frames(
+        [&](const std::string&, const auto& view) { dataset.views.push_back(view(split)); });
   };
   add("transforms_train.json", Split::kTrain);
   if (is_in(folder, "transforms_test.json")) {
     add("transforms_test.json", Split::kTest);
     dataset.split_by = SplitBy::kDataset;
+    dataset.tests_from = dataset.files.back() + ": frames";
   }
+  // Nobody reads it here; it is the data set's all the same.
+  dataset.files.push_back(file_in(folder, "transforms_val.json").string());
   return dataset;
 }
 
@@ -103,11 +123,15 @@ bool holds_transforms(const std::string& folder) { return is_in(folder, "transfo
 
 StatedDataset read_transforms(const std::string& folder) {
   const TransformsFile file(folder, "transforms.json");
-  const auto train = file.paths("train_filenames");
-  auto test = file.paths("test_filenames");
-  if (!test) test = file.paths("val_filenames");
+  const auto train = file.names("train_filenames");
+  auto test = file.names("test_filenames");
+  if (!test) test = file.names("val_filenames");
   StatedDataset dataset;
-  if (train || test) dataset.split_by = SplitBy::kDataset;
+  dataset.files = {file.path()};
+  if (train || test) {
+    dataset.split_by = SplitBy::kDataset;
+    dataset.tests_from = file.path() + ": test_filenames or val_filenames";
+  }
   file.for_frames([&](const std::string& path, const auto& view) {
     const std::string name = view_name(path);
     if (test && test->count(name) > 0) {
@@ -118,6 +142,10 @@ StatedDataset read_transforms(const std::string& folder) {
       ++dataset.left_out;
     }
   });
+  if (const auto points = file.points_path()) {
+    dataset.points = read_points_ply(*points);
+    dataset.files.push_back(*points);
+  }
   return dataset;
 }
 

@@ -6,9 +6,11 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "algorithm/input_error.h"
@@ -47,6 +49,31 @@ void check_size(const std::string& path, const PngImage& png, std::uint64_t file
   }
 }
 
+// The file less what says how its values are to be seen (gamma, primaries, profiles): libpng's
+// simplified reader would convert them to sRGB, and pictures here are their values as stored. What
+// is cut off or is no PNG stays as it is, for libpng to refuse.
+std::string without_colour_space(const std::string& packed) {
+  constexpr std::size_t kSignatureBytes = 8, kFrameBytes = 12;  // length, name, checksum of a chunk
+  constexpr std::array<std::string_view, 7> kColourSpace = {"gAMA", "cHRM", "sRGB", "iCCP",
+                                                            "cICP", "mDCV", "cLLI"};
+  std::string kept = packed.substr(0, kSignatureBytes);
+  std::size_t at = kept.size();
+  while (packed.size() - at >= kFrameBytes) {
+    std::uint64_t chunk_bytes = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      chunk_bytes = chunk_bytes << 8 | static_cast<std::uint8_t>(packed[at + i]);
+    }
+    chunk_bytes += kFrameBytes;
+    if (chunk_bytes > packed.size() - at) break;
+    const std::string_view name = std::string_view(packed).substr(at + 4, 4);
+    if (std::find(kColourSpace.begin(), kColourSpace.end(), name) == kColourSpace.end()) {
+      kept.append(packed, at, chunk_bytes);
+    }
+    at += chunk_bytes;
+  }
+  return kept.append(packed, at, std::string::npos);
+}
+
 }  // namespace
 
 std::string encode_png(const Image& image) {
@@ -71,7 +98,7 @@ std::string encode_png(const Image& image) {
 
 RgbaImage read_png_rgba(const std::string& path) {
   const InputFile file(path);
-  const std::string packed = file.text_from(0, file.size_bytes());
+  const std::string packed = without_colour_space(file.text_from(0, file.size_bytes()));
   PngImage png;
   if (png_image_begin_read_from_memory(&png, packed.data(), packed.size()) == 0) refuse(path, png);
   check_size(path, png, packed.size());

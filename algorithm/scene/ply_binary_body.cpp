@@ -9,50 +9,12 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/scene/ply_body.h"
+#include "algorithm/scene/ply_scalar.h"
 
 namespace sgs {
 namespace {
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "values are loaded in this byte order");
-
 constexpr std::uint64_t kBlockBytes = 1 << 19;  // a block stays in the second-level cache
-
-// The scalar at `bytes` in the host's byte order; integers are converted to T.
-template <typename T>
-T load_scalar(const char* bytes, PlyScalar type) {
-  const auto load = [bytes](auto value) {
-    std::memcpy(&value, bytes, sizeof value);
-    return static_cast<T>(value);
-  };
-  switch (type) {
-    case PlyScalar::kInt8:
-      return load(std::int8_t{});
-    case PlyScalar::kUint8:
-      return load(std::uint8_t{});
-    case PlyScalar::kInt16:
-      return load(std::int16_t{});
-    case PlyScalar::kUint16:
-      return load(std::uint16_t{});
-    case PlyScalar::kInt32:
-      return load(std::int32_t{});
-    case PlyScalar::kUint32:
-      return load(std::uint32_t{});
-    case PlyScalar::kFloat32:
-      return load(float{});
-    case PlyScalar::kFloat64:
-      break;
-  }
-  return load(double{});
-}
-
-template <typename T>
-T load_scalar_of(PlyFormat format, const char* bytes, PlyScalar type) {
-  std::array<char, 8> ordered{};
-  const std::size_t size = size_bytes(type);
-  std::copy_n(bytes, size, ordered.begin());
-  if (format == PlyFormat::kBinaryBigEndian) std::reverse(ordered.begin(), ordered.begin() + size);
-  return load_scalar<T>(ordered.data(), type);
-}
 
 // A window on the file that moves forward: lists make record sizes known only one by one.
 class ForwardReader {
@@ -104,7 +66,7 @@ void skip_element(const InputFile& file, PlyFormat format, const PlyElement& ele
         continue;
       }
       const std::uint64_t at_bytes = reader.offset_bytes();
-      const auto length = load_scalar_of<std::int64_t>(
+      const auto length = load_ply_scalar<std::int64_t>(
           format, reader.take(size_bytes(property.list_count_type)), property.list_count_type);
       if (length < 0) {
         throw InputError(
@@ -177,7 +139,7 @@ std::vector<VertexFault> read_binary_vertices(const InputFile& file, const PlyHe
       file, vertex_offset_bytes, layout.record_bytes,
       [&columns, format = header.format](const char* record, float* slots) {
         for (const auto& column : columns) {
-          *slots++ = load_scalar_of<float>(format, record + column.offset_bytes, column.type);
+          *slots++ = load_ply_scalar<float>(format, record + column.offset_bytes, column.type);
         }
       },
       cloud);

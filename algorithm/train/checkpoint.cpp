@@ -13,12 +13,13 @@ namespace sgs {
 
 template <class Archive>
 void serialize(Archive& archive, Checkpoint& checkpoint) {
-  archive(checkpoint.work, checkpoint.log, checkpoint.state);
+  archive(checkpoint.work, checkpoint.contents, checkpoint.log, checkpoint.seconds,
+          checkpoint.state);
 }
 
 namespace {
 
-constexpr std::string_view kMagic = "\x89SGSTRAIN\r\n\x1a\n2";
+constexpr std::string_view kMagic = "\x89SGSTRAIN\r\n\x1a\n3";
 
 std::uint32_t crc_of(const std::string& text) {
   return static_cast<std::uint32_t>(

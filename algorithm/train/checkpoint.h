@@ -6,9 +6,11 @@
 namespace sgs {
 
 struct Checkpoint {
-  std::string work;   // one line that says of what and how; whoever resumes compares it
-  std::string log;    // what was logged so far
-  std::string state;  // Fitting::saved()
+  std::string work;      // one line that says of what and how; whoever resumes compares it,
+  std::string contents;  // and a digest of the files that this names
+  std::string log;       // what was logged so far
+  double seconds = 0;    // that it took to come here
+  std::string state;     // Fitting::saved()
 };
 
 // Appears under `path` once it is complete. Throws InputError when `path` cannot be created,

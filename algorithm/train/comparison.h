@@ -1,25 +1,35 @@
 // A scene's picture beside its photograph, and which way every parameter brings it nearer.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "algorithm/image/image.h"
-#include "algorithm/render/render_result.h"
 #include "algorithm/tune/cloud_gradient.h"
+#include "algorithm/tune/gradient_rule.h"
 #include "algorithm/tune/group_sequences.h"
+#include "algorithm/tune/photometric_loss.h"
 
 namespace sgs {
 
-struct Comparison {
-  RenderResult picture;
-  double loss, l1, ssim;
+// As which loss a picture and its photograph are compared, and what of it is taken for its
+// gradient.
+struct ComparisonRule {
+  double ssim_share = kSsimShare;
+  GradientRule gradients = GradientRule::kDerivative;
 };
 
-// sequences: of parameters that activate(parameters) == cloud. gradient: dloss/dparameters.
-Comparison compare_with(const Image& target, const View<float>& view,
-                        const GaussianCloud& parameters, const ActivatedCloud& cloud,
-                        const GroupSequences& sequences, const glm::vec3& background,
-                        BlendPrecision precision, double ssim_share, CloudGradient& gradient);
+// The loss. sequences: of parameters that activate(parameters) == cloud. gradient:
+// dloss/dparameters.
+double compare_with(const Image& target, const View<float>& view, const GaussianCloud& parameters,
+                    const ActivatedCloud& cloud, const GroupSequences& sequences,
+                    const glm::vec3& background, BlendPrecision precision,
+                    const ComparisonRule& rule, CloudGradient& gradient);
 
-// Throws NotFinite where the loss or a derivative is no finite number.
+// Throws NotFinite where a derivative or the loss is no finite number. step: from 0.
 void check_finite(int step, double loss, const CloudGradient& gradient);
+
+// beyond: as Adam::step returns it. Throws NotFinite where there is one.
+void check_limits(int step, const std::optional<std::uint32_t>& beyond);
 
 }  // namespace sgs

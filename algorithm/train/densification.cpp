@@ -122,7 +122,7 @@ void densify_and_prune(const DensificationConfig& config, const DensificationSta
 void reset_opacities(const DensificationConfig& config, GaussianCloud& cloud, Adam& adam) {
   const auto most = static_cast<float>(logit(config.reset_opacity));
   for (float& own : cloud.opacity_logits) own = std::min(own, most);
-  adam.rearrange(std::vector<std::uint32_t>(cloud.size(), Adam::kNew));
+  adam.forget_opacities();
 }
 
 }  // namespace sgs

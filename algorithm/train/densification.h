@@ -59,7 +59,7 @@ void densify_and_prune(const DensificationConfig& config, const DensificationSta
                        double extent, bool prune_large, std::size_t most, std::uint64_t seed,
                        std::uint64_t step, GaussianCloud& cloud, Adam& adam);
 
-// No opacity above config.reset_opacity; the optimiser's moments begin anew.
+// No opacity above config.reset_opacity; the optimiser's moments of opacities begin anew.
 void reset_opacities(const DensificationConfig& config, GaussianCloud& cloud, Adam& adam);
 
 }  // namespace sgs

@@ -7,7 +7,8 @@
 
 namespace sgs {
 
-// A loss or a parameter is not a number any more; what() names step and Gaussian.
+// A loss or a derivative is not a number any more, or a parameter would leave what a scene may
+// hold; what() names step and Gaussian.
 class NotFinite : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -16,15 +17,16 @@ class NotFinite : public std::runtime_error {
 struct FittingStep {
   int number;  // from 0
   std::size_t photograph;
-  double loss, l1, ssim;
-  std::size_t seen;  // Gaussians that the step moved
+  double loss;
 };
 
 class Fitting {
  public:
   virtual ~Fitting() = default;
 
-  // The next one. Throws NotFinite; everything is then what it was before the step.
+  // The next one. Throws NotFinite; then everything is what it was before the step, or, where a
+  // parameter would have left what a scene may hold, all but that Gaussian has moved. Either can be
+  // saved.
   virtual FittingStep step() = 0;
 
   virtual int next_step() const = 0;

@@ -29,10 +29,12 @@ inline Penalty boundary_loss(double beta, BlendPrecision precision,
 
 // weight times the mean price of streaming.
 inline Penalty streaming_loss(double weight, const PixelSize& group) {
-  return [=](const View<float>& view, const GroupSequences&, const GaussianCloud& parameters,
-             const ActivatedCloud& cloud, CloudGradient& gradient) {
-    return weight * add_streaming_gradient(view, parameters, cloud, group, weight, gradient);
-  };
+  return
+      [=](const View<float>& view, const GroupSequences& sequences, const GaussianCloud& parameters,
+          const ActivatedCloud& cloud, CloudGradient& gradient) {
+        return weight *
+               add_streaming_gradient(view, sequences, parameters, cloud, group, weight, gradient);
+      };
 }
 
 }  // namespace sgs

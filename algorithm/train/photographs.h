@@ -26,8 +26,8 @@ class Photographs {
   // Those of one split of a data set, which must outlive them.
   Photographs(const Dataset& dataset, Split split);
 
-  // Loads all of them at another size. 8 B a pixel stay; on the way 16 more for each that a thread
-  // is at. Throws what the source throws.
+  // Loads all of them at another size. 8 B a pixel stay; on the way 16 more for each pixel of a file
+  // that a thread is at. Throws what the source throws.
   void load(double downscale);
 
   std::size_t size() const { return stored_.size(); }

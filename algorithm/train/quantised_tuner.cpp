@@ -1,7 +1,6 @@
 #include "algorithm/train/quantised_tuner.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/store_scene.h"
 #include "algorithm/train/comparison.h"
+#include "algorithm/train/nearest_name.h"
 #include "algorithm/train/saved_bytes.h"
 #include "algorithm/vq/assign.h"
 #include "algorithm/vq/vq_points.h"
@@ -31,28 +31,6 @@ void serialize(Archive& archive, QuantisedTuner::State& state) {
 }
 
 namespace {
-
-using Quaternion = std::array<float, 4>;
-
-// Of the quaternions that name the same ellipsoid with its axes in this order, the one nearest to
-// an entry: q, q i, q j and q k, either sign.
-Quaternion nearest_name(const Quaternion& q, const float* entry) {
-  const Quaternion names[4] = {{q[0], q[1], q[2], q[3]},
-                               {-q[1], q[0], q[3], -q[2]},
-                               {-q[2], -q[3], q[0], q[1]},
-                               {-q[3], q[2], -q[1], q[0]}};
-  const auto along = [&](const Quaternion& name) {
-    return name[0] * entry[0] + name[1] * entry[1] + name[2] * entry[2] + name[3] * entry[3];
-  };
-  Quaternion best = names[0];
-  for (const Quaternion& name : names) {
-    if (std::abs(along(name)) > std::abs(along(best))) best = name;
-  }
-  if (along(best) < 0) {
-    for (float& part : best) part = -part;
-  }
-  return best;
-}
 
 std::vector<std::uint32_t> all_of(std::size_t count) {
   std::vector<std::uint32_t> out(count);
@@ -205,16 +183,17 @@ FittingStep QuantisedTuner::step() {
   const ActivatedCloud drawn = encode_quantised(exact_, quantised_, config_.encoding).decoded;
   const GaussianCloud parameters = parameters_of(drawn);
   const GroupSequences sequences = order_.sequences(at, view, drawn);
-  const Comparison found =
+  const double loss =
       compare_with(photographs_.before(at, order_.background), view, parameters, drawn, sequences,
-                   order_.background, order_.precision, config_.ssim_share, gradient_);
-  check_finite(next_step_, found.loss, gradient_);
+                   order_.background, order_.precision, config_.comparison, gradient_);
+  check_finite(next_step_, loss, gradient_);
   const LearningRates rates = config_.rates_at(next_step_);
   entries_.step(gradient_, rates, quantised_);
   to_own_parameters(gradient_);
-  adam_.step(gradient_, rates, own_);
+  const auto beyond = adam_.step(gradient_, rates, own_);
   refresh(gradient_.indices);
-  const FittingStep done{next_step_++, at, found.loss, found.l1, found.ssim, gradient_.size()};
+  check_limits(next_step_, beyond);
+  const FittingStep done{next_step_++, at, loss};
   if (next_step_ % config_.reassign_every == 0 && next_step_ < config_.steps) reassign();
   return done;
 }

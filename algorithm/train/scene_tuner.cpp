@@ -46,15 +46,15 @@ FittingStep SceneTuner::step() {
   const std::size_t at = view_order_.at(next_step_, photographs_.size());
   const auto view = make_view<float>(photographs_.camera(at));
   const GroupSequences sequences = order_.sequences(at, view, activated_);
-  const Comparison found =
+  double loss =
       compare_with(photographs_.before(at, order_.background), view, cloud_, activated_, sequences,
-                   order_.background, order_.precision, config_.ssim_share, gradient_);
-  double loss = found.loss;
+                   order_.background, order_.precision, config_.comparison, gradient_);
   if (penalty_) loss += penalty_(view, sequences, cloud_, activated_, gradient_);
   check_finite(next_step_, loss, gradient_);
-  adam_.step(gradient_, config_.rates_at(next_step_), cloud_);
+  const auto beyond = adam_.step(gradient_, config_.rates_at(next_step_), cloud_);
   reactivate(cloud_, gradient_.indices, activated_);
-  return {next_step_++, at, loss, found.l1, found.ssim, gradient_.size()};
+  check_limits(next_step_, beyond);
+  return {next_step_++, at, loss};
 }
 
 }  // namespace sgs

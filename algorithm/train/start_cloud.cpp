@@ -1,5 +1,7 @@
 #include "algorithm/train/start_cloud.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -7,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <numeric>
 
+#include "algorithm/input_error.h"
 #include "algorithm/scene/logit.h"
 #include "algorithm/splat/spherical_harmonics.h"
 #include "algorithm/train/counter_random.h"
@@ -47,6 +50,19 @@ glm::dvec3 nearest_to_axes(const std::vector<DatasetView>& views) {
 }
 
 }  // namespace
+
+std::vector<SfmPoint> points_to_start_at(const Dataset& dataset, std::size_t count,
+                                         std::uint64_t seed) {
+  constexpr std::size_t kFewest = 4;  // a size is the distance to the three nearest others
+  if (dataset.points.empty()) return random_points(box_to_fill(dataset), count, seed);
+  if (dataset.points.size() < kFewest) {
+    throw InputError(
+        fmt::format("{}: got {} points to begin with ({}), expected {} or "
+                    "more, or none: then random ones are made",
+                    dataset.folder, dataset.points.size(), dataset.layout, kFewest));
+  }
+  return dataset.points;
+}
 
 GaussianCloud start_at_points(const std::vector<SfmPoint>& points, std::size_t most,
                               const StartConfig& config, std::uint64_t seed) {

@@ -15,6 +15,11 @@ struct StartConfig {
   double scale_share = 0.5;  // of the distance to its neighbours; the original has 1
 };
 
+// The points that the data set brings; where it brings none `count` random ones in box_to_fill().
+// Throws InputError where it brings fewer than a size can be told from.
+std::vector<SfmPoint> points_to_start_at(const Dataset& dataset, std::size_t count,
+                                         std::uint64_t seed);
+
 // Round Gaussians of degree 0 at points, as large as these lie apart: the first `most` of them in a
 // random order where there are more.
 GaussianCloud start_at_points(const std::vector<SfmPoint>& points, std::size_t most,

@@ -97,14 +97,14 @@ Trainer::Step Trainer::descend(int step) {
   const auto view = make_view<float>(photographs_.camera(at));
   const glm::vec3 background = background_of(step);
   const GroupSequences sequences = reference_sequences(view, activated_);
-  const Comparison found =
+  const double loss =
       compare_with(photographs_.before(at, background), view, cloud_, activated_, sequences,
-                   background, BlendPrecision::kSingle, config_.ssim_share, gradient_);
+                   background, BlendPrecision::kSingle, config_.comparison, gradient_);
   if (config_.growth == Growth::kMcmc) add_regularisers();
-  check_finite(step, found.loss, gradient_);
+  check_finite(step, loss, gradient_);
 
   const LearningRates rates = config_.rates_at(step, extent_);
-  adam_.step(gradient_, rates, cloud_);
+  const auto beyond = adam_.step(gradient_, rates, cloud_);
   if (config_.growth == Growth::kMcmc) {
     const auto moved = add_position_noise(cloud_, activated_, config_.noise * rates.mean,
                                           config_.seed, static_cast<std::uint64_t>(step));
@@ -113,7 +113,8 @@ Trainer::Step Trainer::descend(int step) {
     statistics_.add(sequences, gradient_);
   }
   reactivate(cloud_, gradient_.indices, activated_);
-  return {step, at, found.loss, found.l1, found.ssim, gradient_.size()};
+  check_limits(step, beyond);
+  return {step, at, loss};
 }
 
 void Trainer::grow(int step) {

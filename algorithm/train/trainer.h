@@ -43,7 +43,6 @@ class Trainer : public Fitting {
 
   const GaussianCloud& cloud() const { return cloud_; }
   const ActivatedCloud& activated() const { return activated_; }
-  double downscale() const { return downscale_; }
   State state() const { return {next_step_, cloud_, adam_.moments(), statistics_}; }
 
  private:

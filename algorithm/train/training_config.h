@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "algorithm/train/comparison.h"
 #include "algorithm/train/densification.h"
 #include "algorithm/train/start_cloud.h"
 #include "algorithm/tune/learning_rates.h"
-#include "algorithm/tune/photometric_loss.h"
 
 namespace sgs {
 
@@ -23,7 +23,7 @@ struct TrainingConfig {
   std::size_t most_gaussians = 100'000;
   std::size_t start_gaussians = 50'000;  // at most; of random ones just so many
   int sh_degree = 3;
-  double ssim_share = kSsimShare;
+  ComparisonRule comparison;
   Background background = Background::kRandom;  // where photographs are transparent
   StartConfig start;
 

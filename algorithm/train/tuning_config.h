@@ -3,15 +3,15 @@
 
 #include <cstdint>
 
+#include "algorithm/train/comparison.h"
 #include "algorithm/tune/learning_rates.h"
-#include "algorithm/tune/photometric_loss.h"
 
 namespace sgs {
 
 struct TuningConfig {
   int steps = 3'000;
   std::uint64_t seed = 1;  // of the order of views
-  double ssim_share = kSsimShare;
+  ComparisonRule comparison;
   // Rates are the original's, centres rest; times `rate` at first and `last_rate` of that in the
   // end, falling exponentially.
   LearningSchedule rates;

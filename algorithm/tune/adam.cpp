@@ -2,13 +2,14 @@
 #include "algorithm/tune/adam.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "algorithm/scene/gaussian_limits.h"
 #include "algorithm/splat/widest_lanes.h"
 
 namespace sgs {
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kVector = 16;  // values
 constexpr std::size_t kMostValues = 64;
+constexpr std::size_t kFirstScale = 3, kOpacity = 10;
 constexpr std::size_t kFirstCoefficient = 11;  // behind mean 3, log_scale 3, quat 4, opacity_logit
 
 // The rows of one step.
@@ -42,14 +44,28 @@ void update_row(std::size_t count, const StepFactors& factors, const float* __re
   }
 }
 
+// Whether a scene may hold these parameters: [count], behind the last of them zeros.
+SGS_WIDEST_LANES
+bool within_limits(std::size_t count, const float* __restrict p) {
+  static_assert(kMaxCoordinate == kMaxCoefficient);
+  int beyond = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    beyond |= __builtin_fabsf(p[i]) <= static_cast<float>(kMaxCoordinate) ? 0 : 1;
+  }
+  for (std::size_t i = kFirstScale; i < kFirstScale + 3; ++i) {
+    beyond |= p[i] <= static_cast<float>(kMaxLogScale) ? 0 : 1;
+  }
+  return beyond == 0;
+}
+
 // Calls move(place in the row, the values, how many) for the parameters of Gaussian i.
 template <class Cloud, class Move>
 void for_values(Cloud& cloud, std::size_t i, const Move& move) {
   const auto coeffs = static_cast<std::size_t>(sh_coeff_count(cloud.sh_degree));
   move(0, &cloud.means[i].x, 3);
-  move(3, &cloud.log_scales[i].x, 3);
+  move(kFirstScale, &cloud.log_scales[i].x, 3);
   move(6, cloud.quats[i].data(), 4);
-  move(10, &cloud.opacity_logits[i], 1);
+  move(kOpacity, &cloud.opacity_logits[i], 1);
   move(kFirstCoefficient, &cloud.sh_coeffs[i * coeffs].x, 3 * coeffs);
 }
 
@@ -89,7 +105,8 @@ Adam::Adam(const GaussianCloud& cloud, const AdamConfig& config) : config_(confi
   moments_.updates.resize(cloud.size());
 }
 
-void Adam::step(const CloudGradient& gradient, const LearningRates& rates, GaussianCloud& cloud) {
+std::optional<std::uint32_t> Adam::step(const CloudGradient& gradient, const LearningRates& rates,
+                                        GaussianCloud& cloud) {
   if (gradient.parameters.sh_degree != cloud.sh_degree || row_of(cloud.sh_degree) != moments_.row ||
       cloud.size() != moments_.updates.size()) {
     throw std::logic_error("Adam: the cloud was changed, its moments were not");
@@ -104,8 +121,8 @@ void Adam::step(const CloudGradient& gradient, const LearningRates& rates, Gauss
   alignas(64) float rate[kMostValues];
   fill_rates(rates, rate);
   const std::size_t row = moments_.row;
-  const tbb::blocked_range<std::size_t> ranks(0, gradient.size(), 256);
-  tbb::parallel_for(ranks, [&](const auto& range) {
+  constexpr std::uint32_t kNone = 0xffffffff;
+  const auto update = [&](const tbb::blocked_range<std::size_t>& range, std::uint32_t beyond) {
     alignas(64) float p[kMostValues] = {}, g[kMostValues] = {};
     for (std::size_t r = range.begin(); r != range.end(); ++r) {
       const std::size_t i = gradient.indices[r];
@@ -117,9 +134,18 @@ void Adam::step(const CloudGradient& gradient, const LearningRates& rates, Gauss
           static_cast<float>(config_.epsilon), correction.first, correction.second};
       float* const m = &moments_.values[i * 2 * row];
       update_row(row, factors, rate, g, p, m, m + row);
-      put_back(p, i, cloud);
+      if (within_limits(row, p)) {
+        put_back(p, i, cloud);
+      } else {
+        beyond = std::min(beyond, static_cast<std::uint32_t>(i));
+      }
     }
-  });
+    return beyond;
+  };
+  const std::uint32_t beyond =
+      tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, gradient.size(), 256), kNone, update,
+                           [](std::uint32_t a, std::uint32_t b) { return std::min(a, b); });
+  return beyond == kNone ? std::nullopt : std::optional(beyond);
 }
 
 void Adam::rearrange(const std::vector<std::uint32_t>& from) {
@@ -134,6 +160,12 @@ void Adam::rearrange(const std::vector<std::uint32_t>& from) {
     out.updates[i] = moments_.updates[from[i]];
   }
   moments_ = std::move(out);
+}
+
+void Adam::forget_opacities() {
+  for (std::size_t i = 0; i != 2 * moments_.updates.size(); ++i) {
+    moments_.values[i * moments_.row + kOpacity] = 0;
+  }
 }
 
 void Adam::raise_degree(int sh_degree) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "algorithm/scene/gaussian_cloud.h"
@@ -33,13 +34,18 @@ class Adam {
   // p -= rate (m / (1 - beta1^n)) / (sqrt(v / (1 - beta2^n)) + epsilon),
   // for the Gaussians that gradient holds. What is not seen rests: its moments too, and n is the
   // number of its own updates, so that one that is rarely seen, or new, is corrected as it must be.
-  // The same bits whatever the number of threads. Throws std::logic_error where gradient, cloud and
-  // moments are not of one degree, or cloud and moments not of one size.
-  void step(const CloudGradient& gradient, const LearningRates& rates, GaussianCloud& cloud);
+  // A Gaussian whose parameters would leave the limits of gaussian_limits.h stays where it is; the
+  // first such is returned. The same bits whatever the number of threads. Throws std::logic_error
+  // where gradient, cloud and moments are not of one degree, or cloud and moments not of one size.
+  std::optional<std::uint32_t> step(const CloudGradient& gradient, const LearningRates& rates,
+                                    GaussianCloud& cloud);
 
   // After the cloud was changed: from[i] is where Gaussian i stood before, or kNew.
   static constexpr std::uint32_t kNew = 0xffffffff;
   void rearrange(const std::vector<std::uint32_t>& from);
+
+  // After all opacities were set anew.
+  void forget_opacities();
 
   // After the cloud's coefficients were filled up with zeros to a higher degree.
   void raise_degree(int sh_degree);

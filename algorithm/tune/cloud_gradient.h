@@ -10,7 +10,8 @@
 
 namespace sgs {
 
-// By rank: of the r-th Gaussian that is blended into at least one pixel. All others' are 0.
+// By rank: of the r-th Gaussian that is blended into at least one pixel, or that has been given a
+// row. All others' are 0.
 struct CloudGradient {
   std::vector<std::uint32_t> indices;  // in the cloud, ascending
   GaussianCloud parameters;            // dL/d of the file's parameters of the same name
@@ -22,6 +23,8 @@ struct CloudGradient {
     parameters.resize(count, sh_degree);
     centres.resize(count);
   }
+  // These Gaussians get rows of zeros where they have none. more: ascending.
+  void add_rows(const std::vector<std::uint32_t>& more);
 };
 
 }  // namespace sgs

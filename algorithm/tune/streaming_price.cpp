@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -10,10 +11,22 @@
 #include "algorithm/tune/projection_gradient.h"
 
 namespace sgs {
+namespace {
 
-double add_streaming_gradient(const View<float>& view, const GaussianCloud& parameters,
-                              const ActivatedCloud& cloud, const PixelSize& group, double weight,
-                              CloudGradient& gradient) {
+std::vector<std::uint32_t> gaussians_of(const GroupSequences& sequences) {
+  std::vector<std::uint32_t> out;
+  out.reserve(sequences.splats.size());
+  for (const Splat& splat : sequences.splats) out.push_back(splat.index);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace
+
+double add_streaming_gradient(const View<float>& view, const GroupSequences& sequences,
+                              const GaussianCloud& parameters, const ActivatedCloud& cloud,
+                              const PixelSize& group, double weight, CloudGradient& gradient) {
+  gradient.add_rows(gaussians_of(sequences));
   const double count = static_cast<double>(cloud.size());
   const auto share = static_cast<float>(weight / count);
   std::vector<double> prices(gradient.size());

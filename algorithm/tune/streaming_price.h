@@ -7,6 +7,7 @@
 #include "algorithm/splat/rects.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/tune/cloud_gradient.h"
+#include "algorithm/tune/group_sequences.h"
 #include "algorithm/tune/splat_gradient.h"
 
 namespace sgs {
@@ -56,11 +57,12 @@ StreamingPrice<T> streaming_price(const Projected<T>& p, T opacity, const PixelS
   return out;
 }
 
-// Adds weight dP/dparameters, P = 1/N sum of the prices of the Gaussians that gradient has a row
-// for, N all of the cloud; returns P. cloud: activate(parameters). The same bits whatever the
+// Adds weight dP/dparameters, P = 1/N sum of the prices of the splats of these sequences, N all
+// Gaussians of the cloud; returns P. A splat that the picture shows nowhere, behind others or on no
+// pixel, is fetched too, and gets a row. cloud: activate(parameters). The same bits whatever the
 // number of threads.
-double add_streaming_gradient(const View<float>& view, const GaussianCloud& parameters,
-                              const ActivatedCloud& cloud, const PixelSize& group, double weight,
-                              CloudGradient& gradient);
+double add_streaming_gradient(const View<float>& view, const GroupSequences& sequences,
+                              const GaussianCloud& parameters, const ActivatedCloud& cloud,
+                              const PixelSize& group, double weight, CloudGradient& gradient);
 
 }  // namespace sgs

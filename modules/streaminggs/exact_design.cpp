@@ -30,6 +30,11 @@ FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const 
   return streaming_job(config_, scene, camera, exact_spill_bytes(scene.image.layout));
 }
 
+bool ExactDesign::draws_reference() const {
+  return config_.rendering.precision == BlendPrecision::kSingle &&
+         config_.merge.on_overflow == OnOverflow::kSpill;
+}
+
 GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
                                 DataSheet& sheet) const {
   ExactOrderConfig order;

@@ -5,21 +5,30 @@
 namespace sgs {
 namespace {
 
+struct Caught {
+  int signal;
+  void (*before)(int) = SIG_DFL;  // what it did
+};
+
 volatile std::sig_atomic_t wished_now = 0;
-void (*before)(int) = SIG_DFL;  // what SIGINT did
+Caught caught[] = {{SIGINT}, {SIGTERM}};
+
+void put_back() {
+  for (const Caught& c : caught) std::signal(c.signal, c.before);
+}
 
 extern "C" void note_wish(int) {
   wished_now = 1;
-  std::signal(SIGINT, before);
+  put_back();
 }
 
 }  // namespace
 
 Interrupt::Interrupt() {
   wished_now = 0;
-  before = std::signal(SIGINT, note_wish);
+  for (Caught& c : caught) c.before = std::signal(c.signal, note_wish);
 }
-Interrupt::~Interrupt() { std::signal(SIGINT, before); }
+Interrupt::~Interrupt() { put_back(); }
 bool Interrupt::wished() const { return wished_now != 0; }
 
 }  // namespace sgs

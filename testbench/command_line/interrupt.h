@@ -1,9 +1,9 @@
-// Ctrl-C as a wish that work may look at between two of its steps.
+// Ctrl-C, or a request to end, as a wish that work may look at between two of its steps.
 #pragma once
 
 namespace sgs {
 
-// While one lives, SIGINT sets it once; a second one ends the program as ever.
+// While one lives, SIGINT and SIGTERM set it once; a second one ends the program as ever.
 class Interrupt {
  public:
   Interrupt();

@@ -62,7 +62,7 @@ void print_dataset(const Dataset& dataset) {
   }
   print("size", sizes(dataset));
   if (const int cropped = count_if(dataset, [](const DatasetView& view) {
-        return view.camera.width != view.file.width || view.camera.height != view.file.height;
+        return view.used_px.x != view.file.width || view.used_px.y != view.file.height;
       })) {
     print("cropped", fmt::format("{} views, to have the principal point in the middle", cropped));
   }

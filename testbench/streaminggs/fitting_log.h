@@ -26,8 +26,14 @@ struct LogColumn {
 
 class FittingLog {
  public:
-  // steps: in all. csv: what an earlier run wrote, whose time goes on.
-  FittingLog(int steps, std::vector<LogColumn> more, std::string csv);
+  // What earlier runs wrote and how long they took.
+  struct Earlier {
+    std::string csv;
+    double seconds = 0;
+  };
+
+  // steps: in all.
+  FittingLog(int steps, std::vector<LogColumn> more, Earlier earlier);
 
   // After each step; rewrites the line.
   void tell(const FittingStep& step, std::size_t gaussians);
@@ -35,16 +41,18 @@ class FittingLog {
   void add(int done, std::optional<double> loss, std::size_t gaussians, const Look& look);
   // step, seconds, loss, Gaussians, PSNR and SSIM of the test views, further columns.
   const std::string& csv() const { return csv_; }
+  double seconds() const { return before_s_ + own_seconds(); }  // all runs together
 
  private:
-  double seconds() const;
+  double own_seconds() const;
 
   const int steps_;
   const bool terminal_;
   std::string csv_;
-  double before_s_ = 0;  // that earlier runs took
+  const double before_s_;  // that earlier runs took
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  int first_step_ = -1;  // of this run
+  int first_step_ = -1;                 // of this run
+  std::optional<double> test_psnr_db_;  // at the last look
 };
 
 }  // namespace sgs

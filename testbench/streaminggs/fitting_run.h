@@ -11,6 +11,7 @@
 #include "algorithm/output_plan.h"
 #include "algorithm/train/checkpoint.h"
 #include "algorithm/train/fitting.h"
+#include "algorithm/tune/gradient_rule.h"
 #include "testbench/command_line/command_line.h"
 #include "testbench/streaminggs/fitting_log.h"
 #include "testbench/streaminggs/test_pictures.h"
@@ -21,19 +22,27 @@ namespace sgs {
 struct FittingArguments {
   std::string out, log, resume;
   std::uint32_t test_every = 1'000, checkpoint_every = 0;
+  std::string gradients = "derivative";
   TestPictures pictures;
 
   // scene_forms: what --out may be.
   void add_to(CommandLine& line, const char* scene_forms);
   void add_to(OutputPlan& plan) const;
   std::string checkpoint() const { return out + ".checkpoint"; }
-  // The one to go on from, if any. work: what it must have been made by. Throws InputError.
-  std::optional<Checkpoint> resumed(const std::string& command, const std::string& work) const;
+  GradientRule gradient_rule() const {
+    return gradients == "original" ? GradientRule::kOriginal : GradientRule::kDerivative;
+  }
+  // Throws InputError where the scene's name does not end so.
+  void check_extension(const char* extension) const;
+  // Digest of the files that the fitting reads: the inputs of the plan, but for a checkpoint.
+  std::string contents(const OutputPlan& plan) const;
+  // The one to go on from, if any. work, contents: what it must have been made by. Throws
+  // InputError.
+  std::optional<Checkpoint> resumed(const std::string& work, const std::string& contents) const;
 };
 
 struct FittingTask {
-  std::string command;  // "train"
-  std::string work;     // as Checkpoint::work
+  std::string work, contents;  // as in Checkpoint
   Fitting& fitting;
   std::vector<LogColumn> more;  // that look() fills in
   std::function<Look()> look;
@@ -41,9 +50,9 @@ struct FittingTask {
 };
 
 // Looks at the test views as often as is asked for, behind the last step, and before the first one
-// where `from_start`. log: what an earlier run logged. Returns the exit status. Throws
-// std::runtime_error where the fitting stops by itself (NotFinite), with the last good state saved.
-int run_fitting(const FittingArguments& arguments, const FittingTask& task, std::string log,
-                bool from_start);
+// where `look_first`. from: what it goes on from, if anything. Returns the exit status. Whatever
+// fails on the way is a std::runtime_error, with the last good state saved as a checkpoint.
+int run_fitting(const FittingArguments& arguments, const FittingTask& task,
+                const std::optional<Checkpoint>& from, bool look_first);
 
 }  // namespace sgs

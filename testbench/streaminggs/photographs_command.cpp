@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/dataset/open_dataset.h"
 #include "algorithm/image/image_io.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_plan.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/train/photographs.h"
-#include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/dataset_arguments.h"
 #include "testbench/streaminggs/numbers.h"
 
 namespace sgs {
 namespace {
 
 struct PhotographsArguments {
-  std::string dataset, out;
+  DatasetArguments data;
+  std::string out;
 
   std::string file(const std::string& name) const {
     return (std::filesystem::path(out) / name).string();
@@ -30,16 +30,18 @@ struct PhotographsArguments {
 };
 
 int run(const PhotographsArguments& arguments) {
-  const Dataset dataset =
-      while_doing("reading " + arguments.dataset, [&] { return open_dataset(arguments.dataset); });
-  Photographs test(dataset, Split::kTest);
-  if (test.size() == 0) throw InputError(arguments.dataset + ": has no view to test with");
   OutputPlan plan;
-  for (const DatasetView& view : dataset.views) plan.add_input(view.image_path);
-  plan.add_input((std::filesystem::path(dataset.folder) / "cameras.json").string());
+  const Dataset dataset = arguments.data.open(plan);
+  Photographs test(dataset, Split::kTest);
   plan.add_output(arguments.cameras());
   for (std::size_t at = 0; at < test.size(); ++at) plan.add_output(arguments.picture(at));
   plan.check();
+  std::error_code not_there;
+  if (std::filesystem::equivalent(arguments.out, dataset.folder, not_there)) {
+    throw InputError("--out: " + arguments.out +
+                     " is the data set itself, which cameras.json would give a second layout, "
+                     "expected another folder");
+  }
   test.load(1);
   std::vector<Camera> cameras;
   for (std::size_t at = 0; at < test.size(); ++at) {
@@ -56,7 +58,8 @@ int run(const PhotographsArguments& arguments) {
 
 SubCommand add_photographs_command(CommandLine& line, const Kinds&) {
   auto arguments = std::make_shared<PhotographsArguments>();
-  line.file("DATASET", arguments->dataset, "the folder of a data set", Given::kAlways);
+  line.file("DATASET", arguments->data.folder, "the folder of a data set", Given::kAlways);
+  arguments->data.add_downscale_to(line);
   line.file("--out", arguments->out,
             "folder for cameras.json of its test views and view_N.exr, the photographs before "
             "black, as machines draw",

@@ -1,12 +1,15 @@
 // Hash, command line, memory.
 #include "testbench/streaminggs/provenance.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 namespace sgs {
 
@@ -26,6 +29,18 @@ std::uint64_t fnv1a64_of_file(const std::string& path) {
   std::vector<std::byte> bytes(text.size());
   std::memcpy(bytes.data(), text.data(), text.size());
   return fnv1a64(bytes);
+}
+
+std::string digest_of_files(const std::vector<std::string>& paths) {
+  std::vector<std::byte> hashes;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) continue;
+    const std::uint64_t hash = fnv1a64_of_file(path);
+    const auto* const bytes = reinterpret_cast<const std::byte*>(&hash);
+    hashes.insert(hashes.end(), bytes, bytes + sizeof hash);
+  }
+  return fmt::format("{:016x}", fnv1a64(hashes));
 }
 
 std::string command_line() {

@@ -13,6 +13,8 @@ namespace sgs {
 std::uint64_t fnv1a64(const std::vector<std::byte>& bytes);
 // Of a file's.
 std::uint64_t fnv1a64_of_file(const std::string& path);
+// Of those among these that are files, in this order, as a text.
+std::string digest_of_files(const std::vector<std::string>& paths);
 
 // This process' command line, its arguments separated by spaces.
 std::string command_line();

@@ -7,20 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/dataset/open_dataset.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_plan.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/train/trainer.h"
-#include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/dataset_arguments.h"
 #include "testbench/streaminggs/fitting_run.h"
+#include "testbench/streaminggs/numbers.h"
 
 namespace sgs {
 namespace {
 
 struct TrainArguments : FittingArguments {
-  std::string dataset;
+  DatasetArguments data;
   std::string growth = "mcmc";
   std::string background = "random";
   std::uint32_t steps = 20'000;
@@ -31,9 +31,9 @@ struct TrainArguments : FittingArguments {
   // What a checkpoint must have been made with.
   std::string training() const {
     return fmt::format(
-        "{} --steps {} --gaussians {} --seed {} --sh-degree {} --growth {} "
-        "--background {}",
-        dataset, steps, gaussians, seed, sh_degree, growth, background);
+        "train {} --steps {} --gaussians {} --seed {} --sh-degree {} --growth {} "
+        "--background {} --gradients {}",
+        data.work(), steps, gaussians, seed, sh_degree, growth, background, gradients);
   }
 };
 
@@ -44,6 +44,7 @@ TrainingConfig training_config(const TrainArguments& arguments) {
   config.most_gaussians = arguments.gaussians;
   config.start_gaussians = std::min<std::size_t>(config.start_gaussians, arguments.gaussians);
   config.sh_degree = static_cast<int>(arguments.sh_degree);
+  config.comparison.gradients = arguments.gradient_rule();
   if (arguments.growth == "original") {
     config.growth = Growth::kOriginal;
     config.start.opacity = 0.1;
@@ -63,10 +64,12 @@ std::vector<Camera> training_cameras(const Dataset& dataset) {
 }
 
 GaussianCloud start_of(const Dataset& dataset, const TrainingConfig& config) {
-  const auto points = dataset.points.empty()
-                          ? random_points(box_to_fill(dataset), config.start_gaussians, config.seed)
-                          : dataset.points;
-  return start_at_points(points, config.start_gaussians, config.start, config.seed);
+  const auto points = points_to_start_at(dataset, config.start_gaussians, config.seed);
+  GaussianCloud cloud = start_at_points(points, config.start_gaussians, config.start, config.seed);
+  fmt::print("{:<26}{} of {} {}\n", "start", grouped(cloud.size()), grouped(points.size()),
+             dataset.points.empty() ? "random points, the data set brings none"
+                                    : "points of the data set");
+  return cloud;
 }
 
 Trainer begun(const std::optional<Checkpoint>& from, const Dataset& dataset,
@@ -77,19 +80,22 @@ Trainer begun(const std::optional<Checkpoint>& from, const Dataset& dataset,
 }
 
 int run(const TrainArguments& arguments) {
+  arguments.check_extension(".ply");
   OutputPlan plan;
   arguments.add_to(plan);
   plan.check();
-  const Dataset dataset =
-      while_doing("reading " + arguments.dataset, [&] { return open_dataset(arguments.dataset); });
-  if (views_of(dataset, Split::kTest).empty()) {
-    throw InputError(arguments.dataset + ": has no view to test with");
-  }
+  const Dataset dataset = arguments.data.open(plan);
   const TrainingConfig config = training_config(arguments);
-  const std::optional<Checkpoint> from = arguments.resumed("train", arguments.training());
+  const std::string contents = arguments.contents(plan);
+  const std::optional<Checkpoint> from = arguments.resumed(arguments.training(), contents);
   Photographs train(dataset, Split::kTrain), test(dataset, Split::kTest);
   Trainer trainer = begun(from, dataset, config, train);
   test.load(1);
+  if (config.background != Background::kRandom && !test.transparent()) {
+    throw InputError(
+        fmt::format("--background: got {}, but nothing is seen behind opaque photographs",
+                    arguments.background));
+  }
   // As pictures of transparent objects are compared.
   const glm::vec3 background(test.transparent() ? 1.0F : 0.0F);
   arguments.pictures.write_photographs(test, background);
@@ -98,15 +104,16 @@ int run(const TrainArguments& arguments) {
     return Look{mean_quality(qualities(trainer.activated(), test, background, seen)), {}};
   };
   const auto write = [&] { write_ply(arguments.out, trainer.cloud()); };
-  const FittingTask task{"train", arguments.training(), trainer, {}, look, write};
-  return run_fitting(arguments, task, from ? from->log : "", false);
+  const FittingTask task{arguments.training(), contents, trainer, {}, look, write};
+  return run_fitting(arguments, task, from, false);
 }
 
 }  // namespace
 
 SubCommand add_train_command(CommandLine& line, const Kinds&) {
   auto arguments = std::make_shared<TrainArguments>();
-  line.file("DATASET", arguments->dataset, "the folder of a data set", Given::kAlways);
+  line.file("DATASET", arguments->data.folder, "the folder of a data set", Given::kAlways);
+  arguments->data.add_downscale_to(line);
   arguments->add_to(line, "scene to write: .ply");
   line.whole("--steps", arguments->steps, 1, 1'000'000, "of training, a photograph each");
   line.whole("--gaussians", arguments->gaussians, 1, 100'000'000, "at most");

@@ -27,8 +27,8 @@ BoundaryPenaltyConfig penalty_config(const TuneArguments& arguments) {
   return config;
 }
 
-PaperOrderConfig paper_order_of(const RunConfig& config) {
-  const std::optional<PaperOrderConfig> order = tuned_order(config);
+PaperOrderConfig paper_order_of(const TuneArguments& arguments, const RunConfig& config) {
+  const std::optional<PaperOrderConfig> order = tuned_order(arguments, config);
   if (order) return *order;
   throw InputError(fmt::format(
       "--boundary: machine {} shows the reference picture, no boundary costs it anything, expected "
@@ -42,10 +42,10 @@ int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
   TuningConfig config;
   arguments.set(config, kBoundarySteps, kBoundaryRate);
   const BoundaryPenaltyConfig penalty = penalty_config(arguments);
-  const PaperOrderConfig order = paper_order_of(job.config);
+  const PaperOrderConfig order = paper_order_of(arguments, job.config);
   const StorageConfig& storage = job.config.storage;
   const std::string work = arguments.work(config);
-  const std::optional<Checkpoint> from = arguments.resumed("tune", work);
+  const std::optional<Checkpoint> from = arguments.resumed(work, job.contents);
 
   const CloudInStorage given = given_in_storage(arguments, job);
   VisitPlan plan(std::get<VoxelGrid>(given.table), order, arguments.visit_bytes());
@@ -64,8 +64,8 @@ int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
                 {quality.reference.psnr_db, quality.misordered_gaussians, quality.misordered_pixels,
                  quality.penalty}};
   };
-  const FittingTask task{"tune",
-                         work,
+  const FittingTask task{work,
+                         job.contents,
                          tuner,
                          {{"reference_psnr_db", "reference"},
                           {"misordered_gaussians", "misordered"},
@@ -73,7 +73,7 @@ int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
                           {"l_cbp", "L_CBP"}},
                          look,
                          [&] { write_ply(arguments.out, tuner.cloud()); }};
-  const int status = run_fitting(arguments, task, from ? from->log : "", !from);
+  const int status = run_fitting(arguments, task, from, !from);
   print_visits(plan);
   return status;
 }

@@ -91,7 +91,7 @@ class Judge {
 void write_packed(const TuneArguments& arguments, const TuningJob& job,
                   const QuantisedTuner& tuner) {
   const StoredScene stored = tuner.stored(job.config.storage);
-  decode_image(stored.image, arguments.scene);  // refuses what a reader would
+  decode_image(stored.image, arguments.out);  // refuses what a reader would
   write_image_file(arguments.out,
                    {job.scene.name, job.scene.cloud.size(), job.scene.dropped_invalid},
                    stored.storage, stored.image);
@@ -102,9 +102,9 @@ void write_packed(const TuneArguments& arguments, const TuningJob& job,
 int tune_for_codebooks(const TuneArguments& arguments, const TuningJob& job) {
   const StorageConfig& storage = job.config.storage;
   const QuantisedTuningConfig config = tuning_config(arguments, storage.encoding);
-  const std::optional<PaperOrderConfig> order = tuned_order(job.config);
+  const std::optional<PaperOrderConfig> order = tuned_order(arguments, job.config);
   const std::string work = arguments.work(config);
-  const std::optional<Checkpoint> from = arguments.resumed("tune", work);
+  const std::optional<Checkpoint> from = arguments.resumed(work, job.contents);
 
   const CloudInStorage given = given_in_storage(arguments, job);
   const ActivatedCloud activated = activate(given.cloud);
@@ -123,10 +123,11 @@ int tune_for_codebooks(const TuneArguments& arguments, const TuningJob& job) {
         judge.of(stored.decoded, stored.table, arguments.pictures.behind(tuner.next_step()));
     return Look{verdict.shown, {verdict.reference.psnr_db, tuner.reassigned()}};
   };
-  const FittingTask task{"tune", work,
-                         tuner,  {{"reference_psnr_db", "reference"}, {"reassigned", "reassigned"}},
-                         look,   [&] { write_packed(arguments, job, tuner); }};
-  const int status = run_fitting(arguments, task, from ? from->log : "", !from);
+  const FittingTask task{work,  job.contents,
+                         tuner, {{"reference_psnr_db", "reference"}, {"reassigned", "reassigned"}},
+                         look,  [&] {
+        write_packed(arguments, job, tuner); }};
+  const int status = run_fitting(arguments, task, from, !from);
   if (plan) print_visits(*plan);
   return status;
 }

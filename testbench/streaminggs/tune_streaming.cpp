@@ -41,13 +41,14 @@ int tune_for_streaming(const TuneArguments& arguments, const TuningJob& job) {
         "exact order, as --config exact",
         job.config.machine()));
   }
+  tuned_order(arguments, job.config);
   const PixelSize group = job.config.design->group();
   if (group == PixelSize{}) {
     throw InputError(
         fmt::format("--streaming: machine {} has no groups of pixels", job.config.machine()));
   }
   const std::string work = arguments.work(config);
-  const std::optional<Checkpoint> from = arguments.resumed("tune", work);
+  const std::optional<Checkpoint> from = arguments.resumed(work, job.contents);
   const CloudInStorage given = given_in_storage(arguments, job);
   SceneTuner tuner = begun_tuner(arguments, job, config, reference_order(),
                                  streaming_loss(arguments.price, group), given.cloud, from);
@@ -60,10 +61,11 @@ int tune_for_streaming(const TuneArguments& arguments, const TuningJob& job) {
     return Look{mean_quality(qualities(cloud, job.views.test, glm::vec3(0), seen)),
                 {static_cast<double>(cloud.size()), fetches_of(cloud, job.views.test, group)}};
   };
-  const FittingTask task{"tune", work,
-                         tuner,  {{"stored", "stored"}, {"fetches", "fetches"}},
-                         look,   [&] { write_ply(arguments.out, tuner.cloud()); }};
-  return run_fitting(arguments, task, from ? from->log : "", !from);
+  const FittingTask task{work,  job.contents,
+                         tuner, {{"stored", "stored"}, {"fetches", "fetches"}},
+                         look,  [&] {
+                           write_ply(arguments.out, tuner.cloud()); }};
+  return run_fitting(arguments, task, from, !from);
 }
 
 }  // namespace sgs

@@ -4,20 +4,13 @@
 
 #include <utility>
 
-#include "algorithm/dataset/open_dataset.h"
-#include "algorithm/input_error.h"
 #include "algorithm/train/own_pictures.h"
-#include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/numbers.h"
 
 namespace sgs {
 
-TuningViews views_of_dataset(const std::string& folder) {
-  auto dataset = std::make_unique<const Dataset>(
-      while_doing("reading " + folder, [&] { return open_dataset(folder); }));
-  if (views_of(*dataset, Split::kTest).empty()) {
-    throw InputError(folder + ": has no view to test with");
-  }
+TuningViews views_of_dataset(Dataset given) {
+  auto dataset = std::make_unique<const Dataset>(std::move(given));
   std::vector<Camera> cameras;
   for (const int view : views_of(*dataset, Split::kTrain)) {
     cameras.push_back(dataset->views[static_cast<std::size_t>(view)].camera);
@@ -26,7 +19,7 @@ TuningViews views_of_dataset(const std::string& folder) {
   tune.load(1);
   test.load(1);
   std::string says = fmt::format("{} photographs of {}, {} others to test with",
-                                 grouped(tune.size()), folder, grouped(test.size()));
+                                 grouped(tune.size()), dataset->folder, grouped(test.size()));
   return {std::move(dataset), std::move(cameras), std::move(tune), std::move(test),
           std::move(says)};
 }

@@ -21,8 +21,8 @@ struct TuningViews {
   std::string says;                        // a line for the terminal
 };
 
-// Throws InputError as open_dataset() does, also where the data set has nothing to test with.
-TuningViews views_of_dataset(const std::string& folder);
+// Of a data set with views to test with.
+TuningViews views_of_dataset(Dataset dataset);
 
 // The pictures that `cloud` gives from `cameras` in the reference order: of every eighth, from the
 // first on, to test with and of the others to tune on; one camera serves for both. With

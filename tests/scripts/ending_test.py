@@ -65,7 +65,7 @@ SCRIPTS = (
     (voxel_study, ()),
     (work_precision, ()),
 )
-# These ask first what the scene holds, and take no answer but a good one.
+# These ask first whether their settings are known, and take no answer but a good one.
 ASKING = (boundary_study, quality_table, voxel_study)
 
 
@@ -97,7 +97,7 @@ class Ends(InFolder):
                 # Some first simulate a small scene that tells areas.
                 expected = status, line.replace("truck", "(truck|area)")
                 if what == "differs" and script in ASKING:
-                    expected = 1, "info .*: the frame differs$"
+                    expected = 1, "simulate .*: the frame differs$"
                 with self.subTest(what, script=script.__name__):
                     self.check(script, (*needed, *program, *more), *expected)
 

@@ -13,8 +13,10 @@ import unittest
 from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import boundary_study
 import judged_frames
+import quality_table
 import simulations
 import subjects
+import target_pictures
 import training_curves
 from fittings import Fitted, Fitting, KeptFittings
 from subjects import Subject
@@ -106,12 +108,37 @@ class Keeping(InFolder):
         self.assertEqual(list(self.folder.glob("fittings/*/made.json")), [])
 
     def test_stopped_when_its_time_is_over(self):
-        (fitted,) = self.kept().all([Fitting("slow", "train", ("slow",), most_seconds=1)])
+        (fitted,) = self.kept().all([Fitting("slow", "train", ("slow",), most_seconds=4)])
         self.assertEqual(fitted.scene.read_text(), "half")
-        self.assertGreaterEqual(fitted.seconds, 1)
+        self.assertGreaterEqual(fitted.seconds, 4)
         self.assertEqual(list(self.folder.glob("fittings/*/*.checkpoint")), [])
         self.kept().all([fitted.fitting])
         self.assertEqual(len(self.calls()), 1)
+
+    def test_a_script_that_was_killed_told_no_seconds(self):
+        head = "step,seconds,loss\n"
+        log = head + "400,2.5,0.1\n800,5000.25,0.1\n"
+        for number, (what, told, logged, least) in enumerate(
+            (
+                ("the log knows", "", log, 5000.25),
+                ("the script knew more", "7000", log, 7000),
+                ("no look yet", "", head, 0),
+                ("no log", "", "", 0),
+            )
+        ):
+            fitting = Fitting("a", "train", ("x",), copy=number)
+            place = self.kept().place(fitting)
+            place.mkdir(parents=True)
+            (place / "scene.ply.checkpoint").write_bytes(b"half")
+            if told:
+                (place / "seconds").write_text(told)
+            if logged:
+                (place / "log.csv").write_text(logged)
+            with self.subTest(what):
+                (fitted,) = self.kept().all([fitting])
+                self.assertIn("--resume", self.calls()[-1])
+                self.assertGreater(fitted.seconds, least)
+                self.assertLess(fitted.seconds, least + 60)
 
     def test_two_scripts_do_not_make_the_same_at_once(self):
         slow = Fitting("slow", "train", ("slow",), most_seconds=2)
@@ -174,6 +201,48 @@ class Words(InFolder):
         self.assertEqual(" ".join(self.CALLS.boundary(subject, 0.5, 0.05).words[4:12]), words)
         self.assertNotIn("--set", self.CALLS.streaming(subject, 0.1).words)
 
+    def test_steps_alone_are_as_many_and_as_long(self):
+        photographed = Subject("b", "b.ply", dataset="b")
+        words = "b.ply --streaming --config exact --data b --steps"
+        alone = quality_table.steps_alone(photographed, self.CALLS)
+        self.assertEqual(
+            {name: " ".join(fitting.words) for name, fitting in alone.items()},
+            {
+                "as long as boundary-aware": f"{words} 3 --price 0 --test-every 500 --rate 1",
+                "as long as quantisation-aware": f"{words} 5 --price 0 --test-every 500",
+            },
+        )
+        priced = " ".join(self.CALLS.streaming(photographed, 0.03).words)
+        self.assertEqual(priced, f"{words} 3 --price 0.03 --test-every 500")
+        self.assertEqual(quality_table.prices_of(photographed, [0.03, 0]), [0, 0.03])
+        scene = Subject("a", "a.ply", "a.json", "64x36", 7)
+        self.assertEqual(quality_table.steps_alone(scene, self.CALLS), {})
+        self.assertEqual(quality_table.prices_of(scene, [0.03]), [0.03])
+
+    def test_views_are_looked_for_before_anything_is_trained(self):
+        program = self.stand_in("print('to train from  9\\nto test with  4 (every 8th by name)')")
+        sources = subjects.find_sources([str(self.scene), str(self.folder)])
+        for views, of_all, of_data in (
+            ("all", "", ""),
+            ("0", "", ""),
+            ("3", "got '3', expected all, or numbers from 0 to 0, .* of truck$", ""),
+            ("3,0", "got '3', expected all, or numbers from 0 to 0, .* of truck$", ""),
+            ("4", "got '4'", "got '4', expected all, or numbers from 0 to 3, .* of "),
+            ("0,0", "got '0'", "got '0'"),
+            ("", "got ''", "got ''"),
+            ("-1", "got '-1'", "got '-1'"),
+        ):
+            for asked, error in ((sources, of_all), (sources[1:], of_data)):
+                with self.subTest(views, asked=asked):
+                    if error:
+                        with self.assertRaisesRegex(ValueError, f"^--view: {error}"):
+                            target_pictures.check_views(program, asked, views)
+                    else:
+                        target_pictures.check_views(program, asked, views)
+        built_in = subjects.find_sources(["builtin:object"])
+        with self.assertRaisesRegex(ValueError, "expected a file of them"):
+            target_pictures.check_views(program, built_in, "all")
+
     def test_a_data_set_is_a_folder(self):
         self.assertEqual(subjects.dataset_folder(str(self.folder)), self.folder)
         self.assertIsNone(subjects.dataset_folder(str(self.scene)))
@@ -196,7 +265,8 @@ class Numbers(InFolder):
             return {"target": {"psnr_db": psnr_db}}
 
         self.assertEqual(judged_frames.psnr_text([view(20.0), view(30.0)]), "25.00")
-        self.assertEqual(judged_frames.psnr_text([view(20.0), view(None)]), "equal")
+        self.assertEqual(judged_frames.psnr_text([view(20.0), view(None)]), "20.00")
+        self.assertEqual(judged_frames.psnr_text([view(None), view(None)]), "equal")
 
     def test_infinity_of_compare(self):
         for text, psnr_db in (("inf", None), ("31.5", 31.5)):

@@ -79,7 +79,7 @@ class InFolder(unittest.TestCase):
         writes the report of a view that took 8 cycles over the number of HFUs."""
         program = self.folder / "streaminggs"
         prelude = f"""\
-            #!{sys.executable}
+            #!{sys.executable} -IS
             import json, os, pathlib, signal, sys, time
             HERE = pathlib.Path(__file__).parent
             SET = dict(word.split("=") for word in sys.argv if "=" in word)

@@ -58,17 +58,77 @@ TEST_CASE("train: what is resumed ends as what was never stopped, bit for bit") 
   CHECK(made.status == 0);
 }
 
-TEST_CASE("train: Ctrl-C saves, and says how to go on") {
+TEST_CASE("train: Ctrl-C and a request to end save, and say how to go on") {
+  for (const std::string signal : {"INT", "TERM"}) {
+    const ScratchFolder scratch;
+    make_dataset(scratch);
+    const ShellOutcome made =
+        shell(scratch,
+              "$SG train d --out s.ply --gaussians 300 --steps 100000 & p=$!; sleep 3; "
+              "kill -" +
+                  signal + " $p; wait $p; echo status $?; ls");
+    INFO(made.out << made.err);
+    CHECK(made.out.find("status 130") != std::string::npos);
+    CHECK(made.out.find("s.ply\ns.ply.checkpoint\n") != std::string::npos);
+    CHECK(made.err.find("to go on: --resume s.ply.checkpoint") != std::string::npos);
+  }
+}
+
+TEST_CASE("train: what fails on the way leaves a checkpoint that ends as what never failed") {
   const ScratchFolder scratch;
   make_dataset(scratch);
+  const std::string train = kTrain;
   const ShellOutcome made =
-      shell(scratch,
-            "$SG train d --out s.ply --gaussians 300 --steps 100000 & p=$!; sleep 3; kill -INT $p; "
-            "wait $p; echo status $?; ls");
+      shell(scratch, "mkdir -p p/view_0_step_000020.png; " + train +
+                         "--out a.ply --pictures p; echo status $?; " + train +
+                         "--out a.ply --resume a.ply.checkpoint >t && " + train +
+                         "--out b.ply >t && cmp a.ply b.ply && echo same");
   INFO(made.out << made.err);
-  CHECK(made.out.find("status 130") != std::string::npos);
-  CHECK(made.out.find("s.ply\ns.ply.checkpoint\n") != std::string::npos);
-  CHECK(made.err.find("to go on: --resume s.ply.checkpoint") != std::string::npos);
+  CHECK(made.out.find("status 1\n") != std::string::npos);
+  CHECK(made.out.find("same\n") != std::string::npos);
+  CHECK(made.err.find("p/view_0_step_000020.png") != std::string::npos);
+  CHECK(made.err.find("; the last good state is in a.ply.checkpoint") != std::string::npos);
+}
+
+TEST_CASE("train, tune, photographs: pictures and cameras smaller than the files") {
+  const ScratchFolder scratch;
+  make_dataset(scratch);
+  const std::string half = "--downscale 2 ";
+  const ShellOutcome made = shell(
+      scratch,
+      "$SG photographs d --downscale 2.5 --out p && grep -o '\"width\": *[0-9]*\\|\"height\": "
+      "*[0-9]*\\|\"fx\": *[0-9.]*' p/cameras.json | tr -d ' ' | sort | uniq -c && " +
+          std::string(kTrain) + half +
+          "--out s.ply --checkpoint 25 --pictures q && cp "
+          "s.ply.checkpoint mid && " +
+          kTrain + half +
+          "--out t.ply --resume mid && cmp s.ply "
+          "t.ply && head -c 24 q/view_0_step_000040.png | tail -c 8 | od -An -tu1 && $SG tune "
+          "s.ply --boundary --data d " +
+          half + "--steps 4 --out u.ply --checkpoint 2 && $SG tune s.ply --boundary --data d " +
+          half + "--steps 4 --out v.ply --resume u.ply.checkpoint && cmp u.ply v.ply");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  for (const char* words :
+       {"3 \"width\":26\n", "3 \"height\":19\n", "3 \"fx\":24.375\n", "0  32   0   0   0  24\n"}) {
+    INFO(words);
+    CHECK(made.out.find(words) != std::string::npos);
+  }
+}
+
+TEST_CASE("train: what it starts from is said") {
+  const ScratchFolder scratch;
+  make_dataset(scratch);
+  write_colmap_text(scratch.path("c"), made_scene());
+  const ShellOutcome made =
+      shell(scratch, std::string(kTrain) +
+                         "--background white --out s.ply && $SG train c --steps 5 --gaussians 300 "
+                         "--out t.ply");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK(made.out.find(" 300 of 300 random points, the data set brings none\n") !=
+        std::string::npos);
+  CHECK(made.out.find(" 5 of 5 points of the data set\n") != std::string::npos);
 }
 
 TEST_CASE("photographs: frames beside them are as near as the log of training says") {
@@ -100,9 +160,12 @@ TEST_CASE("photographs: refusals") {
   for (const Row& row :
        std::vector<Row>{{"$SG photographs nofolder --out p", {"nofolder: no such folder"}},
                         {"$SG photographs d --out d", {"d/cameras.json"}},
+                        {"$SG photographs n --out ./n/", {"./n/ is the data set itself"}},
+                        {"$SG photographs d --out p --downscale 0.5", {"--downscale", "0.5"}},
                         {"$SG photographs d", {"--out"}}}) {
     const ScratchFolder scratch;
     write_cameras_json(scratch.path("d"), made_scene());
+    write_nerf_synthetic(scratch.path("n"), made_scene());
     check_refused(scratch, row.line, row.words);
   }
 }
@@ -116,7 +179,21 @@ TEST_CASE("train: refusals") {
   for (const Row& row : std::vector<Row>{
            {"$SG train nofolder --out s.ply", {"nofolder: no such folder"}},
            {"$SG train d --out ''", {"--out", "got nothing"}},
+           {"$SG train d --out s.sgs", {"--out", "s.sgs", ".ply"}},
+           {"$SG train d --out s.ply --log s.ply.checkpoint", {"s.ply.checkpoint"}},
+           {"mkdir s.ply.checkpoint; $SG train d --out s.ply", {"s.ply.checkpoint", "folder"}},
            {"$SG train d --out s.ply --steps 0", {"--steps", "0"}},
+           {"$SG train d --out s.ply --downscale 0.99", {"--downscale", "0.99"}},
+           {"$SG train d --out s.ply --log d/transforms_test.json",
+            {"d/transforms_test.json: is the same file as the input"}},
+           {"$SG train d --out s.ply --log ./d/transforms_val.json",
+            {"d/transforms_val.json: is the same file as the input"}},
+           {"$SG train d --out s.ply --log d/train/shot_04.png",
+            {"d/train/shot_04.png: is the same file as the input"}},
+           {"sed -i 's/\"frames\": \\[/\"frames\": [], \"was\": [/' d/transforms_test.json; $SG "
+            "train d "
+            "--out s.ply",
+            {"d/transforms_test.json: frames: got none, expected one view or more to test with"}},
            {"$SG train d --out s.ply --growth none", {"--growth", "none"}},
            {"$SG train d --out s.ply --picture-views 1", {"--picture-views", "--pictures"}},
            {"$SG train d --out s.ply --pictures p --picture-views 9",
@@ -128,11 +205,19 @@ TEST_CASE("train: refusals") {
             {"c: was cut off or changed"}},
            {checkpoint + "$SG train d --steps 41 --out t.ply --resume s.ply.checkpoint",
             {"s.ply.checkpoint: is of 'train d --steps 40", "expected 'train d --steps 41"}},
+           {checkpoint + kTrain + "--downscale 2 --out t.ply --resume s.ply.checkpoint",
+            {"expected 'train d --downscale 2 --steps 40"}},
+           {"$SG train opaque --out s.ply --background white", {"--background", "white", "opaque"}},
+           {checkpoint + "cp d/train/shot_04.png d/train/shot_03.png; " + kTrain +
+                "--out t.ply --resume s.ply.checkpoint",
+            {"s.ply.checkpoint: a file that it was made from holds something else"}},
            {checkpoint + kTrain + "--out s.ply.checkpoint --resume s.ply.checkpoint",
             {"s.ply.checkpoint"}},
        }) {
     const ScratchFolder scratch;
     make_dataset(scratch);
+    scratch.write("d/transforms_val.json", "{}");
+    write_colmap_text(scratch.path("opaque"), made_scene());
     check_refused(scratch, row.line, row.words);
   }
 }

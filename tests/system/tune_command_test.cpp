@@ -123,6 +123,20 @@ TEST_CASE("tune: what is resumed ends as what was never stopped, bit for bit") {
   }
 }
 
+TEST_CASE("tune: what would leave the limits of scenes stops it, and what is left can be read") {
+  const ScratchFolder scratch;
+  const ShellOutcome made =
+      shell(scratch,
+            "$SG tune $B --boundary --rate 1000 --steps 300 --out t.ply --log l.csv; echo status "
+            "$?; ls; cat l.csv");
+  INFO(made.out << made.err);
+  CHECK(made.out.find("status 1\n") != std::string::npos);
+  CHECK(made.out.find("t.ply.checkpoint\n") != std::string::npos);
+  CHECK(made.out.find("step,seconds") != std::string::npos);
+  CHECK(made.err.find("than a scene may hold; the last good state is in t.ply.checkpoint") !=
+        std::string::npos);
+}
+
 TEST_CASE("tune: Ctrl-C saves, and says how to go on") {
   const ScratchFolder scratch;
   const ShellOutcome made = shell(
@@ -153,9 +167,19 @@ TEST_CASE("tune: refusals") {
            {"$SG tune $S --boundary --out t.ply --data nofolder", {"nofolder: no such folder"}},
            {"$SG tune $B --boundary --out t.ply --data d", {"--size", "data set"}},
            {"$SG tune $S --boundary --out t.ply --data d --target $S", {"--target", "data set"}},
+           {"$SG tune $S --boundary --out t.ply --data d --log d/transforms_train.json",
+            {"d/transforms_train.json: is the same file as the input"}},
+           {"$SG tune $B --boundary --out t.ply --downscale 2", {"--downscale", "--data"}},
            {"$SG tune $B --boundary --out t.ply --target nofile.ply", {"nofile.ply: no such file"}},
            {"$SG tune $B --boundary --out t.ply --config exact",
             {"--boundary", "machine exact", "paper order"}},
+           {"$SG tune $B --quantise --out t.sgs --config exact_vq --set rendering.precision=fp16",
+            {"--quantise", "machine exact", "rendering.precision fp32"}},
+           {"$SG tune $B --streaming --out t.ply --config exact --set "
+            "merge.on_overflow=blend_early",
+            {"--streaming", "machine exact", "rendering.precision fp32"}},
+           {"$SG tune $B --streaming --out t.ply --config exact --visit-memory 9",
+            {"--visit-memory", "paper order"}},
            {"$SG tune $B --boundary --out t.ply --beta -1", {"--beta", "-1"}},
            {"$SG tune $B --boundary --out t.ply --misordered-in x", {"--misordered-in", "x"}},
            {ply_of({"0 0 5"}) + "; $SG tune a.ply --boundary --out t.ply",
@@ -168,9 +192,15 @@ TEST_CASE("tune: refusals") {
            {"$SG tune $B --boundary --out t.ply --resume nofile", {"nofile: cannot be opened"}},
            {checkpoint + "$SG tune $B --boundary --steps 31 --out t.ply --resume s.ply.checkpoint",
             {"is of 'tune builtin:object?n=300", "--steps 30", "expected", "--steps 31"}},
+           {"echo '{\"machine\":\"paper\"}' >m.json; " + std::string(kTune) +
+                "--config m.json --out s.ply --checkpoint 20 >t && echo "
+                "'{\"machine\":\"paper\",\"hfu\":{}}' >m.json; " +
+                kTune + "--config m.json --out t.ply --resume s.ply.checkpoint",
+            {"s.ply.checkpoint: a file that it was made from holds something else"}},
            {checkpoint + kQuantise + "--out t.sgs --resume s.ply.checkpoint",
             {"is of 'tune builtin:object?n=300", "--boundary", "expected", "--quantise"}}}) {
     const ScratchFolder scratch;
+    write_nerf_synthetic(scratch.path("d"), made_scene());
     check_refused(scratch, row.line, row.words);
   }
 }

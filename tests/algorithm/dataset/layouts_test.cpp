@@ -1,9 +1,11 @@
 // Each layout: the same cameras, pictures, splits and points, whatever the axes of the format.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <numeric>
+#include <tuple>
 
 #include "algorithm/dataset/load_view.h"
 #include "algorithm/dataset/open_dataset.h"
@@ -120,6 +122,93 @@ TEST_CASE("dataset: each layout gives the cameras, pictures and split that were 
     }
     check_pictures(dataset, scene, 1, row.colour_tolerance);
     check_pictures(dataset, scene, 2, row.colour_tolerance + 1);
+    CHECK_FALSE(dataset.files.empty());
+  }
+}
+
+TEST_CASE(
+    "dataset: opened smaller, its cameras and pictures are, whether the sides divide or not") {
+  MadeScene scene = made_scene();
+  scene.width = 70;
+  scene.height = 53;
+  scene.principal = {38, 26.5};  // 6 px are cut off
+  const ScratchFolder scratch;
+  write_transforms(scratch.path(""), scene);
+  const Dataset whole = open_dataset(scratch.path(""));
+  for (const auto& [downscale, width, height] :
+       {std::tuple(1.0, 64, 53), {2.0, 32, 27}, {1.5, 43, 35}, {4.0, 16, 13}, {1e3, 1, 1}}) {
+    INFO(downscale);
+    const Dataset dataset = open_dataset(scratch.path(""), downscale);
+    REQUIRE(dataset.views.size() == whole.views.size());
+    for (std::size_t i = 0; i < whole.views.size(); ++i) {
+      const Camera& camera = dataset.views[i].camera;
+      CHECK(camera.width == width);
+      CHECK(camera.height == height);
+      CHECK(camera.id == static_cast<int>(i));
+      CHECK(camera.focal_x == Approx(60.0 * width / 64));
+      CHECK(camera.focal_y == Approx(60.0 * height / 53));
+      CHECK(camera.position == whole.views[i].camera.position);
+      CHECK(dataset.views[i].split == whole.views[i].split);
+      // The mean over the file's pixels, once, however it is divided between the two factors.
+      CHECK(load_view(dataset.views[i]).pixels == load_view(whole.views[i], downscale).pixels);
+    }
+    CHECK(load_view(dataset.views[0], 2).pixels == area_averaged(load_view(whole.views[0]),
+                                                                 std::max(1, (width + 1) / 2),
+                                                                 std::max(1, (height + 1) / 2))
+                                                       .pixels);
+  }
+}
+
+TEST_CASE("dataset: transparent pixels give a smaller picture their share, not their colour") {
+  const ScratchFolder scratch;
+  write_nsvf_matrix(scratch.path(""), made_scene());
+  RgbaImage image(64, 48);
+  for (int x = 0; x < 64; x += 2) {
+    for (int y = 0; y < 48; ++y) image.at(x, y) = {1, 0.2f, 0, 1};
+  }
+  write_file(scratch.path(""), "rgb/0_0000.png", rgba_png(image));
+  const Dataset dataset = open_dataset(scratch.path(""), 2);
+  const RgbaImage half = load_view(dataset.views[0]);
+  for (const glm::vec4& pixel : half.pixels) CHECK(pixel == glm::vec4(0.5f, 0.1f, 0, 0.5f));
+}
+
+TEST_CASE("dataset: start points that transforms.json names, in text and binary") {
+  const std::string head = "ply\nformat ";
+  const std::string properties =
+      "element vertex 2\nproperty double x\nproperty float y\nproperty float z\n"
+      "property float nx\nproperty uint8 red\nproperty uchar green\nproperty uint8 blue\n";
+  const auto binary = [](bool turned) {
+    std::string bytes;
+    const auto add = [&](auto value) {
+      std::string raw(reinterpret_cast<const char*>(&value), sizeof value);
+      if (turned) std::reverse(raw.begin(), raw.end());
+      bytes += raw;
+    };
+    for (const double x : {1.5, -0.25}) {
+      add(x);
+      for (const float value : {2.0f, -3.0f, 9.0f}) add(value);
+      for (const int value : {255, 51, 0}) add(static_cast<std::uint8_t>(value));
+    }
+    return bytes;
+  };
+  const std::string text = "1.5 2 -3 9 255 51 0\n-0.25 2.0 -3e0 9 255 51 0\n";
+  for (const std::string& file :
+       {head + "ascii 1.0\n" + properties + "end_header\n" + text,
+        head + "ascii 1.0\ncomment c\n" + properties +
+            "element face 1\nproperty list uchar int v\nend_header\n" + text + "3 0 1 0\n",
+        head + "binary_little_endian 1.0\n" + properties + "end_header\n" + binary(false),
+        head + "binary_big_endian 1.0\n" + properties + "end_header\n" + binary(true)}) {
+    const ScratchFolder scratch;
+    write_transforms(scratch.path(""), made_scene());
+    std::string json = bytes_of(scratch.path("transforms.json"));
+    scratch.write("transforms.json", json.insert(1, R"("ply_file_path": "./pc.ply", )"));
+    scratch.write("pc.ply", file);
+    const Dataset dataset = open_dataset(scratch.path(""));
+    REQUIRE(dataset.points.size() == 2);
+    CHECK(dataset.points[0].position == glm::vec3(1.5f, 2, -3));
+    CHECK(dataset.points[1].position == glm::vec3(-0.25f, 2, -3));
+    for (const SfmPoint& point : dataset.points) CHECK(point.colour == glm::vec3(1, 0.2f, 0));
+    CHECK(dataset.files.back() == scratch.path("pc.ply"));
   }
 }
 

@@ -215,6 +215,71 @@ TEST_CASE("dataset refuses: cameras that see nothing, poses that are none") {
   });
 }
 
+// A file of points beside transforms.json that names it.
+Damage points(const std::string& file) {
+  return [=](const std::string& folder) {
+    replace("transforms.json", "{", "{\"ply_file_path\": \"pc.ply\", ")(folder);
+    write_file(folder, "pc.ply", file);
+  };
+}
+
+TEST_CASE("dataset refuses: lists of names without a frame, start points that are none") {
+  const auto list = [](const std::string& entry) {
+    return replace("transforms.json", "{", "{" + entry + ", ");
+  };
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n";
+  const std::string rest =
+      "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n";
+  const std::string blue = "property uchar blue\nend_header\n";
+  check({
+      {write_transforms,
+       list("\"test_filenames\": [\"images/shot_01.jpg\", \"./images/typo.jpg\"]"),
+       {"transforms.json: test_filenames: got \"./images/typo.jpg\", expected paths of images as "
+        "frames have them"}},
+      {write_transforms,
+       list("\"val_filenames\": [\"typo.jpg\"]"),
+       {"transforms.json: val_filenames: got \"typo.jpg\""}},
+      {write_transforms,
+       list("\"train_filenames\": [7]"),
+       {"transforms.json: train_filenames: got 7"}},
+      {write_transforms,
+       list("\"ply_file_path\": \"none.ply\""),
+       {"set/none.ply: cannot be opened"}},
+      {write_transforms,
+       list("\"ply_file_path\": 1"),
+       {"transforms.json: ply_file_path: got 1, expected a path"}},
+      {write_transforms, points("x"), {"set/pc.ply: "}},
+      {write_transforms,
+       points(head + rest + blue + "10.25 20.5 3.25 4 5"),
+       {"pc.ply: ends, expected blue"}},
+      {write_transforms,
+       points(head + rest + blue + "1 2 nan 4 5 6\n"),
+       {"pc.ply: z: got 'nan', expected a finite number"}},
+      {write_transforms,
+       points(head + rest + blue + "1 2 1e30 4 5 6\n"),
+       {"pc.ply: vertex 0: position: got 1e+30"}},
+      {write_transforms,
+       points(head + rest + blue + "1 2 3 4 256 6\n"),
+       {"pc.ply: vertex 0: green: got 256, expected 0 to 255"}},
+      {write_transforms,
+       points(head + rest + "end_header\n1 2 3 4 5\n"),
+       {"pc.ply: element vertex: blue: got nothing, expected a property of uchar"}},
+      {write_transforms,
+       points(head + rest + "property float blue\nend_header\n1 2 3 4 5 6\n"),
+       {"pc.ply: element vertex: blue: got another type, expected a property of uchar"}},
+      {write_transforms,
+       points("ply\nformat ascii 1.0\nelement face 0\nproperty int x\nend_header\n"),
+       {"pc.ply: got the element face first, expected vertex"}},
+      {write_transforms,
+       points(head + "property list uchar int y\n" + "end_header\n1 1 2\n"),
+       {"pc.ply: element vertex: got a list, expected numbers alone"}},
+      {write_transforms,
+       points("ply\nformat binary_little_endian 1.0\nelement vertex 99\nproperty float x\n" + rest +
+              blue + "abc"),
+       {"pc.ply: "}},
+  });
+}
+
 TEST_CASE("dataset refuses: empty sets, names twice, splits that are half there") {
   check({
       {write_cameras_json,
@@ -363,6 +428,8 @@ TEST_CASE("dataset refuses: an image that changed or was cut since, factors belo
   for (const double downscale : {0.0, 0.99, -2.0, kNan, kInfinity}) {
     CHECK_THAT(input_error_of([&] { load_view(view, downscale); }),
                Contains("view 'shot_02': downscale "));
+    CHECK_THAT(input_error_of([&] { open_dataset(folder, downscale); }),
+               Contains("view 'shot_00': downscale "));
   }
   const std::string whole = bytes_of(view.image_path);
   write_file(folder, "images/shot_02.png", whole.substr(0, whole.size() / 2));

@@ -37,17 +37,14 @@ TEST_CASE("splits: NSVF tests with 2_, else with 1_, and with every 8th where no
   const Dataset two = open_dataset(scratch.path(""));
   CHECK(test_names(two) == std::vector<std::string>{"1_0006", "1_0007", "1_0008"});
   CHECK(two.left_out == 0);
-  for (const auto& [from, to] : {std::pair("1_0006", "6"),
-                                 {"1_0007", "7"},
-                                 {"1_0008", "8"},
-                                 {"0_0000", "0"},
-                                 {"0_0001", "1"},
-                                 {"0_0002", "2"},
-                                 {"0_0003", "3"},
-                                 {"0_0004", "4"},
-                                 {"0_0005", "5"},
-                                 {"0_0009", "9"}}) {
-    rename_view(scratch.path(""), from, to);
+  for (const char* name : {"0006", "0007", "0008"}) {
+    rename_view(scratch.path(""), std::string("1_") + name, std::string("0_") + name);
+  }
+  const Dataset training = open_dataset(scratch.path(""));
+  CHECK(training.split_by == SplitBy::kEveryEighth);
+  CHECK(test_names(training) == std::vector<std::string>{"0_0000", "0_0008"});
+  for (int i = 0; i < 10; ++i) {
+    rename_view(scratch.path(""), "0_000" + std::to_string(i), std::to_string(i));
   }
   const Dataset plain = open_dataset(scratch.path(""));
   CHECK(plain.split_by == SplitBy::kEveryEighth);
@@ -94,4 +91,33 @@ TEST_CASE("splits: transforms.json that lists names") {
   rest.replace(rest.find("train_filenames"), 15, "other_filenames");
   scratch.write("transforms.json", rest);
   CHECK(views_of(open_dataset(scratch.path("")), Split::kTrain).size() == 8);
+}
+
+TEST_CASE("splits: none to test with is said with what was to name them") {
+  struct Row {
+    void (*write)(const std::string& folder, const MadeScene& scene);
+    const char* file;
+    const char* from;
+    const char* to;
+    const char* words;
+  };
+  for (const Row& row :
+       {Row{write_nerf_synthetic, "transforms_test.json", "\"frames\": [",
+            "\"frames\": [], \"was\": [",
+            "transforms_test.json: frames: got none, expected one view or more to test with"},
+        Row{write_transforms, "transforms.json", "{",
+            "{\"train_filenames\": [\"images/shot_01.jpg\"],",
+            "transforms.json: test_filenames or val_filenames: got none, expected"},
+        Row{write_transforms, "transforms.json", "{", "{\"test_filenames\": [],",
+            "transforms.json: test_filenames or val_filenames: got none, expected"}}) {
+    const ScratchFolder scratch;
+    row.write(scratch.path(""), made_scene());
+    CHECK_NOTHROW(require_test_views(open_dataset(scratch.path(""))));
+    std::string text = bytes_of(scratch.path(row.file));
+    scratch.write(row.file,
+                  text.replace(text.find(row.from), std::string(row.from).size(), row.to));
+    const Dataset dataset = open_dataset(scratch.path(""));
+    CHECK_THAT(input_error_of([&] { require_test_views(dataset); }),
+               Catch::Matchers::Contains(scratch.path(row.words)));
+  }
 }

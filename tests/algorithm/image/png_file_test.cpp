@@ -6,7 +6,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "algorithm/image/image_io.h"
@@ -17,9 +19,13 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+// What a file states beside its pixels.
+using Say = std::function<void(png_structp png, png_infop info)>;
+
 // Writes samples as libpng's full interface takes them; big-endian for 16 bits.
 void write_raw_png(const std::string& path, int width, int height, int bits, int kind,
-                   std::vector<std::uint8_t> samples, bool interlaced = false) {
+                   std::vector<std::uint8_t> samples, bool interlaced = false,
+                   const Say& say = {}) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   REQUIRE(file != nullptr);
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
@@ -32,6 +38,7 @@ void write_raw_png(const std::string& path, int width, int height, int bits, int
     const png_color palette[2] = {{255, 0, 51}, {0, 102, 0}};
     png_set_PLTE(png, info, palette, 2);
   }
+  if (say) say(png, info);
   const std::size_t row_bytes = samples.size() / static_cast<std::size_t>(height);
   std::vector<png_bytep> rows;
   for (int y = 0; y < height; ++y)
@@ -121,6 +128,51 @@ TEST_CASE("png: a header longer than usual is read to its end") {
   CHECK(read_png_header(path).width == 2);
   CHECK_FALSE(read_png_header(path).has_alpha);
   CHECK(read_png_rgba(path).at(1, 0).z * 255 == Approx(6));
+}
+
+TEST_CASE("png: values are those stored, whatever the file says of gamma and colours") {
+  const test::ScratchFolder scratch;
+  const std::string path = scratch.path("a.png");
+  const auto gamma = [](png_fixed_point exponent) {
+    return [exponent](png_structp png, png_infop info) { png_set_gAMA_fixed(png, info, exponent); };
+  };
+  const auto wide = [](png_structp png, png_infop info) {  // BT.2020's primaries
+    png_set_cHRM_fixed(png, info, 31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600);
+  };
+  const std::vector<std::pair<const char*, Say>> says = {
+      {"nothing", {}},
+      {"gamma 1", gamma(100'000)},
+      {"gamma 1/2", gamma(50'000)},
+      {"gamma 1/2.2", gamma(45'455)},
+      {"primaries", wide},
+      {"gamma 1 and primaries",
+       [&](png_structp png, png_infop info) {
+         gamma(100'000)(png, info);
+         wide(png, info);
+       }},
+      {"sRGB", [](png_structp png, png_infop info) {
+         png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_ABSOLUTE);
+       }}};
+  for (const auto& [said, say] : says) {
+    INFO(said);
+    for (const int bits : {8, 16}) {
+      std::vector<std::uint8_t> samples;
+      for (const int value : {51, 102, 204, 255, 255, 51, 102, 51}) {
+        samples.insert(samples.end(), static_cast<std::size_t>(bits) / 8,
+                       static_cast<std::uint8_t>(value));
+      }
+      write_raw_png(path, 2, 1, bits, PNG_COLOR_TYPE_RGBA, samples, false, say);
+      const RgbaImage image = read_png_rgba(path);
+      CHECK(image.at(0, 0) == glm::vec4(51.0f / 255, 102.0f / 255, 204.0f / 255, 1));
+      CHECK(image.at(1, 0).x == Approx(0.2));
+      CHECK(image.at(1, 0).y == Approx(0.04));
+      CHECK(image.at(1, 0).z == Approx(0.08));
+    }
+    write_raw_png(path, 2, 1, 8, PNG_COLOR_TYPE_GRAY, {51, 204}, false, say);
+    check_colour(read_png(path).at(0, 0), 0.2, 0.2, 0.2);
+    write_raw_png(path, 2, 1, 1, PNG_COLOR_TYPE_PALETTE, {0x40}, false, say);
+    check_colour(read_png(path).at(1, 0), 0, 0.4, 0);
+  }
 }
 
 TEST_CASE("png: cut anywhere before its last pixel it is refused by name") {

@@ -1,6 +1,7 @@
 // The original's rules, on Gaussians that each fall under one of them.
 #include "algorithm/train/densification.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -90,8 +91,14 @@ TEST_CASE("densification: opacities are reset downward only") {
   add_ball(cloud, {0, 0, 3}, 1, 0.9, {1, 0, 0});
   add_ball(cloud, {0, 0, 3}, 1, 0.002, {1, 0, 0});
   Adam adam(cloud);
+  AdamMoments moments = adam.moments();
+  std::fill(moments.values.begin(), moments.values.end(), 1.0F);
+  adam.restore(moments);
   const float faint = cloud.opacity_logits[1];
   reset_opacities({}, cloud, adam);
+  // A first and a second moment of each.
+  const std::vector<float>& left = adam.moments().values;
+  CHECK(std::count(left.begin(), left.end(), 0.0F) == 4);
   CHECK(1 / (1 + std::exp(-cloud.opacity_logits[0])) == Approx(0.01));
   CHECK(cloud.opacity_logits[1] == faint);
 }

@@ -1,12 +1,15 @@
 // What training begins with, and where it is looked for.
 #include "algorithm/train/start_cloud.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "algorithm/splat/spherical_harmonics.h"
 #include "algorithm/train/neighbour_distance.h"
+#include "tests/support/scratch_folder.h"
 
 namespace sgs::test {
 namespace {
@@ -38,6 +41,24 @@ TEST_CASE("start: a Gaussian for each point, as large as they lie apart") {
     CHECK(cloud.opacity_logits[i] == Approx(0).margin(1e-6));
     const glm::vec3 rgb = sh_colour(0, &cloud.sh_coeffs[i], glm::vec3(0, 0, 1));
     CHECK(glm::distance(rgb, points[i].colour) < 1e-6F);
+  }
+}
+
+TEST_CASE("start: points of the data set, random ones where it brings none, no three") {
+  Dataset dataset;
+  dataset.folder = "set";
+  dataset.layout = "COLMAP";
+  dataset.bounds = Extent{{-1, -1, -1}, {1, 1, 1}};
+  CHECK(points_to_start_at(dataset, 7, 1).size() == 7);
+  for (int count = 1; count <= 5; ++count) {
+    dataset.points.push_back({{count, 0, 0}, {1, 0, 0}});
+    INFO(count);
+    if (count < 4) {
+      CHECK_THAT(input_error_of([&] { points_to_start_at(dataset, 7, 1); }),
+                 Catch::Matchers::Contains(fmt::format("set: got {} points to begin with", count)));
+    } else {
+      CHECK(points_to_start_at(dataset, 7, 1).size() == static_cast<std::size_t>(count));
+    }
   }
 }
 

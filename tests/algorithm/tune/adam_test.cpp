@@ -204,6 +204,32 @@ TEST_CASE("Adam refuses a cloud that changed without its moments") {
   CHECK_THROWS_AS(adam.step(gradient, kRates, cloud), std::logic_error);
 }
 
+TEST_CASE("Adam leaves a Gaussian where it is that would leave the limits, and says which") {
+  for (const std::size_t threads : {1, 3}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    GaussianCloud cloud = start(1);
+    const CloudGradient gradient = gradient_of_step(0, 1);
+    const std::uint32_t at = gradient.indices[gradient.size() / 2];
+    cloud.log_scales[at].y = 15.9F;
+    GaussianCloud moved = cloud;
+    LearningRates rates = kRates;
+    Adam adam(cloud);
+    REQUIRE_FALSE(adam.step(gradient, rates, moved));
+    rates.log_scale = 1;
+    CloudGradient grows = gradient;
+    for (glm::vec3& by : grows.parameters.log_scales) by.y = -1;
+    moved = cloud;
+    Adam fresh(cloud);
+    const auto beyond = fresh.step(grows, rates, moved);
+    REQUIRE(beyond);
+    CHECK(*beyond == at);
+    CHECK(values_of(moved, at) == values_of(cloud, at));
+    for (const std::uint32_t other : gradient.indices) {
+      if (other != at) CHECK(moved.log_scales[other].y > cloud.log_scales[other].y);
+    }
+  }
+}
+
 TEST_CASE("Adam gives the same bits for 1, 2 and 3 threads") {
   std::vector<GaussianCloud> clouds;
   for (const std::size_t threads : {1, 2, 3}) {

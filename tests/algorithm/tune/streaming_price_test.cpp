@@ -4,8 +4,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "algorithm/splat/activate.h"
 #include "algorithm/tune/activation_gradient.h"
 #include "algorithm/tune/projection_gradient.h"
+#include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/splat/dual.h"
 #include "tests/algorithm/tune/hard_gaussians.h"
 
@@ -29,6 +31,37 @@ TEST_CASE("price of streaming: of what is seen the groups that a box meets") {
                          {0.5, {32, 64}, {32, 64}, paid},
                          {0.003, {32, 64}, {640, 640}, 0}}) {
     CHECK(streaming_price(p, row.opacity, row.group, row.frame).value == Approx(row.price));
+  }
+}
+
+TEST_CASE("price of streaming: what a picture hides is priced too, and gets a row") {
+  GaussianCloud cloud;
+  add_ball(cloud, {0, 0, 3}, 1, 0.999, {1, 0, 0});
+  add_ball(cloud, {0, 0, 3.1}, 1, 0.999, {0, 1, 0});
+  add_ball(cloud, {0, 0, 9}, 0.05, 0.9, {0, 0, 1});   // behind both
+  add_ball(cloud, {0, 0, -9}, 0.05, 0.9, {0, 0, 1});  // behind the camera
+  const ActivatedCloud activated = activate(cloud);
+  const auto view = make_view<float>(small_camera());
+  CloudGradient gradient;
+  gradient.resize(2, 0);
+  gradient.indices = {0, 1};
+  gradient.parameters.opacity_logits = {5, 7};
+  for (glm::vec3& by : gradient.parameters.sh_coeffs) by = {1, 2, 3};
+  CloudGradient own;
+  own.resize(0, 0);
+  const GroupSequences sequences = reference_sequences(view, activated);
+  const double price =
+      add_streaming_gradient(view, sequences, cloud, activated, {8, 4}, 2, gradient);
+  CHECK(add_streaming_gradient(view, sequences, cloud, activated, {8, 4}, 2, own) == price);
+  CHECK(price > 0);
+  REQUIRE(gradient.indices == std::vector<std::uint32_t>{0, 1, 2});
+  REQUIRE(own.indices == gradient.indices);
+  for (std::size_t r = 0; r < 3; ++r) {
+    const float before = r == 0 ? 5.0F : r == 1 ? 7.0F : 0.0F;
+    CHECK(own.parameters.opacity_logits[r] > 0);
+    CHECK(gradient.parameters.opacity_logits[r] ==
+          Approx(before + own.parameters.opacity_logits[r]));
+    CHECK(gradient.parameters.sh_coeffs[r] == (r < 2 ? glm::vec3(1, 2, 3) : glm::vec3(0.0F)));
   }
 }
 
