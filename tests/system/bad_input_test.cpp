@@ -228,7 +228,7 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
 }
 
 TEST_CASE("bad input: messages are short, clean and begin with the program") {
-  check({"$SG", 2, {"got no command", "simulate, what-if, pack, train, tune, render, compare, photographs, info, describe"}});
+  check({"$SG", 2, {"got no command", "simulate, what-if, pack, train, tune, render, compare, photographs, gpu, info, describe"}});
   check({"$SG simulat $S", 2, {"'simulat': no such command", "simulate, what-if, pack, train, tune, render"}});
   check({"$SG '' --help", 2, {"'': no such command"}});
   check({"$SG simulate", 2, {"SCENE"}});
