@@ -218,9 +218,9 @@ TEST_CASE("toy machine: its golden picture, and a scene packed for it") {
   write_cameras(cameras, make_builtin_scene("builtin:object?n=1000").cameras);
   REQUIRE(run_toy({"pack", "builtin:object?n=1000", "--out", file, "--config", config}).status ==
           0);
-  CHECK_THAT(run_toy({"info", file}).out, Contains("by file, for machine toy: no table"));
+  CHECK_THAT(run_toy({"info", file}).out, Contains("by file, for machine gscore or toy: no table"));
   CHECK_THAT(run_streaminggs({"info", file}).out,
-             Contains("by file, for no machine of this program: no table"));
+             Contains("by file, for machine gscore: no table"));
   const Arguments view = {file,    "--cameras",        cameras, "--size", "70x50",
                           "--out", scratch.path("out")};
   const Outcome again = run_toy(joined(joined({"simulate"}, view), {"--config", config}));
