@@ -212,15 +212,15 @@ TEST_CASE("toy machine: its golden picture, and a scene packed for it") {
   const Toy toy;
   CHECK(toy.file("out/view_0/frame.png") == bytes_of(scratch.path("toy.png")));
 
-  // A storage order that no machine of the project reads, packed and read again.
+  // In the order of its file, packed and read again.
   const std::string file = scratch.path("toy.sgs"), cameras = scratch.path("cameras.json");
   const std::string config = scratch.write("toy.json", R"({"machine": "toy"})");
   write_cameras(cameras, make_builtin_scene("builtin:object?n=1000").cameras);
   REQUIRE(run_toy({"pack", "builtin:object?n=1000", "--out", file, "--config", config}).status ==
           0);
-  CHECK_THAT(run_toy({"info", file}).out, Contains("by file, for machine toy: no table"));
+  CHECK_THAT(run_toy({"info", file}).out, Contains("by file, for machine gscore or toy: no table"));
   CHECK_THAT(run_streaminggs({"info", file}).out,
-             Contains("by file, for no machine of this program: no table"));
+             Contains("by file, for machine gscore: no table"));
   const Arguments view = {file,    "--cameras",        cameras, "--size", "70x50",
                           "--out", scratch.path("out")};
   const Outcome again = run_toy(joined(joined({"simulate"}, view), {"--config", config}));
@@ -236,7 +236,7 @@ TEST_CASE("toy machine: its golden picture, and a scene packed for it") {
   const Outcome stranger = run_streaminggs(joined({"simulate"}, view));
   CHECK(stranger.status == 2);
   CHECK_THAT(stranger.err, Contains("stored by file; machine exact reads scenes stored by chunks: "
-                                    "pack the scene again"));
+                                    "take --config gscore, or pack the scene again"));
   // An order without sizes has no keys for them.
   for (const char* key : {"storage.voxel_size=1", "storage.chunk_gaussians=8"}) {
     const Outcome unknown =
