@@ -1,12 +1,11 @@
 // Data sets that cannot be used: one line with file, place, what is there, what was expected.
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <filesystem>
-#include <functional>
+#include <string>
 
-#include "algorithm/dataset/colmap_model.h"
 #include "algorithm/dataset/load_view.h"
 #include "algorithm/dataset/open_dataset.h"
+#include "tests/algorithm/dataset/damaged_datasets.h"
 #include "tests/algorithm/dataset/made_datasets.h"
 #include "tests/support/scratch_folder.h"
 
@@ -17,68 +16,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Write = void (*)(const std::string& folder, const MadeScene& scene);
-using Damage = std::function<void(const std::string& folder)>;
-
-// Puts `to` where `from` first is in folder/name.
-Damage replace(const std::string& name, const std::string& from, const std::string& to) {
-  return [=](const std::string& folder) {
-    std::string text = bytes_of(folder + "/" + name);
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    write_file(folder, name, text.replace(at, from.size(), to));
-  };
-}
-
-// Overwrites the bytes of folder/name from `at` on.
-template <class Value>
-Damage overwrite(const std::string& name, std::size_t at, Value value) {
-  return [=](const std::string& folder) {
-    std::string bytes = bytes_of(folder + "/" + name);
-    REQUIRE(at + sizeof(Value) <= bytes.size());
-    std::memcpy(&bytes[at], &value, sizeof(Value));
-    write_file(folder, name, bytes);
-  };
-}
-
-Damage with(const std::string& name, const std::string& bytes) {
-  return [=](const std::string& folder) { write_file(folder, name, bytes); };
-}
-
-Damage without(const std::string& name) {
-  return [=](const std::string& folder) { REQUIRE(fs::remove_all(folder + "/" + name) > 0); };
-}
-
-// The picture in folder/name as it would be with other sides.
-Damage resize(const std::string& name, int width, int height) {
-  return with(name, rgba_png(RgbaImage(width, height)));
-}
-
 // A matrix with `number` on its diagonal in place of the first view's for testing.
 Damage first_matrix(const std::string& number) {
   return replace("transforms_test.json", "[[",
                  "[[" + number + ",0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]], \"was\": [[");
 }
-
-struct Row {
-  Write write;
-  Damage damage;
-  std::vector<std::string> words;
-};
-
-void check(const std::vector<Row>& rows) {
-  for (const Row& row : rows) {
-    const ScratchFolder scratch;
-    const std::string folder = scratch.path("set");
-    row.write(folder, made_scene());
-    row.damage(folder);
-    const std::string message = input_error_of([&] { open_dataset(folder); });
-    for (const std::string& word : row.words) CHECK_THAT(message, Contains(word));
-  }
-}
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -92,16 +34,16 @@ TEST_CASE("dataset refuses: folders that are no data set, or two") {
         "transforms.json", "cameras.json", "intrinsics.txt with pose and rgb"}) {
     CHECK_THAT(empty, Contains(looked_for));
   }
-  check({{write_colmap_text,
-          with("cameras.json", "[]"),
-          {"set: holds sparse/0/cameras.bin or .txt and cameras.json, expected one"}},
-         {write_transforms,
-          with("transforms_train.json", "{}"),
-          {"holds transforms_train.json and transforms.json, expected one"}}});
+  check_refused({{write_colmap_text,
+                  with("cameras.json", "[]"),
+                  {"set: holds sparse/0/cameras.bin or .txt and cameras.json, expected one"}},
+                 {write_transforms,
+                  with("transforms_train.json", "{}"),
+                  {"holds transforms_train.json and transforms.json, expected one"}}});
 }
 
 TEST_CASE("dataset refuses: cameras without images, images of another shape, damaged images") {
-  check({
+  check_refused({
       {write_colmap_binary,
        without("images/shot_03.jpg"),
        {"images.bin: image 6: no image 'shot_03.jpg' in ", "/set/images, expected it there"}},
@@ -137,7 +79,7 @@ TEST_CASE("dataset refuses: cameras without images, images of another shape, dam
 }
 
 TEST_CASE("dataset refuses: cameras that see nothing, poses that are none") {
-  check({
+  check_refused({
       {write_nerf_synthetic,
        replace("transforms_train.json", "\"camera_angle_x\": ", "\"camera_angle_x\": 9"),
        {"transforms_train.json: frame 0: camera_angle_x: got 9", "between 0 and pi"}},
@@ -231,7 +173,7 @@ TEST_CASE("dataset refuses: lists of names without a frame, start points that ar
   const std::string rest =
       "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n";
   const std::string blue = "property uchar blue\nend_header\n";
-  check({
+  check_refused({
       {write_transforms,
        list("\"test_filenames\": [\"images/shot_01.jpg\", \"./images/typo.jpg\"]"),
        {"transforms.json: test_filenames: got \"./images/typo.jpg\", expected paths of images as "
@@ -281,7 +223,7 @@ TEST_CASE("dataset refuses: lists of names without a frame, start points that ar
 }
 
 TEST_CASE("dataset refuses: empty sets, names twice, splits that are half there") {
-  check({
+  check_refused({
       {write_cameras_json,
        with("cameras.json", "[]"),
        {"set: holds 0 views (cameras.json), none to train from"}},
@@ -311,112 +253,6 @@ TEST_CASE("dataset refuses: empty sets, names twice, splits that are half there"
        with("pose/plain.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"),
        {"set/pose: got names with and without 0_, 1_ or 2_"}},
   });
-}
-
-TEST_CASE("dataset refuses: COLMAP's models with distortion, ids, text that is none") {
-  const std::size_t kModel = 8 + 4, kWidth = kModel + 4, kFocal = kWidth + 16;
-  const std::size_t kQuaternion = 8 + 4, kTranslation = kQuaternion + 32;
-  const std::size_t kCameraId = kTranslation + 24;
-  check({
-      {write_colmap_binary,
-       overwrite("sparse/0/cameras.bin", kModel, std::int32_t{4}),
-       {"cameras.bin: camera 0: got the camera model OPENCV, expected PINHOLE or SIMPLE_PINHOLE"}},
-      {write_colmap_binary,
-       overwrite("sparse/0/cameras.bin", kModel, std::int32_t{-5}),
-       {"got the camera model number -5"}},
-      {write_colmap_binary,
-       overwrite("sparse/0/cameras.bin", kModel, std::int32_t{0}),
-       {"cameras.bin: byte ", "got 8 bytes after the last record"}},
-      {write_colmap_binary,
-       overwrite("sparse/0/cameras.bin", kWidth, std::uint64_t{1} << 40),
-       {"camera 0: size: got 1099511627776x48"}},
-      {write_colmap_binary,
-       overwrite("sparse/0/cameras.bin", kFocal, 0.0),
-       {"images.bin: image 9: focal length: got 0"}},
-      {write_colmap_binary,
-       overwrite("sparse/0/cameras.bin", kFocal, kNan),
-       {"cameras.bin: camera 0: parameter: got nan"}},
-      {write_colmap_binary,
-       overwrite("sparse/0/images.bin", kCameraId, std::uint32_t{8}),
-       {"images.bin: image 0: camera id 8: no such camera"}},
-      {write_colmap_binary,
-       overwrite("sparse/0/images.bin", kQuaternion, kInfinity),
-       {"images.bin: image 0: pose: got inf, expected finite numbers"}},
-      {write_colmap_binary,
-       overwrite("sparse/0/images.bin", kTranslation, kNan),
-       {"images.bin: image 0: pose: got nan"}},
-      {write_colmap_binary,
-       overwrite("sparse/0/points3D.bin", 16, kNan),
-       {"points3D.bin: point 0: position: got nan"}},
-      {write_colmap_binary, without("sparse/0/points3D.bin"), {"points3D.bin: cannot be opened"}},
-      {write_colmap_text,
-       replace("sparse/0/cameras.txt", "SIMPLE_PINHOLE", "SIMPLE_RADIAL"),
-       {"cameras.txt: line 2: got the camera model SIMPLE_RADIAL"}},
-      {write_colmap_text,
-       replace("sparse/0/cameras.txt", "3 SIMPLE", "3 SIMPLE_PINHOLE 64 48 60 32 24\n3 SIMPLE"),
-       {"cameras.txt: line 3: camera id 3 a second time"}},
-      {write_colmap_text,
-       replace("sparse/0/cameras.txt", "PINHOLE 64", "PINHOLE -64"),
-       {"cameras.txt: line 2: a width: got '-64'"}},
-      {write_colmap_text,
-       replace("sparse/0/cameras.txt", "PINHOLE 64", "PINHOLE 0"),
-       {"cameras.txt: line 2: size: got 0x48"}},
-      {write_colmap_text,
-       replace("sparse/0/cameras.txt", "24\n", "24 0.1\n"),
-       {"cameras.txt: line 2: got '0.1', expected the end"}},
-      {write_colmap_text,
-       replace("sparse/0/cameras.txt", " 24\n", "\n"),
-       {"cameras.txt: line 2: ends, expected a camera's parameter"}},
-      {write_colmap_text,
-       with("sparse/0/images.txt", "1 0 0 0 0 1 2 3 3 shot_00.png\n\n"),
-       {"images.txt: line 1: pose: got a quaternion of length 0"}},
-      {write_colmap_text,
-       with("sparse/0/images.txt", "1 1 0 0 0 1 2 3 3\n\n"),
-       {"images.txt: line 1: ends, expected an image's name"}},
-      {write_colmap_text,
-       with("sparse/0/images.txt", "1 1 0 0 0 1 2 x 3 a.png\n\n"),
-       {"images.txt: line 1: a pose: got 'x'"}},
-      {write_colmap_text,
-       with("sparse/0/points3D.txt", "1 0 0 0 255 256 0 1\n"),
-       {"points3D.txt: line 1: a colour: got '256', expected a whole number from 0 to 255"}},
-  });
-}
-
-TEST_CASE("dataset refuses: COLMAP's binary files cut at every byte, and counts beyond them") {
-  const ScratchFolder scratch;
-  write_colmap_binary(scratch.path("set"), made_scene());
-  const std::string folder = scratch.path("set/sparse/0");
-  CHECK(read_colmap_binary(folder).images.size() == 10);
-  for (const char* name : {"cameras.bin", "images.bin", "points3D.bin"}) {
-    const std::string path = folder + "/" + name;
-    const std::string whole = bytes_of(path);
-    for (std::size_t size = 0; size < whole.size(); ++size) {
-      INFO(name << " " << size);
-      write_file(folder, name, whole.substr(0, size));
-      CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }), Contains(path + ": byte "));
-    }
-    for (const std::uint64_t count :
-         {std::uint64_t{11}, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
-      std::string bytes = whole;
-      std::memcpy(bytes.data(), &count, sizeof(count));
-      write_file(folder, name, bytes);
-      CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }), Contains(path + ": byte "));
-    }
-    write_file(folder, name, whole + "x");
-    CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }),
-               Contains("got 1 bytes after the last record"));
-    write_file(folder, name, whole);
-  }
-  // The counts inside of records: points of an image, images of a point.
-  const std::size_t kPoints2d = 8 + 4 + 56 + 4 + std::strlen("shot_09.jpg") + 1;
-  const std::size_t kTrack = 8 + 8 + 24 + 3 + 8;
-  for (const auto& [name, at] : {std::pair("images.bin", kPoints2d), {"points3D.bin", kTrack}}) {
-    const std::string whole = bytes_of(folder + "/" + name);
-    overwrite(name, at, ~std::uint64_t{0} / 16)(folder);
-    CHECK_THAT(input_error_of([&] { read_colmap_binary(folder); }),
-               Contains("expected as many as "));
-    write_file(folder, name, whole);
-  }
 }
 
 TEST_CASE("dataset refuses: an image that changed or was cut since, factors below 1") {
