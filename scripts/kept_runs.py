@@ -15,14 +15,17 @@ from run_digest import program_digest, run_name
 from simulations import MOST_SIDE_BY_SIDE, Failure, Outcome, Run, simulate
 
 # Parts of a view's report that no table asks for; they are most of its size.
-NOT_KEPT = ("ledger", "left_out", "chosen", "host")
+NOT_KEPT = ("ledger", "left_out", "chosen")
 
 
 def view_to_keep(view: dict) -> dict:
     kept = {name: part for name, part in view.items() if name not in NOT_KEPT}
     kept["sram"] = {name: n for name, n in view.get("sram", {}).items() if name != "uses"}
     kept["units"] = {
-        path: {"activities": {name: sums(a) for name, a in unit["activities"].items()}}
+        path: {
+            "activities": {name: sums(a) for name, a in unit["activities"].items()},
+            "counters": unit["counters"],
+        }
         for path, unit in view.get("units", {}).items()
     }
     return kept
@@ -75,7 +78,9 @@ class KeptRuns:
         name = run_name(run)
         if name in self.known:
             entry = self.known[name]
-            return Outcome(run, tuple(entry["views"]), entry["refused"])
+            return Outcome(
+                run, tuple(entry["views"]), entry["refused"], seconds=entry.get("seconds", 0)
+            )
         try:
             with self.running:
                 outcome = self.simulate(self.binary, run)
@@ -92,6 +97,7 @@ class KeptRuns:
             "program": self.program,
             "run": name,
             "refused": outcome.refused,
+            "seconds": outcome.seconds,
             "views": outcome.views,
         }
         with self.writing:

@@ -9,6 +9,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Iterator, Sequence
 
 from scenes import Scene
@@ -61,6 +62,7 @@ class Outcome:
     views: tuple[dict, ...] = ()
     refused: str = ""  # what the command said about the arguments or the configuration
     failure: Failure | None = None  # the simulation ended badly, and `refused` says how
+    seconds: float = 0  # wall time of the call, the scene read and prepared
 
     def accepted(self) -> tuple[dict, ...]:
         """The views. Raises ValueError when the run was refused, Failure when it failed."""
@@ -107,13 +109,15 @@ def simulate(binary: pathlib.Path, run: Run) -> Outcome:
 
 def simulate_into(out: pathlib.Path, binary: pathlib.Path, run: Run) -> Outcome:
     """The same, with the pictures left in a folder."""
+    began = time.monotonic()
     done = call(binary, [*run.arguments(), "--out", str(out)])
+    seconds = time.monotonic() - began
     if done.returncode == REFUSED:
-        return Outcome(run, refused=said(done))
+        return Outcome(run, refused=said(done), seconds=seconds)
     if done.returncode != 0:
         raise Failure(f"{run.label()}: {said(done)}")
     report = json.loads((out / "report.json").read_text())
-    return Outcome(run, views=tuple(report["views"]))
+    return Outcome(run, views=tuple(report["views"]), seconds=seconds)
 
 
 def resolved_config(binary: pathlib.Path, run: Run) -> dict:

@@ -121,6 +121,8 @@ void render_tile(const View<float>& view, const TileOrderConfig& config, int til
   stats.list_max = list.size();
   stats.chunks = chunks(list.size());
   stats.chunks_taken = chunks(stats.entries_taken);
+  stats.chunk_entries_taken =
+      std::min<std::uint64_t>(list.size(), stats.chunks_taken * config.chunk_entries);
   stats.tiles_finished = state.saturated() ? 1 : 0;
   stats.contributors = state.contributors();
   stats.warp_entries = warps.entries();
@@ -143,6 +145,7 @@ TileStats& TileStats::operator+=(const TileStats& o) {
   entries_taken += o.entries_taken;
   chunks += o.chunks;
   chunks_taken += o.chunks_taken;
+  chunk_entries_taken += o.chunk_entries_taken;
   tiles_finished += o.tiles_finished;
   subtile_blends += o.subtile_blends;
   contributors += o.contributors;

@@ -45,6 +45,8 @@ struct TileStats {
   std::uint64_t entries_taken = 0;  // of lists, until their tile was finished
   std::uint64_t chunks = 0;         // of sorted lists
   std::uint64_t chunks_taken = 0;   // of these begun before their tile was finished
+  // Of the chunks that were taken: the last one of a list may hold fewer.
+  std::uint64_t chunk_entries_taken = 0;
   std::uint64_t tiles_finished = 0;
   std::uint64_t subtile_blends = 0;  // (entry, 4x4 sub-tile): 16 fragments each
   std::uint64_t contributors = 0;    // (splat, pixel) blends

@@ -14,6 +14,7 @@ TileOrderConfig original() {
   config.rules = {TileReach::kThreeSigma, TileTest::kBox, 1};
   config.features = config.keys = NumberFormat::kSingle;
   config.precision = BlendPrecision::kSingle;
+  config.chunk_entries = 256;  // a batch: one for each thread of a tile
   return config;
 }
 
@@ -49,7 +50,7 @@ RasterWork count_raster_work(const View<float>& view, const ActivatedCloud& clou
   const auto tiles = [](int px) { return (px + kTilePx - 1) / kTilePx; };
   work.tiles = static_cast<std::uint64_t>(tiles(view.width)) * tiles(view.height);
   work.pixels = static_cast<std::uint64_t>(view.width) * view.height;
-  work.entries_fetched = std::min(stats.chunks_taken * config.chunk_entries, work.pairs);
+  work.entries_fetched = stats.chunk_entries_taken;
   work.warp_entries = stats.warp_entries;
   work.warp_blends = stats.warp_blends;
   work.blends = stats.contributors;

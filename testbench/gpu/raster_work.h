@@ -17,7 +17,7 @@ struct RasterWork {
   std::uint64_t pair_steps =
       0;  // of warps that write them: the most pairs of 32 neighbours, summed
   std::uint64_t tiles = 0, pixels = 0;
-  std::uint64_t entries_fetched = 0;  // of lists by their tiles, in batches of 256
+  std::uint64_t entries_fetched = 0;  // of lists, whole batches of 256 until the tile is finished
   std::uint64_t warp_entries = 0;     // looked at by warps of 16 x 2 px with an unfinished pixel
   std::uint64_t warp_blends = 0;      // of these blended into a pixel at least
   std::uint64_t blends = 0;           // (Gaussian, pixel)
