@@ -12,7 +12,7 @@ struct GpuConfig {
   int schedulers = 32;  // 8 multiprocessors of 4, a warp's instruction a cycle each
   double bandwidth_gb_s = 102.4;
   double cache_mb = 4;
-  double watts = 16.5;  // while it renders
+  double watts = 6.2;  // joules of a published frame over the time of the calibration: README.md
   // Of the peaks: calibrated, see README.md.
   double issue_share = 0.125, bandwidth_share = 0.125;
 
