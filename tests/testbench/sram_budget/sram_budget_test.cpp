@@ -56,7 +56,7 @@ std::uint64_t available(const MachineResult& machine, const std::string& memory)
 // A memory that is left open becomes as large as the check of the configuration says that it must
 // be, before anything is built: so large is what the units then publish.
 void check_sums(const std::string& preset, Settings settings) {
-  const bool tiles = preset == "gscore" || preset == "gscore_lossless";
+  const bool tiles = preset.rfind("gscore", 0) == 0;
   const std::vector<std::string> memories =
       tiles ? std::vector<std::string>{"buffer"} : std::vector<std::string>{"input", "shared"};
   for (const std::string& memory : memories) {
@@ -72,9 +72,9 @@ void check_sums(const std::string& preset, Settings settings) {
 }
 
 TEST_CASE("sram budget: units publish what the configuration was checked with, queues included") {
-  for (const char* preset :
-       {"exact", "exact_wide", "exact_half", "exact_vq", "exact_vq_packed", "paper", "paper_no_vq",
-        "paper_no_cgf", "paper_no_vq_cgf", "gscore", "gscore_lossless"}) {
+  for (const char* preset : {"exact", "exact_fp16", "exact_wide", "exact_half", "exact_vq",
+                             "exact_vq_packed", "paper", "paper_no_vq", "paper_no_cgf",
+                             "paper_no_vq_cgf", "gscore", "gscore_fp32_keys", "gscore_lossless"}) {
     check_sums(preset, {});
   }
 }
@@ -101,6 +101,7 @@ TEST_CASE("sram budget: the same for machines that are no preset") {
 TEST_CASE("sram budget: shipped machines fit, of one total") {
   constexpr std::uint64_t kPaper = 355 * 1024, kCodebooks = 250 * 1024;
   const std::pair<const char*, std::uint64_t> totals[] = {{"exact", kPaper},
+                                                          {"exact_fp16", kPaper},
                                                           {"exact_half", kPaper},
                                                           {"exact_vq", kPaper + kCodebooks},
                                                           {"exact_vq_packed", kPaper + kCodebooks},
