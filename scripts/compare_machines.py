@@ -1,209 +1,97 @@
 #!/usr/bin/env python3
-"""Machines beside each other: the same scenes, views, DRAM, ledger and precision of scenes; and the
-original rasteriser on a mobile GPU, which is modelled, not simulated. Writes
+"""Machines beside each other: the same scenes, views, DRAM, ledger and storage of scenes; and the
+original rasteriser on a mobile GPU, which is modelled, not simulated. A case is a scene at a size.
+Machines are held against those of their own precision: exact_fp16 and the paper's presets blend in
+half as gscore and gscore_fp32_keys do, exact in single as gscore_lossless.
 
-  compare_machines.md         a line for each scene, memory and machine: means over the views
-  compare_machines_ratios.md  times as fast and times less energy: geometric means over the scenes,
-                              with the range
-  characterisation.md         what the GPU and the tile-centric machine move, and what they would
-                              have to move at 90 frames a second
+  compare_machines.md          a line for each case, memory and machine: means over the views
+  compare_machines_ratios.md   times as fast and times less energy, published figures beside them: a
+                               scene counts once in the geometric mean, however many sizes and views
+                               it has; least and most are of single views
+  compare_machines_bytes.md    MB by region of DRAM, on the bus; of the GPU by kind, as its kernels
+                               ask for them
+  compare_machines_joules.md   mJ by component
+  compare_machines_busy.md     share of the frame that each resource works; of the GPU's time, by
+                               kernel
+  compare_machines_seconds.md  wall time of this model for one design point (--side-by-side 1: that
+                               nothing disturbs)
+  characterisation.md          what the GPU and the tile-centric machine move, and what they would
+                               have to move at 90 frames a second
 
-and all as .csv. Without SCENE: the real scenes that there are at --sizes, or at --object-sizes those
-that show an object, the built-in ones, and a built-in one of a million Gaussians.
+Tables by region, component and resource are means over the scenes of the means over their cases;
+their .csv have each case. In the end compare_machines_figures.py draws the tables from their .csv,
+which it does again by itself. What was simulated is kept in compare_machines_runs.jsonl and
+compare_machines_gpu_runs.jsonl: started again, the script goes on where it ended.
+
+Without SCENE: the real scenes that there are at --sizes, or at --object-sizes those that show an
+object, the built-in ones, and a built-in one of a million Gaussians.
 """
 
 from __future__ import annotations
 
 import argparse
-import dataclasses
-import statistics
+import pathlib
+import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
+import machine_ratios
 import run_arguments
 import tables
-from gpu_views import gpu_views
-from scenes import Scene, find_scene, shared_names
-from simulations import Run, simulate_all
-from view_numbers import binders, decibels
+from gpu_views import MODEL, model_gpu
+from kept_runs import KeptRuns
+from machine_measures import GPU, MJ, Measured, modelled, simulated
+from machine_tables import (
+    CHARACTER_HEAD,
+    HEAD,
+    MB,
+    SECONDS_HEAD,
+    Case,
+    Entry,
+    Parts,
+    character_row,
+    parts_rows,
+    row,
+    seconds_rows,
+)
+from scenes import find_scene, shared_names
+from simulations import REPOSITORY, Run, said
 
 MACHINES = (
     "gscore",
+    "gscore_fp32_keys",
     "gscore_lossless",
     "paper",
     "paper_no_vq",
     "paper_no_cgf",
     "paper_no_vq_cgf",
+    "exact_fp16",
     "exact",
     "exact_vq",
 )
-GPU = "GPU, modelled"
+RUNS_FILE, GPU_RUNS_FILE = "compare_machines_runs.jsonl", "compare_machines_gpu_runs.jsonl"
+FIGURES = REPOSITORY / "scripts" / "compare_machines_figures.py"
 OBJECTS = ("truck", "playbot", "builtin:object")  # by the beginning of their names
 BUILT_IN = ("builtin:object", "builtin:outdoor", "builtin:outdoor?n=1000000")
-PIXELS = ("frame_buffer",)
-# What a machine writes and reads again within a frame.
-INTERMEDIATE = ("projected", "tile_lists", "subsets", "spill")
-MB, MJ = 1e6, 1e-3
-WISHED_FPS = 90
-
-Views = Sequence[dict]
 
 
-@dataclasses.dataclass(frozen=True)
-class Case:
-    scene: Scene
-    size: str
-    channels: int
-
-
-@dataclasses.dataclass(frozen=True)
-class Measured:
-    """Means over the views of a case; bytes on the bus of the GPU are those that it asks for."""
-
-    seconds: float
-    scene_bytes: float
-    intermediate_bytes: float
-    pixel_bytes: float
-    joules: float
-    dram_joules: float | None
-    mm2: float | None
-    quality: str
-    binds: str
-
-    def bytes(self) -> float:
-        return self.scene_bytes + self.intermediate_bytes + self.pixel_bytes
-
-
-def mean(views: Views, value: Callable[[dict], float]) -> float:
-    return statistics.fmean(value(view) for view in views)
-
-
-def bus_bytes(view: dict, regions: Sequence[str]) -> int:
-    by_region = view["dram"]["bus_bytes_by_region"]
-    return sum(count for region, count in by_region.items() if region in regions)
-
-
-def measured(views: Views) -> Measured:
-    def of(regions: Sequence[str]) -> float:
-        return mean(views, lambda v: bus_bytes(v, regions))
-
-    everything = mean(views, lambda v: v["dram"]["bus_bytes"])
-    worst = min(map(decibels, views))
-    return Measured(
-        seconds=mean(views, lambda v: v["frame"]["time_s"]),
-        scene_bytes=everything - of(INTERMEDIATE) - of(PIXELS),
-        intermediate_bytes=of(INTERMEDIATE),
-        pixel_bytes=of(PIXELS),
-        joules=mean(views, lambda v: v["energy"]["total_j"]),
-        dram_joules=mean(views, lambda v: v["energy"]["dram_j"]),
-        mm2=max(v["area_mm2"]["total"] for v in views),
-        quality="equal" if worst == float("inf") else f"{worst:.1f}",
-        binds=binders(views),
+def write_parts(
+    folder: pathlib.Path, name: str, made: str, entries: Sequence[Entry], of: Parts, unit: float
+) -> None:
+    """The means as .md, each case as .csv."""
+    machines = list(dict.fromkeys(e.machine for e in entries))
+    text = made + tables.markdown(
+        ("GB/s", "part", *machines), parts_rows(entries, machines, of, unit)
     )
-
-
-def modelled(views: Views) -> Measured:
-    def of(kind: str) -> float:
-        return mean(views, lambda v: sum(stage[f"{kind}_bytes"] for stage in v["stages"]))
-
-    return Measured(
-        seconds=mean(views, lambda v: v["seconds"]),
-        scene_bytes=of("scene"),
-        intermediate_bytes=of("intermediate"),
-        pixel_bytes=of("frame"),
-        joules=mean(views, lambda v: v["joules"]),
-        dram_joules=None,
-        mm2=None,
-        quality="",
-        binds="",
-    )
-
-
-HEAD = (
-    "scene",
-    "size",
-    "GB/s",
-    "machine",
-    "frames/s",
-    "scene MB",
-    "intermediate MB",
-    "pixels MB",
-    "mJ",
-    "of it DRAM",
-    "mm2",
-    "least dB",
-    "binds",
-)
-
-
-def row(case: Case, memory: str, machine: str, m: Measured) -> tuple:
-    return (
-        case.scene.name,
-        case.size,
-        memory,
-        machine,
-        f"{1 / m.seconds:.1f}",
-        f"{m.scene_bytes / MB:.2f}",
-        f"{m.intermediate_bytes / MB:.2f}",
-        f"{m.pixel_bytes / MB:.2f}",
-        f"{m.joules / MJ:.2f}",
-        "" if m.dram_joules is None else f"{m.dram_joules / MJ:.2f}",
-        "" if m.mm2 is None else f"{m.mm2:.2f}",
-        m.quality,
-        m.binds,
-    )
-
-
-RATIO_HEAD = (
-    "GB/s",
-    "machine",
-    "than",
-    "cases",
-    "times as fast",
-    "range",
-    "times less energy",
-    "range ",
-    "mm2 over",
-)
-
-
-def spread(values: Sequence[float]) -> tuple[str, str]:
-    return f"{statistics.geometric_mean(values):.2f}", f"{min(values):.2f} .. {max(values):.2f}"
-
-
-def ratio_row(memory: str, machine: str, than: str, pairs: Sequence[tuple]) -> tuple:
-    """pairs: of the machine and of the other one, for each case."""
-    faster = spread([other.seconds / own.seconds for own, other in pairs])
-    cheaper = spread([other.joules / own.joules for own, other in pairs])
-    areas = [own.mm2 / other.mm2 for own, other in pairs if own.mm2 and other.mm2]
-    area = f"{statistics.geometric_mean(areas):.2f}" if areas else ""
-    return (memory, machine, than, len(pairs), *faster, *cheaper, area)
-
-
-CHARACTER_HEAD = (
-    "scene",
-    "size",
-    "machine",
-    "frames/s",
-    "MB a frame",
-    f"GB/s at {WISHED_FPS} frames/s",
-    "scene %",
-    "intermediate %",
-    "pixels %",
-)
-
-
-def character_row(case: Case, machine: str, m: Measured) -> tuple:
-    parts = (m.scene_bytes, m.intermediate_bytes, m.pixel_bytes)
-    return (
-        case.scene.name,
-        case.size,
-        machine,
-        f"{1 / m.seconds:.1f}",
-        f"{m.bytes() / MB:.1f}",
-        f"{WISHED_FPS * m.bytes() / 1e9:.2f}",
-        *(f"{100 * part / m.bytes():.0f}" for part in parts),
-    )
+    rows = [
+        (*e.case.cells(), e.memory, e.machine, part, f"{value / unit:.4f}")
+        for e in entries
+        for part, value in of(e.of).items()
+    ]
+    head = ("scene", "size", "GB/s", "machine", "part", "value")
+    tables.write_text(folder / f"{name}.md", text)
+    tables.write_text(folder / f"{name}.csv", tables.csv_text(head, rows))
+    print(f"{text}\n", flush=True)
 
 
 def sizes_of(name: str, arguments: argparse.Namespace) -> list[str]:
@@ -213,58 +101,72 @@ def sizes_of(name: str, arguments: argparse.Namespace) -> list[str]:
 
 def find_cases(arguments: argparse.Namespace) -> list[Case]:
     scenes = [find_scene(text) for text in arguments.scenes or [*BUILT_IN, *shared_names()]]
-    return [
-        Case(scene, size, channels)
-        for scene in scenes
-        for size in sizes_of(scene.name, arguments)
+    return [Case(scene, size) for scene in scenes for size in sizes_of(scene.name, arguments)]
+
+
+def measure(arguments: argparse.Namespace, cases: Sequence[Case]) -> tuple[list[Entry], str]:
+    """And how it was made. Raises ValueError for what is refused, Failure for what failed, when
+    all else has been simulated and kept."""
+    out, program, pace = arguments.out, arguments.streaminggs, arguments.side_by_side
+    kept = KeptRuns(program, out / RUNS_FILE, pace)
+    kept_gpu = KeptRuns(program, out / GPU_RUNS_FILE, pace, model_gpu)
+    runs = {
+        (case, channels, machine): Run(
+            case.scene, arguments.view, case.size, machine, (f"dram.channels={channels}",)
+        )
+        for case in cases
         for channels in arguments.channels
-    ]
+        for machine in arguments.machines
+    }
+    gpu_runs = [Run(case.scene, arguments.view, case.size, MODEL) for case in cases]
+    outcomes = dict(zip(runs, kept.outcomes(list(runs.values()))))
+    of_gpu = dict(zip(cases, kept_gpu.outcomes(gpu_runs)))
+    entries = [Entry(case, name, simulated(o)) for (case, _, name), o in outcomes.items()]
+    entries += [Entry(case, GPU, modelled(o)) for case, o in of_gpu.items()]
+    return entries, run_arguments.how_made(v for o in outcomes.values() for v in o.views)
 
 
-def memory_of(views: Views) -> str:
-    return f"{views[0]['dram']['peak_gb_s']:.1f}"
+def ratio_rows(
+    entries: Sequence[Entry], cases: Sequence[Case], machines: Sequence[str]
+) -> list[tuple]:
+    rows = []
+    for memory in dict.fromkeys(e.memory for e in entries if e.machine != GPU):
+        found: dict[str, list[dict[str, Measured]]] = {}
+        for case in cases:
+            of_case = [e for e in entries if e.case == case]
+            here = {e.machine: e.of for e in of_case if e.machine == GPU or e.memory == memory}
+            found.setdefault(case.scene.name, []).append(here)
+        rows += machine_ratios.rows(memory, found, machines)
+    return rows
+
+
+def draw(folder: pathlib.Path) -> None:
+    """Figures out of the tables, which are there. Raises ValueError where they cannot be drawn."""
+    done = subprocess.run([str(FIGURES), str(folder)], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise ValueError(f"tables are complete, figures are not: {said(done)}")
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
     cases = find_cases(arguments)
-    runs = [
-        Run(case.scene, arguments.view, case.size, machine, (f"dram.channels={case.channels}",))
-        for case in cases
-        for machine in arguments.machines
-    ]
-    outcomes = simulate_all(arguments.streaminggs, runs, arguments.side_by_side)
-    views_of = iter([outcome.accepted() for outcome in outcomes])
-    modelled_of: dict[tuple[str, str], Measured] = {}
-    rows, characters, all_views = [], [], []
-    by_memory: dict[str, list[dict[str, Measured]]] = {}
-    for case in cases:
-        found: dict[str, Measured] = {}
-        for machine in arguments.machines:
-            views = next(views_of)
-            all_views += views
-            memory = memory_of(views)
-            found[machine] = measured(views)
-            rows.append(row(case, memory, machine, found[machine]))
-        key = (case.scene.spec, case.size)
-        if key not in modelled_of:
-            frames = gpu_views(arguments.streaminggs, case.scene, arguments.view, case.size)
-            modelled_of[key] = modelled(frames)
-            rows.append(row(case, "", GPU, modelled_of[key]))
-            characters.append(character_row(case, GPU, modelled_of[key]))
-            if "gscore" in found:
-                characters.append(character_row(case, "gscore", found["gscore"]))
-        by_memory.setdefault(memory, []).append({**found, GPU: modelled_of[key]})
-    ratios = [
-        ratio_row(memory, machine, than, [(of[machine], of[than]) for of in found])
-        for memory, found in by_memory.items()
-        for than in (GPU, *(name for name in ("gscore", "gscore_lossless") if name in found[0]))
-        for machine in arguments.machines
-        if machine != than
-    ]
-    made = run_arguments.how_made(all_views)
-    tables.write(arguments.out, "compare_machines", made, HEAD, rows)
-    tables.write(arguments.out, "compare_machines_ratios", made, RATIO_HEAD, ratios)
-    tables.write(arguments.out, "characterisation", made, CHARACTER_HEAD, characters)
+    entries, made = measure(arguments, cases)
+    out = arguments.out
+    in_turn = sorted(entries, key=lambda e: cases.index(e.case))  # stable: the GPU last
+    tables.write(out, "compare_machines", made, HEAD, list(map(row, in_turn)))
+    ratios = ratio_rows(entries, cases, arguments.machines)
+    tables.write(out, "compare_machines_ratios", made, machine_ratios.HEAD, ratios)
+    for name, of, unit in (
+        ("bytes", lambda m: m.bytes_by_region, MB),
+        ("joules", lambda m: m.joules_by_component, MJ),
+        ("busy", lambda m: m.busy, 1),
+    ):
+        write_parts(out, f"compare_machines_{name}", made, entries, of, unit)
+    seconds = seconds_rows(entries)
+    tables.write(out, "compare_machines_seconds", made, SECONDS_HEAD, seconds)
+    shown = [e for e in in_turn if e.machine in (GPU, "gscore")]
+    characters = list(map(character_row, shown))
+    tables.write(out, "characterisation", made, CHARACTER_HEAD, characters)
+    draw(out)
 
 
 def main() -> int:

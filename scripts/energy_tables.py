@@ -16,10 +16,11 @@ import argparse
 import math
 import statistics
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 
 import run_arguments
 import tables
+from energy_components import OTHER, components, joules
 from group_shapes import assignments
 from kept_runs import KeptRuns
 from objectives import value_at
@@ -33,30 +34,6 @@ PRESETS = ("exact", "paper_no_vq")
 SAME_COST = "hfu.cost=counted"
 GROUPS = ["16", "32", "48", "64", "96", "128", "160x120", "160x180"]
 MJ = 1e-3
-
-# Components of energy that are neither logic nor on-chip memory.
-OTHER = {
-    "clock": ("clock_j",),
-    "leakage": ("logic_leakage_j", "sram_leakage_j"),
-    "DRAM": ("dram_j",),
-    "all": ("total_j",),
-}
-
-
-def components(view: dict) -> dict[str, tuple[str, ...]]:
-    """Name of a row: the keys of the report's energy that it sums."""
-    logic = [name for name in view["area_mm2"] if name not in ("sram", "total", "bands")]
-    rows = {name: (f"{name}_j",) for name in logic if f"{name}_j" in view["energy"]}
-    elsewhere = {key for keys in [*rows.values(), *OTHER.values()] for key in keys}
-    memories = sorted(key for key in view["energy"]["bands"] if key not in elsewhere)
-    pixels = tuple(key for key in memories if key == "pixel_state_j")
-    rest = tuple(key for key in memories if key != "pixel_state_j")
-    return {**rows, "SRAM: pixels": pixels, "SRAM: all else": rest, **OTHER}
-
-
-def joules(view: dict, keys: Iterable[str], end: str = "middle") -> float:
-    return sum(view["energy"]["bands"][key][end] for key in keys if key in view["energy"]["bands"])
-
 
 def with_band(view: dict, keys: Sequence[str]) -> str:
     """The memory's band is that of the published sets of currents; the total's has none of it."""

@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(g++ cmake ninja-build pkg-config libsystemc-dev libglm-dev libopenexr-dev catch2
   libcli11-dev libcereal-dev nlohmann-json3-dev libfmt-dev libpng-dev libjpeg62-turbo-dev
-  libtbb-dev libnanoflann-dev zlib1g-dev xz-utils python3)
+  libtbb-dev libnanoflann-dev zlib1g-dev xz-utils python3 python3-matplotlib)
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")

@@ -1,7 +1,9 @@
 """Every script makes its tables with the command; skipped where $STREAMINGGS does not name it."""
 
 import pathlib
+import subprocess
 import unittest
+from unittest import mock
 
 from in_folder import COMMAND, REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import binding_check
@@ -12,6 +14,8 @@ import energy_tables
 import explore
 import fair_fight
 import paper_claims
+import published_figures
+import published_gpu
 import quality_table
 import simulations
 import smallest_machine
@@ -41,9 +45,11 @@ class WithTheCommand(InFolder):
             (
                 compare_machines,
                 ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4")
-                + ("--machines", "gscore", "exact", "--view", "0"),
-                {"| truck | 64x36 | 25.6 | gscore |": 1, "| truck | 64x36 |  | GPU, modelled |": 1}
-                | {"| 25.6 | exact | gscore | 1 |": 1, "| truck | 64x36 | GPU, modelled |": 1},
+                + ("--machines", "gscore_lossless", "exact", "--view", "0"),
+                {"| truck | 64x36 | 25.6 | exact |": 1, "| 102.4 | GPU, modelled |": 1}
+                | {"| 25.6 | exact | fp32 | gscore_lossless | fp32 | 1 | 1 |": 1}
+                | {"| 25.6 | exact | fp32 | GPU, modelled | fp32 | 1 | 1 |": 1}
+                | {"| truck | 64x36 | GPU, modelled | 102.4 |": 1, "| frame_buffer |": 1},
             ),
             (compare_variants, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
             (
@@ -90,6 +96,54 @@ class WithTheCommand(InFolder):
                 self.assertRegex(made, f"Made by `scripts/{script.__name__}.py ")
                 for text, count in lines.items():
                     self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+
+    def test_figures_are_drawn_from_the_tables(self):
+        small = ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4", "--view", "0")
+        machines = ("--machines", "gscore", "exact_fp16")
+        self.made(compare_machines, *small, *machines)
+        drawn = sorted(self.folder.glob("*.svg"))
+        names = ["compare_machines_rates", "compare_machines_ratios", "compare_machines_traffic"]
+        self.assertEqual([path.stem for path in drawn], names)
+        for path in drawn:
+            text = path.read_text()
+            self.assertIn("exact_fp16", text)
+            path.unlink()
+        # Again, without a simulation, from the tables alone; and the last one from nothing.
+        script = [str(compare_machines.FIGURES), str(self.folder)]
+        self.assertEqual(subprocess.run(script, check=False).returncode, 0)
+        self.assertEqual(drawn[-1].read_text(), text)
+        (self.folder / "compare_machines_bytes.csv").unlink()
+        done = subprocess.run(script, capture_output=True, text=True, check=False)
+        self.assertRegex(done.stderr, "compare_machines_bytes.csv: not there")
+        self.assertNotEqual(done.returncode, 0)
+
+    def test_an_interruption_loses_no_simulation(self):
+        small = ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4", "--view", "0")
+        self.made(compare_machines, *small, "--machines", "gscore", "exact")
+        kept = (self.folder / compare_machines.RUNS_FILE).read_text()
+        self.made(compare_machines, *small, "--machines", "gscore", "exact")
+        self.assertEqual((self.folder / compare_machines.RUNS_FILE).read_text(), kept)
+
+    def test_published_figures_stand_beside_ours(self):
+        small = {
+            "ALIKE_IN_GAUSSIANS": "builtin:object?n=300",
+            "ALIKE_IN_PAIRS": "builtin:object?n=600",
+            "ABLATION_CASES": (("builtin:object?n=300", "64x36"),),
+            "RATES": {"64x36": (66.7, 1743)},
+            "LEGO_SIZE": "64x36",
+        }
+        gpu = (("builtin:object?n=300", "64x36", 4.9),)
+        with mock.patch.multiple(published_figures, **small):
+            with mock.patch.object(published_gpu, "CASES", gpu):
+                made = self.made(published_figures)
+        for text, count in {
+            "| features in | Gaussians |": 2,
+            "| lists out | pairs |": 2,
+            "| truck | 64 | 64x36 |": 1,
+            "| both | 1.86 |": 1,
+            "| time, rendering % | 60 |": 1,
+        }.items():
+            self.assertEqual(made.count(text), count, f"{text} in\n{made}")
 
     def test_from_photographs_to_tables(self):
         photographs = str(self.write_dataset())

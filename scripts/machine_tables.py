@@ -1,0 +1,148 @@
+"""Tables of machines beside each other."""
+
+from __future__ import annotations
+
+import dataclasses
+import statistics
+from collections.abc import Callable, Mapping, Sequence
+
+from machine_measures import MJ, Measured
+from scenes import Scene
+
+MB = 1e6
+WISHED_FPS = 90
+# NeRArch-Sim (ISCA 2026), of a design point of GSCore.
+PUBLISHED_SECONDS = 47.7
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    scene: Scene
+    size: str
+
+    def cells(self) -> tuple[str, str]:
+        return self.scene.name, self.size
+
+
+@dataclasses.dataclass(frozen=True)
+class Entry:
+    """What a machine took for a case with a memory. The GPU has its own one."""
+
+    case: Case
+    machine: str
+    of: Measured
+
+    @property
+    def memory(self) -> str:
+        return f"{self.of.peak_gb_s:.1f}"
+
+
+HEAD = (
+    "scene",
+    "size",
+    "GB/s",
+    "machine",
+    "precision",
+    "frames/s",
+    "scene MB",
+    "intermediate MB",
+    "pixels MB",
+    "mJ",
+    "of it DRAM",
+    "mm2",
+    "least dB",
+    "binds",
+)
+
+
+def row(e: Entry) -> tuple:
+    m, dram = e.of, e.of.joules_by_component.get("DRAM")
+    return (
+        *e.case.cells(),
+        e.memory,
+        e.machine,
+        m.precision,
+        f"{1 / m.mean_seconds():.1f}",
+        *(f"{m.bytes(kind) / MB:.2f}" for kind in ("scene", "intermediate", "pixels")),
+        f"{m.mean_joules() / MJ:.2f}",
+        "" if dram is None else f"{dram / MJ:.2f}",
+        "" if m.mm2 is None else f"{m.mm2:.2f}",
+        m.quality(),
+        m.binds,
+    )
+
+
+CHARACTER_HEAD = (
+    "scene",
+    "size",
+    "machine",
+    "GB/s",
+    "frames/s",
+    "MB a frame",
+    f"GB/s at {WISHED_FPS} frames/s",
+    "scene %",
+    "intermediate %",
+    "pixels %",
+)
+
+
+def character_row(e: Entry) -> tuple:
+    all_bytes = e.of.bytes()
+    return (
+        *e.case.cells(),
+        e.machine,
+        e.memory,
+        f"{1 / e.of.mean_seconds():.1f}",
+        f"{all_bytes / MB:.1f}",
+        f"{WISHED_FPS * all_bytes / 1e9:.2f}",
+        *(
+            f"{100 * e.of.bytes(kind) / all_bytes:.0f}"
+            for kind in ("scene", "intermediate", "pixels")
+        ),
+    )
+
+
+Parts = Callable[[Measured], Mapping[str, float]]
+
+
+def mean_part(entries: Sequence[Entry], part: str, of: Parts) -> float | None:
+    """Over the scenes of the means over their cases; None where the machine has no such part."""
+    by_scene: dict[str, list[float]] = {}
+    for e in entries:
+        if part in of(e.of):
+            by_scene.setdefault(e.case.scene.name, []).append(of(e.of)[part])
+    return statistics.fmean(map(statistics.fmean, by_scene.values())) if by_scene else None
+
+
+def parts_rows(entries: Sequence[Entry], machines: Sequence[str], of: Parts, unit: float) -> list:
+    """A line for each memory and part, a column for each machine."""
+    rows = []
+    for memory in dict.fromkeys(e.memory for e in entries):
+        here = [e for e in entries if e.memory == memory]
+        for part in dict.fromkeys(part for e in here for part in of(e.of)):
+            means = (
+                mean_part([e for e in here if e.machine == machine], part, of)
+                for machine in machines
+            )
+            rows.append((memory, part, *("" if m is None else f"{m / unit:.3f}" for m in means)))
+    return rows
+
+
+SECONDS_HEAD = ("of", "size", "machine", "s to read and prepare the scene", "s a view", "s in all")
+
+
+def seconds_rows(entries: Sequence[Entry]) -> list[tuple]:
+    """Of gscore and of exact order: one view of the case that takes least, and of the longest."""
+    rows = [("NeRArch-Sim, published", "", "gscore", "", "", f"{PUBLISHED_SECONDS}")]
+    for machine in ("gscore", "exact"):
+        points = []
+        for e in entries:
+            if e.machine == machine:
+                wall = e.of.wall_seconds
+                before = max(0, e.of.call_seconds - sum(wall))
+                points.append((before + max(wall), before, max(wall), e.case))
+        points.sort(key=lambda point: point[0])
+        for all_of_it, before, view, case in dict.fromkeys((*points[:1], *points[-1:])):
+            seconds = (f"{s:.1f}" for s in (before, view, all_of_it))
+            rows.append((*case.cells(), machine, *seconds))
+    return rows
