@@ -42,7 +42,7 @@ ALIKE_IN_PAIRS = "builtin:object?n=850000"
 # Of what: counted by what, published MB, what differs.
 LEGO_BYTES = (
     ("features in", "Gaussians", 78.8, "of 236 B a Gaussian that is not in the frame costs 16"),
-    ("lists out", "pairs", 9.5, "links; lines that leave before they are full; long lists go twice"),
+    ("lists out", "pairs", 9.5, "links; lines that leave before they are full; long lists twice"),
     ("lists in", "pairs", 9.5, "finished tiles are not read to the end; long lists go twice"),
     ("pixels out", "pixels", 3.1, "3 B a pixel here; the published 4.8 are of no usual format"),
     ("projected features out", "records written", None, "not in the published table"),
