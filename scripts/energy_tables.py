@@ -22,7 +22,7 @@ import run_arguments
 import tables
 from group_shapes import assignments
 from kept_runs import KeptRuns
-from objectives import value_at
+from measures import value_at
 from scenes import Scene, find_scenes, shared_names
 from simulations import SRAM_AS_NEEDED, Run
 
