@@ -13,6 +13,7 @@ import dataclasses
 import json
 import threading
 import time
+import uuid
 from collections.abc import Callable
 
 import optuna
@@ -22,9 +23,10 @@ from search_space import At, Space
 BEATS = 4  # of a worker, in the time after which it counts as lost
 POLL_SECONDS = 1.0
 MOST_ATTEMPTS = 5
+CLAIM_SECONDS = 300  # more than a queue of thousands takes
 MOST_RETRIES = 3  # of a configuration whose worker was lost
 REFUSED_TEXT, VIOLATIONS, JUDGED, SAME_AS = "refused", "violations", "judged", "same_as"
-SPACE, TASK, FILLED = "space", "task", "filled"
+SPACE, TASK, CLAIM, FILLED = "space", "task", "claim", "filled"
 States = optuna.trial.TrialState
 SAMPLERS = ("random", "nsga2", "tpe")
 
@@ -81,6 +83,7 @@ class Study:
     judge: Callable[[At], Judged]
     skips: Callable[[At], str]
     whole: bool
+    worker: str = dataclasses.field(default_factory=lambda: uuid.uuid4().hex)
     stopped: threading.Event = dataclasses.field(default_factory=threading.Event)
 
     def join(self, first: list[At]) -> None:
@@ -94,13 +97,26 @@ class Study:
                 raise ValueError(f"--study {self.study.study_name}: there is one of another {name}")
         for name, value in own.items():
             self.study.set_user_attr(name, value)
-        if attributes.get(FILLED):
-            return
-        there = {self.at_of(trial) for trial in self.study.get_trials(deepcopy=False)}
-        for at in dict.fromkeys(first):
-            if at not in there:
-                self.enqueue(at)
-        self.study.set_user_attr(FILLED, True)
+        while not self.study.user_attrs.get(FILLED):
+            if self.may_fill():
+                there = {self.at_of(trial) for trial in self.trials()}
+                for at in dict.fromkeys(first):
+                    if at not in there:
+                        self.enqueue(at)
+                self.study.set_user_attr(FILLED, True)
+
+    def may_fill(self) -> bool:
+        """Whether it is this worker that fills the queue: the last one to claim it of those that
+        began at once. A claim that was not made good in time is void."""
+        name, since = self.study.user_attrs.get(CLAIM, ("", 0.0))
+        if name != self.worker and time.time() - since < CLAIM_SECONDS:
+            time.sleep(POLL_SECONDS)
+            return False
+        if name == self.worker:
+            return True
+        self.study.set_user_attr(CLAIM, (self.worker, time.time()))
+        time.sleep(2 * POLL_SECONDS)
+        return False
 
     def enqueue(self, at: At) -> None:
         self.study.enqueue_trial({a.name: i for a, i in zip(self.space.axes, at)})
