@@ -23,7 +23,7 @@ import tables
 from energy_components import OTHER, components, joules
 from group_shapes import assignments
 from kept_runs import KeptRuns
-from objectives import value_at
+from measures import value_at
 from scenes import Scene, find_scenes, shared_names
 from simulations import SRAM_AS_NEEDED, Run
 

@@ -1,199 +1,181 @@
 #!/usr/bin/env python3
-"""Architecture exploration: simulates a grid or a list of configurations over scenes and views and
-shows those that no other one beats in everything (the Pareto front).
+"""Architecture exploration: which configurations hold what is required, and which of these no other
+one beats.
 
   explore.py builtin:object --axis hfus=2,4,8 --axis hfu.ffu_lanes=8,16,32 --axis group=64,160x120
+  explore.py truck platform yard --size 1280x720 --view all --machine exact \\
+    --require 'min(fps) >= 90' --objectives mm2 --search tpe --minutes 10
 
---axis KEY=V1,V2,... spans a grid; --points FILE takes a list instead, one configuration a line:
-KEY=VALUE KEY=VALUE ... Every configuration gets as much input and shared on-chip memory as it
+--axis KEY=V1,V2,... spans a grid, of which every configuration is simulated; --points FILE takes a
+list instead, one configuration a line: KEY=VALUE KEY=VALUE ... With --search configurations are
+proposed by Optuna, between them those next to the best ones; --machine adds the axes of an order's
+machine (machine_axes.py). Every configuration gets as much input and shared on-chip memory as it
 needs, unless --set, --axis or the list say how much: memory is what it costs, not what stops it,
-and no other size follows from it. What the command refuses is printed at the end. The tables show
-what was simulated: values as the resolved configuration has them, the size of the
-pixel group always among them: `group=SHAPE` stands for both of its sides.
+and no other size follows from it. Tables show what was simulated: values as the resolved
+configuration has them, the size of the pixel group always among them: `group=SHAPE` stands for both
+of its sides.
 
-Objectives, all to be as small as possible:
-  cycles        frame cycles, sum over the views simulated
-  dram_bytes    bytes that units moved, sum over the views
-  sram_bytes    on-chip memory
-  filter_lanes  multiply-accumulate lanes of coarse and fine filters, and of nothing else:
-                hfus x (cfus x cfu_lanes + ffu_lanes)
-or any number of a view's report.json by its path, such as `area_mm2.total`, which has every lane
-and memory there is, or `dram.row_conflicts`: a sum over the views, but for what an accelerator has
-or is (`config`, `sram`, `area_mm2`).
+  MEASURE      a number of a view's report.json by its path, such as dram.row_conflicts: the sum over
+               views, or the largest of what an accelerator has (config, sram, area_mm2); or
+               sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes.
+               Names: fps, cycles, seconds, dram_bytes, joules, watts, mm2, psnr_db; sram_bytes;
+               filter_lanes, the multiply-accumulate lanes of coarse and fine filters
+  --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the largest
+               of what should be small, the smallest of what should be large
+  --require    'MEASURE >= NUMBER' or 'MEASURE <= NUMBER'
 
-Writes explore.csv and explore.md. An exploration that is interrupted or fails midway leaves what it
-has simulated so far as explore_partial.csv and .md.
+Views that took long are drawn first: a configuration that has lost on one of them is drawn on no
+other. In a search whose objectives any frame tells (area), one that is no better than another that
+holds is not drawn at all.
+
+Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
+Writes explore.csv, a line for each configuration, and explore.md, the front. Of what was interrupted or
+failed midway they are explore_partial.csv and .md.
+
+With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
+postgresql:// in which any number of workers on any number of machines take part, each started by
+the same command. A dead worker's configuration is taken up again by another one.
 """
 
 from __future__ import annotations
 
 import argparse
-import dataclasses
-import itertools
+import concurrent.futures
+import os
 import pathlib
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
+import debian_python
 import run_arguments
-import tables
-from group_shapes import NAME, expanded, shape_of
-from objectives import objective, pareto_front, value_at
+from exploration import Exploration, Work
+from group_shapes import NAME, expanded
+from judging import Assignments, Judge, Task
+from kept_runs import KeptRuns
+from machine_areas import start_of
+from machine_axes import ORDERS, Axis
+from measures import objective, requirement
 from scenes import Scene, find_scenes
-from simulations import SRAM_AS_NEEDED, Failure, Outcome, Run, simulate_all
+from search_space import Space, parse_axes, parse_point, read_points
+from simulations import SRAM_AS_NEEDED
+from view_numbers import view_numbers
 
-Assignments = tuple[str, ...]
-
-
-def parse_axis(text: str) -> list[str]:
-    """`KEY=V1,V2` as [`KEY=V1`, `KEY=V2`]. Raises ValueError."""
-    key, equals, values = text.partition("=")
-    if not key or not equals or not all(values.split(",")):
-        raise ValueError(f"--axis: '{text}', expected KEY=VALUE,VALUE,...")
-    assignments = [f"{key}={value}" for value in values.split(",")]
-    if len(set(assignments)) < len(assignments):
-        raise ValueError(f"--axis: '{text}', expected different values")
-    return assignments
+RUNS_FILE = "explore_runs.jsonl"
+SAMPLERS = ("tpe", "nsga2", "random")  # as studies.py has them
 
 
-def parse_axes(texts: Sequence[str]) -> list[list[str]]:
-    """Raises ValueError, also where two axes set one key: the later would win unseen."""
-    axes = [parse_axis(text) for text in texts]
-    keys = [a.partition("=")[0] for axis in axes for a in expanded((axis[0],))]
-    for key in keys:
-        if keys.count(key) > 1:
-            raise ValueError(f"--axis: {key}: there are two")
-    return axes
+def machine_axes(
+    arguments: argparse.Namespace, kept: KeptRuns
+) -> tuple[tuple[Axis, ...], Assignments]:
+    """Of --machine, with what its order has set."""
+    if not arguments.machine:
+        return (), ()
+    order = start_of(ORDERS[arguments.machine], kept).order
+    return order.axes, order.fixed
 
 
-def read_points(path: pathlib.Path) -> list[Assignments]:
-    """Configurations of a file, one a line; `#` begins a comment. Raises ValueError."""
-    points = []
-    for number, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
-        assignments = tuple(line.partition("#")[0].split())
-        for assignment in assignments:
-            if "=" not in assignment:
-                raise ValueError(f"{path}:{number}: '{assignment}', expected KEY=VALUE")
-        if assignments:
-            points.append(assignments)
-    if not points:
-        raise ValueError(f"{path}: no configurations, expected KEY=VALUE ... on each line")
-    return points
-
-
-def configurations(arguments: argparse.Namespace) -> list[Assignments]:
+def find_space(arguments: argparse.Namespace, axes: Sequence[Axis]) -> Space:
     if arguments.points:
-        return read_points(arguments.points)
-    return list(itertools.product(*parse_axes(arguments.axis)))
+        return Space(read_points(arguments.points))
+    space = Space(parse_axes(arguments.axis, axes))
+    if not space.axes:
+        raise ValueError("expected --axis, --points or --machine: what to choose from")
+    return space
 
 
-@dataclasses.dataclass(frozen=True)
-class Point:
-    """A configuration that was simulated in every scene."""
-
-    assignments: Assignments
-    views: tuple[dict, ...]
-    values: tuple[float, ...]  # of the objectives
-
-    def setting(self, key: str) -> object:
-        """The value that was simulated; empty where its machine has no such key."""
-        if key == NAME:
-            return shape_of(self.views[0]["config"])
-        value = value_at(self.views[0]["config"], key)
-        if isinstance(value, bool):
-            return str(value).lower()
-        return "" if value is None else value
-
-
-class Exploration:
-    """What has been simulated so far."""
-
-    def __init__(self, objectives: Sequence[str]):
-        self.objectives = objectives
-        self.points: list[Point] = []
-        self.refused: list[Outcome] = []
-
-    def add(self, assignments: Assignments, outcomes: Sequence[Outcome]) -> None:
-        """Takes a configuration's outcomes, one for each scene."""
-        if refused := [outcome for outcome in outcomes if outcome.refused]:
-            self.refused.append(refused[0])
-            return
-        views = tuple(view for outcome in outcomes for view in outcome.views)
-        values = tuple(objective(name, views) for name in self.objectives)
-        self.points.append(Point(assignments, views, values))
-
-    def head(self) -> tuple[str, ...]:
-        keys = [a.partition("=")[0] for point in self.points for a in point.assignments]
-        return (*dict.fromkeys([*keys, NAME]), *self.objectives, "binding", "pareto")
-
-    def rows(self) -> list[tuple]:
-        keys = self.head()[: -len(self.objectives) - 2]
-        rows = []
-        for point, best in zip(self.points, pareto_front([p.values for p in self.points])):
-            binders = sorted({view["binding"]["unit"] for view in point.views})
-            settings = [point.setting(key) for key in keys]
-            rows.append((*settings, *point.values, "+".join(binders), "yes" if best else ""))
-        return rows
-
-    def markdown(self) -> str:
-        head, rows = self.head(), self.rows()
-        first_objective = len(head) - len(self.objectives) - 2
-        kept = sorted((row[:-1] for row in rows if row[-1]), key=lambda row: row[first_objective])
-        text = run_arguments.how_made(view for point in self.points for view in point.views)
-        text += f"{len(kept)} of {len(rows)} configurations are on the Pareto front.\n\n"
-        text += tables.markdown(head[:-1], kept)
-        return text + "".join(f"\nRefused: {o.run.label()}: {o.refused}\n" for o in self.refused)
-
-    def write(self, out: pathlib.Path, name: str, remark: str = "") -> None:
-        text = remark + self.markdown()
-        tables.write_text(out / f"{name}.csv", tables.csv_text(self.head(), self.rows()))
-        tables.write_text(out / f"{name}.md", text)
-        print(text)
+def find_task(
+    arguments: argparse.Namespace,
+    scenes: Sequence[Scene],
+    keys: Sequence[str],
+    fixed: Sequence[str],
+) -> Task:
+    views = [
+        (scene, number)
+        for scene in scenes
+        for number in view_numbers(arguments.streaminggs, scene, arguments.view)
+    ]
+    return Task(
+        views=tuple(views),
+        keys=tuple(dict.fromkeys([*keys, NAME])),
+        size=arguments.size,
+        config=arguments.config,
+        base=expanded((*SRAM_AS_NEEDED, *fixed, *arguments.set)),
+        objectives=tuple(map(objective, arguments.objectives.split(","))),
+        requirements=tuple(map(requirement, arguments.require)),
+    )
 
 
-def run_of(arguments: argparse.Namespace, scene: Scene, point: Assignments) -> Run:
-    overrides = expanded((*SRAM_AS_NEEDED, *arguments.set, *point))
-    return Run(scene, arguments.view, arguments.size, arguments.config, overrides)
+def explore_all(work: Work) -> None:
+    """Every configuration there is, side by side, and each once."""
+    points = [work.space.assignments(at) for at in work.space.all()]
 
+    def one(assignments: Assignments) -> None:
+        work.made.add(work.judge.judged(assignments))
+        with work.reporting:
+            work.progress(len(work.made.judged), len(points))
 
-def simulate_points(
-    arguments: argparse.Namespace, scenes: Sequence[Scene], points: Sequence[Assignments]
-) -> Iterator[tuple[Assignments, list[Outcome]]]:
-    """Each configuration with its outcomes, one for each scene."""
-    runs = [run_of(arguments, scene, point) for point in points for scene in scenes]
-    outcomes = simulate_all(arguments.streaminggs, runs, arguments.side_by_side)
-    for point in points:
-        yield point, [next(outcomes) for _ in scenes]
+    with concurrent.futures.ThreadPoolExecutor(work.arguments.j) as pool:
+        waiting = [pool.submit(one, point) for point in points]
+        try:
+            for each in waiting:
+                each.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
+    # In the order of the grid, whichever was ready first.
+    work.made.judged = {point: work.made.judged[point] for point in points}
 
 
 def explore(arguments: argparse.Namespace) -> None:
-    points = configurations(arguments)
+    studied = bool(arguments.search or arguments.study)
+    if studied:
+        debian_python.need("optuna", "python3-optuna")
     scenes = find_scenes(arguments.scenes)
-    made = Exploration(arguments.objectives.split(","))
+    kept = KeptRuns(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.j)
+    axes, fixed = machine_axes(arguments, kept)
+    space = find_space(arguments, axes)
+    beside = [parse_point(text, "--beside") for text in arguments.beside]
+    keys = [*space.keys(), *Space((Axis("", tuple(beside)),)).keys()] if beside else space.keys()
+    task = find_task(arguments, scenes, keys, fixed)
+    judge = Judge(task, kept.outcome)
+    work = Work(arguments, space, judge, Exploration(task))
+    complete = False
     try:
-        for point, outcomes in simulate_points(arguments, scenes, points):
-            made.add(point, outcomes)
-    except (KeyboardInterrupt, Failure, ValueError):
-        if made.points:
-            done = len(made.points) + len(made.refused)
-            remark = f"Not complete: {done} of {len(points)} configurations.\n\n"
-            made.write(arguments.out, "explore_partial", remark)
-        raise
-    if not made.points:
-        made.refused[0].accepted()
-    made.write(arguments.out, "explore")
+        for assignments in beside:
+            work.made.add(judge.judged(assignments))
+        if studied:
+            import study_work  # Optuna is not everybody's
+
+            study_work.explore(work, kept)
+        else:
+            explore_all(work)
+        kept.end()
+        complete = True
+    finally:
+        if not complete and work.made.told():
+            remark = f"Not complete: {len(work.made.judged)} configurations.\n\n"
+            work.made.write(arguments.out, "explore_partial", remark)
+    if not work.made.told():
+        raise ValueError(work.made.refused()[0].refused)
+    work.made.write(arguments.out, "explore")
 
 
 def main() -> int:
     parser = run_arguments.parser(__doc__)
-    run_arguments.add_side_by_side(parser)
-    which = parser.add_mutually_exclusive_group(required=True)
+    parser.add_argument(
+        "-j", type=int, default=os.cpu_count(), metavar="N", help="simulations at a time"
+    )
+    parser.add_argument("--machine", choices=list(ORDERS), help="axes of an order's machine")
+    which = parser.add_mutually_exclusive_group()
     which.add_argument(
         "--axis", action="append", default=[], metavar="KEY=V1,V2,...", help="any number of them"
     )
     which.add_argument(
         "--points", type=pathlib.Path, metavar="FILE", help="a list in place of a grid"
     )
-    parser.add_argument("--view", default="0", help="number of a camera, or all")
+    parser.add_argument(
+        "--beside", action="append", default=[], metavar="'KEY=VALUE ...'", help="judged as well"
+    )
+    parser.add_argument("--view", default="0", help="numbers of cameras, as in 0,2, or all")
     parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")
     parser.add_argument("--config", default="exact", help="preset or JSON file to start from")
     parser.add_argument(
@@ -201,9 +183,27 @@ def main() -> int:
     )
     parser.add_argument(
         "--objectives",
-        default="cycles,dram_bytes,sram_bytes,filter_lanes,area_mm2.total",
-        metavar="NAME,...",
-        help="numbers to make small",
+        default="cycles,dram_bytes,sram_bytes,filter_lanes,mm2",
+        metavar="MEASURE,...",
+        help="numbers to make small, or large with max: before",
+    )
+    parser.add_argument(
+        "--require", action="append", default=[], metavar="'MEASURE >= NUMBER'", help="to be held"
+    )
+    parser.add_argument("--search", choices=SAMPLERS, help="Optuna's sampler; default: all there is")
+    parser.add_argument("--trials", type=int, default=200, metavar="N", help="of a search")
+    parser.add_argument("--minutes", type=float, default=0, help="then it ends; 0: no limit")
+    parser.add_argument("--seed", type=int, default=1, help="of the sampler")
+    parser.add_argument("--study", default="", metavar="NAME", help="kept in --storage")
+    parser.add_argument(
+        "--storage", default="", metavar="URL", help="default: sqlite, explore.db in --out"
+    )
+    parser.add_argument(
+        "--lost-after",
+        type=int,
+        default=60,
+        metavar="SECONDS",
+        help="a worker of a study that was not heard of for so long counts as dead",
     )
     return run_arguments.main_of_tables(explore, parser.parse_args())
 

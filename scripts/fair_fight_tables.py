@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import tables
 from machine_axes import Machine
 from machine_search import OBJECTIVES, Point
-from objectives import pareto_front
+from measures import pareto_front
 from run_digest import data_folder
 from view_numbers import decibels, psnr_span
 

@@ -12,7 +12,7 @@ import threading
 from collections.abc import Callable, Sequence
 
 from run_digest import program_digest, run_name
-from simulations import MOST_SIDE_BY_SIDE, Failure, Outcome, Run, simulate
+from simulations import Failure, Outcome, Run, simulate
 
 # Parts of a view's report that no table asks for; they are most of its size.
 NOT_KEPT = ("ledger", "left_out", "chosen")
@@ -50,7 +50,7 @@ class KeptRuns:
         simulate: Callable[[pathlib.Path, Run], Outcome] = simulate,
     ):
         self.binary, self.path, self.simulate = binary, path, simulate
-        self.workers = max(1, min(MOST_SIDE_BY_SIDE, side_by_side))
+        self.workers = max(1, side_by_side)
         self.program = program_digest(binary)
         self.known: dict[str, dict] = {}
         self.failures: list[Failure] = []

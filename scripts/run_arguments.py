@@ -16,7 +16,7 @@ BAD_INPUT = 2
 INTERRUPTED = 130
 
 # What made a table, where it was put and at what pace: no number of it depends on them.
-NOT_IN_TABLES = ("--streaminggs", "--out", "--side-by-side")
+NOT_IN_TABLES = ("--streaminggs", "--out", "--side-by-side", "--storage", "-j")
 
 
 class Help(argparse.RawDescriptionHelpFormatter, argparse.ArgumentDefaultsHelpFormatter):
@@ -91,6 +91,11 @@ def add_fittings_side_by_side(to: argparse.ArgumentParser) -> None:
 def how_made(views: Iterable[dict]) -> str:
     """A paragraph that says where a table comes from: the command, and the commit that the reports
     of the views name."""
+    return how_made_at(view["provenance"].get("commit", "") for view in views)
+
+
+def how_made_at(commits: Iterable[str]) -> str:
+    """The same of commits; those without a name do not count."""
     words = iter(sys.argv[1:])
     kept = []
     for word in words:
@@ -99,7 +104,7 @@ def how_made(views: Iterable[dict]) -> str:
         elif word.partition("=")[0] not in NOT_IN_TABLES:
             kept.append(word)
     command = shlex.join([f"scripts/{pathlib.Path(sys.argv[0]).name}", *kept])
-    commits = sorted({view["provenance"].get("commit", "") for view in views} - {""})
+    commits = sorted(set(commits) - {""})
     return f"Made by `{command}`; commit {', '.join(commits) or 'unknown'}.\n\n"
 
 

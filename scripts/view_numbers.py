@@ -2,8 +2,26 @@
 
 from __future__ import annotations
 
+import pathlib
 import statistics
 from collections.abc import Callable, Sequence
+
+from scenes import Scene
+from simulations import call, said
+
+
+def view_numbers(binary: pathlib.Path, scene: Scene, text: str) -> list[int]:
+    """Of the cameras that --view means. Raises ValueError."""
+    if text != "all":
+        if not all(number.isdecimal() for number in text.split(",")):
+            raise ValueError(f"--view: '{text}', expected numbers as in 0,2, or all")
+        return [int(number) for number in text.split(",")]
+    words = [scene.spec, *(("--cameras", scene.cameras) if scene.cameras else ())]
+    done = call(binary, words, "info")
+    if done.returncode != 0:
+        raise ValueError(f"{scene.name}: {said(done)}")
+    (count,) = (line.split()[1] for line in done.stdout.splitlines() if line.startswith("cameras "))
+    return list(range(int(count)))
 
 
 def vsu_waits(view: dict) -> float:

@@ -1,6 +1,7 @@
 """What the scripts compute themselves."""
 
 import dataclasses
+import math
 import pathlib
 import tempfile
 import unittest
@@ -10,14 +11,14 @@ import in_folder  # noqa: F401, isort: skip (finds the scripts)
 import binding_check
 import energy_components
 import energy_tables
-import explore
 import fill_readme
 import group_shapes
 import machine_measures
 import machine_ratios
 import machine_tables
-import objectives
+import measures
 import run_arguments
+import search_space
 import simulations
 import tables
 import view_numbers
@@ -69,65 +70,136 @@ class Machines(unittest.TestCase):
         m = dataclasses.replace(m, bytes_by_region=of)
         kinds = [m.bytes(kind) for kind in ("scene", "intermediate", "pixels")]
         self.assertEqual((kinds, m.bytes()), ([11, 12, 3], 26))
+from machine_axes import Axis
+from scenes import find_scene
 
 
 class Pareto(unittest.TestCase):
     def test_what_another_beats_everywhere_is_not_on_the_front(self):
         points = [(1, 9), (5, 5), (9, 1), (6, 6), (5, 6)]
-        self.assertEqual(objectives.pareto_front(points), [True, True, True, False, False])
+        self.assertEqual(measures.pareto_front(points), [True, True, True, False, False])
 
     def test_equal_points_stay_together(self):
-        self.assertEqual(objectives.pareto_front([(2, 2), (2, 2), (3, 2)]), [True, True, False])
+        self.assertEqual(measures.pareto_front([(2, 2), (2, 2), (3, 2)]), [True, True, False])
 
-    def test_counts_add_up_over_views_costs_do_not(self):
-        hfu = {"cfus": 4, "cfu_lanes": 4, "ffu_lanes": 16}
-        view = {
-            "frame": {"cycles": 10},
+
+class Measures(unittest.TestCase):
+    HFU = {"cfus": 4, "cfu_lanes": 4, "ffu_lanes": 16}
+
+    def view(self, cycles: int, mm2: float, psnr_db: float | None = None) -> dict:
+        return {
+            "frame": {"cycles": cycles, "fps": 1000 / cycles},
             "dram": {"bytes": 70},
-            "config": {"hfus": 2, "hfu": hfu},
-            "sram": {
-                "input_bytes": 1,
-                "input_available_bytes": 5,
-                "shared_available_bytes": 6,
-                "uses": [],
-            },
-            "area_mm2": {"total": 1.5},
+            "config": {"hfus": 2, "hfu": self.HFU},
+            "sram": {"input_bytes": 1, "input_available_bytes": 5, "shared_available_bytes": 6},
+            "area_mm2": {"total": mm2},
+            "image": {"psnr_db": psnr_db},
         }
-        for name, of_two_views in (
-            ("cycles", 20),
+
+    def test_of_two_views(self):
+        views = [self.view(10, 1.5), self.view(40, 1.6, 30.0)]
+        for text, expected in (
+            ("cycles", 50),
             ("dram_bytes", 140),
             ("filter_lanes", 2 * (4 * 4 + 16)),
             ("sram_bytes", 11),
-            ("frame.cycles", 20),
-            ("area_mm2.total", 1.5),
+            ("frame.cycles", 50),
+            ("mm2", 1.6),
             ("config.hfus", 2),
             ("sram.input_bytes", 1),
+            ("mean(cycles)", 25),
+            ("min:max( cycles )", 40),
+            ("worst(cycles)", 40),
+            ("max:worst(fps)", -25),
+            ("max:mean(fps)", -62.5),
+            ("max:min(psnr_db)", -30),
         ):
-            with self.subTest(name):
-                self.assertEqual(objectives.objective(name, [view, view]), of_two_views)
+            with self.subTest(text):
+                self.assertEqual(measures.objective(text).cost(views), expected)
+        self.assertEqual(measures.measure("min(psnr_db)").of(views[:1]), math.inf)
+
+    def test_99_of_100(self):
+        views = [self.view(cycles, 1) for cycles in range(1, 201)]
+        self.assertEqual(measures.measure("p99(cycles)").of(views), 198)
+        self.assertEqual(measures.measure("p99(cycles)").of(views[:5]), 5)
+
+    def test_requirements(self):
+        views = [self.view(10, 1.5), self.view(40, 1.6)]
+        for text, violation, lost_at_once in (
+            ("min(fps) >= 50", 0.5, True),
+            ("min(fps)>=20", -0.25, False),
+            ("max(cycles) <= 20", 1, True),
+            ("cycles <= 40", 0.25, True),
+            ("mean(fps) >= 125", 0.5, False),
+            ("mm2 <= 1.6", 0, False),
+            ("min(fps) >= 0", -25, False),
+        ):
+            with self.subTest(text):
+                required = measures.requirement(text)
+                self.assertAlmostEqual(required.violation(views), violation)
+                self.assertEqual(required.is_lost(views), lost_at_once)
+
+    def test_what_is_none(self):
+        for text, what in (
+            ("fps", "--require: 'fps', expected MEASURE >= NUMBER"),
+            ("min(fps) > 3", "--require: 'min\\(fps\\) > 3', expected"),
+            ("avg(fps) >= 3", "--require: 'avg\\(fps\\)': avg, expected one of sum, mean"),
+            ("worst(fps) >= 3", "--require: .*worst, expected one of"),
+            ("min(fps >= 3", "--require: 'min\\(fps', expected PATH or AGGREGATE"),
+            ("min(fps) >= x", "--require: 'x', expected a number"),
+            ("min(fps) >= inf", "--require: 'inf', expected a number"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, what):
+                measures.requirement(text)
+        for text, what in (
+            ("least:fps", "--objectives: 'least:fps', expected min:MEASURE or max:MEASURE"),
+            ("p50(fps)", "--objectives: .*p50, expected one of .*worst"),
+            ("", "--objectives: '', expected"),
+        ):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, what):
+                measures.objective(text)
         with self.assertRaisesRegex(ValueError, "no number at 'frame.joules'"):
-            objectives.objective("frame.joules", [view])
+            measures.objective("frame.joules").cost([self.view(1, 1)])
 
 
-class Configurations(unittest.TestCase):
+class Spaces(unittest.TestCase):
     def test_axis(self):
-        self.assertEqual(explore.parse_axis("hfus=2,4"), ["hfus=2", "hfus=4"])
+        axis = search_space.parse_axis("hfus=2,4")
+        self.assertEqual(axis.settings, (("hfus=2",), ("hfus=4",)))
         for bad in ("hfus", "=2", "hfus=", "hfus=2,"):
             with self.assertRaises(ValueError):
-                explore.parse_axis(bad)
+                search_space.parse_axis(bad)
 
     def test_points_of_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "points"
             path.write_text("hfus=2 group=64 # small\n\n# none\nhfus=4\n")
-            self.assertEqual(explore.read_points(path), [("hfus=2", "group=64"), ("hfus=4",)])
+            (axis,) = search_space.read_points(path)
+            group = ("group_width_px=64", "group_height_px=64")
+            self.assertEqual(axis.settings, (("hfus=2", *group), ("hfus=4",)))
             path.write_text("hfus=2\nhfus 4\n")
             with self.assertRaisesRegex(ValueError, ":2: 'hfus'"):
-                explore.read_points(path)
+                search_space.read_points(path)
             path.write_text("# none\n")
             with self.assertRaisesRegex(ValueError, "points: no configurations"):
-                explore.read_points(path)
+                search_space.read_points(path)
 
+    def test_of_axes(self):
+        axes = search_space.parse_axes(["hfus=2,4", "group=32,64x16,96"])
+        space = search_space.Space(axes)
+        self.assertEqual((space.size(), space.keys()), (6, ("hfus", "group")))
+        self.assertEqual(list(space.all())[:4], [(0, 0), (0, 1), (0, 2), (1, 0)])
+        self.assertEqual(set(space.neighbours((0, 1))), {(1, 1), (0, 0), (0, 2)})
+        setting = ("hfus=4", "group_width_px=64", "group_height_px=16")
+        self.assertEqual(space.assignments((1, 1)), setting)
+
+    def test_axes_of_a_machine_stand_behind_those_that_are_named(self):
+        given = (Axis("hfus", (("hfus=1",),)), Axis("clusters", (("clusters=1",), ("clusters=2",))))
+        axes = search_space.parse_axes(["hfus=2,4"], given)
+        self.assertEqual([axis.name for axis in axes], ["clusters", "hfus"])
+
+
+class Configurations(unittest.TestCase):
     def test_shapes_of_groups(self):
         for shape, width, height in (("64", 64, 64), ("160x120", 160, 120), ("4x64", 4, 64)):
             both = (f"group_width_px={width}", f"group_height_px={height}")

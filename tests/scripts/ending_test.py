@@ -110,7 +110,7 @@ class Ends(InFolder):
             (
                 explore,
                 ("--axis", "hfus=2", "--objectives", "joules"),
-                "--objectives: report.json has no number at 'joules'$",
+                "report.json has no number at 'energy.total_j'$",
             ),
             (fair_fight, ("--budgets", "1", "0"), "--budgets: 0, expected more than 0$"),
             (fair_fight, ("--area", "-1"), "--area: -1, expected more than 0$"),

@@ -14,7 +14,7 @@ class Exploring(InFolder):
         program = self.stand_in(body)
         command = [sys.executable, "-B", str(REPOSITORY / "scripts" / "explore.py")]
         command += [str(self.scene), "--streaminggs", str(program), "--out", str(self.folder)]
-        command += ["--objectives", "cycles", "--side-by-side", "1", *arguments]
+        command += ["-j", "1", "--objectives", "cycles", *arguments]
         return subprocess.run(
             command,
             capture_output=True,
@@ -27,14 +27,14 @@ class Exploring(InFolder):
     def rows(self, name: str) -> list[list[str]]:
         return list(csv.reader((self.folder / name).read_text().splitlines()))
 
-    HEAD = ["hfus", "group", "cycles", "binding", "pareto"]
+    HEAD = ["hfus", "group", "cycles", "slowest view", "binding", "holds", "front"]
 
     def test_tables_show_what_was_simulated(self):
         done = self.explore("finish()", "--axis", "hfus=2,4")
         self.assertEqual((done.returncode, done.stderr.count("Traceback")), (0, 0))
-        rows = [["2", "112x80", "4", "dram", ""], ["4", "112x80", "2", "dram", "yes"]]
+        rows = [["2", "112x80", "4", "truck 0", "dram", "", ""], ["4", "112x80", "2", "truck 0", "dram", "", "yes"]]
         self.assertEqual(self.rows("explore.csv"), [self.HEAD, *rows])
-        self.assertIn("1 of 2 configurations are on the Pareto front", done.stdout)
+        self.assertIn("2 configurations; 1 of them no other one beats.", done.stdout)
 
     def test_memory_is_as_large_as_needed_unless_it_is_said(self):
         body = """
@@ -56,20 +56,31 @@ class Exploring(InFolder):
             """
         done = self.explore(body, "--axis", "hfus=2,3")
         self.assertEqual(done.returncode, 0)
-        self.assertEqual(self.rows("explore.csv"), [self.HEAD, ["2", "112x80", "4", "dram", "yes"]])
+        self.assertEqual(self.rows("explore.csv"), [self.HEAD, ["2", "112x80", "4", "truck 0", "dram", "", "yes"]])
         self.assertRegex(done.stdout, "Refused: truck .* hfus=3: hfus: 3 is odd")
 
     def test_what_was_simulated_is_kept(self):
-        for what, end, status, line in (
+        two = ["2", "112x80", "4", "truck 0", "dram", "", "yes"]
+        eight = ["8", "112x80", "1", "truck 0", "dram", "", "yes"]
+        for what, end, status, line, kept in (
             (
                 "interrupted",
-                "os.kill(os.getppid(), signal.SIGINT); time.sleep(1)",
+                "os.kill(os.getppid(), signal.SIGINT); time.sleep(1); sys.exit(1)",
                 130,
                 "interrupted$",
+                [two],
             ),
-            ("failed", "print('it differs'); sys.exit(1)", 1, "truck .*: it differs$"),
+            # Others go on where one failed.
+            (
+                "failed",
+                "print('it differs'); sys.exit(1)",
+                1,
+                "truck .*: it differs$",
+                [[*two[:-1], ""], eight],
+            ),
         ):
             with self.subTest(what):
+                (self.folder / "explore_runs.jsonl").unlink(missing_ok=True)
                 body = f"""
                     if SET["hfus"] == "4":
                         {end}
@@ -79,11 +90,47 @@ class Exploring(InFolder):
                 self.assertEqual(done.returncode, status)
                 self.assertNotIn("Traceback", done.stderr)
                 self.assertRegex(done.stderr.splitlines()[-1], line)
-                kept = self.rows("explore_partial.csv")
-                self.assertEqual(kept, [self.HEAD, ["2", "112x80", "4", "dram", "yes"]])
+                self.assertEqual(self.rows("explore_partial.csv"), [self.HEAD, *kept])
                 text = (self.folder / "explore_partial.md").read_text()
-                self.assertTrue(text.startswith("Not complete: 1 of 3 configurations.\n"))
+                self.assertTrue(text.startswith("Not complete: "))
                 self.assertFalse((self.folder / "explore.csv").exists())
+
+    def test_what_is_required(self):
+        """A configuration that has lost is drawn on no further view, and stands on no front."""
+        body = """
+            (HERE / f"drawn {SET['hfus']} {sys.argv[sys.argv.index('--view') + 1]}").touch()
+            finish()
+            """
+        words = ("--axis", "hfus=1,2,4,8", "--require", "min(fps) >= 3", "--objectives", "mm2")
+        done = self.explore(body, *words, "--view", "0,1")
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(
+            [(row[0], row[2], row[3], *row[-2:]) for row in self.rows("explore.csv")[1:]],
+            [
+                ("1", "2", "1", "not all views drawn", ""),
+                ("2", "3", "2", "not all views drawn", ""),
+                ("4", "5", "4", "yes", "yes"),
+                ("8", "9", "8", "yes", ""),
+            ],
+        )
+        self.assertIn("4 configurations, of which 2 hold min(fps) >= 3; 1 of them", done.stdout)
+        drawn = sorted(path.name for path in self.folder.glob("drawn*"))
+        both = [f"drawn {hfus} {view}" for hfus in (4, 8) for view in (0, 1)]
+        # A view that none was drawn on comes first.
+        self.assertEqual(drawn, ["drawn 1 0", "drawn 2 1", *both])
+
+    def test_what_was_simulated_is_not_simulated_again(self):
+        body = """
+            with (HERE / "count").open("a") as file:
+                print(SET["hfus"], file=file)
+            finish()
+            """
+        program = ("--axis", "hfus=2,4")
+        self.explore(body, *program)
+        first = self.rows("explore.csv")
+        self.explore(body, *program)
+        self.assertEqual(self.rows("explore.csv"), first)
+        self.assertEqual((self.folder / "count").read_text(), "2\n4\n")
 
 
 if __name__ == "__main__":

@@ -76,7 +76,8 @@ class InFolder(unittest.TestCase):
 
     def stand_in(self, body: str) -> pathlib.Path:
         """A program in the command's place. It has SET, the values of --set, and `finish()`, which
-        writes the report of a view that took 8 cycles over the number of HFUs."""
+        writes the report of a view that took 8 cycles over the number of HFUs, and has one
+        more mm2 than those."""
         program = self.folder / "streaminggs"
         prelude = f"""\
             #!{sys.executable} -IS
@@ -85,9 +86,10 @@ class InFolder(unittest.TestCase):
             SET = dict(word.split("=") for word in sys.argv if "=" in word)
             def finish():
                 hfus = int(SET.get("hfus", 1))
-                view = {{"frame": {{"cycles": 8 // hfus}}, "binding": {{"unit": "dram"}},
+                frame = {{"cycles": 8 // hfus, "time_s": 1e-9 * (8 // hfus), "fps": hfus}}
+                view = {{"view": 0, "frame": frame, "binding": {{"unit": "dram"}},
                         "config": {{"hfus": hfus, "group_width_px": 112, "group_height_px": 80}},
-                        "provenance": {{}}}}
+                        "area_mm2": {{"total": 1 + hfus}}, "provenance": {{}}}}
                 out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
                 (out / "report.json").write_text(json.dumps({{"views": [view]}}))
             """

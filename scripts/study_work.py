@@ -1,0 +1,169 @@
+"""An exploration by a study: what workers do, in threads of one script or in many scripts."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import json
+import warnings
+
+import optuna
+from exploration import Work
+from judging import Judged
+from kept_runs import KeptRuns
+from machine_axes import nearest
+from measures import dominates
+from search_space import At
+from simulations import Run
+from studies import JUDGED, Study, open_storage, sampler, unpacked
+
+SAMPLED_EVERY = 4  # what the sampler proposes; between them what is next to the best
+MOST_SKIPPED = 20  # for each that is judged: then all there is to choose from was skipped
+
+
+class Searcher:
+    """What a search looks at next, and what it need not look at."""
+
+    def __init__(self, work: Work, kept: KeptRuns):
+        self.work, self.kept = work, kept
+        self.judge, self.space = work.judge, work.space
+        self.of_the_machine = work.judge.task.of_the_machine()
+        self.known_costs: dict[At, tuple[float, ...] | None] = {}
+
+    def judged(self, at: At) -> Judged:
+        return self.judge.judged(self.space.assignments(at))
+
+    def costs(self, at: At) -> tuple[float, ...] | None:
+        """Where any frame tells them; none where there is no such machine."""
+        if at not in self.known_costs:
+            self.known_costs[at] = self.judge.machine_costs(self.space.assignments(at))
+        return self.known_costs[at]
+
+    def skips(self, at: At) -> str:
+        """Why a configuration need not be drawn; empty where it must be."""
+        if not self.of_the_machine or (costs := self.costs(at)) is None:
+            return ""  # judging tells why there is no such machine
+        for best in self.work.made.front():
+            if best.costs == costs or dominates(best.costs, costs):
+                return "another one that holds is as small"
+        return ""
+
+    def start(self) -> At:
+        """The configuration that the preset is nearest to."""
+        task = self.judge.task
+        scene, view = task.views[0]
+        run = Run(scene, str(view), task.size, task.config, task.base)
+        (first,) = self.kept.outcome(run).accepted()
+        return tuple(nearest(axis, first["config"]) for axis in self.space.axes)
+
+    def next_to_the_front(self, study: Study) -> At | None:
+        """What no worker has looked at yet: one step on one axis from what is best, and not less of
+        everything than one that did not hold. The largest saving first, where any frame tells it."""
+        at_of = {self.space.assignments(at): at for at in study.done()}
+        seen = {study.at_of(trial) for trial in study.trials()}
+        lost = [
+            at_of[judged.assignments]
+            for judged in self.work.made.told()
+            if not judged.holds() and judged.assignments in at_of
+        ]
+        near = [
+            at
+            for best in self.work.made.front()
+            if best.assignments in at_of
+            for at in self.space.neighbours(at_of[best.assignments])
+            if at not in seen and not any(is_within(at, other) for other in lost)
+        ]
+        if not self.of_the_machine:
+            return near[0] if near else None
+        saving = [at for at in near if self.costs(at) and not self.skips(at)]
+        return min(saving, key=lambda at: self.costs(at), default=None)
+
+
+def explore(work: Work, kept: KeptRuns) -> None:
+    """Into work.made. Raises Failure, ValueError."""
+    arguments, task = work.arguments, work.judge.task
+    optuna.logging.set_verbosity(optuna.logging.ERROR)
+    warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
+    storage = arguments.storage or f"sqlite:///{(arguments.out / 'explore.db').absolute()}"
+    if not arguments.study:
+        storage = ""
+    searcher = Searcher(work, kept)
+    study = Study(
+        optuna.create_study(
+            storage=open_storage(storage, arguments.lost_after) if storage else None,
+            study_name=arguments.study or None,
+            directions=["minimize"] * len(task.objectives),
+            sampler=sampler(arguments.search or "random", arguments.seed, bool(task.requirements)),
+            load_if_exists=True,
+        ),
+        work.space,
+        described(work, kept),
+        searcher.judged,
+        searcher.skips,
+        whole=not arguments.search,
+    )
+    study.join(list(work.space.all()) if study.whole else [searcher.start()])
+    of = work.space.size() if study.whole else arguments.trials
+
+    def take_in() -> int:
+        """What all workers have judged."""
+        judged = [
+            unpacked(trial.user_attrs[JUDGED])
+            for trial in sorted(study.done().values(), key=lambda trial: trial.number)
+            if not is_skipped(trial)
+        ]
+        for each in judged:
+            work.made.add(each)
+        return len(judged)
+
+    def before() -> bool:
+        """Whether there is more to do; if so what is next may be in the queue, else the sampler
+        proposes it."""
+        done = study.done().values()
+        drawn = sum(not is_skipped(trial) for trial in done)
+        if not work.has_time():
+            return False
+        if study.whole:
+            return True
+        if drawn >= of or len(done) >= MOST_SKIPPED * of:
+            return False
+        with work.reporting:
+            if len(done) % SAMPLED_EVERY and (near := searcher.next_to_the_front(study)):
+                study.enqueue(near)
+        return True
+
+    def after() -> None:
+        with work.reporting:
+            done = take_in()
+            work.progress(done, max(of, done))
+
+    with concurrent.futures.ThreadPoolExecutor(arguments.j) as pool:
+        waiting = [pool.submit(study.work, before, after) for _ in range(arguments.j)]
+        try:
+            for each in concurrent.futures.as_completed(waiting):
+                each.result()
+        finally:
+            study.stopped.set()
+    take_in()
+
+
+def is_skipped(trial: optuna.trial.FrozenTrial) -> bool:
+    return "skipped" in trial.user_attrs.get(JUDGED, {"skipped": ""})
+
+
+def is_within(at: At, other: At) -> bool:
+    return all(a <= b for a, b in zip(at, other))
+
+
+def described(work: Work, kept: KeptRuns) -> str:
+    """All that a result depends on, but for the place in the space."""
+    task = work.judge.task
+    facts = {
+        "program": kept.program,
+        "views": [[scene.name, number] for scene, number in task.views],
+        "size": task.size,
+        "config": task.config,
+        "base": list(task.base),
+        "objectives": [o.name for o in task.objectives],
+        "requirements": [r.text for r in task.requirements],
+    }
+    return json.dumps(facts)

@@ -1,0 +1,106 @@
+"""`streaminggs sweep` as a server: scenes and their pictures are prepared once, and what its file of
+results holds is not simulated again."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import itertools
+import json
+import pathlib
+import subprocess
+import tempfile
+import threading
+
+from run_digest import program_digest
+from simulations import Failure, Outcome, Run, said
+
+Answer = dict
+
+
+class SweepServer:
+    """For any number of threads. jobs: simulations side by side. failures: what ended badly."""
+
+    def __init__(self, binary: pathlib.Path, results: pathlib.Path, jobs: int):
+        """Raises ValueError when there is no such program."""
+        self.binary, self.program = binary, program_digest(binary)
+        self.failures: list[Failure] = []
+        self.simulated = 0
+        self.numbers = itertools.count()
+        self.lock = threading.Lock()
+        self.waiting: dict[int, concurrent.futures.Future[Answer]] = {}
+        self.said = tempfile.TemporaryFile("w+")
+        results.parent.mkdir(parents=True, exist_ok=True)
+        words = [str(binary.absolute()), "sweep", "--points", "-", "--out", str(results)]
+        try:
+            self.process = subprocess.Popen(
+                [*words, "--jobs", str(jobs)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self.said,
+                text=True,
+                errors="replace",
+                start_new_session=True,  # Ctrl-C is for the script, which ends it
+            )
+        except OSError as error:
+            raise ValueError(f"{binary}: cannot be run: {error.strerror}") from error
+        self.reader = threading.Thread(target=self.read, daemon=True)
+        self.reader.start()
+
+    def __enter__(self) -> SweepServer:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Those under way are given up; what is done is in the file."""
+        self.process.terminate()
+        self.reader.join()
+        self.said.close()
+
+    def read(self) -> None:
+        for line in self.process.stdout:
+            answer = json.loads(line)
+            with self.lock:
+                self.simulated += not answer["kept"]
+                asked = self.waiting.pop(answer["id"])
+            asked.set_result(answer)
+        status = self.process.wait()
+        self.said.seek(0)
+        ended = subprocess.CompletedProcess([], status, "", self.said.read())
+        with self.lock:
+            for asked in self.waiting.values():
+                asked.set_exception(Failure(f"sweep: {said(ended)}"))
+            self.waiting.clear()
+
+    def outcome(self, run: Run) -> Outcome:
+        """Of a run of one view. Raises Failure when the server has ended."""
+        asked: concurrent.futures.Future[Answer] = concurrent.futures.Future()
+        with self.lock:
+            number = next(self.numbers)
+            self.waiting[number] = asked
+            try:
+                self.process.stdin.write(json.dumps({"id": number, **point_of(run)}) + "\n")
+                self.process.stdin.flush()
+            except (BrokenPipeError, ValueError):
+                pass  # the reader says how it ended
+        if not self.reader.is_alive():
+            raise Failure("sweep: has ended")
+        answer = asked.result()
+        if answer["status"] == "done":
+            return Outcome(run, views=(answer["report"],))
+        if answer["status"] == "refused":
+            return Outcome(run, refused=answer["reason"])
+        failure = Failure(f"{run.label()}: {answer['reason']}")
+        self.failures.append(failure)
+        return Outcome(run, refused=str(failure), failure=failure)
+
+    def end(self) -> None:
+        """To be called when all tables are written. Raises the first Failure there was."""
+        if self.failures:
+            raise self.failures[0]
+
+
+def point_of(run: Run) -> dict:
+    """As `sweep` takes it; of two settings of one key the last one counts."""
+    point = {"scene": run.scene.spec, "view": run.view, "config": run.config}
+    point |= {"cameras": run.scene.cameras} if run.scene.cameras else {}
+    point |= {"size": run.size} if run.size else {}
+    return {**point, "set": dict(override.split("=", 1) for override in run.overrides)}
