@@ -67,6 +67,10 @@ class MachineDesign {
   virtual GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                              DataSheet& sheet) const = 0;
 
+  // All of the configuration that the frame of golden() follows from, as a text: designs of one
+  // machine and one text draw the same, and count the same of it. Empty: that is not known.
+  virtual std::string golden_key() const { return {}; }
+
   // What scenes can be tuned for: how it renders, where that is in paper order; whether it draws
   // the reference picture of a scene as it is stored, bit for bit; the group of pixels that a
   // Gaussian is fetched for, 0 x 0 where there are none.

@@ -14,9 +14,8 @@ namespace {
 EncodedCloud encode(const ActivatedCloud& cloud, const StorageConfig& config,
                     const std::vector<Camera>& weighing, const VqProgress& progress) {
   if (config.encoding == SecondHalfEncoding::kHalf) return encode_half(cloud);
-  const QuantisedCloud quantised = quantise(cloud, image_weights(cloud, weighing),
-                                            pixel_sizes(cloud, weighing), config.vq, progress);
-  return encode_quantised(cloud, quantised, config.encoding);
+  return encode_quantised(cloud, quantise_scene(cloud, config.vq, weighing, progress),
+                          config.encoding);
 }
 
 // original: what was encoded, where something was lost.
@@ -48,6 +47,12 @@ StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
   }
   EncodedCloud encoded = encode(cloud, config, weighing, progress);
   return arranged(std::move(encoded), std::move(cloud), config);
+}
+
+QuantisedCloud quantise_scene(const ActivatedCloud& cloud, const VqConfig& config,
+                              const std::vector<Camera>& weighing, const VqProgress& progress) {
+  return quantise(cloud, image_weights(cloud, weighing), pixel_sizes(cloud, weighing), config,
+                  progress);
 }
 
 StoredScene store_quantised(ActivatedCloud cloud, const QuantisedCloud& quantised,

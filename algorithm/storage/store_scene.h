@@ -15,6 +15,11 @@ namespace sgs {
 StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
                         const std::vector<Camera>& weighing, const VqProgress& progress = {});
 
+// The codebooks of a scene, and their indices: what store_scene makes for vq and vq_packed,
+// whatever the order.
+QuantisedCloud quantise_scene(const ActivatedCloud& cloud, const VqConfig& config,
+                              const std::vector<Camera>& weighing, const VqProgress& progress = {});
+
 // Of a scene that was quantised elsewhere. quantised: of this cloud, whose centres, largest scales
 // and order are stored as they are; config's encoding: vq or vq_packed.
 StoredScene store_quantised(ActivatedCloud cloud, const QuantisedCloud& quantised,

@@ -62,6 +62,14 @@ GoldenFrame GscoreDesign::golden(const StoredScene& scene, const FrameJob& job,
   return golden;
 }
 
+std::string GscoreDesign::golden_key() const {
+  const TileOrderConfig of = config_.order();
+  return fmt::format("{} {} {} {} {} {} {}", static_cast<int>(of.rules.reach),
+                     static_cast<int>(of.rules.test), of.rules.subtiles_across,
+                     static_cast<int>(of.features), static_cast<int>(of.keys),
+                     static_cast<int>(of.precision), of.chunk_entries);
+}
+
 std::unique_ptr<Machine> GscoreDesign::build(const sc_core::sc_module_name& name,
                                              const FrameJob& job,
                                              const BuildOptions& options) const {

@@ -1,7 +1,8 @@
 // What exact order needs, must give, and is built from.
 #include "modules/streaminggs/exact_design.h"
 
-#include "algorithm/render/exact_renderer.h"
+#include <fmt/format.h>
+
 #include "algorithm/voxel/chunk_work.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "modules/streaminggs/pipeline_depths.h"
@@ -35,8 +36,7 @@ bool ExactDesign::draws_reference() const {
          config_.merge.on_overflow == OnOverflow::kSpill;
 }
 
-GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
-                                DataSheet& sheet) const {
+ExactOrderConfig ExactDesign::order() const {
   ExactOrderConfig order;
   order.group = config_.group();
   order.coarse_filter = config_.hfu.coarse_filter;
@@ -44,6 +44,21 @@ GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.on_overflow = config_.merge.on_overflow;
   order.walk_room = config_.vsu.walk_room();
   order.precision = config_.rendering.precision;
+  return order;
+}
+
+// The reference picture blends what it blends however it is streamed.
+std::string ExactDesign::golden_key() const {
+  if (draws_reference()) return "reference";
+  const ExactOrderConfig of = order();
+  return fmt::format("{}x{} {} {} {} {}/{} {}", of.group.width, of.group.height, of.coarse_filter,
+                     of.merge_entries, static_cast<int>(of.on_overflow), of.walk_room.nodes,
+                     of.walk_room.chunks, static_cast<int>(of.precision));
+}
+
+GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
+                                DataSheet& sheet) const {
+  ExactOrderConfig order = this->order();
   order.background = job.background;
   StreamingResult result = render_exact_order(job.view, scene.decoded, scene.tree(), order);
   publish_left_out(config_, scene, sheet);

@@ -1,6 +1,7 @@
 // The design of the machine of exact order.
 #pragma once
 
+#include "algorithm/render/exact_renderer.h"
 #include "modules/machine_design.h"
 #include "modules/streaminggs/exact_config.h"
 #include "modules/streaminggs/streaming_sram.h"
@@ -20,12 +21,15 @@ class ExactDesign : public MachineDesign {
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                      DataSheet& sheet) const override;
+  std::string golden_key() const override;
   bool draws_reference() const override;
   PixelSize group() const override { return config_.group(); }
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                  const BuildOptions& options) const override;
 
  private:
+  ExactOrderConfig order() const;
+
   ExactConfig config_;
   std::vector<PixelSize> frames_;
   StorageConfig storage_;  // of the scenes that it is built for

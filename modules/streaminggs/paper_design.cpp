@@ -73,6 +73,14 @@ std::optional<PaperOrderConfig> PaperDesign::paper_order() const {
   return order;
 }
 
+std::string PaperDesign::golden_key() const {
+  const PaperOrderConfig of = *paper_order();
+  return fmt::format("{}x{} {} {}/{}/{} {} {} {} {}", of.group.width, of.group.height,
+                     of.coarse_filter, of.rays.step_px, of.rays.sample_step_voxels,
+                     of.rays.side_by_side, of.table_bytes, of.visit_gaussians, of.parts,
+                     static_cast<int>(of.precision));
+}
+
 GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
                                 DataSheet& sheet) const {
   PaperOrderConfig order = *paper_order();

@@ -22,6 +22,7 @@ class PaperDesign : public MachineDesign {
   FrameJob job(const StoredScene& scene, const Camera& camera) const override;
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                      DataSheet& sheet) const override;
+  std::string golden_key() const override;
   std::optional<PaperOrderConfig> paper_order() const override;
   PixelSize group() const override { return config_.group(); }
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,

@@ -123,6 +123,10 @@ void CommandLine::texts(const char* name, std::vector<std::string>& values, cons
   app_->add(name, values, what)->allow_extra_args(false);
 }
 
+void CommandLine::list(const char* name, std::vector<std::string>& values, const char* what) {
+  app_->add(name, values, what);
+}
+
 void CommandLine::numbers(const char* name, std::vector<int>& values, const char* what) {
   app_->add(name, values, what)->delimiter(',')->allow_extra_args(false);
 }

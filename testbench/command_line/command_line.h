@@ -41,6 +41,8 @@ class CommandLine {
   void real(const char* name, double& value, double lo, double hi, const char* what);
   // May be repeated, one text each.
   void texts(const char* name, std::vector<std::string>& values, const char* what);
+  // Positional, any number of them.
+  void list(const char* name, std::vector<std::string>& values, const char* what);
   // Numbers with commas between them.
   void numbers(const char* name, std::vector<int>& values, const char* what);
 

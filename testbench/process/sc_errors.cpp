@@ -4,7 +4,7 @@
 #include <string>
 #include <systemc>
 
-#include "testbench/process/in_child.h"
+#include "testbench/process/child_process.h"
 
 namespace sgs {
 namespace {

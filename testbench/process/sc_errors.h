@@ -1,11 +1,11 @@
-// What SystemC reports as an error, in a child of in_child().
+// What SystemC reports as an error, in a child process.
 #pragma once
 
 namespace sgs {
 
-// From now on an error ends the child where it is, and in_child() throws what it says. Thrown
-// through the stack of a SystemC process it would upset AddressSanitizer, and there is nothing to
-// unwind for.
+// From now on an error ends the child where it is, and who asks for its result is told what it
+// says. Thrown through the stack of a SystemC process it would upset AddressSanitizer, and there is
+// nothing to unwind for.
 void fail_child_on_sc_error();
 
 }  // namespace sgs

@@ -18,6 +18,7 @@ using Kinds = std::vector<MachineKind>;
 SubCommand add_render_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_what_if_command(CommandLine& line, const Kinds& kinds);
+SubCommand add_sweep_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_compare_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_pack_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_train_command(CommandLine& line, const Kinds& kinds);

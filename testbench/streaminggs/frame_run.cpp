@@ -76,7 +76,20 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   return result;
 }
 
+double seconds_since(std::chrono::steady_clock::time_point began) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
 }  // namespace
+
+FrameResult simulate_frame(const MachineDesign& design, const FrameJob& job,
+                           const MemoryImage& image, const DramConfig& dram,
+                           const BuildOptions& build) {
+  const auto began = std::chrono::steady_clock::now();
+  FrameResult result = simulate(design, job, image, dram, build, {});
+  result.wall_s = seconds_since(began);
+  return result;
+}
 
 FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
                       const DramConfig& dram, const RunOptions& options) {
@@ -90,7 +103,7 @@ FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const Me
       in_child([&] { return to_wire(simulate(design, job, image, dram, options.build, outputs)); });
   files.commit();
   FrameResult result = from_wire(bytes);
-  result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  result.wall_s = seconds_since(began);
   return result;
 }
 

@@ -22,4 +22,10 @@ struct RunOptions {
 FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
                       const DramConfig& dram, const RunOptions& options);
 
+// The same in this process, which can do so once, and without files. For a child of its own kind
+// (testbench/process/child_process.h): an error of SystemC ends it.
+FrameResult simulate_frame(const MachineDesign& design, const FrameJob& job,
+                           const MemoryImage& image, const DramConfig& dram,
+                           const BuildOptions& build);
+
 }  // namespace sgs

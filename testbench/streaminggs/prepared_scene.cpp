@@ -1,11 +1,14 @@
 // Storing of a scene, or restoring of a packed one.
 #include "testbench/streaminggs/prepared_scene.h"
 
+#include <utility>
+
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/restore_scene.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/store_scene.h"
 #include "testbench/streaminggs/progress.h"
+#include "testbench/streaminggs/provenance.h"
 
 namespace sgs {
 namespace {
@@ -25,24 +28,54 @@ void adapt(RunConfig& config, const PackedScene& packed) {
   adapt(config, packed.image.layout.second_half);
 }
 
-PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>& weighing) {
-  ActivatedCloud cloud = activate(scene.cloud);
-  choose_storage(cloud, config);
-  const ProgressLine progress;
-  PreparedScene prepared{std::move(scene.name), scene.dropped_invalid, {}};
+void adapt(RunConfig& config, const PreparedScene& scene) {
+  config.storage = scene.stored.storage;
+  config.add_choices(scene.choices);
+  adapt(config, scene.stored.image.layout.second_half);
+}
+
+PreparedScene store(std::string name, std::uint64_t dropped_invalid, ActivatedCloud cloud,
+                    const RunConfig& config, const Quantise& quantise) {
+  PreparedScene out{std::move(name), dropped_invalid, {}};
+  StorageConfig storage = config.storage;
+  const StorageScheme& scheme = scheme_of(storage.order);
+  out.choices = scheme.choose(storage, cloud);
   naming_origins(config, [&] {
-    prepared.stored =
-        store_scene(std::move(cloud), config.storage, weighing, progress.of_quantisation());
+    scheme.check(storage);  // before the work
+    if (SecondHalfFormat{storage.encoding, 0, {}}.quantised()) {
+      const QuantisedCloud quantised = quantise(cloud, storage.vq);
+      out.stored = store_quantised(std::move(cloud), quantised, storage);
+    } else {
+      out.stored = store_scene(std::move(cloud), storage, {});
+    }
   });
-  adapt(config, prepared.stored.image.layout.second_half);
+  out.image_hash = fnv1a64(out.stored.image.bytes);
+  return out;
+}
+
+PreparedScene restore(PackedScene packed, const std::string& path) {
+  PreparedScene prepared{packed.facts.name, packed.facts.dropped_invalid, {}};
+  prepared.stored = restore_scene(std::move(packed), path);
+  prepared.image_hash = fnv1a64(prepared.stored.image.bytes);
+  return prepared;
+}
+
+PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>& weighing) {
+  const ProgressLine progress;
+  const Quantise quantise = [&](const ActivatedCloud& cloud, const VqConfig& vq) {
+    return quantise_scene(cloud, vq, weighing, progress.of_quantisation());
+  };
+  ActivatedCloud cloud = activate(scene.cloud);
+  scene.cloud = {};
+  PreparedScene prepared =
+      store(std::move(scene.name), scene.dropped_invalid, std::move(cloud), config, quantise);
+  adapt(config, prepared);
   return prepared;
 }
 
 PreparedScene prepare(PackedScene packed, const std::string& path, RunConfig& config) {
   adapt(config, packed);
-  PreparedScene prepared{packed.facts.name, packed.facts.dropped_invalid, {}};
-  prepared.stored = restore_scene(std::move(packed), path);
-  return prepared;
+  return restore(std::move(packed), path);
 }
 
 }  // namespace sgs

@@ -25,6 +25,10 @@ ProgressLine::~ProgressLine() {
   if (terminal_) rewrite("");
 }
 
+void ProgressLine::say(const std::string& line) const {
+  if (terminal_) rewrite(line);
+}
+
 VqProgress ProgressLine::of_quantisation() const {
   if (!terminal_) return {};
   return [](Codebook codebook, std::uint32_t iteration, double error) {

@@ -1,11 +1,13 @@
 // Progress of long work, on a terminal only.
 #pragma once
 
+#include <string>
+
 #include "algorithm/vq/quantise.h"
 
 namespace sgs {
 
-// A line of stderr, rewritten after each iteration and wiped when the work is done; nothing where
+// A line of stderr, rewritten with each news and wiped when the work is done; nothing where
 // stderr is no terminal.
 class ProgressLine {
  public:
@@ -13,6 +15,9 @@ class ProgressLine {
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void say(const std::string& line) const;
+  bool on_terminal() const { return terminal_; }
 
   // For the time of this object.
   VqProgress of_quantisation() const;

@@ -75,6 +75,10 @@ std::vector<int> chosen_numbers(const std::string& view, int count) {
 void SceneArguments::add_scene_to(CommandLine& line, const char* forms) {
   scene_forms = forms;
   line.text("SCENE", scene, forms, Given::kAlways);
+  add_dropping_to(line);
+}
+
+void SceneArguments::add_dropping_to(CommandLine& line) {
   line.flag(
       "--drop-invalid", drop_invalid,
       "leave out Gaussians with values that are not finite or too large to be drawn, and count "
@@ -83,6 +87,10 @@ void SceneArguments::add_scene_to(CommandLine& line, const char* forms) {
 
 void SceneArguments::add_views_to(CommandLine& line) {
   line.file("--cameras", cameras_path, "cameras.json; built-in scenes bring their own");
+  add_choice_of_views_to(line);
+}
+
+void SceneArguments::add_choice_of_views_to(CommandLine& line) {
   line.text("--view", view, "numbers of cameras, as in 0,2, or all");
   line.text("--size", size, "WIDTHxHEIGHT in px; scales the intrinsics");
 }
@@ -107,18 +115,23 @@ void SceneArguments::add_inputs_to(OutputPlan& plan) const {
   plan.add_input(cameras_path);
 }
 
-Scene SceneArguments::load() const {
+void SceneArguments::check_file() const {
   std::error_code unknown;
-  if (!is_builtin_scene(scene) && !std::filesystem::exists(scene, unknown)) {
+  if (is_builtin_scene(scene)) return;
+  if (!std::filesystem::exists(scene, unknown)) {
     throw InputError(fmt::format("{}: no such file, expected {}", scene, scene_forms));
   }
   if (std::filesystem::is_directory(scene, unknown)) {
     throw InputError(fmt::format("{}: got a folder, expected {}", scene, scene_forms));
   }
-  if (!is_builtin_scene(scene) && !is_scene_file(scene)) {
+  if (!is_scene_file(scene)) {
     throw InputError(fmt::format("{}: got the extension \"{}\", expected {}", scene,
                                  std::filesystem::path(scene).extension().string(), scene_forms));
   }
+}
+
+Scene SceneArguments::load() const {
+  check_file();
   Scene loaded = while_doing("reading " + scene, [&] { return open_scene(scene, {drop_invalid}); });
   if (loaded.dropped_invalid > 0 && loaded.cloud.size() == 0) {
     throw InputError(
@@ -148,20 +161,21 @@ std::vector<Camera> SceneArguments::all_cameras(const std::vector<Camera>& own) 
   return cameras;
 }
 
-std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Camera>& own) const {
+ChosenCameras SceneArguments::chosen_cameras(const std::vector<Camera>& own) const {
   const std::vector<Camera> all = all_cameras(own);
   if (all.empty()) {
     throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
   }
-  std::vector<std::pair<int, Camera>> chosen;
-  std::string stretch;
+  ChosenCameras chosen;
   for (const int number : chosen_numbers(view, static_cast<int>(all.size()))) {
-    chosen.emplace_back(number, all[static_cast<std::size_t>(number)]);
+    chosen.views.emplace_back(number, all[static_cast<std::size_t>(number)]);
   }
-  for (auto& [index, camera] : chosen) {
+  for (auto& [index, camera] : chosen.views) {
     if (!size.empty()) {
       const auto [width, height] = parse_size(size);
-      if (stretch.empty()) stretch = stretch_of(size, index, camera, {width, height});
+      if (chosen.stretch.empty()) {
+        chosen.stretch = stretch_of(size, index, camera, {width, height});
+      }
       camera = scaled_to(camera, width, height);
     }
     if (camera.width > kMaxSizePx || camera.height > kMaxSizePx) {
@@ -169,8 +183,13 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Ca
                                    camera.height, kMaxSizePx));
     }
   }
-  if (!stretch.empty()) fmt::print("{}\n", stretch);
   return chosen;
+}
+
+std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Camera>& own) const {
+  ChosenCameras chosen = chosen_cameras(own);
+  if (!chosen.stretch.empty()) fmt::print("{}\n", chosen.stretch);
+  return std::move(chosen.views);
 }
 
 std::vector<PixelSize> SceneArguments::frame_sizes() const {

@@ -19,6 +19,13 @@ constexpr const char* kSceneForms =
     "a .ply file, builtin:NAME?n=COUNT, or a .sgs file made by pack";
 constexpr const char* kUnpackedSceneForms = "a .ply file or builtin:NAME?n=COUNT";
 
+// Cameras with their numbers, and a line that says what their size does to the shape of the picture
+// where that is another than theirs.
+struct ChosenCameras {
+  std::vector<std::pair<int, Camera>> views;
+  std::string stretch;
+};
+
 struct SceneArguments {
   std::string scene;
   const char* scene_forms = kSceneForms;
@@ -31,6 +38,9 @@ struct SceneArguments {
   // forms: what SCENE may be.
   void add_scene_to(CommandLine& line, const char* forms = kSceneForms);
   void add_views_to(CommandLine& line);
+  // What of these two holds for several scenes.
+  void add_dropping_to(CommandLine& line);
+  void add_choice_of_views_to(CommandLine& line);
 
   void add_weighing_to(CommandLine& line);
 
@@ -39,14 +49,17 @@ struct SceneArguments {
   // No output may take the place of the scene or the cameras.
   void add_inputs_to(OutputPlan& plan) const;
 
-  // Throws InputError, also when there is no such file, or when --drop-invalid leaves nothing.
+  // Throws InputError when SCENE is neither a built-in one nor a .ply file that is there.
+  void check_file() const;
+  // Throws InputError, also when check_file() does, or when --drop-invalid leaves nothing.
   Scene load() const;
   // The scene where it is a file made by pack, else nothing. Throws InputError, also for arguments
   // that only a scene that is not packed yet can take.
   std::optional<PackedScene> load_packed() const;
-  // Cameras of the chosen views with their numbers, scaled to `size`; a line on the terminal says
-  // so where that changes the shape of the picture. own: those that the scene brings. Throws
+  // Those of the chosen views, scaled to `size`. own: those that the scene brings. Throws
   // InputError.
+  ChosenCameras chosen_cameras(const std::vector<Camera>& own) const;
+  // The same; the line, where there is one, goes to the terminal.
   std::vector<std::pair<int, Camera>> cameras(const std::vector<Camera>& own) const;
   // Sizes of their pictures, before the scene is loaded: none where nothing but the scene says
   // them. Throws InputError.

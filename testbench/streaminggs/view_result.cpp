@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "algorithm/image/quality.h"
 #include "algorithm/input_error.h"
 #include "algorithm/memory/frame_buffer.h"
@@ -10,7 +12,6 @@
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
 #include "testbench/result/collect.h"
-#include "testbench/streaminggs/provenance.h"
 
 namespace sgs {
 namespace {
@@ -37,42 +38,66 @@ void list_left_out(const StoredScene& scene, const MachineResult& machine, DataS
 
 }  // namespace
 
-ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& camera,
-                         const RunConfig& config, const Technology& technology,
-                         const RunOptions& options) {
-  const FrameJob job = config.design->job(scene.stored, camera);
-  check_capacity(job, config.dram);
-  ViewResult view;
-  view.view = number;
-  view.camera = camera;
+ViewJob view_job(const PreparedScene& scene, int view, const Camera& camera,
+                 const RunConfig& config) {
+  ViewJob job{view, camera, config.design->job(scene.stored, camera)};
+  check_capacity(job.frame, config.dram);
+  return job;
+}
+
+ReferencePictures reference_pictures(const PreparedScene& scene, const FrameJob& job) {
   const auto reference_of = [&](const ActivatedCloud& cloud) {
     return render_reference(job.view, cloud, job.background).image;
   };
-  view.decoded_reference = reference_of(scene.stored.decoded);
-  view.reference =
-      scene.stored.original ? reference_of(*scene.stored.original) : view.decoded_reference;
-  view.file_order = file_order_difference(scene, job.view, job.background, view.reference);
-  LeftOutCollector left_out(view.left_out);
-  view.golden = config.design->golden(scene.stored, job, left_out);
+  ReferencePictures out;
+  out.decoded_reference = reference_of(scene.stored.decoded);
+  out.reference =
+      scene.stored.original ? reference_of(*scene.stored.original) : out.decoded_reference;
+  out.file_order = file_order_difference(scene, job.view, job.background, out.reference);
+  return out;
+}
 
-  view.image_hash = fnv1a64(scene.stored.image.bytes);
-  view.run = run_frame(*config.design, job, scene.stored.image, config.dram, options);
-  view.equals_golden = view.run.frame == encode_frame(job.frame_format, view.golden.image);
-  view.frame = decode_frame(job.frame_format, camera.width, camera.height, view.run.frame);
+ViewResult judge_frame(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
+                       GoldenFrame golden, FrameResult run, const Technology& technology) {
+  ViewResult view;
+  static_cast<ReferencePictures&>(view) = std::move(pictures);
+  view.view = job.view;
+  view.camera = job.camera;
+  view.golden = std::move(golden);
+  view.run = std::move(run);
+  view.image_hash = scene.image_hash;
+  const FrameFormat format = job.frame.frame_format;
+  view.equals_golden = view.run.frame == encode_frame(format, view.golden.image);
+  view.frame = decode_frame(format, job.camera.width, job.camera.height, view.run.frame);
   view.psnr_db = psnr_db(view.frame, view.reference);
   view.ssim = ssim(view.frame, view.reference);
   if (is_lossy(view.golden)) {
     view.order_loss = order_loss(scene.stored.original_known() ? &view.reference : nullptr,
                                  view.decoded_reference, view.golden, view.frame);
   }
-  list_left_out(scene.stored, view.run.machine, left_out);
   view.binding = find_binding(view.run);
   if (view.golden.contributing == 0) view.binding = without_advice(view.binding);
   view.energy_j = energy_of(view.run, technology);
   view.area_mm2 = area_of(view.run, technology);
   view.sram_model = technology.sram;
   const SceneLayout& layout = scene.stored.image.layout;
-  view.once_bytes = view.golden.contributing * layout.record_bytes() + job.frame_buffer.bytes;
+  view.once_bytes = view.golden.contributing * layout.record_bytes() + job.frame.frame_buffer.bytes;
+  return view;
+}
+
+ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& camera,
+                         const RunConfig& config, const Technology& technology,
+                         const RunOptions& options) {
+  const ViewJob job = view_job(scene, number, camera, config);
+  ReferencePictures pictures = reference_pictures(scene, job.frame);
+  std::vector<LeftOut> entries;
+  LeftOutCollector left_out(entries);
+  GoldenFrame golden = config.design->golden(scene.stored, job.frame, left_out);
+  FrameResult run = run_frame(*config.design, job.frame, scene.stored.image, config.dram, options);
+  list_left_out(scene.stored, run.machine, left_out);
+  ViewResult view =
+      judge_frame(scene, job, std::move(pictures), std::move(golden), std::move(run), technology);
+  view.left_out = std::move(entries);
   return view;
 }
 

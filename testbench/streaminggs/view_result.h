@@ -20,16 +20,33 @@
 
 namespace sgs {
 
-struct ViewResult {
-  int view = 0;             // index of the camera
-  Camera camera;            // as the frame has it: in its size
-  Image frame;              // as read back from the modelled DRAM
-  Image reference;          // of the scene as given, in storage order
-  Image decoded_reference;  // of the scene as encoded
+// A view of a scene, as a machine is to draw it.
+struct ViewJob {
+  int view = 0;   // index of the camera
+  Camera camera;  // as the frame has it: in its size
+  FrameJob frame;
+};
+
+// Throws InputError when scene and frame do not fit the memory.
+ViewJob view_job(const PreparedScene& scene, int view, const Camera& camera,
+                 const RunConfig& config);
+
+// What is drawn of a view by the scene, the camera and the background, whatever machine it is for.
+struct ReferencePictures {
+  Image reference;                                // of the scene as given, in storage order
+  Image decoded_reference;                        // of the scene as encoded
+  std::optional<FileOrderDifference> file_order;  // of `reference`; none where it is not known
+};
+
+ReferencePictures reference_pictures(const PreparedScene& scene, const FrameJob& job);
+
+struct ViewResult : ReferencePictures {
+  int view = 0;   // index of the camera
+  Camera camera;  // as the frame has it: in its size
+  Image frame;    // as read back from the modelled DRAM
   GoldenFrame golden;
   bool equals_golden = false;    // bytes of the frame buffer against the golden renderer's
   double psnr_db = 0, ssim = 0;  // of the frame against `reference`; infinite where they are equal
-  std::optional<FileOrderDifference> file_order;  // of `reference`; none where it is not known
   std::optional<OrderLoss> order_loss;  // where splats were missed or blended out of order
   FrameResult run;
   std::vector<LeftOut> left_out;
@@ -43,6 +60,10 @@ struct ViewResult {
   }
   double mean_power_w() const { return run.cycles > 0 ? energy_j.total.middle / run.time_s() : 0; }
 };
+
+// What follows from a frame that was simulated, all but `left_out`.
+ViewResult judge_frame(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
+                       GoldenFrame golden, FrameResult run, const Technology& technology);
 
 // Simulates one view and judges it: golden picture, costs, binding unit. Throws InputError when
 // scene and frame do not fit the memory, std::runtime_error when the simulation fails.

@@ -201,6 +201,40 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
             2,
             {"t.json: name: got none"},
             "echo '{}' >t.json"},
+           {"$SG sweep $B --axis hfus=2", 2, {"--out"}},
+           {"$SG sweep $B --out r", 2, {"--axis, --points: got both or neither"}},
+           {"$SG sweep $B --out r --axis hfus=2 --points p",
+            2,
+            {"--axis, --points: got both or neither"},
+            "echo hfus=2 >p"},
+           {"$SG sweep $B --out r --axis hfus", 2, {"--axis: got 'hfus', expected KEY=VALUE,"}},
+           {"$SG sweep $B --out r --axis hfus=2,", 2, {"--axis: got 'hfus=2,', expected KEY="}},
+           {"$SG sweep $B --out r --axis hfus=2,2", 2, {"expected different values"}},
+           {"$SG sweep $B --out r --axis hfus=2 --axis hfus=4", 2, {"--axis: got hfus twice"}},
+           {"$SG sweep $B --out r --points nofile", 2, {"nofile"}},
+           {"$SG sweep $B --out r --points p", 2, {"p: holds no points"}, "echo '# none' >p"},
+           {"$SG sweep $B --out r --points p",
+            2,
+            {"p:2: got 'hfus', expected"},
+            "printf '\nhfus' >p"},
+           {"$SG sweep $B --out r --points p",
+            2,
+            {"p:1: seed: unknown key, expected id, scene"},
+            "echo '{\"seed\": 1}' >p"},
+           {"$SG sweep $B --out r --points p", 2, {"p:1: byte", "not JSON"}, "echo '{\"set\"' >p"},
+           {"$SG sweep --out r --axis hfus=2", 2, {"SCENE: got none, expected a .ply"}},
+           {"$SG sweep nofile.ply --out r --axis hfus=2", 2, {"nofile.ply: no such file"}},
+           {"$SG sweep $B --out r --axis hfus=2 --view 9", 2, {"--view", "'9'"}},
+           {"$SG sweep $S --out r --axis hfus=2 --size 3", 2, {"--size: got '3'"}},
+           {"$SG sweep $B --out r --axis hfus=2 -j 0", 2, {"-j", "'0'"}},
+           {"$SG sweep $B $S --out r --axis hfus=2 --cameras a --cameras b --cameras c",
+            2,
+            {"--cameras: got 3 files for 2 scenes"}},
+           {"$SG sweep $B --out r --axis hfus=2 --config foo", 2, {"--config foo", "exact_vq"}},
+           {"$SG sweep $B --out d --axis hfus=2", 2, {"d"}, "mkdir d"},
+           {"$SG sweep $B --out p --axis hfus=2", 2, {"p"}, "mkfifo p"},
+           {"$SG sweep $B --out r --csv r --axis hfus=2", 2, {"r"}},
+           {"$SG sweep $B --out p --points p", 2, {"p"}, "echo hfus=2 >p"},
            {"$TB --table --set dram.channels=2", 2, {"--config, --set: got them with --table"}},
            {"$TB --check t --config exact", 2, {"--config, --set: got them with --check"}},
            {"$SG simulate $B --out o --cameras ''", 2, {"--cameras", "got nothing"}},
@@ -228,8 +262,14 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
 }
 
 TEST_CASE("bad input: messages are short, clean and begin with the program") {
-  check({"$SG", 2, {"got no command", "simulate, what-if, pack, train, tune, render, compare, photographs, gpu, info, describe"}});
-  check({"$SG simulat $S", 2, {"'simulat': no such command", "simulate, what-if, pack, train, tune, render"}});
+  check({"$SG",
+         2,
+         {"got no command",
+          "simulate, what-if, sweep, pack, train, tune, render, compare, photographs, gpu, info, "
+          "describe"}});
+  check({"$SG simulat $S",
+         2,
+         {"'simulat': no such command", "simulate, what-if, sweep, pack, train, tune, render"}});
   check({"$SG '' --help", 2, {"'': no such command"}});
   check({"$SG simulate", 2, {"SCENE"}});
   check({"$SG simulate $B --no-such-option", 2, {"--no-such-option"}});

@@ -1,4 +1,5 @@
-// in_child.h: what comes back, why a child failed, and that it is forked from one thread.
+// in_child.h, child_process.h: what comes back, why a child failed, and that it is forked from one
+// thread.
 #include "testbench/process/in_child.h"
 
 #include <tbb/parallel_for.h>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "algorithm/input_error.h"
+#include "testbench/process/child_process.h"
 
 namespace sgs {
 namespace {
@@ -65,6 +67,37 @@ TEST_CASE("in child: no other thread stands at the fork") {
     if (std::thread::hardware_concurrency() > 1) CHECK(before > 1);
     CHECK(threads() == 1);
   }
+}
+
+TEST_CASE("child process: several work at a time, and one that is not wanted is ended") {
+  const auto began = std::chrono::steady_clock::now();
+  {
+    const ChildProcess endless([]() -> std::string {
+      while (true) std::this_thread::sleep_for(std::chrono::seconds(1));
+    });
+    ChildProcess long_answer([] { return std::string(3'000'000, 'x'); });
+    ChildProcess refused([]() -> std::string { throw InputError("no"); });
+    CHECK_THROWS_AS(refused.result(), InputError);
+    CHECK(long_answer.result().size() == 3'000'000);
+  }
+  CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(30));
+}
+
+TEST_CASE("child process: it ends with the one that started it") {
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  in_child([&]() -> std::string {
+    ::close(ends[0]);
+    // Left behind: the grandchild has the other end of the pipe as long as it lives.
+    new ChildProcess([]() -> std::string {
+      while (true) std::this_thread::sleep_for(std::chrono::seconds(1));
+    });
+    return "";
+  });
+  ::close(ends[1]);
+  char byte = 0;
+  CHECK(::read(ends[0], &byte, 1) == 0);
+  ::close(ends[0]);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// A forked process that works and answers once, beside the one that started it.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace sgs {
+
+// What went wrong with a child, and not with what it was asked for.
+class ChildFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class ChildProcess {
+ public:
+  // Runs work() in a forked child. Whatever ends this process ends the child. Throws
+  // std::runtime_error when no process can be had.
+  explicit ChildProcess(const std::function<std::string()>& work);
+  // Ends it, finished or not.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // Readable, for poll(), when receive() has something to do.
+  int descriptor() const { return from_; }
+
+  // Takes what has come of the answer, and waits where nothing has. Whether no more can come.
+  bool receive();
+
+  // What work() returned, once it has. Throws the InputError that the child threw, in one line, and
+  // ChildFailure when it failed: with what() of the std::exception it threw, with what it
+  // gave to fail_child(), or with the signal or exit status that ended it, in one line. Once.
+  std::string result();
+
+ private:
+  int wait_for_end();
+
+  pid_t process_ = -1;
+  int from_ = -1;  // this end of the pipe
+  std::string received_;
+};
+
+// For a child that cannot throw where it stands: ends it at once, and result() throws `why`.
+[[noreturn]] void fail_child(const std::string& why);
+
+}  // namespace sgs

@@ -1,0 +1,224 @@
+// streaminggs sweep SCENE... --out RESULTS.jsonl
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "algorithm/data_files.h"
+#include "algorithm/input_error.h"
+#include "algorithm/output_file.h"
+#include "algorithm/output_plan.h"
+#include "testbench/command_line/config_source.h"
+#include "testbench/command_line/guard.h"
+#include "testbench/command_line/interrupt.h"
+#include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/numbers.h"
+#include "testbench/streaminggs/point_stream.h"
+#include "testbench/streaminggs/provenance.h"
+#include "testbench/streaminggs/sweep.h"
+#include "testbench/streaminggs/sweep_points.h"
+#include "testbench/streaminggs/sweep_progress.h"
+#include "testbench/streaminggs/sweep_results.h"
+#include "testbench/streaminggs/sweep_simulations.h"
+#include "testbench/streaminggs/sweep_table.h"
+#include "testbench/streaminggs/sweep_task.h"
+
+namespace sgs {
+namespace {
+
+constexpr const char* kStandardInput = "-";
+constexpr std::uint32_t kMostSideBySide = 1024;
+
+struct SweepArguments {
+  std::vector<std::string> scenes, cameras;
+  SceneArguments all;  // what holds for all of them
+  ConfigSource config;
+  std::vector<std::string> axes;
+  std::string points, out, csv;
+  std::string technology = data_file("technology_32nm.json");
+  std::uint32_t side_by_side = std::max(1U, std::thread::hardware_concurrency());
+  std::string command;
+
+  bool streaming() const { return points == kStandardInput; }
+};
+
+std::vector<SceneArguments> scenes_of(const SweepArguments& arguments) {
+  const std::size_t files = arguments.cameras.size();
+  if (files > 1 && files != arguments.scenes.size()) {
+    throw InputError(
+        fmt::format("--cameras: got {} files for {} scenes, expected one for all or one for each "
+                    "in their order",
+                    files, arguments.scenes.size()));
+  }
+  std::vector<SceneArguments> scenes;
+  for (const std::string& scene : arguments.scenes) {
+    SceneArguments& one = scenes.emplace_back(arguments.all);
+    one.scene = scene;
+    if (files > 0) one.cameras_path = arguments.cameras[files == 1 ? 0 : scenes.size() - 1];
+  }
+  return scenes;
+}
+
+std::vector<SweepPoint> points_of(const SweepArguments& arguments) {
+  if (arguments.points.empty() == arguments.axes.empty()) {
+    throw InputError("--axis, --points: got both or neither, expected a grid or a list of points");
+  }
+  if (!arguments.axes.empty()) return grid_of(arguments.axes);
+  if (arguments.streaming()) return {};
+  return read_points(arguments.points);
+}
+
+void check_places(const SweepArguments& arguments, const std::vector<SceneArguments>& scenes) {
+  OutputPlan plan;
+  for (const SceneArguments& scene : scenes) scene.add_inputs_to(plan);
+  plan.add_input(arguments.config.path());
+  plan.add_input(arguments.technology);
+  if (!arguments.streaming()) plan.add_input(arguments.points);
+  plan.add_output(arguments.out);
+  if (!arguments.csv.empty()) plan.add_output(arguments.csv);
+  plan.check();
+}
+
+struct Stopped {};  // thrown out of the making of codebooks
+
+// Whatever has a result of what was asked for, in the order in which that was.
+class Asked {
+ public:
+  void add(const std::vector<SweepTask>& tasks) {
+    for (const SweepTask& task : tasks) asked_.emplace_back(task.key, task.words);
+  }
+  void write_table(const SweepResults& results, const std::string& path) const {
+    SweepTable table;
+    for (const auto& [key, words] : asked_) {
+      if (results.find(key) != nullptr) table.add(answer_of(results.line(key), "", words, true));
+    }
+    const std::string text = table.csv();
+    write_whole_file(path, text.data(), text.size());
+  }
+
+ private:
+  std::vector<std::pair<std::string, PointInWords>> asked_;
+};
+
+void print_end(const SweepCounts& counts, const std::string& first_refusal,
+               const std::string& out) {
+  if (counts.refused > 0) {
+    fmt::print("the first of {} refused: {}\n", grouped(counts.refused), first_refusal);
+  }
+  fmt::print(
+      "{} of {} simulations: {} done, {} refused, {} failed; {} of them by an earlier sweep\n",
+      grouped(counts.answered()), grouped(counts.asked), grouped(counts.done),
+      grouped(counts.refused), grouped(counts.failed), grouped(counts.kept));
+  fmt::print("results in {}\n", out);
+}
+
+int run(const SweepArguments& arguments, const Kinds& kinds) {
+  const auto began = std::chrono::steady_clock::now();
+  std::vector<SweepPoint> points = points_of(arguments);
+  SweepDefaults defaults{arguments.all,      scenes_of(arguments),
+                         arguments.all.view, arguments.all.size,
+                         arguments.config,   fnv1a64_of_file(arguments.technology)};
+  if (defaults.scenes.empty() && !arguments.axes.empty()) {
+    throw InputError(fmt::format("SCENE: got none, expected {}", kSceneForms));
+  }
+  Technology technology = load_technology(arguments.technology);
+  check_places(arguments, defaults.scenes);
+  const RunFacts facts{technology.name,          arguments.technology,
+                       defaults.technology_hash, BuildOptions{}.stalls.seed,
+                       arguments.command,        began};
+  SweepPlan plan(std::move(defaults), kinds);
+  for (const std::string& note : plan.check_scenes()) {
+    if (!arguments.streaming()) fmt::print("{}\n", note);
+  }
+
+  const Interrupt interrupt;
+  SweepProgress progress;
+  SweepResults results(arguments.out);
+  SweepSimulations simulations(plan, std::move(technology), facts,
+                               [&](Codebook codebook, std::uint32_t iteration, double error) {
+                                 if (interrupt.wished()) throw Stopped();
+                                 progress.say(codebook, iteration, error);
+                               });
+  Sweep sweep(simulations, results, arguments.side_by_side);
+  Asked asked;
+  std::string first_refusal;
+  const auto planned = [&](const SweepPoint& point) {
+    std::vector<SweepTask> tasks = plan.tasks_of(point);
+    if (!arguments.csv.empty()) asked.add(tasks);
+    return tasks;
+  };
+  sweep.stop = [&] { return interrupt.wished(); };
+  sweep.progress = [&](const SweepCounts& counts) { progress.say(counts); };
+  sweep.answer = [&](const SweepAnswer& answer) {
+    if (arguments.streaming()) {
+      const SweepTask& task = answer.task;
+      fmt::print("{}\n", answer_of(answer.line, task.id, task.words, answer.kept));
+      std::fflush(stdout);
+    } else if (answer.status == kPointFailed) {
+      fmt::print("{}\n", in_short(answer.line));
+    } else if (answer.status == kPointRefused && first_refusal.empty()) {
+      first_refusal = in_short(answer.line);
+    }
+  };
+  bool complete = false;
+  try {
+    std::vector<SweepTask> tasks;
+    for (const SweepPoint& point : points) {
+      for (SweepTask& task : planned(point)) tasks.push_back(std::move(task));
+    }
+    sweep.add(std::move(tasks));
+    std::optional<PointStream> stream;
+    if (arguments.streaming()) stream.emplace(STDIN_FILENO);
+    complete = sweep.run(stream ? &*stream : nullptr, planned);
+  } catch (const Stopped&) {
+  }
+  progress.end();
+  if (!arguments.csv.empty()) asked.write_table(results, arguments.csv);
+  if (arguments.streaming()) return complete ? kDone : kInterrupted;
+  const SweepCounts& counts = sweep.counts();
+  if (counts.refused == counts.asked) {
+    throw InputError(fmt::format("all of {} refused; the first: {}", counts.asked, first_refusal));
+  }
+  print_end(counts, first_refusal, arguments.out);
+  if (!complete) return kInterrupted;
+  return counts.failed > 0 ? kFailed : kDone;
+}
+
+}  // namespace
+
+SubCommand add_sweep_command(CommandLine& line, const Kinds& kinds) {
+  auto arguments = std::make_shared<SweepArguments>();
+  line.list("SCENE", arguments->scenes, kSceneForms);
+  line.texts("--axis", arguments->axes, "KEY=V1,V2,...; a grid of all of them; may be repeated");
+  line.file("--points", arguments->points,
+            "in place of a grid a file with a point a line, KEY=VALUE ... or a JSON object, or - "
+            "for standard input: each answered there as soon as it is simulated");
+  line.file("--out", arguments->out,
+            "results, a JSON object a line; what it holds is not simulated again", Given::kAlways);
+  line.file("--csv", arguments->csv, "write those of this sweep's points as a table, too");
+  line.whole("-j,--jobs", arguments->side_by_side, 1, kMostSideBySide,
+             "simulations side by side; all cores if not given");
+  arguments->config.config = kinds.front().name;
+  arguments->config.add_to(line);
+  line.texts("--cameras", arguments->cameras,
+             "cameras.json, for all scenes or one for each in their order; built-in scenes bring "
+             "their own; may be repeated");
+  arguments->all.add_choice_of_views_to(line);
+  arguments->all.add_weighing_to(line);
+  arguments->all.add_dropping_to(line);
+  line.file("--technology", arguments->technology, "table of energy and area");
+  return [arguments, &kinds] {
+    arguments->command = command_line();
+    return run(*arguments, kinds);
+  };
+}
+
+}  // namespace sgs

@@ -1,0 +1,34 @@
+// What a sweep is to simulate, as its user says it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sgs {
+
+// A configuration, and what it differs in from the sweep's command line: an empty text stands for
+// what was said there.
+struct SweepPoint {
+  std::string id;                          // JSON; what its answer is to be known by
+  std::string scene, cameras, view, size;  // as the options of these names
+  std::string config;                      // a preset or a file
+  std::vector<std::string> overrides;      // "key.path=value", over those of the command line
+  std::string refused;                     // why this is no point at all
+};
+
+// All combinations of axes "KEY=V1,V2,...", the last axis changing fastest. Throws InputError.
+std::vector<SweepPoint> grid_of(const std::vector<std::string>& axes);
+
+// A line: "KEY=VALUE KEY=VALUE ...", or a JSON object of
+//   "set"     {"key.path": value, ...}
+//   "id", "scene", "cameras", "view" (a number or text), "size", "config"
+// each of which may be left out. place: of the line, for messages. Throws InputError.
+SweepPoint parse_point(const std::string& line, const std::string& place);
+
+// What of a line of a list says something: all before a '#', without blanks around it; of JSON all.
+std::string content_of(const std::string& line);
+
+// The lines of a file that have content. Throws InputError, also where none has.
+std::vector<SweepPoint> read_points(const std::string& path);
+
+}  // namespace sgs

@@ -1,0 +1,44 @@
+// Simulations of a sweep's tasks: each in a child of its own, which shares what its neighbours need
+// as well.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "algorithm/vq/quantise.h"
+#include "testbench/cost/technology.h"
+#include "testbench/process/child_process.h"
+#include "testbench/streaminggs/recently_used.h"
+#include "testbench/streaminggs/run_report.h"
+#include "testbench/streaminggs/sweep_task.h"
+#include "testbench/streaminggs/view_result.h"
+
+namespace sgs {
+
+// What they take of memory.
+std::uint64_t size_bytes(const ReferencePictures& pictures);
+std::uint64_t size_bytes(const GoldenFrame& golden);
+
+class SweepSimulations {
+ public:
+  // progress: of codebooks that are made; what it throws, start() does.
+  SweepSimulations(const SweepPlan& plan, Technology technology, RunFacts facts,
+                   VqProgress progress);
+
+  // Stores the scene and draws its pictures, where that was not done yet, and starts the simulation
+  // of a task that is not refused. Its result is the line of sweep_record.h. Throws InputError when
+  // the task is refused, as result() may.
+  std::unique_ptr<ChildProcess> start(const SweepTask& task);
+
+ private:
+  const SweepPlan& plan_;
+  const Technology technology_;
+  const RunFacts facts_;
+  const VqProgress progress_;
+  RecentlyUsed<PreparedScene> scenes_;
+  RecentlyUsed<ReferencePictures> references_;
+  RecentlyUsed<GoldenFrame> golden_;
+};
+
+}  // namespace sgs
