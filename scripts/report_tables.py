@@ -1,0 +1,179 @@
+"""Tables of several runs on the report page: sortable, with a diagram of any two of their columns."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+import report_charts as charts
+from report_charts import escaped, number
+from report_folder import Run, Table, ViewFiles
+from report_view import KINDS_OF_ENERGY, WAYS, kinds_of_energy, quality, ways_of_bytes
+
+MOST_ROWS = 2000  # of a table that are shown
+MOST_BARS = 40  # views whose energy and traffic are drawn
+# Columns that are drawn at first where they are there, the likelier ones first.
+ACROSS = ("area_mm2.total", "mm2", "area, mm2", "sram_bytes", "DRAM MB")
+UP = ("fps", "frames a second", "cycles", "k cycles", "M cycles", "mJ")
+
+
+def value_of(cell: str) -> float | None:
+    """The number that a cell begins with nothing before and no words behind: 1,234.5 or 12%."""
+    try:
+        return float(cell.replace(",", "").removesuffix("%"))
+    except ValueError:
+        return None
+
+
+def numeric_columns(table: Table) -> list[int]:
+    """Those with nothing but numbers where they are filled, and at least one."""
+    found = []
+    for at in range(len(table.head)):
+        cells = [row[at] for row in table.rows if row[at]]
+        if cells and all(value_of(cell) is not None for cell in cells):
+            found.append(at)
+    return found
+
+
+def first_choice(table: Table, wanted: Sequence[str], among: Sequence[int], other: int) -> int:
+    for name in wanted:
+        if name in table.head and table.head.index(name) in among:
+            return table.head.index(name)
+    differ = [at for at in among if at != other and len({row[at] for row in table.rows}) > 1]
+    return (differ or [at for at in among if at != other] or list(among))[-1]
+
+
+def diagram(table: Table, numeric: Sequence[int], name: str) -> str:
+    if len(numeric) < 2 or len(table.rows) < 2:
+        return ""
+    across = first_choice(table, ACROSS, numeric, -1)
+    up = first_choice(table, UP, [at for at in numeric if at != across], across)
+    best = table.head.index("pareto") if "pareto" in table.head else None
+    names = table.labels or [name for at, name in enumerate(table.head) if at not in (*numeric, best)]
+    words = [at for at, name in enumerate(table.head) if name in names]
+    varying = [at for at in words if len({row[at] for row in table.rows}) > 1]
+
+    def label(row: Sequence[str]) -> str:
+        named = (f"{table.head[at]} {row[at]}" if at in numeric else row[at] for at in varying)
+        return ", ".join(filter(None, named))
+
+    facts = {
+        "names": [table.head[at] for at in numeric],
+        "points": [[value_of(row[at]) for at in numeric] for row in table.rows],
+        "labels": [label(row) for row in table.rows],
+        "best": [best is None or row[best] == "yes" for row in table.rows],
+    }
+
+    def choice(axis: str, chosen: int) -> str:
+        options = "".join(
+            f"<option value={place} {'selected' if at == chosen else ''}>{escaped(table.head[at])}"
+            for place, at in enumerate(numeric)
+        )
+        return f"<label>{axis} <select data-axis={axis}>{options}</select></label>"
+
+    note = "<span class=small>filled: no other point is better in everything</span>" if best is not None else ""
+    return (
+        f'<figure class=scatter data-points="{escaped(json.dumps(facts, separators=(",", ":")))}">'
+        f"<figcaption>{choice('up', up)} {choice('across', across)} {note}</figcaption>"
+        f'<svg viewBox="0 0 900 400" role=img tabindex=0 aria-label="{escaped(name)}: a diagram of '
+        f'{len(table.rows)} points; arrow keys read single points"></svg>'
+        "<output aria-live=polite>&nbsp;</output></figure>"
+    )
+
+
+def table_html(table: Table, numeric: Sequence[int]) -> str:
+    head = "".join(
+        f'<th scope=col{" class=n" if at in numeric else ""}><button type=button>'
+        f"{escaped(name)}</button></th>"
+        for at, name in enumerate(table.head)
+    )
+    body = "".join(
+        "<tr>"
+        + "".join(
+            f'<td{" class=n" if at in numeric else ""}>{escaped(cell)}</td>'
+            for at, cell in enumerate(row)
+        )
+        + "</tr>"
+        for row in table.rows[:MOST_ROWS]
+    )
+    more = len(table.rows) - MOST_ROWS
+    note = f"<p class=small>{more} more lines are in {escaped(table.name)}.csv.</p>" if more > 0 else ""
+    return (
+        f'<div class=scroll tabindex=0 role=region aria-label="table {escaped(table.name)}">'
+        f'<table class="plain sortable" aria-label="{escaped(table.name)}">'
+        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        f"</div>{note}"
+    )
+
+
+def section(table: Table, title: str) -> str:
+    numeric = numeric_columns(table)
+    return (
+        f"<section class=wide><h3>{escaped(title)}</h3>"
+        f"{diagram(table, numeric, title)}{table_html(table, numeric)}</section>"
+    )
+
+
+def energy_of_views(runs: Sequence[Run]) -> str:
+    """Stacked bars, all to one scale."""
+    views = [(label, files.report) for label, files in labelled(runs)][:MOST_BARS]
+    most = max(view["energy"]["total_j"] for _, view in views) or 1
+    rows = []
+    for label, view in views:
+        kinds = kinds_of_energy(view)
+        parts = [
+            (kind, kinds[kind] / most, f"{text}: {number(1e3 * kinds[kind])} mJ")
+            for kind, text in KINDS_OF_ENERGY
+        ]
+        rows.append((label, charts.bar(parts), (number(1e3 * view["energy"]["total_j"]),)))
+    return charts.legend(KINDS_OF_ENERGY) + charts.bars(("view", "mJ"), rows, "Energy of a frame")
+
+
+def traffic_of_views(runs: Sequence[Run]) -> str:
+    """Bytes read and written, all to one scale."""
+    views = [(label, files.report["dram"]) for label, files in labelled(runs)][:MOST_BARS]
+    most = max(max(dram["bytes"], dram["bus_bytes"]) for _, dram in views) or 1
+    rows = []
+    for label, dram in views:
+        parts = [
+            (way, count / most, f"{way}: {number(count / 1e6)} MB")
+            for way, count in ways_of_bytes(dram).items()
+        ]
+        bus = charts.bar([("bus", dram["bus_bytes"] / most, "on the bus")], thin=True)
+        rows.append((label, charts.bar(parts) + bus, (number(dram["bytes"] / 1e6),)))
+    return charts.legend(WAYS) + charts.bars(("view", "asked, MB"), rows, "DRAM traffic of a frame")
+
+
+def labelled(runs: Sequence[Run]) -> list[tuple[str, ViewFiles]]:
+    several = len(runs) > 1
+    return [
+        (f"{run.name} view {files.report['view']}" if several else f"view {files.report['view']}", files)
+        for run in runs
+        for files in run.views
+    ]
+
+
+def table_of_views(runs: Sequence[Run]) -> Table:
+    head = ("run", "scene", "view", "px", "fps", "cycles", "PSNR", "DRAM MB", "mJ", "W", "mm2", "binds")
+    rows = []
+    for run in runs:
+        for files in run.views:
+            view = files.report
+            frame, energy = view["frame"], view["energy"]
+            rows.append(
+                (
+                    run.name or view["config"]["machine"],
+                    view["scene"]["name"],
+                    str(view["view"]),
+                    f"{frame['width_px']}x{frame['height_px']}",
+                    number(frame["fps"]),
+                    number(frame["cycles"]),
+                    quality(view),
+                    number(view["dram"]["bytes"] / 1e6),
+                    number(1e3 * energy["total_j"]),
+                    number(energy["mean_power_w"]),
+                    number(view["area_mm2"]["total"]),
+                    view["binding"]["unit"],
+                )
+            )
+    return Table("all views", head, tuple(rows), ("run", "scene", "view"))
