@@ -13,8 +13,9 @@ from report_view import KINDS_OF_ENERGY, WAYS, kinds_of_energy, quality, ways_of
 MOST_ROWS = 2000  # of a table that are shown
 MOST_BARS = 40  # views whose energy and traffic are drawn
 # Columns that are drawn at first where they are there, the likelier ones first.
-ACROSS = ("area_mm2.total", "mm2", "area, mm2", "sram_bytes", "DRAM MB")
-UP = ("fps", "frames a second", "cycles", "k cycles", "M cycles", "mJ")
+ACROSS = ("area_mm2.total", "mm2", "area_mm2", "sram_bytes", "DRAM MB", "MB a frame", "bus MB")
+UP = ("fps", "frames/s", "cycles", "k cycles", "M cycles", "mJ", "PSNR dB")
+NO_LABELS = ("binding", "binds", "pareto")  # that say nothing of what a row is
 
 
 def value_of(cell: str) -> float | None:
@@ -40,7 +41,31 @@ def first_choice(table: Table, wanted: Sequence[str], among: Sequence[int], othe
         if name in table.head and table.head.index(name) in among:
             return table.head.index(name)
     differ = [at for at in among if at != other and len({row[at] for row in table.rows}) > 1]
-    return (differ or [at for at in among if at != other] or list(among))[-1]
+    return (differ or [at for at in among if at != other] or list(among))[0]
+
+
+def labels_of(table: Table, numeric: Sequence[int]) -> Sequence[str]:
+    """Columns that name a row: of an exploration its axes, else what is neither number nor range."""
+    if table.labels:
+        return table.labels
+    if "pareto" in table.head and "group" in table.head:
+        return table.head[: table.head.index("group") + 1]
+    words = [at for at in range(len(table.head)) if at not in numeric]
+    return [
+        table.head[at]
+        for at in words
+        if table.head[at] not in NO_LABELS and not any(" .. " in row[at] for row in table.rows)
+    ]
+
+
+def cell_text(cell: str) -> str:
+    """Of a column of numbers: as long as it can be read."""
+    value = value_of(cell)
+    if value is None or "," in cell or "%" in cell:
+        return cell
+    if cell.lstrip("-").isdecimal():
+        return f"{int(cell):,}"
+    return f"{value:.6g}" if len(cell) > 9 else cell
 
 
 def diagram(table: Table, numeric: Sequence[int], name: str) -> str:
@@ -49,9 +74,11 @@ def diagram(table: Table, numeric: Sequence[int], name: str) -> str:
     across = first_choice(table, ACROSS, numeric, -1)
     up = first_choice(table, UP, [at for at in numeric if at != across], across)
     best = table.head.index("pareto") if "pareto" in table.head else None
-    names = table.labels or [name for at, name in enumerate(table.head) if at not in (*numeric, best)]
-    words = [at for at, name in enumerate(table.head) if name in names]
-    varying = [at for at in words if len({row[at] for row in table.rows}) > 1]
+    varying = [
+        at
+        for at, name in enumerate(table.head)
+        if name in labels_of(table, numeric) and len({row[at] for row in table.rows}) > 1
+    ]
 
     def label(row: Sequence[str]) -> str:
         named = (f"{table.head[at]} {row[at]}" if at in numeric else row[at] for at in varying)
@@ -75,7 +102,7 @@ def diagram(table: Table, numeric: Sequence[int], name: str) -> str:
     return (
         f'<figure class=scatter data-points="{escaped(json.dumps(facts, separators=(",", ":")))}">'
         f"<figcaption>{choice('up', up)} {choice('across', across)} {note}</figcaption>"
-        f'<svg viewBox="0 0 900 400" role=img tabindex=0 aria-label="{escaped(name)}: a diagram of '
+        f'<svg role=img tabindex=0 aria-label="{escaped(name)}: a diagram of '
         f'{len(table.rows)} points; arrow keys read single points"></svg>'
         "<output aria-live=polite>&nbsp;</output></figure>"
     )
@@ -90,7 +117,9 @@ def table_html(table: Table, numeric: Sequence[int]) -> str:
     body = "".join(
         "<tr>"
         + "".join(
-            f'<td{" class=n" if at in numeric else ""}>{escaped(cell)}</td>'
+            f"<td class=n>{escaped(cell_text(cell))}</td>"
+            if at in numeric
+            else f"<td>{escaped(cell)}</td>"
             for at, cell in enumerate(row)
         )
         + "</tr>"

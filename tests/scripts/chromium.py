@@ -105,13 +105,20 @@ class Chromium:
             self.events.append(self.message())
 
     def value(self, expression: str) -> object:
-        """Of JavaScript in the page, or what it promises. Raises RuntimeError for an exception."""
-        done = self.ask(
-            "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
-        )
+        """Of JavaScript in the page. Raises RuntimeError for an exception."""
+        done = self.ask("Runtime.evaluate", expression=expression, returnByValue=True)
         if "exceptionDetails" in done:
             raise RuntimeError(f"{expression}: {done['exceptionDetails']}")
         return done["result"].get("value")
+
+    def comes_true(self, expression: str) -> bool:
+        """Whether it does, however slow the machine is."""
+        until = time.monotonic() + MOST_SECONDS
+        while not self.value(expression):
+            if time.monotonic() > until:
+                return False
+            time.sleep(0.05)
+        return True
 
     def press(self, key: str, code: int) -> None:
         """code: of the key, as Windows numbers them."""
