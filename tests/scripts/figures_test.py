@@ -79,7 +79,7 @@ TABLES = {
                 ("paper_no_vq_cgf", 6, 4),
             )
         ],
-        ("yard", "StreamingGS, both: 2.06", "StreamingGS, both: 2.93"),
+        ("yard", "StreamingGS,", "2.1", "2.9", "3.0", "4.0"),
     ),
     "voxel_size": (
         "voxel_study",
