@@ -141,8 +141,8 @@ def page(folder: pathlib.Path) -> str:
         for at, panel in enumerate(panels)
     )
     bar = f'<div role=tablist aria-label="views">{tabs}</div>' if len(panels) > 1 else ""
-    style = (ASSETS / "report_page.css").read_text().replace("RAMP", ramp_css())
-    script = (ASSETS / "report_page.js").read_text()
+    style = (ASSETS / "report_page.css").read_text(encoding="utf-8").replace("RAMP", ramp_css())
+    script = (ASSETS / "report_page.js").read_text(encoding="utf-8")
     before = (
         "<!doctype html><html lang=en><head><meta charset=utf-8>"
         '<meta name=viewport content="width=device-width,initial-scale=1">'

@@ -52,7 +52,7 @@ class Table:
 def read_json(path: pathlib.Path) -> dict:
     """Raises ValueError where it is no object of JSON."""
     try:
-        found = json.loads(path.read_text(errors="replace"))
+        found = json.loads(path.read_text(encoding="utf-8", errors="replace"))
     except json.JSONDecodeError as error:
         raise ValueError(f"{path}:{error.lineno}: {error.msg}, expected JSON") from error
     if not isinstance(found, dict):
@@ -112,7 +112,7 @@ def find_tables(folder: pathlib.Path) -> list[Table]:
     """CSV files with a head and at least one row."""
     tables = []
     for path in sorted(folder.glob("*.csv")):
-        head, *rows = list(csv.reader(path.read_text(errors="replace").splitlines())) or [[]]
+        head, *rows = list(csv.reader(path.read_text(encoding="utf-8", errors="replace").splitlines())) or [[]]
         whole = [tuple(row) for row in rows if len(row) == len(head)]
         if whole and path.name != "groups.csv":
             tables.append(Table(path.stem, tuple(head), tuple(whole)))

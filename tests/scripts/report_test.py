@@ -179,6 +179,21 @@ class Page(WithFrames):
         self.assertFalse("<div role=tablist" in alone)
         self.assertEqual([run.name for run in find_runs(self.folder / "both")], ["exact", "paper"])
 
+    def test_what_a_report_says_is_text(self):
+        folder = self.simulated("exact", "hostile")
+        report_file = folder / "report.json"
+        whole = json.loads(report_file.read_text())
+        hostile = "</script><b onclick='x'>\"&"
+        whole["views"][0]["scene"]["name"] = whole["views"][0]["provenance"]["command"] = hostile
+        whole["failed"] = [{"view": 3, "why": hostile}]
+        report_file.write_text(json.dumps(whole))
+        page = self.page(folder)
+        self.assertFalse(hostile in page)
+        self.assertEqual(page.count("</script>"), 1)
+        self.assertHolds(page, "view 3 failed")
+        # Name, title, tab, heading and command; and why the other failed.
+        self.assertEqual(page.count(report_charts.escaped(hostile)), 6)
+
     def test_pictures_shrink_until_the_page_is_small_enough(self):
         folder = self.simulated("exact", "large")
         noise = random.Random(1).randbytes(3 * 320 * 180)  # no smaller when it is packed
