@@ -1,5 +1,5 @@
-"""How figures look: readable on paper and in grey, since colours differ in lightness and every series
-has a hatch or a marker of its own. Needs Debian's python3-matplotlib."""
+"""How figures look: readable on paper and in grey, since colours differ in lightness and every
+series has a hatch or a marker of its own. Needs Debian's python3-matplotlib."""
 
 from __future__ import annotations
 
@@ -99,6 +99,11 @@ def line_style(at: int) -> dict:
 def note(axes: Axes, x: float, y: float, text: str, **more: object) -> None:
     """A remark in the diagram, such as a published figure."""
     axes.annotate(text, (x, y), fontsize=8, color=SOFT, bbox=ON_PAPER, **more)
+
+
+def from_zero(axes: Axes) -> None:
+    """The axis of values begins at 0, with room above what is drawn."""
+    axes.set_ylim(0, 1.08 * axes.dataLim.y1 or 1)
 
 
 def published(axes: Axes, value: float, text: str, vertical: bool = False) -> None:

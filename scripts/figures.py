@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 """Figures of results that lie on disk, as SVG and PNG, one function each: the paper's, with its own
-numbers where it has any, and ours. Captions name the file, the command and the commit that the numbers
-are from. A figure whose input is not there is skipped by name, with the script that makes it.
+numbers where it has any, and ours. Captions name the file, the command and the commit that the
+numbers are from. A figure whose input is not there is skipped by name, with the script that makes
+it.
 
   figures.py                      all that can be made from out/, into out/figures/
   figures.py variants roofline    these two
 
-The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units. Ours:
-exploration, fronts_of_orders, equal_area, group_size, and of the runs of `simulate` below the folder
-roofline, waits, traffic.
+The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units.
+Ours: exploration, fronts_of_orders, equal_area, group_size, and of the runs of `simulate` below
+the folder roofline, waits, traffic.
 
 Needs Debian's python3-matplotlib, which scripts/setup.sh installs for /usr/bin/python3.
 """

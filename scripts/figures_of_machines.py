@@ -7,9 +7,9 @@ import statistics
 
 from matplotlib.figure import Figure
 
-import report_view
+import report_time
 from figure_inputs import Results, how_simulated, number
-from figure_style import bar_style, legend_above, line_style, panels
+from figure_style import bar_style, from_zero, legend_above, line_style, panels
 from report_folder import Run
 
 MOST_RUNS = 6  # whose frames are drawn
@@ -37,11 +37,11 @@ def exploration(results: Results) -> Made:
     axes.step(*zip(*front), where="post", color="#626a78", linewidth=1, zorder=1)
     axes.set_xlabel("area, mm²")
     axes.set_ylabel("M cycles")
-    axes.set_ylim(bottom=0)
+    from_zero(axes)
     axes.set_title("Cycles against area")
     legend_above(figure, axes)
     return figure, (
-        "What was explored: filled where no other point is better in every objective; the line is the "
+        "What was explored: filled where no other point is better in everything; the line is the "
         f"front of these two. From {data.made}"
     )
 
@@ -67,10 +67,13 @@ def fronts_of_orders(results: Results) -> Made:
             axes.plot(*zip(*points), **style | {"linestyle": "none", "alpha": 0.35})
             axes.step(*zip(*lower_left(points)), where="post", label=order, **style)
         axes.set_xlabel("area, mm²")
-        axes.set_ylim(bottom=0)
+        from_zero(axes)
         axes.set_title(f"{column} of a frame")
     legend_above(figure, time)
-    return figure, f"Machines that a search of both orders tried, and their fronts. From {data.made}"
+    return (
+        figure,
+        f"Machines that a search of both orders tried, and their fronts. From {data.made}",
+    )
 
 
 def equal_area(results: Results) -> Made:
@@ -98,8 +101,16 @@ def equal_area(results: Results) -> Made:
                 [max(0, max(values, default=mean) - mean) for mean, values in zip(means, found)],
             ]
             places = [x + (at - (len(sizes) - 1) / 2) * width for x in range(len(machines))]
-            axes.bar(places, means, width, yerr=reach, capsize=2, label=f"{size} px",
-                     error_kw={"elinewidth": 0.8}, **bar_style(at))
+            axes.bar(
+                places,
+                means,
+                width,
+                yerr=reach,
+                capsize=2,
+                label=f"{size} px",
+                error_kw={"elinewidth": 0.8},
+                **bar_style(at),
+            )
         areas = [
             max((number(row["area_mm2"]) or 0 for row in data.where(machine=machine)), default=0)
             for machine in machines
@@ -109,7 +120,10 @@ def equal_area(results: Results) -> Made:
         axes.grid(axis="x", visible=False)
         axes.set_title(title)
     legend_above(figure, both[0])
-    return figure, f"Orders at equal area: geometric means, least and most of all views. From {data.made}"
+    return (
+        figure,
+        f"Orders at equal area: geometric means, least and most of all views. From {data.made}",
+    )
 
 
 def group_size(results: Results) -> Made:
@@ -141,11 +155,12 @@ def group_size(results: Results) -> Made:
         )
         for row in rows:
             place = number(row["mm2"]), number(row["bus MB"])
-            axes[-1].annotate(row["group px"], place, xytext=(4, 4), textcoords="offset points",
-                              fontsize=7.5)
+            axes[-1].annotate(
+                row["group px"], place, xytext=(4, 4), textcoords="offset points", fontsize=7.5
+            )
     axes[-1].set_title("MB on the bus against area")
     axes[-1].set_xlabel("area, mm²")
-    axes[-1].set_ylim(bottom=0)
+    from_zero(axes[-1])
     axes[-1].legend()
     legend_above(figure, axes[0])
     return figure, f"What the size of a group costs. From {data.made}"
@@ -197,7 +212,7 @@ def lanes_of(view: dict) -> list[tuple[str, float, float, int]]:
 
 
 def roofline(results: Results) -> Made:
-    """The lanes of each unit: multiply-accumulates a cycle against those for a byte that it moves."""
+    """The lanes of each unit: what they do a cycle against what they do for a byte."""
     runs = first_runs(results)
     figure, all_axes = panels(len(runs), across=min(3, len(runs)), height=3.5)
     for axes, run in zip(all_axes, runs):
@@ -234,22 +249,22 @@ def roofline(results: Results) -> Made:
         axes.legend(fontsize=7.5, loc="lower right")
     all_axes[0].set_ylabel("multiply-accumulates a cycle")
     what = (
-        "Roofline of each unit: the mark is what its lanes did over the whole frame, the bar above it "
-        "what they could, or all of the memory's bandwidth for this unit alone; per cent of that."
+        "Roofline of each unit: the mark is what its lanes did over the whole frame, the bar above "
+        "it what they could, or the memory's bandwidth for this unit alone; per cent of that."
     )
     return figure, caption_of(results, what)
 
 
 def waits(results: Results) -> Made:
     runs = first_runs(results)
-    spent = [report_view.by_kind(report_view.activities(run.views[0].report)) for run in runs]
+    spent = [report_time.by_kind(report_time.activities(run.views[0].report)) for run in runs]
     across = min(2, len(runs))
     rows = max(map(len, spent))
     figure, all_axes = panels(len(runs), width=5.4, height=0.24 * rows + 0.9, across=across)
     for axes, run, activities in zip(all_axes, runs, spent):
         left = [0.0] * len(activities)
         names = [name for name, _, _ in activities]
-        for at, (cause, text) in enumerate(report_view.CAUSES):
+        for at, (cause, text) in enumerate(report_time.CAUSES):
             shares = [100 * of[cause] / (sum(of.values()) or 1) for _, _, of in activities]
             style = bar_style(at) if cause != "idle" else {"color": "#eef0f3"}
             axes.barh(names, shares, left=left, label=text, **style)

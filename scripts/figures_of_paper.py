@@ -6,7 +6,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from figure_inputs import Data, Missing, Results, number
-from figure_style import bar_style, legend_above, line_style, note, panels, published
+from figure_style import bar_style, from_zero, legend_above, line_style, note, panels, published
 
 WISHED_FPS = 90
 LPDDR3_GB_S, ORIN_NX_GB_S = 25.6, 102.4
@@ -69,7 +69,9 @@ def characterisation(results: Results) -> Made:
 def dram_by_stage(results: Results) -> Made:
     parts = ("scene %", "intermediate %", "pixels %")
     data = results.table(
-        "characterisation", "compare_machines.py", ("scene", "size", "machine", "MB a frame", *parts)
+        "characterisation",
+        "compare_machines.py",
+        ("scene", "size", "machine", "MB a frame", *parts),
     )
     labels = [f"{row['scene']} {row['size']}, {row['machine']}" for row in data.rows]
     figure, (axes,) = panels(1, width=7.4, height=0.34 * len(labels) + 1.1)
@@ -112,11 +114,16 @@ def tuning_curve(results: Results) -> Made:
         label = f"{scene}, voxels x {factor}, beta {beta}"
         for axes, column in ((quality, "PSNR dB"), (order, "misordered")):
             values = [number(row[column]) for row in rows]
-            axes.plot(steps, [float("nan") if v is None else v for v in values], label=label,
-                      markevery=max(1, len(steps) // 10), **line_style(at))
+            axes.plot(
+                steps,
+                [float("nan") if v is None else v for v in values],
+                label=label,
+                markevery=max(1, len(steps) // 10),
+                **line_style(at),
+            )
     quality.set_title("PSNR of paper order, dB")
     order.set_title("Share of Gaussians that are misordered")
-    order.set_ylim(bottom=0)
+    from_zero(order)
     for axes in (quality, order):
         axes.set_xlabel("step")
     legend_above(figure, quality, columns=2)
@@ -160,8 +167,8 @@ def variants(results: Results) -> Made:
         axes.set_title(title)
     legend_above(figure, both[0])
     caption = (
-        "What codebooks and coarse filter gain in paper order; StreamingGS states nothing of the coarse "
-        f"filter alone. From {data.made}"
+        "What codebooks and coarse filter gain in paper order; StreamingGS states nothing of the "
+        f"coarse filter alone. From {data.made}"
     )
     return figure, caption
 
@@ -178,11 +185,15 @@ def voxel_size(results: Results) -> Made:
         sizes = [number(row["of the preset's"]) for row in rows]
         for axes, column in ((quality, "PSNR dB"), (energy, "mJ")):
             values = [number(row[column]) for row in rows]
-            axes.plot(sizes, [float("nan") if v is None else v for v in values],
-                      label=f"{scene}, {state}", **line_style(at))
+            axes.plot(
+                sizes,
+                [float("nan") if v is None else v for v in values],
+                label=f"{scene}, {state}",
+                **line_style(at),
+            )
     quality.set_title("PSNR, dB")
     energy.set_title("Energy of a frame, mJ")
-    energy.set_ylim(bottom=0)
+    from_zero(energy)
     sizes = sorted({number(row["of the preset's"]) for row in data.rows})
     for axes in (quality, energy):
         axes.set_xscale("log", base=2)
@@ -203,17 +214,16 @@ def filter_units(results: Results) -> Made:
     fine = [key for key in varying if key.rpartition(".")[2].startswith("ffu")]
     if len(varying) != 2 or len(coarse) != 1 or len(fine) != 1:
         raise Missing(
-            f"{results.folder / 'explore.csv'} varies {', '.join(varying) or 'nothing'}, not CFUs and "
-            "FFUs; scripts/explore.py --config paper --axis hfu.cfus=1,2,4,8 "
+            f"{results.folder / 'explore.csv'} varies {', '.join(varying) or 'nothing'}, not CFUs "
+            "and FFUs; scripts/explore.py --config paper --axis hfu.cfus=1,2,4,8 "
             "--axis hfu.ffu_lanes=4,8,16,32 makes it"
         )
-    columns, rows = (
-        sorted(data.different(key), key=number) for key in (coarse[0], fine[0])
-    )
+    columns, rows = (sorted(data.different(key), key=number) for key in (coarse[0], fine[0]))
     cycles = {(row[coarse[0]], row[fine[0]]): number(row["cycles"]) for row in data.rows}
     slowest = max(cycles.values())
     gains = [
-        [slowest / cycles[c, f] if (c, f) in cycles else float("nan") for c in columns] for f in rows
+        [slowest / cycles[c, f] if (c, f) in cycles else float("nan") for c in columns]
+        for f in rows
     ]
     figure, (axes,) = panels(1, width=5.2, height=3.9)
     drawn = axes.imshow(gains, cmap="YlGnBu", origin="lower", aspect="auto")

@@ -34,8 +34,8 @@ def size_of(png: bytes) -> tuple[int, int]:
 
 
 def read_png(png: bytes) -> tuple[int, int, list[bytearray]]:
-    """Width, height and rows of [width, channels]. Raises ValueError for what `streaminggs` does not
-    write: other depths than 8 bits, palettes, interlacing; and where the file is cut."""
+    """Width, height and rows of [width, channels]. Raises ValueError for what `streaminggs` does
+    not write: other depths than 8 bits, palettes, interlacing; and where the file is cut."""
     width, height = size_of(png)
     depth, colour_type, *_, interlaced = png[24:29]
     if depth != 8 or colour_type not in CHANNELS or interlaced:

@@ -19,6 +19,7 @@ import sys
 from collections.abc import Sequence
 
 import png_pictures
+import report_overview
 import report_tables
 import report_view
 import run_arguments
@@ -52,12 +53,7 @@ def panels_of(runs: Sequence[Run], found: Sequence[Table]) -> list[Panel]:
     panels = []
     text = ""
     if len(views) > 1:
-        text += report_tables.section(report_tables.table_of_views(runs), "All views")
-        for title, draw in (
-            ("Energy", report_tables.energy_of_views),
-            ("DRAM traffic", report_tables.traffic_of_views),
-        ):
-            text += f"<section><h3>{title}</h3>{draw(runs)}</section>"
+        text += report_overview.sections(runs)
     text += "".join(report_tables.section(table, f"{table.name}.csv") for table in found)
     failed = [(run, failure) for run in runs for failure in run.failed]
     text += "".join(
@@ -89,7 +85,10 @@ def fitted(panels: Sequence[Panel], room: int) -> list[str]:
     left = room - sum(len(text.encode()) for text in plain)
     for times in range(MOST_HALVINGS + 1):
         uris = [
-            {what: data_uri(halved_as_often(png, times)) for what, png in panel.files.pictures.items()}
+            {
+                what: data_uri(halved_as_often(png, times))
+                for what, png in panel.files.pictures.items()
+            }
             if panel.files
             else {}
             for panel in panels
@@ -103,7 +102,9 @@ def fitted(panels: Sequence[Panel], room: int) -> list[str]:
         left -= sizes[at]
         left_out = panel.files and panel.files.pictures and left < 0
         remark = "Pictures left out: the page would be too large." if left_out else shrunk
-        texts.append(text_of(panel, at, {} if left_out else uris[at], remark if panel.files else ""))
+        texts.append(
+            text_of(panel, at, {} if left_out else uris[at], remark if panel.files else "")
+        )
     return texts
 
 
@@ -113,7 +114,8 @@ def heading(runs: Sequence[Run], folder: pathlib.Path) -> tuple[str, str]:
     if len(runs) != 1:
         return folder.resolve().name, f"{len(runs)} runs, {len(views)} views"
     view = views[0]
-    sizes = dict.fromkeys(f"{v['frame']['width_px']} × {v['frame']['height_px']} px" for v in views)
+    frames = [v["frame"] for v in views]
+    sizes = dict.fromkeys(f"{f['width_px']} × {f['height_px']} px" for f in frames)
     words = (
         f"{view['scene']['gaussians']:,} Gaussians",
         f"SH degree {view['scene']['sh_degree']}",
@@ -131,13 +133,13 @@ def page(folder: pathlib.Path) -> str:
     panels = panels_of(runs, find_tables(folder))
     if not panels:
         raise ValueError(
-            f"{folder}: no results, expected report.json of `streaminggs simulate`, folders with one, "
-            "or CSV tables"
+            f"{folder}: no results, expected report.json of `streaminggs simulate`, folders with "
+            "one, or CSV tables"
         )
     title, subtitle = heading(runs, folder)
     tabs = "".join(
-        f'<button role=tab id=tab{at} aria-controls=panel{at} aria-selected={"true" if at == 0 else "false"}'
-        f'{"" if at == 0 else " tabindex=-1"}>{escaped(panel.name)}</button>'
+        f"<button role=tab id=tab{at} aria-controls=panel{at} "
+        f'aria-selected={"true" if at == 0 else "false tabindex=-1"}>{escaped(panel.name)}</button>'
         for at, panel in enumerate(panels)
     )
     bar = f'<div role=tablist aria-label="views">{tabs}</div>' if len(panels) > 1 else ""

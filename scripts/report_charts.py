@@ -46,7 +46,9 @@ def percent(share: float) -> str:
     return f"{100 * share:.0f} %" if share >= 0.0995 or share == 0 else f"{100 * share:.1f} %"
 
 
-def table(head: Sequence[str], rows: Sequence[Sequence[object]], numeric: Sequence[int] = ()) -> str:
+def table(
+    head: Sequence[str], rows: Sequence[Sequence[object]], numeric: Sequence[int] = ()
+) -> str:
     """Cells are text; columns in `numeric` stand at the right."""
 
     def cells(row: Sequence[object], tag: str) -> str:
@@ -58,8 +60,8 @@ def table(head: Sequence[str], rows: Sequence[Sequence[object]], numeric: Sequen
     body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
     return (
         f'<div class=scroll tabindex=0 role=region aria-label="{escaped(head[0])}, table">'
-        f'<table class=plain aria-label="{escaped(head[0])}"><thead><tr>{cells(head, "th")}</tr></thead>'
-        f"<tbody>{body}</tbody></table></div>"
+        f'<table class=plain aria-label="{escaped(head[0])}">'
+        f"<thead><tr>{cells(head, 'th')}</tr></thead><tbody>{body}</tbody></table></div>"
     )
 
 
@@ -77,7 +79,7 @@ Part = tuple[str, float, str]  # class of the colour, share of the row's width, 
 
 
 def bar(parts: Sequence[Part], band: tuple[float, float] | None = None, thin: bool = False) -> str:
-    """Parts side by side from the left; band: shares between which a line marks what is possible."""
+    """Parts side by side from the left; band: shares between which a line says what may be."""
     at, drawn = 0.0, []
     for colour, share, what in parts:
         if share > 0:
@@ -94,9 +96,7 @@ def bar(parts: Sequence[Part], band: tuple[float, float] | None = None, thin: bo
     return f'<svg class={size} aria-hidden=true focusable=false>{"".join(drawn)}</svg>'
 
 
-def bars(
-    head: Sequence[str], rows: Sequence[tuple[str, str, Sequence[str]]], caption: str
-) -> str:
+def bars(head: Sequence[str], rows: Sequence[tuple[str, str, Sequence[str]]], caption: str) -> str:
     """A table of bars. head: names of the columns, the first of the labels; the column of bars has
     none. Each row: its label, its bar, and its numbers."""
     first, *others = head
@@ -109,7 +109,8 @@ def bars(
     )
     return (
         f"<table class=bars><caption>{escaped(caption)}</caption><thead><tr>"
-        f"<th scope=col>{escaped(first)}</th><td></td>{named}</tr></thead><tbody>{body}</tbody></table>"
+        f"<th scope=col>{escaped(first)}</th><td></td>{named}</tr></thead>"
+        f"<tbody>{body}</tbody></table>"
     )
 
 
@@ -145,11 +146,11 @@ def heat_map(title: str, unit: str, groups: dict[str, list[int]], column: str) -
     return (
         f"<figure class=heat data-heat='{escaped(json.dumps(facts, separators=(',', ':')))}'>"
         f"{head}median {number(middle)}, most {number(most)} {escaped(unit)}</small></figcaption>"
-        f'<svg viewBox="0 0 {width_px} {height_px}" role=img tabindex=0 aria-label="{escaped(words)};'
-        ' arrow keys read single groups">'
+        f'<svg viewBox="0 0 {width_px} {height_px}" role=img tabindex=0 '
+        f'aria-label="{escaped(words)}; arrow keys read single groups">'
         f'<image href="{data_uri(write_png(columns, rows, pixels))}" preserveAspectRatio=none '
         f'width="{columns * group_px[0]}" height="{rows * group_px[1]}"/>'
         f"<rect class=mark hidden></rect></svg>"
-        f'<div class=scale aria-hidden=true><span>0</span><i></i><span>{number(most)}</span></div>'
+        f"<div class=scale aria-hidden=true><span>0</span><i></i><span>{number(most)}</span></div>"
         "<output aria-live=polite>&nbsp;</output></figure>"
     )

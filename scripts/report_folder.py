@@ -1,4 +1,4 @@
-"""What lies in a result folder: views of `streaminggs simulate`, runs below it, tables of scripts."""
+"""What lies in a result folder: views of `streaminggs simulate`, runs below it, tables."""
 
 from __future__ import annotations
 
@@ -112,7 +112,9 @@ def find_tables(folder: pathlib.Path) -> list[Table]:
     """CSV files with a head and at least one row."""
     tables = []
     for path in sorted(folder.glob("*.csv")):
-        head, *rows = list(csv.reader(path.read_text(encoding="utf-8", errors="replace").splitlines())) or [[]]
+        head, *rows = list(
+            csv.reader(path.read_text(encoding="utf-8", errors="replace").splitlines())
+        ) or [[]]
         whole = [tuple(row) for row in rows if len(row) == len(head)]
         if whole and path.name != "groups.csv":
             tables.append(Table(path.stem, tuple(head), tuple(whole)))

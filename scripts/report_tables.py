@@ -1,17 +1,14 @@
-"""Tables of several runs on the report page: sortable, with a diagram of any two of their columns."""
+"""CSV tables on the report page: sortable, with a diagram of any two columns."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Sequence
 
-import report_charts as charts
-from report_charts import escaped, number
-from report_folder import Run, Table, ViewFiles
-from report_view import KINDS_OF_ENERGY, WAYS, kinds_of_energy, quality, ways_of_bytes
+from report_charts import escaped
+from report_folder import Table
 
 MOST_ROWS = 2000  # of a table that are shown
-MOST_BARS = 40  # views whose energy and traffic are drawn
 # Columns that are drawn at first where they are there, the likelier ones first.
 ACROSS = ("area_mm2.total", "mm2", "area_mm2", "sram_bytes", "DRAM MB", "MB a frame", "bus MB")
 UP = ("fps", "frames/s", "cycles", "k cycles", "M cycles", "mJ", "PSNR dB")
@@ -45,7 +42,7 @@ def first_choice(table: Table, wanted: Sequence[str], among: Sequence[int], othe
 
 
 def labels_of(table: Table, numeric: Sequence[int]) -> Sequence[str]:
-    """Columns that name a row: of an exploration its axes, else what is neither number nor range."""
+    """Columns that name a row: of an exploration its axes, else words that are no range."""
     if table.labels:
         return table.labels
     if "pareto" in table.head and "group" in table.head:
@@ -98,7 +95,11 @@ def diagram(table: Table, numeric: Sequence[int], name: str) -> str:
         )
         return f"<label>{axis} <select data-axis={axis}>{options}</select></label>"
 
-    note = "<span class=small>filled: no other point is better in everything</span>" if best is not None else ""
+    note = (
+        "<span class=small>filled: no other point is better in everything</span>"
+        if best is not None
+        else ""
+    )
     return (
         f'<figure class=scatter data-points="{escaped(json.dumps(facts, separators=(",", ":")))}">'
         f"<figcaption>{choice('up', up)} {choice('across', across)} {note}</figcaption>"
@@ -126,7 +127,11 @@ def table_html(table: Table, numeric: Sequence[int]) -> str:
         for row in table.rows[:MOST_ROWS]
     )
     more = len(table.rows) - MOST_ROWS
-    note = f"<p class=small>{more} more lines are in {escaped(table.name)}.csv.</p>" if more > 0 else ""
+    note = (
+        f"<p class=small>{more} more lines are in {escaped(table.name)}.csv.</p>"
+        if more > 0
+        else ""
+    )
     return (
         f'<div class=scroll tabindex=0 role=region aria-label="table {escaped(table.name)}">'
         f'<table class="plain sortable" aria-label="{escaped(table.name)}">'
@@ -141,68 +146,3 @@ def section(table: Table, title: str) -> str:
         f"<section class=wide><h3>{escaped(title)}</h3>"
         f"{diagram(table, numeric, title)}{table_html(table, numeric)}</section>"
     )
-
-
-def energy_of_views(runs: Sequence[Run]) -> str:
-    """Stacked bars, all to one scale."""
-    views = [(label, files.report) for label, files in labelled(runs)][:MOST_BARS]
-    most = max(view["energy"]["total_j"] for _, view in views) or 1
-    rows = []
-    for label, view in views:
-        kinds = kinds_of_energy(view)
-        parts = [
-            (kind, kinds[kind] / most, f"{text}: {number(1e3 * kinds[kind])} mJ")
-            for kind, text in KINDS_OF_ENERGY
-        ]
-        rows.append((label, charts.bar(parts), (number(1e3 * view["energy"]["total_j"]),)))
-    return charts.legend(KINDS_OF_ENERGY) + charts.bars(("view", "mJ"), rows, "Energy of a frame")
-
-
-def traffic_of_views(runs: Sequence[Run]) -> str:
-    """Bytes read and written, all to one scale."""
-    views = [(label, files.report["dram"]) for label, files in labelled(runs)][:MOST_BARS]
-    most = max(max(dram["bytes"], dram["bus_bytes"]) for _, dram in views) or 1
-    rows = []
-    for label, dram in views:
-        parts = [
-            (way, count / most, f"{way}: {number(count / 1e6)} MB")
-            for way, count in ways_of_bytes(dram).items()
-        ]
-        bus = charts.bar([("bus", dram["bus_bytes"] / most, "on the bus")], thin=True)
-        rows.append((label, charts.bar(parts) + bus, (number(dram["bytes"] / 1e6),)))
-    return charts.legend(WAYS) + charts.bars(("view", "asked, MB"), rows, "DRAM traffic of a frame")
-
-
-def labelled(runs: Sequence[Run]) -> list[tuple[str, ViewFiles]]:
-    several = len(runs) > 1
-    return [
-        (f"{run.name} view {files.report['view']}" if several else f"view {files.report['view']}", files)
-        for run in runs
-        for files in run.views
-    ]
-
-
-def table_of_views(runs: Sequence[Run]) -> Table:
-    head = ("run", "scene", "view", "px", "fps", "cycles", "PSNR", "DRAM MB", "mJ", "W", "mm2", "binds")
-    rows = []
-    for run in runs:
-        for files in run.views:
-            view = files.report
-            frame, energy = view["frame"], view["energy"]
-            rows.append(
-                (
-                    run.name or view["config"]["machine"],
-                    view["scene"]["name"],
-                    str(view["view"]),
-                    f"{frame['width_px']}x{frame['height_px']}",
-                    number(frame["fps"]),
-                    number(frame["cycles"]),
-                    quality(view),
-                    number(view["dram"]["bytes"] / 1e6),
-                    number(1e3 * energy["total_j"]),
-                    number(energy["mean_power_w"]),
-                    number(view["area_mm2"]["total"]),
-                    view["binding"]["unit"],
-                )
-            )
-    return Table("all views", head, tuple(rows), ("run", "scene", "view"))

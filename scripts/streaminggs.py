@@ -1,6 +1,6 @@
 """The command from Python, without a build step: `run()` simulates, `load()` reads what lies in a
-folder, both as dictionaries, one a view with the keys of report.json; `numbers()` and `table()` make
-columns of them, `diff()` says where two differ.
+folder, both as dictionaries, one a view with the keys of report.json; `numbers()` and `table()`
+make columns of them, `diff()` says where two differ.
 
   import sys; sys.path.insert(0, "scripts")
   import streaminggs
@@ -42,8 +42,8 @@ def run(
 ) -> list[dict]:
     """Simulates and gives the report of each view.
 
-    scene: builtin:NAME?n=COUNT, a real scene of ../shared by name, or a file with its cameras beside
-    it, or with `cameras`. view: a number, "0,2" or "all". size: "WxH". settings: keys of the
+    scene: builtin:NAME?n=COUNT, a real scene of ../shared by name, or a file with its cameras
+    beside it, or with `cameras`. view: a number, "0,2" or "all". size: "WxH". settings: keys of the
     configuration over those of `config`. out: a folder that keeps pictures and reports.
 
     Raises ValueError for what the command refuses, Failure where a simulation ends badly or a frame
@@ -109,8 +109,8 @@ Difference = tuple[str, object, object, float]  # path, before, after, (after - 
 
 def diff(before: dict, after: dict) -> list[Difference]:
     """Where the reports of two views differ but for the host and the command: what is no number, or
-    is in one of them only (None in the other), first, with an infinite change; then what changed most
-    of itself."""
+    is in one of them only (None in the other), first, with an infinite change; then what changed
+    most of itself."""
     one, other = (
         {k: v for k, v in leaves(view) if not k.startswith(("host.", "provenance."))}
         for view in (before, after)

@@ -123,7 +123,9 @@ class Chromium:
     def press(self, key: str, code: int) -> None:
         """code: of the key, as Windows numbers them."""
         for kind in ("rawKeyDown", "keyUp"):
-            self.ask("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code)
+            self.ask(
+                "Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code
+            )
 
     def resize(self, width: int, height: int) -> None:
         self.ask(

@@ -23,12 +23,22 @@ from scenes import find_scene
 
 SCRIPT = REPOSITORY / "scripts" / "figures.py"
 PYTHON = SCRIPT.read_text().partition("\n")[0].removeprefix("#!")
-EXPLORE_HEAD = ("hfu.cfus", "hfu.ffu_lanes", "group", "cycles", "area_mm2.total", "binding", "pareto")
+EXPLORE_HEAD = (
+    "hfu.cfus",
+    "hfu.ffu_lanes",
+    "group",
+    "cycles",
+    "area_mm2.total",
+    "binding",
+    "pareto",
+)
 
 
 def has_matplotlib(python: str) -> bool:
     command = [python, "-c", "import matplotlib"]
-    return bool(shutil.which(python)) and not subprocess.run(command, capture_output=True).returncode
+    return (
+        bool(shutil.which(python)) and not subprocess.run(command, capture_output=True).returncode
+    )
 
 
 def rows(head, *different: dict) -> list[tuple]:
@@ -61,7 +71,13 @@ TABLES = {
         "boundary_study",
         boundary_study.HEAD,
         [
-            {"scene": "truck", "of the preset's": 1, "beta": beta, "step": step, "misordered": "0.02"}
+            {
+                "scene": "truck",
+                "of the preset's": 1,
+                "beta": beta,
+                "step": step,
+                "misordered": "0.02",
+            }
             for beta in ("0", "0.5")
             for step in (0, 500, 1000)
         ],
@@ -95,7 +111,12 @@ TABLES = {
         "explore",
         EXPLORE_HEAD,
         [
-            {"hfu.cfus": cfus, "hfu.ffu_lanes": lanes, "group": 96, "cycles": 6400 // (cfus + lanes)}
+            {
+                "hfu.cfus": cfus,
+                "hfu.ffu_lanes": lanes,
+                "group": 96,
+                "cycles": 6400 // (cfus + lanes),
+            }
             for cfus in (1, 2)
             for lanes in (8, 16)
         ],
@@ -141,13 +162,17 @@ class Figures(InFolder):
 
     def write(self, name: str) -> None:
         table, head, different, _ = TABLES[name]
-        tables.write_text(self.folder / f"{table}.csv", tables.csv_text(head, rows(head, *different)))
+        tables.write_text(
+            self.folder / f"{table}.csv", tables.csv_text(head, rows(head, *different))
+        )
         note = f"Made by `scripts/{table}.py truck`; commit 0123abc.\n\n| a |\n"
         tables.write_text(self.folder / f"{table}.md", note)
 
     def svg_text(self, name: str) -> str:
         root = xml.etree.ElementTree.parse(self.folder / "figures" / f"{name}.svg").getroot()
-        return " ".join(" ".join("".join(e.itertext()) for e in root.iter() if e.tag.endswith("text")).split())
+        return " ".join(
+            " ".join("".join(e.itertext()) for e in root.iter() if e.tag.endswith("text")).split()
+        )
 
 
 @unittest.skipUnless(has_matplotlib(PYTHON), f"{PYTHON} has no matplotlib")
@@ -175,7 +200,9 @@ class Drawn(Figures):
         self.assertEqual((status, errors), (0, ""))
         # What has no input is named, with who makes it.
         for name, (table, *_) in TABLES.items():
-            self.assertRegex(said, rf"skipped {name}: .*{table}.csv is not there; scripts/\w+.py makes it")
+            self.assertRegex(
+                said, rf"skipped {name}: .*{table}.csv is not there; scripts/\w+.py makes it"
+            )
         for name in OF_RUNS:
             text = self.svg_text(name)
             for config in ("exact", "paper", "gscore"):

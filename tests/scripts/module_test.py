@@ -13,7 +13,12 @@ class Reports(unittest.TestCase):
         view = {"frame": {"cycles": 7, "drained": True}, "left_out": [{"what": "a", "count": 2}]}
         self.assertEqual(
             dict(streaminggs.leaves(view)),
-            {"frame.cycles": 7, "frame.drained": True, "left_out.0.what": "a", "left_out.0.count": 2},
+            {
+                "frame.cycles": 7,
+                "frame.drained": True,
+                "left_out.0.what": "a",
+                "left_out.0.count": 2,
+            },
         )
         self.assertEqual(streaminggs.numbers(view), {"frame.cycles": 7, "left_out.0.count": 2})
 

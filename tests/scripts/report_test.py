@@ -1,5 +1,5 @@
 """report.py: what the page holds, what is refused, and how it behaves in a browser. Frames are made
-with $STREAMINGGS; the browser is Debian's Chromium, and its tests are skipped where it is not there."""
+with $STREAMINGGS; the browser is Debian's Chromium, its test is skipped where that is not there."""
 
 import json
 import pathlib
@@ -14,6 +14,7 @@ import png_pictures
 import report
 import report_charts
 import report_tables
+import report_time
 import report_view
 import simulations
 from chromium import PROGRAM, Chromium
@@ -23,7 +24,17 @@ from scenes import find_scene
 NEEDS_COMMAND = unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
 NEEDS_BROWSER = unittest.skipUnless(PROGRAM, "chromium is not installed")
 # Roles of what can be worked with or looked at: each has to have a name.
-NAMED_ROLES = ("button", "slider", "radio", "tab", "tablist", "tabpanel", "combobox", "image", "table")
+NAMED_ROLES = (
+    "button",
+    "slider",
+    "radio",
+    "tab",
+    "tablist",
+    "tabpanel",
+    "combobox",
+    "image",
+    "table",
+)
 
 
 def filtered_png(width: int, height: int, pixels: bytes) -> bytes:
@@ -78,17 +89,22 @@ class Parts(unittest.TestCase):
                 png_pictures.halved(png)
 
     def test_numbers(self):
-        for value, text in ((1234567, "1,234,567"), (1234.5, "1,234"), (0.012345, "0.0123"), (0.0, "0")):
+        for value, text in (
+            (1234567, "1,234,567"),
+            (1234.5, "1,234"),
+            (0.012345, "0.0123"),
+            (0.0, "0"),
+        ):
             self.assertEqual(report_charts.number(value), text)
         for text, value in (("1,234.5", 1234.5), ("12%", 12), ("equal", None), ("", None)):
             self.assertEqual(report_tables.value_of(text), value)
 
     def test_units_that_stand_several_times_become_one_line(self):
-        spent = [
-            (f"hfu{i}.fine fetch", "fetch", {"busy": i, "idle": 10 - i}) for i in range(3)
-        ] + [("vsu walk", "vsu", {"busy": 4, "idle": 6})]
+        spent = [(f"hfu{i}.fine fetch", "fetch", {"busy": i, "idle": 10 - i}) for i in range(3)] + [
+            ("vsu walk", "vsu", {"busy": 4, "idle": 6})
+        ]
         self.assertEqual(
-            report_view.by_kind(spent),
+            report_time.by_kind(spent),
             [
                 ("hfu.fine fetch × 3", "fetch", {"busy": 3, "idle": 27}),
                 ("vsu walk", "vsu", {"busy": 4, "idle": 6}),
@@ -127,7 +143,9 @@ class Parts(unittest.TestCase):
 class WithFrames(InFolder):
     GAUSSIANS = 400
 
-    def simulated(self, config: str, folder: str, *overrides: str, size: str = "64x36") -> pathlib.Path:
+    def simulated(
+        self, config: str, folder: str, *overrides: str, size: str = "64x36"
+    ) -> pathlib.Path:
         out = self.folder / folder
         overrides = ("group_width_px=32", "group_height_px=16", *overrides)
         if config == "gscore":
@@ -171,7 +189,12 @@ class Page(WithFrames):
             self.simulated(config, f"both/{config}")
         (self.folder / "both" / "explore.csv").write_text("hfus,cycles\n2,1200\n4,1000\n")
         page = self.page(self.folder / "both")
-        for text in ("2 runs, 2 views", "explore.csv", ">exact, view 0</button>", ">paper, view 0<"):
+        for text in (
+            "2 runs, 2 views",
+            "explore.csv",
+            ">exact, view 0</button>",
+            ">paper, view 0<",
+        ):
             self.assertHolds(page, text)
         self.assertEqual(page.count("role=tabpanel"), 3)
         # A view of a run by itself, and no page of an earlier time.
