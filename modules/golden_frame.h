@@ -3,17 +3,26 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "algorithm/image/image.h"
+#include "algorithm/splat/rects.h"
 
 namespace sgs {
 
+// What happened in one group of pixels, where a machine has groups.
+struct GoldenGroup {
+  PixelRect pixels;
+  std::uint64_t blends = 0, misordered = 0, missed = 0;  // as of the frame
+};
+
 struct GoldenFrame {
-  Image image;                     // to the bit, before its pixel format
-  std::uint64_t blends = 0;        // (splat, pixel) pairs
-  std::uint64_t contributing = 0;  // Gaussians blended into at least one pixel
-  std::uint64_t misordered = 0;    // blends behind a splat that is farther, at the same pixel
-  std::uint64_t missed = 0;        // (group, splat) pairs that touch and were not looked at
+  Image image;                      // to the bit, before its pixel format
+  std::uint64_t blends = 0;         // (splat, pixel) pairs
+  std::uint64_t contributing = 0;   // Gaussians blended into at least one pixel
+  std::uint64_t misordered = 0;     // blends behind a splat that is farther, at the same pixel
+  std::uint64_t missed = 0;         // (group, splat) pairs that touch and were not looked at
+  std::vector<GoldenGroup> groups;  // [group, row by row]; they add up to the frame's
 
   // The picture that the same work would give in right order: each pixel blends all that was looked
   // at for it by depth, so that only missed splats keep it from the reference picture of the

@@ -19,7 +19,7 @@ from collections.abc import Callable, Sequence
 try:
     import matplotlib
 except ImportError:
-    sys.exit(f"{sys.argv[0]}: matplotlib is missing: install python3-matplotlib")
+    sys.exit(f"{sys.argv[0]}: matplotlib is missing; scripts/tools.sh installs python3-matplotlib")
 matplotlib.use("svg")
 # Equal files for equal tables, and text that stays text.
 matplotlib.rcParams.update({"svg.hashsalt": "", "svg.fonttype": "none", "font.size": 8})

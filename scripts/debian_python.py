@@ -25,4 +25,4 @@ def need(module: str, package: str) -> None:
             os.execve(
                 DEBIAN, [str(DEBIAN), "-B", *sys.argv], {**os.environ, "SGS_DEBIAN_PYTHON": "1"}
             )
-    raise ValueError(f"needs {package}, which scripts/setup.sh tools installs")
+    raise ValueError(f"needs {package}, which scripts/tools.sh installs")

@@ -10,6 +10,10 @@ case "${1:-}" in
   '') suites=(release asan) ;;
   *) echo "usage: test.sh [release|asan|full]" >&2; exit 2 ;;
 esac
+scripts/tools.sh
+. scripts/debian_packages.sh
+# For the page that report.py makes, and the studies of explore.py.
+install_missing chromium postgresql
 for suite in "${suites[@]}"; do
   scripts/setup.sh "${suite/full/release}"
   ctest --preset "$suite"

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <string>
 #include <systemc>
+#include <vector>
 
 #include "tlm/datapath.h"
 #include "tlm/memory_port.h"
@@ -57,6 +58,15 @@ class DataSheet {
     (void)unit;
     (void)meaning;
     (void)value;
+  }
+  // A value for each part of the unit's work, numbered as MemoryPort::charge_to(): of several units
+  // with one name they are added up.
+  virtual void by_part(const char* name, const char* unit, const char* meaning,
+                       const std::vector<std::uint64_t>& values) {
+    (void)name;
+    (void)unit;
+    (void)meaning;
+    (void)values;
   }
   // Lanes that stand there, and how many items have passed them: area and leakage of the lanes,
   // energy of the items, and items x macs / lanes as a bound on the cycles.

@@ -69,6 +69,11 @@ MemoryPort::Ticket MemoryPort::write(std::uint64_t address, const void* from, st
   return start(tlm::TLM_WRITE_COMMAND, address, data, bytes, region);
 }
 
+void MemoryPort::charge_to(std::size_t part) {
+  if (bytes_of_parts_.size() <= part) bytes_of_parts_.resize(part + 1);
+  part_ = part;
+}
+
 bool MemoryPort::done(Ticket ticket) const {
   return ticket < oldest_ || slot(ticket).remaining == 0;
 }
@@ -91,6 +96,7 @@ MemoryPort::Ticket MemoryPort::start(tlm::tlm_command command, std::uint64_t add
                                      std::uint8_t* data, std::uint32_t bytes, std::uint8_t region) {
   const std::uint64_t step = config_.max_transaction_bytes;
   const std::uint64_t end = address + bytes;
+  if (part_) bytes_of_parts_[*part_] += bytes;
   const std::uint64_t count = bytes == 0 ? 0 : (end - 1) / step - address / step + 1;
   const Ticket ticket = new_ticket(static_cast<std::uint32_t>(count));
   while (address < end) {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <systemc>
 #include <tlm>
 #include <tuple>
@@ -71,6 +72,12 @@ class MemoryPort : public sc_core::sc_module {
   // Starts writing; the bytes are copied before it returns. A word of width_bytes leaves a cycle.
   // Blocks as read() does, and while max_writes are unanswered.
   Ticket write(std::uint64_t address, const void* from, std::uint32_t bytes, std::uint8_t region);
+
+  // What is asked for from now on is for part `part` of the unit's work, numbered from 0; before
+  // the first call it is for none. Who asks knows; no time depends on it.
+  void charge_to(std::size_t part);
+  // [part] bytes asked for, read and written; as long as the highest part that any was for.
+  const std::vector<std::uint64_t>& bytes_of_parts() const { return bytes_of_parts_; }
 
   bool done(Ticket ticket) const;
 
@@ -167,6 +174,8 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t bytes_read_ = 0;
   std::uint64_t bytes_written_ = 0;
   std::uint64_t words_written_ = 0;
+  std::vector<std::uint64_t> bytes_of_parts_;
+  std::optional<std::size_t> part_;
 };
 
 }  // namespace sgs

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include "algorithm/order/tree_in_memory.h"
@@ -163,6 +164,7 @@ StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud
   for (const StreamingStats& s : stats) out.stats += s;
   out.stats.contributing = contributing.count();
   out.stats.blocks_visited = visited.count();
+  out.of_groups = std::move(stats);
   return out;
 }
 

@@ -171,6 +171,7 @@ StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud
   for (const StreamingStats& s : stats) out.stats += s;
   out.stats.contributing = contributing.count();
   out.stats.blocks_visited = visited.count();
+  out.of_groups = std::move(stats);
   return out;
 }
 

@@ -41,6 +41,7 @@ struct StreamingStats {
 struct StreamingResult {
   RenderResult frame;
   StreamingStats stats;
+  std::vector<StreamingStats> of_groups;  // [group, row by row]; what is counted by frame is 0
   // Paper order: [group, row by row] the voxels that its rays cross, in visiting order.
   std::vector<std::vector<std::uint32_t>> group_voxels;
 };

@@ -65,7 +65,7 @@ GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
   sheet.left_out("chunks_not_needed", "they cannot touch any group",
                  scene.image.layout.chunk_table().chunk_count - result.stats.blocks_visited,
                  "their Gaussians are never fetched");
-  return golden_frame(std::move(result.frame.image), result.stats);
+  return golden_frame(std::move(result), streaming_job(config_, job).groups);
 }
 
 std::unique_ptr<Machine> ExactDesign::build(const sc_core::sc_module_name& name,

@@ -87,9 +87,10 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.background = job.background;
   StreamingResult result = render_paper_order(job.view, scene.decoded, scene.grid(), order);
   publish_left_out(scene, result.stats.blocks_visited, sheet);
-  GoldenFrame golden = golden_frame(std::move(result.frame.image), result.stats);
+  std::vector<std::vector<std::uint32_t>> visited = std::move(result.group_voxels);
+  GoldenFrame golden = golden_frame(std::move(result), streaming_job(config_, job).groups);
   golden.in_order = [&scene, view = job.view, background = job.background, group = order.group,
-                     voxels = std::move(result.group_voxels)] {
+                     voxels = std::move(visited)] {
     return render_visited_in_order(view, scene.decoded, scene.grid(), group, voxels, background);
   };
   return golden;

@@ -49,13 +49,19 @@ StreamingJob streaming_job(const StreamingConfig& config, const StoredScene& sce
   return streaming_job(config, job);
 }
 
-GoldenFrame golden_frame(Image picture, const StreamingStats& stats) {
+GoldenFrame golden_frame(StreamingResult&& result, const std::vector<PixelRect>& groups) {
+  const StreamingStats& stats = result.stats;
   GoldenFrame golden;
-  golden.image = std::move(picture);
+  golden.image = std::move(result.frame.image);
   golden.blends = stats.contributors;
   golden.contributing = stats.contributing;
   golden.misordered = stats.misordered;
   golden.missed = stats.missed;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const StreamingStats& of_group = result.of_groups[g];
+    golden.groups.push_back(
+        {groups[g], of_group.contributors, of_group.misordered, of_group.missed});
+  }
   return golden;
 }
 

@@ -24,8 +24,9 @@ StreamingJob streaming_job(const StreamingConfig& config, const StoredScene& sce
 // As above, of a job that has passed as a FrameJob: groups and spill region again.
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job);
 
-// What any machine tells of its golden picture, and nothing of streaming.
-GoldenFrame golden_frame(Image picture, const StreamingStats& stats);
+// What any machine tells of its golden picture, and nothing of streaming. groups: that it was
+// rendered by.
+GoldenFrame golden_frame(StreamingResult&& result, const std::vector<PixelRect>& groups);
 
 // What the format of second halves and an earlier frame's codebooks spared.
 void publish_left_out(const StreamingConfig& config, const StoredScene& scene, DataSheet& sheet);

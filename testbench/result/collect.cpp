@@ -43,6 +43,15 @@ class Collector : public LeftOutCollector {
                std::uint64_t value) override {
     into_.units.back().counters.push_back({name, unit, meaning, value});
   }
+  void by_part(const char* name, const char* unit, const char* meaning,
+               const std::vector<std::uint64_t>& values) override {
+    if (values.empty()) return;
+    auto same = std::find_if(into_.by_part.begin(), into_.by_part.end(),
+                             [&](const PartValues& p) { return p.name == name; });
+    if (same == into_.by_part.end()) same = into_.by_part.insert(same, {name, unit, meaning, {}});
+    if (same->values.size() < values.size()) same->values.resize(values.size());
+    for (std::size_t part = 0; part < values.size(); ++part) same->values[part] += values[part];
+  }
   void datapath(const Datapath& path, std::uint64_t items) override {
     part(path.component.c_str(), path.lane.c_str(), static_cast<double>(path.all_lanes()), 1);
     operations(path.component.c_str(), path.lane.c_str(),
@@ -101,6 +110,7 @@ class Collector : public LeftOutCollector {
   }
   void port(MemoryPort& port, const char* writes) override {
     accesses(kOutstandingTable, port.transactions(), port.transactions());
+    by_part(kBytesOfParts, "bytes", "asked for, read and written", port.bytes_of_parts());
     if (*writes != '\0') accesses(writes, port.words_written(), port.words_written());
   }
   void sram_available(const char* memory, std::uint64_t bytes) override {

@@ -76,6 +76,13 @@ struct LeftOut {
   std::string saves;
 };
 
+// Of each part of the machine's work; several units' values added up.
+struct PartValues {
+  std::string name, unit, meaning;
+  std::vector<std::uint64_t> values;  // [part]
+};
+constexpr const char* kBytesOfParts = "bytes";  // that ports asked for
+
 // What the data sheets of a machine say, in the order in which they are published.
 struct MachineResult {
   std::vector<UnitResult> units;
@@ -86,6 +93,7 @@ struct MachineResult {
   std::vector<std::pair<std::string, std::uint64_t>> sram_available;  // (memory, bytes)
   std::vector<SramAccesses> sram_accesses;
   std::vector<DatapathResult> datapaths;
+  std::vector<PartValues> by_part;
 };
 
 // Bytes that one requester asked for in one region.

@@ -75,9 +75,13 @@ void serialize(Archive& a, DatapathResult& r) {
   a(r.datapath, r.items, r.busiest_cycles);
 }
 template <class Archive>
+void serialize(Archive& a, PartValues& r) {
+  a(r.name, r.unit, r.meaning, r.values);
+}
+template <class Archive>
 void serialize(Archive& a, MachineResult& r) {
   a(r.units, r.operations, r.parts, r.left_out, r.sram_uses, r.sram_available, r.sram_accesses,
-    r.datapaths);
+    r.datapaths, r.by_part);
 }
 template <class Archive>
 void serialize(Archive& a, RegionTraffic& r) {

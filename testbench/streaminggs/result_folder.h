@@ -15,8 +15,9 @@
 
 namespace sgs {
 
-constexpr const char* kViewFiles[] = {"frame.exr", "frame.png", "reference.exr", "reference.png",
-                                      "report.json"};
+constexpr const char* kGroupTableFile = "groups.csv";
+constexpr const char* kViewFiles[] = {"frame.exr",     "frame.png",   "reference.exr",
+                                      "reference.png", "report.json", kGroupTableFile};
 
 class ResultFolder {
  public:

@@ -20,6 +20,7 @@
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/error_maps.h"
+#include "testbench/streaminggs/group_table.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/result_folder.h"
 #include "testbench/streaminggs/run_report.h"
@@ -55,13 +56,18 @@ void write_view(const fs::path& folder, const ViewResult& view, const std::strin
   write_image(add("reference.exr"), view.reference);
   write_image(add("reference.png"), view.reference);
   add("report.json").write(report);
-  std::set<std::string> old_maps(std::begin(kErrorMapFiles), std::end(kErrorMapFiles));
+  std::set<std::string> old(std::begin(kErrorMapFiles), std::end(kErrorMapFiles));
+  old.insert(kGroupTableFile);
+  if (const std::string groups = group_table(view); !groups.empty()) {
+    add(kGroupTableFile).write(groups);
+    old.erase(kGroupTableFile);
+  }
   for (const ErrorMap& map : error_maps(view)) {
     write_image(add(map.file), map.image);
-    old_maps.erase(map.file);
+    old.erase(map.file);
   }
   files.commit();
-  for (const std::string& map : old_maps) fs::remove(folder / map);
+  for (const std::string& file : old) fs::remove(folder / file);
 }
 
 // Refuses outputs that have no place, or would take that of an input, before the work begins.
@@ -209,7 +215,8 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.whole(
       "--process-order", build.process_order, 0, kMostSeed,
       "seed that shuffles in which order the processes of an instant act; changes no number");
-  line.flag("--print-config", arguments->print_config, "show every key of the configuration: what --config takes; 0 where it is left open");
+  line.flag("--print-config", arguments->print_config,
+            "show every key of the configuration: what --config takes; 0 where it is left open");
   return [arguments, &kinds] {
     arguments->command = command_line();
     return run(*arguments, kinds);

@@ -42,6 +42,7 @@ void CoarseFilter::run_load() {
       share.count = 0;
     }
     const std::uint32_t end = share.first + share.count;
+    memory.charge_to(share.group);
     do {
       Slice slice;
       slice.share = share;

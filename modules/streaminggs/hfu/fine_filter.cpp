@@ -90,6 +90,7 @@ void FineFilter::fetch(FineCandidate candidate) {
   counters_.dropped_fetched += count_parts(all & ~candidate.parts);
   candidate.buffer = free_slots_.pop(fetch_, WaitFor::kRoom);
   fetch_.work(1);
+  memory.charge_to(candidate.group);
   candidate.ticket =
       start_read(memory, fetch_, job_.layout.second_halves.address(candidate.slot),
                  second_halves_.data() + std::size_t{candidate.buffer} * record_bytes_,

@@ -62,6 +62,7 @@ void MergeUnit::run() {
     FifoReadIf<FineCandidate>& input = in_turn(sorted, visit);
     FineCandidate key = input.pop(merge_);
     group_ = key.group;
+    memory.charge_to(group_);
     while (key.mark == Mark::kNone) {
       take(key);
       key = input.pop(merge_);

@@ -60,6 +60,7 @@ RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const Renderin
 
 void RenderingUnit::run_blend() {
   std::size_t turn = 0;
+  std::uint64_t ended = 0;
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     free_buffers_.pop(blend_, WaitFor::kRoom);
     current_group_ = group;
@@ -82,6 +83,9 @@ void RenderingUnit::run_blend() {
     counters_.contributors += state->contributors();
     work_until(schedule_.all_done());
     finished_.push(std::move(state), blend_);
+    const std::uint64_t now = blend_.clock().now_cycles();
+    cycles_of_groups_.push_back(now - ended);
+    ended = now;
   }
   blend_.idles();
 }
@@ -130,6 +134,7 @@ void RenderingUnit::run_drain() {
   }
   for (std::size_t done = 0; done < job_.groups.size(); ++done) {
     const std::shared_ptr<GroupState> state = finished_.pop(drain_);
+    memory.charge_to(done);
     write_group(*state);
     free_buffers_.push(0, drain_);
   }
@@ -293,6 +298,8 @@ void RenderingUnit::publish(DataSheet& sheet) {
                 clusters.queue_cycles);
   sheet.counter("contributors", "pixels", "blended with an alpha above 1/255",
                 counters_.contributors);
+  sheet.by_part("cycles", "cycles", "of rendering, from the end of the group before",
+                cycles_of_groups_);
   publish_ledger(sheet);
   // All three work at the same time, on different splats.
   const bool by_rows = clusters.span_cycles > clusters.begin_cycles;

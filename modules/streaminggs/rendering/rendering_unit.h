@@ -78,7 +78,8 @@ class RenderingUnit : public sc_core::sc_module {
   TimedFifo<std::uint32_t> free_buffers_;
   ClusterSchedule schedule_;
   Counters counters_;
-  std::uint32_t current_group_ = 0;  // for the waveform
+  std::vector<std::uint64_t> cycles_of_groups_;  // from the end of the one before
+  std::uint32_t current_group_ = 0;              // for the waveform
 };
 
 }  // namespace sgs

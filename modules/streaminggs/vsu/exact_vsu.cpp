@@ -111,6 +111,7 @@ bool ExactVsu::read_node() {
   } else {
     work_on_queues(1);
     ++counters_.nodes_read;
+    memory.charge_to(chunk_walk_.of_first(entry) ? group_ : group_ + 1);
     nodes_.ask(entry, memory, walk_);
   }
   return true;
@@ -373,6 +374,7 @@ void ExactVsu::publish(DataSheet& sheet) {
 
 void ExactVsu::Aside::put_aside(const WalkEntry& entry) {
   static_assert(sizeof(WalkEntry) == kWalkEntryBytes);
+  vsu_.memory.charge_to(vsu_.group_);
   start_write(vsu_.memory, vsu_.walk_, span_.base + std::uint64_t{count_} * kWalkEntryBytes, &entry,
               kWalkEntryBytes, span_.region);
   ++count_;
@@ -380,6 +382,7 @@ void ExactVsu::Aside::put_aside(const WalkEntry& entry) {
 
 std::vector<WalkEntry> ExactVsu::Aside::take_back() {
   std::vector<WalkEntry> entries(count_);
+  vsu_.memory.charge_to(vsu_.group_);
   await_all(vsu_.memory, vsu_.walk_);  // they have been written
   await(vsu_.memory, vsu_.walk_,
         start_read(vsu_.memory, vsu_.walk_, span_.base, entries.data(), count_ * kWalkEntryBytes,

@@ -44,6 +44,7 @@ void PaperVsu::run_traverse() {
   const ClockDomain& clock = traverse_.clock();
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     current_group_ = group;
+    node_memory.charge_to(group);
     const std::uint64_t from = clock.now_cycles();
     const GroupVisits visits = order_group(job_.groups[group]);
     const std::uint64_t cycles = clock.now_cycles() - from;
@@ -100,6 +101,7 @@ void PaperVsu::run_emit() {
 
 void PaperVsu::visit_voxel(std::uint32_t group, std::uint32_t voxel) {
   current_voxel_ = voxel;
+  record_memory.charge_to(group);
   ++counters_.voxels;
   const auto plane = [&](std::uint32_t index) {
     emit_.work(1);

@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+"""Figures of results that lie on disk, as SVG and PNG, one function each: the paper's, with its own
+numbers where it has any, and ours. Captions name the file, the command and the commit that the
+numbers are from. A figure whose input is not there is skipped by name, with the script that makes
+it.
+
+  figures.py                      all that can be made from out/, into out/figures/
+  figures.py variants roofline    these two
+
+The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units.
+Ours: exploration, fronts_of_orders, equal_area, group_size, and of the runs of `simulate` below
+the folder roofline, waits, traffic.
+
+Needs Debian's python3-matplotlib, which scripts/tools.sh installs for /usr/bin/python3.
+"""
+
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+
+import figure_style
+import figures_of_machines
+import figures_of_paper
+import run_arguments
+import simulations
+from figure_inputs import Missing, Results
+
+FIGURES = figures_of_paper.FIGURES | figures_of_machines.FIGURES
+
+
+def make_figures(arguments: argparse.Namespace) -> None:
+    """Raises ValueError where nothing could be made, and for a table that is none."""
+    results = Results(arguments.folder)
+    if not results.folder.is_dir():
+        raise ValueError(f"--from: {results.folder}: no folder, expected one with results")
+    out = arguments.out or results.folder / "figures"
+    made = 0
+    for name in arguments.names or FIGURES:
+        try:
+            figure, caption = FIGURES[name](results)
+        except Missing as missing:
+            print(f"skipped {name}: {missing}")
+            continue
+        figure_style.save(figure, out, name, caption)
+        print(f"written to {out / name}.svg, .png", flush=True)
+        made += 1
+    if made == 0:
+        raise ValueError(f"{results.folder}: nothing to draw any of the figures from")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=run_arguments.Help, allow_abbrev=False
+    )
+    parser.add_argument(
+        "names", nargs="*", metavar="FIGURE", help=f"any of {', '.join(FIGURES)}; default: all"
+    )
+    parser.add_argument(
+        "--from",
+        dest="folder",
+        type=pathlib.Path,
+        default=simulations.REPOSITORY / "out",
+        metavar="FOLDER",
+        help="with results",
+    )
+    parser.add_argument(
+        "--out", type=pathlib.Path, metavar="FOLDER", help="default: figures/ in that of --from"
+    )
+    arguments = parser.parse_args()
+    for name in arguments.names:
+        if name not in FIGURES:
+            parser.error(f"{name}: no figure, expected {', '.join(FIGURES)}")
+    return run_arguments.main(lambda: make_figures(arguments))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

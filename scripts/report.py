@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""One HTML page of results, to be opened from disk: it needs nothing beside it and no network.
+
+  report.py out/first_frame
+  report.py out/builtin_object
+
+FOLDER is what `streaminggs simulate --out` wrote, with one view or several; or a folder that holds
+several of these at most three folders below, and the CSV tables that scripts wrote there
+(explore.csv): the page then begins with all of them in one table and a diagram. Pictures are
+halved until the page is small enough, then left out from the last view on, and the page says so.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import pathlib
+import sys
+from collections.abc import Sequence
+
+import png_pictures
+import report_overview
+import report_tables
+import report_view
+import run_arguments
+import tables
+from report_charts import data_uri, escaped, ramp_css
+from report_folder import Run, Table, ViewFiles, find_runs, find_tables
+
+ASSETS = pathlib.Path(__file__).resolve().parent
+MOST_BYTES = 6_000_000  # of the page
+MOST_HALVINGS = 2
+
+
+@dataclasses.dataclass(frozen=True)
+class Panel:
+    """A tab of the page. draw(uris, remark): its text, with the data of its pictures."""
+
+    name: str
+    run: Run | None = None
+    files: ViewFiles | None = None
+    text: str = ""
+
+
+def title_of(run: Run, files: ViewFiles, several_runs: bool) -> str:
+    view = files.report
+    of_run = run.name if several_runs else view["scene"]["name"]
+    return f"{of_run}, view {view['view']}"
+
+
+def panels_of(runs: Sequence[Run], found: Sequence[Table]) -> list[Panel]:
+    views = [(run, files) for run in runs for files in run.views]
+    panels = []
+    text = ""
+    if len(views) > 1:
+        text += report_overview.sections(runs)
+    text += "".join(report_tables.section(table, f"{table.name}.csv") for table in found)
+    failed = [(run, failure) for run in runs for failure in run.failed]
+    text += "".join(
+        f"<p class=note><b>{escaped(run.name)} view {failure['view']} failed.</b> "
+        f"{escaped(failure['why'])}</p>"
+        for run, failure in failed
+    )
+    if text:
+        panels.append(Panel("overview", text=f"<div class=grid>{text}</div>"))
+    several_runs = len(runs) > 1
+    panels += [Panel(title_of(run, files, several_runs), run, files) for run, files in views]
+    return panels
+
+
+def halved_as_often(png: bytes, times: int) -> bytes:
+    for _ in range(times):
+        png = png_pictures.halved(png)
+    return png
+
+
+def text_of(panel: Panel, at: int, uris: dict[str, str], remark: str) -> str:
+    return panel.text or report_view.panel(panel.files, uris, f"v{at}", remark)
+
+
+def fitted(panels: Sequence[Panel], room: int) -> list[str]:
+    """Texts of the panels, at most so many bytes together: with pictures of full size, else halved,
+    else of the first panels only. Raises ValueError for a picture that is no PNG of `simulate`."""
+    plain = [text_of(panel, at, {}, "") for at, panel in enumerate(panels)]
+    left = room - sum(len(text.encode()) for text in plain)
+    for times in range(MOST_HALVINGS + 1):
+        uris = [
+            {
+                what: data_uri(halved_as_often(png, times))
+                for what, png in panel.files.pictures.items()
+            }
+            if panel.files
+            else {}
+            for panel in panels
+        ]
+        sizes = [sum(map(len, of_panel.values())) for of_panel in uris]
+        if sum(sizes) <= left or times == MOST_HALVINGS:
+            break
+    shrunk = f"Pictures at 1/{2**times} of their width and height." if times else ""
+    texts = []
+    for at, panel in enumerate(panels):
+        left -= sizes[at]
+        left_out = panel.files and panel.files.pictures and left < 0
+        remark = "Pictures left out: the page would be too large." if left_out else shrunk
+        texts.append(
+            text_of(panel, at, {} if left_out else uris[at], remark if panel.files else "")
+        )
+    return texts
+
+
+def heading(runs: Sequence[Run], folder: pathlib.Path) -> tuple[str, str]:
+    """Title and the line below it."""
+    views = [files.report for run in runs for files in run.views]
+    if len(runs) != 1:
+        return folder.resolve().name, f"{len(runs)} runs, {len(views)} views"
+    view = views[0]
+    frames = [v["frame"] for v in views]
+    sizes = dict.fromkeys(f"{f['width_px']} × {f['height_px']} px" for f in frames)
+    words = (
+        f"{view['scene']['gaussians']:,} Gaussians",
+        f"SH degree {view['scene']['sh_degree']}",
+        ", ".join(sizes),
+        f"machine {view['config']['machine']}",
+        f"{view['config']['clock_mhz']:g} MHz",
+        f"commit {view['provenance']['commit']}",
+    )
+    return view["scene"]["name"], " · ".join(words)
+
+
+def page(folder: pathlib.Path) -> str:
+    """Raises ValueError where there is nothing to show."""
+    runs = list(find_runs(folder))
+    panels = panels_of(runs, find_tables(folder))
+    if not panels:
+        raise ValueError(
+            f"{folder}: no results, expected report.json of `streaminggs simulate`, folders with "
+            "one, or CSV tables"
+        )
+    title, subtitle = heading(runs, folder)
+    tabs = "".join(
+        f"<button role=tab id=tab{at} aria-controls=panel{at} "
+        f'aria-selected={"true" if at == 0 else "false tabindex=-1"}>{escaped(panel.name)}</button>'
+        for at, panel in enumerate(panels)
+    )
+    bar = f'<div role=tablist aria-label="views">{tabs}</div>' if len(panels) > 1 else ""
+    style = (ASSETS / "report_page.css").read_text(encoding="utf-8").replace("RAMP", ramp_css())
+    script = (ASSETS / "report_page.js").read_text(encoding="utf-8")
+    before = (
+        "<!doctype html><html lang=en><head><meta charset=utf-8>"
+        '<meta name=viewport content="width=device-width,initial-scale=1">'
+        '<meta name=color-scheme content="light dark"><link rel=icon href="data:,">'
+        f"<title>{escaped(title)}</title><style>{style}</style></head><body><header><div>"
+        f"<h1>{escaped(title)}</h1><p>{escaped(subtitle)}</p></div>"
+        f"<button type=button id=theme>theme: system</button></header>{bar}<main>"
+    )
+    behind = f"</main><script>{script}</script></body></html>\n"
+    texts = fitted(panels, MOST_BYTES - len((before + behind).encode()) - 200 * len(panels))
+    several = len(panels) > 1
+    whole = "".join(
+        f"<div id=panel{at} {f'role=tabpanel aria-labelledby=tab{at}' if several else ''}>"
+        f"{f'<h2>{escaped(panel.name)}</h2>' if several else ''}{text}</div>"
+        for at, (panel, text) in enumerate(zip(panels, texts))
+    )
+    return before + whole + behind
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=run_arguments.Help, allow_abbrev=False
+    )
+    parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER", help="with results")
+    parser.add_argument(
+        "--out", type=pathlib.Path, metavar="FILE", help="the page; default: FOLDER/report.html"
+    )
+    arguments = parser.parse_args()
+
+    def work() -> None:
+        if not arguments.folder.is_dir():
+            raise ValueError(f"{arguments.folder}: no folder, expected one with results")
+        out = arguments.out or arguments.folder / "report.html"
+        tables.write_text(out, page(arguments.folder))
+        print(f"written to {out}")
+
+    return run_arguments.main(work)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,121 @@
+"""What lies in a result folder: views of `streaminggs simulate`, runs below it, tables."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import json
+import pathlib
+from collections.abc import Iterator
+
+REPORT = "report.json"
+DEEPEST = 3  # folders below the one that is named: out/SCENE/CONFIG and one more
+# Pictures of a view by file name: what they show.
+PICTURES = {
+    "frame.png": "frame",
+    "reference.png": "reference",
+    "error.png": "error",
+    "missed.png": "missed",
+    "misordered.png": "misordered",
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class ViewFiles:
+    """A view's report and what lies beside it. pictures: bytes of PNG files, by what they show;
+    groups: columns of groups.csv, by name."""
+
+    report: dict
+    pictures: dict[str, bytes]
+    groups: dict[str, list[int]]
+
+
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """Views of one `simulate`. name: of its folder, below the one that was named."""
+
+    name: str
+    views: tuple[ViewFiles, ...]
+    failed: tuple[dict, ...] = ()  # views without a report: `view` and `why`
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """labels: the columns that name a row; where there are none, those that are not numbers."""
+
+    name: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    labels: tuple[str, ...] = ()
+
+
+def read_json(path: pathlib.Path) -> dict:
+    """Raises ValueError where it is no object of JSON."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8", errors="replace"))
+    except json.JSONDecodeError as error:
+        raise ValueError(f"{path}:{error.lineno}: {error.msg}, expected JSON") from error
+    if not isinstance(found, dict):
+        raise ValueError(f"{path}: {type(found).__name__}, expected an object")
+    return found
+
+
+def read_groups(path: pathlib.Path) -> dict[str, list[int]]:
+    """Raises ValueError where a line is not whole numbers, as many as there are names."""
+    if not path.exists():
+        return {}
+    head, *rows = list(csv.reader(path.read_text().splitlines())) or [[]]
+    for number, row in enumerate(rows, start=2):
+        if len(row) != len(head) or not all(cell.isdecimal() for cell in row):
+            raise ValueError(f"{path}:{number}: got {','.join(row)}, expected {len(head)} counts")
+    return {name: [int(row[at]) for row in rows] for at, name in enumerate(head)}
+
+
+def view_files(report: dict, folder: pathlib.Path) -> ViewFiles:
+    """Raises ValueError."""
+    for key in ("frame", "units", "dram", "energy", "area_mm2", "config"):
+        if key not in report:
+            raise ValueError(f"{folder / REPORT}: no '{key}', expected the report of a view")
+    found = {
+        what: (folder / name).read_bytes()
+        for name, what in PICTURES.items()
+        if (folder / name).exists()
+    }
+    return ViewFiles(report, found, read_groups(folder / "groups.csv"))
+
+
+def read_run(folder: pathlib.Path, name: str) -> Run | None:
+    """The run whose report.json the folder holds; None where it is of another kind."""
+    report = read_json(folder / REPORT)
+    if "views" not in report:
+        if "frame" not in report:
+            return None
+        return Run(name, (view_files(report, folder),))
+    views = tuple(view_files(view, folder / f"view_{view['view']}") for view in report["views"])
+    return Run(name, views, tuple(report.get("failed", ())))
+
+
+def find_runs(folder: pathlib.Path, name: str = "", depth: int = 0) -> Iterator[Run]:
+    """Raises ValueError."""
+    if (folder / REPORT).exists():
+        run = read_run(folder, name)
+        if run is not None:
+            yield run
+            return
+    if depth == DEEPEST:
+        return
+    for below in sorted(path for path in folder.iterdir() if path.is_dir()):
+        yield from find_runs(below, f"{name}/{below.name}".lstrip("/"), depth + 1)
+
+
+def find_tables(folder: pathlib.Path) -> list[Table]:
+    """CSV files with a head and at least one row."""
+    tables = []
+    for path in sorted(folder.glob("*.csv")):
+        head, *rows = list(
+            csv.reader(path.read_text(encoding="utf-8", errors="replace").splitlines())
+        ) or [[]]
+        whole = [tuple(row) for row in rows if len(row) == len(head)]
+        if whole and path.name != "groups.csv":
+            tables.append(Table(path.stem, tuple(head), tuple(whole)))
+    return tables

@@ -1,0 +1,148 @@
+"""CSV tables on the report page: sortable, with a diagram of any two columns."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+from report_charts import escaped
+from report_folder import Table
+
+MOST_ROWS = 2000  # of a table that are shown
+# Columns that are drawn at first where they are there, the likelier ones first.
+ACROSS = ("area_mm2.total", "mm2", "area_mm2", "sram_bytes", "DRAM MB", "MB a frame", "bus MB")
+UP = ("fps", "frames/s", "cycles", "k cycles", "M cycles", "mJ", "PSNR dB")
+NO_LABELS = ("binding", "binds", "pareto")  # that say nothing of what a row is
+
+
+def value_of(cell: str) -> float | None:
+    """The number that a cell begins with nothing before and no words behind: 1,234.5 or 12%."""
+    try:
+        return float(cell.replace(",", "").removesuffix("%"))
+    except ValueError:
+        return None
+
+
+def numeric_columns(table: Table) -> list[int]:
+    """Those with nothing but numbers where they are filled, and at least one."""
+    found = []
+    for at in range(len(table.head)):
+        cells = [row[at] for row in table.rows if row[at]]
+        if cells and all(value_of(cell) is not None for cell in cells):
+            found.append(at)
+    return found
+
+
+def first_choice(table: Table, wanted: Sequence[str], among: Sequence[int], other: int) -> int:
+    for name in wanted:
+        if name in table.head and table.head.index(name) in among:
+            return table.head.index(name)
+    differ = [at for at in among if at != other and len({row[at] for row in table.rows}) > 1]
+    return (differ or [at for at in among if at != other] or list(among))[0]
+
+
+def labels_of(table: Table, numeric: Sequence[int]) -> Sequence[str]:
+    """Columns that name a row: of an exploration its axes, else words that are no range."""
+    if table.labels:
+        return table.labels
+    if "pareto" in table.head and "group" in table.head:
+        return table.head[: table.head.index("group") + 1]
+    words = [at for at in range(len(table.head)) if at not in numeric]
+    return [
+        table.head[at]
+        for at in words
+        if table.head[at] not in NO_LABELS and not any(" .. " in row[at] for row in table.rows)
+    ]
+
+
+def cell_text(cell: str) -> str:
+    """Of a column of numbers: as long as it can be read."""
+    value = value_of(cell)
+    if value is None or "," in cell or "%" in cell:
+        return cell
+    if cell.lstrip("-").isdecimal():
+        return f"{int(cell):,}"
+    return f"{value:.6g}" if len(cell) > 9 else cell
+
+
+def diagram(table: Table, numeric: Sequence[int], name: str) -> str:
+    if len(numeric) < 2 or len(table.rows) < 2:
+        return ""
+    across = first_choice(table, ACROSS, numeric, -1)
+    up = first_choice(table, UP, [at for at in numeric if at != across], across)
+    best = table.head.index("pareto") if "pareto" in table.head else None
+    varying = [
+        at
+        for at, name in enumerate(table.head)
+        if name in labels_of(table, numeric) and len({row[at] for row in table.rows}) > 1
+    ]
+
+    def label(row: Sequence[str]) -> str:
+        named = (f"{table.head[at]} {row[at]}" if at in numeric else row[at] for at in varying)
+        return ", ".join(filter(None, named))
+
+    facts = {
+        "names": [table.head[at] for at in numeric],
+        "points": [[value_of(row[at]) for at in numeric] for row in table.rows],
+        "labels": [label(row) for row in table.rows],
+        "best": [best is None or row[best] == "yes" for row in table.rows],
+    }
+
+    def choice(axis: str, chosen: int) -> str:
+        options = "".join(
+            f"<option value={place} {'selected' if at == chosen else ''}>{escaped(table.head[at])}"
+            for place, at in enumerate(numeric)
+        )
+        return f"<label>{axis} <select data-axis={axis}>{options}</select></label>"
+
+    note = (
+        "<span class=small>filled: no other point is better in everything</span>"
+        if best is not None
+        else ""
+    )
+    return (
+        f'<figure class=scatter data-points="{escaped(json.dumps(facts, separators=(",", ":")))}">'
+        f"<figcaption>{choice('up', up)} {choice('across', across)} {note}</figcaption>"
+        f'<svg role=img tabindex=0 aria-label="{escaped(name)}: a diagram of '
+        f'{len(table.rows)} points; arrow keys read single points"></svg>'
+        "<output aria-live=polite>&nbsp;</output></figure>"
+    )
+
+
+def table_html(table: Table, numeric: Sequence[int]) -> str:
+    head = "".join(
+        f'<th scope=col{" class=n" if at in numeric else ""}><button type=button>'
+        f"{escaped(name)}</button></th>"
+        for at, name in enumerate(table.head)
+    )
+    body = "".join(
+        "<tr>"
+        + "".join(
+            f"<td class=n>{escaped(cell_text(cell))}</td>"
+            if at in numeric
+            else f"<td>{escaped(cell)}</td>"
+            for at, cell in enumerate(row)
+        )
+        + "</tr>"
+        for row in table.rows[:MOST_ROWS]
+    )
+    more = len(table.rows) - MOST_ROWS
+    note = (
+        f"<p class=small>{more} more lines are in {escaped(table.name)}.csv.</p>"
+        if more > 0
+        else ""
+    )
+    return (
+        f'<div class=scroll tabindex=0 role=region aria-label="table {escaped(table.name)}">'
+        f'<table class="plain sortable" aria-label="{escaped(table.name)}">'
+        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        f"</div>{note}"
+    )
+
+
+def section(table: Table, title: str) -> str:
+    numeric = numeric_columns(table)
+    return (
+        f"<section class=wide><h3>{escaped(title)}</h3>"
+        f"{diagram(table, numeric, title)}{table_html(table, numeric)}</section>"
+    )

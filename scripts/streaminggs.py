@@ -1,0 +1,128 @@
+"""The command from Python, without a build step: `run()` simulates, `load()` reads what lies in a
+folder, both as dictionaries, one a view with the keys of report.json; `numbers()` and `table()`
+make columns of them, `diff()` says where two differ.
+
+  import sys; sys.path.insert(0, "scripts")
+  import streaminggs
+  small, large = (
+      streaminggs.run("builtin:object?n=20000", settings={"hfus": hfus, **streaminggs.FITTED})[0]
+      for hfus in (2, 8)
+  )
+  print(small["frame"]["cycles"], large["frame"]["cycles"])
+  for key, before, after, change in streaminggs.diff(small, large)[:10]:
+      print(f"{key}: {before} -> {after}")
+  streaminggs.table([small, large])[["config.hfus", "frame.cycles", "area_mm2.total"]]  # pandas
+"""
+
+from __future__ import annotations
+
+import pathlib
+from collections.abc import Iterator, Mapping, Sequence
+
+import simulations
+from report_folder import find_runs
+from scenes import Scene, find_scene
+
+Failure = simulations.Failure
+
+# On-chip memories as large as the rest of the configuration needs.
+FITTED = dict(assignment.split("=") for assignment in simulations.SRAM_AS_NEEDED)
+
+
+def run(
+    scene: str,
+    *,
+    cameras: str = "",
+    view: str | int = 0,
+    size: str = "",
+    config: str = "exact",
+    settings: Mapping[str, object] | None = None,
+    out: str | pathlib.Path | None = None,
+    program: str | pathlib.Path = simulations.BINARY,
+) -> list[dict]:
+    """Simulates and gives the report of each view.
+
+    scene: builtin:NAME?n=COUNT, a real scene of ../shared by name, or a file with its cameras
+    beside it, or with `cameras`. view: a number, "0,2" or "all". size: "WxH". settings: keys of the
+    configuration over those of `config`. out: a folder that keeps pictures and reports.
+
+    Raises ValueError for what the command refuses, Failure where a simulation ends badly or a frame
+    is not the model's.
+    """
+    found = Scene(pathlib.Path(scene).stem, scene, cameras) if cameras else find_scene(scene)
+    overrides = tuple(f"{key}={text(value)}" for key, value in (settings or {}).items())
+    job = simulations.Run(found, str(view), size, config, overrides)
+    if out is None:
+        outcome = simulations.simulate(pathlib.Path(program), job)
+    else:
+        outcome = simulations.simulate_into(pathlib.Path(out), pathlib.Path(program), job)
+    return list(outcome.accepted())
+
+
+def text(value: object) -> str:
+    """As --set takes it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def load(folder: str | pathlib.Path) -> list[dict]:
+    """The reports of all views of a result folder, or of those at most three folders below. Raises
+    ValueError where there are none."""
+    reports = [files.report for run_of in find_runs(pathlib.Path(folder)) for files in run_of.views]
+    if not reports:
+        raise ValueError(f"{folder}: no report.json of `streaminggs simulate` in it or below")
+    return reports
+
+
+def leaves(value: object, path: str = "") -> Iterator[tuple[str, object]]:
+    """(key.path, value) of everything in a report that is no dictionary; entries of lists by their
+    place."""
+    if isinstance(value, Mapping):
+        entries = value.items()
+    elif isinstance(value, list):
+        entries = enumerate(value)
+    else:
+        yield path, value
+        return
+    for key, below in entries:
+        yield from leaves(below, f"{path}.{key}" if path else str(key))
+
+
+def numbers(view: dict) -> dict[str, float]:
+    """Every number of a report by its path, such as `dram.bus_bytes`."""
+    return {
+        path: value
+        for path, value in leaves(view)
+        if isinstance(value, (int, float)) and not isinstance(value, bool)
+    }
+
+
+def table(views: Sequence[dict]):
+    """A pandas data frame: a line a view, a column for each leaf of its report. Raises ImportError
+    without pandas (Debian's python3-pandas)."""
+    import pandas
+
+    return pandas.DataFrame([dict(leaves(view)) for view in views])
+
+
+Difference = tuple[str, object, object, float]  # path, before, after, (after - before) / |before|
+
+
+def diff(before: dict, after: dict) -> list[Difference]:
+    """Where the reports of two views differ but for the host and the command: what is no number, or
+    is in one of them only (None in the other), first, with an infinite change; then what changed
+    most of itself."""
+    one, other = (
+        {k: v for k, v in leaves(view) if not k.startswith(("host.", "provenance."))}
+        for view in (before, after)
+    )
+    found = []
+    for path in dict.fromkeys([*one, *other]):
+        a, b = one.get(path), other.get(path)
+        if a != b:
+            found.append((path, a, b, change(a, b)))
+    return sorted(found, key=lambda difference: -abs(difference[3]))
+
+
+def change(a: object, b: object) -> float:
+    counts = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in (a, b))
+    return (b - a) / abs(a) if counts and a != 0 else float("inf")

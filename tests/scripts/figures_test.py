@@ -1,0 +1,246 @@
+"""figures.py: each figure from a table with the columns of the script that makes it. Run as a user
+runs it, by its first line; skipped where that Python has no matplotlib."""
+
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+import xml.etree.ElementTree
+
+from in_folder import COMMAND, REPOSITORY, InFolder  # isort: skip (finds the scripts)
+import boundary_study
+import compare_machines
+import compare_variants
+import energy_tables
+import fair_fight_tables
+import machine_views
+import simulations
+import tables
+import voxel_study
+from scenes import find_scene
+
+SCRIPT = REPOSITORY / "scripts" / "figures.py"
+PYTHON = SCRIPT.read_text().partition("\n")[0].removeprefix("#!")
+EXPLORE_HEAD = (
+    "hfu.cfus",
+    "hfu.ffu_lanes",
+    "group",
+    "cycles",
+    "area_mm2.total",
+    "binding",
+    "pareto",
+)
+
+
+def has_matplotlib(python: str) -> bool:
+    command = [python, "-c", "import matplotlib"]
+    return (
+        bool(shutil.which(python)) and not subprocess.run(command, capture_output=True).returncode
+    )
+
+
+def rows(head, *different: dict) -> list[tuple]:
+    """A row for each, with 1 to 9 in columns that are not said."""
+    return [
+        tuple(of.get(name, 1 + (at * 7 + place) % 9) for at, name in enumerate(head))
+        for place, of in enumerate(different)
+    ]
+
+
+def grid(key: str, values, other: str, others) -> list[dict]:
+    return [{key: value, other: of} for value in values for of in others]
+
+
+# Of each figure: its table, and what must stand in the SVG as text.
+TABLES = {
+    "characterisation": (
+        "characterisation",
+        compare_machines.CHARACTER_HEAD,
+        grid("scene", ("truck", "yard"), "machine", ("GPU, modelled", "gscore")),
+        ("truck", "gscore", "90 frames/s", "2 to 9"),
+    ),
+    "dram_by_stage": (
+        "characterisation",
+        compare_machines.CHARACTER_HEAD,
+        [{"scene": "truck", "scene %": 20, "intermediate %": 70, "pixels %": 10}],
+        ("intermediate", "truck"),
+    ),
+    "tuning_curve": (
+        "boundary_study",
+        boundary_study.HEAD,
+        [
+            {
+                "scene": "truck",
+                "of the preset's": 1,
+                "beta": beta,
+                "step": step,
+                "misordered": "0.02",
+            }
+            for beta in ("0", "0.5")
+            for step in (0, 500, 1000)
+        ],
+        ("truck, voxels x 1, beta 0.5", "step"),
+    ),
+    "variants": (
+        "compare_variants",
+        compare_variants.VARIANT_HEAD,
+        [
+            {"scene": "yard", "variant": variant, "M cycles": cycles, "mJ": joules}
+            for variant, cycles, joules in (
+                ("paper", 2, 1),
+                ("paper_no_vq", 3, 2),
+                ("paper_no_cgf", 4, 3),
+                ("paper_no_vq_cgf", 6, 4),
+            )
+        ],
+        ("yard", "StreamingGS,", "2.1", "2.9", "3.0", "4.0"),
+    ),
+    "voxel_size": (
+        "voxel_study",
+        voxel_study.HEAD,
+        [
+            {"scene": "lego", "of the preset's": size, "scene is": state, "PSNR dB": quality}
+            for state, quality in (("as given", "equal"), ("tuned", "30.1"))
+            for size in ("0.5", "1", "2")
+        ],
+        ("lego, tuned", "size of a voxel"),
+    ),
+    "filter_units": (
+        "explore",
+        EXPLORE_HEAD,
+        [
+            {
+                "hfu.cfus": cfus,
+                "hfu.ffu_lanes": lanes,
+                "group": 96,
+                "cycles": 6400 // (cfus + lanes),
+            }
+            for cfus in (1, 2)
+            for lanes in (8, 16)
+        ],
+        ("hfu.cfus", "2.00", "1.00"),
+    ),
+    "exploration": (
+        "explore",
+        EXPLORE_HEAD,
+        [
+            {"binding": "dram", "pareto": "yes", "cycles": 100, "area_mm2.total": 5},
+            {"binding": "fine", "pareto": "", "cycles": 200, "area_mm2.total": 6},
+        ],
+        ("dram binds", "area, mm²"),
+    ),
+    "fronts_of_orders": (
+        "fair_fight_front",
+        fair_fight_tables.FRONT_HEAD,
+        grid("order", ("exact", "paper"), "mm2", (4, 5)),
+        ("exact", "paper", "area, mm²"),
+    ),
+    "equal_area": (
+        "fair_fight_views",
+        machine_views.CSV_HEAD,
+        grid("machine", ("preset exact", "paper, best cycles"), "size_px", ("640x360", "1280x720")),
+        ("preset exact", "1280x720 px"),
+    ),
+    "group_size": (
+        "energy_groups",
+        energy_tables.GROUP_HEAD,
+        grid("preset", ("exact", "paper_no_vq"), "group px", ("32", "64x32")),
+        ("64x32", "clock and leakage"),
+    ),
+}
+OF_RUNS = ("roofline", "waits", "traffic")
+
+
+class Figures(InFolder):
+    def made(self, *words: str) -> tuple[int, str, str]:
+        """Exit status, output and errors."""
+        command = [str(SCRIPT), "--from", str(self.folder), *words]
+        done = subprocess.run(command, capture_output=True, text=True)
+        return done.returncode, done.stdout, done.stderr
+
+    def write(self, name: str) -> None:
+        table, head, different, _ = TABLES[name]
+        tables.write_text(
+            self.folder / f"{table}.csv", tables.csv_text(head, rows(head, *different))
+        )
+        note = f"Made by `scripts/{table}.py truck`; commit 0123abc.\n\n| a |\n"
+        tables.write_text(self.folder / f"{table}.md", note)
+
+    def svg_text(self, name: str) -> str:
+        root = xml.etree.ElementTree.parse(self.folder / "figures" / f"{name}.svg").getroot()
+        return " ".join(
+            " ".join("".join(e.itertext()) for e in root.iter() if e.tag.endswith("text")).split()
+        )
+
+
+@unittest.skipUnless(has_matplotlib(PYTHON), f"{PYTHON} has no matplotlib")
+class Drawn(Figures):
+    def test_each_from_its_table(self):
+        for name, (table, _, _, words) in TABLES.items():
+            with self.subTest(name):
+                self.write(name)
+                status, said, errors = self.made(name)
+                self.assertEqual((status, errors), (0, ""))
+                self.assertIn("written to", said)
+                text = self.svg_text(name)
+                for word in (*words, f"scripts/{table}.py truck", "commit 0123abc"):
+                    self.assertIn(word, text)
+                png = (self.folder / "figures" / f"{name}.png").read_bytes()
+                self.assertGreater(len(png), 5000)
+        self.assertEqual(list((self.folder / "figures").glob("*.part")), [])
+
+    @unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
+    def test_those_of_runs(self):
+        for config in ("exact", "paper", "gscore"):
+            run = simulations.Run(find_scene(str(self.scene)), "0", "64x36", config)
+            simulations.simulate_into(self.folder / config, pathlib.Path(COMMAND), run).accepted()
+        status, said, errors = self.made()
+        self.assertEqual((status, errors), (0, ""))
+        # What has no input is named, with who makes it.
+        for name, (table, *_) in TABLES.items():
+            self.assertRegex(
+                said, rf"skipped {name}: .*{table}.csv is not there; scripts/\w+.py makes it"
+            )
+        for name in OF_RUNS:
+            text = self.svg_text(name)
+            for config in ("exact", "paper", "gscore"):
+                self.assertIn(f"{config}, view 0", text)
+        view = json.loads((self.folder / "exact" / "report.json").read_text())["views"][0]
+        self.assertIn(view["provenance"]["commit"], self.svg_text("waits"))
+
+    def test_the_same_numbers_give_the_same_file(self):
+        self.write("variants")
+        svg = self.folder / "figures" / "variants.svg"
+        first, second = ((self.made("variants"), svg.read_bytes())[1] for _ in range(2))
+        self.assertEqual(first, second)
+
+    def test_what_is_refused(self):
+        (self.folder / "compare_variants.csv").write_text("scene,mJ\ntruck,1\n")
+        (self.folder / "voxel_study.csv").write_text("scene\n")
+        for words, said in (
+            (("nope",), "nope: no figure, expected characterisation"),
+            (("characterisation",), "nothing to draw"),
+            (("variants",), "columns scene, mJ; expected variant"),
+            (("voxel_size",), "expected of the preset's"),
+            (("--from", "/nowhere"), "--from: /nowhere: no folder"),
+        ):
+            with self.subTest(said):
+                status, _, errors = self.made(*words)
+                self.assertEqual(status, 2)
+                self.assertIn(said, errors.splitlines()[-1])
+                self.assertFalse((self.folder / "figures").exists())
+
+
+class WithoutMatplotlib(Figures):
+    def test_one_line_says_what_is_missing(self):
+        # -S: no packages but Python's own; the scripts are found as ever.
+        command = [sys.executable, "-S", str(SCRIPT), "--from", str(self.folder)]
+        done = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertRegex(done.stderr, "^.*no matplotlib; scripts/setup.sh installs .*\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()

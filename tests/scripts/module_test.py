@@ -1,0 +1,77 @@
+"""streaminggs.py: the command from Python."""
+
+import importlib.util
+import pathlib
+import unittest
+
+from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
+import streaminggs
+
+
+class Reports(unittest.TestCase):
+    def test_leaves_and_numbers(self):
+        view = {"frame": {"cycles": 7, "drained": True}, "left_out": [{"what": "a", "count": 2}]}
+        self.assertEqual(
+            dict(streaminggs.leaves(view)),
+            {
+                "frame.cycles": 7,
+                "frame.drained": True,
+                "left_out.0.what": "a",
+                "left_out.0.count": 2,
+            },
+        )
+        self.assertEqual(streaminggs.numbers(view), {"frame.cycles": 7, "left_out.0.count": 2})
+
+    def test_differences_by_size(self):
+        before = {"a": 10, "b": 0, "c": "x", "same": 1, "host": {"wall_s": 1}, "gone": 5}
+        after = {"a": 11, "b": 1, "c": "y", "same": 1, "host": {"wall_s": 2}, "d": 100}
+        found = streaminggs.diff(before, after)
+        self.assertEqual({path for path, *_ in found[:-1]}, {"b", "c", "gone", "d"})
+        self.assertEqual(found[-1], ("a", 10, 11, 0.1))
+        self.assertIn(("gone", 5, None, float("inf")), found)
+        self.assertEqual(streaminggs.diff(before, before), [])
+
+    def test_an_empty_folder_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "no report.json"):
+            streaminggs.load(pathlib.Path(__file__).parent)
+
+
+@unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
+class Running(InFolder):
+    def run_one(self, **more):
+        return streaminggs.run(str(self.scene), size="64x36", program=COMMAND, **more)
+
+    def test_what_it_runs_it_loads(self):
+        settings = {"hfus": 2, "rendering.ellipse_test": False, **streaminggs.FITTED}
+        views = self.run_one(settings=settings, out=self.folder / "out")
+        self.assertEqual(views, streaminggs.load(self.folder / "out"))
+        self.assertEqual(views[0]["config"]["hfus"], 2)
+        self.assertIs(views[0]["config"]["rendering"]["ellipse_test"], False)
+        self.assertTrue((self.folder / "out" / "view_0" / "frame.png").exists())
+        (again,) = self.run_one(settings=settings)
+        self.assertEqual(streaminggs.diff(views[0], again), [])
+        (other,) = self.run_one(settings=settings | {"hfus": 4})
+        self.assertIn(("config.hfus", 2, 4, 1.0), streaminggs.diff(again, other))
+
+    def test_cameras_may_lie_elsewhere(self):
+        cameras = self.scene.with_suffix(".json").rename(self.folder / "elsewhere.json")
+        (view,) = self.run_one(cameras=str(cameras), config="paper")
+        self.assertEqual(view["scene"]["name"], "truck")
+
+    def test_what_the_command_refuses(self):
+        for more, said in (
+            ({"settings": {"nope": 1}}, "nope: unknown key"),
+            ({"view": 9}, "--view: got '9'"),
+            ({"config": "nope"}, "nope"),
+        ):
+            with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                self.run_one(**more)
+
+    @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
+    def test_a_data_frame(self):
+        table = streaminggs.table(self.run_one())
+        self.assertEqual(table["frame.width_px"].tolist(), [64])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,362 @@
+"""report.py: what the page holds, what is refused, and how it behaves in a browser. Frames are made
+with $STREAMINGGS; the browser is Debian's Chromium, its test is skipped where that is not there."""
+
+import json
+import pathlib
+import random
+import struct
+import unittest
+import zlib
+from unittest import mock
+
+from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
+import png_pictures
+import report
+import report_charts
+import report_tables
+import report_time
+import report_view
+import simulations
+from chromium import PROGRAM, Chromium
+from report_folder import Table, find_runs
+from scenes import find_scene
+
+NEEDS_COMMAND = unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
+NEEDS_BROWSER = unittest.skipUnless(PROGRAM, "chromium is not installed")
+# Roles of what can be worked with or looked at: each has to have a name.
+NAMED_ROLES = (
+    "button",
+    "slider",
+    "radio",
+    "tab",
+    "tablist",
+    "tabpanel",
+    "combobox",
+    "image",
+    "table",
+)
+
+
+def filtered_png(width: int, height: int, pixels: bytes) -> bytes:
+    """RGB, its rows by filters 0 to 4 in turn, as other writers than ours make them."""
+    step, rows, above = 3 * width, b"", bytes(3 * width)
+    for y in range(height):
+        row = pixels[y * step : (y + 1) * step]
+        left = bytes(3) + row[:-3]
+        corner = bytes(3) + above[:-3]
+        guesses = (
+            bytes(step),
+            left,
+            above,
+            bytes((a + b) // 2 for a, b in zip(left, above)),
+            bytes(png_pictures.paeth(*three) for three in zip(left, above, corner)),
+        )
+        rows += bytes([y % 5]) + bytes((a - b) & 255 for a, b in zip(row, guesses[y % 5]))
+        above = row
+    made = png_pictures.write_png(width, height, pixels)
+    begin, data = made.index(b"IDAT") - 4, zlib.compress(rows)
+    chunk = b"IDAT" + data
+    chunk = struct.pack(">I", len(data)) + chunk + struct.pack(">I", zlib.crc32(chunk))
+    return made[:begin] + chunk + made[made.index(b"IEND") - 4 :]
+
+
+class Parts(unittest.TestCase):
+    def test_pictures_are_read_by_every_filter(self):
+        pixels = random.Random(1).randbytes(3 * 7 * 10)
+        width, height, rows = png_pictures.read_png(filtered_png(7, 10, pixels))
+        self.assertEqual((width, height, b"".join(rows)), (7, 10, pixels))
+
+    def test_pictures_are_halved(self):
+        pixels = bytes(
+            channel
+            for row in ((10, 20, 200), (30, 40, 200), (255, 255, 255))
+            for grey in row
+            for channel in (grey, 0, 255 - grey)
+        )
+        half = png_pictures.halved(png_pictures.write_png(3, 3, pixels))
+        self.assertEqual(png_pictures.read_png(half), (1, 1, [bytearray((25, 0, 230))]))
+
+    def test_what_is_no_picture_of_ours_is_refused(self):
+        whole = png_pictures.write_png(4, 4, bytes(48))
+        for png, said in (
+            (b"", "no PNG"),
+            (b"GIF89a" + bytes(40), "no PNG"),
+            (whole[:50], "PNG: "),
+            (whole[:24] + b"\x10" + whole[25:], "8 bits"),
+            (png_pictures.write_png(1, 1, bytes(3)), "2 x 2"),
+        ):
+            with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                png_pictures.halved(png)
+
+    def test_numbers(self):
+        for value, text in (
+            (1234567, "1,234,567"),
+            (1234.5, "1,234"),
+            (0.012345, "0.0123"),
+            (0.0, "0"),
+        ):
+            self.assertEqual(report_charts.number(value), text)
+        for text, value in (("1,234.5", 1234.5), ("12%", 12), ("equal", None), ("", None)):
+            self.assertEqual(report_tables.value_of(text), value)
+
+    def test_units_that_stand_several_times_become_one_line(self):
+        spent = [(f"hfu{i}.fine fetch", "fetch", {"busy": i, "idle": 10 - i}) for i in range(3)] + [
+            ("vsu walk", "vsu", {"busy": 4, "idle": 6})
+        ]
+        self.assertEqual(
+            report_time.by_kind(spent),
+            [
+                ("hfu.fine fetch × 3", "fetch", {"busy": 3, "idle": 27}),
+                ("vsu walk", "vsu", {"busy": 4, "idle": 6}),
+            ],
+        )
+
+    def test_a_map_shows_each_group_in_its_place(self):
+        groups = {
+            "x_px": [0, 32, 0, 32],
+            "y_px": [0, 0, 32, 32],
+            "width_px": [32, 8, 32, 8],
+            "height_px": [32, 32, 4, 4],
+            "bytes": [0, 5, 10, 10],
+            "missed": [0] * 4,
+        }
+        made = report_charts.heat_map("Bytes", "B", groups, "bytes")
+        self.assertIn('viewBox="0 0 40 36"', made)
+        self.assertIn('width="64" height="64"', made)
+        self.assertIn("most 10 B", made)
+        self.assertIn("none in any group", report_charts.heat_map("Missed", "", groups, "missed"))
+
+    def test_a_table_becomes_a_diagram_of_its_numbers(self):
+        table = Table(
+            "explore",
+            ("hfus", "group", "cycles", "area_mm2.total", "binding", "pareto"),
+            (("2", "64", "1200", "5.5", "fine", "yes"), ("4", "64", "1000", "6.5", "dram", "")),
+        )
+        made = report_tables.section(table, "explore.csv")
+        self.assertIn("<option value=2 selected>cycles", made)
+        self.assertIn("<option value=3 selected>area_mm2.total", made)
+        self.assertIn("&quot;best&quot;:[true,false]", made)
+        self.assertIn("&quot;labels&quot;:[&quot;hfus 2&quot;,&quot;hfus 4&quot;]", made)
+
+
+@NEEDS_COMMAND
+class WithFrames(InFolder):
+    GAUSSIANS = 400
+
+    def simulated(
+        self, config: str, folder: str, *overrides: str, size: str = "64x36"
+    ) -> pathlib.Path:
+        out = self.folder / folder
+        overrides = ("group_width_px=32", "group_height_px=16", *overrides)
+        if config == "gscore":
+            overrides = ()
+        run = simulations.Run(find_scene(str(self.scene)), "0", size, config, overrides)
+        simulations.simulate_into(out, pathlib.Path(COMMAND), run).accepted()
+        return out
+
+    def assertHolds(self, page: str, text: str):
+        self.assertTrue(text in page, f"not on the page: {text}")
+
+    def page(self, folder: pathlib.Path) -> str:
+        status, said, _ = self.ended(report, str(folder))
+        self.assertEqual(status, 0, said)
+        return (folder / "report.html").read_text()
+
+
+class Page(WithFrames):
+    def test_it_shows_what_the_report_says(self):
+        for config in ("exact", "paper", "gscore"):
+            with self.subTest(config):
+                folder = self.simulated(config, config)
+                view = json.loads((folder / "report.json").read_text())["views"][0]
+                page = self.page(folder)
+                self.assertHolds(page, f"{view['frame']['cycles']:,} cycles")
+                self.assertHolds(page, report_charts.escaped(view["binding"]["explanation"]))
+                self.assertHolds(page, report_charts.escaped(view["provenance"]["command"]))
+                for region in view["dram"]["bytes_by_region"]:
+                    self.assertHolds(page, f"<th scope=row>{region.replace('_', ' ')}</th>")
+                for entry in view["left_out"]:
+                    self.assertHolds(page, report_charts.escaped(entry["saves"]))
+                for key, _ in report_view.flat(view["config"]):
+                    self.assertHolds(page, f"<td>{key}</td>")
+                self.assertEqual(page.count("<figure class=heat"), 0 if config == "gscore" else 5)
+                # One copy of each picture.
+                pictures = (folder / "view_0").glob("*.png")
+                self.assertEqual(page.count('src="data:image/png'), len(list(pictures)))
+
+    def test_several_runs_and_a_table_are_compared(self):
+        for config in ("exact", "paper"):
+            self.simulated(config, f"both/{config}")
+        (self.folder / "both" / "explore.csv").write_text("hfus,cycles\n2,1200\n4,1000\n")
+        page = self.page(self.folder / "both")
+        for text in (
+            "2 runs, 2 views",
+            "explore.csv",
+            ">exact, view 0</button>",
+            ">paper, view 0<",
+        ):
+            self.assertHolds(page, text)
+        self.assertEqual(page.count("role=tabpanel"), 3)
+        # A view of a run by itself, and no page of an earlier time.
+        alone = self.page(self.folder / "both" / "exact" / "view_0")
+        self.assertFalse("<div role=tablist" in alone)
+        self.assertEqual([run.name for run in find_runs(self.folder / "both")], ["exact", "paper"])
+
+    def test_what_a_report_says_is_text(self):
+        folder = self.simulated("exact", "hostile")
+        report_file = folder / "report.json"
+        whole = json.loads(report_file.read_text())
+        hostile = "</script><b onclick='x'>\"&"
+        whole["views"][0]["scene"]["name"] = whole["views"][0]["provenance"]["command"] = hostile
+        whole["failed"] = [{"view": 3, "why": hostile}]
+        report_file.write_text(json.dumps(whole))
+        page = self.page(folder)
+        self.assertFalse(hostile in page)
+        self.assertEqual(page.count("</script>"), 1)
+        self.assertHolds(page, "view 3 failed")
+        # Name, title, tab, heading and command; and why the other failed.
+        self.assertEqual(page.count(report_charts.escaped(hostile)), 6)
+
+    def test_pictures_shrink_until_the_page_is_small_enough(self):
+        folder = self.simulated("exact", "large")
+        noise = random.Random(1).randbytes(3 * 320 * 180)  # no smaller when it is packed
+        for picture in (folder / "view_0").glob("*.png"):
+            picture.write_bytes(png_pictures.write_png(320, 180, noise))
+        most = len(self.page(folder).encode())
+        self.assertGreater(most, 3 * 4 / 3 * len(noise))
+        pictures = 3 * 4 / 3 * len(noise)
+        for room, said, embedded in (
+            (most + 300, "", 3),
+            (most - 1000, "Pictures at 1/2 of their width", 3),
+            (most - 0.8 * pictures, "Pictures at 1/4 of their width", 3),
+            (most - 0.98 * pictures, "Pictures left out", 0),
+        ):
+            with self.subTest(said), mock.patch.object(report, "MOST_BYTES", int(room)):
+                page = self.page(folder)
+                self.assertLessEqual(len(page.encode()), room)
+                self.assertEqual(page.count('src="data:image/png'), embedded)
+                self.assertEqual("Pictures " in page, bool(said))
+                self.assertTrue(said in page)
+
+    def test_what_is_refused(self):
+        folder = self.simulated("exact", "broken")
+        whole = (folder / "report.json").read_text()
+        groups = folder / "view_0" / "groups.csv"
+        counts = groups.read_text()
+
+        def broken(path: pathlib.Path, text: str, back: str, said: str):
+            path.write_text(text)
+            self.assertRefused(folder, said)
+            path.write_text(back)
+
+        (self.folder / "empty").mkdir()
+        self.assertRefused(self.folder / "empty", "no results, expected report.json")
+        self.assertRefused(self.folder / "nowhere", "nowhere: no folder, expected one")
+        broken(folder / "report.json", whole[:-20], whole, r"report.json:\d+: .*expected JSON")
+        broken(folder / "report.json", "[]", whole, "list, expected an object")
+        broken(folder / "report.json", '{"views": [{"view": 0}]}', whole, "no 'frame', expected")
+        broken(groups, counts + "1,2\n", counts, r"groups.csv:8: got 1,2, expected 10 counts")
+        broken(groups, counts.replace(",0,", ",x,", 1), counts, "groups.csv:2: ")
+        (folder / "view_0" / "frame.png").write_bytes(b"no picture")
+        self.assertRefused(folder, "got no PNG")
+
+    def assertRefused(self, folder: pathlib.Path, said: str):
+        status, line, made = self.ended(report, str(folder))
+        self.assertRegex(line, said)
+        self.assertEqual((status, made), (2, ""))
+        self.assertFalse((folder / "report.html").exists())
+
+
+@NEEDS_BROWSER
+class InTheBrowser(WithFrames):
+    def setUp(self):
+        super().setUp()
+        for config in ("exact", "paper"):
+            self.simulated(config, f"runs/{config}")
+        self.page(self.folder / "runs")
+        self.page(self.folder / "runs" / "paper")
+        self.one, self.several = (self.folder / "runs" / of / "report.html" for of in ("paper", ""))
+
+    def test_it_works_by_keyboard_in_both_themes_and_widths(self):
+        with Chromium() as browser:
+            browser.prefer("light")
+            for page, fragment in ((self.one, ""), (self.several, ""), (self.several, "#tab2")):
+                for width in (1280, 400):
+                    with self.subTest(page=page, fragment=fragment, width=width):
+                        browser.resize(width, 900)
+                        browser.open(page, fragment)
+                        self.assertEqual(browser.complaints(), [])
+                        self.assertEqual(browser.requests(), [page.resolve().as_uri()])
+                        across = browser.value("document.documentElement.scrollWidth")
+                        self.assertLessEqual(across, width)
+                        self.check_names(browser)
+                self.check_themes(browser)
+            self.check_slider(browser)
+            self.check_tabs(browser)
+            self.check_readings(browser)
+            self.assertEqual(browser.complaints(), [])
+
+    def check_names(self, browser: Chromium):
+        nodes = browser.ask("Accessibility.getFullAXTree")["nodes"]
+        roles = [node["role"]["value"] for node in nodes if not node["ignored"]]
+        self.assertIn("button", roles)
+        for node in nodes:
+            if not node["ignored"] and node["role"]["value"] in NAMED_ROLES:
+                self.assertTrue(node.get("name", {}).get("value"), node)
+
+    def check_themes(self, browser: Chromium):
+        paper = "getComputedStyle(document.body).backgroundColor"
+        seen = {"light": browser.value(paper)}
+        browser.prefer("dark")
+        # The page hears of it with its next picture.
+        self.assertTrue(browser.comes_true(f"{paper} !== '{seen['light']}'"))
+        seen["dark"] = browser.value(paper)
+        # The button: system, light, dark, system again.
+        for expected in ("light", "dark", "dark"):
+            browser.value("document.getElementById('theme').click()")
+            self.assertEqual(browser.value(paper), seen[expected])
+        browser.prefer("light")
+        self.assertTrue(browser.comes_true(f"{paper} === '{seen['light']}'"))
+
+    def check_slider(self, browser: Chromium):
+        browser.open(self.one)
+        edge = "document.querySelector('.edge').getBoundingClientRect().left"
+        browser.value("document.querySelector('[type=range]').focus()")
+        at = browser.value(edge)
+        browser.press("ArrowRight", 39)
+        self.assertGreater(browser.value(edge), at)
+        browser.press("Home", 36)
+        self.assertEqual(browser.value("document.querySelector('[type=range]').value"), "0")
+        # What is beside the frame, by arrow keys as well.
+        browser.value("document.querySelector('[type=radio]').focus()")
+        browser.press("ArrowRight", 39)
+        shown = "document.querySelector('.layer:not([hidden])').dataset.what"
+        self.assertEqual(browser.value(shown), "error")
+
+    def check_tabs(self, browser: Chromium):
+        browser.open(self.several)
+        selected = "document.querySelector('[aria-selected=true]').textContent"
+        visible = "document.querySelectorAll('[role=tabpanel]:not([hidden])').length"
+        self.assertEqual(browser.value(selected), "overview")
+        browser.value("document.querySelector('[role=tab]').focus()")
+        browser.press("ArrowLeft", 37)
+        self.assertEqual(browser.value(selected), "paper, view 0")
+        self.assertEqual(browser.value(visible), 1)
+
+    def check_readings(self, browser: Chromium):
+        """Points of a diagram and groups of a map, by arrow keys."""
+        browser.open(self.several)
+        reading = "document.querySelector('[data-points] output').textContent"
+        browser.value("document.querySelector('[data-points] svg').focus()")
+        browser.press("ArrowRight", 39)
+        self.assertRegex(browser.value(reading), "view 0|exact|paper")
+        browser.open(self.one)
+        browser.value("document.querySelector('[data-heat] svg').focus()")
+        for key, code in (("ArrowRight", 39), ("ArrowDown", 40)):
+            browser.press(key, code)
+        reading = "document.querySelector('[data-heat] output').textContent"
+        self.assertRegex(browser.value(reading), "group 2, at 0, 16 px: .* cycles")
+
+
+if __name__ == "__main__":
+    unittest.main()
