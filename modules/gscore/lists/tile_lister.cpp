@@ -2,7 +2,6 @@
 #include "modules/gscore/lists/tile_lister.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
@@ -174,16 +173,7 @@ void TileLister::put_entry(std::uint32_t tile, const TileEntry& entry) {
   } else if (place.begins_line) {
     line.buffer.begin(place.line, 0);
   }
-  if (place.begins_block) {
-    std::byte link[kLinkBytes];
-    std::memcpy(link, &end.next, kLinkBytes);
-    line.buffer.put(0, link, kLinkBytes);
-    ++counters_.line_writes;
-  }
-  std::byte bytes[16];
-  encode_entry(blocks_.entry, entry, bytes);
-  line.buffer.put(place.at, bytes, blocks_.entry.bytes());
-  counters_.line_writes += line_words(place.at, blocks_.entry.bytes());
+  counters_.line_writes += gscore::put_entry(blocks_, place, entry, end.next, line.buffer);
   ++counters_.line_changes;
   ++end.entries;
   if (!place.ends_line) return;
@@ -230,9 +220,9 @@ void TileLister::hand_out(const Pass& pass) {
 SramUses TileLister::sram_uses(const GscoreConfig& c) {
   const BlockFormat blocks = c.blocks();
   const std::uint32_t place = record_place_bytes(c.tiles.features);
+  const std::uint32_t end_bytes = list_end_bytes(blocks, c.pool_blocks());
   return {
-      sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {ListEnd::kBytes, "B"}},
-               {8 * ListEnd::kBytes}, kOneOfEach),
+      sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {end_bytes, "B"}}, {8 * end_bytes}, kOneOfEach),
       sram_use(kLines, kBuffer, {{c.lists.lines, "lines"}, {blocks.line_bytes, "B"}},
                {8 * kLineWordBytes, SramPorts::kReadAndWrite, kLineBanks},
                {kLineBanks, kLineBanks}),

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "algorithm/render/tile_blend.h"
+#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 
@@ -146,8 +147,7 @@ void RenderCore::take(const Fetched& next) {
     fetched_.remove_front();
     blend_.work(1);
   } else {
-    const std::uint64_t now = blend_.clock().now_cycles();
-    blend_.work(next_turn(now, blend_path_.interval_cycles()) - now);
+    wait_for_turn(blend_, blend_path_.interval_cycles());
     fetched_.remove_front();
     blend(next.entry, decode_projected(config_.tiles.features,
                                        records_.data() + std::size_t{next.slot} * record_bytes_));
