@@ -47,8 +47,8 @@ struct EntryFormat {
 void encode_entry(const EntryFormat& format, const TileEntry& entry, std::byte* out);
 TileEntry decode_entry(const EntryFormat& format, const std::byte* bytes);
 
-// Lists lie in blocks of lines, each of whole entries. The first line of a block begins with a link,
-// the number of the next block.
+// Lists lie in blocks of lines, each of whole entries. The first line of a block begins with a
+// link, the number of the next block.
 constexpr std::uint32_t kLinkBytes = 4;
 struct BlockFormat {
   EntryFormat entry;

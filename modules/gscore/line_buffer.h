@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "algorithm/memory/tile_records.h"
+#include "modules/datapath/counter_bits.h"
 #include "tlm/memory_port.h"
 
 namespace sgs::gscore {
@@ -18,13 +19,6 @@ struct ListEnd {
   std::uint32_t block = 0, next = 0;  // that it writes in, and will when that is full
   std::uint32_t entries = 0;
 };
-
-// Of a counter that takes the values 0 to most.
-constexpr std::uint32_t counter_bits(std::uint64_t most) {
-  std::uint32_t bits = 0;
-  for (; most > 0; most /= 2) ++bits;
-  return bits;
-}
 
 // What hardware keeps of a ListEnd where there are so many blocks.
 inline std::uint32_t list_end_bytes(const BlockFormat& format, std::uint64_t blocks) {
@@ -86,8 +80,7 @@ inline EntryPlace place_of(const BlockFormat& format, std::uint32_t block, std::
 // Into a line that has begun; in front of the first of a block the link to the block behind it.
 // Returns the words of the line that it writes.
 inline std::uint32_t put_entry(const BlockFormat& format, const EntryPlace& place,
-                               const TileEntry& entry, std::uint32_t next_block,
-                               LineBuffer& line) {
+                               const TileEntry& entry, std::uint32_t next_block, LineBuffer& line) {
   std::byte bytes[kLinkBytes + 16];
   std::memcpy(bytes, &next_block, kLinkBytes);
   encode_entry(format.entry, entry, bytes + kLinkBytes);

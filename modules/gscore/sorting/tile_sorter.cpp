@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "modules/datapath/work_rates.h"
+#include "modules/datapath/counter_bits.h"
 #include "modules/gscore/sorting/bitonic_cost.h"
 
 namespace sgs::gscore {
@@ -95,7 +95,8 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
     sort_chunk(tile, entries, level);
     return;
   }
-  // The pivots; once through the QSU for the subsets' sizes, then their places, and once more there.
+  // The pivots; once through the QSU for the subsets' sizes, then their places, and once more
+  // there.
   const Pivots pivots = level == 0 ? sampled_pivots(entries, entries.size()) : ranged_pivots(keys);
   std::array<std::vector<TileEntry>, kSubsets> subsets;
   std::array<KeyRange, kSubsets> ranges;
@@ -230,8 +231,8 @@ void TileSorter::publish(DataSheet& sheet) {
   // subsets was before each level.
   constexpr std::uint32_t kQsus = 2;
   const double pivot_bits = 8.0 * config_.entries().key_bytes() * (kPivots + 2);
-  const double mark_bits = most_levels(config_.tiles.keys) *
-                           double{counter_bits(stack_blocks(config_)) + counter_bits(kSubsets)};
+  const std::uint32_t mark_bits = most_levels(config_.tiles.keys) *
+                                  (counter_bits(stack_blocks(config_)) + counter_bits(kSubsets));
   sheet.part("qsu", "comparator", kQsus * kQsuComparators, 1);
   sheet.operations("qsu", "comparator",
                    double{kEntryComparisons} * static_cast<double>(n.keys_compared) +

@@ -2,8 +2,8 @@
 // and sorts chunk by chunk, nearest first. What is left of a finished tile is dropped.
 // Timing: an entry a cycle through each QSU (the one where lists come in, which also splits lists
 // that are too long for the chip, and the one at the lists on chip), before it a cycle for each
-// pivot, on chip one for each subset's place; a chunk through the network as bitonic_cost() says; an
-// entry a cycle out. Blocks of a list are asked for one ahead.
+// pivot, on chip one for each subset's place; a chunk through the network as bitonic_cost() says;
+// an entry a cycle out. Blocks of a list are asked for one ahead.
 #pragma once
 
 #include <cstddef>

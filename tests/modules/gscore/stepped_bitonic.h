@@ -102,8 +102,8 @@ class SteppedBitonic {
 
   // The next 8 entries of the run whose last taken one is nearer.
   Row read_turn(Pair& pair, std::size_t slot, std::size_t from) {
-    const bool of_second = pair.at[0] == pair.end[0] ||
-                           (pair.at[1] != pair.end[1] && pair.tail[1] < pair.tail[0]);
+    const bool of_second =
+        pair.at[0] == pair.end[0] || (pair.at[1] != pair.end[1] && pair.tail[1] < pair.tail[0]);
     const std::size_t run = of_second ? 1 : 0;
     Row row;
     row.slot = slot;
@@ -176,9 +176,9 @@ class SteppedBitonic {
   }
 
   void write(const Row& row) {
-    const bool holds_only = !row.sorts && row.first && !row.last && !row.copies;
+    const bool holds_only = !row.sorts && row.first && !row.copies;
     if (holds_only) return;
-    const bool alone = !row.sorts && (row.first || row.copies);  // 8, in the farther half
+    const bool alone = row.copies;  // 8, in the farther half
     const std::size_t first = alone ? kHalf : 0;
     const std::size_t end = row.sorts || alone || row.last ? kWidth : kHalf;
     std::array<std::uint32_t, kWidth> at_port{};
