@@ -13,10 +13,11 @@
 namespace sgs::gscore {
 namespace {
 
-// Below a line for so many tiles most entries put another tile's line out (README.md).
-constexpr std::uint32_t kTilesOfLine = 8;
-// Of a list on chip: at least, where lines want room; where there is no limit; at most.
-constexpr std::uint32_t kLeastEntries = 512, kUsualEntries = 1024, kMostEntries = 8192;
+// With a line for more tiles than these, lists on chip make room; then a pass takes fewer tiles
+// (README.md).
+constexpr std::uint32_t kTilesOfLine = 4, kMostTilesOfLine = 8;
+// Of a list on chip: where lines have room, at least, at most.
+constexpr std::uint32_t kUsualEntries = 1024, kLeastEntries = 512, kMostEntries = 8192;
 
 // The most in [least, most] that fits, in steps; 0 if not even `least` does.
 std::uint32_t most_that_fits(std::uint32_t least, std::uint32_t most, std::uint32_t step,
@@ -46,11 +47,8 @@ void choose_list_memory(GscoreConfig& config, std::uint32_t tiles,
   const bool open_tiles = config.lists.tiles == 0, open_lines = config.lists.lines == 0,
              open_entries = config.sorting.list_entries == 0;
   if (!open_tiles && !open_lines && !open_entries) return;
-  const std::uint32_t least_entries = std::max(
-      config.sram.buffer_bytes == 0 ? kUsualEntries : kLeastEntries, config.sorting.chunk_entries);
-  if (open_entries) config.sorting.list_entries = least_entries;
-
-  const auto lines_of = [&](std::uint32_t of_pass) {
+  const auto lines_beside = [&](std::uint32_t entries, std::uint32_t of_pass) {
+    if (open_entries) config.sorting.list_entries = std::max(entries, config.sorting.chunk_entries);
     config.lists.tiles = of_pass;
     if (!open_lines) return fits(config) ? config.lists.lines : 0;
     return most_that_fits(1, of_pass, 1, [&](std::uint32_t lines) {
@@ -58,9 +56,14 @@ void choose_list_memory(GscoreConfig& config, std::uint32_t tiles,
       return fits(config);
     });
   };
+  const auto lines_of = [&](std::uint32_t of_pass) {
+    const std::uint32_t lines = lines_beside(kUsualEntries, of_pass);
+    if (!open_entries || lines >= cycles_for(of_pass, kTilesOfLine)) return lines;
+    return lines_beside(kLeastEntries, of_pass);
+  };
   if (open_tiles && lines_of(1) == 0) return;  // who refuses it shows the sum
   std::uint32_t of_pass = open_tiles ? tiles : config.lists.tiles, lines = lines_of(of_pass);
-  const auto few = [&] { return of_pass > 1 && lines < cycles_for(of_pass, kTilesOfLine); };
+  const auto few = [&] { return of_pass > 1 && lines < cycles_for(of_pass, kMostTilesOfLine); };
   for (std::uint32_t passes = 2; open_tiles && few(); ++passes) {
     of_pass = static_cast<std::uint32_t>(cycles_for(tiles, passes));
     lines = lines_of(of_pass);
@@ -68,17 +71,17 @@ void choose_list_memory(GscoreConfig& config, std::uint32_t tiles,
   if (lines == 0) return;
   config.lists.lines = lines;
   if (open_entries && config.sram.buffer_bytes != 0) {
-    config.sorting.list_entries =
-        most_that_fits(least_entries, kMostEntries, kNetworkWidth, [&](std::uint32_t entries) {
-          config.sorting.list_entries = entries;
-          return fits(config);
-        });
+    config.sorting.list_entries = most_that_fits(config.sorting.list_entries, kMostEntries,
+                                                 kNetworkWidth, [&](std::uint32_t entries) {
+                                                   config.sorting.list_entries = entries;
+                                                   return fits(config);
+                                                 });
   }
   const std::string of = fmt::format("of {} tiles of the largest frame", tiles);
   if (open_tiles) {
     chosen.push_back(
         {"lists.tiles", static_cast<double>(of_pass),
-         fmt::format("{}, in as few passes as leave a line for {} tiles", of, kTilesOfLine)});
+         fmt::format("{}, in as few passes as leave a line for {} tiles", of, kMostTilesOfLine)});
   }
   if (open_lines) {
     chosen.push_back({"lists.lines", static_cast<double>(lines),

@@ -294,7 +294,7 @@ void RenderCore::publish(DataSheet& sheet) {
   const std::uint32_t flight_bits = counter_bits(loop), next_bits = counter_bits(kBlocks) + kBlocks;
   sheet.part("rendering", "register_bit", double{kBlocks} * (flight_bits + 1) + next_bits, 1);
   sheet.operations("rendering", "register_bit",
-                   static_cast<double>(n.blocks) * (double{loop} + 1 + next_bits));
+                   static_cast<double>(n.blocks) * static_cast<double>(loop + 1 + next_bits));
   sheet.queue(fetched_, kFetchedEntries);
   sheet.queue(finished_states_, kPixels);
   sheet.port(record_memory);
