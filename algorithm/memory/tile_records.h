@@ -47,21 +47,26 @@ struct EntryFormat {
 void encode_entry(const EntryFormat& format, const TileEntry& entry, std::byte* out);
 TileEntry decode_entry(const EntryFormat& format, const std::byte* bytes);
 
-// Lists lie in blocks of lines. A line begins with a link, which in the first line of a block is
-// the number of the next; then come whole entries.
+// Lists lie in blocks of lines, each of whole entries. The first line of a block begins with a
+// link, the number of the next block.
 constexpr std::uint32_t kLinkBytes = 4;
 struct BlockFormat {
   EntryFormat entry;
   std::uint32_t line_bytes = 64, block_lines = 8;
 
-  std::uint32_t line_entries() const { return (line_bytes - kLinkBytes) / entry.bytes(); }
-  std::uint32_t block_entries() const { return block_lines * line_entries(); }
+  // Of a block's first line, and of the others.
+  std::uint32_t first_entries() const { return (line_bytes - kLinkBytes) / entry.bytes(); }
+  std::uint32_t line_entries() const { return line_bytes / entry.bytes(); }
+  std::uint32_t block_entries() const {
+    return first_entries() + (block_lines - 1) * line_entries();
+  }
   std::uint32_t block_bytes() const { return block_lines * line_bytes; }
   // Of an entry, from the beginning of its block; `at` counts entries of the list.
   std::uint32_t offset(std::uint64_t at) const {
     const auto in_block = static_cast<std::uint32_t>(at % block_entries());
-    return in_block / line_entries() * line_bytes + kLinkBytes +
-           in_block % line_entries() * entry.bytes();
+    if (in_block < first_entries()) return kLinkBytes + in_block * entry.bytes();
+    const std::uint32_t behind = in_block - first_entries();
+    return (1 + behind / line_entries()) * line_bytes + behind % line_entries() * entry.bytes();
   }
   // Bytes of a block that holds so many entries, to the end of the last.
   std::uint32_t used_bytes(std::uint32_t entries) const {

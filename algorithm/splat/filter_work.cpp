@@ -113,7 +113,7 @@ DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
 // With where its parts end, and the inputs that are pixel state.
 struct RenderingFlow {
   DataFlow flow;
-  std::size_t spans_begun = 0, spanned = 0, in_base_2 = 0;
+  std::size_t spans_begun = 0, spanned = 0, in_base_2 = 0, cornered = 0;
   std::vector<std::uint32_t> state, edge;  // of a pixel; of the spans above the row
 };
 
@@ -169,6 +169,7 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   out.in_base_2 = flow.size();
   flow.pass_beside(kBesideBlend);
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
+  out.cornered = flow.size();
   if (precision == BlendPrecision::kHalf) {
     blend_work(lane_input_in_half<CountingHalf>(splat, left, top), state);
   } else {
@@ -237,6 +238,8 @@ RenderingWork rendering_work(BlendPrecision precision) {
   work.span = of.flow.counts(of.spans_begun, of.spanned);
   work.conic = of.flow.counts(of.spanned, of.in_base_2);
   work.subtile_blend = of.flow.counts(of.in_base_2, of.flow.size());
+  work.corner = of.flow.counts(of.in_base_2, of.cornered);
+  work.blend_from_corner = of.flow.counts(of.cornered, of.flow.size());
   return work;
 }
 
@@ -281,14 +284,37 @@ std::vector<LaneStep> conic_steps(const OperationLatencies& single) {
   return lane_steps(of.flow, of.spanned, of.in_base_2, single);
 }
 
-std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLatencies& latencies) {
+namespace {
+
+// From `first` on to the end.
+std::vector<LaneStep> blend_steps_from(const RenderingFlow& of, std::size_t first,
+                                       const OperationLatencies& latencies) {
   constexpr std::size_t kOfPixel = 4;  // transmittance, red, green, blue
-  const RenderingFlow of = rendering_flow(precision);
   std::vector<std::vector<std::uint32_t>> pixels;
   for (auto at = of.state.begin(); at != of.state.end(); at += kOfPixel) {
     pixels.emplace_back(at, at + kOfPixel);
   }
-  return lane_steps(of.flow, of.in_base_2, of.flow.size(), latencies, pixels);
+  return lane_steps(of.flow, first, of.flow.size(), latencies, pixels);
+}
+
+}  // namespace
+
+std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLatencies& latencies) {
+  const RenderingFlow of = rendering_flow(precision);
+  return blend_steps_from(of, of.in_base_2, latencies);
+}
+
+std::vector<LaneStep> corner_steps(const OperationLatencies& single) {
+  const RenderingFlow of = rendering_flow(BlendPrecision::kSingle);
+  std::vector<LaneStep> steps = lane_steps(of.flow, of.in_base_2, of.cornered, single);
+  for (LaneStep& step : steps) step.kept = step.by == StepBy::kLane;
+  return steps;
+}
+
+std::vector<LaneStep> blend_from_corner_steps(BlendPrecision precision,
+                                              const OperationLatencies& latencies) {
+  const RenderingFlow of = rendering_flow(precision);
+  return blend_steps_from(of, of.cornered, latencies);
 }
 
 OperationCounts FineWork::total() const { return decode + geometry + group_test + colour; }

@@ -69,6 +69,9 @@ FineFlow fine_flow(const FilterCase& tested, const FineRecord& record);
 // log2(e) goes into the splat's conic, in single precision.
 struct RenderingWork {
   OperationCounts conic, spans_begin, span, subtile_blend;
+  // The same with lanes of its own for where the splat's centre is beside the sub-tile: always in
+  // single precision, as the centre is.
+  OperationCounts corner, blend_from_corner;
 };
 RenderingWork rendering_work(BlendPrecision precision);
 
@@ -91,5 +94,9 @@ std::vector<LaneStep> spans_begin_steps(const OperationLatencies& single);
 std::vector<LaneStep> span_steps(const OperationLatencies& single);
 std::vector<LaneStep> conic_steps(const OperationLatencies& single);
 std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLatencies& latencies);
+// The same in two parts.
+std::vector<LaneStep> corner_steps(const OperationLatencies& single);
+std::vector<LaneStep> blend_from_corner_steps(BlendPrecision precision,
+                                              const OperationLatencies& latencies);
 
 }  // namespace sgs

@@ -53,8 +53,10 @@ void visit(ConfigVisitor& v, ListsConfig& c) {
   v("tile_lanes", c.tile_lanes, in_range(1, 1024), "MAC lanes that test these");
   v("part_lanes", c.part_lanes, in_range(1, 1024), "MAC lanes that test the parts of a tile");
   v("tested_entries", c.tested_entries, in_range(1, 1024), "listed tiles that wait");
-  v("tiles", c.tiles, in_range(1, 1 << 20), "of one pass; a frame with more takes several passes");
-  v("lines", c.lines, in_range(1, 1 << 20), "of lists that are combined on chip");
+  v("tiles", c.tiles, in_range(0, 1 << 20),
+    "of one pass; a frame with more takes several passes; 0: as many as the frame has and fit");
+  v("lines", c.lines, in_range(0, 1 << 20),
+    "of lists that are combined on chip; 0: as many as fit, one a tile at most");
   v("line_bytes", c.line_bytes, in_range(32, 256), "of a line, a power of two");
   v("block_lines", c.block_lines, in_range(1, 64), "lines behind one link");
   v("pool_bytes", c.pool_bytes, in_range(4096, std::int64_t{1} << 40),
@@ -62,8 +64,8 @@ void visit(ConfigVisitor& v, ListsConfig& c) {
 }
 
 void visit(ConfigVisitor& v, SortingConfig& c) {
-  v("list_entries", c.list_entries, in_range(16, 65536),
-    "of a list on chip; longer ones are split in memory");
+  v("list_entries", c.list_entries, in_range(0, 65536),
+    "of a list on chip; longer ones are split in memory; 0: as many as fit");
   v("list_buffers", c.list_buffers, in_range(1, 16), "such lists in a core");
   v("chunk_entries", c.chunk_entries, in_range(16, 4096), "sorted by the network at once");
 }
@@ -131,7 +133,7 @@ void check(const GscoreConfig& c) {
     throw InputError(
         fmt::format("lists.line_bytes: got {}, expected a power of two", c.lists.line_bytes));
   }
-  if (c.sorting.list_entries < c.sorting.chunk_entries) {
+  if (c.sorting.list_entries != 0 && c.sorting.list_entries < c.sorting.chunk_entries) {
     throw InputError(fmt::format("sorting.list_entries: got {}, expected at least a chunk: {}",
                                  c.sorting.list_entries, c.sorting.chunk_entries));
   }

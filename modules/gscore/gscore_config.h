@@ -40,14 +40,16 @@ struct ListsConfig {
   // Multiply-accumulates that test tiles, and the parts of one, for all CCUs.
   std::uint32_t tile_lanes = 20, part_lanes = 24;
   std::uint32_t tested_entries = 4;  // listed tiles that wait for the lines
-  std::uint32_t tiles = 4096;        // of a pass at most: a frame with more takes several
-  std::uint32_t lines = 1024;        // in which entries of a tile are combined
-  std::uint32_t line_bytes = 64, block_lines = 8;
+  // Of a pass at most: a frame with more takes several. Lines in which entries of a tile are
+  // combined. 0: chosen by the frame (list_memory.h).
+  std::uint32_t tiles = 0, lines = 0;
+  std::uint32_t line_bytes = 32, block_lines = 16;
   std::uint64_t pool_bytes = 268435456;  // of lists in memory
 };
 
 struct SortingConfig {
-  std::uint32_t list_entries = 1024;  // of a list on chip; longer ones are split in memory
+  // Of a list on chip; longer ones are split in memory. 0: chosen by what lists of tiles leave.
+  std::uint32_t list_entries = 0;
   std::uint32_t list_buffers = 2;     // such lists in a core
   std::uint32_t chunk_entries = 256;  // that the network sorts
 };
@@ -58,7 +60,7 @@ struct RenderingConfig {
   std::uint32_t sorted_entries = 256;  // that wait for their records
   std::uint32_t record_slots = 48;     // records on their way or waiting
   std::uint32_t pixel_buffers = 2;     // tiles whose pixels are in a core
-  std::uint32_t drain_pixels_per_cycle = 4;
+  std::uint32_t drain_pixels_per_cycle = 1;
   bool skip_finished = true;  // parts of a tile in which every pixel is finished
   std::uint32_t feedback_latency_cycles = 2;
 };

@@ -10,6 +10,7 @@
 #include "algorithm/splat/tile_work.h"
 #include "modules/datapath/counted_datapath.h"
 #include "modules/datapath/scheduled_datapath.h"
+#include "modules/datapath/work_rates.h"
 
 namespace sgs::gscore {
 namespace {
@@ -33,6 +34,13 @@ Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
   const DataFlow flow =
       convert_flow(config.tiles.rules(), sh_degree, config.tiles.features == NumberFormat::kHalf);
   return counted("convert", "ccu", flow, config.ccu.convert_lanes, config.single());
+}
+
+// Of a block of pixels to the next.
+std::uint64_t blend_interval(const GscoreConfig& config) {
+  const RenderingConfig& c = config.rendering;
+  if (c.core_lanes == 0) return 1;
+  return cycles_for(folded_macs(rendering_work(c.precision).blend_from_corner), c.core_lanes);
 }
 
 }  // namespace
@@ -72,22 +80,42 @@ Datapath part_test_pipeline(const GscoreConfig& config) {
                  config.lists.part_lanes, config.single());
 }
 
+// A splat that is blended takes a turn for each block of a part at least, so that lanes for that
+// pace suffice. Ahead of them the halves of its record are widened, and the conic's scaled.
 Datapath conic_pipeline(const GscoreConfig& config) {
   Datapath path =
       counted_datapath("conic", "rendering", rendering_work(BlendPrecision::kSingle).conic);
-  path.lanes = path.used_macs;
+  constexpr std::uint32_t kHalves = 7, kOfConic = 3;
+  if (config.tiles.features == NumberFormat::kHalf) {
+    path.part_of("comparator").operations +=
+        kHalves * kConversionComparisons + kOfConic * kScalingComparisons;
+  }
+  const int across = kSubtilesPerTile / config.tiles.subtiles_across;
+  const std::uint64_t turn = static_cast<std::uint64_t>(across * across) * blend_interval(config);
+  path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, turn));
   schedule(path, conic_steps(config.single()), config.single());
+  return path;
+}
+
+// The block's first pixel comes as two whole numbers.
+Datapath corner_pipeline(const GscoreConfig& config) {
+  Datapath path =
+      counted_datapath("corner", "rendering", rendering_work(BlendPrecision::kSingle).corner);
+  path.part_of("comparator").operations += 2 * kConversionComparisons;
+  path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, blend_interval(config)));
+  schedule(path, corner_steps(config.single()), config.single());
   return path;
 }
 
 Datapath blend_pipeline(const GscoreConfig& config) {
   const BlendPrecision precision = config.rendering.precision;
   const bool in_half = precision == BlendPrecision::kHalf;
-  Datapath path = counted_datapath("blend", "rendering", rendering_work(precision).subtile_blend,
-                                   in_half ? "exp2_table_half" : "exp2_table");
+  Datapath path =
+      counted_datapath("blend", "rendering", rendering_work(precision).blend_from_corner,
+                       in_half ? "exp2_table_half" : "exp2_table");
   if (in_half) path.lane = "fp16_lane";
   path.lanes = config.rendering.core_lanes > 0 ? config.rendering.core_lanes : path.used_macs;
-  schedule(path, blend_steps(precision, config.blending()), config.blending(),
+  schedule(path, blend_from_corner_steps(precision, config.blending()), config.blending(),
            in_half ? kHalfBits : kSingleBits);
   return path;
 }

@@ -3,14 +3,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "algorithm/input_error.h"
 #include "algorithm/render/tile_renderer.h"
 #include "modules/gscore/gscore_machine.h"
+#include "modules/gscore/list_memory.h"
 
 namespace sgs::gscore {
 
+void GscoreDesign::fit_frames(const std::function<std::vector<PixelSize>()>& frames) {
+  for (const PixelSize& frame : frames()) {
+    const auto tiles = [](int px) { return (px + kTilePx - 1) / kTilePx; };
+    tiles_ = std::max(tiles_, static_cast<std::uint32_t>(tiles(frame.width) * tiles(frame.height)));
+  }
+}
+
 void GscoreDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) {
+  constexpr std::uint32_t kTilesOfAnyFrame = 4096;  // where none is going to be drawn
   check(config_);
+  choose_list_memory(config_, tiles_ > 0 ? tiles_ : kTilesOfAnyFrame, chosen);
   if (storage.encoding != SecondHalfEncoding::kRaw &&
       storage.encoding != SecondHalfEncoding::kHalf) {
     throw InputError(fmt::format(

@@ -11,6 +11,7 @@ class GscoreDesign : public MachineDesign {
  public:
   void visit(ConfigVisitor& v) override { gscore::visit(v, config_); }
   StorageOrder storage_order() const override { return StorageOrder::kFile; }
+  void fit_frames(const std::function<std::vector<PixelSize>()>& frames) override;
   void resolve(const StorageConfig& storage, std::vector<AutoChoice>& chosen) override;
   void fit_memories() override { config_.sram.buffer_bytes = 0; }
   void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) override;
@@ -23,6 +24,7 @@ class GscoreDesign : public MachineDesign {
 
  private:
   GscoreConfig config_;
+  std::uint32_t tiles_ = 0;  // of the largest frame; 0: not known
 };
 
 }  // namespace sgs::gscore

@@ -8,16 +8,24 @@
 #include <vector>
 
 #include "algorithm/memory/tile_records.h"
+#include "modules/datapath/counter_bits.h"
 #include "tlm/memory_port.h"
 
 namespace sgs::gscore {
 
-// Where the end of a list is: two numbers of blocks, a count.
+// Where the end of a list is: two numbers of blocks, a count. Hardware counts blocks, lines of the
+// block and entries of the line, so that nothing is divided.
 struct ListEnd {
-  static constexpr std::uint32_t kBytes = 9;  // 24 bits each
-  std::uint32_t block = 0, next = 0;          // that it writes in, and will when that is full
+  std::uint32_t block = 0, next = 0;  // that it writes in, and will when that is full
   std::uint32_t entries = 0;
 };
+
+// What hardware keeps of a ListEnd where there are so many blocks.
+inline std::uint32_t list_end_bytes(const BlockFormat& format, std::uint64_t blocks) {
+  const std::uint32_t bits = 3 * counter_bits(blocks - 1) + counter_bits(format.block_lines - 1) +
+                             counter_bits(format.line_entries());
+  return (bits + 7) / 8;
+}
 
 // What of a line is not in memory yet.
 class LineBuffer {
@@ -46,7 +54,8 @@ class LineBuffer {
   std::uint32_t begin_ = 0, end_ = 0;
 };
 
-// Lines are written by words of 64 bits and read by bursts: an entry spans two banks at most.
+// Lines are written by words of 64 bits and read by bursts: an entry spans two banks at most, with
+// the link before it too.
 constexpr std::uint32_t kLineWordBytes = 8, kLineBanks = kPortBytes / kLineWordBytes;
 // Words of a line that these bytes of it lie in.
 constexpr std::uint32_t line_words(std::uint32_t begin, std::uint32_t bytes) {
@@ -61,10 +70,23 @@ struct EntryPlace {
 };
 inline EntryPlace place_of(const BlockFormat& format, std::uint32_t block, std::uint32_t entry) {
   const std::uint32_t in_block = entry % format.block_entries();
-  const std::uint32_t in_line = in_block % format.line_entries();
-  return {std::uint64_t{block} * format.block_lines + in_block / format.line_entries(),
-          kLinkBytes + in_line * format.entry.bytes(), in_line == 0, in_block == 0,
-          in_line + 1 == format.line_entries()};
+  const std::uint32_t offset = format.offset(in_block);
+  const std::uint32_t line = offset / format.line_bytes, at = offset % format.line_bytes;
+  const std::uint32_t first_at = in_block < format.first_entries() ? kLinkBytes : 0;
+  return {std::uint64_t{block} * format.block_lines + line, at, at == first_at, in_block == 0,
+          at + 2 * format.entry.bytes() > format.line_bytes};
+}
+
+// Into a line that has begun; in front of the first of a block the link to the block behind it.
+// Returns the words of the line that it writes.
+inline std::uint32_t put_entry(const BlockFormat& format, const EntryPlace& place,
+                               const TileEntry& entry, std::uint32_t next_block, LineBuffer& line) {
+  std::byte bytes[kLinkBytes + 16];
+  std::memcpy(bytes, &next_block, kLinkBytes);
+  encode_entry(format.entry, entry, bytes + kLinkBytes);
+  const std::uint32_t link = place.begins_block ? kLinkBytes : 0;
+  line.put(place.at - link, bytes + kLinkBytes - link, link + format.entry.bytes());
+  return line_words(place.at - link, link + format.entry.bytes());
 }
 
 }  // namespace sgs::gscore

@@ -30,7 +30,7 @@ std::uint64_t sort_cycles(const Plan& plan) {
     cycles += 1 + list.size();
     const auto differs = [&](const TileEntry& e) { return e.key != list[0].key; };
     if (!std::any_of(list.begin(), list.end(), differs)) continue;
-    cycles += cycles_for(list.size(), kNetworkWidth) + bitonic_cost(list.size()).cycles;
+    cycles += bitonic_cost(list.size()).cycles;
   }
   return cycles;
 }
@@ -117,7 +117,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   checks.that(bench.busy_cycles("list loading") >= bench.counter("entries_read"),
               "loading's bound");
   const std::uint64_t least = taken + 2 * bench.counter("split_entries") +
-                              cycles_for(bench.counter("moves"), kNetworkWidth);
+                              cycles_for(bench.counter("chunk_entries"), kNetworkWidth) +
+                              cycles_for(bench.counter("merged"), kMergeWidth);
   checks.that(bench.busy_cycles("sorting") >= least, "sorting's bound");
   if (most <= plan.config.sorting.chunk_entries && plan.finish_after < 0) {
     checks.equal(bench.busy_cycles("sorting"), sort_cycles(plan), "cycles of sorting");

@@ -92,6 +92,46 @@ void check_bounds(const Json& view) {
   CHECK(counter_of_all(view, "sorter", "entries_read") <= cores * frame);
 }
 
+// Cycles that an activity of all units of a kind worked.
+std::uint64_t busy(const Json& view, const std::string& units, const char* activity) {
+  std::uint64_t sum = 0;
+  for (const auto& [name, unit] : view["units"].items()) {
+    if (name.rfind(units, 0) == 0) sum += cycles(view, name, activity);
+  }
+  return sum;
+}
+
+// No unit works for less time than its work takes at its rate.
+void check_rates(const Json& view) {
+  const Json& config = view["config"];
+  const auto turn = [&](const char* datapath) {
+    return count(view["datapath"][datapath]["used"]["interval_cycles"]);
+  };
+  const auto of_lister = [&](const char* name) { return counter(view, "lister", name); };
+  const auto of_sorters = [&](const char* name) { return counter_of_all(view, "sorter", name); };
+  const auto of_cores = [&](const char* name) { return counter_of_all(view, "rendering", name); };
+  CHECK(busy(view, "ccu", "load") * count(config["ccu"]["slice_gaussians"]) >=
+        total(view, "first_halves"));
+  CHECK(busy(view, "ccu", "cull") >= total(view, "first_halves") * turn("cull"));
+  CHECK(busy(view, "ccu", "fetch") >= total(view, "second_halves"));
+  CHECK(busy(view, "ccu", "convert") >= total(view, "converted") * turn("convert"));
+  CHECK(busy(view, "lister", "test") >= of_lister("tile_steps") * turn("tile_test"));
+  if (view["datapath"].contains("part_test")) {
+    CHECK(busy(view, "lister", "test") >= of_lister("part_tests") * turn("part_test"));
+  }
+  CHECK(busy(view, "lister", "list") >= of_lister("pairs") + of_lister("tiles"));
+  CHECK(busy(view, "sorter", "load") >= of_sorters("entries_read"));
+  // Each split passes its QSU twice; a chunk takes a cycle for 16 entries into the network, for 8
+  // in each level of merging, and what is sorted leaves an entry a cycle.
+  CHECK(busy(view, "sorter", "sort") >=
+        2 * of_sorters("split_entries") + of_sorters("chunk_entries") / 16 +
+            of_sorters("merged") / 8 + of_sorters("entries_sorted"));
+  CHECK(busy(view, "rendering", "fetch") >= of_cores("records") + of_cores("dropped"));
+  CHECK(busy(view, "rendering", "blend") >= of_cores("blocks") * turn("blend"));
+  CHECK(busy(view, "rendering", "drain") * count(config["rendering"]["drain_pixels_per_cycle"]) >=
+        of_cores("pixels"));
+}
+
 void check_gscore(const Simulation& simulation) {
   for (const Json& view : simulation.views()) {
     check_any_machine(view);
@@ -99,6 +139,7 @@ void check_gscore(const Simulation& simulation) {
     check_bytes(view);
     check_flow(view);
     check_bounds(view);
+    check_rates(view);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "algorithm/splat/make_splat.h"
+#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 
@@ -63,11 +64,6 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
 std::byte* Ccu::input(std::uint32_t slot, std::uint32_t at) {
   return input_.data() +
          (std::size_t{slot} * config_.ccu.slice_gaussians + at) * std::size_t{kFirstHalfBytes};
-}
-
-void Ccu::wait_for_turn(Activity& activity, std::uint64_t interval) {
-  const std::uint64_t now = activity.clock().now_cycles();
-  activity.work(next_turn(now, interval) - now);
 }
 
 void Ccu::run_load() {

@@ -58,8 +58,6 @@ class Ccu : public sc_core::sc_module {
   std::size_t fetch_run(std::vector<Candidate>& slice, std::size_t first);
   void convert(Converted& out);
   std::byte* input(std::uint32_t slot, std::uint32_t at);
-  // Of a pipeline: `interval` cycles long.
-  static void wait_for_turn(Activity& activity, std::uint64_t interval);
 
   const std::uint32_t index_;
   const GscoreConfig config_;

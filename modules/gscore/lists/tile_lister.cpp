@@ -2,7 +2,6 @@
 #include "modules/gscore/lists/tile_lister.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
@@ -15,8 +14,9 @@ constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists",
                      *kListWrites = "list writes", *kTestPasses = "passes to test",
                      *kListed = "listed tiles";
 constexpr std::uint32_t kTagBytes = 4;  // tile, and what of the line is new
-// Beside the memories: whose line it is, whether line and block are full, whether the pool is.
-constexpr std::uint32_t kComparators = 4;
+// Beside the memories: whose line it is, whether line and block are full, whether the pool is; by
+// three subtractions of powers of two of the lines a tile's place among them.
+constexpr std::uint32_t kComparators = 4 + 3;
 
 bool has_parts(const GscoreConfig& config) { return config.tiles.subtiles_across > 1; }
 
@@ -101,7 +101,7 @@ bool TileLister::project(const Pass& pass) {
   list_.work(tiles);
   std::fill(ends_.begin(), ends_.begin() + tiles, ListEnd{});
   counters_.table_writes += tiles;
-  for (Line& line : lines_) line.tile = 0;
+  for (Line& line : lines_) line.tile = 0;  // as each was looked at, at the end of the pass before
   next_block_ = tiles;
   overflowed_ = tiles > config_.pool_blocks();
   record_number_ = 0;
@@ -114,6 +114,7 @@ bool TileLister::project(const Pass& pass) {
   }
   list_.work(lines_.size());
   counters_.line_looks += lines_.size();
+  counters_.line_changes += lines_.size();
   flush_records();
   await_all(memory, list_);
   return !overflowed_;
@@ -174,16 +175,7 @@ void TileLister::put_entry(std::uint32_t tile, const TileEntry& entry) {
   } else if (place.begins_line) {
     line.buffer.begin(place.line, 0);
   }
-  if (place.begins_block) {
-    std::byte link[kLinkBytes];
-    std::memcpy(link, &end.next, kLinkBytes);
-    line.buffer.put(0, link, kLinkBytes);
-    ++counters_.line_writes;
-  }
-  std::byte bytes[16];
-  encode_entry(blocks_.entry, entry, bytes);
-  line.buffer.put(place.at, bytes, blocks_.entry.bytes());
-  counters_.line_writes += line_words(place.at, blocks_.entry.bytes());
+  counters_.line_writes += gscore::put_entry(blocks_, place, entry, end.next, line.buffer);
   ++counters_.line_changes;
   ++end.entries;
   if (!place.ends_line) return;
@@ -230,9 +222,10 @@ void TileLister::hand_out(const Pass& pass) {
 SramUses TileLister::sram_uses(const GscoreConfig& c) {
   const BlockFormat blocks = c.blocks();
   const std::uint32_t place = record_place_bytes(c.tiles.features);
+  const std::uint32_t end_bytes = list_end_bytes(blocks, c.pool_blocks());
   return {
-      sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {ListEnd::kBytes, "B"}},
-               {8 * ListEnd::kBytes}, kOneOfEach),
+      sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {end_bytes, "B"}}, {8 * end_bytes},
+               kOneOfEach),
       sram_use(kLines, kBuffer, {{c.lists.lines, "lines"}, {blocks.line_bytes, "B"}},
                {8 * kLineWordBytes, SramPorts::kReadAndWrite, kLineBanks},
                {kLineBanks, kLineBanks}),
@@ -277,10 +270,14 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.accesses(kWaitingRecords, counters_.record_words, counters_.record_words);
   sheet.part("lists", "comparator", kComparators, 1);
   sheet.operations("lists", "comparator", static_cast<double>(kComparators * counters_.pairs));
-  // The Gaussian whose tiles are tested.
+  // The Gaussian whose tiles are tested; the end of the list that was written last, which may be
+  // wanted before it can be read.
   constexpr double kTestedBits = 8.0 * Converted::kSramBytes;
-  sheet.part("lists", "register_bit", kTestedBits, 1);
-  sheet.operations("lists", "register_bit", kTestedBits * static_cast<double>(counters_.gaussians));
+  const double end_bits = 8.0 * list_end_bytes(blocks_, config_.pool_blocks());
+  sheet.part("lists", "register_bit", kTestedBits + end_bits, 1);
+  sheet.operations("lists", "register_bit",
+                   kTestedBits * static_cast<double>(counters_.gaussians) +
+                       end_bits * static_cast<double>(counters_.pairs));
   sheet.datapath(tile_path_, counters_.tile_steps);
   if (part_path_) sheet.datapath(*part_path_, counters_.part_tests);
   sheet.queue(test_passes_, kTestPasses);

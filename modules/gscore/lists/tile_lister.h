@@ -58,7 +58,6 @@ class TileLister : public sc_core::sc_module {
   void run_test();  // thread
   void run_list();  // thread
   void test_tiles(const Converted& gaussian, const Pass& pass);
-  void wait_for_turn(std::uint64_t interval);
   // Whether all lists of the pass are in memory; if not, the pool was too small.
   bool project(const Pass& pass);
   void take(const ListedTile& tile, const Pass& pass);

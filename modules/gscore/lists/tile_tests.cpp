@@ -1,6 +1,7 @@
 // The testing thread of the tile lister: which tiles of the pass a Gaussian touches, which parts.
 #include <algorithm>
 
+#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/lists/tile_lister.h"
 
@@ -31,11 +32,6 @@ void TileLister::run_test() {
   test_.idles();
 }
 
-void TileLister::wait_for_turn(std::uint64_t interval) {
-  const std::uint64_t now = test_.clock().now_cycles();
-  test_.work(next_turn(now, interval) - now);
-}
-
 // Tiles of rows that the pass has: neighbours in a turn of their lanes, then the parts of each that
 // is touched, one after the other.
 void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
@@ -57,7 +53,7 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
   out.first = true;
   for (int y = std::max(tiles.y0, first_row); y < std::min(tiles.y1, end_row); ++y) {
     for (int x = tiles.x0; x < tiles.x1; x += at_once) {
-      wait_for_turn(tile_path_.interval_cycles());
+      wait_for_turn(test_, tile_path_.interval_cycles());
       const std::uint64_t begun = test_.clock().now_cycles();
       ++counters_.tile_steps;
       for (int k = x; k < std::min(x + at_once, tiles.x1); ++k) {
@@ -65,7 +61,7 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
         out.tile = static_cast<std::uint32_t>(y * columns + k);
         if (out.tile < pass.first || out.tile >= pass.end) continue;
         if (!touches_tile(gaussian.boxes, k, y)) continue;
-        wait_for_turn(part_interval);
+        wait_for_turn(test_, part_interval);
         test_.work(part_interval);
         ++counters_.part_tests;
         out.bitmap = part_bitmap(gaussian.boxes, config_.tiles.rules(), k, y);

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "algorithm/render/tile_blend.h"
+#include "modules/datapath/counter_bits.h"
+#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 
@@ -50,6 +52,7 @@ RenderCore::RenderCore(const sc_core::sc_module_name& name, const UnitContext& c
       job_(context.job),
       finished_(finished),
       conic_path_(conic_pipeline(config_)),
+      corner_path_(corner_pipeline(config_)),
       blend_path_(blend_pipeline(config_)),
       drain_path_(drain_pipeline(config_)),
       record_bytes_(record_bytes(config_.tiles.features)),
@@ -60,14 +63,19 @@ RenderCore::RenderCore(const sc_core::sc_module_name& name, const UnitContext& c
       fetched_("fetched", context.clock, config_.rendering.record_slots + 1),
       free_records_("free_records", context.clock, config_.rendering.record_slots, 0),
       finished_states_("finished_states", context.clock, config_.rendering.pixel_buffers + 1,
-                       conic_path_.depth_cycles + blend_path_.depth_cycles + kReadCycles +
-                           kWriteCycles + drain_path_.depth_cycles),
+                       static_cast<std::uint32_t>(depth_cycles()) + drain_path_.depth_cycles),
       free_pixels_("free_pixels", context.clock, config_.rendering.pixel_buffers, 0),
       free_from_(kBlocks),
       finished_from_(parts_of(config_)) {
   SC_THREAD(run_fetch);
   SC_THREAD(run_blend);
   SC_THREAD(run_drain);
+}
+
+// The conic is wanted behind the corner's subtractions.
+std::uint64_t RenderCore::depth_cycles() const {
+  return std::max(conic_path_.depth_cycles, corner_path_.depth_cycles) + blend_path_.depth_cycles +
+         kReadCycles + kWriteCycles;
 }
 
 void RenderCore::run_fetch() {
@@ -146,8 +154,7 @@ void RenderCore::take(const Fetched& next) {
     fetched_.remove_front();
     blend_.work(1);
   } else {
-    const std::uint64_t now = blend_.clock().now_cycles();
-    blend_.work(next_turn(now, blend_path_.interval_cycles()) - now);
+    wait_for_turn(blend_, blend_path_.interval_cycles());
     fetched_.remove_front();
     blend(next.entry, decode_projected(config_.tiles.features,
                                        records_.data() + std::size_t{next.slot} * record_bytes_));
@@ -163,8 +170,7 @@ void RenderCore::blend(const SortedEntry& entry, const Splat& splat) {
   const int side = kSubtilesPerTile / rules.subtiles_across;
   const std::uint64_t interval = blend_path_.interval_cycles();
   const std::uint64_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
-  const std::uint64_t depth =
-      conic_path_.depth_cycles + blend_path_.depth_cycles + kReadCycles + kWriteCycles;
+  const std::uint64_t depth = depth_cycles();
   std::uint64_t begin = now;
   for_each_part(rules, job_.tile_x(entry.tile), job_.tile_y(entry.tile), entry.bitmap, splat,
                 [&](const Splat& in_part, int part) {
@@ -272,6 +278,7 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.counter("contributors", "pixels", "blended with an alpha above 1/255", n.contributors);
   sheet.counter("pixels", "pixels", "written", n.pixels);
   sheet.datapath(conic_path_, n.splats);
+  sheet.datapath(corner_path_, n.blocks);
   sheet.datapath(blend_path_, n.blocks);
   sheet.datapath(drain_path_, n.pixels);
   sheet.sram(sram_uses(config_));
@@ -281,6 +288,13 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.accesses(kPixels, kSubtilePixels * n.blocks + n.pixels,
                  kSubtilePixels * n.blocks + n.pixels);
   sheet.accesses(kMask, n.splats, n.splats);
+  // Of each block: until when a splat is in the loop through its pixels, a counter that is set when
+  // one begins, and whether all are finished. Of the splat: which of its parts and blocks is next.
+  const std::uint32_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
+  const std::uint32_t flight_bits = counter_bits(loop), next_bits = counter_bits(kBlocks) + kBlocks;
+  sheet.part("rendering", "register_bit", double{kBlocks} * (flight_bits + 1) + next_bits, 1);
+  sheet.operations("rendering", "register_bit",
+                   static_cast<double>(n.blocks) * static_cast<double>(loop + 1 + next_bits));
   sheet.queue(fetched_, kFetchedEntries);
   sheet.queue(finished_states_, kPixels);
   sheet.port(record_memory);

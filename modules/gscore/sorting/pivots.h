@@ -48,6 +48,12 @@ inline Pivots ranged_pivots(const KeyRange& range) {
   return pivots;
 }
 
+// Adders that count subsets' entries and compute pivots of a range, one pivot a cycle: a step of it
+// more, and its least key on top.
+constexpr std::uint32_t kPivotAdders = 2;
+// A pivot is read or computed a cycle; a subset's place follows from those before it, one a cycle.
+constexpr std::uint32_t kPivotCycles = kPivots, kSubsetPlaceCycles = kSubsets;
+
 // Levels of splitting at most: one by samples, then three bits of the range each.
 constexpr std::uint32_t most_levels(NumberFormat keys) {
   return 1 + ((keys == NumberFormat::kHalf ? 16U : 32U) + 2) / 3;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "modules/datapath/work_rates.h"
+#include "modules/datapath/counter_bits.h"
 #include "modules/gscore/sorting/bitonic_cost.h"
 
 namespace sgs::gscore {
@@ -12,14 +12,28 @@ namespace {
 
 constexpr const char *kStages = "list blocks", *kLists = "lists on chip",
                      *kPlaces = "keys of subsets", *kSubsetLines = "lines of subsets",
-                     *kSubsetEnds = "ends of subsets", *kChunkKeys = "chunk keys",
-                     *kChunkPlaces = "chunk places", *kSubsetWrites = "subset writes",
-                     *kLoaded = "loaded lists";
-constexpr std::uint32_t kPlaceBytes = 2;    // of an entry in a list, of one in a chunk
+                     *kSubsetEnds = "subsets in memory", *kSubsetsOnChip = "subsets on chip",
+                     *kChunk = "chunk", *kSubsetWrites = "subset writes", *kLoaded = "loaded lists";
+constexpr std::uint32_t kPlaceBytes = 2;    // of an entry in a list
 constexpr std::uint32_t kLoadedBytes = 16;  // tile, count, keys
 
-// Each QSU: the pivots, and the least and the greatest key.
-constexpr std::uint32_t kQsuComparators = kPivots + 2;
+// Each QSU compares with the pivots, the least and the greatest key, and counts.
+constexpr std::uint32_t kEntryComparisons = kPivots + 2 + 1;
+constexpr std::uint32_t kQsuComparators = kEntryComparisons + kPivotAdders;
+constexpr std::uint32_t kSplitAdditions = kPivotAdders * kPivots + kSubsets;
+
+// Of a subset, at each level of splitting: its keys, and where it begins and how many entries it
+// has; in memory its first block, and where it ends.
+std::uint32_t subset_bytes(const GscoreConfig& config) {
+  return 2 * config.entries().key_bytes() + 2 * kPlaceBytes;
+}
+std::uint64_t stack_blocks(const GscoreConfig& config) {
+  return std::uint64_t{config.pool_blocks()} * most_levels(config.tiles.keys);
+}
+std::uint32_t subset_in_memory_bytes(const GscoreConfig& config) {
+  return 2 * config.entries().key_bytes() + (counter_bits(stack_blocks(config)) + 7) / 8 +
+         list_end_bytes(config.blocks(), stack_blocks(config));
+}
 
 // What a compare-exchange compares and moves: key and place.
 std::uint32_t compared_bits(const GscoreConfig& config) {
@@ -81,7 +95,8 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
     sort_chunk(tile, entries, level);
     return;
   }
-  // Once through the QSU for the subsets' sizes, once more to their places.
+  // The pivots; once through the QSU for the subsets' sizes, then their places, and once more
+  // there.
   const Pivots pivots = level == 0 ? sampled_pivots(entries, entries.size()) : ranged_pivots(keys);
   std::array<std::vector<TileEntry>, kSubsets> subsets;
   std::array<KeyRange, kSubsets> ranges;
@@ -91,30 +106,33 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
     ranges[s].take(entry.key);
   }
   ++counters_.splits;
+  if (level == 0) counters_.list_reads += kPivots;
   counters_.split_entries += entries.size();
   counters_.keys_compared += 2 * entries.size();
   (level == 0 ? counters_.list_reads : counters_.places_read) += 2 * entries.size();
   counters_.places_written += entries.size();
-  sort_.work(2 * entries.size());
+  counters_.subset_accesses += 2 * entries.size() + 2 * kSubsets;
+  sort_.work(kPivotCycles + entries.size() + kSubsetPlaceCycles + entries.size());
   for (std::size_t s = 0; s < kSubsets; ++s) {
     if (!subsets[s].empty()) sort(tile, std::move(subsets[s]), level + 1, ranges[s]);
   }
 }
 
 // A list's keys lie side by side, and so do those of a subset with their places, so that 16 come to
-// the network's memory at once.
+// the network at once.
 void TileSorter::sort_chunk(std::uint32_t tile, std::vector<TileEntry>& entries,
                             std::uint32_t level) {
   std::stable_sort(entries.begin(), entries.end(),
                    [](const TileEntry& a, const TileEntry& b) { return a.key < b.key; });
   const BitonicCost cost = bitonic_cost(entries.size());
-  sort_.work(cycles_for(entries.size(), kNetworkWidth) + cost.cycles);
+  sort_.work(cost.cycles);
   ++counters_.chunks;
   counters_.chunk_entries += entries.size();
   counters_.compare_exchanges += cost.compare_exchanges;
-  counters_.moves += cost.moves;
+  counters_.merged += cost.merged;
   (level == 0 ? counters_.list_reads : counters_.places_read) += entries.size();
   emit(tile, entries);
+  counters_.places_emitted += entries.size();
 }
 
 void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries) {
@@ -129,7 +147,7 @@ void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries)
 SramUses TileSorter::sram_uses(const GscoreConfig& c) {
   const BlockFormat blocks = c.blocks();
   constexpr auto kPorts = SramPorts::kReadAndWrite;
-  const std::uint32_t key_bits = compared_bits(c);
+  const std::uint32_t key_bits = compared_bits(c), levels = most_levels(c.tiles.keys);
   return {sram_use(kStages, kBuffer, {{kStageBlocks, "blocks"}, {blocks.block_bytes(), "B"}},
                    {8 * kPortBytes}, kOneOfEach),
           // 16 entries go to the network at once.
@@ -143,13 +161,16 @@ SramUses TileSorter::sram_uses(const GscoreConfig& c) {
                    {key_bits, kPorts, kNetworkWidth}, {kNetworkWidth, 1}),
           sram_use(kSubsetLines, kBuffer, {{kSubsets, "subsets"}, {blocks.line_bytes, "B"}},
                    {8 * kLineWordBytes, kPorts, kLineBanks}, {kLineBanks, kLineBanks}),
-          sram_use(kSubsetEnds, kBuffer, {{kSubsets, "subsets"}, {ListEnd::kBytes, "B"}},
-                   {8 * ListEnd::kBytes}, kOneOfEach),
-          sram_use(kChunkKeys, kBuffer, {{c.sorting.chunk_entries, "keys"}, {key_bits / 8, "B"}},
-                   {key_bits, kPorts, kNetworkWidth}, {kNetworkWidth, kNetworkWidth}),
-          sram_use(kChunkPlaces, kBuffer,
-                   {{2, "lists"}, {c.sorting.chunk_entries, "places"}, {kPlaceBytes, "B"}},
-                   {8 * kPlaceBytes, kPorts, kNetworkWidth}, {kNetworkWidth, kNetworkWidth}),
+          sram_use(kSubsetEnds, kBuffer,
+                   {{levels, "levels"}, {kSubsets, "subsets"}, {subset_in_memory_bytes(c), "B"}},
+                   {8 * subset_in_memory_bytes(c)}, kOneOfEach),
+          sram_use(kSubsetsOnChip, kBuffer,
+                   {{levels, "levels"}, {kSubsets, "subsets"}, {subset_bytes(c), "B"}},
+                   {8 * subset_bytes(c)}, kOneOfEach),
+          // From one to the other: 8 are read and at most 16 written at once.
+          sram_use(kChunk, kBuffer,
+                   {{2, "lists"}, {c.sorting.chunk_entries, "keys"}, {key_bits / 8, "B"}},
+                   {key_bits, kPorts, kNetworkWidth}, {kMergeWidth, kNetworkWidth}),
           sram_use(kLoaded, kBuffer, {{c.sorting.list_buffers + 2, "lists"}, {kLoadedBytes, "B"}},
                    {8 * kLoadedBytes}, kOneOfEach),
           outstanding_table(kBuffer, c.memory_port),
@@ -176,7 +197,7 @@ void TileSorter::publish(DataSheet& sheet) {
                 n.dropped_unread);
   sheet.counter("dropped_loaded", "entries", "of finished tiles, on chip", n.dropped_loaded);
   sheet.counter("compare_exchanges", "operations", "of the network", n.compare_exchanges);
-  sheet.counter("moves", "entries", "through the network, once for each pass", n.moves);
+  sheet.counter("merged", "entries", "once for each level of merging", n.merged);
 
   const double of_exchange = comparators_of_exchange(config_);
   const double there = kNetworkExchanges, done = static_cast<double>(n.compare_exchanges);
@@ -184,29 +205,51 @@ void TileSorter::publish(DataSheet& sheet) {
   sheet.operations("bsu", "comparator", of_exchange * done);
   sheet.part("bsu", "exchange_bit", compared_bits(config_) * there, 1);
   sheet.operations("bsu", "exchange_bit", compared_bits(config_) * done);
-  // To its place before the network a key passes four multiplexers of two.
-  constexpr std::uint32_t kSelections = 4;
-  sheet.part("bsu", "select_bit",
-             double{kMergeWidth} * (kNetworkWidth - 1) * compared_bits(config_), 1);
+  // Multiplexers of two by which 16 entries that begin in any bank come in order, as four rows of
+  // them; 8 of the half of the banks that they lie in; 16 to the last four stages; the 8 that are
+  // kept back to these; 16 to the half of the banks where they are written.
+  constexpr std::uint32_t kRotation = 4, kOfMerge = 4;
+  constexpr std::uint32_t kSelected =
+      kRotation * kNetworkWidth + kMergeWidth + kNetworkWidth + kMergeWidth + kNetworkWidth;
+  sheet.part("bsu", "select_bit", double{kSelected} * compared_bits(config_), 1);
   sheet.operations("bsu", "select_bit",
-                   double{kSelections} * compared_bits(config_) * static_cast<double>(n.moves));
+                   compared_bits(config_) * (kRotation * static_cast<double>(n.chunk_entries) +
+                                             kOfMerge * static_cast<double>(n.merged)));
+  // Of each pair that is merged: the last entries taken of its runs, where both go on and end, and
+  // where it is written. The entries that were read are in registers before the first stage.
+  const std::uint32_t place_bits = counter_bits(config_.sorting.chunk_entries);
+  const double turn_bits = kMergeStages * (2.0 * compared_bits(config_) + 5.0 * place_bits) +
+                           double{kNetworkWidth} * compared_bits(config_);
+  const double turns = static_cast<double>(n.merged) / kMergeWidth;
+  sheet.part("bsu", "comparator", of_exchange, 1);
+  sheet.operations("bsu", "comparator", of_exchange * turns);
+  sheet.part("bsu", "register_bit", turn_bits, 1);
+  sheet.operations("bsu", "register_bit",
+                   compared_bits(config_) * static_cast<double>(n.chunk_entries + n.merged) +
+                       (compared_bits(config_) + 2.0 * place_bits) * turns);
+  // Each QSU: its pivots; the next of a range, and its step; where the stack of blocks and of
+  // subsets was before each level.
   constexpr std::uint32_t kQsus = 2;
-  const double pivot_bits = 8.0 * config_.entries().key_bytes() * kPivots;
+  const double pivot_bits = 8.0 * config_.entries().key_bytes() * (kPivots + 2);
+  const std::uint32_t mark_bits = most_levels(config_.tiles.keys) *
+                                  (counter_bits(stack_blocks(config_)) + counter_bits(kSubsets));
   sheet.part("qsu", "comparator", kQsus * kQsuComparators, 1);
   sheet.operations("qsu", "comparator",
-                   double{kQsuComparators} * static_cast<double>(n.keys_compared));
-  sheet.part("qsu", "register_bit", kQsus * pivot_bits, 1);
+                   double{kEntryComparisons} * static_cast<double>(n.keys_compared) +
+                       double{kSplitAdditions} * static_cast<double>(n.splits + n.lists_split));
+  sheet.part("qsu", "register_bit", kQsus * (pivot_bits + mark_bits), 1);
   sheet.operations("qsu", "register_bit",
-                   pivot_bits * static_cast<double>(n.splits + n.lists_split));
+                   (pivot_bits + mark_bits) * static_cast<double>(n.splits + n.lists_split));
 
   sheet.sram(sram_uses(config_));
-  sheet.accesses(kStages, n.stage_words, n.stage_words);
+  sheet.accesses(kStages, n.stage_words + n.pivots_sampled, n.stage_words);
   sheet.accesses(kLists, n.list_reads, n.entries_loaded);
   sheet.accesses(kPlaces, n.places_read, n.places_written);
   sheet.accesses(kSubsetLines, n.line_reads, n.line_writes);
-  sheet.accesses(kSubsetEnds, n.entries_split, n.entries_split);
-  sheet.accesses(kChunkKeys, n.moves, n.chunk_entries);
-  sheet.accesses(kChunkPlaces, n.moves + n.chunk_entries, n.moves);
+  const std::uint64_t subsets = kSubsets * n.lists_split;
+  sheet.accesses(kSubsetEnds, n.entries_split + subsets, n.entries_split + subsets);
+  sheet.accesses(kSubsetsOnChip, n.subset_accesses, n.subset_accesses);
+  sheet.accesses(kChunk, n.merged + n.places_emitted, n.chunk_entries + n.merged);
   sheet.accesses(kLoaded, loaded_.popped(), loaded_.pushed());
   sheet.queue(loaded_, kLoaded);
   sheet.port(memory, kSubsetWrites);

@@ -1,8 +1,9 @@
 // Sorter of one core: reads a tile's list, splits it into ordered subsets until these are chunks,
 // and sorts chunk by chunk, nearest first. What is left of a finished tile is dropped.
 // Timing: an entry a cycle through each QSU (the one where lists come in, which also splits lists
-// that are too long for the chip, and the one at the lists on chip); a chunk through the network as
-// bitonic_cost() says; an entry a cycle out. Blocks of a list are asked for one ahead.
+// that are too long for the chip, and the one at the lists on chip), before it a cycle for each
+// pivot, on chip one for each subset's place; a chunk through the network as bitonic_cost() says;
+// an entry a cycle out. Blocks of a list are asked for one ahead.
 #pragma once
 
 #include <cstddef>
@@ -97,7 +98,9 @@ class TileSorter : public sc_core::sc_module {
     std::uint64_t chunks = 0, chunk_entries = 0, in_order = 0;
     std::uint64_t dropped_unread = 0, dropped_loaded = 0;
     std::uint64_t emitted = 0;
-    std::uint64_t compare_exchanges = 0, moves = 0;
+    std::uint64_t compare_exchanges = 0, merged = 0, places_emitted = 0;
+    std::uint64_t pivots_sampled = 0;   // from blocks
+    std::uint64_t subset_accesses = 0;  // on chip: reads, and writes
     std::uint64_t stage_words = 0, line_reads = 0, line_writes = 0;
     std::uint64_t places_read = 0, places_written = 0, list_reads = 0;
     std::uint64_t keys_compared = 0;  // by the QSUs

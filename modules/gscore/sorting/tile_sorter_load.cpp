@@ -135,10 +135,17 @@ void TileSorter::split_in_memory(std::uint32_t tile, const Chain& list, std::uin
   std::vector<LineBuffer> lines(kSubsets, LineBuffer(blocks_.line_bytes));
   Pivots pivots{};
   bool chosen = level > 0 && list.ranged;
-  if (chosen) pivots = ranged_pivots(list.keys);
+  if (chosen) {
+    pivots = ranged_pivots(list.keys);
+    load_.work(kPivotCycles);
+  }
   ++counters_.lists_split;
   read_chain(list, [&](std::vector<TileEntry>& entries) {
-    if (!chosen) pivots = sampled_pivots(entries, entries.size());
+    if (!chosen) {
+      pivots = sampled_pivots(entries, entries.size());
+      load_.work(kPivotCycles);
+      counters_.pivots_sampled += kPivots;
+    }
     chosen = true;
     for (const TileEntry& entry : entries) {
       const std::uint32_t s = subset_of(pivots, entry.key);
@@ -170,16 +177,7 @@ void TileSorter::put_subset(const TileEntry& entry, ListEnd& end, LineBuffer& li
   }
   const EntryPlace place = place_of(blocks_, end.block, end.entries);
   if (place.begins_line) line.begin(place.line, 0);
-  if (place.begins_block) {
-    std::byte link[kLinkBytes];
-    std::memcpy(link, &end.next, kLinkBytes);
-    line.put(0, link, kLinkBytes);
-    ++counters_.line_writes;
-  }
-  std::byte bytes[16];
-  encode_entry(blocks_.entry, entry, bytes);
-  line.put(place.at, bytes, blocks_.entry.bytes());
-  counters_.line_writes += line_words(place.at, blocks_.entry.bytes());
+  counters_.line_writes += put_entry(blocks_, place, entry, end.next, line);
   ++end.entries;
   if (place.ends_line) flush(line);
 }

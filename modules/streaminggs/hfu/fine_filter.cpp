@@ -6,7 +6,7 @@
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
-#include "modules/datapath/work_rates.h"
+#include "modules/datapath/wait_for_turn.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
@@ -165,7 +165,7 @@ void FineFilter::run_filter(Part& part) {
 void FineFilter::filter_decoded(Part& part) {
   const Decoded& front = part.stage->decoded.front(part.filter);
   const bool wanted = is_wanted(part, front.candidate);
-  if (wanted) wait_for_turn(part.filter);
+  if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
   const Decoded next = front;
   part.stage->decoded.remove_front();
   if (next.candidate.mark != Mark::kNone) {
@@ -188,7 +188,7 @@ void FineFilter::filter_fetched(Part& part) {
   await(memory, part.filter, next.candidate.ticket);
   ++counters_.taken;
   const bool wanted = is_wanted(part, next.candidate);
-  if (wanted) wait_for_turn(part.filter);
+  if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
   next.second = read_slot(part, next.candidate);
   free_slot(next.candidate.buffer, part.filter);
   part.fetched.remove_front();
@@ -202,12 +202,6 @@ void FineFilter::filter_fetched(Part& part) {
 bool FineFilter::is_wanted(const Part& part, const FineCandidate& candidate) const {
   return candidate.mark == Mark::kNone &&
          !finished[static_cast<int>(part.index)]->finished(candidate.group);
-}
-
-// What waits for its turn stays where it is until then.
-void FineFilter::wait_for_turn(Activity& filter) const {
-  const std::uint64_t now = filter.clock().now_cycles();
-  filter.work(next_turn(now, tests_.interval_cycles()) - now);
 }
 
 void FineFilter::pass_mark(Part& part, const FineCandidate& candidate) {

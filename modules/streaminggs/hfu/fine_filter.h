@@ -107,7 +107,6 @@ class FineFilter : public sc_core::sc_module {
   void filter_fetched(Part& part);
   void filter_decoded(Part& part);
   bool is_wanted(const Part& part, const FineCandidate& candidate) const;
-  void wait_for_turn(Activity& filter) const;
   void drop(Part& part, const FineCandidate& candidate);
   void pass_mark(Part& part, const FineCandidate& candidate);
   void test(Part& part, const Decoded& decoded);

@@ -228,6 +228,9 @@ TEST_CASE("work of rendering a splat, counted") {
   CHECK(work.subtile_blend.fused == 16 * (1 + 2 + 3));
   CHECK(folded_macs(work.subtile_blend) == 30 + 16 * 10);
   CHECK(folded_macs(work.conic) == 3);
+  // Where the centre is: two sums that a machine may have lanes of their own for.
+  CHECK(folded_macs(work.corner) == 2);
+  CHECK(folded_macs(work.blend_from_corner) == 28 + 16 * 10);
   CHECK(work.subtile_blend.look_ups == 16);
   CHECK(work.subtile_blend.splits == 16);
   CHECK(work.subtile_blend.scalings == 16);
@@ -236,6 +239,7 @@ TEST_CASE("work of rendering a splat, counted") {
   // In half: a line for a parabola; the larger of A and C, five numbers scaled by a power of two.
   const OperationCounts half = rendering_work(BlendPrecision::kHalf).subtile_blend;
   CHECK(folded_macs(half) == 30 + 16 * 9);
+  CHECK(folded_macs(rendering_work(BlendPrecision::kHalf).blend_from_corner) == 28 + 16 * 9);
   CHECK(half.comparisons == 16 * 5 + 1);
   CHECK(half.scalings == 16 + 5);
   // What nothing has rounded before: opacity and colour.

@@ -1,0 +1,96 @@
+// Passes, then lines, then entries, each as many as fit.
+#include "modules/gscore/list_memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "algorithm/input_error.h"
+#include "modules/datapath/work_rates.h"
+#include "modules/gscore/sorting/bitonic_cost.h"
+
+namespace sgs::gscore {
+namespace {
+
+// With a line for more tiles than these, lists on chip make room; then a pass takes fewer tiles
+// (README.md).
+constexpr std::uint32_t kTilesOfLine = 4, kMostTilesOfLine = 8;
+// Of a list on chip: where lines have room, at least, at most.
+constexpr std::uint32_t kUsualEntries = 1024, kLeastEntries = 512, kMostEntries = 8192;
+
+// The most in [least, most] that fits, in steps; 0 if not even `least` does.
+std::uint32_t most_that_fits(std::uint32_t least, std::uint32_t most, std::uint32_t step,
+                             const std::function<bool(std::uint32_t)>& fits) {
+  if (!fits(least)) return 0;
+  std::uint32_t low = 0, high = (most - least) / step;
+  while (low < high) {
+    const std::uint32_t middle = (low + high + 1) / 2;
+    if (fits(least + middle * step)) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
+  }
+  return least + low * step;
+}
+
+bool fits(const GscoreConfig& config) {
+  return config.sram.buffer_bytes == 0 ||
+         sram_bytes(sram_uses(config), kBuffer) <= config.sram.buffer_bytes;
+}
+
+}  // namespace
+
+void choose_list_memory(GscoreConfig& config, std::uint32_t tiles,
+                        std::vector<AutoChoice>& chosen) {
+  const bool open_tiles = config.lists.tiles == 0, open_lines = config.lists.lines == 0,
+             open_entries = config.sorting.list_entries == 0;
+  if (!open_tiles && !open_lines && !open_entries) return;
+  const auto lines_beside = [&](std::uint32_t entries, std::uint32_t of_pass) {
+    if (open_entries) config.sorting.list_entries = std::max(entries, config.sorting.chunk_entries);
+    config.lists.tiles = of_pass;
+    if (!open_lines) return fits(config) ? config.lists.lines : 0;
+    return most_that_fits(1, of_pass, 1, [&](std::uint32_t lines) {
+      config.lists.lines = lines;
+      return fits(config);
+    });
+  };
+  const auto lines_of = [&](std::uint32_t of_pass) {
+    const std::uint32_t lines = lines_beside(kUsualEntries, of_pass);
+    if (!open_entries || lines >= cycles_for(of_pass, kTilesOfLine)) return lines;
+    return lines_beside(kLeastEntries, of_pass);
+  };
+  if (open_tiles && lines_of(1) == 0) return;  // who refuses it shows the sum
+  std::uint32_t of_pass = open_tiles ? tiles : config.lists.tiles, lines = lines_of(of_pass);
+  const auto few = [&] { return of_pass > 1 && lines < cycles_for(of_pass, kMostTilesOfLine); };
+  for (std::uint32_t passes = 2; open_tiles && few(); ++passes) {
+    of_pass = static_cast<std::uint32_t>(cycles_for(tiles, passes));
+    lines = lines_of(of_pass);
+  }
+  if (lines == 0) return;
+  config.lists.lines = lines;
+  if (open_entries && config.sram.buffer_bytes != 0) {
+    config.sorting.list_entries = most_that_fits(config.sorting.list_entries, kMostEntries,
+                                                 kNetworkWidth, [&](std::uint32_t entries) {
+                                                   config.sorting.list_entries = entries;
+                                                   return fits(config);
+                                                 });
+  }
+  const std::string of = fmt::format("of {} tiles of the largest frame", tiles);
+  if (open_tiles) {
+    chosen.push_back(
+        {"lists.tiles", static_cast<double>(of_pass),
+         fmt::format("{}, in as few passes as leave a line for {} tiles", of, kMostTilesOfLine)});
+  }
+  if (open_lines) {
+    chosen.push_back({"lists.lines", static_cast<double>(lines),
+                      fmt::format("as many as fit, one a tile at most: {} tiles a pass", of_pass)});
+  }
+  if (open_entries) {
+    chosen.push_back({"sorting.list_entries", static_cast<double>(config.sorting.list_entries),
+                      "lists on chip as long as what is left allows"});
+  }
+}
+
+}  // namespace sgs::gscore
