@@ -41,6 +41,7 @@ from __future__ import annotations
 
 import argparse
 import concurrent.futures
+import functools
 import os
 import pathlib
 import sys
@@ -51,13 +52,13 @@ import run_arguments
 from exploration import Exploration, Work
 from group_shapes import NAME, expanded
 from judging import Assignments, Judge, Task
-from kept_runs import KeptRuns
 from machine_areas import start_of
 from machine_axes import ORDERS, Axis
 from measures import objective, requirement
 from scenes import Scene, find_scenes
 from search_space import Space, parse_axes, parse_point, read_points
-from simulations import SRAM_AS_NEEDED
+from simulations import SRAM_AS_NEEDED, simulate
+from sweep_server import SweepServer
 from view_numbers import view_numbers
 
 RUNS_FILE = "explore_runs.jsonl"
@@ -65,12 +66,14 @@ SAMPLERS = ("tpe", "nsga2", "random")  # as studies.py has them
 
 
 def machine_axes(
-    arguments: argparse.Namespace, kept: KeptRuns
+    arguments: argparse.Namespace, kept: SweepServer
 ) -> tuple[tuple[Axis, ...], Assignments]:
     """Of --machine, with what its order has set."""
     if not arguments.machine:
         return (), ()
-    order = start_of(ORDERS[arguments.machine], kept).order
+    # Of a run of its own, since what is swept keeps no schedules.
+    simulated = functools.partial(simulate, kept.binary)
+    order = start_of(ORDERS[arguments.machine], simulated).order
     return order.axes, order.fixed
 
 
@@ -125,12 +128,22 @@ def explore_all(work: Work) -> None:
     work.made.judged = {point: work.made.judged[point] for point in points}
 
 
+def is_studied(arguments: argparse.Namespace) -> bool:
+    return bool(arguments.search or arguments.study)
+
+
 def explore(arguments: argparse.Namespace) -> None:
-    studied = bool(arguments.search or arguments.study)
-    if studied:
+    if is_studied(arguments):
         debian_python.need("optuna", "python3-optuna")
     scenes = find_scenes(arguments.scenes)
-    kept = KeptRuns(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.j)
+    runs = arguments.out / RUNS_FILE
+    with SweepServer(arguments.streaminggs, runs, arguments.j) as kept:
+        explore_with(kept, arguments, scenes)
+
+
+def explore_with(
+    kept: SweepServer, arguments: argparse.Namespace, scenes: Sequence[Scene]
+) -> None:
     axes, fixed = machine_axes(arguments, kept)
     space = find_space(arguments, axes)
     beside = [parse_point(text, "--beside") for text in arguments.beside]
@@ -142,7 +155,7 @@ def explore(arguments: argparse.Namespace) -> None:
     try:
         for assignments in beside:
             work.made.add(judge.judged(assignments))
-        if studied:
+        if is_studied(arguments):
             import study_work  # Optuna is not everybody's
 
             study_work.explore(work, kept)

@@ -138,7 +138,7 @@ class Fight:
         arguments, area, areas = self.arguments, self.paper_area(), Areas(self.kept)
         for name in self.arguments.orders:
             order = ORDERS[name]
-            machine, harm = start_of(order, self.kept), {}
+            machine, harm = start_of(order, self.kept.outcome), {}
             storage = storage_at_start(order, self.kept, self.scenes, arguments.size)
             least_db = [db - SAME_DB for db in self.preset_db("0")] if order.keeps_picture else None
             first, *others = arguments.objectives

@@ -18,21 +18,21 @@ Made = tuple[Figure, str]  # with its caption
 
 def exploration(results: Results) -> Made:
     """Area against cycles of explore.py."""
-    data = results.table("explore", "explore.py", ("cycles", "area_mm2.total", "pareto", "binding"))
+    data = results.table("explore", "explore.py", ("cycles", "mm2", "front", "binding"))
     figure, (axes,) = panels(1, width=6, height=4)
     for at, binding in enumerate(data.different("binding")):
         rows = data.where(binding=binding)
         style = line_style(at) | {"linestyle": "none"}
         for best, face in (("yes", style["color"]), ("", "white")):
-            shown = [row for row in rows if row["pareto"] == best]
+            shown = [row for row in rows if row["front"] == best]
             axes.plot(
-                [number(row["area_mm2.total"]) for row in shown],
+                [number(row["mm2"]) for row in shown],
                 [number(row["cycles"]) / 1e6 for row in shown],
                 label=f"{binding} binds" if best else None,
                 **style,
                 markerfacecolor=face,
             )
-    points = [(number(r["area_mm2.total"]), number(r["cycles"]) / 1e6) for r in data.rows]
+    points = [(number(r["mm2"]), number(r["cycles"]) / 1e6) for r in data.rows]
     front = lower_left(points)
     axes.step(*zip(*front), where="post", color="#626a78", linewidth=1, zorder=1)
     axes.set_xlabel("area, mm²")

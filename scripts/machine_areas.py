@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from kept_runs import KeptRuns
 from machine_axes import Machine, Order
 from scenes import Scene
-from simulations import Run
+from simulations import Outcome, Run
 
 # Area is that of the machine, whatever it draws: the smallest frame there is tells it.
 SMALL = Scene("area", "builtin:object?n=500")
@@ -18,10 +20,10 @@ def area_mm2(view: dict) -> float:
     return view["area_mm2"]["total"]
 
 
-def start_of(order: Order, kept: KeptRuns) -> Machine:
+def start_of(order: Order, simulate: Callable[[Run], Outcome]) -> Machine:
     """The machine that is nearest to the order's preset, on axes that fit what a blend takes."""
     run = Run(SMALL, size=SMALL_SIZE, config=order.preset, overrides=order.fixed)
-    (view,) = kept.outcome(run).accepted()
+    (view,) = simulate(run).accepted()
     blend = view["datapath"]["subtile_blend"]["used"]["macs"]
     return order.with_blend(blend).start(view["config"])
 

@@ -12,7 +12,7 @@ MOST_ROWS = 2000  # of a table that are shown
 # Columns that are drawn at first where they are there, the likelier ones first.
 ACROSS = ("area_mm2.total", "mm2", "area_mm2", "sram_bytes", "DRAM MB", "MB a frame", "bus MB")
 UP = ("fps", "frames/s", "cycles", "k cycles", "M cycles", "mJ", "PSNR dB")
-NO_LABELS = ("binding", "binds", "pareto")  # that say nothing of what a row is
+NO_LABELS = ("binding", "binds", "slowest view", "holds", "front")  # that say nothing of what a row is
 
 
 def value_of(cell: str) -> float | None:
@@ -45,7 +45,7 @@ def labels_of(table: Table, numeric: Sequence[int]) -> Sequence[str]:
     """Columns that name a row: of an exploration its axes, else words that are no range."""
     if table.labels:
         return table.labels
-    if "pareto" in table.head and "group" in table.head:
+    if "front" in table.head and "group" in table.head:
         return table.head[: table.head.index("group") + 1]
     words = [at for at in range(len(table.head)) if at not in numeric]
     return [
@@ -70,7 +70,7 @@ def diagram(table: Table, numeric: Sequence[int], name: str) -> str:
         return ""
     across = first_choice(table, ACROSS, numeric, -1)
     up = first_choice(table, UP, [at for at in numeric if at != across], across)
-    best = table.head.index("pareto") if "pareto" in table.head else None
+    best = table.head.index("front") if "front" in table.head else None
     varying = [
         at
         for at, name in enumerate(table.head)

@@ -72,7 +72,7 @@ def found(
 ) -> tuple[tuple, list[dict]]:
     """A line of the table, and the views that it is of."""
     descent = Descent(kept, scenes, size, arguments.fps)
-    preset = start_of(EXACT, kept)
+    preset = start_of(EXACT, kept.outcome)
     before = descent.draw_all(preset, arguments.view)
     try:
         grown, drawn = descent.grown(preset, arguments.view)

@@ -9,12 +9,12 @@ import warnings
 import optuna
 from exploration import Work
 from judging import Judged
-from kept_runs import KeptRuns
 from machine_axes import nearest
 from measures import dominates
 from search_space import At
 from simulations import Run
 from studies import JUDGED, Study, open_storage, sampler, unpacked
+from sweep_server import SweepServer
 
 SAMPLED_EVERY = 4  # what the sampler proposes; between them what is next to the best
 MOST_SKIPPED = 20  # for each that is judged: then all there is to choose from was skipped
@@ -23,7 +23,7 @@ MOST_SKIPPED = 20  # for each that is judged: then all there is to choose from w
 class Searcher:
     """What a search looks at next, and what it need not look at."""
 
-    def __init__(self, work: Work, kept: KeptRuns):
+    def __init__(self, work: Work, kept: SweepServer):
         self.work, self.kept = work, kept
         self.judge, self.space = work.judge, work.space
         self.of_the_machine = work.judge.task.of_the_machine()
@@ -78,7 +78,7 @@ class Searcher:
         return min(saving, key=lambda at: self.costs(at), default=None)
 
 
-def explore(work: Work, kept: KeptRuns) -> None:
+def explore(work: Work, kept: SweepServer) -> None:
     """Into work.made. Raises Failure, ValueError."""
     arguments, task = work.arguments, work.judge.task
     optuna.logging.set_verbosity(optuna.logging.ERROR)
@@ -154,7 +154,7 @@ def is_within(at: At, other: At) -> bool:
     return all(a <= b for a, b in zip(at, other))
 
 
-def described(work: Work, kept: KeptRuns) -> str:
+def described(work: Work, kept: SweepServer) -> str:
     """All that a result depends on, but for the place in the space."""
     task = work.judge.task
     facts = {

@@ -103,4 +103,13 @@ def point_of(run: Run) -> dict:
     point = {"scene": run.scene.spec, "view": run.view, "config": run.config}
     point |= {"cameras": run.scene.cameras} if run.scene.cameras else {}
     point |= {"size": run.size} if run.size else {}
-    return {**point, "set": dict(override.split("=", 1) for override in run.overrides)}
+    settings = (override.split("=", 1) for override in run.overrides)
+    return {**point, "set": {key: json_value(text) for key, text in settings}}
+
+
+def json_value(text: str) -> object:
+    """A number or a truth where it is one, else text."""
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError:
+        return text

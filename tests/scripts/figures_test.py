@@ -28,9 +28,9 @@ EXPLORE_HEAD = (
     "hfu.ffu_lanes",
     "group",
     "cycles",
-    "area_mm2.total",
+    "mm2",
     "binding",
-    "pareto",
+    "front",
 )
 
 
@@ -126,8 +126,8 @@ TABLES = {
         "explore",
         EXPLORE_HEAD,
         [
-            {"binding": "dram", "pareto": "yes", "cycles": 100, "area_mm2.total": 5},
-            {"binding": "fine", "pareto": "", "cycles": 200, "area_mm2.total": 6},
+            {"binding": "dram", "front": "yes", "cycles": 100, "mm2": 5},
+            {"binding": "fine", "front": "", "cycles": 200, "mm2": 6},
         ],
         ("dram binds", "area, mm²"),
     ),

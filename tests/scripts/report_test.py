@@ -129,12 +129,12 @@ class Parts(unittest.TestCase):
     def test_a_table_becomes_a_diagram_of_its_numbers(self):
         table = Table(
             "explore",
-            ("hfus", "group", "cycles", "area_mm2.total", "binding", "pareto"),
+            ("hfus", "group", "cycles", "mm2", "binding", "front"),
             (("2", "64", "1200", "5.5", "fine", "yes"), ("4", "64", "1000", "6.5", "dram", "")),
         )
         made = report_tables.section(table, "explore.csv")
         self.assertIn("<option value=2 selected>cycles", made)
-        self.assertIn("<option value=3 selected>area_mm2.total", made)
+        self.assertIn("<option value=3 selected>mm2", made)
         self.assertIn("&quot;best&quot;:[true,false]", made)
         self.assertIn("&quot;labels&quot;:[&quot;hfus 2&quot;,&quot;hfus 4&quot;]", made)
 
