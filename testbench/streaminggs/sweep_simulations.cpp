@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "algorithm/memory/frame_buffer.h"
+
 namespace sgs {
 namespace {
 
@@ -18,14 +20,15 @@ std::uint64_t memory_bytes() {
 std::uint64_t bytes_of(const Image& image) { return image.pixels.size() * sizeof image.pixels[0]; }
 
 // What else a design's golden renderer knows is not asked for.
-GoldenFrame draw_golden(const MachineDesign& design, const StoredScene& scene,
-                        const FrameJob& job) {
+ExpectedFrame expected_of(const MachineDesign& design, const PreparedScene& scene,
+                          const ViewJob& job, const ReferencePictures& pictures) {
   DataSheet unread;
-  GoldenFrame golden = design.golden(scene, job, unread);
-  if (golden.missed > 0 && golden.in_order) {
-    golden.in_order = [picture = golden.in_order()] { return picture; };
-  }
-  return golden;
+  ExpectedFrame out;
+  out.golden = design.golden(scene.stored, job.frame, unread);
+  out.bytes = encode_frame(job.frame.frame_format, out.golden.image);
+  out.judged = judge_frame(scene, job, pictures, out.golden, out.bytes);
+  out.golden.in_order = {};  // may read the scene, which need not stay
+  return out;
 }
 
 }  // namespace
@@ -34,8 +37,10 @@ std::uint64_t size_bytes(const ReferencePictures& pictures) {
   return bytes_of(pictures.reference) + bytes_of(pictures.decoded_reference);
 }
 
-// Itself, and the one that it may tell.
-std::uint64_t size_bytes(const GoldenFrame& golden) { return 2 * bytes_of(golden.image); }
+// Golden and judged picture, and those of the loss.
+std::uint64_t size_bytes(const ExpectedFrame& expected) {
+  return (expected.judged.order_loss ? 4 : 3) * bytes_of(expected.golden.image);
+}
 
 SweepSimulations::SweepSimulations(const SweepPlan& plan, Technology technology, RunFacts facts,
                                    VqProgress progress)
@@ -45,7 +50,7 @@ SweepSimulations::SweepSimulations(const SweepPlan& plan, Technology technology,
       progress_(std::move(progress)),
       scenes_(memory_bytes() / 4),
       references_(memory_bytes() / 16),
-      golden_(memory_bytes() / 16) {}
+      expected_(memory_bytes() / 16) {}
 
 std::unique_ptr<ChildProcess> SweepSimulations::start(const SweepTask& task) {
   RunConfig config = plan_.resolved(task);
@@ -59,17 +64,19 @@ std::unique_ptr<ChildProcess> SweepSimulations::start(const SweepTask& task) {
                   job.frame.background.y, job.frame.background.z);
   const auto references =
       references_.get(of_view, [&] { return reference_pictures(*scene, job.frame); });
-  const auto golden = golden_.get(of_view + "\n" + task.picture, [&] {
-    return draw_golden(*config.design, scene->stored, job.frame);
-  });
+  const std::string of_picture =
+      fmt::format("{}\n{} {}", of_view, task.picture, static_cast<int>(job.frame.frame_format));
+  const auto expected = expected_.get(
+      of_picture, [&] { return expected_of(*config.design, *scene, job, *references); });
   return std::make_unique<ChildProcess>([&] {
     FrameResult frame =
         simulate_frame(*config.design, job.frame, scene->stored.image, config.dram, {});
-    const ViewResult view =
-        judge_frame(*scene, job, *references, *golden, std::move(frame), technology_);
-    if (!view.equals_golden) {
+    if (frame.frame != expected->bytes) {
       throw std::runtime_error("the frame differs from the golden renderer's");
     }
+    ViewResult view = view_result(*scene, job, *references, expected->golden, expected->judged,
+                                  std::move(frame), technology_);
+    view.equals_golden = true;
     return line_of_done(task.key, task.words, *RunReport(config, facts_).of_view(view, *scene));
   });
 }

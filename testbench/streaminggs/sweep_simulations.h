@@ -2,9 +2,11 @@
 // as well.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "algorithm/vq/quantise.h"
 #include "testbench/cost/technology.h"
@@ -16,9 +18,16 @@
 
 namespace sgs {
 
+// The frame that a machine must give, and what it is worth.
+struct ExpectedFrame {
+  GoldenFrame golden;
+  std::vector<std::byte> bytes;  // of the frame buffer
+  JudgedFrame judged;
+};
+
 // What they take of memory.
 std::uint64_t size_bytes(const ReferencePictures& pictures);
-std::uint64_t size_bytes(const GoldenFrame& golden);
+std::uint64_t size_bytes(const ExpectedFrame& expected);
 
 class SweepSimulations {
  public:
@@ -38,7 +47,7 @@ class SweepSimulations {
   const VqProgress progress_;
   RecentlyUsed<PreparedScene> scenes_;
   RecentlyUsed<ReferencePictures> references_;
-  RecentlyUsed<GoldenFrame> golden_;
+  RecentlyUsed<ExpectedFrame> expected_;
 };
 
 }  // namespace sgs

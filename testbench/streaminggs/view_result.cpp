@@ -57,24 +57,31 @@ ReferencePictures reference_pictures(const PreparedScene& scene, const FrameJob&
   return out;
 }
 
-ViewResult judge_frame(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
-                       GoldenFrame golden, FrameResult run, const Technology& technology) {
+JudgedFrame judge_frame(const PreparedScene& scene, const ViewJob& job,
+                        const ReferencePictures& pictures, const GoldenFrame& golden,
+                        const std::vector<std::byte>& bytes) {
+  JudgedFrame out;
+  out.frame = decode_frame(job.frame.frame_format, job.camera.width, job.camera.height, bytes);
+  out.psnr_db = psnr_db(out.frame, pictures.reference);
+  out.ssim = ssim(out.frame, pictures.reference);
+  if (is_lossy(golden)) {
+    out.order_loss = order_loss(scene.stored.original_known() ? &pictures.reference : nullptr,
+                                pictures.decoded_reference, golden, out.frame);
+  }
+  return out;
+}
+
+ViewResult view_result(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
+                       GoldenFrame golden, JudgedFrame judged, FrameResult run,
+                       const Technology& technology) {
   ViewResult view;
   static_cast<ReferencePictures&>(view) = std::move(pictures);
+  static_cast<JudgedFrame&>(view) = std::move(judged);
   view.view = job.view;
   view.camera = job.camera;
   view.golden = std::move(golden);
   view.run = std::move(run);
   view.image_hash = scene.image_hash;
-  const FrameFormat format = job.frame.frame_format;
-  view.equals_golden = view.run.frame == encode_frame(format, view.golden.image);
-  view.frame = decode_frame(format, job.camera.width, job.camera.height, view.run.frame);
-  view.psnr_db = psnr_db(view.frame, view.reference);
-  view.ssim = ssim(view.frame, view.reference);
-  if (is_lossy(view.golden)) {
-    view.order_loss = order_loss(scene.stored.original_known() ? &view.reference : nullptr,
-                                 view.decoded_reference, view.golden, view.frame);
-  }
   view.binding = find_binding(view.run);
   if (view.golden.contributing == 0) view.binding = without_advice(view.binding);
   view.energy_j = energy_of(view.run, technology);
@@ -95,8 +102,11 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   GoldenFrame golden = config.design->golden(scene.stored, job.frame, left_out);
   FrameResult run = run_frame(*config.design, job.frame, scene.stored.image, config.dram, options);
   list_left_out(scene.stored, run.machine, left_out);
-  ViewResult view =
-      judge_frame(scene, job, std::move(pictures), std::move(golden), std::move(run), technology);
+  const bool equal = run.frame == encode_frame(job.frame.frame_format, golden.image);
+  JudgedFrame judged = judge_frame(scene, job, pictures, golden, run.frame);
+  ViewResult view = view_result(scene, job, std::move(pictures), std::move(golden),
+                                std::move(judged), std::move(run), technology);
+  view.equals_golden = equal;
   view.left_out = std::move(entries);
   return view;
 }

@@ -40,14 +40,23 @@ struct ReferencePictures {
 
 ReferencePictures reference_pictures(const PreparedScene& scene, const FrameJob& job);
 
-struct ViewResult : ReferencePictures {
+// A frame out of the modelled DRAM as a picture, against those.
+struct JudgedFrame {
+  Image frame;
+  double psnr_db = 0, ssim = 0;         // against `reference`; infinite where they are equal
+  std::optional<OrderLoss> order_loss;  // where splats were missed or blended out of order
+};
+
+// bytes: of the frame buffer.
+JudgedFrame judge_frame(const PreparedScene& scene, const ViewJob& job,
+                        const ReferencePictures& pictures, const GoldenFrame& golden,
+                        const std::vector<std::byte>& bytes);
+
+struct ViewResult : ReferencePictures, JudgedFrame {
   int view = 0;   // index of the camera
   Camera camera;  // as the frame has it: in its size
-  Image frame;    // as read back from the modelled DRAM
   GoldenFrame golden;
-  bool equals_golden = false;    // bytes of the frame buffer against the golden renderer's
-  double psnr_db = 0, ssim = 0;  // of the frame against `reference`; infinite where they are equal
-  std::optional<OrderLoss> order_loss;  // where splats were missed or blended out of order
+  bool equals_golden = false;  // bytes of the frame buffer against the golden renderer's
   FrameResult run;
   std::vector<LeftOut> left_out;
   Binding binding;
@@ -61,9 +70,10 @@ struct ViewResult : ReferencePictures {
   double mean_power_w() const { return run.cycles > 0 ? energy_j.total.middle / run.time_s() : 0; }
 };
 
-// What follows from a frame that was simulated, all but `left_out`.
-ViewResult judge_frame(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
-                       GoldenFrame golden, FrameResult run, const Technology& technology);
+// What follows from all of that and a simulation; `left_out` and `equals_golden` are not filled in.
+ViewResult view_result(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
+                       GoldenFrame golden, JudgedFrame judged, FrameResult run,
+                       const Technology& technology);
 
 // Simulates one view and judges it: golden picture, costs, binding unit. Throws InputError when
 // scene and frame do not fit the memory, std::runtime_error when the simulation fails.
