@@ -62,6 +62,12 @@ TEST_CASE("bad input: what would never end is refused at once") {
            {"$SG simulate $B --out o --config pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
            {"$SG simulate $B --out o --config ./zeros", 2, {"zeros"}, "ln -s /dev/zero zeros"},
            {"$SG simulate $B --out o --cameras pipe", 2, {"pipe"}, "mkfifo pipe"},
+           {"$SG diff pipe pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
+           {"$SG diff a a", 2, {"a/report.json"}, "mkdir a"},
+           {"$SG diff a.json a.json", 2, {"a.json"}, "printf '{' >a.json"},
+           {"$SG diff a.json a.json", 2, {"a.json: schema_version"}, "printf '{}' >a.json"},
+           {"$SG diff a.json", 2, {"B"}, "printf '{}' >a.json"},
+           {"$SG diff a.json a.json --least -1", 2, {"--least"}, "printf '{}' >a.json"},
            {"$SG info pipe.ply", 2, {"pipe.ply"}, "mkfifo pipe.ply"},
            {"$SG info pipe.sgs", 2, {"pipe.sgs"}, "mkfifo pipe.sgs"},
            {"$SG compare a.exr a.exr", 2, {"a.exr", "regular"}, "mkfifo a.exr"},
@@ -228,8 +234,14 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
 }
 
 TEST_CASE("bad input: messages are short, clean and begin with the program") {
-  check({"$SG", 2, {"got no command", "simulate, what-if, pack, train, tune, render, compare, photographs, gpu, info, describe"}});
-  check({"$SG simulat $S", 2, {"'simulat': no such command", "simulate, what-if, pack, train, tune, render"}});
+  check({"$SG",
+         2,
+         {"got no command",
+          "simulate, what-if, diff, pack, train, tune, render, compare, photographs, gpu, info, "
+          "describe"}});
+  check({"$SG simulat $S",
+         2,
+         {"'simulat': no such command", "simulate, what-if, diff, pack, train, tune, render"}});
   check({"$SG '' --help", 2, {"'': no such command"}});
   check({"$SG simulate", 2, {"SCENE"}});
   check({"$SG simulate $B --no-such-option", 2, {"--no-such-option"}});
