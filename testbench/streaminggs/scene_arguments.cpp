@@ -154,11 +154,16 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Ca
     throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
   }
   std::vector<std::pair<int, Camera>> chosen;
-  std::string stretch;
   for (const int number : chosen_numbers(view, static_cast<int>(all.size()))) {
     chosen.emplace_back(number, all[static_cast<std::size_t>(number)]);
   }
-  for (auto& [index, camera] : chosen) {
+  return in_size(std::move(chosen));
+}
+
+std::vector<std::pair<int, Camera>> SceneArguments::in_size(
+    std::vector<std::pair<int, Camera>> cameras) const {
+  std::string stretch;
+  for (auto& [index, camera] : cameras) {
     if (!size.empty()) {
       const auto [width, height] = parse_size(size);
       if (stretch.empty()) stretch = stretch_of(size, index, camera, {width, height});
@@ -170,7 +175,7 @@ std::vector<std::pair<int, Camera>> SceneArguments::cameras(const std::vector<Ca
     }
   }
   if (!stretch.empty()) fmt::print("{}\n", stretch);
-  return chosen;
+  return cameras;
 }
 
 std::vector<PixelSize> SceneArguments::frame_sizes() const {

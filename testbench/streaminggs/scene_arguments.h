@@ -48,6 +48,8 @@ struct SceneArguments {
   // so where that changes the shape of the picture. own: those that the scene brings. Throws
   // InputError.
   std::vector<std::pair<int, Camera>> cameras(const std::vector<Camera>& own) const;
+  // These, scaled and checked in the same way.
+  std::vector<std::pair<int, Camera>> in_size(std::vector<std::pair<int, Camera>> cameras) const;
   // Sizes of their pictures, before the scene is loaded: none where nothing but the scene says
   // them. Throws InputError.
   std::vector<PixelSize> frame_sizes() const;
