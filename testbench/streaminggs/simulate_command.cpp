@@ -1,6 +1,7 @@
 // streaminggs simulate SCENE --out DIR
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -31,9 +32,10 @@ struct SimulateArguments : SceneArguments {
   std::string out;
   std::string technology = data_file("technology_32nm.json");
   RunOptions run;
-  std::string path;           // of the camera; empty: views
-  std::uint32_t frames = 60;  // along it
-  double frame_rate = 90;     // at which the energy a second is told
+  std::string timeline_groups;  // "A-B", "A", or empty
+  std::string path;             // of the camera; empty: views
+  std::uint32_t frames = 60;    // along it
+  double frame_rate = 90;       // at which the energy a second is told
   bool print_config = false;
   std::string command;  // the whole command line
 };
@@ -48,7 +50,8 @@ void check_places(const SimulateArguments& arguments, const RunConfig& config,
   plan.add_input(arguments.config.path());
   plan.add_input(arguments.technology);
   plan.add_input(config.dram.memspec);
-  for (const std::string& file : {arguments.run.vcd_path, arguments.run.dram_trace_path}) {
+  for (const std::string& file :
+       {arguments.run.vcd_path, arguments.run.timeline_path, arguments.run.dram_trace_path}) {
     if (!file.empty()) plan.add_output(file);
   }
   plan.add_output(out.report().string());
@@ -60,14 +63,34 @@ void check_places(const SimulateArguments& arguments, const RunConfig& config,
   plan.check();
 }
 
+// Of "4-7" or "4"; of nothing all.
+GroupRange range_of(const std::string& text) {
+  GroupRange range;
+  if (text.empty()) return range;
+  const char* const end = text.data() + text.size();
+  std::from_chars_result read = std::from_chars(text.data(), end, range.first);
+  range.last = range.first;
+  if (read.ec == std::errc() && read.ptr != end && *read.ptr == '-') {
+    read = std::from_chars(read.ptr + 1, end, range.last);
+  }
+  if (read.ec != std::errc() || read.ptr != end || range.last < range.first) {
+    throw InputError(fmt::format(
+        "--timeline-groups: got '{}', expected a number, or two as in 4-7, the lower first", text));
+  }
+  return range;
+}
+
 // One file each of a single frame.
 void check_single(const SimulateArguments& arguments) {
-  if (arguments.run.vcd_path.empty() && arguments.run.dram_trace_path.empty()) return;
+  const RunOptions& run = arguments.run;
+  if (run.vcd_path.empty() && run.timeline_path.empty() && run.dram_trace_path.empty()) return;
   if (!arguments.path.empty()) {
-    throw InputError("--vcd, --dram-trace: one file holds one frame; expected them without --path");
+    throw InputError(
+        "--vcd, --timeline, --dram-trace: one file holds one frame; expected them without --path");
   }
   if (arguments.view.find_first_not_of("0123456789") == std::string::npos) return;
-  throw InputError("--vcd, --dram-trace: one file holds one view; expected --view with one number");
+  throw InputError(
+      "--vcd, --timeline, --dram-trace: one file holds one view; expected --view with one number");
 }
 
 // keys: the path's, in their own size.
@@ -122,6 +145,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   check_single(arguments);
   setting.technology = load_technology(arguments.technology);
   setting.options = arguments.run;
+  setting.options.timeline_groups = range_of(arguments.timeline_groups);
   setting.facts.technology = setting.technology.name;
   setting.facts.technology_path = setting.technology.path;
   setting.facts.technology_hash = fnv1a64_of_file(setting.technology.path);
@@ -157,6 +181,10 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.file("--out", arguments->out,
             "folder for pictures and reports; out/SCENE/CONFIG by their names if not given");
   line.file("--vcd", arguments->run.vcd_path, "write a waveform");
+  line.file("--timeline", arguments->run.timeline_path, "write a trace for ui.perfetto.dev");
+  line.text("--timeline-groups", arguments->timeline_groups,
+            "groups of pixels (or tiles) that it is bound to, as in 4-7 or 4");
+  line.needs("--timeline-groups", "--timeline");
   line.file("--dram-trace", arguments->run.dram_trace_path,
             "write every DRAM command; tb_dram --check verifies it");
   line.file("--path", arguments->path,

@@ -62,6 +62,7 @@ void MergeUnit::run() {
     FifoReadIf<FineCandidate>& input = in_turn(sorted, visit);
     FineCandidate key = input.pop(merge_);
     group_ = key.group;
+    merge_.takes_up_group(group_, visit);
     while (key.mark == Mark::kNone) {
       take(key);
       key = input.pop(merge_);
@@ -343,7 +344,7 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.remedy(memory, WaitFor::kReads, "merge.entries");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);
-  sheet.signal("pending", pending_count_);
+  sheet.level("pending", "keys", pending_count_);
 }
 
 }  // namespace sgs
