@@ -31,6 +31,19 @@ inline const char* name_of(WaitFor what) { return kWaitForNames[static_cast<std:
 // A child of the unit that it belongs to, made while that unit is constructed. It is idle at first.
 class Activity : public sc_core::sc_object {
  public:
+  static constexpr std::size_t kIdling = 0;  // index in waits()
+  static constexpr std::uint32_t kNoVisit = UINT32_MAX;
+
+  // What its cycles are spent on: a group of pixels or a tile, and maybe a visit of it.
+  struct Item {
+    const char* what = nullptr;  // "group", "tile"; null before it has taken up the first
+    std::uint32_t number = 0, visit = kNoVisit;
+    bool operator==(const Item& other) const {
+      return what == other.what && number == other.number && visit == other.visit;
+    }
+    bool operator!=(const Item& other) const { return !(*this == other); }
+  };
+
   // Cycles of waiting for one thing at one place.
   struct Wait {
     WaitFor what = WaitFor::kIdle;
@@ -47,6 +60,11 @@ class Activity : public sc_core::sc_object {
   void works() { enter(kWorking); }
   void waits_for(WaitFor what, const sc_core::sc_object& at) { enter(place_of(what, &at)); }
   void idles() { enter(kIdling); }
+  // What it is for from now on, until it takes up another: for timelines; costs no cycle.
+  void takes_up_group(std::uint32_t group, std::uint32_t visit = kNoVisit) {
+    item_ = {"group", group, visit};
+  }
+  void takes_up_tile(std::uint32_t tile) { item_ = {"tile", tile, kNoVisit}; }
   // What it waits for now turns out to come from `at`.
   void waits_at(const sc_core::sc_object& at) { now_ = place_of(waits_[now_].what, &at); }
 
@@ -66,6 +84,9 @@ class Activity : public sc_core::sc_object {
     since_ = now;
   }
 
+  // What the counters below cover: [0, closed_at).
+  std::uint64_t closed_at() const { return since_; }
+  const Item& item() const { return item_; }
   std::uint64_t busy_cycles() const { return busy_cycles_; }
   // Each (what, at) that was ever waited for, in the order in which they first were.
   const std::vector<Wait>& waits() const { return waits_; }
@@ -91,7 +112,7 @@ class Activity : public sc_core::sc_object {
   const char* kind() const override { return "sgs::Activity"; }
 
  private:
-  static constexpr std::size_t kWorking = ~std::size_t{0}, kIdling = 0;
+  static constexpr std::size_t kWorking = ~std::size_t{0};
 
   void enter(std::size_t state) {
     close();
@@ -113,6 +134,7 @@ class Activity : public sc_core::sc_object {
   std::vector<Wait> waits_{Wait{}};
   std::size_t now_ = kIdling;  // index in waits_, or kWorking
   std::uint64_t since_ = 0, busy_cycles_ = 0;
+  Item item_;
   bool busy_ = false;             // for the waveform
   std::uint8_t waiting_for_ = 0;  // likewise
 };

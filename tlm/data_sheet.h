@@ -118,6 +118,12 @@ class DataSheet {
   // the unit's SramUse that keeps unanswered writes; none for a port that only reads.
   virtual void port(MemoryPort&, const char* writes) { (void)writes; }
   void port(MemoryPort& reads_only) { port(reads_only, ""); }
+  // How much there is of something at a time, for the waveform and for timelines: keys that wait.
+  // unit: of the value.
+  virtual void level(const char* name, const char* unit, const std::uint32_t& value) {
+    (void)unit;
+    signal(name, value);
+  }
   // A value for the waveform, under the unit's name.
   virtual void signal(const char* name, const std::uint32_t& value) {
     (void)name;

@@ -117,15 +117,20 @@ Camera read_camera(const std::string& path, std::size_t index, const Json& entry
 
 }  // namespace
 
-std::vector<Camera> read_cameras(const std::string& path) {
-  const Json json = read_json(path);
-  if (!json.is_array()) {
+std::vector<Camera> cameras_of(const Json& array, const std::string& origin) {
+  if (!array.is_array()) {
     throw InputError(
-        fmt::format("{}: got {}, expected an array of cameras", path, json.type_name()));
+        fmt::format("{}: got {}, expected an array of cameras", origin, array.type_name()));
   }
   std::vector<Camera> cameras;
-  for (std::size_t i = 0; i < json.size(); ++i) cameras.push_back(read_camera(path, i, json[i]));
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    cameras.push_back(read_camera(origin, i, array[i]));
+  }
   return cameras;
+}
+
+std::vector<Camera> read_cameras(const std::string& path) {
+  return cameras_of(read_json(path), path);
 }
 
 void write_cameras(const std::string& path, const std::vector<Camera>& cameras) {

@@ -1,6 +1,7 @@
 // Reading, writing and resizing cameras in the form of the original's cameras.json.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace sgs {
 // number that is not finite, a rotation whose columns are not orthonormal within 1e-3 or which
 // mirrors.
 std::vector<Camera> read_cameras(const std::string& path);
+
+// The same of an array that was read already. origin: the file, and what of it, for messages.
+std::vector<Camera> cameras_of(const nlohmann::ordered_json& array, const std::string& origin);
 
 // Writes `cameras` in the same form; read_cameras gives them back bit for bit. Throws InputError
 // when `path` cannot be created.

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <utility>
 
 #include "algorithm/input_error.h"
 #include "algorithm/render/reference_renderer.h"
+#include "algorithm/scene/camera_between.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/train/counter_random.h"
 
@@ -47,12 +47,9 @@ std::vector<Camera> cameras_between(const std::vector<Camera>& cameras, std::siz
     const std::size_t other = (first + 1 + random.below(cameras.size() - 1)) % cameras.size();
     const Camera &a = cameras[first], &b = cameras[other];
     const double t = random.uniform();
-    Camera camera = a;
+    Camera camera = camera_between(a, b, t);
     camera.id = static_cast<int>(i);
     camera.name = fmt::format("between_{}", i);
-    camera.position = (1 - t) * a.position + t * b.position;
-    camera.world_from_camera = glm::mat3_cast(
-        glm::slerp(glm::quat_cast(a.world_from_camera), glm::quat_cast(b.world_from_camera), t));
     out.push_back(camera);
   }
   return out;

@@ -54,6 +54,9 @@ struct TileJob {
 
 // Sorter -> rendering: entries of a tile in order, then its end.
 enum class EntryMark : std::uint8_t { kEntry, kEndOfTile, kEndOfPass, kEndOfFrame };
+constexpr bool of_tile(EntryMark mark) {
+  return mark == EntryMark::kEntry || mark == EntryMark::kEndOfTile;
+}
 struct SortedEntry {
   static constexpr std::uint32_t kSramBytes = 8;  // record, bitmap, tile, mark
   EntryMark mark = EntryMark::kEntry;

@@ -20,11 +20,13 @@ constexpr std::uint64_t kMaxCount = 20'000'000;
 struct Recipe {
   std::uint64_t default_count;
   BuiltinScene (*make)(std::uint64_t count);
+  BuiltinPath (*path)();
 };
 
 const std::map<std::string, Recipe>& recipes() {
   static const std::map<std::string, Recipe> kRecipes = {
-      {"object", {60'000, make_object_scene}}, {"outdoor", {200'000, make_outdoor_scene}}};
+      {"object", {60'000, make_object_scene, object_turntable}},
+      {"outdoor", {200'000, make_outdoor_scene, outdoor_walk}}};
   return kRecipes;
 }
 
@@ -40,11 +42,12 @@ std::uint64_t count_of(const std::string& spec, const std::string& query) {
                                query, kMaxCount));
 }
 
-}  // namespace
+struct Order {
+  const Recipe& recipe;
+  std::uint64_t count;
+};
 
-bool is_builtin_scene(const std::string& spec) { return spec.rfind(kPrefix, 0) == 0; }
-
-BuiltinScene make_builtin_scene(const std::string& spec) {
+Order order_of(const std::string& spec) {
   const std::string rest = is_builtin_scene(spec) ? spec.substr(kPrefix.size()) : "";
   const std::size_t mark = rest.find('?');
   const auto recipe = recipes().find(rest.substr(0, mark));
@@ -54,8 +57,19 @@ BuiltinScene make_builtin_scene(const std::string& spec) {
     throw InputError(fmt::format("{}: no such built-in scene, expected one of{}", spec, names));
   }
   const Recipe& chosen = recipe->second;
-  return chosen.make(mark == std::string::npos ? chosen.default_count
-                                               : count_of(spec, rest.substr(mark + 1)));
+  return {chosen,
+          mark == std::string::npos ? chosen.default_count : count_of(spec, rest.substr(mark + 1))};
 }
+
+}  // namespace
+
+bool is_builtin_scene(const std::string& spec) { return spec.rfind(kPrefix, 0) == 0; }
+
+BuiltinScene make_builtin_scene(const std::string& spec) {
+  const Order order = order_of(spec);
+  return order.recipe.make(order.count);
+}
+
+BuiltinPath builtin_path(const std::string& spec) { return order_of(spec).recipe.path(); }
 
 }  // namespace sgs

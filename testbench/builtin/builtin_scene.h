@@ -14,6 +14,13 @@ struct BuiltinScene {
   std::vector<Camera> cameras;  // at least four, 640x360 px
 };
 
+// A way through a built-in scene.
+struct BuiltinPath {
+  std::string name;
+  std::vector<Camera> keys;  // 640x360 px
+  bool closed = false;       // from the last key back to the first
+};
+
 // Whether `spec` names a built-in scene, that is, begins with "builtin:".
 bool is_builtin_scene(const std::string& spec);
 
@@ -26,5 +33,9 @@ bool is_builtin_scene(const std::string& spec);
 // the same mathematical library, whatever the number of threads. Throws InputError that says what
 // is allowed when the name, a key or the count is not.
 BuiltinScene make_builtin_scene(const std::string& spec);
+
+// The way through the scene of `spec`: `turntable`, round the object, or `walk`, over the meadow of
+// outdoor to its pond and on to the house. Throws InputError as above.
+BuiltinPath builtin_path(const std::string& spec);
 
 }  // namespace sgs

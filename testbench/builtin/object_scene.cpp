@@ -1,6 +1,8 @@
 // Table, toys, room and cameras of object_scene.h.
 #include "testbench/builtin/object_scene.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -199,6 +201,18 @@ BuiltinScene make_object_scene(std::uint64_t count) {
                    look_at(3, "back", at_height(1.6, 3.7, 4.9), at_height(0, 0.9, 0), 50),
                    look_at(4, "close", at_height(0.9, 0.75, -3.2), at_height(0.5, 0.55, -0.6), 55)};
   return scene;
+}
+
+BuiltinPath object_turntable() {
+  constexpr int kKeys = 36;  // a line between two of them comes nearer by 0.4 %
+  constexpr double kRadius = 5.6;
+  BuiltinPath path{"turntable", {}, true};
+  for (int i = 0; i < kKeys; ++i) {
+    const double angle = 2 * M_PI * i / kKeys;
+    const glm::dvec3 eye = at_height(-kRadius * std::sin(angle), 2.3, -kRadius * std::cos(angle));
+    path.keys.push_back(look_at(i, fmt::format("turntable_{}", i), eye, at_height(0, 1.08, 0), 50));
+  }
+  return path;
 }
 
 }  // namespace sgs

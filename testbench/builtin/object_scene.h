@@ -10,4 +10,7 @@ namespace sgs {
 // `count` Gaussians within 8 units of the origin, most of them within 2.7.
 BuiltinScene make_object_scene(std::uint64_t count);
 
+// Once round the rocket, looking down at it.
+BuiltinPath object_turntable();
+
 }  // namespace sgs

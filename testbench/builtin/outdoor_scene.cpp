@@ -1,7 +1,12 @@
 // Light and cameras of outdoor_scene.h.
 #include "testbench/builtin/outdoor_scene.h"
 
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -65,6 +70,34 @@ BuiltinScene make_outdoor_scene(std::uint64_t count) {
                    standing_at(3, "hill", 15.0, -13.0, 8.0, at_height(-1, 0.5, 7)),
                    standing_at(4, "mountains", 5.5, -7.5, 2.2, at_height(-20, 4.5, 12))};
   return scene;
+}
+
+BuiltinPath outdoor_walk() {
+  struct Stop {
+    glm::dvec2 at;  // x, z
+    glm::dvec3 target;
+  };
+  const glm::dvec3 landscape = at_height(-0.5, 2.4, 10);
+  const Stop stops[] = {{{1.5, -9.5}, landscape},
+                        {{1.4, -6.5}, landscape},
+                        {{1.0, -3.6}, at_height(8.0, 1.2, 11)},
+                        {{0.2, -0.5}, at_height(-5.4, 1.9, 9)}};
+  constexpr int kKeysBetween = 8;
+  BuiltinPath path{"walk", {}, false};
+  const auto add = [&](const glm::dvec2& at, const glm::dvec3& target) {
+    const int key = static_cast<int>(path.keys.size());
+    path.keys.push_back(
+        standing_at(key, fmt::format("walk_{}", key).c_str(), at.x, at.y, 1.9, target));
+  };
+  for (std::size_t leg = 0; leg + 1 < std::size(stops); ++leg) {
+    const Stop &from = stops[leg], &to = stops[leg + 1];
+    for (int i = 0; i < kKeysBetween; ++i) {
+      const double t = static_cast<double>(i) / kKeysBetween;
+      add(glm::mix(from.at, to.at, t), glm::mix(from.target, to.target, t));
+    }
+  }
+  add(std::end(stops)[-1].at, std::end(stops)[-1].target);
+  return path;
 }
 
 }  // namespace sgs

@@ -11,4 +11,7 @@ namespace sgs {
 // 20,000; wires of axis ratio 10^6; floaters near the cameras; some that no view can show.
 BuiltinScene make_outdoor_scene(std::uint64_t count);
 
+// At eye height over the meadow to the pond, and on towards the house.
+BuiltinPath outdoor_walk();
+
 }  // namespace sgs

@@ -20,6 +20,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_what_if_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_sweep_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_compare_command(CommandLine& line, const Kinds& kinds);
+SubCommand add_diff_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_pack_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_train_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_tune_command(CommandLine& line, const Kinds& kinds);

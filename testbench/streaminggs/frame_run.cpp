@@ -19,6 +19,7 @@
 #include "testbench/result/sram_budget.h"
 #include "testbench/result/waveform_sheet.h"
 #include "testbench/result/wire.h"
+#include "testbench/timeline/timeline.h"
 #include "testbench/waveform/waveform.h"
 #include "tlm/run_simulation.h"
 #include "tlm/time_resolution.h"
@@ -29,6 +30,8 @@ namespace {
 // Null: not wanted.
 struct Outputs {
   OutputFile* vcd = nullptr;
+  OutputFile* timeline = nullptr;
+  GroupRange timeline_groups;
   OutputFile* dram_trace = nullptr;
 };
 
@@ -53,6 +56,11 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
     machine->publish(sheet);
     memory.trace(waveform->file());
   }
+  std::unique_ptr<Timeline> timeline;
+  if (outputs.timeline != nullptr) {
+    timeline =
+        std::make_unique<Timeline>(*outputs.timeline, *machine, memory, outputs.timeline_groups);
+  }
   // Until nothing can happen any more: the frame ends when its last posted write is in the memory.
   run_simulation();
   if (dram_trace) dram_trace->close();
@@ -64,6 +72,7 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
   result.clock_mhz = machine->clock().mhz();
   result.drained = drained(*machine) && memory.idle();
   result.machine = collect(*machine);
+  if (timeline) timeline->close();
   add_memory_path(*machine, dram.channels, result.machine);
   result.memory = collect_memory(memory, job.layout.regions, machine->requesters());
   result.frame.resize(job.frame_buffer.bytes);
@@ -98,6 +107,8 @@ FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const Me
   OutputSet files;
   Outputs outputs;
   if (!options.vcd_path.empty()) outputs.vcd = &files.add(options.vcd_path);
+  if (!options.timeline_path.empty()) outputs.timeline = &files.add(options.timeline_path);
+  outputs.timeline_groups = options.timeline_groups;
   if (!options.dram_trace_path.empty()) outputs.dram_trace = &files.add(options.dram_trace_path);
   const std::string bytes =
       in_child([&] { return to_wire(simulate(design, job, image, dram, options.build, outputs)); });

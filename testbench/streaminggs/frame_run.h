@@ -8,11 +8,14 @@
 #include "modules/dram/dram_config.h"
 #include "modules/machine_design.h"
 #include "testbench/result/frame_result.h"
+#include "testbench/timeline/group_range.h"
 
 namespace sgs {
 
 struct RunOptions {
   std::string vcd_path;         // empty: no waveform
+  std::string timeline_path;    // empty: none
+  GroupRange timeline_groups;   // that it is bound to
   std::string dram_trace_path;  // empty: no trace of the DRAM commands
   BuildOptions build;
 };

@@ -50,6 +50,19 @@ Json scene_of(const PreparedScene& scene) {
   return out;
 }
 
+// As the frame has it: rows of `rotation` as in cameras.json.
+Json camera_of(const Camera& camera) {
+  const glm::dmat3& r = camera.world_from_camera;
+  Json rotation = Json::array();
+  for (int row = 0; row < 3; ++row) rotation.push_back({r[0][row], r[1][row], r[2][row]});
+  return {{"id", camera.id},
+          {"img_name", camera.name},
+          {"fx_px", camera.focal_x},
+          {"fy_px", camera.focal_y},
+          {"position", {camera.position.x, camera.position.y, camera.position.z}},
+          {"rotation", rotation}};
+}
+
 Json error_parts_of(const OrderLoss& loss) {
   const auto part = [](const ErrorPart& p) -> Json {
     return {{"share", finite(p.share)}, {"alone", finite(p.alone)}};
@@ -263,7 +276,7 @@ Json view_report(const ViewResult& view, const PreparedScene& scene) {
   report["schema_version"] = kReportVersion;
   report["scene"] = scene_of(scene);
   report["view"] = view.view;
-  report["camera"] = {{"id", view.camera.id}, {"img_name", view.camera.name}};
+  report["camera"] = camera_of(view.camera);
   report["image"] = image_of(view, scene.stored.original_known());
   report["frame"] = {
       {"cycles", run.cycles},          {"time_s", run.time_s()},          {"fps", 1 / run.time_s()},

@@ -21,6 +21,7 @@ int run_command_line(int argc, char* argv[], const Kinds& kinds) {
   add("simulate", "send a scene through the accelerator", add_simulate_command);
   add("what-if", "double each resource in turn: what it gains and costs", add_what_if_command);
   add("sweep", "simulate many configurations, scenes and views side by side", add_sweep_command);
+  add("diff", "what differs between two runs, and by how much", add_diff_command);
   add("pack", "write the memory image of a scene into a file", add_pack_command);
   add("train", "make a scene from photographs", add_train_command);
   add("tune", "fit a scene that stands to the order or the codebooks of a machine",

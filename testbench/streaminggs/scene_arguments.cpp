@@ -166,10 +166,15 @@ ChosenCameras SceneArguments::chosen_cameras(const std::vector<Camera>& own) con
   if (all.empty()) {
     throw InputError(fmt::format("{}: brings no cameras: --cameras FILE is needed", scene));
   }
-  ChosenCameras chosen;
+  std::vector<std::pair<int, Camera>> chosen;
   for (const int number : chosen_numbers(view, static_cast<int>(all.size()))) {
-    chosen.views.emplace_back(number, all[static_cast<std::size_t>(number)]);
+    chosen.emplace_back(number, all[static_cast<std::size_t>(number)]);
   }
+  return in_size(std::move(chosen));
+}
+
+ChosenCameras SceneArguments::in_size(std::vector<std::pair<int, Camera>> cameras) const {
+  ChosenCameras chosen{std::move(cameras), ""};
   for (auto& [index, camera] : chosen.views) {
     if (!size.empty()) {
       const auto [width, height] = parse_size(size);

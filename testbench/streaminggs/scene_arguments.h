@@ -61,6 +61,8 @@ struct SceneArguments {
   ChosenCameras chosen_cameras(const std::vector<Camera>& own) const;
   // The same; the line, where there is one, goes to the terminal.
   std::vector<std::pair<int, Camera>> cameras(const std::vector<Camera>& own) const;
+  // These, scaled and checked in the same way.
+  ChosenCameras in_size(std::vector<std::pair<int, Camera>> cameras) const;
   // Sizes of their pictures, before the scene is loaded: none where nothing but the scene says
   // them. Throws InputError.
   std::vector<PixelSize> frame_sizes() const;

@@ -1,31 +1,26 @@
 // streaminggs simulate SCENE --out DIR
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "algorithm/data_files.h"
-#include "algorithm/image/image_io.h"
 #include "algorithm/input_error.h"
-#include "algorithm/output_file.h"
 #include "algorithm/output_plan.h"
-#include "algorithm/output_set.h"
 #include "testbench/command_line/config_source.h"
+#include "testbench/streaminggs/camera_path.h"
 #include "testbench/streaminggs/commands.h"
-#include "testbench/streaminggs/error_maps.h"
-#include "testbench/streaminggs/group_table.h"
+#include "testbench/streaminggs/path_run.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/result_folder.h"
-#include "testbench/streaminggs/run_report.h"
 #include "testbench/streaminggs/scene_arguments.h"
-#include "testbench/streaminggs/terminal.h"
+#include "testbench/streaminggs/view_run.h"
 
 namespace sgs {
 namespace {
@@ -37,56 +32,30 @@ struct SimulateArguments : SceneArguments {
   std::string out;
   std::string technology = data_file("technology_32nm.json");
   RunOptions run;
+  std::string timeline_groups;  // "A-B", "A", or empty
+  std::string path;             // of the camera; empty: views
+  std::uint32_t frames = 60;    // along it
+  double frame_rate = 90;       // at which the energy a second is told
   bool print_config = false;
   std::string command;  // the whole command line
 };
 
-void write_text(const fs::path& path, const std::string& text) {
-  write_whole_file(path.string(), text.data(), text.size());
-}
-
-// All files of a view at once: no picture stands beside the report of another run.
-void write_view(const fs::path& folder, const ViewResult& view, const std::string& report) {
-  OutputSet files;
-  const auto add = [&](const std::string& file) -> OutputFile& {
-    return files.add((folder / file).string());
-  };
-  write_image(add("frame.exr"), view.frame);
-  write_image(add("frame.png"), view.frame);
-  write_image(add("reference.exr"), view.reference);
-  write_image(add("reference.png"), view.reference);
-  add("report.json").write(report);
-  std::set<std::string> old(std::begin(kErrorMapFiles), std::end(kErrorMapFiles));
-  old.insert(kGroupTableFile);
-  if (const std::string groups = group_table(view); !groups.empty()) {
-    add(kGroupTableFile).write(groups);
-    old.erase(kGroupTableFile);
-  }
-  for (const ErrorMap& map : error_maps(view)) {
-    write_image(add(map.file), map.image);
-    old.erase(map.file);
-  }
-  files.commit();
-  for (const std::string& file : old) fs::remove(folder / file);
-}
-
 // Refuses outputs that have no place, or would take that of an input, before the work begins.
+// new_files: of the views or the path.
 void check_places(const SimulateArguments& arguments, const RunConfig& config,
-                  const ResultFolder& out, const std::vector<std::pair<int, Camera>>& views) {
+                  const ResultFolder& out, const std::vector<fs::path>& new_files) {
   OutputPlan plan;
   arguments.add_inputs_to(plan);
+  if (is_path_file(arguments.path)) plan.add_input(arguments.path);
   plan.add_input(arguments.config.path());
   plan.add_input(arguments.technology);
   plan.add_input(config.dram.memspec);
-  for (const std::string& file : {arguments.run.vcd_path, arguments.run.dram_trace_path}) {
+  for (const std::string& file :
+       {arguments.run.vcd_path, arguments.run.timeline_path, arguments.run.dram_trace_path}) {
     if (!file.empty()) plan.add_output(file);
   }
   plan.add_output(out.report().string());
-  std::set<fs::path> files;
-  for (const auto& [number, camera] : views) {
-    const std::vector<fs::path> of_view = ResultFolder::files_of(out.view(number));
-    files.insert(of_view.begin(), of_view.end());
-  }
+  std::set<fs::path> files(new_files.begin(), new_files.end());
   // Those of an earlier run will be removed.
   const std::vector<fs::path> earlier = out.present();
   files.insert(earlier.begin(), earlier.end());
@@ -94,64 +63,68 @@ void check_places(const SimulateArguments& arguments, const RunConfig& config,
   plan.check();
 }
 
-// What a command knows before its first frame.
-struct Setting {
-  RunConfig config;
-  Technology technology;
-  PreparedScene scene;
-  std::chrono::steady_clock::time_point began;
-};
-
-// Simulates the views one after the other and writes their files and, at the end, those of all that
-// were finished. The first one's take the place of an earlier run's. One that fails is named and
-// does not keep the others from running; a single one throws.
-int run_views(const SimulateArguments& arguments, Setting& setting, const ResultFolder& out,
-              const std::vector<std::pair<int, Camera>>& views) {
-  const std::string& table = setting.technology.path;
-  RunReport report(setting.config,
-                   {setting.technology.name, table, fnv1a64_of_file(table),
-                    arguments.run.build.stalls.seed, arguments.command, setting.began});
-  std::vector<std::pair<int, std::string>> failed;
-  std::vector<ViewResult> results;
-  bool equal = true;
-  print_table_head();
-  for (const auto& [number, camera] : views) {
-    try {
-      ViewResult view = simulate_view(setting.scene, number, camera, setting.config,
-                                      setting.technology, arguments.run);
-      const auto of_view = report.of_view(view, setting.scene);
-      write_view(out.view(number), view, report_text(*of_view));
-      if (results.empty()) out.keep_only(number);
-      print_table_line(view);
-      equal = equal && view.equals_golden;
-      report.add(*of_view);
-      results.push_back(std::move(view));
-    } catch (const std::exception& error) {
-      if (views.size() == 1) throw;
-      std::fflush(stdout);
-      fmt::print(stderr, "streaminggs: view {}: {}\n", number, error.what());
-      failed.emplace_back(number, error.what());
-    }
-    std::fflush(stdout);
+// Of "4-7" or "4"; of nothing all.
+GroupRange range_of(const std::string& text) {
+  GroupRange range;
+  if (text.empty()) return range;
+  const char* const end = text.data() + text.size();
+  std::from_chars_result read = std::from_chars(text.data(), end, range.first);
+  range.last = range.first;
+  if (read.ec == std::errc() && read.ptr != end && *read.ptr == '-') {
+    read = std::from_chars(read.ptr + 1, end, range.last);
   }
-  if (results.empty()) throw std::runtime_error("no view could be finished");
-  write_text(out.report(), report.text(failed));
-  for (const ViewResult& view : results) print_details(view);
-  print_scene(setting.scene, setting.config, arguments.drop_invalid);
-  print_machine(results.front(), setting.config.chosen, setting.technology.name);
-  for (const auto& [view, why] : failed) fmt::print("\nview {} failed: {}\n", view, why);
-  if (!equal) fmt::print("\nthe frame differs from the golden renderer's\n");
-  fmt::print("\nwritten to {}\n", out.report().parent_path().string());
-  return equal && failed.empty() ? 0 : 1;
+  if (read.ec != std::errc() || read.ptr != end || range.last < range.first) {
+    throw InputError(fmt::format(
+        "--timeline-groups: got '{}', expected a number, or two as in 4-7, the lower first", text));
+  }
+  return range;
+}
+
+// One file each of a single frame.
+void check_single(const SimulateArguments& arguments) {
+  const RunOptions& run = arguments.run;
+  if (run.vcd_path.empty() && run.timeline_path.empty() && run.dram_trace_path.empty()) return;
+  if (!arguments.path.empty()) {
+    throw InputError(
+        "--vcd, --timeline, --dram-trace: one file holds one frame; expected them without --path");
+  }
+  if (arguments.view.find_first_not_of("0123456789") == std::string::npos) return;
+  throw InputError(
+      "--vcd, --timeline, --dram-trace: one file holds one view; expected --view with one number");
+}
+
+// keys: the path's, in their own size.
+PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) {
+  if (arguments.view != "0") {
+    throw InputError(
+        fmt::format("--view: got {} with --path, whose frames are all drawn, expected "
+                    "one of the two",
+                    arguments.view));
+  }
+  CameraPath path = read_camera_path(arguments.path, arguments.scene);
+  keys = path.keys;
+  NumberedCameras numbered;
+  for (const Camera& key : keys) numbered.emplace_back(numbered.size(), key);
+  const ChosenCameras sized = arguments.in_size(std::move(numbered));
+  if (!sized.stretch.empty()) fmt::print("{}\n", sized.stretch);
+  for (const auto& [number, camera] : sized.views)
+    path.keys[static_cast<std::size_t>(number)] = camera;
+  return {path.name, frames_along(path, arguments.frames), arguments.frame_rate};
 }
 
 int run(const SimulateArguments& arguments, const Kinds& kinds) {
-  Setting setting;
-  setting.began = std::chrono::steady_clock::now();
+  RunSetting setting;
+  setting.facts.began = std::chrono::steady_clock::now();
   RunConfig& config = setting.config;
   config = read_run_config(arguments.config.document(), kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
-  config.design->fit_frames([&] { return arguments.frame_sizes(); });
+  std::vector<Camera> keys;
+  std::optional<PathJob> path;
+  if (!arguments.path.empty()) path = path_job(arguments, keys);
+  config.design->fit_frames([&]() -> std::vector<PixelSize> {
+    if (!path) return arguments.frame_sizes();
+    return {{path->frames[0].width, path->frames[0].height}};
+  });
   if (packed) {
     resolve(config, *packed, arguments.scene, arguments.config.preset_in_words());
   } else {
@@ -171,25 +144,31 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   }
   const ResultFolder out(arguments.out.empty() ? arguments.default_out(arguments.config.name())
                                                : arguments.out);
-  const bool one_view_only =
-      !arguments.run.vcd_path.empty() || !arguments.run.dram_trace_path.empty();
-  if (one_view_only && arguments.view.find_first_not_of("0123456789") != std::string::npos) {
-    throw InputError(
-        "--vcd, --dram-trace: one file holds one view; expected --view with one number");
-  }
+  check_single(arguments);
   setting.technology = load_technology(arguments.technology);
+  setting.options = arguments.run;
+  setting.options.timeline_groups = range_of(arguments.timeline_groups);
+  setting.facts.technology = setting.technology.name;
+  setting.facts.technology_path = setting.technology.path;
+  setting.facts.technology_hash = fnv1a64_of_file(setting.technology.path);
+  setting.facts.seed = arguments.run.build.stalls.seed;
+  setting.facts.command = arguments.command;
   Scene scene;
   if (!packed) scene = arguments.load();
-  const auto views = arguments.cameras(scene.cameras);
-  check_places(arguments, config, out, views);
+  NumberedCameras views;
+  if (!path) views = arguments.cameras(scene.cameras);
+  check_places(arguments, config, out,
+               path ? files_of_path(*path, out) : files_of_views(views, out));
   if (packed) {
     setting.scene = prepare(std::move(*packed), arguments.scene, config);
   } else {
-    const std::vector<Camera> weighing =
-        arguments.weighing_cameras(scene.cameras, config.storage.encoding);
+    // A path weighs a scene that brings no cameras of its own.
+    const std::vector<Camera> weighing = arguments.weighing_cameras(
+        scene.cameras.empty() ? keys : scene.cameras, config.storage.encoding);
     setting.scene = prepare(std::move(scene), config, weighing);
   }
-  return run_views(arguments, setting, out, views);
+  return path ? run_path(*path, setting, out)
+              : run_views(views, setting, out, arguments.drop_invalid);
 }
 
 }  // namespace
@@ -204,8 +183,19 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.file("--out", arguments->out,
             "folder for pictures and reports; out/SCENE/CONFIG by their names if not given");
   line.file("--vcd", arguments->run.vcd_path, "write a waveform");
+  line.file("--timeline", arguments->run.timeline_path, "write a trace for ui.perfetto.dev");
+  line.text("--timeline-groups", arguments->timeline_groups,
+            "groups of pixels (or tiles) that it is bound to, as in 4-7 or 4");
+  line.needs("--timeline-groups", "--timeline");
   line.file("--dram-trace", arguments->run.dram_trace_path,
             "write every DRAM command; tb_dram --check verifies it");
+  line.file("--path", arguments->path,
+            "cameras.json as key frames of a camera path, or builtin:path; every frame is drawn");
+  line.whole("--frames", arguments->frames, 1U, 100000U, "along the path; 60 if not given");
+  line.real("--frame-rate", arguments->frame_rate, 1e-3, 1e6,
+            "frames a second at which the path's energy a second is told; 90 if not given");
+  line.needs("--frames", "--path");
+  line.needs("--frame-rate", "--path");
   line.file("--technology", arguments->technology, "table of energy and area");
   BuildOptions& build = arguments->run.build;
   line.real("--stalls", build.stalls.probability, 0, 1,

@@ -62,6 +62,31 @@ TEST_CASE("bad input: what would never end is refused at once") {
            {"$SG simulate $B --out o --config pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
            {"$SG simulate $B --out o --config ./zeros", 2, {"zeros"}, "ln -s /dev/zero zeros"},
            {"$SG simulate $B --out o --cameras pipe", 2, {"pipe"}, "mkfifo pipe"},
+           {"$SG simulate $B --timeline t --timeline-groups 3-2 --out o",
+            2,
+            {"3-2", "lower first"}},
+           {"$SG simulate $B --timeline t --timeline-groups x --out o", 2, {"'x'", "as in 4-7"}},
+           {"$SG simulate $B --timeline-groups 2 --out o", 2, {"--timeline"}},
+           {"$SG simulate $B --timeline t --view all --out o", 2, {"--timeline", "one view"}},
+           {"$SG simulate $B --timeline o/report.json --out o", 2, {"o/report.json"}},
+           {"$SG simulate $B --path pipe --out o", 2, {"pipe", "regular"}, "mkfifo pipe"},
+           {"$SG simulate $B --path builtin:path --view 1 --out o", 2, {"--view", "--path"}},
+           {"$SG simulate $B --path builtin:path --vcd v --out o", 2, {"--vcd", "--path"}},
+           {"$SG simulate $B --path builtin:path --frames 0 --out o", 2, {"--frames"}},
+           {"$SG simulate $B --frames 3 --out o", 2, {"--frames", "--path"}},
+           {"$SG simulate $S --size 32x18 --path o/path.json --out o",
+            2,
+            {"o/path.json", "is the same file as the input"},
+            "mkdir o; c='{\"id\":0,"
+            "\"img_name\":\"\",\"width\":9,\"height\":9,\"fx\":9,\"fy\":9,"
+            "\"position\":[0,0,-5],\"rotation\":[[1,0,0],[0,1,0],[0,0,1]]}'; "
+            "echo \"[$c,$c]\" >o/path.json"},
+           {"$SG diff pipe pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},
+           {"$SG diff a a", 2, {"a/report.json"}, "mkdir a"},
+           {"$SG diff a.json a.json", 2, {"a.json"}, "printf '{' >a.json"},
+           {"$SG diff a.json a.json", 2, {"a.json: schema_version"}, "printf '{}' >a.json"},
+           {"$SG diff a.json", 2, {"B"}, "printf '{}' >a.json"},
+           {"$SG diff a.json a.json --least -1", 2, {"--least"}, "printf '{}' >a.json"},
            {"$SG info pipe.ply", 2, {"pipe.ply"}, "mkfifo pipe.ply"},
            {"$SG info pipe.sgs", 2, {"pipe.sgs"}, "mkfifo pipe.sgs"},
            {"$SG compare a.exr a.exr", 2, {"a.exr", "regular"}, "mkfifo a.exr"},
@@ -265,11 +290,11 @@ TEST_CASE("bad input: messages are short, clean and begin with the program") {
   check({"$SG",
          2,
          {"got no command",
-          "simulate, what-if, sweep, pack, train, tune, render, compare, photographs, gpu, info, "
+          "simulate, what-if, sweep, diff, pack, train, tune, render, compare, photographs, gpu, info, "
           "describe"}});
   check({"$SG simulat $S",
          2,
-         {"'simulat': no such command", "simulate, what-if, sweep, pack, train, tune, render"}});
+         {"'simulat': no such command", "simulate, what-if, sweep, diff, pack, train, tune, render"}});
   check({"$SG '' --help", 2, {"'': no such command"}});
   check({"$SG simulate", 2, {"SCENE"}});
   check({"$SG simulate $B --no-such-option", 2, {"--no-such-option"}});

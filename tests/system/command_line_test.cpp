@@ -47,6 +47,12 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $B --out o | tail -1", {"written to o\n"}},
            {"$SG simulate $B --view 2,0 --out o && ls o", {"view_0\nview_2\n"}},
            {"$SG simulate $B --view all --out o && ls o", {"view_0", "view_4"}},
+           {"$SG simulate $B --out o >t && $SG simulate $B --set dram.channels=8 --out p >t && "
+            "$SG diff o p/report.json",
+            {"A  o/report.json\nB  p/report.json\n\nconfiguration: 1 of ",
+             "  dram.channels  4 -> 8\n", "\ncycles   "}},
+           {"$SG simulate $B --out o >t && $SG diff o/view_0 o --least 0",
+            {"configuration: 0 of ", "equal"}},
            {"$SG render $B --out new/folder/a.png && ls new/folder", {"a.png"}},
            {"$SG render --help", {"if not given, the one of the ordering's name"}},
            {"$SG simulate --help", {"--stalls FLOAT:in [0, 1]", "probability, as 0.1,"}},
@@ -190,10 +196,11 @@ TEST_CASE("command line: of two runs with one trace, one is there whole") {
 
 TEST_CASE("command line: a process that is interrupted leaves nothing at all") {
   for (const auto& [signal, status] : {std::pair{"INT", "130"}, {"TERM", "143"}}) {
-    check({"set -m; $SG simulate 'builtin:object?n=60000' --vcd a.vcd --dram-trace t >/dev/null & "
-           "until [ $(ls | grep -c part) = 2 ]; do sleep 0.05; done; kill -" +
-               std::string(signal) + " $!; wait $!; [ $? = " + status + " ] && [ -z \"$(ls)\" ]",
-           {}});
+    check(
+        {"set -m; $SG simulate 'builtin:object?n=60000' --vcd a.vcd --dram-trace t >/dev/null & "
+         "until [ $(ls | grep -c part) = 2 ]; do sleep 0.05; done; kill -" +
+             std::string(signal) + " $!; wait $!; [ $? = " + status + " ] && [ -z \"$(ls)\" ]",
+         {}});
   }
 }
 

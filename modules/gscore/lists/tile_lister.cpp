@@ -198,6 +198,7 @@ void TileLister::hand_out(const Pass& pass) {
   for (std::uint32_t tile = pass.first; tile < pass.end; ++tile) {
     const int core = asked_->select(list_, any);
     requests[core]->pop(list_);
+    list_.takes_up_tile(tile);
     list_.work(1);
     ++counters_.table_reads;
     ++counters_.tiles;

@@ -84,6 +84,7 @@ void RenderCore::run_fetch() {
     Fetched next;
     next.entry = sorted->pop(fetch_);
     mark = next.entry.mark;
+    if (of_tile(mark)) fetch_.takes_up_tile(next.entry.tile);
     if (mark == EntryMark::kEntry && finished_.finished(next.entry.tile)) {
       fetch_.work(1);
       ++counters_.dropped;
@@ -109,7 +110,7 @@ void RenderCore::run_blend() {
     if (mark == EntryMark::kEndOfPass || mark == EntryMark::kEndOfFrame) {
       fetched_.remove_front();
       blend_.work(1);
-      finished_states_.push({mark, nullptr}, blend_);
+      finished_states_.push({mark, nullptr, 0}, blend_);
       continue;
     }
     if (!in_tile_) begin_tile(next.entry.tile);
@@ -123,13 +124,14 @@ void RenderCore::run_blend() {
     counters_.contributors += state_->contributors();
     in_tile_ = false;
     blend_.work(1);
-    finished_states_.push({mark, std::move(state_)}, blend_);
+    finished_states_.push({mark, std::move(state_), next.entry.tile}, blend_);
   }
   blend_.idles();
 }
 
 // Parts outside the frame are finished from the start.
 void RenderCore::begin_tile(std::uint32_t tile) {
+  blend_.takes_up_tile(tile);
   free_pixels_.pop(blend_, WaitFor::kRoom);
   in_tile_ = true;
   told_ = false;
@@ -208,6 +210,7 @@ void RenderCore::run_drain() {
     const Finished next = finished_states_.pop(drain_);
     mark = next.mark;
     if (mark == EntryMark::kEndOfTile) {
+      drain_.takes_up_tile(next.tile);
       write_tile(*next.state);
       free_pixels_.push(0, drain_);
       continue;

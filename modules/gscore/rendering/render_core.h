@@ -45,6 +45,7 @@ class RenderCore : public sc_core::sc_module {
   struct Finished {
     EntryMark mark = EntryMark::kEndOfTile;
     std::shared_ptr<GroupState> state;
+    std::uint32_t tile = 0;
   };
   static constexpr int kBlocks = kSubtilesPerTile * kSubtilesPerTile;  // of 16 px
 

@@ -69,6 +69,7 @@ void TileSorter::run_sort() {
   for (EntryMark mark = EntryMark::kEntry; mark != EntryMark::kEndOfFrame;) {
     Loaded list = loaded_.pop(sort_);
     mark = list.mark;
+    if (of_tile(mark)) sort_.takes_up_tile(list.tile);
     if (mark == EntryMark::kEntry) {
       sort(list.tile, std::move(list.entries), 0, list.keys);
       free_lists_.push(0, sort_);

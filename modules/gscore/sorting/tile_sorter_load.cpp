@@ -18,6 +18,7 @@ void TileSorter::run_load() {
     Loaded end;
     end.tile = job.tile;
     if (mark == TileMark::kTile) {
+      load_.takes_up_tile(job.tile);
       ++counters_.tiles;
       next_block_ = 0;
       Chain list;

@@ -37,6 +37,7 @@ void CoarseFilter::run_load() {
   }
   while (true) {
     VisitShare share = shares->pop(load_);
+    load_.takes_up_group(share.group, share.visit);
     if (share.count > 0 && all_finished(finished, share.group)) {
       counters_.dropped_saturated += share.count;
       share.count = 0;
@@ -67,6 +68,7 @@ void CoarseFilter::run_filter() {
     const Slice slice = slices_.pop(filter_);
     current_group_ = slice.share.group;
     current_visit_ = slice.share.visit;
+    filter_.takes_up_group(current_group_, current_visit_);
     if (slice.share.count > 0) {
       await(memory, filter_, slice.ticket);
       filter_slice(slice);

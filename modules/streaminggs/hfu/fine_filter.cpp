@@ -67,6 +67,7 @@ void FineFilter::run_fetch() {
   }
   while (true) {
     const FineCandidate candidate = candidates->pop(fetch_);
+    take_up(candidate, fetch_);
     if (candidate.mark == Mark::kNone) {
       fetch(candidate);
     } else {
@@ -74,6 +75,12 @@ void FineFilter::run_fetch() {
       for (const auto& part : parts_) part->fetched.push(candidate, fetch_);
     }
   }
+}
+
+// Behind the merge unit those of several visits are mixed: there it is the group alone.
+void FineFilter::take_up(const FineCandidate& candidate, Activity& activity) const {
+  const bool by_visit = place_.rejects == Rejects::kDropped;
+  activity.takes_up_group(candidate.group, by_visit ? candidate.visit : Activity::kNoVisit);
 }
 
 // For those parts that still want it.
@@ -129,6 +136,7 @@ void FineFilter::run_decode(Part& part) {
     Decoded next;
     next.candidate = part.fetched.front(decode);
     const FineCandidate& candidate = next.candidate;
+    take_up(candidate, decode);
     if (candidate.mark != Mark::kNone) {
       decode.work(1);
     } else {
@@ -164,6 +172,7 @@ void FineFilter::run_filter(Part& part) {
 
 void FineFilter::filter_decoded(Part& part) {
   const Decoded& front = part.stage->decoded.front(part.filter);
+  take_up(front.candidate, part.filter);
   const bool wanted = is_wanted(part, front.candidate);
   if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
   const Decoded next = front;
@@ -180,6 +189,7 @@ void FineFilter::filter_decoded(Part& part) {
 void FineFilter::filter_fetched(Part& part) {
   Decoded next;
   next.candidate = part.fetched.front(part.filter);
+  take_up(next.candidate, part.filter);
   if (next.candidate.mark != Mark::kNone) {
     part.fetched.remove_front();
     pass_mark(part, next.candidate);

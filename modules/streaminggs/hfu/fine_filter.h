@@ -111,6 +111,7 @@ class FineFilter : public sc_core::sc_module {
   void pass_mark(Part& part, const FineCandidate& candidate);
   void test(Part& part, const Decoded& decoded);
   void reject(Part& part, const FineCandidate& candidate);
+  void take_up(const FineCandidate& candidate, Activity& activity) const;
   void drop_saturated(const FineCandidate& candidate);
   FifoWriteIf<SplatToken>& to_sorting(const Part& part, std::uint32_t visit);
 

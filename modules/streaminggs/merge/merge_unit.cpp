@@ -63,6 +63,7 @@ void MergeUnit::run() {
     FineCandidate key = input.pop(merge_);
     group_ = key.group;
     memory.charge_to(group_);
+    merge_.takes_up_group(group_, visit);
     while (key.mark == Mark::kNone) {
       take(key);
       key = input.pop(merge_);
@@ -344,7 +345,7 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.remedy(memory, WaitFor::kReads, "merge.entries");
   sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
   sheet.signal("group", group_);
-  sheet.signal("pending", pending_count_);
+  sheet.level("pending", "keys", pending_count_);
 }
 
 }  // namespace sgs

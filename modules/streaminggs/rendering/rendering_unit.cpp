@@ -62,6 +62,7 @@ void RenderingUnit::run_blend() {
   std::size_t turn = 0;
   std::uint64_t ended = 0;
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
+    blend_.takes_up_group(group);
     free_buffers_.pop(blend_, WaitFor::kRoom);
     current_group_ = group;
     auto state = std::make_shared<GroupState>(
@@ -71,6 +72,7 @@ void RenderingUnit::run_blend() {
     for (Mark mark = Mark::kNone; mark != Mark::kEndOfGroup;) {
       const SplatToken token = in_turn(splats, turn).pop(blend_);
       mark = token.mark;
+      if (arrival_ == Arrival::kByVisit) blend_.takes_up_group(group, token.visit);
       if (mark == Mark::kNone) {
         blend_splat(token.splat, group, *state);
       } else {
@@ -133,6 +135,7 @@ void RenderingUnit::run_drain() {
     free_buffers_.push(buffer, drain_);
   }
   for (std::size_t done = 0; done < job_.groups.size(); ++done) {
+    drain_.takes_up_group(static_cast<std::uint32_t>(done));
     const std::shared_ptr<GroupState> state = finished_.pop(drain_);
     memory.charge_to(done);
     write_group(*state);

@@ -29,6 +29,7 @@ void ExactSorter::run() {
     list.clear();
     FifoReadIf<FineCandidate>& input = in_turn(keys, visit_);
     FineCandidate key = input.pop(sort_);
+    sort_.takes_up_group(key.group, visit_);
     while (key.mark == Mark::kNone) {
       sort_.work(1);
       list.push_back(key);

@@ -48,10 +48,12 @@ class ChunkTester {
     return tested_.pop(activity);
   }
 
-  // Body of the lanes' thread.
-  void run() {
+  // Body of the lanes' thread. group_of: that an entry is of.
+  template <class GroupOf>
+  void run(const GroupOf& group_of) {
     while (true) {
       const NodeInTest node = waiting_.pop(test_);
+      test_.takes_up_group(group_of(node.entry));
       const std::uint64_t now = test_.clock().now_cycles(), interval = lanes_.interval_cycles();
       test_.work(next_turn(now, interval) - now + node.record.children * interval);
       tests_ += node.record.children;

@@ -60,6 +60,7 @@ ExactVsu::ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& co
 void ExactVsu::run_walk() {
   load_upper_nodes();
   while (group_ < job_.groups.size()) {
+    walk_.takes_up_group(group_);
     while (taken_.can_pop()) {
       taken_.pop(walk_);
       ++room_;
@@ -247,13 +248,19 @@ void ExactVsu::wait_for_news() {
   walk_.works();
 }
 
-void ExactVsu::run_tests() { tester_.run(); }
+// Nodes may be of the group behind that which is walked: a walk's number is its group's, cut short.
+void ExactVsu::run_tests() {
+  tester_.run([this](const WalkEntry& entry) {
+    return group_ + static_cast<std::uint16_t>(entry.walk - group_);
+  });
+}
 
 void ExactVsu::run_arrivals() { nodes_.run_arrivals(memory, walk_.clock(), news_); }
 
 void ExactVsu::run_hand_out() {
   while (true) {
     VisitShare visit = ready_.pop(hand_out_);
+    hand_out_.takes_up_group(visit.group, next_visit_);
     taken_.push(0, hand_out_);
     const bool dropped = visit.mark == Mark::kEndOfVisit && finished->finished(visit.group);
     hand_out_.work(1);

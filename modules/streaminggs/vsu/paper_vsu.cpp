@@ -45,6 +45,7 @@ void PaperVsu::run_traverse() {
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     current_group_ = group;
     node_memory.charge_to(group);
+    traverse_.takes_up_group(group);
     const std::uint64_t from = clock.now_cycles();
     const GroupVisits visits = order_group(job_.groups[group]);
     const std::uint64_t cycles = clock.now_cycles() - from;
@@ -85,6 +86,7 @@ void PaperVsu::hand_over(const std::vector<std::uint32_t>& voxels, bool last) {
 void PaperVsu::run_emit() {
   for (std::size_t done = 0; done < job_.groups.size();) {
     const std::shared_ptr<OrderedPass> ordered = ordered_.pop(emit_);
+    emit_.takes_up_group(ordered->group);
     for (const std::uint32_t voxel : ordered->voxels) {
       if (all_finished(finished, ordered->group)) {
         ++counters_.visits_saturated;
@@ -123,6 +125,7 @@ void PaperVsu::hand_out(std::uint32_t group, const VoxelRecord& piece) {
   const std::uint32_t unit = std::max(2U, config_.min_share);
   const std::uint32_t share =
       static_cast<std::uint32_t>(cycles_for(cycles_for(piece.count, fetches), unit)) * unit;
+  emit_.takes_up_group(group, next_visit_);
   emit_.work(1);
   for (std::uint32_t k = 0; k < fetches; ++k) {
     const std::uint32_t begin = std::min(k * share, piece.count);

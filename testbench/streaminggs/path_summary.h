@@ -1,0 +1,28 @@
+// What the frames of a camera path come to.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace sgs {
+
+// What one frame takes, and what the machine takes for nothing while it waits for the next one: its
+// leakage, and the memory's standby and refresh. Its clock stands then.
+struct PathFrame {
+  double time_s = 0, energy_j = 0, idle_w = 0;
+};
+
+struct PathSummary {
+  double worst_fps = 0, p99_fps = 0, median_fps = 0;
+  std::size_t worst_frame = 0;
+  // With a frame begun every 1 / rate, or when the one before it is done: those done later, and the
+  // joules a second for frames and between them.
+  std::size_t late = 0;
+  double frames_w = 0, idle_w = 0;
+};
+
+// frames: at least one. rate: frames a second. 99 of 100 frames reach p99_fps: it is that of the
+// frame at place ceil(0.99 n) when the quickest comes first; the median is at ceil(0.5 n).
+PathSummary summarise(const std::vector<PathFrame>& frames, double rate);
+
+}  // namespace sgs

@@ -1,0 +1,125 @@
+// A camera path: each of its frames is the frame that the view alone gives, but for codebooks that
+// stay in the machine.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "algorithm/scene/cameras.h"
+#include "testbench/builtin/builtin_scene.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+const std::string kScene = "builtin:object?n=2000";
+
+json run_path(const ScratchFolder& scratch, const Arguments& arguments) {
+  const Outcome done = run_streaminggs(
+      joined({"simulate", kScene, "--size", "96x54", "--out", scratch.path("out")}, arguments));
+  INFO(done.out << done.err);
+  REQUIRE(done.status == 0);
+  return json::parse(bytes_of(scratch.path("out/path.json")));
+}
+
+TEST_CASE("path: frames at its keys are the views, on every machine") {
+  const ScratchFolder scratch;
+  const std::vector<Camera> cameras = make_builtin_scene(kScene).cameras;
+  write_cameras(scratch.path("keys.json"), {cameras[0], cameras[2]});
+  for (const char* preset : {"exact", "paper_no_vq", "gscore"}) {
+    INFO(preset);
+    const json path = run_path(scratch, {"--config", preset, "--path", scratch.path("keys.json"),
+                                         "--frames", "3", "--set", "framebuffer=rgb32f"});
+    const Simulation views({kScene, "--size", "96x54", "--config", preset, "--view", "0,2"});
+    REQUIRE(path["frames"].size() == 3);
+    for (const int end : {0, 1}) {
+      const json& frame = path["frames"][2 * end];
+      const json& view = views.views()[static_cast<std::size_t>(end)];
+      CHECK(frame["cycles"] == view["frame"]["cycles"]);
+      CHECK(frame["bytes"] == view["dram"]["bytes"]);
+      CHECK(frame["psnr_db"] == view["image"]["psnr_db"]);
+      CHECK(frame["energy_j"] == view["energy"]["total_j"]);
+      CHECK(frame["camera"]["position"] == view["camera"]["position"]);
+    }
+    CHECK(path["frames"][1]["cycles"] != path["frames"][0]["cycles"]);
+    CHECK(path["config"] == views.views()[0]["config"]);
+  }
+}
+
+TEST_CASE("path: codebooks are loaded once") {
+  const ScratchFolder scratch;
+  const Arguments machine = {"--config", "exact_vq",
+                             "--set",    "storage.vq.iterations=1",
+                             "--set",    "sram.codebook_bytes=256000"};
+  const json path = run_path(scratch, joined({"--path", "builtin:path", "--frames", "3"}, machine));
+  // From where the path begins, in a machine that still has them.
+  const std::vector<Camera> keys = builtin_path(kScene).keys;
+  std::vector<Camera> at_start(5, keys[0]);
+  write_cameras(scratch.path("start.json"), at_start);
+  write_cameras(scratch.path("weighing.json"), make_builtin_scene(kScene).cameras);
+  const json still = run_path(scratch, joined({"--path", scratch.path("start.json"), "--cameras",
+                                               scratch.path("weighing.json"), "--frames", "3"},
+                                              machine));
+  CHECK(path["frames"][0]["cycles"] == still["frames"][0]["cycles"]);
+  const auto bytes = [&](int frame) {
+    return still["frames"][frame]["bytes"].get<std::uint64_t>();
+  };
+  std::uint64_t codebooks = 0;
+  for (const json& book : still["scene"]["codebooks"])
+    codebooks += book["bytes"].get<std::uint64_t>();
+  CHECK(codebooks > 0);
+  CHECK(bytes(0) >= bytes(1) + codebooks);
+  CHECK(bytes(0) <= bytes(1) + codebooks + 4 * 256);  // whole lines
+  CHECK(bytes(1) == bytes(2));
+  CHECK(still["frames"][1]["cycles"] < still["frames"][0]["cycles"]);
+}
+
+TEST_CASE("path: its files, and those of another run in the folder") {
+  const ScratchFolder scratch;
+  const auto files = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(scratch.path("out"))) {
+      if (entry.is_regular_file()) names.insert(fs::relative(entry, scratch.path("out")).string());
+    }
+    return names;
+  };
+  const std::set<std::string> of_path = {"path.json", "path.csv", "contact_sheet.png",
+                                         "frames/0000.png", "frames/0001.png"};
+  run_path(scratch, {"--path", "builtin:path", "--frames", "4"});
+  std::ofstream(scratch.path("out/frames/mine.txt")) << "x";
+  run_path(scratch, {"--path", "builtin:path", "--frames", "2"});
+  auto with_mine = of_path;
+  with_mine.insert("frames/mine.txt");
+  CHECK(files() == with_mine);
+  fs::remove(scratch.path("out/frames/mine.txt"));
+  const Arguments view = {"simulate", kScene, "--size", "96x54", "--out", scratch.path("out")};
+  REQUIRE(run_streaminggs(view).status == 0);
+  CHECK(files() == std::set<std::string>{"report.json", "view_0/report.json", "view_0/frame.png",
+                                         "view_0/frame.exr", "view_0/reference.png",
+                                         "view_0/reference.exr", "view_0/error.png"});
+  const json path = run_path(scratch, {"--path", "builtin:path", "--frames", "2"});
+  CHECK(files() == of_path);
+  std::istringstream table(bytes_of(scratch.path("out/path.csv")));
+  std::string head, first;
+  std::getline(table, head);
+  std::getline(table, first);
+  CHECK(head.rfind("frame,cycles,time_s,fps,energy_j,", 0) == 0);
+  CHECK(first.rfind("0," + path["frames"][0]["cycles"].dump() + ",", 0) == 0);
+  const json& summary = path["summary"];
+  const double slower =
+      std::min(path["frames"][0]["fps"].get<double>(), path["frames"][1]["fps"].get<double>());
+  CHECK(summary["worst_fps"] == slower);
+  CHECK(summary["late_frames"] == 0);
+  CHECK(summary["frames_w"].get<double>() == Approx(90 * summary["energy_j"].get<double>() / 2));
+}
+
+}  // namespace
+}  // namespace sgs::test

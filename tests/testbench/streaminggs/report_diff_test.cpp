@@ -1,0 +1,262 @@
+// What diff makes of two reports: pairs, weights, and what it refuses.
+#include "testbench/streaminggs/report_diff.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/scratch_folder.h"
+
+namespace sgs::test {
+namespace {
+
+using nlohmann::json;
+
+json wait(const char* what, const char* on, int cycles) {
+  return {{"for", what}, {"on", on}, {"cycles", cycles}};
+}
+
+// A frame of 1,000 cycles by two filters and a reader.
+json view_of(int number) {
+  const auto activity = [](int busy, const json& waits) {
+    return json{{"busy_cycles", busy}, {"waits", waits}};
+  };
+  const json idle = {{"for", "idle"}, {"cycles", 100}};
+  return {
+      {"schema_version", 2},
+      {"view", number},
+      {"scene", {{"name", "s"}, {"gaussians", 5}, {"sh_degree", 3}, {"dropped_invalid", 0}}},
+      {"camera", {{"id", 7}, {"img_name", "front"}}},
+      {"frame", {{"cycles", 1000}, {"width_px", 64}, {"height_px", 36}}},
+      {"image", {{"psnr_db", nullptr}, {"equals_streaming_renderer", true}}},
+      {"binding", {{"holds", "dram"}}},
+      {"units",
+       {{"hfu0",
+         {{"activities",
+           {{"filter", activity(500, json::array({wait("input", "to_hfu0", 400), idle}))},
+            {"load", activity(10, json::array())}}}}},
+        {"hfu1",
+         {{"activities",
+           {{"filter", activity(300, json::array({wait("input", "to_hfu1", 700)}))}}}}}}},
+      {"dram",
+       {{"bytes", 4000},
+        {"bytes_by_region",
+         {{"first", {{"hfu0", {{"read", 1500}}}, {"hfu1", {{"read", 2500}}}}}}}}},
+      {"energy",
+       {{"fine_j", 3.0},
+        {"total_j", 4.0},
+        {"dram_j", 1.0},
+        {"mean_power_w", 9.0},
+        {"bands", {{"fine_j", {}}, {"dram_j", {}}, {"total_j", {}}}}}},
+      {"area_mm2", {{"fine", 2.0}, {"total", 2.0}, {"bands", {{"fine", {}}, {"total", {}}}}}},
+      {"provenance",
+       {{"technology", "32 nm"}, {"technology_fnv1a64", "0"}, {"version", "1"}, {"commit", "c"}}},
+      {"chosen", json::array({{{"key", "hfus"}, {"value", 2}}})},
+      {"config", {{"hfus", 2}, {"dram", {{"channels", 4}}}}}};
+}
+
+json run_of(const std::vector<json>& views) {
+  return {{"schema_version", 2}, {"config", views[0]["config"]}, {"views", views}};
+}
+
+ReportedRun read(const ScratchFolder& scratch, const char* name, const json& report) {
+  return read_reported_run(scratch.write(name, report.dump()));
+}
+
+const QuantityChange& of(const ReportDiff& diff, Quantity quantity) {
+  for (const QuantityChange& q : diff.quantities) {
+    if (q.quantity == quantity) return q;
+  }
+  throw std::logic_error("no such quantity");
+}
+
+TEST_CASE("diff: a report and itself, of all views, of one, by its folder") {
+  const ScratchFolder scratch;
+  const ReportedRun all = read(scratch, "report.json", run_of({view_of(0)}));
+  for (const ReportedRun& same :
+       {all, read(scratch, "one.json", view_of(0)), read_reported_run(scratch.path("."))}) {
+    const ReportDiff diff = diff_runs(all, same);
+    CHECK(diff.unlike.empty());
+    CHECK(diff.config.empty());
+    CHECK(diff.equal_keys == 2);
+    for (const QuantityChange& q : diff.quantities) CHECK((q.parts.empty() && q.a == q.b));
+    CHECK(of(diff, Quantity::kBusy).equal == 2);  // filters of both HFUs are one part
+    CHECK(of(diff, Quantity::kWaits).equal == 1);
+    CHECK(of(diff, Quantity::kBytes).equal == 1);
+  }
+}
+
+TEST_CASE("diff: one value changed, by table") {
+  struct Row {
+    const char* pointer;
+    json value;
+    Quantity quantity;
+    const char* part;
+    double a, b, of_whole;
+  };
+  for (const Row& row :
+       std::vector<Row>{// Of two copies the mean; against the frame of 1,000 cycles.
+                        {"/units/hfu0/activities/filter/busy_cycles", 700, Quantity::kBusy,
+                         "hfuN.filter", 400, 500, 0.1},
+                        {"/units/hfu1/activities/filter/waits/0/cycles", 500, Quantity::kWaits,
+                         "hfuN.filter: input at to_hfuN", 550, 450, -0.1},
+                        {"/dram/bytes_by_region/first/hfu0/read", 500, Quantity::kBytes,
+                         "first: hfuN read", 4000, 3000, -0.25},
+                        {"/energy/fine_j", 5.0, Quantity::kJoules, "fine", 3, 5, 0.5},
+                        {"/area_mm2/fine", 1.0, Quantity::kArea, "fine", 2, 1, -0.5}}) {
+    INFO(row.pointer);
+    const ScratchFolder scratch;
+    json changed = view_of(0);
+    changed[json::json_pointer(row.pointer)] = row.value;
+    const ReportedRun a = read(scratch, "a.json", view_of(0));
+    const ReportedRun b = read(scratch, "b.json", changed);
+    const ReportDiff diff = diff_runs(a, b);
+    for (const QuantityChange& q : diff.quantities) {
+      CHECK(q.parts.size() == (q.quantity == row.quantity ? 1 : 0));
+    }
+    const PartChange& part = of(diff, row.quantity).parts.at(0);
+    CHECK(part.name == row.part);
+    CHECK(part.a == Approx(row.a));
+    CHECK(part.b == Approx(row.b));
+    CHECK(part.of_whole == Approx(row.of_whole));
+  }
+}
+
+TEST_CASE("diff: by weight, quantities and parts; units that only one run has") {
+  const ScratchFolder scratch;
+  json changed = view_of(0);
+  changed["frame"]["cycles"] = 500;
+  changed["area_mm2"]["total"] = 2.2;
+  changed["units"]["hfu0"]["activities"]["load"]["busy_cycles"] = 20;
+  changed["units"].erase("hfu1");
+  changed["units"]["merge"]["activities"]["merge"] = {{"busy_cycles", 50},
+                                                      {"waits", json::array()}};
+  const ReportedRun a = read(scratch, "a.json", view_of(0));
+  const ReportedRun b = read(scratch, "b.json", changed);
+  const ReportDiff diff = diff_runs(a, b);
+  CHECK(diff.quantities[0].quantity == Quantity::kWaits);  // 1,100 of three to 400 of three
+  CHECK(diff.quantities[1].quantity == Quantity::kBusy);
+  CHECK(diff.quantities[1].ratio() == Approx(-0.5));
+  CHECK(diff.quantities[2].quantity == Quantity::kArea);
+  const auto& parts = diff.quantities[1].parts;
+  REQUIRE(parts.size() == 3);
+  CHECK(parts[0].name == "hfuN.filter");  // 400 of two to 500 of one
+  CHECK((parts[0].copies_a == 2 && parts[0].copies_b == 1));
+  CHECK(parts[1].name == "merge.merge");
+  CHECK((parts[1].a == 0 && parts[1].copies_a == 0));
+  CHECK(parts[2].name == "hfuN.load");
+}
+
+TEST_CASE("diff: the mean of the views that both have") {
+  const ScratchFolder scratch;
+  json second = view_of(2);
+  second["frame"]["cycles"] = 3000;
+  const ReportedRun a = read(scratch, "a.json", run_of({second, view_of(0)}));
+  const ReportedRun b = read(scratch, "b.json", run_of({view_of(0), view_of(1), view_of(2)}));
+  const ReportDiff diff = diff_runs(a, b);
+  REQUIRE(diff.views.size() == 2);
+  CHECK(diff.unlike == std::vector<std::string>{"views of B alone: 1"});
+  CHECK(of(diff, Quantity::kBusy).a == 2000);
+  CHECK(of(diff, Quantity::kBusy).b == 1000);
+  const ReportedRun c = read(scratch, "c.json", run_of({view_of(5)}));
+  CHECK(input_error_of([&] { diff_runs(a, c); }).find("expected one or more") != std::string::npos);
+}
+
+TEST_CASE("diff: what is not of the same is said, by table") {
+  struct Row {
+    const char* pointer;
+    json value;
+    const char* says;
+  };
+  for (const Row& row : std::vector<Row>{
+           {"/scene/gaussians", 6, "scene: s, 5 Gaussians, SH degree 3, 0 dropped | s, 6 Gaus"},
+           {"/camera/img_name", "side", "camera: 7 (front) | 7 (side)"},
+           {"/frame/width_px", 65, "size, px: 64x36 | 65x36"},
+           {"/provenance/technology_fnv1a64", "1", "technology: 32 nm (0) | 32 nm (1)"},
+           {"/provenance/commit", "d", "program: 1 c | 1 d"}}) {
+    const ScratchFolder scratch;
+    json changed = view_of(0);
+    changed[json::json_pointer(row.pointer)] = row.value;
+    const ReportedRun a = read(scratch, "a.json", run_of({view_of(0), view_of(1)}));
+    const ReportedRun b = read(scratch, "b.json", run_of({changed, view_of(1)}));
+    const ReportDiff diff = diff_runs(a, b);
+    REQUIRE(diff.unlike.size() == 1);
+    INFO(diff.unlike[0]);
+    CHECK(diff.unlike[0].find(std::string("view 0: ") + row.says) == 0);
+  }
+  // The camera's pose, where both reports have it.
+  const ScratchFolder scratch;
+  const auto standing = [](double x) {
+    json view = view_of(0);
+    const json pose = {{"position", {x, 0, 0}}, {"rotation", {}}, {"fx_px", 9}, {"fy_px", 9}};
+    view["camera"].update(pose);
+    return view;
+  };
+  const ReportedRun old = read(scratch, "old.json", view_of(0));
+  const ReportedRun here = read(scratch, "here.json", standing(1));
+  const ReportedRun there = read(scratch, "there.json", standing(2));
+  CHECK(diff_runs(here, there).unlike ==
+        std::vector<std::string>{"camera stands at: [1.0,0,0] | [2.0,0,0]"});
+  CHECK(diff_runs(old, here).unlike.empty());
+  CHECK(diff_runs(here, old).unlike.empty());
+}
+
+TEST_CASE("diff: keys of the configuration") {
+  const ScratchFolder scratch;
+  json changed = view_of(0);
+  changed["config"] = {{"hfus", 8}, {"merge", {{"entries", 512}}}};
+  changed["chosen"] = json::array();
+  const ReportedRun a = read(scratch, "a.json", view_of(0));
+  const ReportedRun b = read(scratch, "b.json", changed);
+  const ReportDiff diff = diff_runs(a, b);
+  REQUIRE(diff.config.size() == 1);
+  CHECK(diff.equal_keys == 0);
+  CHECK(diff.config[0].key == "hfus");
+  CHECK((diff.config[0].a == "2 (chosen)" && diff.config[0].b == "8"));
+  CHECK(diff.keys_of_a == std::vector<std::string>{"dram.channels"});
+  CHECK(diff.keys_of_b == std::vector<std::string>{"merge.entries"});
+}
+
+TEST_CASE("diff: no report, by table") {
+  struct Row {
+    const char* pointer;
+    json value;
+    std::vector<std::string> words;
+  };
+  const json nothing(json::value_t::discarded);
+  for (const Row& row : std::vector<Row>{
+           {"", json::array({1}), {"the document: got [1], expected an object"}},
+           {"/schema_version", 1, {"schema_version: got 1, expected 2"}},
+           {"/schema_version", nothing, {"schema_version: got nothing"}},
+           {"/views", 3, {"views: got 3, expected a list"}},
+           {"/views", json::array(), {"views: got [], expected a finished view or more"}},
+           {"/config", "x", {"config: got \"x\", expected an object"}},
+           {"/views/0/frame/cycles",
+            "many",
+            {"views[0].frame.cycles: got \"many\", expected a nu"}},
+           {"/views/0/frame", nothing, {"views[0].frame: got nothing"}},
+           {"/views/0/units/hfu0/activities/filter/waits/0/for",
+            1,
+            {"views[0].units.hfu0.activities.filter.waits[0].for: got 1, expected a text"}},
+           {"/views/0/dram/bytes_by_region/first/hfu0", 1, {"first.hfu0: got 1, expected an obj"}},
+           {"/views/0/energy/dram_j", nothing, {"views[0].energy.dram_j: got nothing"}},
+           {"/views/0/image/psnr_db", "high", {"views[0].image.psnr_db: got \"high\""}}}) {
+    INFO(row.pointer);
+    const ScratchFolder scratch;
+    json report = run_of({view_of(0)});
+    const json::json_pointer at(row.pointer);
+    if (row.value.is_discarded()) {
+      report[at.parent_pointer()].erase(at.back());
+    } else {
+      report[at] = row.value;
+    }
+    const std::string error = input_error_of([&] { read(scratch, "bad.json", report); });
+    INFO(error);
+    CHECK(error.find(scratch.path("bad.json") + ": ") == 0);
+    for (const std::string& word : row.words) CHECK(error.find(word) != std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test
