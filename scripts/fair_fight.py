@@ -167,7 +167,8 @@ class Fight:
                 beside = (order.begins_at, budget, objective)
                 self.begin_at(of, beside, machine.order)
                 if beside in self.searches:
-                    self.begin_at(beside, of, start_of(ORDERS[order.begins_at], self.kept).order)
+                    start = start_of(ORDERS[order.begins_at], self.kept.outcome)
+                    self.begin_at(beside, of, start.order)
                 if objective == first and (point := self.best.get(of)):
                     machine, storage = point.machine, point.storage
                 self.write()

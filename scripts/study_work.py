@@ -13,11 +13,11 @@ from machine_axes import nearest
 from measures import dominates
 from search_space import At
 from simulations import Run
-from studies import JUDGED, Study, open_storage, sampler, unpacked
+from studies import JUDGED, States, Study, open_storage, sampler, unpacked
 from sweep_server import SweepServer
 
 SAMPLED_EVERY = 4  # what the sampler proposes; between them what is next to the best
-MOST_SKIPPED = 20  # for each that is judged: then all there is to choose from was skipped
+MOST_SKIPPED = 20  # for each to be judged: then all that is proposed was judged or skipped before
 
 
 class Searcher:
@@ -118,16 +118,17 @@ def explore(work: Work, kept: SweepServer) -> None:
     def before() -> bool:
         """Whether there is more to do; if so what is next may be in the queue, else the sampler
         proposes it."""
-        done = study.done().values()
-        drawn = sum(not is_skipped(trial) for trial in done)
         if not work.has_time():
             return False
         if study.whole:
             return True
-        if drawn >= of or len(done) >= MOST_SKIPPED * of:
+        done = study.done().values()
+        drawn = sum(not is_skipped(trial) for trial in done)
+        ended = study.trials(States.COMPLETE, States.PRUNED)
+        if drawn >= of or len(done) >= work.space.size() or len(ended) >= MOST_SKIPPED * of:
             return False
         with work.reporting:
-            if len(done) % SAMPLED_EVERY and (near := searcher.next_to_the_front(study)):
+            if len(ended) % SAMPLED_EVERY and (near := searcher.next_to_the_front(study)):
                 study.enqueue(near)
         return True
 

@@ -4,6 +4,7 @@ results holds is not simulated again."""
 from __future__ import annotations
 
 import concurrent.futures
+import contextlib
 import itertools
 import json
 import pathlib
@@ -25,6 +26,7 @@ class SweepServer:
         self.binary, self.program = binary, program_digest(binary)
         self.failures: list[Failure] = []
         self.simulated = 0
+        self.ended: Failure | None = None
         self.numbers = itertools.count()
         self.lock = threading.Lock()
         self.waiting: dict[int, concurrent.futures.Future[Answer]] = {}
@@ -42,6 +44,7 @@ class SweepServer:
                 start_new_session=True,  # Ctrl-C is for the script, which ends it
             )
         except OSError as error:
+            self.said.close()
             raise ValueError(f"{binary}: cannot be run: {error.strerror}") from error
         self.reader = threading.Thread(target=self.read, daemon=True)
         self.reader.start()
@@ -53,6 +56,9 @@ class SweepServer:
         """Those under way are given up; what is done is in the file."""
         self.process.terminate()
         self.reader.join()
+        with contextlib.suppress(OSError):  # of what it did not read any more
+            self.process.stdin.close()
+        self.process.stdout.close()
         self.said.close()
 
     def read(self) -> None:
@@ -66,14 +72,17 @@ class SweepServer:
         self.said.seek(0)
         ended = subprocess.CompletedProcess([], status, "", self.said.read())
         with self.lock:
+            self.ended = Failure(f"sweep: {said(ended)}")
             for asked in self.waiting.values():
-                asked.set_exception(Failure(f"sweep: {said(ended)}"))
+                asked.set_exception(self.ended)
             self.waiting.clear()
 
     def outcome(self, run: Run) -> Outcome:
         """Of a run of one view. Raises Failure when the server has ended."""
         asked: concurrent.futures.Future[Answer] = concurrent.futures.Future()
         with self.lock:
+            if self.ended:
+                raise self.ended
             number = next(self.numbers)
             self.waiting[number] = asked
             try:
@@ -81,8 +90,6 @@ class SweepServer:
                 self.process.stdin.flush()
             except (BrokenPipeError, ValueError):
                 pass  # the reader says how it ended
-        if not self.reader.is_alive():
-            raise Failure("sweep: has ended")
         answer = asked.result()
         if answer["status"] == "done":
             return Outcome(run, views=(answer["report"],))

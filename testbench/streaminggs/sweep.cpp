@@ -102,6 +102,7 @@ void Sweep::wait_for_something(PointStream* stream) {
 }
 
 void Sweep::finish(Running& running) {
+  ++counts_.simulated;
   try {
     keep(running.task, running.child->result());
   } catch (const InputError& error) {

@@ -21,7 +21,8 @@ namespace sgs {
 struct SweepCounts {
   std::uint64_t asked = 0;  // all that are known
   std::uint64_t done = 0, refused = 0, failed = 0;
-  std::uint64_t kept = 0;  // of these three, earlier sweeps' results
+  std::uint64_t kept = 0;       // of these three, earlier sweeps' results
+  std::uint64_t simulated = 0;  // by this sweep, to whatever end
   std::uint64_t answered() const { return done + refused + failed; }
 };
 

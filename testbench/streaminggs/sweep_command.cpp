@@ -2,21 +2,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
-#include "algorithm/data_files.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_file.h"
-#include "algorithm/output_plan.h"
-#include "testbench/command_line/config_source.h"
 #include "testbench/command_line/guard.h"
 #include "testbench/command_line/interrupt.h"
 #include "testbench/streaminggs/commands.h"
@@ -24,7 +19,7 @@
 #include "testbench/streaminggs/point_stream.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/sweep.h"
-#include "testbench/streaminggs/sweep_points.h"
+#include "testbench/streaminggs/sweep_arguments.h"
 #include "testbench/streaminggs/sweep_progress.h"
 #include "testbench/streaminggs/sweep_results.h"
 #include "testbench/streaminggs/sweep_simulations.h"
@@ -33,59 +28,6 @@
 
 namespace sgs {
 namespace {
-
-constexpr const char* kStandardInput = "-";
-constexpr std::uint32_t kMostSideBySide = 1024;
-
-struct SweepArguments {
-  std::vector<std::string> scenes, cameras;
-  SceneArguments all;  // what holds for all of them
-  ConfigSource config;
-  std::vector<std::string> axes;
-  std::string points, out, csv;
-  std::string technology = data_file("technology_32nm.json");
-  std::uint32_t side_by_side = std::max(1U, std::thread::hardware_concurrency());
-  std::string command;
-
-  bool streaming() const { return points == kStandardInput; }
-};
-
-std::vector<SceneArguments> scenes_of(const SweepArguments& arguments) {
-  const std::size_t files = arguments.cameras.size();
-  if (files > 1 && files != arguments.scenes.size()) {
-    throw InputError(
-        fmt::format("--cameras: got {} files for {} scenes, expected one for all or one for each "
-                    "in their order",
-                    files, arguments.scenes.size()));
-  }
-  std::vector<SceneArguments> scenes;
-  for (const std::string& scene : arguments.scenes) {
-    SceneArguments& one = scenes.emplace_back(arguments.all);
-    one.scene = scene;
-    if (files > 0) one.cameras_path = arguments.cameras[files == 1 ? 0 : scenes.size() - 1];
-  }
-  return scenes;
-}
-
-std::vector<SweepPoint> points_of(const SweepArguments& arguments) {
-  if (arguments.points.empty() == arguments.axes.empty()) {
-    throw InputError("--axis, --points: got both or neither, expected a grid or a list of points");
-  }
-  if (!arguments.axes.empty()) return grid_of(arguments.axes);
-  if (arguments.streaming()) return {};
-  return read_points(arguments.points);
-}
-
-void check_places(const SweepArguments& arguments, const std::vector<SceneArguments>& scenes) {
-  OutputPlan plan;
-  for (const SceneArguments& scene : scenes) scene.add_inputs_to(plan);
-  plan.add_input(arguments.config.path());
-  plan.add_input(arguments.technology);
-  if (!arguments.streaming()) plan.add_input(arguments.points);
-  plan.add_output(arguments.out);
-  if (!arguments.csv.empty()) plan.add_output(arguments.csv);
-  plan.check();
-}
 
 struct Stopped {};  // thrown out of the making of codebooks
 
@@ -122,18 +64,18 @@ void print_end(const SweepCounts& counts, const std::string& first_refusal,
 
 int run(const SweepArguments& arguments, const Kinds& kinds) {
   const auto began = std::chrono::steady_clock::now();
-  std::vector<SweepPoint> points = points_of(arguments);
-  SweepDefaults defaults{arguments.all,      scenes_of(arguments),
+  std::vector<SweepPoint> points = arguments.listed_points();
+  SweepDefaults defaults{arguments.all,      arguments.each_scene(),
                          arguments.all.view, arguments.all.size,
                          arguments.config,   fnv1a64_of_file(arguments.technology)};
   if (defaults.scenes.empty() && !arguments.axes.empty()) {
     throw InputError(fmt::format("SCENE: got none, expected {}", kSceneForms));
   }
   Technology technology = load_technology(arguments.technology);
-  check_places(arguments, defaults.scenes);
+  arguments.check_places();
   const RunFacts facts{technology.name,          arguments.technology,
                        defaults.technology_hash, BuildOptions{}.stalls.seed,
-                       arguments.command,        began};
+                       command_line(),           began};
   SweepPlan plan(std::move(defaults), kinds);
   for (const std::string& note : plan.check_scenes()) {
     if (!arguments.streaming()) fmt::print("{}\n", note);
@@ -196,29 +138,9 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
 
 SubCommand add_sweep_command(CommandLine& line, const Kinds& kinds) {
   auto arguments = std::make_shared<SweepArguments>();
-  line.list("SCENE", arguments->scenes, kSceneForms);
-  line.texts("--axis", arguments->axes, "KEY=V1,V2,...; a grid of all of them; may be repeated");
-  line.file("--points", arguments->points,
-            "in place of a grid a file with a point a line, KEY=VALUE ... or a JSON object, or - "
-            "for standard input: each answered there as soon as it is simulated");
-  line.file("--out", arguments->out,
-            "results, a JSON object a line; what it holds is not simulated again", Given::kAlways);
-  line.file("--csv", arguments->csv, "write those of this sweep's points as a table, too");
-  line.whole("-j,--jobs", arguments->side_by_side, 1, kMostSideBySide,
-             "simulations side by side; all cores if not given");
   arguments->config.config = kinds.front().name;
-  arguments->config.add_to(line);
-  line.texts("--cameras", arguments->cameras,
-             "cameras.json, for all scenes or one for each in their order; built-in scenes bring "
-             "their own; may be repeated");
-  arguments->all.add_choice_of_views_to(line);
-  arguments->all.add_weighing_to(line);
-  arguments->all.add_dropping_to(line);
-  line.file("--technology", arguments->technology, "table of energy and area");
-  return [arguments, &kinds] {
-    arguments->command = command_line();
-    return run(*arguments, kinds);
-  };
+  arguments->add_to(line);
+  return [arguments, &kinds] { return run(*arguments, kinds); };
 }
 
 }  // namespace sgs

@@ -20,12 +20,11 @@ std::string clock_text(double seconds) {
 }  // namespace
 
 void SweepProgress::say(const SweepCounts& counts) const {
-  const std::uint64_t simulated = counts.answered() - counts.kept;
   std::string left;
-  if (simulated > 0) {
+  if (counts.simulated > 0) {
     const double seconds = std::chrono::duration<double>(Clock::now() - began_).count();
     left =
-        fmt::format("; {} left", clock_text(seconds / static_cast<double>(simulated) *
+        fmt::format("; {} left", clock_text(seconds / static_cast<double>(counts.simulated) *
                                             static_cast<double>(counts.asked - counts.answered())));
   }
   line_->say(fmt::format("{} of {} done, {} refused, {} failed{}", grouped(counts.done),

@@ -65,7 +65,7 @@ class Exploring(InFolder):
         for what, end, status, line, kept in (
             (
                 "interrupted",
-                "os.kill(os.getppid(), signal.SIGINT); time.sleep(1); sys.exit(1)",
+                "os.kill(SCRIPT, signal.SIGINT); time.sleep(1); sys.exit(1)",
                 130,
                 "interrupted$",
                 [two],

@@ -239,7 +239,7 @@ class WithoutMatplotlib(Figures):
         command = [sys.executable, "-S", str(SCRIPT), "--from", str(self.folder)]
         done = subprocess.run(command, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertRegex(done.stderr, "^.*no matplotlib; scripts/setup.sh installs .*\n$")
+        self.assertRegex(done.stderr, "^.*no matplotlib; scripts/tools.sh installs .*\n$")
 
 
 if __name__ == "__main__":

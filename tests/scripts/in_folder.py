@@ -75,23 +75,54 @@ class InFolder(unittest.TestCase):
         return folder
 
     def stand_in(self, body: str) -> pathlib.Path:
-        """A program in the command's place. It has SET, the values of --set, and `finish()`, which
-        writes the report of a view that took 8 cycles over the number of HFUs, and has one
-        more mm2 than those."""
+        """A program in the command's place. It has SET, the values of --set, SCRIPT, the process that
+        asked, and `finish()`, which writes the report of a view that took 8 cycles over the number of
+        HFUs, and has one more mm2 than those. As `sweep` it does for each point what it does for
+        one."""
         program = self.folder / "streaminggs"
         prelude = f"""\
             #!{sys.executable} -IS
-            import json, os, pathlib, signal, sys, time
+            import json, os, pathlib, signal, subprocess, sys, tempfile, time
             HERE = pathlib.Path(__file__).parent
             SET = dict(word.split("=") for word in sys.argv if "=" in word)
+            SCRIPT = int(os.environ.get("SCRIPT", os.getppid()))
             def finish():
                 hfus = int(SET.get("hfus", 1))
+                number = int(sys.argv[sys.argv.index("--view") + 1])
                 frame = {{"cycles": 8 // hfus, "time_s": 1e-9 * (8 // hfus), "fps": hfus}}
-                view = {{"view": 0, "frame": frame, "binding": {{"unit": "dram"}},
+                view = {{"view": number, "frame": frame, "binding": {{"unit": "dram"}},
                         "config": {{"hfus": hfus, "group_width_px": 112, "group_height_px": 80}},
                         "area_mm2": {{"total": 1 + hfus}}, "provenance": {{}}}}
                 out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
                 (out / "report.json").write_text(json.dumps({{"views": [view]}}))
+            def swept(point):
+                with tempfile.TemporaryDirectory() as out:
+                    words = [__file__, "simulate", "--view", str(point["view"]), "--out", out]
+                    for key, value in point["set"].items():
+                        words += ["--set", f"{{key}}={{value}}"]
+                    environment = {{**os.environ, "SCRIPT": str(os.getppid())}}
+                    done = subprocess.run(words, capture_output=True, text=True, env=environment)
+                    said = " ".join((done.stderr or done.stdout).split())
+                    if done.returncode:
+                        return {{"status": {{2: "refused"}}.get(done.returncode, "failed"), "reason": said}}
+                    report = json.loads((pathlib.Path(out) / "report.json").read_text())
+                    return {{"status": "done", "report": report["views"][0]}}
+            if "sweep" in sys.argv:
+                results = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
+                lines = results.read_text().splitlines() if results.exists() else []
+                known = dict(map(json.loads, lines))
+                for line in sys.stdin:
+                    point = json.loads(line)
+                    number = point.pop("id")
+                    key = json.dumps([point, pathlib.Path(__file__).read_text()])
+                    kept = key in known
+                    if not kept:
+                        known[key] = swept(point)
+                        if known[key]["status"] != "failed":
+                            with results.open("a") as file:
+                                file.write(json.dumps([key, known[key]]) + "\\n")
+                    print(json.dumps({{"id": number, "kept": kept, **known[key]}}), flush=True)
+                sys.exit()
             """
         program.write_text(textwrap.dedent(prelude) + textwrap.dedent(body))
         program.chmod(program.stat().st_mode | stat.S_IXUSR)

@@ -136,7 +136,8 @@ TEST_CASE("command line: a folder of results holds those of one run, and what is
   for (const Row& row : std::vector<Row>{
            {"$SG simulate $B --view 3 --out o >/dev/null && find o | sort | tr '\\n' ' '; echo end",
             {"o o/report.json o/view_3 o/view_3/error.png o/view_3/frame.exr o/view_3/frame.png "
-             "o/view_3/reference.exr o/view_3/reference.png o/view_3/report.json end\n"},
+             "o/view_3/groups.csv o/view_3/reference.exr o/view_3/reference.png "
+             "o/view_3/report.json end\n"},
             all},
            {"$SG simulate $B --view 3 --out o >/dev/null && ls -d o/* | tr '\\n' ' ' && ls "
             "o/view_1 "

@@ -104,7 +104,8 @@ TEST_CASE("path: its files, and those of another run in the folder") {
   REQUIRE(run_streaminggs(view).status == 0);
   CHECK(files() == std::set<std::string>{"report.json", "view_0/report.json", "view_0/frame.png",
                                          "view_0/frame.exr", "view_0/reference.png",
-                                         "view_0/reference.exr", "view_0/error.png"});
+                                         "view_0/reference.exr", "view_0/error.png",
+                                         "view_0/groups.csv"});
   const json path = run_path(scratch, {"--path", "builtin:path", "--frames", "2"});
   CHECK(files() == of_path);
   std::istringstream table(bytes_of(scratch.path("out/path.csv")));

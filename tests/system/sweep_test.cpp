@@ -137,7 +137,7 @@ TEST_CASE("sweep: a packed scene is taken, and what does not go with it is refus
 
 // A sweep that takes some seconds, and what tells how far it is.
 const std::string kLong =
-    "$SG sweep 'builtin:object?n=10000' --size 128x72 --axis hfus=1,2,3,4 --axis "
+    "$SG sweep 'builtin:object?n=6000' --size 112x63 --axis hfus=1,2,3,4 --axis "
     "group_width_px=32,48,64 --set sram.input_bytes=0 --set sram.shared_bytes=0 ";
 const std::string kUntilTwo =
     "until [ $(wc -l <r.jsonl 2>/dev/null || echo 0) -ge 2 ]; do sleep 0.02; done; ";
@@ -179,7 +179,8 @@ TEST_CASE("sweep: killed in the middle and continued it has each point once, as 
 TEST_CASE("sweep: children that are killed are failures with their point, and tried once more") {
   const ScratchFolder scratch;
   const ShellOutcome outcome =
-      shell(scratch, kLong + "-j 2 --out r.jsonl & p=$!; " + kUntilTwo + "pkill -9 -P $p; wait $p");
+      shell(scratch, kLong + "-j 2 --out r.jsonl & p=$!; " + kUntilTwo +
+                         "kill -9 $(cat /proc/$p/task/$p/children); wait $p");
   require_done(outcome, 1);
   CHECK(outcome.out.find("ended by signal 9") != std::string::npos);
   int failed = 0;
@@ -216,10 +217,10 @@ TEST_CASE("sweep: what failed twice is left alone") {
 
 TEST_CASE("sweep: interrupted it keeps what is done, and leaves no child") {
   const ScratchFolder scratch;
-  require_done(shell(scratch, kLong + "-j 2 --out r.jsonl --csv t.csv >/dev/null & p=$!; " +
-                                  kUntilTwo +
-                                  "c=$(pgrep -P $p); kill -INT $p; wait $p; test $? = 130 && "
-                                  "for one in $c; do ! kill -0 $one 2>/dev/null || exit 1; done"));
+  require_done(shell(
+      scratch, kLong + "-j 2 --out r.jsonl --csv t.csv >/dev/null & p=$!; " + kUntilTwo +
+                   "c=$(cat /proc/$p/task/$p/children); kill -INT $p; wait $p; test $? = 130 && "
+                   "for one in $c; do ! kill -0 $one 2>/dev/null || exit 1; done"));
   const std::size_t done = results_in(scratch, "r.jsonl").size();
   CHECK(done >= 2);
   CHECK(done < 12);
