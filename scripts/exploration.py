@@ -31,14 +31,22 @@ class Exploration:
         with self.lock:
             self.judged[judged.assignments] = judged
 
+    def add_last(self, judged: Judged) -> None:
+        """Behind all others."""
+        with self.lock:
+            self.judged.pop(judged.assignments, None)
+            self.judged[judged.assignments] = judged
+
     def told(self) -> list[Judged]:
         """Those that have numbers."""
         with self.lock:
-            return [judged for judged in self.judged.values() if not judged.refused]
+            return [judged for judged in self.judged.values() if judged.is_told()]
 
-    def refused(self) -> list[Judged]:
+    def not_told(self) -> list[str]:
+        """What was refused or failed, a line each."""
         with self.lock:
-            return [judged for judged in self.judged.values() if judged.refused]
+            refused = [f"Refused: {j.refused}" for j in self.judged.values() if j.refused]
+            return refused + [f"Failed: {j.failed}" for j in self.judged.values() if j.failed]
 
     def front(self) -> list[Judged]:
         """What holds and no other one that holds beats: of equal ones the first. By costs."""
@@ -85,7 +93,7 @@ class Exploration:
         text += f", of which {held} hold {required}" if required else ""
         text += f"; {len(front)} of them no other one beats.\n\n"
         text += tables.markdown(self.head()[:-2], shown) if front else ""
-        return text + "".join(f"\nRefused: {judged.refused}\n" for judged in self.refused())
+        return text + "".join(f"\n{line}\n" for line in self.not_told())
 
     def write(self, out: pathlib.Path, name: str, remark: str = "") -> None:
         front = self.front()
@@ -125,6 +133,8 @@ class Work:
             left = min(left, 60 * self.arguments.minutes - gone)
         best = self.made.front()
         names = [o.name for o in self.judge.task.objectives]
+        if not self.made.told():
+            return
         text = "none holds yet"
         if best:
             numbers = zip(names, self.made.numbers(best[0]))

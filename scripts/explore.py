@@ -42,6 +42,7 @@ from __future__ import annotations
 import argparse
 import concurrent.futures
 import functools
+import math
 import os
 import pathlib
 import sys
@@ -54,7 +55,7 @@ from group_shapes import NAME, expanded
 from judging import Assignments, Judge, Task
 from machine_areas import start_of
 from machine_axes import ORDERS, Axis
-from measures import objective, requirement
+from measures import Objective, objective, requirement
 from scenes import Scene, find_scenes
 from search_space import Space, parse_axes, parse_point, read_points
 from simulations import SRAM_AS_NEEDED, simulate
@@ -86,6 +87,16 @@ def find_space(arguments: argparse.Namespace, axes: Sequence[Axis]) -> Space:
     return space
 
 
+def objectives_of(text: str) -> tuple[Objective, ...]:
+    """Raises ValueError."""
+    found = tuple(map(objective, text.split(",")))
+    measures = [(o.measure.aggregate, o.measure.path) for o in found]
+    for o, measure in zip(found, measures):
+        if measures.count(measure) > 1:
+            raise ValueError(f"--objectives: {o.name}: there are two")
+    return found
+
+
 def find_task(
     arguments: argparse.Namespace,
     scenes: Sequence[Scene],
@@ -103,7 +114,7 @@ def find_task(
         size=arguments.size,
         config=arguments.config,
         base=expanded((*SRAM_AS_NEEDED, *fixed, *arguments.set)),
-        objectives=tuple(map(objective, arguments.objectives.split(","))),
+        objectives=objectives_of(arguments.objectives),
         requirements=tuple(map(requirement, arguments.require)),
     )
 
@@ -111,11 +122,13 @@ def find_task(
 def explore_all(work: Work) -> None:
     """Every configuration there is, side by side, and each once."""
     points = [work.space.assignments(at) for at in work.space.all()]
+    done: set[Assignments] = set()
 
     def one(assignments: Assignments) -> None:
         work.made.add(work.judge.judged(assignments))
         with work.reporting:
-            work.progress(len(work.made.judged), len(points))
+            done.add(assignments)
+            work.progress(len(done), len(points))
 
     with concurrent.futures.ThreadPoolExecutor(work.arguments.j) as pool:
         waiting = [pool.submit(one, point) for point in points]
@@ -125,14 +138,32 @@ def explore_all(work: Work) -> None:
         finally:
             pool.shutdown(cancel_futures=True)
     # In the order of the grid, whichever was ready first.
-    work.made.judged = {point: work.made.judged[point] for point in points}
+    for point in points:
+        work.made.add_last(work.made.judged[point])
 
 
 def is_studied(arguments: argparse.Namespace) -> bool:
     return bool(arguments.search or arguments.study)
 
 
+def check(arguments: argparse.Namespace) -> None:
+    """Raises ValueError for numbers that say nothing, and for what has no effect."""
+    if arguments.j < 1:
+        raise ValueError(f"-j: {arguments.j}, expected at least 1")
+    if arguments.trials is not None and arguments.trials < 1:
+        raise ValueError(f"--trials: {arguments.trials}, expected at least 1")
+    if not 0 <= arguments.minutes < math.inf:
+        raise ValueError(f"--minutes: {arguments.minutes:g}, expected 0 or more")
+    if arguments.minutes and not arguments.search:
+        raise ValueError("--minutes: has no effect without --search")
+    if arguments.trials is not None and not arguments.search:
+        raise ValueError("--trials: has no effect without --search")
+    if arguments.storage and not arguments.study:
+        raise ValueError("--storage: has no effect without --study NAME")
+
+
 def explore(arguments: argparse.Namespace) -> None:
+    check(arguments)
     if is_studied(arguments):
         debian_python.need("optuna", "python3-optuna")
     scenes = find_scenes(arguments.scenes)
@@ -165,10 +196,11 @@ def explore_with(
         complete = True
     finally:
         if not complete and work.made.told():
-            remark = f"Not complete: {len(work.made.judged)} configurations.\n\n"
+            remark = "Not complete: what was judged so far.\n\n"
             work.made.write(arguments.out, "explore_partial", remark)
     if not work.made.told():
-        raise ValueError(work.made.refused()[0].refused)
+        why = work.made.not_told() or ["there was no time for any configuration (--minutes)"]
+        raise ValueError(why[0].removeprefix("Refused: "))
     work.made.write(arguments.out, "explore")
 
 
@@ -204,7 +236,9 @@ def main() -> int:
         "--require", action="append", default=[], metavar="'MEASURE >= NUMBER'", help="to be held"
     )
     parser.add_argument("--search", choices=SAMPLERS, help="Optuna's sampler; default: all there is")
-    parser.add_argument("--trials", type=int, default=200, metavar="N", help="of a search")
+    parser.add_argument(
+        "--trials", type=int, metavar="N", help="of a search, at most; default: 200"
+    )
     parser.add_argument("--minutes", type=float, default=0, help="then it ends; 0: no limit")
     parser.add_argument("--seed", type=int, default=1, help="of the sampler")
     parser.add_argument("--study", default="", metavar="NAME", help="kept in --storage")

@@ -23,7 +23,7 @@ Simulate = Callable[[Run], Outcome]  # called from several threads
 class Judged:
     """costs: of the objectives, each to be small; values: of the measures that the requirements are
     about, and violations of these, as far as the views that were drawn tell. settings: what was
-    simulated, by key. dropped: why not all views were drawn; refused: what the command said. Nothing
+    simulated, by key. dropped: why not all views were drawn; refused, failed: what the command said. Nothing
     but what JSON can hold, since others read it out of a study."""
 
     assignments: Assignments
@@ -37,10 +37,15 @@ class Judged:
     commit: str = ""
     dropped: str = ""
     refused: str = ""
+    failed: str = ""
+
+    def is_told(self) -> bool:
+        """Whether it has numbers."""
+        return not self.refused and not self.failed
 
     def holds(self) -> bool:
         """Whether it was judged to the end, and all that is required holds."""
-        return not self.refused and not self.dropped and all(v <= 0 for v in self.violations)
+        return self.is_told() and not self.dropped and all(v <= 0 for v in self.violations)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,6 +95,8 @@ class Judge:
         dropped = ""
         for scene, number in self.hardest_first():
             outcome = self.simulate(self.task.run(scene, number, assignments))
+            if outcome.failure:
+                return Judged(assignments, failed=str(outcome.failure))
             if outcome.refused:
                 return Judged(assignments, refused=f"{outcome.run.label()}: {outcome.refused}")
             views += [{**view, "scene_name": scene.name} for view in outcome.views]

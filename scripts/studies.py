@@ -153,7 +153,7 @@ class Study:
         judged = self.judge(at)
         trial.set_user_attr(VIOLATIONS, list(judged.violations) or [0.0])
         trial.set_user_attr(JUDGED, dataclasses.asdict(judged))
-        if judged.refused:
+        if not judged.is_told():
             trial.set_user_attr(VIOLATIONS, [1.0])
             raise optuna.TrialPruned
         return judged.costs

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import json
+import random
 import warnings
 
 import optuna
@@ -13,11 +14,13 @@ from machine_axes import nearest
 from measures import dominates
 from search_space import At
 from simulations import Run
-from studies import JUDGED, States, Study, open_storage, sampler, unpacked
+from studies import JUDGED, SAME_AS, Study, open_storage, sampler, unpacked
 from sweep_server import SweepServer
 
 SAMPLED_EVERY = 4  # what the sampler proposes; between them what is next to the best
-MOST_SKIPPED = 20  # for each to be judged: then all that is proposed was judged or skipped before
+MOST_PROPOSED = 20  # for each to be judged: then nearly all that is proposed need not be judged
+MOST_LISTED = 10_000  # configurations of a space in which what is left is looked for one by one
+TRIALS = 200
 
 
 class Searcher:
@@ -27,6 +30,7 @@ class Searcher:
         self.work, self.kept = work, kept
         self.judge, self.space = work.judge, work.space
         self.of_the_machine = work.judge.task.of_the_machine()
+        self.random = random.Random(work.arguments.seed)
         self.known_costs: dict[At, tuple[float, ...] | None] = {}
 
     def judged(self, at: At) -> Judged:
@@ -54,6 +58,13 @@ class Searcher:
         run = Run(scene, str(view), task.size, task.config, task.base)
         (first,) = self.kept.outcome(run).accepted()
         return tuple(nearest(axis, first["config"]) for axis in self.space.axes)
+
+    def unseen(self, seen: set[At]) -> At | None:
+        """Any that nobody has proposed yet, where there are few enough to look."""
+        if self.space.size() > MOST_LISTED:
+            return None
+        left = [at for at in self.space.all() if at not in seen]
+        return self.random.choice(left) if left else None
 
     def next_to_the_front(self, study: Study) -> At | None:
         """What no worker has looked at yet: one step on one axis from what is best, and not less of
@@ -102,7 +113,7 @@ def explore(work: Work, kept: SweepServer) -> None:
         whole=not arguments.search,
     )
     study.join(list(work.space.all()) if study.whole else [searcher.start()])
-    of = work.space.size() if study.whole else arguments.trials
+    of = work.space.size() if study.whole else min(arguments.trials or TRIALS, work.space.size())
 
     def take_in() -> int:
         """What all workers have judged."""
@@ -122,20 +133,24 @@ def explore(work: Work, kept: SweepServer) -> None:
             return False
         if study.whole:
             return True
-        done = study.done().values()
-        drawn = sum(not is_skipped(trial) for trial in done)
-        ended = study.trials(States.COMPLETE, States.PRUNED)
-        if drawn >= of or len(done) >= work.space.size() or len(ended) >= MOST_SKIPPED * of:
+        trials = study.trials()
+        seen = {study.at_of(trial) for trial in trials}
+        drawn = sum(not is_skipped(trial) for trial in study.done().values())
+        if drawn >= of or len(seen) >= work.space.size() or len(trials) >= MOST_PROPOSED * of:
             return False
         with work.reporting:
-            if len(ended) % SAMPLED_EVERY and (near := searcher.next_to_the_front(study)):
+            if len(trials) % SAMPLED_EVERY and (near := searcher.next_to_the_front(study)):
                 study.enqueue(near)
+            elif is_repeated(trials) and (unseen := searcher.unseen(seen)):
+                study.enqueue(unseen)
         return True
 
     def after() -> None:
         with work.reporting:
+            before_that = len(work.made.told())
             done = take_in()
-            work.progress(done, max(of, done))
+            if len(work.made.told()) > before_that:
+                work.progress(done, max(of, done))
 
     with concurrent.futures.ThreadPoolExecutor(arguments.j) as pool:
         waiting = [pool.submit(study.work, before, after) for _ in range(arguments.j)]
@@ -145,6 +160,11 @@ def explore(work: Work, kept: SweepServer) -> None:
         finally:
             study.stopped.set()
     take_in()
+
+
+def is_repeated(trials: list[optuna.trial.FrozenTrial]) -> bool:
+    """Whether the sampler proposed last what was judged before."""
+    return bool(trials) and SAME_AS in trials[-1].user_attrs
 
 
 def is_skipped(trial: optuna.trial.FrozenTrial) -> bool:
@@ -160,6 +180,7 @@ def described(work: Work, kept: SweepServer) -> str:
     task = work.judge.task
     facts = {
         "program": kept.program,
+        "configurations": "proposed" if work.arguments.search else "all",
         "views": [[scene.name, number] for scene, number in task.views],
         "size": task.size,
         "config": task.config,

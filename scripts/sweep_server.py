@@ -13,7 +13,7 @@ import tempfile
 import threading
 
 from run_digest import program_digest
-from simulations import Failure, Outcome, Run, said
+from simulations import REFUSED, Failure, Outcome, Run, said
 
 Answer = dict
 
@@ -26,7 +26,7 @@ class SweepServer:
         self.binary, self.program = binary, program_digest(binary)
         self.failures: list[Failure] = []
         self.simulated = 0
-        self.ended: Failure | None = None
+        self.ended: Failure | ValueError | None = None
         self.numbers = itertools.count()
         self.lock = threading.Lock()
         self.waiting: dict[int, concurrent.futures.Future[Answer]] = {}
@@ -72,13 +72,15 @@ class SweepServer:
         self.said.seek(0)
         ended = subprocess.CompletedProcess([], status, "", self.said.read())
         with self.lock:
-            self.ended = Failure(f"sweep: {said(ended)}")
+            kind = ValueError if status == REFUSED else Failure
+            self.ended = kind(f"sweep: {said(ended)}")
             for asked in self.waiting.values():
                 asked.set_exception(self.ended)
             self.waiting.clear()
 
     def outcome(self, run: Run) -> Outcome:
-        """Of a run of one view. Raises Failure when the server has ended."""
+        """Of a run of one view. Raises Failure when the server has ended,
+        ValueError when it did not take its arguments."""
         asked: concurrent.futures.Future[Answer] = concurrent.futures.Future()
         with self.lock:
             if self.ended:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pathlib
 import statistics
 from collections.abc import Callable, Sequence
@@ -16,12 +17,24 @@ def view_numbers(binary: pathlib.Path, scene: Scene, text: str) -> list[int]:
         if not all(number.isdecimal() for number in text.split(",")):
             raise ValueError(f"--view: '{text}', expected numbers as in 0,2, or all")
         return [int(number) for number in text.split(",")]
-    words = [scene.spec, *(("--cameras", scene.cameras) if scene.cameras else ())]
-    done = call(binary, words, "info")
+    if scene.cameras:
+        return list(range(len(cameras_of(pathlib.Path(scene.cameras)))))
+    done = call(binary, [scene.spec], "info")
     if done.returncode != 0:
         raise ValueError(f"{scene.name}: {said(done)}")
     (count,) = (line.split()[1] for line in done.stdout.splitlines() if line.startswith("cameras "))
     return list(range(int(count)))
+
+
+def cameras_of(path: pathlib.Path) -> list:
+    """Raises ValueError."""
+    try:
+        cameras = json.loads(path.read_text())
+    except json.JSONDecodeError as error:
+        raise ValueError(f"{path}: {error}") from error
+    if not isinstance(cameras, list):
+        raise ValueError(f"{path}: expected a list of cameras")
+    return cameras
 
 
 def vsu_waits(view: dict) -> float:

@@ -92,7 +92,7 @@ class Studies(InFolder):
         first = subprocess.Popen(
             self.words("first", *study), stderr=subprocess.PIPE, start_new_session=True
         )
-        for _ in range(300):
+        for _ in range(1200):
             if self.drawn():
                 break
             time.sleep(0.1)
