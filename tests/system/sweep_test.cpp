@@ -139,6 +139,11 @@ TEST_CASE("sweep: a packed scene is taken, and what does not go with it is refus
 const std::string kLong =
     "$SG sweep 'builtin:object?n=6000' --size 112x63 --axis hfus=1,2,3,4 --axis "
     "group_width_px=32,48,64 --set sram.input_bytes=0 --set sram.shared_bytes=0 ";
+// Not to be waited for.
+const std::string kEndless =
+    "$SG sweep 'builtin:object?n=60000' --size 640x360 --axis hfus=1,2,3,4,5,6,7,8 --axis "
+    "hfu.ffu_lanes=4,8,16,32 --axis sorting_units=1,2 --set sram.input_bytes=0 --set "
+    "sram.shared_bytes=0 ";
 const std::string kUntilTwo =
     "until [ $(wc -l <r.jsonl 2>/dev/null || echo 0) -ge 2 ]; do sleep 0.02; done; ";
 
@@ -233,7 +238,7 @@ TEST_CASE("sweep: interrupted it keeps what is done, and leaves no child") {
 TEST_CASE("sweep: two of them do not write to one file") {
   const ScratchFolder scratch;
   const ShellOutcome outcome =
-      shell(scratch, kLong + "-j 1 --out r.jsonl >/dev/null & p=$!; " + kUntilTwo +
+      shell(scratch, kEndless + "-j 1 --out r.jsonl >/dev/null & p=$!; " + kUntilTwo +
                          "$SG sweep $B --axis hfus=2 --out ./r.jsonl; echo second $?; kill $p; "
                          "wait $p; echo first $?");
   INFO(outcome.out << outcome.err);
