@@ -1,5 +1,5 @@
-"""A study that Optuna keeps: in a file, or in a database that any number of workers on any number of
-machines share. Needs Debian's python3-optuna; for postgresql:// python3-psycopg2 as well.
+"""A study that Optuna keeps: in a file, for one worker at a time, since SQLite cannot hand a trial to
+one of two; or in a database that any number of workers on any number of machines share. Needs Debian's python3-optuna; for postgresql:// python3-psycopg2 as well.
 
 A worker that is killed leaves its trial running. Each worker that goes on looks for trials whose
 worker has not been heard of for some time, and puts their configurations back in the queue. A
@@ -10,11 +10,13 @@ the same as the other one.
 from __future__ import annotations
 
 import dataclasses
+import fcntl
 import json
 import threading
 import time
 import uuid
 from collections.abc import Callable
+from typing import IO
 
 import optuna
 from judging import Judged
@@ -23,6 +25,7 @@ from search_space import At, Space
 BEATS = 4  # of a worker, in the time after which it counts as lost
 POLL_SECONDS = 1.0
 MOST_ATTEMPTS = 5
+MOST_IDLE = 5  # polls, until what is missing counts as given up
 CLAIM_SECONDS = 300  # more than a queue of thousands takes
 MOST_RETRIES = 3  # of a configuration whose worker was lost
 REFUSED_TEXT, VIOLATIONS, JUDGED, SAME_AS = "refused", "violations", "judged", "same_as"
@@ -42,9 +45,26 @@ def open_storage(url: str, lost_after: int) -> optuna.storages.RDBStorage:
         except Exception as error:  # of whatever database driver it is
             attempts -= 1
             # Another worker makes the same tables at this moment.
-            if "exist" not in str(error) or not attempts:
+            meanwhile = any(word in str(error).lower() for word in ("exist", "unique", "duplicate"))
+            if not meanwhile or not attempts:
                 raise ValueError(f"--storage: {url}: {str(error).splitlines()[0]}") from error
             time.sleep(POLL_SECONDS)
+
+
+def locked(url: str) -> IO | None:
+    """The lock of a storage that one worker has for itself; none of a server's. Raises
+    ValueError."""
+    if not url.startswith("sqlite:"):
+        return None
+    lock = open(url.removeprefix("sqlite:///") + ".lock", "w")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        lock.close()
+        raise ValueError(
+            f"--storage: {url}: another worker has it, expected postgresql:// for several"
+        ) from error
+    return lock
 
 
 def made_storage(url: str, lost_after: int) -> optuna.storages.RDBStorage:
@@ -83,6 +103,8 @@ class Study:
     judge: Callable[[At], Judged]
     skips: Callable[[At], str]
     whole: bool
+    alone: bool  # no other script has it
+    asking: threading.Lock = dataclasses.field(default_factory=threading.Lock)
     worker: str = dataclasses.field(default_factory=lambda: uuid.uuid4().hex)
     stopped: threading.Event = dataclasses.field(default_factory=threading.Event)
 
@@ -97,6 +119,10 @@ class Study:
                 raise ValueError(f"--study {self.study.study_name}: there is one of another {name}")
         for name, value in own.items():
             self.study.set_user_attr(name, value)
+        if self.alone:
+            for trial in self.trials(States.RUNNING):
+                self.enqueue(self.at_of(trial))
+                self.study.tell(trial.number, state=States.FAIL)
         while not self.study.user_attrs.get(FILLED):
             if self.may_fill():
                 there = {self.at_of(trial) for trial in self.trials()}
@@ -161,15 +187,19 @@ class Study:
     def work(self, before: Callable[[], bool], after: Callable[[], None]) -> None:
         """One worker: until there is nothing left to take up, or before() says so. Whatever judging
         raises ends it."""
+        idle = 0
         while not self.stopped.is_set() and before():
             if self.whole and not self.trials(States.WAITING):
-                if not self.trials(States.RUNNING):
+                # What a lost worker had is for a moment neither running nor waiting.
+                idle = 0 if self.trials(States.RUNNING) else idle + 1
+                if len(self.done()) == self.space.size() or idle == MOST_IDLE:
                     return
                 self.take_up_lost()
                 time.sleep(POLL_SECONDS)
                 continue
+            idle = 0
             try:
-                self.study.optimize(self.objective, n_trials=1)
+                self.judge_next()
             except RuntimeError as error:
                 # Another worker was first to take up a lost trial (optuna#4862).
                 if "updat" not in str(error).lower():
@@ -177,7 +207,20 @@ class Study:
                 continue
             after()
 
+    def judge_next(self) -> None:
+        if not self.alone:
+            self.study.optimize(self.objective, n_trials=1)
+            return
+        with self.asking:
+            trial = self.study.ask()
+        try:
+            self.study.tell(trial, self.objective(trial))
+        except optuna.TrialPruned:
+            self.study.tell(trial, state=States.PRUNED)
+
     def take_up_lost(self) -> None:
+        if self.alone:
+            return
         try:
             optuna.storages.fail_stale_trials(self.study)
         except RuntimeError:  # another worker was first

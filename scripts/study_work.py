@@ -14,7 +14,7 @@ from machine_axes import nearest
 from measures import dominates
 from search_space import At
 from simulations import Run
-from studies import JUDGED, SAME_AS, Study, open_storage, sampler, unpacked
+from studies import JUDGED, SAME_AS, Study, locked, open_storage, sampler, unpacked
 from sweep_server import SweepServer
 
 SAMPLED_EVERY = 4  # what the sampler proposes; between them what is next to the best
@@ -97,6 +97,7 @@ def explore(work: Work, kept: SweepServer) -> None:
     storage = arguments.storage or f"sqlite:///{(arguments.out / 'explore.db').absolute()}"
     if not arguments.study:
         storage = ""
+    lock = locked(storage)
     searcher = Searcher(work, kept)
     study = Study(
         optuna.create_study(
@@ -111,6 +112,7 @@ def explore(work: Work, kept: SweepServer) -> None:
         searcher.judged,
         searcher.skips,
         whole=not arguments.search,
+        alone=not storage or lock is not None,
     )
     study.join(list(work.space.all()) if study.whole else [searcher.start()])
     of = work.space.size() if study.whole else min(arguments.trials or TRIALS, work.space.size())

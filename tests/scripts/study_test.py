@@ -64,7 +64,7 @@ def postgresql() -> Iterator[str]:
 @unittest.skipUnless(has("optuna"), "python3-optuna is not installed")
 class Studies(InFolder):
     BODY = """
-        time.sleep(0.3)
+        time.sleep(0.5)
         with (HERE / "drawn").open("a") as file:
             print(SET["hfus"], file=file)
         finish()
@@ -128,9 +128,25 @@ class Studies(InFolder):
         self.check_together("left", "right", study)
 
     def test_a_file(self):
-        url = f"sqlite:///{self.folder}/study.db"
-        self.check_begun_at_once(url)
-        self.check_killed(url)
+        """One worker at a time; what a killed one had under way the next takes up at once."""
+        self.stand_in(self.BODY)
+        subprocess.run(self.words("alone"), check=True, capture_output=True)
+        (self.folder / "drawn").unlink()
+        study = ("--study", "grid", "--storage", f"sqlite:///{self.folder}/study.db")
+        first = subprocess.Popen(
+            self.words("first", *study), stderr=subprocess.PIPE, start_new_session=True
+        )
+        while not self.drawn():
+            time.sleep(0.1)
+        other = subprocess.run(self.words("other", *study), capture_output=True, text=True)
+        self.assertIn("another worker has it, expected postgresql:// for several", other.stderr)
+        self.assertEqual(other.returncode, 2)
+        os.killpg(first.pid, signal.SIGKILL)
+        first.communicate()
+        self.assertLess(len(self.drawn()), 8)
+        subprocess.run(self.words("second", *study), check=True, capture_output=True, timeout=120)
+        self.assertEqual(sorted(self.rows("second")), sorted(self.rows("alone")))
+        self.assertLessEqual(len(self.drawn()), 9)
 
     @unittest.skipUnless(SERVER and has("psycopg2"), "postgresql is not installed")
     def test_a_server(self):
