@@ -2,12 +2,15 @@
 """Machines beside each other: the same scenes, views, DRAM, ledger and storage of scenes; and the
 original rasteriser on a mobile GPU, which is modelled, not simulated. A case is a scene at a size.
 Machines are held against those of their own precision: exact_fp16 and the paper's presets blend in
-half as gscore and gscore_fp32_keys do, exact in single as gscore_lossless.
+half as gscore and gscore_fp32_keys do, exact in single as gscore_lossless; exact against gscore as
+well, and marked.
 
-  compare_machines.md          a line for each case, memory and machine: means over the views
-  compare_machines_ratios.md   times as fast and times less energy, published figures beside them: a
-                               scene counts once in the geometric mean, however many sizes and views
-                               it has; least and most are of single views
+  compare_machines.md          a line for each case, memory and machine: means over the views;
+                               frames a second of frames alone, and at most if frames overlapped
+  compare_machines_ratios.md   times as fast, of both, and times less energy; by size and over all;
+                               dB and published figures beside them. A scene counts once in the
+                               geometric mean, however many sizes and views it has; least and most
+                               are of single views
   compare_machines_bytes.md    MB by region of DRAM, on the bus; of the GPU by kind, as its kernels
                                ask for them
   compare_machines_joules.md   mJ by component
@@ -19,9 +22,10 @@ half as gscore and gscore_fp32_keys do, exact in single as gscore_lossless.
                                have to move at 90 frames a second
 
 Tables by region, component and resource are means over the scenes of the means over their cases;
-their .csv have each case. In the end compare_machines_figures.py draws the tables from their .csv,
-which it does again by itself. What was simulated is kept in compare_machines_runs.jsonl and
-compare_machines_gpu_runs.jsonl: started again, the script goes on where it ended.
+their .csv have each case. In the end figures.py draws compare_machines_rates, _traffic and _ratios
+from them into figures/, which it does again by itself. What was simulated is kept in
+compare_machines_runs.jsonl and compare_machines_gpu_runs.jsonl: started again, the script goes on
+where it ended.
 
 Without SCENE: the real scenes that there are at --sizes, or at --object-sizes those that show an
 object, the built-in ones, and a built-in one of a million Gaussians.
@@ -40,8 +44,9 @@ import run_arguments
 import tables
 from gpu_views import MODEL, model_gpu
 from kept_runs import KeptRuns
-from machine_measures import GPU, MJ, Measured, modelled, simulated
+from machine_measures import GPU, MJ, modelled, simulated
 from machine_tables import (
+    ABOUT,
     CHARACTER_HEAD,
     HEAD,
     MB,
@@ -70,9 +75,12 @@ MACHINES = (
     "exact_vq",
 )
 RUNS_FILE, GPU_RUNS_FILE = "compare_machines_runs.jsonl", "compare_machines_gpu_runs.jsonl"
-FIGURES = REPOSITORY / "scripts" / "compare_machines_figures.py"
+DRAWER = REPOSITORY / "scripts" / "figures.py"  # for Debian's Python, which may be another
+FIGURES = ("compare_machines_rates", "compare_machines_traffic", "compare_machines_ratios")
 OBJECTS = ("truck", "playbot", "builtin:object")  # by the beginning of their names
 BUILT_IN = ("builtin:object", "builtin:outdoor", "builtin:outdoor?n=1000000")
+
+PARTS_HEAD = ("scene", "size", "GB/s", "machine", "part", "value")
 
 
 def write_parts(
@@ -88,9 +96,8 @@ def write_parts(
         for e in entries
         for part, value in of(e.of).items()
     ]
-    head = ("scene", "size", "GB/s", "machine", "part", "value")
     tables.write_text(folder / f"{name}.md", text)
-    tables.write_text(folder / f"{name}.csv", tables.csv_text(head, rows))
+    tables.write_text(folder / f"{name}.csv", tables.csv_text(PARTS_HEAD, rows))
     print(f"{text}\n", flush=True)
 
 
@@ -126,23 +133,22 @@ def measure(arguments: argparse.Namespace, cases: Sequence[Case]) -> tuple[list[
     return entries, run_arguments.how_made(v for o in outcomes.values() for v in o.views)
 
 
-def ratio_rows(
-    entries: Sequence[Entry], cases: Sequence[Case], machines: Sequence[str]
-) -> list[tuple]:
-    rows = []
-    for memory in dict.fromkeys(e.memory for e in entries if e.machine != GPU):
-        found: dict[str, list[dict[str, Measured]]] = {}
-        for case in cases:
-            of_case = [e for e in entries if e.case == case]
-            here = {e.machine: e.of for e in of_case if e.machine == GPU or e.memory == memory}
-            found.setdefault(case.scene.name, []).append(here)
-        rows += machine_ratios.rows(memory, found, machines)
-    return rows
+def size_groups(cases: Sequence[Case], arguments: argparse.Namespace) -> dict[str, list[Case]]:
+    """The cases at the first of --sizes and --object-sizes, those at the second, ...; and all."""
+    by_place: dict[int, list[Case]] = {}
+    for case in cases:
+        place = sizes_of(case.scene.name, arguments).index(case.size)
+        by_place.setdefault(place, []).append(case)
+    named = {
+        ", ".join(sorted({case.size for case in of})): of for _, of in sorted(by_place.items())
+    }
+    return {**(named if len(named) > 1 else {}), machine_ratios.ALL: list(cases)}
 
 
 def draw(folder: pathlib.Path) -> None:
     """Figures out of the tables, which are there. Raises ValueError where they cannot be drawn."""
-    done = subprocess.run([str(FIGURES), str(folder)], capture_output=True, text=True, check=False)
+    command = [str(DRAWER), *FIGURES, "--from", str(folder)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise ValueError(f"tables are complete, figures are not: {said(done)}")
 
@@ -152,9 +158,10 @@ def make_tables(arguments: argparse.Namespace) -> None:
     entries, made = measure(arguments, cases)
     out = arguments.out
     in_turn = sorted(entries, key=lambda e: cases.index(e.case))  # stable: the GPU last
-    tables.write(out, "compare_machines", made, HEAD, list(map(row, in_turn)))
-    ratios = ratio_rows(entries, cases, arguments.machines)
-    tables.write(out, "compare_machines_ratios", made, machine_ratios.HEAD, ratios)
+    tables.write(out, "compare_machines", made + ABOUT, HEAD, list(map(row, in_turn)))
+    ratios = machine_ratios.rows(entries, size_groups(cases, arguments), arguments.machines)
+    about = made + machine_ratios.ABOUT
+    tables.write(out, "compare_machines_ratios", about, machine_ratios.HEAD, ratios)
     for name, of, unit in (
         ("bytes", lambda m: m.bytes_by_region, MB),
         ("joules", lambda m: m.joules_by_component, MJ),

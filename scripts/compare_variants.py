@@ -17,7 +17,7 @@ from collections.abc import Callable, Sequence
 import run_arguments
 import tables
 from group_shapes import shape_of
-from scenes import Scene, find_scenes
+from scenes import find_scenes
 from simulations import Run, region_bytes, simulate_all
 from view_numbers import binders
 

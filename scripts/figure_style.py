@@ -7,6 +7,7 @@ import os
 import pathlib
 import sys
 import textwrap
+from collections.abc import Sequence
 
 try:
     import matplotlib
@@ -62,12 +63,20 @@ pyplot.rcParams.update(
 )
 
 
-def panels(count: int, width: float = 4.2, height: float = 3.1, across: int = 2):
-    """A figure of so many axes side by side, `across` in a row; sizes of one, in inches."""
+def panels(
+    count: int,
+    width: float = 4.2,
+    height: float = 3.1,
+    across: int = 2,
+    heights: Sequence[float] | None = None,
+):
+    """A figure of so many axes side by side, `across` in a row; sizes of one, in inches. heights:
+    of the rows to each other, where they are not alike."""
     rows = -(-count // across)
     columns = min(count, across)
+    size = (columns * width, rows * height)
     figure, axes = pyplot.subplots(
-        rows, columns, figsize=(columns * width, rows * height), squeeze=False
+        rows, columns, figsize=size, squeeze=False, height_ratios=heights
     )
     flat = list(axes.flat)
     for unused in flat[count:]:

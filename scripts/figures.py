@@ -8,8 +8,8 @@ it.
   figures.py variants roofline    these two
 
 The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units.
-Ours: exploration, fronts_of_orders, equal_area, group_size, and of the runs of `simulate` below
-the folder roofline, waits, traffic.
+Ours: exploration, fronts_of_orders, equal_area, group_size; compare_machines_rates, _traffic and
+_ratios; and of the runs of `simulate` below the folder roofline, waits, traffic.
 
 Needs Debian's python3-matplotlib, which scripts/tools.sh installs for /usr/bin/python3.
 """
@@ -21,13 +21,14 @@ import pathlib
 import sys
 
 import figure_style
+import figures_of_comparison
 import figures_of_machines
 import figures_of_paper
 import run_arguments
 import simulations
 from figure_inputs import Missing, Results
 
-FIGURES = figures_of_paper.FIGURES | figures_of_machines.FIGURES
+FIGURES = figures_of_paper.FIGURES | figures_of_machines.FIGURES | figures_of_comparison.FIGURES
 
 
 def make_figures(arguments: argparse.Namespace) -> None:

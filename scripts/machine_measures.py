@@ -24,19 +24,23 @@ Views = Sequence[dict]
 
 @dataclasses.dataclass(frozen=True)
 class Measured:
-    """Bytes: on the bus; of the GPU those that its kernels ask for. least_db: of the views, against
-    the reference picture. busy: share of the frame that a resource works, mean of those that are
-    alike. wall_seconds: of this model, a view alone, and the call with all of them."""
+    """Bytes: on the bus; of the GPU those that its kernels ask for. busiest_seconds: of each view,
+    how long the busiest resource works, which no overlapping of frames makes less. decibels: of
+    the views, against the reference picture; none of the GPU. encoding: of the scene. busy: share
+    of the frame that a resource works, mean of those that are alike. wall_seconds: of this model,
+    a view alone, and the call with all of them."""
 
     seconds: tuple[float, ...]
+    busiest_seconds: tuple[float, ...]
     joules: tuple[float, ...]
     bytes_by_region: Mapping[str, float]
     joules_by_component: Mapping[str, float]
     busy: Mapping[str, float]
     peak_gb_s: float
     precision: str
+    encoding: str = "raw"
     mm2: float | None = None
-    least_db: float | None = None
+    decibels: tuple[float, ...] = ()
     binds: str = ""
     wall_seconds: tuple[float, ...] = ()
     call_seconds: float = 0
@@ -45,16 +49,16 @@ class Measured:
         """All, or those of a kind: scene, intermediate, pixels."""
         return sum(n for name, n in self.bytes_by_region.items() if kind in ("", kind_of(name)))
 
-    def mean_seconds(self) -> float:
-        return statistics.fmean(self.seconds)
-
     def mean_joules(self) -> float:
         return statistics.fmean(self.joules)
 
-    def quality(self) -> str:
-        if self.least_db is None:
-            return ""
-        return "equal" if self.least_db == float("inf") else f"{self.least_db:.1f}"
+    def frames_a_second(self) -> float:
+        """Each alone: the next one begins when the one before is done."""
+        return 1 / statistics.fmean(self.seconds)
+
+    def most_frames_a_second(self) -> float:
+        """A bound on what any overlapping of frames could give."""
+        return 1 / statistics.fmean(self.busiest_seconds)
 
 
 def kind_of(region: str) -> str:
@@ -86,6 +90,20 @@ def busy_shares(view: dict) -> dict[str, float]:
     return {**shares, "DRAM, of its peak bandwidth": view["dram"]["of_peak"]}
 
 
+def busiest_seconds(view: dict) -> float:
+    """Of all resources and the memory's data bus, as the report's `binding` has it."""
+    return view["frame"]["time_s"] * view["binding"]["utilisation"]
+
+
+def busiest_of_kernels(view: dict) -> float:
+    """A kernel takes as long as it issues or moves bytes, whichever is longer: so each of the two
+    works at least the sum over the kernels that it binds."""
+    by_bound: dict[str, float] = {}
+    for stage in view["stages"]:
+        by_bound[stage["bound_by"]] = by_bound.get(stage["bound_by"], 0) + stage["seconds"]
+    return max(by_bound.values())
+
+
 def component_joules(view: dict) -> dict[str, float]:
     parts = {name: joules(view, keys) for name, keys in components(view).items()}
     del parts["all"]
@@ -97,14 +115,16 @@ def simulated(outcome: Outcome) -> Measured:
     views = outcome.accepted()
     return Measured(
         seconds=tuple(v["frame"]["time_s"] for v in views),
+        busiest_seconds=tuple(map(busiest_seconds, views)),
         joules=tuple(v["energy"]["total_j"] for v in views),
         bytes_by_region=mean_by_name([v["dram"]["bus_bytes_by_region"] for v in views]),
         joules_by_component=mean_by_name([component_joules(v) for v in views]),
         busy=mean_by_name([busy_shares(v) for v in views]),
         peak_gb_s=views[0]["dram"]["peak_gb_s"],
         precision=views[0]["config"]["rendering"]["precision"],
+        encoding=views[0]["config"]["storage"]["encoding"],
         mm2=max(v["area_mm2"]["total"] for v in views),
-        least_db=min(map(decibels, views)),
+        decibels=tuple(map(decibels, views)),
         binds=binders(views),
         wall_seconds=tuple(v["host"]["simulation_wall_s"] for v in views),
         call_seconds=outcome.seconds,
@@ -121,6 +141,7 @@ def modelled(outcome: Outcome) -> Measured:
     total = mean(views, lambda v: v["joules"])
     return Measured(
         seconds=tuple(v["seconds"] for v in views),
+        busiest_seconds=tuple(map(busiest_of_kernels, views)),
         joules=tuple(v["joules"] for v in views),
         bytes_by_region=kinds,
         joules_by_component={"module and memory": total},

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from machine_measures import MJ, Measured
 from scenes import Scene
+from view_numbers import decibels_text
 
 MB = 1e6
 WISHED_FPS = 90
@@ -37,6 +38,12 @@ class Entry:
         return f"{self.of.peak_gb_s:.1f}"
 
 
+ABOUT = (
+    "Simulated: frames a second, bytes, dB of all but the GPU. From what the simulation counts and "
+    "the technology's energies and areas: mJ, mm2. Modelled from counted work: the GPU's frames a "
+    "second and bytes. Derived: its mJ, watts times modelled time. *At most*: if frames overlapped "
+    "until the busiest resource never waited, which is a bound.\n\n"
+)
 HEAD = (
     "scene",
     "size",
@@ -44,6 +51,7 @@ HEAD = (
     "machine",
     "precision",
     "frames/s",
+    "frames/s at most, overlapped",
     "scene MB",
     "intermediate MB",
     "pixels MB",
@@ -62,12 +70,13 @@ def row(e: Entry) -> tuple:
         e.memory,
         e.machine,
         m.precision,
-        f"{1 / m.mean_seconds():.1f}",
+        f"{m.frames_a_second():.1f}",
+        f"{m.most_frames_a_second():.1f}",
         *(f"{m.bytes(kind) / MB:.2f}" for kind in ("scene", "intermediate", "pixels")),
         f"{m.mean_joules() / MJ:.2f}",
         "" if dram is None else f"{dram / MJ:.2f}",
         "" if m.mm2 is None else f"{m.mm2:.2f}",
-        m.quality(),
+        decibels_text(min(m.decibels)) if m.decibels else "not measured",
         m.binds,
     )
 
@@ -92,7 +101,7 @@ def character_row(e: Entry) -> tuple:
         *e.case.cells(),
         e.machine,
         e.memory,
-        f"{1 / e.of.mean_seconds():.1f}",
+        f"{e.of.frames_a_second():.1f}",
         f"{all_bytes / MB:.1f}",
         f"{WISHED_FPS * all_bytes / 1e9:.2f}",
         *(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import pathlib
 import statistics
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from scenes import Scene
 from simulations import call, said
@@ -67,10 +67,19 @@ def decibels(view: dict) -> float:
     return float("inf") if psnr_db is None else psnr_db
 
 
-def psnr_span(views: Sequence[dict]) -> str:
-    ends = [min(map(decibels, views)), max(map(decibels, views))]
-    texts = ["equal" if end == float("inf") else f"{end:.1f}" for end in ends]
+def decibels_text(value: float) -> str:
+    return "equal" if value == float("inf") else f"{value:.1f}"
+
+
+def decibels_span(values: Iterable[float]) -> str:
+    """Of one or more."""
+    ordered = sorted(values)
+    texts = [decibels_text(end) for end in (ordered[0], ordered[-1])]
     return texts[0] if texts[0] == texts[1] else " .. ".join(texts)
+
+
+def psnr_span(views: Sequence[dict]) -> str:
+    return decibels_span(map(decibels, views))
 
 
 def numbers(views: Sequence[dict]) -> tuple[float, ...]:

@@ -1,6 +1,5 @@
 """What the scripts compute themselves."""
 
-import dataclasses
 import math
 import pathlib
 import tempfile
@@ -13,9 +12,6 @@ import energy_components
 import energy_tables
 import fill_readme
 import group_shapes
-import machine_measures
-import machine_ratios
-import machine_tables
 import measures
 import run_arguments
 import search_space
@@ -23,53 +19,6 @@ import simulations
 import tables
 import view_numbers
 import work_precision
-from scenes import Scene, find_scene
-
-
-def measured(*seconds: float, region: float = 0) -> machine_measures.Measured:
-    return machine_measures.Measured(
-        seconds=seconds,
-        joules=seconds,
-        bytes_by_region={"spill": region},
-        joules_by_component={},
-        busy={},
-        peak_gb_s=25.6,
-        precision="fp16",
-        mm2=2,
-    )
-
-
-class Machines(unittest.TestCase):
-    def test_a_scene_counts_once_whatever_its_sizes_and_views(self):
-        """Of one scene the other takes 2 and 8 times as long: 4. Of another one, 1 time: 2."""
-        found = {
-            "two sizes": [
-                {"own": measured(1, 3), "other": measured(3, 5)},
-                {"own": measured(1), "other": measured(8)},
-            ],
-            "one": [{"own": measured(1), "other": measured(1)}],
-        }
-        row = machine_ratios.row("25.6", found, "own", "other")
-        of = dict(zip(machine_ratios.HEAD, row))
-        self.assertEqual((of["scenes"], of["cases"], of["times as fast"]), (2, 3, "2.00"))
-        self.assertEqual((of["least"], of["most"]), ("1.00", "8.00"))
-        self.assertEqual((of["published"], of["mm2 over mm2"]), ("", "1.00"))
-
-    def test_parts_are_means_over_the_scenes(self):
-        a, b = Scene("a", "a"), Scene("b", "b")
-        entries = [
-            machine_tables.Entry(machine_tables.Case(scene, size), "m", measured(1, region=value))
-            for scene, size, value in ((a, "1x1", 1e6), (a, "2x2", 3e6), (b, "1x1", 6e6))
-        ]
-        rows = machine_tables.parts_rows(entries, ["m", "n"], lambda m: m.bytes_by_region, 1e6)
-        self.assertEqual(rows, [("25.6", "spill", "4.000", "")])
-
-    def test_every_region_is_of_one_kind(self):
-        m = measured(1, region=5)
-        of = {"spill": 5, "projected": 7, "frame_buffer": 3, "chunk_table": 11}
-        m = dataclasses.replace(m, bytes_by_region=of)
-        kinds = [m.bytes(kind) for kind in ("scene", "intermediate", "pixels")]
-        self.assertEqual((kinds, m.bytes()), ([11, 12, 3], 26))
 from machine_axes import Axis
 from scenes import find_scene
 

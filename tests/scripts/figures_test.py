@@ -15,6 +15,8 @@ import compare_machines
 import compare_variants
 import energy_tables
 import fair_fight_tables
+import machine_ratios
+import machine_tables
 import machine_views
 import simulations
 import tables
@@ -148,6 +150,50 @@ TABLES = {
         energy_tables.GROUP_HEAD,
         grid("preset", ("exact", "paper_no_vq"), "group px", ("32", "64x32")),
         ("64x32", "clock and leakage"),
+    ),
+}
+MACHINES = ("gscore", "exact", "GPU, modelled")
+TABLES |= {
+    "compare_machines_rates": (
+        "compare_machines",
+        machine_tables.HEAD,
+        [
+            {"scene": "truck", "size": "4x2", "GB/s": memory, "machine": machine}
+            for machine, memory in zip(MACHINES, ("25.6", "25.6", "102.4"))
+        ],
+        (*MACHINES, "truck 4x2", "Frames a second, 25.6 GB/s", "at most, frames overlapped"),
+    ),
+    "compare_machines_traffic": (
+        "compare_machines_bytes",
+        compare_machines.PARTS_HEAD,
+        [
+            {"scene": "truck", "GB/s": "25.6", "machine": machine, "part": part}
+            for machine in MACHINES
+            for part in ("tile_lists", "frame_buffer")
+        ],
+        (*MACHINES, "tile lists", "frame buffer", "on the bus, 25.6 GB/s"),
+    ),
+    "compare_machines_ratios": (
+        "compare_machines_ratios",
+        machine_ratios.HEAD,
+        [
+            {
+                "GB/s": "25.6",
+                "sizes": sizes,
+                "machine": machine,
+                "than": than,
+                "of views": "0.5 .. 2",
+                "of views, energy": "0.5 .. 2",
+                "published speed": speed,
+                "published energy": "27.3 derived",
+            }
+            for machine, than, speed in (
+                ("gscore", "GPU, modelled", "21.6"),
+                ("exact", "gscore", ""),
+            )
+            for sizes in ("4x2", "all")
+        ],
+        ("gscore, 25.6", "exact / gscore, 25.6", "than the modelled GPU", "black where derived"),
     ),
 }
 OF_RUNS = ("roofline", "waits", "traffic")
