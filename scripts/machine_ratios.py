@@ -45,7 +45,8 @@ ABOUT = (
     "reach, and generous to one with a barrier (gscore): it would need memory for two frames, and "
     "a resource that never waits. A ratio of two bounds is no bound. *Only the other*: what is "
     "left if it alone reaches its own. *of views*: least and most. A scene counts once in the "
-    "geometric mean. *derived*: not published itself, but out of published ratios.\n\n"
+    "geometric mean; a pair of two precisions has a row of its own, and is in no other mean. "
+    "*derived*: not published itself, but out of published ratios.\n\n"
 )
 
 DERIVED = " derived"
@@ -99,9 +100,9 @@ def what_it_is(own: Measured, name: str, other: Measured) -> str:
     """Where the other's numbers come from."""
     if name == GPU:
         watts = statistics.fmean(other.joules) / statistics.fmean(other.seconds)
-        return f"modelled; its joules derived: {watts:.3g} W x modelled time"
+        return f"modelled; joules derived: {watts:.3g} W x its time"
     if own.precision != other.precision:
-        return "simulated, in another precision: in no mean of one precision"
+        return "simulated, in another precision"
     return "simulated"
 
 

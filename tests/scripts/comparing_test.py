@@ -86,7 +86,7 @@ class Machines(unittest.TestCase):
                 {},
                 {
                     "precision": "fp32, its fp16",
-                    "the other is": "simulated, in another precision: in no mean of one precision",
+                    "the other is": "simulated, in another precision",
                 },
             ),
         ):
@@ -112,7 +112,7 @@ class Machines(unittest.TestCase):
                 made = machine_ratios.row("25.6", sizes, found, own, machine_ratios.GPU)
                 of = dict(zip(machine_ratios.HEAD, made, strict=True))
                 self.assertEqual((of["published speed"], of["published energy"]), (speed, joules))
-                said = "modelled; its joules derived: 5 W x modelled time"
+                said = "modelled; joules derived: 5 W x its time"
                 self.assertEqual(of["the other is"], said)
 
     def test_which_machines_are_held_against_each_other(self):
