@@ -110,6 +110,11 @@ def note(axes: Axes, x: float, y: float, text: str, **more: object) -> None:
     axes.annotate(text, (x, y), fontsize=8, color=SOFT, bbox=ON_PAPER, **more)
 
 
+def case_label(scene: str, size: str) -> str:
+    """Below a group of bars, on lines short enough not to meet the next one's."""
+    return "\n".join([*scene.replace("?", ":").split(":"), size])
+
+
 def from_zero(axes: Axes) -> None:
     """The axis of values begins at 0, with room above what is drawn."""
     axes.set_ylim(0, 1.08 * axes.dataLim.y1 or 1)

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from figure_inputs import Data, Results, number
-from figure_style import COLOURS, INK, bar_style, legend_above, panels
+from figure_style import COLOURS, INK, bar_style, case_label, legend_above, panels
 
 MAKER = "compare_machines.py"
 GPU = "GPU, modelled"  # it has its own memory, and stands beside machines with any
@@ -48,9 +48,8 @@ def rates(results: Results) -> Made:
             axes.plot(at, most, "_", markersize=6, markeredgewidth=1.2, color=INK, label=label)
         axes.set_yscale("log")
         axes.set_title(f"Frames a second, {memory} GB/s")
-        names = ["\n".join([*scene.split(":"), size]) for scene, size in size_of.items()]
-        axes.set_xticks(range(len(names)), names)
-        axes.set_xlim(-0.6, len(names) - 0.4)
+        axes.set_xticks(range(len(size_of)), [case_label(*case) for case in size_of.items()])
+        axes.set_xlim(-0.6, len(size_of) - 0.4)
         axes.tick_params(axis="x", labelsize=8, length=0)
         axes.grid(axis="x", visible=False)
     legend_above(figure, all_axes[0], columns=5)
