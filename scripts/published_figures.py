@@ -63,6 +63,7 @@ GAINS = (
     ("both", NEITHER, (), 1.86),
 )
 
+
 class Measuring:
     def __init__(self, arguments: argparse.Namespace):
         out, pace = arguments.out, arguments.side_by_side

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 
 HEAD = ("scene", "size", "what", "published", "modelled", "residual")
 
-# StreamingGS: 4.9 frames a second are what the model was set to.
+# StreamingGS. What the model was set to says nothing of how good it is.
+CALIBRATED_TO = 4.9
 CASES = (
-    ("builtin:outdoor?n=2300000", "1160x800", 4.9),
+    ("builtin:outdoor?n=2300000", "1160x800", CALIBRATED_TO),
     ("builtin:object?n=334000", "800x800", 8.5),
 )
 # Speedy-Splat, of a desktop GPU; StreamingGS, of the mobile one.
@@ -46,7 +47,8 @@ def rows_of(by_case: Sequence[Sequence[dict]]) -> list[tuple]:
     for (spec, size, published), views in zip(CASES, by_case):
         here = 1 / statistics.fmean(view["seconds"] for view in views)
         over = f"{100 * (here / published - 1):+.0f} %"
-        rows.append((spec, size, "frames/s", published, f"{here:.1f}", over))
+        what = "frames/s, calibrated to" if published == CALIBRATED_TO else "frames/s"
+        rows.append((spec, size, what, published, f"{here:.1f}", over))
         for value, published_shares in (("time", TIME), ("bytes", BYTES)):
             for name, percent in published_shares.items():
                 of = shares(views, SORTING if name == "sorting" else (name,), value)

@@ -141,6 +141,7 @@ class WithTheCommand(InFolder):
             "| truck | 64 | 64x36 |": 1,
             "| both | 1.86 |": 1,
             "| time, rendering % | 60 |": 1,
+            "| frames/s, calibrated to | 4.9 |": 1,
         }.items():
             self.assertEqual(made.count(text), count, f"{text} in\n{made}")
 

@@ -164,7 +164,12 @@ class Configurations(unittest.TestCase):
 
     def test_one_axis_at_a_time_around_the_preset(self):
         merge = {"entries": 2048, "on_overflow": "spill"}
-        preset = {"group_width_px": 128, "group_height_px": 128, "storage": {"chunk_gaussians": 16}, "merge": merge}
+        preset = {
+            "group_width_px": 128,
+            "group_height_px": 128,
+            "storage": {"chunk_gaussians": 16},
+            "merge": merge,
+        }
         points = work_precision.combinations(preset, cross=False)
         # 6 sizes x 2 policies, and 3 groups and 5 chunks that are not the preset's.
         self.assertEqual(len(points), 12 + 3 + 5)
@@ -247,7 +252,11 @@ class Reports(unittest.TestCase):
         def view(unit, share, holds):
             return {"binding": {"unit": unit, "utilisation": share, "holds": holds}}
 
-        fine = [view("fine", 0.56, "vsu.memory"), view("fine", 0.6, "hfu0"), view("fine", 0.7, "fine")]
+        fine = [
+            view("fine", 0.56, "vsu.memory"),
+            view("fine", 0.6, "hfu0"),
+            view("fine", 0.7, "fine"),
+        ]
         for views, text in (
             ([view("dram", 0.8, "dram")], "dram 80%"),
             ([view("dram", 0.8, "dram"), view("dram", 0.9, "dram")], "dram 80% .. 90%"),
