@@ -70,7 +70,8 @@ class Exploration:
     def head(self) -> tuple[str, ...]:
         objectives = (o.name for o in self.task.objectives)
         required = (r.measure.text for r in self.task.requirements)
-        return (*self.task.keys, *objectives, *required, "slowest view", "binding", "holds", "front")
+        told = ("slowest view", "binding", "holds", "front")
+        return (*self.task.keys, *objectives, *required, *told)
 
     def row(self, judged: Judged, front: Sequence[Judged]) -> tuple:
         holds = "yes" if judged.holds() else (judged.dropped and NOT_DRAWN) or "no"

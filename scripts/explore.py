@@ -15,13 +15,13 @@ and no other size follows from it. Tables show what was simulated: values as the
 configuration has them, the size of the pixel group always among them: `group=SHAPE` stands for both
 of its sides.
 
-  MEASURE      a number of a view's report.json by its path, such as dram.row_conflicts: the sum over
-               views, or the largest of what an accelerator has (config, sram, area_mm2); or
+  MEASURE      a number of a view's report.json by its path, such as dram.row_conflicts: the sum
+               over views, or the largest of what an accelerator has (config, sram, area_mm2); or
                sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes.
                Names: fps, cycles, seconds, dram_bytes, joules, watts, mm2, psnr_db; sram_bytes;
                filter_lanes, the multiply-accumulate lanes of coarse and fine filters
-  --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the largest
-               of what should be small, the smallest of what should be large
+  --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the
+               largest of what should be small, the smallest of what should be large
   --require    'MEASURE >= NUMBER' or 'MEASURE <= NUMBER'
 
 Views that took long are drawn first: a configuration that has lost on one of them is drawn on no
@@ -29,8 +29,8 @@ other. In a search whose objectives any frame tells (area), one that is no bette
 holds is not drawn at all.
 
 Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
-Writes explore.csv, a line for each configuration, and explore.md, the front. Of what was interrupted or
-failed midway they are explore_partial.csv and .md.
+Writes explore.csv, a line for each configuration, and explore.md, the front. Of what was
+interrupted or failed midway they are explore_partial.csv and .md.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
@@ -63,7 +63,7 @@ from sweep_server import SweepServer
 from view_numbers import view_numbers
 
 RUNS_FILE = "explore_runs.jsonl"
-SAMPLERS = ("tpe", "nsga2", "random")  # as studies.py has them
+SAMPLERS = ("tpe", "nsga2", "random")
 
 
 def machine_axes(
@@ -235,7 +235,9 @@ def main() -> int:
     parser.add_argument(
         "--require", action="append", default=[], metavar="'MEASURE >= NUMBER'", help="to be held"
     )
-    parser.add_argument("--search", choices=SAMPLERS, help="Optuna's sampler; default: all there is")
+    parser.add_argument(
+        "--search", choices=SAMPLERS, help="Optuna's sampler; default: all there is"
+    )
     parser.add_argument(
         "--trials", type=int, metavar="N", help="of a search, at most; default: 200"
     )

@@ -1,5 +1,5 @@
-"""`streaminggs sweep` as a server: scenes and their pictures are prepared once, and what its file of
-results holds is not simulated again."""
+"""`streaminggs sweep` as a server: scenes and their pictures are prepared once, and what its file
+of results holds is not simulated again."""
 
 from __future__ import annotations
 

@@ -38,7 +38,8 @@ def cameras_of(path: pathlib.Path) -> list:
 
 
 def vsu_waits(view: dict) -> float:
-    """The share of the frame in which the activity of VSU that waits most for its own reads does."""
+    """The share of the frame in which the activity of VSU that waits most for its own reads does
+    so."""
     activities = view["units"]["vsu"]["activities"].values()
     waits = max(activity["waited_cycles"]["reads"] for activity in activities)
     return waits / view["frame"]["cycles"]

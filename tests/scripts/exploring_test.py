@@ -1,4 +1,5 @@
-"""explore.py: its tables, what it leaves out, what it keeps. A program stands in for the command."""
+"""explore.py: its tables, what it leaves out, what it keeps. A program stands in for the
+command."""
 
 import csv
 import signal
@@ -32,7 +33,10 @@ class Exploring(InFolder):
     def test_tables_show_what_was_simulated(self):
         done = self.explore("finish()", "--axis", "hfus=2,4")
         self.assertEqual((done.returncode, done.stderr.count("Traceback")), (0, 0))
-        rows = [["2", "112x80", "4", "truck 0", "dram", "", ""], ["4", "112x80", "2", "truck 0", "dram", "", "yes"]]
+        rows = [
+            ["2", "112x80", "4", "truck 0", "dram", "", ""],
+            ["4", "112x80", "2", "truck 0", "dram", "", "yes"],
+        ]
         self.assertEqual(self.rows("explore.csv"), [self.HEAD, *rows])
         self.assertIn("2 configurations; 1 of them no other one beats.", done.stdout)
 
@@ -56,7 +60,8 @@ class Exploring(InFolder):
             """
         done = self.explore(body, "--axis", "hfus=2,3")
         self.assertEqual(done.returncode, 0)
-        self.assertEqual(self.rows("explore.csv"), [self.HEAD, ["2", "112x80", "4", "truck 0", "dram", "", "yes"]])
+        row = ["2", "112x80", "4", "truck 0", "dram", "", "yes"]
+        self.assertEqual(self.rows("explore.csv"), [self.HEAD, row])
         self.assertRegex(done.stdout, "Refused: truck .* hfus=3: hfus: 3 is odd")
 
     def test_what_was_simulated_is_kept(self):
