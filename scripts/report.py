@@ -12,7 +12,6 @@ halved until the page is small enough, then left out from the last view on, and 
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import pathlib
 import sys
@@ -165,9 +164,7 @@ def page(folder: pathlib.Path) -> str:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=run_arguments.Help, allow_abbrev=False
-    )
+    parser = run_arguments.Parser(__doc__)
     parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER", help="with results")
     parser.add_argument(
         "--out", type=pathlib.Path, metavar="FILE", help="the page; default: FOLDER/report.html"
