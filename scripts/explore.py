@@ -29,8 +29,9 @@ other. In a search whose objectives any frame tells (area), one that is no bette
 holds is not drawn at all.
 
 Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
-Writes explore.csv, a line for each configuration, and explore.md, the front. Of what was
-interrupted or failed midway they are explore_partial.csv and .md.
+Writes explore.csv, a line for each configuration, explore.md, the front, and exploration.svg and
+.png, which show both beside what was required (figures.py). Of what was interrupted or failed
+midway there are explore_partial.csv and .md.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
@@ -45,6 +46,7 @@ import functools
 import math
 import os
 import pathlib
+import subprocess
 import sys
 from collections.abc import Sequence
 
@@ -57,7 +59,7 @@ from machine_areas import start_of
 from machine_axes import ORDERS, Axis
 from measures import Objective, objective, requirement
 from scenes import Scene, find_scenes
-from search_space import Space, parse_axes, parse_point, read_points
+from search_space import Space, parse_axes, parse_named, read_points
 from simulations import SRAM_AS_NEEDED, simulate
 from sweep_server import SweepServer
 from view_numbers import view_numbers
@@ -177,11 +179,12 @@ def explore_with(
 ) -> None:
     axes, fixed = machine_axes(arguments, kept)
     space = find_space(arguments, axes)
-    beside = [parse_point(text, "--beside") for text in arguments.beside]
+    named = (parse_named(t, n, "--beside") for n, t in enumerate(arguments.beside, start=1))
+    beside = {assignments: name for name, assignments in named}
     keys = [*space.keys(), *Space((Axis("", tuple(beside)),)).keys()] if beside else space.keys()
     task = find_task(arguments, scenes, keys, fixed)
     judge = Judge(task, kept.outcome)
-    work = Work(arguments, space, judge, Exploration(task))
+    work = Work(arguments, space, judge, Exploration(task, beside))
     complete = False
     try:
         for assignments in beside:
@@ -202,6 +205,16 @@ def explore_with(
         why = work.made.not_told() or ["there was no time for any configuration (--minutes)"]
         raise ValueError(why[0].removeprefix("Refused: "))
     work.made.write(arguments.out, "explore")
+    draw(arguments.out)
+
+
+def draw(out: pathlib.Path) -> None:
+    """By a script of its own, which may need another Python: without one there is no figure."""
+    script = pathlib.Path(__file__).resolve().parent / "figures.py"
+    words = [sys.executable, "-B", str(script), "exploration", "--from", str(out)]
+    done = subprocess.run([*words, "--out", str(out)], capture_output=True, text=True, check=False)
+    if done.returncode:
+        print(f"no figure: {(done.stdout or done.stderr).splitlines()[0]}", file=sys.stderr)
 
 
 def main() -> int:
@@ -218,7 +231,11 @@ def main() -> int:
         "--points", type=pathlib.Path, metavar="FILE", help="a list in place of a grid"
     )
     parser.add_argument(
-        "--beside", action="append", default=[], metavar="'KEY=VALUE ...'", help="judged as well"
+        "--beside",
+        action="append",
+        default=[],
+        metavar="'NAME: KEY=VALUE ...'",
+        help="judged as well and named in the figure; the name may be left out",
     )
     parser.add_argument("--view", default="0", help="numbers of cameras, as in 0,2, or all")
     parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")

@@ -30,10 +30,12 @@ def make_figures(arguments: argparse.Namespace) -> None:
     """Raises ValueError where nothing could be made, and for a table that is none."""
     debian_python.need("matplotlib", "python3-matplotlib")
     import figure_style  # these need it
+    import figures_of_exploration
     import figures_of_machines
     import figures_of_paper
 
-    known = figures_of_paper.FIGURES | figures_of_machines.FIGURES
+    ours = figures_of_exploration.FIGURES | figures_of_machines.FIGURES
+    known = figures_of_paper.FIGURES | ours
     for name in arguments.names:
         if name not in known:
             raise ValueError(f"{name}: no figure, expected {', '.join(known)}")

@@ -48,7 +48,8 @@ def labels_of(table: Table, numeric: Sequence[int]) -> Sequence[str]:
     if table.labels:
         return table.labels
     if "front" in table.head and "group" in table.head:
-        return table.head[: table.head.index("group") + 1]
+        given = tuple(name for name in table.head if name == "beside")
+        return (*given, *table.head[: table.head.index("group") + 1])
     words = [at for at in range(len(table.head)) if at not in numeric]
     return [
         table.head[at]

@@ -98,9 +98,9 @@ def sweep(
     the numbers of its report by their paths. A pandas data frame where there is pandas (Debian's
     python3-pandas), else a list of dictionaries with these columns.
 
-    points: settings over `settings`, which are over those of `config`; scenes, views, size: as run()
-    has them. jobs: simulations side by side. results: a file of JSON lines, which keeps what was
-    simulated and of which nothing is simulated again; without it nothing is kept.
+    points: settings over `settings`, which are over those of `config`; scenes, views, size: as
+    run() has them. jobs: simulations side by side. results: a file of JSON lines, which keeps what
+    was simulated and of which nothing is simulated again; without it nothing is kept.
 
     Raises ValueError for arguments that are none, Failure where the command itself fails.
     """

@@ -118,11 +118,45 @@ class Exploring(InFolder):
                 ("8", "9", "8", "yes", ""),
             ],
         )
+        self.assertEqual(self.rows("explore.csv")[0][3], "min(fps) >= 3")
         self.assertIn("4 configurations, of which 2 hold min(fps) >= 3; 1 of them", done.stdout)
         drawn = sorted(path.name for path in self.folder.glob("drawn*"))
         both = [f"drawn {hfus} {view}" for hfus in (4, 8) for view in (0, 1)]
         # A view that none was drawn on comes first.
         self.assertEqual(drawn, ["drawn 1 0", "drawn 2 1", *both])
+
+    def test_what_is_beside_has_its_name(self):
+        for text, name in (
+            ("by hand: hfus=8", "by hand"),
+            ("hfus=8", "beside 1"),
+            ("all: hfus=8 group=32x16", "all"),
+        ):
+            with self.subTest(text):
+                done = self.explore("finish()", "--axis", "hfus=2,4", "--beside", text)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                head, *rows = self.rows("explore.csv")
+                named = {row[0]: row[head.index("beside")] for row in rows}
+                self.assertEqual(named, {"8": name, "2": "", "4": ""})
+        for text in ("hfus", "by hand: hfus"):
+            with self.subTest(text):
+                done = self.explore("finish()", "--axis", "hfus=2,4", "--beside", text)
+                self.assertEqual(done.returncode, 2)
+                self.assertRegex(done.stderr, "^.*explore.py: --beside: .*, expected KEY=VALUE\n$")
+
+    def test_the_front_is_drawn_where_it_can_be(self):
+        words = ("--axis", "hfus=2,4,8", "--require", "min(fps) >= 3", "--objectives", "mm2")
+        done = self.explore("finish()", *words, "--beside", "by hand: hfus=6")
+        if "needs python3-matplotlib" in done.stderr:
+            self.skipTest("matplotlib is not installed")
+        self.assertEqual((done.returncode, "no figure" in done.stderr), (0, False))
+        text = (self.folder / "exploration.svg").read_text()
+        for said in ("required: min(fps) &gt;= 3", "by hand", "area, mm²", "scripts/explore.py"):
+            self.assertIn(said, text)
+        self.assertTrue((self.folder / "exploration.png").exists())
+        # One number alone has nothing to be drawn against; that is no failure.
+        done = self.explore("finish()", "--axis", "hfus=2,4")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("no figure: skipped exploration: columns hfus, group, cycles", done.stderr)
 
     def test_what_was_simulated_is_not_simulated_again(self):
         body = """

@@ -131,7 +131,7 @@ TABLES = {
             {"binding": "dram", "front": "yes", "cycles": 100, "mm2": 5},
             {"binding": "fine", "front": "", "cycles": 200, "mm2": 6},
         ],
-        ("dram binds", "area, mm²"),
+        ("dram binds", "area, mm²", "M cycles against area"),
     ),
     "fronts_of_orders": (
         "fair_fight_front",
