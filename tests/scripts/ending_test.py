@@ -150,7 +150,7 @@ class Ends(InFolder):
             ("explore", ("-j", "x"), "-j: invalid int value: 'x'"),
             ("explore", ("--search", "x"), "--search: invalid choice: 'x'"),
             ("explore", ("--axis", "a=1", "--points", "x"), "--points: not allowed with"),
-            ("report", (), "the following arguments are required: FOLDER"),
+            ("report", (), "the following arguments are required: RESULTS"),
             ("figures", ("--from",), "--from: expected one argument"),
         ]
         for name, arguments, expected in cases:
