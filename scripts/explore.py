@@ -30,8 +30,9 @@ holds is not drawn at all.
 
 Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
 Writes explore.csv, a line for each configuration, explore.md, the front, and exploration.svg and
-.png, which show both beside what was required (figures.py). Of what was interrupted or failed
-midway there are explore_partial.csv and .md.
+.png, which show both beside what was required; filter_units.svg and .png where CFUs and FFU lanes
+are all that differs. Of what was interrupted or failed midway there are explore_partial.csv and
+.md.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
@@ -46,13 +47,13 @@ import functools
 import math
 import os
 import pathlib
-import subprocess
 import sys
 from collections.abc import Sequence
 
 import debian_python
 import run_arguments
 from exploration import Exploration, Work
+from figures_beside import draw_beside
 from group_shapes import NAME, expanded
 from judging import Assignments, Judge, Task
 from machine_areas import start_of
@@ -205,16 +206,7 @@ def explore_with(
         why = work.made.not_told() or ["there was no time for any configuration (--minutes)"]
         raise ValueError(why[0].removeprefix("Refused: "))
     work.made.write(arguments.out, "explore")
-    draw(arguments.out)
-
-
-def draw(out: pathlib.Path) -> None:
-    """By a script of its own, which may need another Python: without one there is no figure."""
-    script = pathlib.Path(__file__).resolve().parent / "figures.py"
-    words = [sys.executable, "-B", str(script), "exploration", "--from", str(out)]
-    done = subprocess.run([*words, "--out", str(out)], capture_output=True, text=True, check=False)
-    if done.returncode:
-        print(f"no figure: {(done.stdout or done.stderr).splitlines()[0]}", file=sys.stderr)
+    draw_beside(arguments.out, "exploration", "filter_units")
 
 
 def main() -> int:

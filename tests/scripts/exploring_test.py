@@ -2,15 +2,20 @@
 command."""
 
 import csv
+import os
 import signal
 import subprocess
 import sys
 import unittest
 
-from in_folder import REPOSITORY, InFolder
+from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
+import debian_python
 
 
-class Exploring(InFolder):
+class Explorations(InFolder):
+    # Another Python, which has Matplotlib, takes seconds to draw.
+    ENVIRONMENT = {**os.environ, debian_python.TRIED: "1"}
+
     def explore(self, body: str, *arguments: str) -> subprocess.CompletedProcess[str]:
         program = self.stand_in(body)
         command = [sys.executable, "-B", str(REPOSITORY / "scripts" / "explore.py")]
@@ -21,6 +26,7 @@ class Exploring(InFolder):
             capture_output=True,
             text=True,
             check=False,
+            env=self.ENVIRONMENT,
             # Whoever runs the tests in the background has SIGINT ignored.
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )
@@ -28,6 +34,8 @@ class Exploring(InFolder):
     def rows(self, name: str) -> list[list[str]]:
         return list(csv.reader((self.folder / name).read_text().splitlines()))
 
+
+class Exploring(Explorations):
     HEAD = ["hfus", "group", "cycles", "slowest view", "binding", "holds", "front"]
 
     def test_tables_show_what_was_simulated(self):
@@ -143,6 +151,23 @@ class Exploring(InFolder):
                 self.assertEqual(done.returncode, 2)
                 self.assertRegex(done.stderr, "^.*explore.py: --beside: .*, expected KEY=VALUE\n$")
 
+    def test_what_was_simulated_is_not_simulated_again(self):
+        body = """
+            with (HERE / "count").open("a") as file:
+                print(SET["hfus"], file=file)
+            finish()
+            """
+        program = ("--axis", "hfus=2,4")
+        self.explore(body, *program)
+        first = self.rows("explore.csv")
+        self.explore(body, *program)
+        self.assertEqual(self.rows("explore.csv"), first)
+        self.assertEqual((self.folder / "count").read_text(), "2\n4\n")
+
+
+class Drawing(Explorations):
+    ENVIRONMENT = None
+
     def test_the_front_is_drawn_where_it_can_be(self):
         words = ("--axis", "hfus=2,4,8", "--require", "min(fps) >= 3", "--objectives", "mm2")
         done = self.explore("finish()", *words, "--beside", "by hand: hfus=6")
@@ -158,18 +183,25 @@ class Exploring(InFolder):
         self.assertEqual(done.returncode, 0)
         self.assertIn("no figure: skipped exploration: columns hfus, group, cycles", done.stderr)
 
-    def test_what_was_simulated_is_not_simulated_again(self):
+    def test_filters_are_drawn_as_a_map(self):
+        axes = ("--axis", "hfu.cfus=1,2", "--axis", "hfu.ffu_lanes=8,16")
         body = """
-            with (HERE / "count").open("a") as file:
-                print(SET["hfus"], file=file)
+            CFUS, LANES = (int(SET[key]) for key in ("hfu.cfus", "hfu.ffu_lanes"))
             finish()
+            path = pathlib.Path(sys.argv[sys.argv.index("--out") + 1]) / "report.json"
+            report = json.loads(path.read_text())
+            view = report["views"][0]
+            view["config"]["hfu"] = {"cfus": CFUS, "ffu_lanes": LANES}
+            view["frame"]["cycles"] = 6400 // (CFUS * LANES)
+            path.write_text(json.dumps(report))
             """
-        program = ("--axis", "hfus=2,4")
-        self.explore(body, *program)
-        first = self.rows("explore.csv")
-        self.explore(body, *program)
-        self.assertEqual(self.rows("explore.csv"), first)
-        self.assertEqual((self.folder / "count").read_text(), "2\n4\n")
+        done = self.explore(body, *axes)
+        if "needs python3-matplotlib" in done.stderr:
+            self.skipTest("matplotlib is not installed")
+        self.assertEqual((done.returncode, "no figure" in done.stderr), (0, False), done.stderr)
+        text = (self.folder / "filter_units.svg").read_text()
+        for said in ("hfu.cfus", "hfu.ffu_lanes", "4.00", "1.00"):
+            self.assertIn(said, text)
 
 
 if __name__ == "__main__":
