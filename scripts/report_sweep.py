@@ -47,6 +47,7 @@ MEASURES: dict[str, Callable[[Sequence[Point]], float]] = {
     "SRAM KB": lambda points: max(map(sram_kb, points)),
 }
 COSTS = ("cycles", "mm2", "mJ")  # that the front is of
+MOST_REASONS = 200  # of points that were not done
 
 
 @dataclasses.dataclass(frozen=True)
@@ -125,16 +126,16 @@ def configurations(machines: Sequence[Machine], table: Table) -> str:
     return f'<div class=machine data-machines="{escaped(json.dumps(facts))}"></div>'
 
 
-def section(machines: Sequence[Machine], title: str) -> str:
-    """Those on the front first, the fastest of them at the top."""
+def section(machines: Sequence[Machine], title: str, most: int) -> str:
+    """So many of them: those on the front first, the fastest at the top."""
     best = pareto_front([[machine.value(cost) for cost in COSTS] for machine in machines])
     order = sorted(
         range(len(machines)), key=lambda at: (not best[at], machines[at].value("cycles"))
     )
-    shown = [machines[at] for at in order][: report_tables.MOST_ROWS]
+    shown = [machines[at] for at in order][:most]
     table = table_of(shown, [best[at] for at in order], title)
     left = len(machines) - len(shown)
-    note = f"<p class=small>{left} more points are not shown.</p>" if left else ""
+    note = f"<p class=small>{left} points more are in the results.</p>" if left else ""
     return (
         f"<section class=wide><h3>{escaped(title)}</h3>{report_tables.content(table, title)}{note}"
         f"{configurations(shown, table)}</section>"
@@ -152,10 +153,12 @@ def not_done(points: Sequence[Point]) -> str:
     lines = "".join(
         f"<li><code>{escaped(point.command())}</code><br>{escaped(point.status)}"
         f"{f': {escaped(point.reason)}' if point.reason else ''}</li>"
-        for point in left
+        for point in left[:MOST_REASONS]
     )
     if not left:
         return ""
+    if len(left) > MOST_REASONS:
+        lines += f"<li>{len(left) - MOST_REASONS} more</li>"
     return f"<section class=wide>{details(f'{len(left)} not done', f'<ul>{lines}</ul>')}</section>"
 
 
@@ -170,12 +173,14 @@ def panels(points: Sequence[Point]) -> list[tuple[str, str]]:
     for point in done:
         cases.setdefault(point.case(), []).append(Machine((point,)))
         by_machine.setdefault(point.machine(), []).append(point)
+    # The page has an end, however many views there are.
+    most = report_tables.MOST_ROWS // (len(cases) + 1) or 1
     made = []
     on_all = [Machine(tuple(of)) for of in by_machine.values() if len(of) == len(cases)]
     if len(cases) > 1 and on_all:
         title = f"Sums over {len(cases)} frames; fps and PSNR of the worst, area of the largest"
-        made.append(("all", section(on_all, title)))
-    made += [(name_of(case), section(of, name_of(case))) for case, of in cases.items()]
+        made.append(("all", section(on_all, title, most)))
+    made += [(name_of(case), section(of, name_of(case), most)) for case, of in cases.items()]
     name, text = made[0]
     made[0] = (name, text + not_done(points))
     return [(name, f"<div class=grid>{text}</div>") for name, text in made]

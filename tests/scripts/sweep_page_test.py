@@ -8,6 +8,7 @@ import re
 import shlex
 import subprocess
 import unittest
+from unittest import mock
 
 from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
 import report
@@ -85,6 +86,16 @@ class Read(InFolder):
         self.assertEqual(status, 0)
         self.assertIn("<td class=n>222</td>", page)
         self.assertNotIn("<td class=n>111</td>", page)
+
+    def test_of_many_points_the_front_is_shown(self):
+        ones = [(at, v) for v in (0, 1) for at in range(30)]
+        text = "".join(line(9 + at, 9 - at % 3, 1, set={"hfus": at}, view=v) for at, v in ones)
+        with mock.patch.object(report_sweep.report_tables, "MOST_ROWS", 30):
+            status, page = self.page(text)
+        self.assertEqual(status, 0)
+        self.assertEqual(page.count("data-open="), 3 * 10)
+        self.assertEqual(page.count("<td>yes</td>"), 3 * 3)
+        self.assertIn("20 points more are in the results", page)
 
     def test_what_is_refused(self):
         for name, text, said in (
