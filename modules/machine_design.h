@@ -78,6 +78,10 @@ class MachineDesign {
   virtual bool draws_reference() const { return false; }
   virtual PixelSize group() const { return {}; }
 
+  // What it draws at a time, by which its activities are numbered in rows from the top: that group,
+  // or a tile. 0 x 0 where there is no such thing.
+  virtual PixelSize piece() const { return group(); }
+
   virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                          const BuildOptions& options) const = 0;
 };

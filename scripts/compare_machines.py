@@ -75,7 +75,7 @@ MACHINES = (
     "exact_vq",
 )
 RUNS_FILE, GPU_RUNS_FILE = "compare_machines_runs.jsonl", "compare_machines_gpu_runs.jsonl"
-DRAWER = REPOSITORY / "scripts" / "figures.py"  # for Debian's Python, which may be another
+DRAWER = REPOSITORY / "scripts" / "figures.py"
 FIGURES = ("compare_machines_rates", "compare_machines_traffic", "compare_machines_ratios")
 OBJECTS = ("truck", "playbot", "builtin:object")  # by the beginning of their names
 BUILT_IN = ("builtin:object", "builtin:outdoor", "builtin:outdoor?n=1000000")

@@ -8,7 +8,7 @@ import pathlib
 import sys
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import run_arguments
 import tables
@@ -22,8 +22,9 @@ NOT_DRAWN = "not all views drawn"
 class Exploration:
     """For several threads."""
 
-    def __init__(self, task: Task):
-        self.task = task
+    def __init__(self, task: Task, names: Mapping[Assignments, str]):
+        """names: of configurations that were given by name."""
+        self.task, self.names = task, names
         self.lock = threading.Lock()
         self.judged: dict[Assignments, Judged] = {}
 
@@ -69,8 +70,9 @@ class Exploration:
 
     def head(self) -> tuple[str, ...]:
         objectives = (o.name for o in self.task.objectives)
-        required = (r.measure.text for r in self.task.requirements)
-        return (*self.task.keys, *objectives, *required, "slowest view", "binding", "holds", "front")
+        required = (r.name for r in self.task.requirements)
+        told = ("slowest view", "binding", *(("beside",) if self.names else ()), "holds", "front")
+        return (*self.task.keys, *objectives, *required, *told)
 
     def row(self, judged: Judged, front: Sequence[Judged]) -> tuple:
         holds = "yes" if judged.holds() else (judged.dropped and NOT_DRAWN) or "no"
@@ -79,6 +81,7 @@ class Exploration:
             *self.numbers(judged),
             judged.slowest,
             judged.binding,
+            *((self.names.get(judged.assignments, ""),) if self.names else ()),
             holds if self.task.requirements else "",
             "yes" if judged in front else "",
         )

@@ -15,13 +15,13 @@ and no other size follows from it. Tables show what was simulated: values as the
 configuration has them, the size of the pixel group always among them: `group=SHAPE` stands for both
 of its sides.
 
-  MEASURE      a number of a view's report.json by its path, such as dram.row_conflicts: the sum over
-               views, or the largest of what an accelerator has (config, sram, area_mm2); or
+  MEASURE      a number of a view's report.json by its path, such as dram.row_conflicts: the sum
+               over views, or the largest of what an accelerator has (config, sram, area_mm2); or
                sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes.
                Names: fps, cycles, seconds, dram_bytes, joules, watts, mm2, psnr_db; sram_bytes;
                filter_lanes, the multiply-accumulate lanes of coarse and fine filters
-  --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the largest
-               of what should be small, the smallest of what should be large
+  --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the
+               largest of what should be small, the smallest of what should be large
   --require    'MEASURE >= NUMBER' or 'MEASURE <= NUMBER'
 
 Views that took long are drawn first: a configuration that has lost on one of them is drawn on no
@@ -29,8 +29,10 @@ other. In a search whose objectives any frame tells (area), one that is no bette
 holds is not drawn at all.
 
 Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
-Writes explore.csv, a line for each configuration, and explore.md, the front. Of what was interrupted or
-failed midway they are explore_partial.csv and .md.
+Writes explore.csv, a line for each configuration, explore.md, the front, and exploration.svg and
+.png, which show both beside what was required; filter_units.svg and .png where CFUs and FFU lanes
+are all that differs. Of what was interrupted or failed midway there are explore_partial.csv and
+.md.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
@@ -51,19 +53,20 @@ from collections.abc import Sequence
 import debian_python
 import run_arguments
 from exploration import Exploration, Work
+from figures_beside import draw_beside
 from group_shapes import NAME, expanded
 from judging import Assignments, Judge, Task
 from machine_areas import start_of
 from machine_axes import ORDERS, Axis
 from measures import Objective, objective, requirement
 from scenes import Scene, find_scenes
-from search_space import Space, parse_axes, parse_point, read_points
+from search_space import Space, parse_axes, parse_named, read_points
 from simulations import SRAM_AS_NEEDED, simulate
 from sweep_server import SweepServer
 from view_numbers import view_numbers
 
 RUNS_FILE = "explore_runs.jsonl"
-SAMPLERS = ("tpe", "nsga2", "random")  # as studies.py has them
+SAMPLERS = ("tpe", "nsga2", "random")
 
 
 def machine_axes(
@@ -177,11 +180,12 @@ def explore_with(
 ) -> None:
     axes, fixed = machine_axes(arguments, kept)
     space = find_space(arguments, axes)
-    beside = [parse_point(text, "--beside") for text in arguments.beside]
+    named = (parse_named(t, n, "--beside") for n, t in enumerate(arguments.beside, start=1))
+    beside = {assignments: name for name, assignments in named}
     keys = [*space.keys(), *Space((Axis("", tuple(beside)),)).keys()] if beside else space.keys()
     task = find_task(arguments, scenes, keys, fixed)
     judge = Judge(task, kept.outcome)
-    work = Work(arguments, space, judge, Exploration(task))
+    work = Work(arguments, space, judge, Exploration(task, beside))
     complete = False
     try:
         for assignments in beside:
@@ -202,6 +206,7 @@ def explore_with(
         why = work.made.not_told() or ["there was no time for any configuration (--minutes)"]
         raise ValueError(why[0].removeprefix("Refused: "))
     work.made.write(arguments.out, "explore")
+    draw_beside(arguments.out, "exploration", "filter_units")
 
 
 def main() -> int:
@@ -218,7 +223,11 @@ def main() -> int:
         "--points", type=pathlib.Path, metavar="FILE", help="a list in place of a grid"
     )
     parser.add_argument(
-        "--beside", action="append", default=[], metavar="'KEY=VALUE ...'", help="judged as well"
+        "--beside",
+        action="append",
+        default=[],
+        metavar="'NAME: KEY=VALUE ...'",
+        help="judged as well and named in the figure; the name may be left out",
     )
     parser.add_argument("--view", default="0", help="numbers of cameras, as in 0,2, or all")
     parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")
@@ -235,7 +244,9 @@ def main() -> int:
     parser.add_argument(
         "--require", action="append", default=[], metavar="'MEASURE >= NUMBER'", help="to be held"
     )
-    parser.add_argument("--search", choices=SAMPLERS, help="Optuna's sampler; default: all there is")
+    parser.add_argument(
+        "--search", choices=SAMPLERS, help="Optuna's sampler; default: all there is"
+    )
     parser.add_argument(
         "--trials", type=int, metavar="N", help="of a search, at most; default: 200"
     )

@@ -1,29 +1,19 @@
 """How figures look: readable on paper and in grey, since colours differ in lightness and every
-series has a hatch or a marker of its own. Needs Debian's python3-matplotlib."""
+series has a hatch or a marker of its own. Needs Matplotlib (debian_python.py)."""
 
 from __future__ import annotations
 
 import os
 import pathlib
-import sys
 import textwrap
 from collections.abc import Sequence
 
-try:
-    import matplotlib
+import matplotlib
+from matplotlib import pyplot
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-except ImportError:
-    print(
-        f"{sys.argv[0]}: {sys.executable} has no matplotlib; scripts/tools.sh installs "
-        "python3-matplotlib, which /usr/bin/python3 sees",
-        file=sys.stderr,
-    )
-    sys.exit(2)
-
+matplotlib.use("Agg")
 # From dark to light and back, told apart in grey and by those who see no red or green.
 COLOURS = ("#1f4e8c", "#f0a830", "#7fc4b0", "#a63d57", "#c9c4e8", "#6b6f78", "#e9e2c8", "#3d7a52")
 HATCHES = ("", "///", "...", "xxx", "\\\\\\", "", "++", "ooo")

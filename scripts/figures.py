@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """Figures of results that lie on disk, as SVG and PNG, one function each: the paper's, with its own
 numbers where it has any, and ours. Captions name the file, the command and the commit that the
 numbers are from. A figure whose input is not there is skipped by name, with the script that makes
@@ -11,7 +11,7 @@ The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size
 Ours: exploration, fronts_of_orders, equal_area, group_size; compare_machines_rates, _traffic and
 _ratios; and of the runs of `simulate` below the folder roofline, waits, traffic.
 
-Needs Debian's python3-matplotlib, which scripts/tools.sh installs for /usr/bin/python3.
+Needs Debian's python3-matplotlib, which scripts/tools.sh installs.
 """
 
 from __future__ import annotations
@@ -20,27 +20,38 @@ import argparse
 import pathlib
 import sys
 
-import figure_style
-import figures_of_comparison
-import figures_of_machines
-import figures_of_paper
+import debian_python
 import run_arguments
 import simulations
 from figure_inputs import Missing, Results
 
-FIGURES = figures_of_paper.FIGURES | figures_of_machines.FIGURES | figures_of_comparison.FIGURES
-
 
 def make_figures(arguments: argparse.Namespace) -> None:
     """Raises ValueError where nothing could be made, and for a table that is none."""
+    debian_python.need("matplotlib", "python3-matplotlib")
+    import figure_style  # these need it
+    import figures_of_comparison
+    import figures_of_exploration
+    import figures_of_machines
+    import figures_of_paper
+
+    known = {
+        **figures_of_paper.FIGURES,
+        **figures_of_exploration.FIGURES,
+        **figures_of_machines.FIGURES,
+        **figures_of_comparison.FIGURES,
+    }
+    for name in arguments.names:
+        if name not in known:
+            raise ValueError(f"{name}: no figure, expected {', '.join(known)}")
     results = Results(arguments.folder)
     if not results.folder.is_dir():
         raise ValueError(f"--from: {results.folder}: no folder, expected one with results")
     out = arguments.out or results.folder / "figures"
     made = 0
-    for name in arguments.names or FIGURES:
+    for name in arguments.names or known:
         try:
-            figure, caption = FIGURES[name](results)
+            figure, caption = known[name](results)
         except Missing as missing:
             print(f"skipped {name}: {missing}")
             continue
@@ -52,12 +63,8 @@ def make_figures(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=run_arguments.Help, allow_abbrev=False
-    )
-    parser.add_argument(
-        "names", nargs="*", metavar="FIGURE", help=f"any of {', '.join(FIGURES)}; default: all"
-    )
+    parser = run_arguments.Parser(__doc__)
+    parser.add_argument("names", nargs="*", metavar="FIGURE", help="as above; default: all")
     parser.add_argument(
         "--from",
         dest="folder",
@@ -70,9 +77,6 @@ def main() -> int:
         "--out", type=pathlib.Path, metavar="FOLDER", help="default: figures/ in that of --from"
     )
     arguments = parser.parse_args()
-    for name in arguments.names:
-        if name not in FIGURES:
-            parser.error(f"{name}: no figure, expected {', '.join(FIGURES)}")
     return run_arguments.main(lambda: make_figures(arguments))
 
 

@@ -1,5 +1,5 @@
-"""Our own figures: what was searched, what machines of one area are worth, and where the time, the
-operations and the bytes of single frames go."""
+"""Our own figures: what machines of one area are worth, and where the time, the operations and the
+bytes of single frames go."""
 
 from __future__ import annotations
 
@@ -14,36 +14,6 @@ from report_folder import Run
 
 MOST_RUNS = 6  # whose frames are drawn
 Made = tuple[Figure, str]  # with its caption
-
-
-def exploration(results: Results) -> Made:
-    """Area against cycles of explore.py."""
-    data = results.table("explore", "explore.py", ("cycles", "mm2", "front", "binding"))
-    figure, (axes,) = panels(1, width=6, height=4)
-    for at, binding in enumerate(data.different("binding")):
-        rows = data.where(binding=binding)
-        style = line_style(at) | {"linestyle": "none"}
-        for best, face in (("yes", style["color"]), ("", "white")):
-            shown = [row for row in rows if row["front"] == best]
-            axes.plot(
-                [number(row["mm2"]) for row in shown],
-                [number(row["cycles"]) / 1e6 for row in shown],
-                label=f"{binding} binds" if best else None,
-                **style,
-                markerfacecolor=face,
-            )
-    points = [(number(r["mm2"]), number(r["cycles"]) / 1e6) for r in data.rows]
-    front = lower_left(points)
-    axes.step(*zip(*front), where="post", color="#626a78", linewidth=1, zorder=1)
-    axes.set_xlabel("area, mm²")
-    axes.set_ylabel("M cycles")
-    from_zero(axes)
-    axes.set_title("Cycles against area")
-    legend_above(figure, axes)
-    return figure, (
-        "What was explored: filled where no other point is better in everything; the line is the "
-        f"front of these two. From {data.made}"
-    )
 
 
 def lower_left(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -303,7 +273,6 @@ def traffic(results: Results) -> Made:
 
 
 FIGURES = {
-    "exploration": exploration,
     "fronts_of_orders": fronts_of_orders,
     "equal_area": equal_area,
     "group_size": group_size,

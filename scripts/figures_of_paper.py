@@ -222,7 +222,7 @@ def voxel_size(results: Results) -> Made:
         axes.set_xscale("log", base=2)
         axes.set_xticks(sizes, [f"{size:g}" for size in sizes])
         axes.minorticks_off()
-        axes.set_xlabel("size of a voxel, times the preset's (2 real, 0.4 synthetic)")
+        axes.set_xlabel("size of a voxel, times the preset's (2 or 0.4, by extent)")
         published(axes, 1, "the paper's", vertical=True)
     legend_above(figure, quality, columns=3)
     return figure, f"Size of a voxel against quality and energy. From {data.made}"
@@ -230,7 +230,9 @@ def voxel_size(results: Results) -> Made:
 
 def filter_units(results: Results) -> Made:
     """The grid of CFUs and FFU lanes."""
-    data = results.table("explore", "explore.py", ("cycles",))
+    data = results.table("explore", "explore.py", ())
+    if "cycles" not in data.rows[0]:
+        raise Missing(f"{results.folder / 'explore.csv'} has no column cycles")
     keys = list(data.rows[0])[: list(data.rows[0]).index("cycles")]
     varying = [key for key in keys if len(data.different(key)) > 1]
     coarse = [key for key in varying if key.rpartition(".")[2].startswith("cfu")]

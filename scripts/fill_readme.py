@@ -59,7 +59,7 @@ def fill(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=run_arguments.Help)
+    parser = run_arguments.Parser(__doc__)
     parser.add_argument(
         "readmes", nargs="*", type=pathlib.Path, metavar="README", help="default: all of them"
     )

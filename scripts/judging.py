@@ -23,8 +23,8 @@ Simulate = Callable[[Run], Outcome]  # called from several threads
 class Judged:
     """costs: of the objectives, each to be small; values: of the measures that the requirements are
     about, and violations of these, as far as the views that were drawn tell. settings: what was
-    simulated, by key. dropped: why not all views were drawn; refused, failed: what the command said. Nothing
-    but what JSON can hold, since others read it out of a study."""
+    simulated, by key. dropped: why not all views were drawn; refused, failed: what the command
+    said. Nothing but what JSON can hold, since others read it out of a study."""
 
     assignments: Assignments
     costs: tuple[float, ...] = ()

@@ -153,6 +153,11 @@ class Requirement:
     least: bool  # a lower bound
     bound: float
 
+    @property
+    def name(self) -> str:
+        """Of the column with what was measured: it says what was required, too."""
+        return f"{self.measure.text} {'>=' if self.least else '<='} {self.bound:g}"
+
     def violation(self, views: Views) -> float:
         """By how much of the bound it is missed; 0 or less where it holds."""
         value = self.measure.of(views)

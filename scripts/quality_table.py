@@ -10,9 +10,9 @@ pictures of the scene as given where there are no photographs. A data set is tra
 
 and both as .csv. `packed` is the scene with codebooks as `pack` makes them, tuned for nothing
 further. Steps alone bring a scene nearer to photographs. So a data set has one line more, of order
-`reference`: reference pictures of the same scene after as many steps at the same rates in that order,
-for no price and without codebooks. Everything is kept in fittings/ and targets/ of the folder for
-tables, and goes on where it ended.
+`reference`: reference pictures of the same scene after as many steps at the same rates in that
+order, for no price and without codebooks. Everything is kept in fittings/ and targets/ of the
+folder for tables, and goes on where it ended.
 """
 
 from __future__ import annotations

@@ -3,16 +3,20 @@
 
   report.py out/first_frame
   report.py out/builtin_object
+  report.py out/sweep.jsonl
 
-FOLDER is what `streaminggs simulate --out` wrote, with one view or several; or a folder that holds
-several of these at most three folders below, and the CSV tables that scripts wrote there
+A folder is what `streaminggs simulate --out` wrote, with one view or several; or a folder that
+holds several of these at most three folders below, and the CSV tables that scripts wrote there
 (explore.csv): the page then begins with all of them in one table and a diagram. Pictures are
 halved until the page is small enough, then left out from the last view on, and the page says so.
+
+A file is what `streaminggs sweep --out` wrote, or with fewer keys of each configuration its --csv:
+of each scene and view all points in a diagram and a table, with the front, and of a point that is
+chosen there the configuration and the command that runs it again.
 """
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import pathlib
 import sys
@@ -20,14 +24,17 @@ from collections.abc import Sequence
 
 import png_pictures
 import report_overview
+import report_sweep
 import report_tables
 import report_view
 import run_arguments
 import tables
 from report_charts import data_uri, escaped, ramp_css
 from report_folder import Run, Table, ViewFiles, find_runs, find_tables
+from sweep_results import read_sweep
 
 ASSETS = pathlib.Path(__file__).resolve().parent
+STYLE, SCRIPTS = "report_page.css", ("report_page.js", "report_points.js")
 MOST_BYTES = 6_000_000  # of the page
 MOST_HALVINGS = 2
 
@@ -127,7 +134,7 @@ def heading(runs: Sequence[Run], folder: pathlib.Path) -> tuple[str, str]:
     return view["scene"]["name"], " · ".join(words)
 
 
-def page(folder: pathlib.Path) -> str:
+def page_of_folder(folder: pathlib.Path) -> str:
     """Raises ValueError where there is nothing to show."""
     runs = list(find_runs(folder))
     panels = panels_of(runs, find_tables(folder))
@@ -136,15 +143,25 @@ def page(folder: pathlib.Path) -> str:
             f"{folder}: no results, expected report.json of `streaminggs simulate`, folders with "
             "one, or CSV tables"
         )
-    title, subtitle = heading(runs, folder)
+    return page(*heading(runs, folder), panels)
+
+
+def page_of_sweep(results: pathlib.Path) -> str:
+    """Raises ValueError where there is nothing to show."""
+    points = read_sweep(results)
+    panels = [Panel(name, text=text) for name, text in report_sweep.panels(points)]
+    return page(results.stem, report_sweep.subtitle(points), panels)
+
+
+def page(title: str, subtitle: str, panels: Sequence[Panel]) -> str:
     tabs = "".join(
         f"<button role=tab id=tab{at} aria-controls=panel{at} "
         f'aria-selected={"true" if at == 0 else "false tabindex=-1"}>{escaped(panel.name)}</button>'
         for at, panel in enumerate(panels)
     )
     bar = f'<div role=tablist aria-label="views">{tabs}</div>' if len(panels) > 1 else ""
-    style = (ASSETS / "report_page.css").read_text(encoding="utf-8").replace("RAMP", ramp_css())
-    script = (ASSETS / "report_page.js").read_text(encoding="utf-8")
+    style = (ASSETS / STYLE).read_text(encoding="utf-8").replace("RAMP", ramp_css())
+    script = "".join((ASSETS / name).read_text(encoding="utf-8") for name in SCRIPTS)
     before = (
         "<!doctype html><html lang=en><head><meta charset=utf-8>"
         '<meta name=viewport content="width=device-width,initial-scale=1">'
@@ -165,20 +182,28 @@ def page(folder: pathlib.Path) -> str:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=run_arguments.Help, allow_abbrev=False
-    )
-    parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER", help="with results")
+    parser = run_arguments.Parser(__doc__)
     parser.add_argument(
-        "--out", type=pathlib.Path, metavar="FILE", help="the page; default: FOLDER/report.html"
+        "results", type=pathlib.Path, metavar="RESULTS", help="a folder, or a file of a sweep"
+    )
+    parser.add_argument(
+        "--out",
+        type=pathlib.Path,
+        metavar="FILE",
+        help="the page; default: report.html in the folder, or beside the file with its name",
     )
     arguments = parser.parse_args()
 
     def work() -> None:
-        if not arguments.folder.is_dir():
-            raise ValueError(f"{arguments.folder}: no folder, expected one with results")
-        out = arguments.out or arguments.folder / "report.html"
-        tables.write_text(out, page(arguments.folder))
+        results = arguments.results
+        if results.is_dir():
+            made, out = page_of_folder(results), results / "report.html"
+        elif results.is_file():
+            made, out = page_of_sweep(results), results.with_suffix(".html")
+        else:
+            raise ValueError(f"{results}: no folder, expected one with results or those of a sweep")
+        out = arguments.out or out
+        tables.write_text(out, made)
         print(f"written to {out}")
 
     return run_arguments.main(work)

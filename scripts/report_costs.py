@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import report_charts as charts
-from report_charts import escaped, number, percent
+from report_charts import number, percent
 
 MOST_COMPONENTS = 14  # of energy; the rest is one line
 KINDS_OF_ENERGY = (

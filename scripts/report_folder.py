@@ -41,12 +41,16 @@ class Run:
 
 @dataclasses.dataclass(frozen=True)
 class Table:
-    """labels: the columns that name a row; where there are none, those that are not numbers."""
+    """labels: the columns that name a row; where there are none, those that are not numbers. costs:
+    of which the front is, drawn at first up, across and as the size of points; none: any. opens:
+    the first column numbers what the page can show more of."""
 
     name: str
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     labels: tuple[str, ...] = ()
+    costs: tuple[str, ...] = ()
+    opens: bool = False
 
 
 def read_json(path: pathlib.Path) -> dict:
@@ -57,6 +61,15 @@ def read_json(path: pathlib.Path) -> dict:
         raise ValueError(f"{path}:{error.lineno}: {error.msg}, expected JSON") from error
     if not isinstance(found, dict):
         raise ValueError(f"{path}: {type(found).__name__}, expected an object")
+    return found
+
+
+def flat(config: dict, path: str = "") -> list[tuple[str, object]]:
+    """(key.path, value) of every leaf."""
+    found: list[tuple[str, object]] = []
+    for key, value in config.items():
+        below = flat(value, f"{path}{key}.") if isinstance(value, dict) else [(path + key, value)]
+        found += below
     return found
 
 

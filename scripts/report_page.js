@@ -103,102 +103,6 @@ for (const figure of all("[data-heat]")) {
   };
 }
 
-// Points of two columns of a table, as wide as the page has room.
-const mostLabels = 24;
-function ticks(low, high) {
-  const rough = (high - low) / 5, power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((k) => k * power).find((s) => s >= rough);
-  const found = [];
-  for (let k = Math.floor(low / step); (k - 1) * step < high; ++k) found.push(k * step);
-  return found;
-}
-function scaled(values, from, to) {
-  let low = Math.min(...values), high = Math.max(...values);
-  if (low === high) { low -= Math.abs(low) / 2 || 1; high += Math.abs(high) / 2 || 1; }
-  if (low > 0 && low < high / 3) low = 0;
-  const at = ticks(low, high), first = at[0], last = at[at.length - 1];
-  return { at, place: (v) => from + (to - from) * (v - first) / (last - first) };
-}
-function drawAxes(svg, box, x, y, across, up) {
-  const text = (attributes, content) => { put("text", attributes, svg).textContent = content; };
-  const every = Math.ceil(x.at.length * 70 / (box.right - box.left));
-  x.at.forEach((v, i) => {
-    put("line", { class: "axis", x1: x.place(v), x2: x.place(v), y1: box.top, y2: box.bottom }, svg);
-    if (i % every === 0) text({ x: x.place(v), y: box.bottom + 19, "text-anchor": "middle" }, words(v));
-  });
-  for (const v of y.at) {
-    put("line", { class: "axis", x1: box.left, x2: box.right, y1: y.place(v), y2: y.place(v) }, svg);
-    text({ x: box.left - 8, y: y.place(v) + 4, "text-anchor": "end" }, words(v));
-  }
-  text({ x: (box.left + box.right) / 2, y: box.bottom + 42, "text-anchor": "middle" }, across);
-  const middle = (box.top + box.bottom) / 2;
-  text({ x: 14, y: middle, "text-anchor": "middle", transform: `rotate(-90 14 ${middle})` }, up);
-}
-// Beside their points, those that cover no other.
-function drawLabels(svg, points, right) {
-  const taken = points.map((p) => [p.cx - 6, p.cy - 6, p.cx + 6, p.cy + 6]);
-  for (const p of points) {
-    const label = put("text", { class: "label", y: p.cy + 4 }, svg);
-    label.textContent = p.label;
-    const width = label.getComputedTextLength();
-    const free = [p.cx + 10, p.cx - 10 - width].filter((x) => x > 0 && x + width < right)
-      .map((x) => [x, p.cy - 8, x + width, p.cy + 8])
-      .find((a) => !taken.some((b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]));
-    if (free) {
-      label.setAttribute("x", free[0]);
-      taken.push(free);
-    } else {
-      label.remove();
-    }
-  }
-}
-function drawPoints(figure) {
-  const { names, points, labels, best } = JSON.parse(figure.dataset.points);
-  const svg = figure.querySelector("svg");
-  const width = figure.clientWidth || 900, height = Math.max(280, Math.min(440, width / 2));
-  const box = { left: 84, right: width - 24, top: 14, bottom: height - 52 };
-  svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-  svg.replaceChildren();
-  const chosen = Object.fromEntries(all("select", figure).map((s) => [s.dataset.axis, +s.value]));
-  const shown = points.map((values, i) => ({ x: values[chosen.across], y: values[chosen.up], i }))
-    .filter((p) => p.x !== null && p.y !== null).sort((a, b) => a.x - b.x || a.y - b.y);
-  if (!shown.length) return;
-  const x = scaled(shown.map((p) => p.x), box.left, box.right);
-  const y = scaled(shown.map((p) => p.y), box.bottom, box.top);
-  drawAxes(svg, box, x, y, names[chosen.across], names[chosen.up]);
-  const describe = (p) => `${labels[p.i] ? labels[p.i] + ": " : ""}${names[chosen.up]} ${words(p.y)}, ${names[chosen.across]} ${words(p.x)}`;
-  for (const p of shown) Object.assign(p, { cx: x.place(p.x), cy: y.place(p.y), label: labels[p.i] });
-  const dots = shown.map((p) => {
-    const dot = put("circle", { cx: p.cx, cy: p.cy, r: 5, class: best[p.i] ? "best" : "" }, svg);
-    put("title", {}, dot).textContent = describe(p);
-    return dot;
-  });
-  if (shown.length <= mostLabels) drawLabels(svg, shown.filter((p) => p.label), width);
-  let at = -1;
-  svg.onkeydown = (event) => {
-    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    if (at >= 0) dots[at].classList.remove("at");
-    at = Math.min(Math.max(at + step, 0), dots.length - 1);
-    dots[at].classList.add("at");
-    figure.querySelector("output").textContent = describe(shown[at]);
-  };
-}
-const diagrams = all("[data-points]");
-for (const figure of diagrams) {
-  for (const select of all("select", figure)) select.onchange = () => drawPoints(figure);
-}
-let drawnAt = 0;
-function drawDiagrams() {
-  const width = diagrams.length ? diagrams[0].clientWidth : 0;
-  if (width === drawnAt) return;
-  drawnAt = width;
-  diagrams.forEach(drawPoints);
-}
-addEventListener("resize", drawDiagrams);
-drawDiagrams();
-
 // Tables that are sorted by the column whose head is pressed.
 for (const table of all("table.sortable")) {
   const heads = all("th", table.tHead), body = table.tBodies[0];
@@ -217,10 +121,11 @@ for (const table of all("table.sortable")) {
   });
 }
 
-for (const button of all(".command button")) {
+function copies(button) {
   button.onclick = () => {
     const code = button.previousElementSibling;
     getSelection().selectAllChildren(code);
     button.textContent = document.execCommand("copy") ? "copied" : "selected";
   };
 }
+all(".command button").forEach(copies);

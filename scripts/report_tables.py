@@ -12,7 +12,9 @@ MOST_ROWS = 2000  # of a table that are shown
 # Columns that are drawn at first where they are there, the likelier ones first.
 ACROSS = ("area_mm2.total", "mm2", "area_mm2", "sram_bytes", "DRAM MB", "MB a frame", "bus MB")
 UP = ("fps", "frames/s", "cycles", "frame.cycles", "k cycles", "M cycles", "mJ", "PSNR dB")
-NO_LABELS = ("binding", "binding.unit", "binding.holds", "binds", "key", "status", "slowest view", "holds", "front")  # that say nothing of what a row is
+# Columns of words that say nothing of what a row is.
+NO_LABELS = ("binding", "binding.unit", "binding.holds", "binds", "key", "status")
+NO_LABELS += ("slowest view", "holds", "front")
 
 
 def value_of(cell: str) -> float | None:
@@ -46,7 +48,8 @@ def labels_of(table: Table, numeric: Sequence[int]) -> Sequence[str]:
     if table.labels:
         return table.labels
     if "front" in table.head and "group" in table.head:
-        return table.head[: table.head.index("group") + 1]
+        given = tuple(name for name in table.head if name == "beside")
+        return (*given, *table.head[: table.head.index("group") + 1])
     words = [at for at in range(len(table.head)) if at not in numeric]
     return [
         table.head[at]
@@ -65,51 +68,74 @@ def cell_text(cell: str) -> str:
     return f"{value:.6g}" if len(cell) > 9 else cell
 
 
-def diagram(table: Table, numeric: Sequence[int], name: str) -> str:
-    if len(numeric) < 2 or len(table.rows) < 2:
-        return ""
-    across = first_choice(table, ACROSS, numeric, -1)
-    up = first_choice(table, UP, [at for at in numeric if at != across], across)
-    best = table.head.index("front") if "front" in table.head else None
+def row_names(table: Table) -> list[str]:
+    """Of each row what names it and is not the same in all."""
+    numeric = numeric_columns(table)
+    named = labels_of(table, numeric)
     varying = [
         at
         for at, name in enumerate(table.head)
-        if name in labels_of(table, numeric) and len({row[at] for row in table.rows}) > 1
+        if name in named and len({row[at] for row in table.rows}) > 1
     ]
 
-    def label(row: Sequence[str]) -> str:
-        named = (f"{table.head[at]} {row[at]}" if at in numeric else row[at] for at in varying)
-        return ", ".join(filter(None, named))
+    def name_of(row: Sequence[str]) -> str:
+        words = (f"{table.head[at]} {row[at]}" if at in numeric else row[at] for at in varying)
+        return ", ".join(filter(None, words))
 
+    return [name_of(row) for row in table.rows]
+
+
+def diagram(table: Table, name: str) -> str:
+    numeric = [at for at in numeric_columns(table) if not (table.opens and at == 0)]
+    if len(numeric) < 2 or len(table.rows) < 2:
+        return ""
+    across = first_choice(table, (*table.costs[1:2], *ACROSS), numeric, -1)
+    ups = [at for at in numeric if at != across]
+    up = first_choice(table, (*table.costs[:1], *UP), ups, across)
+    best = table.head.index("front") if "front" in table.head else None
     facts = {
         "names": [table.head[at] for at in numeric],
         "points": [[value_of(row[at]) for at in numeric] for row in table.rows],
-        "labels": [label(row) for row in table.rows],
+        "labels": row_names(table),
         "best": [best is None or row[best] == "yes" for row in table.rows],
     }
 
-    def choice(axis: str, chosen: int) -> str:
-        options = "".join(
+    def choice(axis: str, chosen: int, before: str = "") -> str:
+        options = before + "".join(
             f"<option value={place} {'selected' if at == chosen else ''}>{escaped(table.head[at])}"
             for place, at in enumerate(numeric)
         )
         return f"<label>{axis} <select data-axis={axis}>{options}</select></label>"
 
+    third = ""
+    if len(table.costs) > 2:
+        at = table.head.index(table.costs[2])
+        third = choice("size", at, "<option value=-1>all the same")
     note = (
-        "<span class=small>filled: no other point is better in everything</span>"
+        "<span class=small>filled: no other point is better in "
+        f"{' and '.join(table.costs) or 'everything'}</span>"
         if best is not None
         else ""
     )
     return (
         f'<figure class=scatter data-points="{escaped(json.dumps(facts, separators=(",", ":")))}">'
-        f"<figcaption>{choice('up', up)} {choice('across', across)} {note}</figcaption>"
+        f"<figcaption>{choice('up', up)} {choice('across', across)} {third} {note}"
+        "</figcaption>"
         f'<svg role=img tabindex=0 aria-label="{escaped(name)}: a diagram of '
-        f'{len(table.rows)} points; arrow keys read single points"></svg>'
+        f'{len(table.rows)} points; arrow keys read single points'
+        f'{", Enter shows one" if table.opens else ""}"></svg>'
         "<output aria-live=polite>&nbsp;</output></figure>"
     )
 
 
-def table_html(table: Table, numeric: Sequence[int]) -> str:
+def table_html(table: Table) -> str:
+    numeric = numeric_columns(table)
+
+    def content_of(at: int, cell: str) -> str:
+        if table.opens and at == 0:
+            return f"<button type=button data-open={int(cell) - 1}>{escaped(cell)}</button>"
+        return escaped(cell_text(cell))
+
     head = "".join(
         f'<th scope=col{" class=n" if at in numeric else ""}><button type=button>'
         f"{escaped(name)}</button></th>"
@@ -118,7 +144,7 @@ def table_html(table: Table, numeric: Sequence[int]) -> str:
     body = "".join(
         "<tr>"
         + "".join(
-            f"<td class=n>{escaped(cell_text(cell))}</td>"
+            f"<td class=n>{content_of(at, cell)}</td>"
             if at in numeric
             else f"<td>{escaped(cell)}</td>"
             for at, cell in enumerate(row)
@@ -140,9 +166,9 @@ def table_html(table: Table, numeric: Sequence[int]) -> str:
     )
 
 
+def content(table: Table, title: str) -> str:
+    return diagram(table, title) + table_html(table)
+
+
 def section(table: Table, title: str) -> str:
-    numeric = numeric_columns(table)
-    return (
-        f"<section class=wide><h3>{escaped(title)}</h3>"
-        f"{diagram(table, numeric, title)}{table_html(table, numeric)}</section>"
-    )
+    return f"<section class=wide><h3>{escaped(title)}</h3>{content(table, title)}</section>"

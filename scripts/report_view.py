@@ -7,7 +7,7 @@ import report_costs
 import report_pictures
 import report_time
 from report_charts import escaped, number, percent
-from report_folder import ViewFiles
+from report_folder import ViewFiles, flat
 
 
 def quality(view: dict) -> str:
@@ -80,15 +80,6 @@ def counters(view: dict) -> str:
         for name, count in of_unit["counters"].items()
     ]
     return charts.table(("unit", "counter", "count"), rows, numeric=(2,))
-
-
-def flat(config: dict, path: str = "") -> list[tuple[str, object]]:
-    """(key.path, value) of every leaf."""
-    found: list[tuple[str, object]] = []
-    for key, value in config.items():
-        below = flat(value, f"{path}{key}.") if isinstance(value, dict) else [(path + key, value)]
-        found += below
-    return found
 
 
 def configuration(view: dict) -> str:

@@ -1,4 +1,5 @@
-"""Command-line arguments that the scripts which make tables share, and how they end."""
+"""How scripts take their command line and how they end; arguments that those which make tables
+share."""
 
 from __future__ import annotations
 
@@ -8,6 +9,7 @@ import pathlib
 import shlex
 import sys
 from collections.abc import Callable, Iterable
+from typing import NoReturn
 
 import simulations
 
@@ -30,6 +32,16 @@ class Help(argparse.RawDescriptionHelpFormatter, argparse.ArgumentDefaultsHelpFo
         return super()._get_help_string(action)
 
 
+class Parser(argparse.ArgumentParser):
+    """Of every script: what it does not take is one line on stderr and exit status 2."""
+
+    def __init__(self, about: str | None):
+        super().__init__(description=about, formatter_class=Help, allow_abbrev=False)
+
+    def error(self, message: str) -> NoReturn:
+        sys.exit(ended(message.removeprefix("argument "), BAD_INPUT))
+
+
 SCENE_FORMS = (
     "builtin:NAME?n=COUNT, a real scene of ../shared by name, or a .ply file with its cameras "
     "beside it (NAME.json)"
@@ -41,10 +53,10 @@ def parser(
     without_scenes: str = "the built-in scenes and all real ones",
     what: str = "SCENE",
     forms: str = SCENE_FORMS,
-) -> argparse.ArgumentParser:
+) -> Parser:
     """SCENE..., the program to run them with, and a folder for tables. without_scenes: what is
     taken where no scene is named, in words. what, forms: what is named, and how it may be."""
-    made = argparse.ArgumentParser(description=about, formatter_class=Help, allow_abbrev=False)
+    made = Parser(about)
     made.add_argument(
         "scenes",
         nargs="*",
@@ -68,7 +80,7 @@ def parser(
     return made
 
 
-def add_side_by_side(to: argparse.ArgumentParser) -> None:
+def add_side_by_side(to: Parser) -> None:
     to.add_argument(
         "--side-by-side",
         type=int,
@@ -78,7 +90,7 @@ def add_side_by_side(to: argparse.ArgumentParser) -> None:
     )
 
 
-def add_fittings_side_by_side(to: argparse.ArgumentParser) -> None:
+def add_fittings_side_by_side(to: Parser) -> None:
     to.add_argument(
         "--side-by-side",
         type=int,
@@ -118,13 +130,14 @@ def make_folder(out: pathlib.Path) -> None:
         raise ValueError(f"--out: {out}: cannot be written to")
 
 
+def ended(text: object, status: int) -> int:
+    """Says why in a line; the status."""
+    print(f"{sys.argv[0]}: {text}", file=sys.stderr)
+    return status
+
+
 def main(work: Callable[[], None]) -> int:
     """Exit status: 0 done, 1 a simulation failed, 2 bad arguments or input, 130 interrupted."""
-
-    def ended(text: object, status: int) -> int:
-        print(f"{sys.argv[0]}: {text}", file=sys.stderr)
-        return status
-
     try:
         work()
     except simulations.Failure as failure:

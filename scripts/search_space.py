@@ -7,6 +7,7 @@ import dataclasses
 import itertools
 import math
 import pathlib
+import re
 from collections.abc import Iterator, Sequence
 
 from group_shapes import KEYS, NAME, expanded
@@ -79,6 +80,13 @@ def parse_point(text: str, place: str) -> Assignments:
         if "=" not in assignment:
             raise ValueError(f"{place}: '{assignment}', expected KEY=VALUE")
     return expanded(text.split())
+
+
+def parse_named(text: str, number: int, place: str) -> tuple[str, Assignments]:
+    """Of `NAME: KEY=VALUE ...`, where the name may be left out. number: which one of several it is.
+    Raises ValueError."""
+    name, point = re.fullmatch(r"(?:([^=:]+):(?:\s|$))?(.*)", text, re.DOTALL).groups()
+    return (name or f"beside {number}").strip(), parse_point(point, place)
 
 
 def read_points(path: pathlib.Path) -> tuple[Axis, ...]:

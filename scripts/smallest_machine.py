@@ -5,9 +5,9 @@ From the preset resources are taken away a step at a time, on the axes that fair
 that step first which frees most area for the time it costs on the hardest view. A step after which
 that view is too slow is not tried again. When none is left every view is drawn; one that turns out
 to be too slow becomes a hardest view beside the first, and the descent begins again. Where the
-preset itself is too slow, it first gets more of what the slowest view's binding names, or where that
-gains nothing, of what gains most for its area. Memory channels stay; on-chip memory is as large as
-the rest needs.
+preset itself is too slow, it first gets more of what the slowest view's binding names, or where
+that gains nothing, of what gains most for its area. Memory channels stay; on-chip memory is as
+large as the rest needs.
 
 Writes smallest_machine.md, a line for each size, and each machine as a configuration in
 smallest_machine_SIZE.json. What was simulated is kept in smallest_machine_runs.jsonl.

@@ -1,6 +1,7 @@
 """The command from Python, without a build step: `run()` simulates, `load()` reads what lies in a
 folder, both as dictionaries, one a view with the keys of report.json; `numbers()` and `table()`
-make columns of them, `diff()` says where two differ.
+make columns of them, `diff()` says where two differ. `sweep()` simulates many configurations, with
+scenes and their pictures prepared once, and makes a table of them.
 
   import sys; sys.path.insert(0, "scripts")
   import streaminggs
@@ -12,18 +13,27 @@ make columns of them, `diff()` says where two differ.
   for key, before, after, change in streaminggs.diff(small, large)[:10]:
       print(f"{key}: {before} -> {after}")
   streaminggs.table([small, large])[["config.hfus", "frame.cycles", "area_mm2.total"]]  # pandas
+  points = streaminggs.grid({"hfus": [2, 4, 8], "hfu.ffu_lanes": [8, 16]})
+  streaminggs.sweep(points, ["builtin:object"], settings=streaminggs.FITTED)
 """
 
 from __future__ import annotations
 
+import importlib.util
+import itertools
+import os
 import pathlib
+import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 
 import simulations
 from report_folder import find_runs
 from scenes import Scene, find_scene
+from sweep_server import SweepServer
+from view_numbers import view_numbers
 
 Failure = simulations.Failure
+Settings = Mapping[str, object]  # keys of the configuration
 
 # On-chip memories as large as the rest of the configuration needs.
 FITTED = dict(assignment.split("=") for assignment in simulations.SRAM_AS_NEEDED)
@@ -36,7 +46,7 @@ def run(
     view: str | int = 0,
     size: str = "",
     config: str = "exact",
-    settings: Mapping[str, object] | None = None,
+    settings: Settings | None = None,
     out: str | pathlib.Path | None = None,
     program: str | pathlib.Path = simulations.BINARY,
 ) -> list[dict]:
@@ -50,8 +60,7 @@ def run(
     is not the model's.
     """
     found = Scene(pathlib.Path(scene).stem, scene, cameras) if cameras else find_scene(scene)
-    overrides = tuple(f"{key}={text(value)}" for key, value in (settings or {}).items())
-    job = simulations.Run(found, str(view), size, config, overrides)
+    job = simulations.Run(found, str(view), size, config, assignments(settings or {}))
     if out is None:
         outcome = simulations.simulate(pathlib.Path(program), job)
     else:
@@ -59,9 +68,66 @@ def run(
     return list(outcome.accepted())
 
 
-def text(value: object) -> str:
-    """As --set takes it."""
-    return str(value).lower() if isinstance(value, bool) else str(value)
+def assignments(settings: Settings) -> tuple[str, ...]:
+    """As --set takes them."""
+    return tuple(
+        f"{key}={str(value).lower() if isinstance(value, bool) else value}"
+        for key, value in settings.items()
+    )
+
+
+def grid(axes: Mapping[str, Sequence[object]]) -> list[dict[str, object]]:
+    """Points for `sweep()`: every combination of the values of each key, the last one fastest."""
+    return [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
+
+
+def sweep(
+    points: Sequence[Settings],
+    scenes: Sequence[str],
+    views: str | int = 0,
+    *,
+    size: str = "",
+    config: str = "exact",
+    settings: Settings | None = None,
+    jobs: int = os.cpu_count() or 1,
+    results: str | pathlib.Path | None = None,
+    program: str | pathlib.Path = simulations.BINARY,
+):
+    """Simulates each point on each view of each scene and gives a line for each, in that order: its
+    scene, view and settings, `status` (done, refused or failed), `reason` where it is not done, and
+    the numbers of its report by their paths. A pandas data frame where there is pandas (Debian's
+    python3-pandas), else a list of dictionaries with these columns.
+
+    points: settings over `settings`, which are over those of `config`; scenes, views, size: as
+    run() has them. jobs: simulations side by side. results: a file of JSON lines, which keeps what
+    was simulated and of which nothing is simulated again; without it nothing is kept.
+
+    Raises ValueError for arguments that are none, Failure where the command itself fails.
+    """
+    binary = pathlib.Path(program)
+    found = [find_scene(scene) for scene in scenes]
+    cases = [
+        (point, simulations.Run(scene, str(view), size, config, base + assignments(point)))
+        for base in [assignments(settings or {})]
+        for scene in found
+        for point in points
+        for view in view_numbers(binary, scene, str(views))
+    ]
+    with tempfile.TemporaryDirectory(prefix="streaminggs-") as folder:
+        kept = pathlib.Path(results or f"{folder}/sweep.jsonl")
+        with SweepServer(binary, kept, jobs) as server:
+            outcomes = server.outcomes([job for _, job in cases])
+    rows = [swept(point, outcome) for (point, _), outcome in zip(cases, outcomes)]
+    return frame(rows) if importlib.util.find_spec("pandas") else rows
+
+
+def swept(point: Settings, outcome: simulations.Outcome) -> dict[str, object]:
+    """A line of `sweep()`."""
+    job = outcome.run
+    status = "failed" if outcome.failure else "refused" if outcome.refused else "done"
+    line = {"scene": job.scene.name, "view": int(job.view), **point}
+    line |= {"status": status, "reason": outcome.refused}
+    return line | {path: n for view in outcome.views for path, n in numbers(view).items()}
 
 
 def load(folder: str | pathlib.Path) -> list[dict]:
@@ -99,9 +165,13 @@ def numbers(view: dict) -> dict[str, float]:
 def table(views: Sequence[dict]):
     """A pandas data frame: a line a view, a column for each leaf of its report. Raises ImportError
     without pandas (Debian's python3-pandas)."""
+    return frame([dict(leaves(view)) for view in views])
+
+
+def frame(rows: Sequence[dict]):
     import pandas
 
-    return pandas.DataFrame([dict(leaves(view)) for view in views])
+    return pandas.DataFrame(rows)
 
 
 Difference = tuple[str, object, object, float]  # path, before, after, (after - before) / |before|

@@ -1,5 +1,6 @@
-"""A study that Optuna keeps: in a file, for one worker at a time, since SQLite cannot hand a trial to
-one of two; or in a database that any number of workers on any number of machines share. Needs Debian's python3-optuna; for postgresql:// python3-psycopg2 as well.
+"""A study that Optuna keeps: in a file, for one worker at a time, since SQLite cannot hand a trial
+to one of two; or in a database that any number of workers on any number of machines share. Needs
+Debian's python3-optuna; for postgresql:// python3-psycopg2 as well.
 
 A worker that is killed leaves its trial running. Each worker that goes on looks for trials whose
 worker has not been heard of for some time, and puts their configurations back in the queue. A
@@ -31,7 +32,6 @@ MOST_RETRIES = 3  # of a configuration whose worker was lost
 REFUSED_TEXT, VIOLATIONS, JUDGED, SAME_AS = "refused", "violations", "judged", "same_as"
 SPACE, TASK, CLAIM, FILLED = "space", "task", "claim", "filled"
 States = optuna.trial.TrialState
-SAMPLERS = ("random", "nsga2", "tpe")
 
 
 def open_storage(url: str, lost_after: int) -> optuna.storages.RDBStorage:
@@ -94,8 +94,8 @@ def sampler(name: str, seed: int, required: bool) -> optuna.samplers.BaseSampler
 @dataclasses.dataclass
 class Study:
     """task: everything but the space that a result depends on. skips: why a configuration need not
-    be judged; empty where it must be. whole: all that were put in the queue, each once, in place of a
-    search."""
+    be judged; empty where it must be. whole: all that were put in the queue, each once, in place of
+    a search."""
 
     study: optuna.Study
     space: Space

@@ -68,7 +68,8 @@ class Searcher:
 
     def next_to_the_front(self, study: Study) -> At | None:
         """What no worker has looked at yet: one step on one axis from what is best, and not less of
-        everything than one that did not hold. The largest saving first, where any frame tells it."""
+        everything than one that did not hold. The largest saving first, where any frame tells
+        it."""
         at_of = {self.space.assignments(at): at for at in study.done()}
         seen = {study.at_of(trial) for trial in study.trials()}
         lost = [

@@ -1,5 +1,5 @@
-"""`streaminggs sweep` as a server: scenes and their pictures are prepared once, and what its file of
-results holds is not simulated again."""
+"""`streaminggs sweep` as a server: scenes and their pictures are prepared once, and what its file
+of results holds is not simulated again."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import pathlib
 import subprocess
 import tempfile
 import threading
+from collections.abc import Sequence
 
 from run_digest import program_digest
 from simulations import REFUSED, Failure, Outcome, Run, said
@@ -23,7 +24,7 @@ class SweepServer:
 
     def __init__(self, binary: pathlib.Path, results: pathlib.Path, jobs: int):
         """Raises ValueError when there is no such program."""
-        self.binary, self.program = binary, program_digest(binary)
+        self.binary, self.program, self.jobs = binary, program_digest(binary), jobs
         self.failures: list[Failure] = []
         self.simulated = 0
         self.ended: Failure | ValueError | None = None
@@ -100,6 +101,15 @@ class SweepServer:
         failure = Failure(f"{run.label()}: {answer['reason']}")
         self.failures.append(failure)
         return Outcome(run, refused=str(failure), failure=failure)
+
+    def outcomes(self, runs: Sequence[Run]) -> list[Outcome]:
+        """In the order of the runs, which are of one view each."""
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            waiting = [pool.submit(self.outcome, run) for run in runs]
+            try:
+                return [each.result() for each in waiting]
+            finally:
+                pool.shutdown(cancel_futures=True)
 
     def end(self) -> None:
         """To be called when all tables are written. Raises the first Failure there was."""

@@ -100,7 +100,7 @@ def voxel_of_preset(binary: pathlib.Path, subject: Subject) -> float:
     return float(voxel)
 
 
-def study_parser(doc: str | None, forms: str) -> argparse.ArgumentParser:
+def study_parser(doc: str | None, forms: str) -> run_arguments.Parser:
     """Of a script that tunes. forms: what its subjects may be."""
     parser = run_arguments.parser(doc, " ".join(subjects.DEFAULT_SUBJECTS), forms=forms)
     run_arguments.add_fittings_side_by_side(parser)
@@ -130,7 +130,7 @@ def study_parser(doc: str | None, forms: str) -> argparse.ArgumentParser:
     return parser
 
 
-def add_beta(parser: argparse.ArgumentParser) -> None:
+def add_beta(parser: run_arguments.Parser) -> None:
     parser.add_argument("--beta", type=float, default=0.05, help="of L_CBP; the paper's")
 
 

@@ -2,8 +2,8 @@
 """What the size of a voxel is worth once the scene is tuned to it: quality, bytes, cycles and
 energy of paper order with raw second halves, before and after boundary-aware tuning, for sizes from
 half to four times the preset's. Frames are those of quality_table.py, and so is what they are
-compared with. Writes voxel_study.md and .csv. Everything is kept in fittings/ and targets/ of the
-folder for tables, and goes on where it ended.
+compared with. Writes voxel_study.md and .csv, and their figure, voxel_size.svg and .png.
+Everything is kept in fittings/ and targets/ of the folder for tables, and goes on where it ended.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import run_arguments
 import subjects
 import tables
 import tunings
+from figures_beside import draw_beside
 from fittings import KeptFittings
 from judged_frames import (
     MACHINE_HEAD,
@@ -81,6 +82,7 @@ def make_table(arguments: argparse.Namespace) -> None:
             commits += views
     made = run_arguments.how_made(commits)
     tables.write(arguments.out, "voxel_study", made, HEAD, rows)
+    draw_beside(arguments.out, "voxel_size")
 
 
 def main() -> int:

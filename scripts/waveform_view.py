@@ -10,7 +10,6 @@ pipeline; the view opens with the whole of this waveform in sight.
 
 from __future__ import annotations
 
-import argparse
 import math
 import pathlib
 import re
@@ -131,7 +130,7 @@ def write_view(vcd: pathlib.Path, out: pathlib.Path) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = run_arguments.Parser(__doc__.splitlines()[0])
     parser.add_argument("vcd", type=pathlib.Path, help="waveform, as `simulate --vcd` writes it")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="view to write, .gtkw")
     arguments = parser.parse_args()

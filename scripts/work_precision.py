@@ -3,9 +3,9 @@
 blending early), another pixel group or another chunk costs in quality, traffic and cycles.
 
 Frames are written as floats (framebuffer=rgb32f), so that PSNR sees every error; that is 12 B a
-pixel in DRAM. The coarse filters' FIFOs hold the survivors of as many whole chunks as in the preset:
-with less room a larger chunk would be measured by its wait. Every combination gets the shared
-on-chip memory that it needs; the column `shared SRAM B` says what that is.
+pixel in DRAM. The coarse filters' FIFOs hold the survivors of as many whole chunks as in the
+preset: with less room a larger chunk would be measured by its wait. Every combination gets the
+shared on-chip memory that it needs; the column `shared SRAM B` says what that is.
 """
 
 from __future__ import annotations

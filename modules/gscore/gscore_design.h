@@ -19,6 +19,7 @@ class GscoreDesign : public MachineDesign {
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                      DataSheet& sheet) const override;
   std::string golden_key() const override;
+  PixelSize piece() const override { return square_of(kTilePx); }
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                  const BuildOptions& options) const override;
 

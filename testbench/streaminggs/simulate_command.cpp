@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "algorithm/data_files.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_plan.h"
+#include "algorithm/render/group_state.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/camera_path.h"
 #include "testbench/streaminggs/commands.h"
@@ -78,6 +80,16 @@ GroupRange range_of(const std::string& text) {
         "--timeline-groups: got '{}', expected a number, or two as in 4-7, the lower first", text));
   }
   return range;
+}
+
+// Of a single frame, whose camera this is.
+void check_groups(const std::string& text, const GroupRange& range, const MachineDesign& design,
+                  const Camera& camera) {
+  if (text.empty() || design.piece() == PixelSize{}) return;
+  const std::size_t count = pixel_groups(camera.width, camera.height, design.piece()).size();
+  if (range.last < count) return;
+  throw InputError(fmt::format("--timeline-groups: got '{}', the frame has {}: expected 0 to {}",
+                               text, count, count - 1));
 }
 
 // One file each of a single frame.
@@ -157,6 +169,10 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   if (!packed) scene = arguments.load();
   NumberedCameras views;
   if (!path) views = arguments.cameras(scene.cameras);
+  if (!views.empty()) {
+    check_groups(arguments.timeline_groups, setting.options.timeline_groups, *config.design,
+                 views.front().second);
+  }
   check_places(arguments, config, out,
                path ? files_of_path(*path, out) : files_of_views(views, out));
   if (packed) {

@@ -1,8 +1,12 @@
 """How the scripts end, whatever a simulation does: a program stands in for the command."""
 
+import contextlib
+import importlib
+import io
 import unittest
+from unittest import mock
 
-from in_folder import InFolder  # isort: skip (finds the scripts)
+from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import binding_check
 import boundary_study
 import compare_variants
@@ -132,6 +136,32 @@ class Ends(InFolder):
             with self.subTest(script.__name__, arguments=arguments):
                 program = ("--streaminggs", str(good), "--out", str(self.folder / "out"))
                 self.check(script, (*program, *arguments), 2, line)
+
+    def test_arguments_that_are_none(self):
+        """Of every script there is, also of one that is yet to be written."""
+        taking = [
+            path.stem
+            for path in sorted((REPOSITORY / "scripts").glob("*.py"))
+            if "parse_args()" in path.read_text()
+        ]
+        self.assertIn("report", taking)
+        cases = [
+            *((name, ("x", "--nope"), "(unrecognized|the following) arg") for name in taking),
+            ("explore", ("-j", "x"), "-j: invalid int value: 'x'"),
+            ("explore", ("--search", "x"), "--search: invalid choice: 'x'"),
+            ("explore", ("--axis", "a=1", "--points", "x"), "--points: not allowed with"),
+            ("report", (), "the following arguments are required: RESULTS"),
+            ("figures", ("--from",), "--from: expected one argument"),
+        ]
+        for name, arguments, expected in cases:
+            with self.subTest(name, arguments=arguments):
+                said = io.StringIO()
+                words = [f"{name}.py", *arguments]
+                with mock.patch("sys.argv", words), contextlib.redirect_stderr(said):
+                    with self.assertRaises(SystemExit) as ended:
+                        importlib.import_module(name).main()
+                self.assertEqual(ended.exception.code, 2)
+                self.assertRegex(said.getvalue(), rf"\A{name}\.py: {expected}.*\n\Z")
 
     def test_unknown_scene_and_readme(self):
         for script in (explore, fill_readme):

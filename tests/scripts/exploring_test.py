@@ -1,15 +1,21 @@
-"""explore.py: its tables, what it leaves out, what it keeps. A program stands in for the command."""
+"""explore.py: its tables, what it leaves out, what it keeps. A program stands in for the
+command."""
 
 import csv
+import os
 import signal
 import subprocess
 import sys
 import unittest
 
-from in_folder import REPOSITORY, InFolder
+from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
+import debian_python
 
 
-class Exploring(InFolder):
+class Explorations(InFolder):
+    # Another Python, which has Matplotlib, takes seconds to draw.
+    ENVIRONMENT = {**os.environ, debian_python.TRIED: "1"}
+
     def explore(self, body: str, *arguments: str) -> subprocess.CompletedProcess[str]:
         program = self.stand_in(body)
         command = [sys.executable, "-B", str(REPOSITORY / "scripts" / "explore.py")]
@@ -20,6 +26,7 @@ class Exploring(InFolder):
             capture_output=True,
             text=True,
             check=False,
+            env=self.ENVIRONMENT,
             # Whoever runs the tests in the background has SIGINT ignored.
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )
@@ -27,12 +34,17 @@ class Exploring(InFolder):
     def rows(self, name: str) -> list[list[str]]:
         return list(csv.reader((self.folder / name).read_text().splitlines()))
 
+
+class Exploring(Explorations):
     HEAD = ["hfus", "group", "cycles", "slowest view", "binding", "holds", "front"]
 
     def test_tables_show_what_was_simulated(self):
         done = self.explore("finish()", "--axis", "hfus=2,4")
         self.assertEqual((done.returncode, done.stderr.count("Traceback")), (0, 0))
-        rows = [["2", "112x80", "4", "truck 0", "dram", "", ""], ["4", "112x80", "2", "truck 0", "dram", "", "yes"]]
+        rows = [
+            ["2", "112x80", "4", "truck 0", "dram", "", ""],
+            ["4", "112x80", "2", "truck 0", "dram", "", "yes"],
+        ]
         self.assertEqual(self.rows("explore.csv"), [self.HEAD, *rows])
         self.assertIn("2 configurations; 1 of them no other one beats.", done.stdout)
 
@@ -56,7 +68,8 @@ class Exploring(InFolder):
             """
         done = self.explore(body, "--axis", "hfus=2,3")
         self.assertEqual(done.returncode, 0)
-        self.assertEqual(self.rows("explore.csv"), [self.HEAD, ["2", "112x80", "4", "truck 0", "dram", "", "yes"]])
+        row = ["2", "112x80", "4", "truck 0", "dram", "", "yes"]
+        self.assertEqual(self.rows("explore.csv"), [self.HEAD, row])
         self.assertRegex(done.stdout, "Refused: truck .* hfus=3: hfus: 3 is odd")
 
     def test_what_was_simulated_is_kept(self):
@@ -113,11 +126,30 @@ class Exploring(InFolder):
                 ("8", "9", "8", "yes", ""),
             ],
         )
+        self.assertEqual(self.rows("explore.csv")[0][3], "min(fps) >= 3")
         self.assertIn("4 configurations, of which 2 hold min(fps) >= 3; 1 of them", done.stdout)
         drawn = sorted(path.name for path in self.folder.glob("drawn*"))
         both = [f"drawn {hfus} {view}" for hfus in (4, 8) for view in (0, 1)]
         # A view that none was drawn on comes first.
         self.assertEqual(drawn, ["drawn 1 0", "drawn 2 1", *both])
+
+    def test_what_is_beside_has_its_name(self):
+        for text, name in (
+            ("by hand: hfus=8", "by hand"),
+            ("hfus=8", "beside 1"),
+            ("all: hfus=8 group=32x16", "all"),
+        ):
+            with self.subTest(text):
+                done = self.explore("finish()", "--axis", "hfus=2,4", "--beside", text)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                head, *rows = self.rows("explore.csv")
+                named = {row[0]: row[head.index("beside")] for row in rows}
+                self.assertEqual(named, {"8": name, "2": "", "4": ""})
+        for text in ("hfus", "by hand: hfus"):
+            with self.subTest(text):
+                done = self.explore("finish()", "--axis", "hfus=2,4", "--beside", text)
+                self.assertEqual(done.returncode, 2)
+                self.assertRegex(done.stderr, "^.*explore.py: --beside: .*, expected KEY=VALUE\n$")
 
     def test_what_was_simulated_is_not_simulated_again(self):
         body = """
@@ -131,6 +163,45 @@ class Exploring(InFolder):
         self.explore(body, *program)
         self.assertEqual(self.rows("explore.csv"), first)
         self.assertEqual((self.folder / "count").read_text(), "2\n4\n")
+
+
+class Drawing(Explorations):
+    ENVIRONMENT = None
+
+    def test_the_front_is_drawn_where_it_can_be(self):
+        words = ("--axis", "hfus=2,4,8", "--require", "min(fps) >= 3", "--objectives", "mm2")
+        done = self.explore("finish()", *words, "--beside", "by hand: hfus=6")
+        if "needs python3-matplotlib" in done.stderr:
+            self.skipTest("matplotlib is not installed")
+        self.assertEqual((done.returncode, "no figure" in done.stderr), (0, False))
+        text = (self.folder / "exploration.svg").read_text()
+        for said in ("required: min(fps) &gt;= 3", "by hand", "area, mm²", "scripts/explore.py"):
+            self.assertIn(said, text)
+        self.assertTrue((self.folder / "exploration.png").exists())
+        # One number alone has nothing to be drawn against; that is no failure.
+        done = self.explore("finish()", "--axis", "hfus=2,4")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("no figure: skipped exploration: columns hfus, group, cycles", done.stderr)
+
+    def test_filters_are_drawn_as_a_map(self):
+        axes = ("--axis", "hfu.cfus=1,2", "--axis", "hfu.ffu_lanes=8,16")
+        body = """
+            CFUS, LANES = (int(SET[key]) for key in ("hfu.cfus", "hfu.ffu_lanes"))
+            finish()
+            path = pathlib.Path(sys.argv[sys.argv.index("--out") + 1]) / "report.json"
+            report = json.loads(path.read_text())
+            view = report["views"][0]
+            view["config"]["hfu"] = {"cfus": CFUS, "ffu_lanes": LANES}
+            view["frame"]["cycles"] = 6400 // (CFUS * LANES)
+            path.write_text(json.dumps(report))
+            """
+        done = self.explore(body, *axes)
+        if "needs python3-matplotlib" in done.stderr:
+            self.skipTest("matplotlib is not installed")
+        self.assertEqual((done.returncode, "no figure" in done.stderr), (0, False), done.stderr)
+        text = (self.folder / "filter_units.svg").read_text()
+        for said in ("hfu.cfus", "hfu.ffu_lanes", "4.00", "1.00"):
+            self.assertIn(said, text)
 
 
 if __name__ == "__main__":

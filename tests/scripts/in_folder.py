@@ -75,10 +75,10 @@ class InFolder(unittest.TestCase):
         return folder
 
     def stand_in(self, body: str) -> pathlib.Path:
-        """A program in the command's place. It has SET, the values of --set, SCRIPT, the process that
-        asked, and `finish()`, which writes the report of a view that took 8 cycles over the number of
-        HFUs, and has one more mm2 than those. As `sweep` it does for each point what it does for
-        one."""
+        """A program in the command's place. It has SET, the values of --set, SCRIPT, the process
+        that asked, and `finish()`, which writes the report of a view that took 8 cycles over the
+        number of HFUs, and has one more mm2 than those. As `sweep` it does for each point what it
+        does for one."""
         program = self.folder / "streaminggs"
         prelude = f"""\
             #!{sys.executable} -IS
@@ -104,7 +104,8 @@ class InFolder(unittest.TestCase):
                     done = subprocess.run(words, capture_output=True, text=True, env=environment)
                     said = " ".join((done.stderr or done.stdout).split())
                     if done.returncode:
-                        return {{"status": {{2: "refused"}}.get(done.returncode, "failed"), "reason": said}}
+                        status = "refused" if done.returncode == 2 else "failed"
+                        return {{"status": status, "reason": said}}
                     report = json.loads((pathlib.Path(out) / "report.json").read_text())
                     return {{"status": "done", "report": report["views"][0]}}
             if "sweep" in sys.argv:

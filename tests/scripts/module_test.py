@@ -3,6 +3,7 @@
 import importlib.util
 import pathlib
 import unittest
+from unittest import mock
 
 from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
 import streaminggs
@@ -67,10 +68,47 @@ class Running(InFolder):
             with self.subTest(said), self.assertRaisesRegex(ValueError, said):
                 self.run_one(**more)
 
+    def sweep(self, points, **more):
+        scene = [str(self.scene)]
+        with mock.patch.object(streaminggs, "frame", list):
+            return streaminggs.sweep(points, scene, size="64x36", program=COMMAND, jobs=2, **more)
+
+    def test_a_sweep_is_as_single_runs(self):
+        axes = {"hfus": [2, 4], "rendering.ellipse_test": [True, False]}
+        points = streaminggs.grid(axes)
+        results = self.folder / "sweep.jsonl"
+        rows = self.sweep(points, settings=streaminggs.FITTED, results=results)
+        for point, row in zip(points, rows, strict=True):
+            (view,) = self.run_one(settings={**streaminggs.FITTED, **point})
+            told = streaminggs.numbers(view)
+            for path in ("frame.cycles", "dram.bytes", "area_mm2.total", "energy.total_j"):
+                self.assertEqual(row[path], told[path])
+            self.assertEqual({key: row[key] for key in axes}, point)
+            self.assertEqual((row["scene"], row["view"], row["status"]), ("truck", 0, "done"))
+        # What the file holds is not simulated again.
+        kept = results.read_text()
+        again = self.sweep(points, settings=streaminggs.FITTED, results=results)
+        self.assertEqual((again, results.read_text()), (rows, kept))
+
+    def test_what_a_sweep_is_refused(self):
+        for point, more, other, said in (
+            ({"hfus": 2}, {"views": 9}, "refused", "view"),
+            ({"hfus": 2}, {"config": "nope"}, "refused", "nope"),
+            ({"nope": 1}, {}, "done", "nope: unknown key"),
+        ):
+            with self.subTest(said):
+                good, bad = self.sweep([{"hfus": 4}, point], **more)
+                self.assertEqual((good["status"], bad["status"]), (other, "refused"))
+                self.assertIn(said, bad["reason"])
+        with self.assertRaisesRegex(ValueError, "--view: 'x', expected numbers"):
+            self.sweep([{"hfus": 2}], views="x")
+
     @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
     def test_a_data_frame(self):
         table = streaminggs.table(self.run_one())
         self.assertEqual(table["frame.width_px"].tolist(), [64])
+        rows = streaminggs.sweep([{"hfus": 2}], [str(self.scene)], size="64x36", program=COMMAND)
+        self.assertEqual(rows["frame.width_px"].tolist(), [64])
 
 
 if __name__ == "__main__":

@@ -17,25 +17,12 @@ import report_tables
 import report_time
 import report_view
 import simulations
-from chromium import PROGRAM, Chromium
+from chromium import Chromium
+from page_checks import NEEDS_BROWSER, PageChecks
 from report_folder import Table, find_runs
 from scenes import find_scene
 
 NEEDS_COMMAND = unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
-NEEDS_BROWSER = unittest.skipUnless(PROGRAM, "chromium is not installed")
-# Roles of what can be worked with or looked at: each has to have a name.
-NAMED_ROLES = (
-    "button",
-    "slider",
-    "radio",
-    "tab",
-    "tablist",
-    "tabpanel",
-    "combobox",
-    "image",
-    "table",
-)
-
 
 def filtered_png(width: int, height: int, pixels: bytes) -> bytes:
     """RGB, its rows by filters 0 to 4 in turn, as other writers than ours make them."""
@@ -268,7 +255,7 @@ class Page(WithFrames):
 
 
 @NEEDS_BROWSER
-class InTheBrowser(WithFrames):
+class InTheBrowser(WithFrames, PageChecks):
     def setUp(self):
         super().setUp()
         for config in ("exact", "paper"):
@@ -285,38 +272,12 @@ class InTheBrowser(WithFrames):
                     with self.subTest(page=page, fragment=fragment, width=width):
                         browser.resize(width, 900)
                         browser.open(page, fragment)
-                        self.assertEqual(browser.complaints(), [])
-                        self.assertEqual(browser.requests(), [page.resolve().as_uri()])
-                        across = browser.value("document.documentElement.scrollWidth")
-                        self.assertLessEqual(across, width)
-                        self.check_names(browser)
+                        self.check_whole(browser, page, width)
                 self.check_themes(browser)
             self.check_slider(browser)
             self.check_tabs(browser)
             self.check_readings(browser)
             self.assertEqual(browser.complaints(), [])
-
-    def check_names(self, browser: Chromium):
-        nodes = browser.ask("Accessibility.getFullAXTree")["nodes"]
-        roles = [node["role"]["value"] for node in nodes if not node["ignored"]]
-        self.assertIn("button", roles)
-        for node in nodes:
-            if not node["ignored"] and node["role"]["value"] in NAMED_ROLES:
-                self.assertTrue(node.get("name", {}).get("value"), node)
-
-    def check_themes(self, browser: Chromium):
-        paper = "getComputedStyle(document.body).backgroundColor"
-        seen = {"light": browser.value(paper)}
-        browser.prefer("dark")
-        # The page hears of it with its next picture.
-        self.assertTrue(browser.comes_true(f"{paper} !== '{seen['light']}'"))
-        seen["dark"] = browser.value(paper)
-        # The button: system, light, dark, system again.
-        for expected in ("light", "dark", "dark"):
-            browser.value("document.getElementById('theme').click()")
-            self.assertEqual(browser.value(paper), seen[expected])
-        browser.prefer("light")
-        self.assertTrue(browser.comes_true(f"{paper} === '{seen['light']}'"))
 
     def check_slider(self, browser: Chromium):
         browser.open(self.one)

@@ -163,7 +163,9 @@ class Searching(unittest.TestCase):
             pathlib.Path(folder, "bin").mkdir()
             (presets / "toy.json").write_text('{"machine": "exact", "hfu": {"lanes": 2, "a": 1}}')
             document = fair_fight_tables.assigned_document(
-                pathlib.Path(folder, "bin", "streaminggs"), machine_axes.Machine(order, (0,)), [view]
+                pathlib.Path(folder, "bin", "streaminggs"),
+                machine_axes.Machine(order, (0,)),
+                [view],
             )
         self.assertEqual(
             document,

@@ -1,5 +1,5 @@
-"""explore.py with a study that several workers share, one of which is killed. A program stands in for
-the command; the databases are real ones."""
+"""explore.py with a study that several workers share, one of which is killed. A program stands in
+for the command; the databases are real ones."""
 
 import contextlib
 import csv
@@ -9,7 +9,6 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
@@ -72,7 +71,8 @@ class Studies(InFolder):
 
     def words(self, out: str, *more: str) -> list[str]:
         words = [PYTHON, "-B", str(REPOSITORY / "scripts" / "explore.py"), str(self.scene)]
-        words += ["--streaminggs", str(self.folder / "streaminggs"), "--out", str(self.folder / out)]
+        words += ["--streaminggs", str(self.folder / "streaminggs")]
+        words += ["--out", str(self.folder / out)]
         words += ["-j", "1", "--lost-after", str(LOST_AFTER), "--objectives", "cycles,mm2"]
         return [*words, "--axis", "hfus=1,2,3,4,5,6,7,8", *more]
 
@@ -111,7 +111,10 @@ class Studies(InFolder):
         """Both started at once: each ends with the table that one alone makes."""
         workers = [
             subprocess.Popen(
-                self.words(name, *study), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+                self.words(name, *study),
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                text=True,
             )
             for name in (one, other)
         ]
@@ -158,7 +161,8 @@ class Studies(InFolder):
         self.stand_in("finish()")
         words = self.words("out", "--search", "tpe", "--require", "min(fps) >= 3")
         words[words.index("cycles,mm2")] = "mm2"
-        done = subprocess.run([*words, "--trials", "8"], capture_output=True, text=True, check=False)
+        words += ["--trials", "8"]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         front = [row for row in self.rows("out")[1:] if row[-1]]
         self.assertEqual([row[0] for row in front], ["3"])

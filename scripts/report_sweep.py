@@ -1,0 +1,195 @@
+"""The points of a sweep on the report page: of each scene and view a diagram with its front, a
+table, and each point's configuration with how to run it again."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from collections.abc import Callable, Sequence
+
+import report_tables
+from measures import pareto_front
+from report_charts import details, escaped
+from report_folder import Table
+from sweep_results import DONE, MEMORIES, Point
+
+Case = tuple[str, str, str]
+BY_SCENE = "differs by scene"
+
+
+def total(points: Sequence[Point], path: str) -> float:
+    return sum(point.told[path] for point in points)
+
+
+def psnr_db(point: Point) -> float:
+    """Pictures that are equal have no number."""
+    return float(point.told.get("image.psnr_db", math.inf))
+
+
+def sram_kb(point: Point) -> float:
+    names = (f"sram.{memory}_available_bytes" for memory in MEMORIES)
+    return sum(point.told.get(name, 0) for name in names) / 1e3
+
+
+def binds(points: Sequence[Point]) -> str:
+    return "+".join(sorted({str(point.told.get("binding.unit", "")) for point in points}))
+
+
+# What a machine comes to on one case or on several: work is summed, of the rest the worst counts.
+MEASURES: dict[str, Callable[[Sequence[Point]], float]] = {
+    "cycles": lambda points: total(points, "frame.cycles"),
+    "fps": lambda points: min(point.told["frame.fps"] for point in points),
+    "mJ": lambda points: 1e3 * total(points, "energy.total_j"),
+    "mm2": lambda points: max(point.told["area_mm2.total"] for point in points),
+    "PSNR dB": lambda points: min(map(psnr_db, points)),
+    "DRAM MB": lambda points: sum(point.told.get("dram.bytes", 0) for point in points) / 1e6,
+    "SRAM KB": lambda points: max(map(sram_kb, points)),
+}
+COSTS = ("cycles", "mm2", "mJ")  # that the front is of
+MOST_REASONS = 200  # of points that were not done
+
+
+@dataclasses.dataclass(frozen=True)
+class Machine:
+    """A configuration, with its points: one for each case."""
+
+    points: tuple[Point, ...]
+
+    @property
+    def settings(self) -> dict[str, str]:
+        return {"config": self.points[0].asked["config"], **self.points[0].settings}
+
+    def value(self, name: str) -> float:
+        return MEASURES[name](self.points)
+
+    def resolved(self) -> dict[str, str]:
+        first, *others = (point.resolved for point in self.points)
+        return {
+            key: value if all(other.get(key) == value for other in others) else BY_SCENE
+            for key, value in first.items()
+        }
+
+
+def cell(value: float) -> str:
+    if isinstance(value, int):
+        return str(value)
+    return "equal" if value == math.inf else f"{value:.6g}"
+
+
+def varying(machines: Sequence[Machine]) -> list[str]:
+    """Settings that are not the same for all."""
+    keys = dict.fromkeys(key for machine in machines for key in machine.settings)
+    return [key for key in keys if len({machine.settings.get(key) for machine in machines}) > 1]
+
+
+def table_of(machines: Sequence[Machine], best: Sequence[bool], name: str) -> Table:
+    keys = varying(machines)
+    head = ("point", *keys, *MEASURES, "binds", "front")
+    rows = tuple(
+        (
+            str(number),
+            *(machine.settings.get(key, "") for key in keys),
+            *(cell(machine.value(measure)) for measure in MEASURES),
+            binds(machine.points),
+            "yes" if kept else "",
+        )
+        for number, (machine, kept) in enumerate(zip(machines, best), start=1)
+    )
+    return Table(name, head, rows, labels=tuple(keys) or ("point",), costs=COSTS, opens=True)
+
+
+def configurations(machines: Sequence[Machine], table: Table) -> str:
+    """What the page shows of one of them at a time: values by key, of each machine only those that
+    are not the first one's."""
+    resolved = [machine.resolved() for machine in machines]
+    keys = list(dict.fromkeys(key for config in resolved for key in config))
+    differing = {key for key in keys if len({config.get(key) for config in resolved}) > 1}
+    first = resolved[0]
+    facts = {
+        "keys": keys,
+        "first": [first.get(key) for key in keys],
+        "differing": [at for at, key in enumerate(keys) if key in differing],
+        "machines": [
+            {
+                "commands": [point.command() for point in machine.points],
+                "other": {
+                    at: config.get(key)
+                    for at, key in enumerate(keys)
+                    if config.get(key) != first.get(key)
+                },
+            }
+            for machine, config in zip(machines, resolved)
+        ],
+        "names": report_tables.row_names(table),
+    }
+    return f'<div class=machine data-machines="{escaped(json.dumps(facts))}"></div>'
+
+
+def section(machines: Sequence[Machine], title: str, most: int) -> str:
+    """So many of them: those on the front first, the fastest at the top."""
+    best = pareto_front([[machine.value(cost) for cost in COSTS] for machine in machines])
+    order = sorted(
+        range(len(machines)), key=lambda at: (not best[at], machines[at].value("cycles"))
+    )
+    shown = [machines[at] for at in order][:most]
+    table = table_of(shown, [best[at] for at in order], title)
+    left = len(machines) - len(shown)
+    note = f"<p class=small>{left} points more are in the results.</p>" if left else ""
+    return (
+        f"<section class=wide><h3>{escaped(title)}</h3>{report_tables.content(table, title)}{note}"
+        f"{configurations(shown, table)}</section>"
+    )
+
+
+def name_of(case: Case) -> str:
+    scene, view, size = case
+    return f"{scene}, view {view}" + (f", {size}" if size else "")
+
+
+def not_done(points: Sequence[Point]) -> str:
+    """Why, a line each."""
+    left = [point for point in points if point.status != DONE]
+    lines = "".join(
+        f"<li><code>{escaped(point.command())}</code><br>{escaped(point.status)}"
+        f"{f': {escaped(point.reason)}' if point.reason else ''}</li>"
+        for point in left[:MOST_REASONS]
+    )
+    if not left:
+        return ""
+    if len(left) > MOST_REASONS:
+        lines += f"<li>{len(left) - MOST_REASONS} more</li>"
+    return f"<section class=wide>{details(f'{len(left)} not done', f'<ul>{lines}</ul>')}</section>"
+
+
+def panels(points: Sequence[Point]) -> list[tuple[str, str]]:
+    """(name, text) of each tab: where there are several cases, first those machines that were
+    simulated on all. Raises ValueError where no point was done."""
+    done = [point for point in points if point.status == DONE]
+    if not done:
+        raise ValueError(f"no point was done: {points[0].reason or points[0].status}")
+    cases: dict[Case, list[Machine]] = {}
+    by_machine: dict[tuple, list[Point]] = {}
+    for point in done:
+        cases.setdefault(point.case(), []).append(Machine((point,)))
+        by_machine.setdefault(point.machine(), []).append(point)
+    # The page has an end, however many views there are.
+    most = report_tables.MOST_ROWS // (len(cases) + 1) or 1
+    made = []
+    on_all = [Machine(tuple(of)) for of in by_machine.values() if len(of) == len(cases)]
+    if len(cases) > 1 and on_all:
+        title = f"Sums over {len(cases)} frames; fps and PSNR of the worst, area of the largest"
+        made.append(("all", section(on_all, title, most)))
+    made += [(name_of(case), section(of, name_of(case), most)) for case, of in cases.items()]
+    name, text = made[0]
+    made[0] = (name, text + not_done(points))
+    return [(name, f"<div class=grid>{text}</div>") for name, text in made]
+
+
+def subtitle(points: Sequence[Point]) -> str:
+    counts: dict[str, int] = {}
+    for point in points:
+        counts[point.status] = counts.get(point.status, 0) + 1
+    words = [f"{len(points)} points", *(f"{count} {status}" for status, count in counts.items())]
+    commits = sorted({point.commit for point in points} - {""})
+    return " · ".join(words + ([f"commit {', '.join(commits)}"] if commits else []))

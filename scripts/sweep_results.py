@@ -1,0 +1,140 @@
+"""Results of `streaminggs sweep`: its JSON lines, or the table of its --csv."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import json
+import pathlib
+import shlex
+
+from measures import value_at
+from report_folder import flat
+
+DONE = "done"
+MEMORIES = ("input", "codebook", "shared", "buffer")
+# Of a report, and columns of the table of the same names.
+PATHS = (
+    "frame.cycles",
+    "frame.fps",
+    "energy.total_j",
+    "area_mm2.total",
+    "image.psnr_db",
+    "dram.bytes",
+    "binding.unit",
+    *(f"sram.{memory}_available_bytes" for memory in MEMORIES),
+)
+NEEDED = PATHS[:4]  # what every machine has
+OF_POINT = ("scene", "cameras", "view", "size", "config")
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    """What was asked for, in its words, and what came of it. settings: over those of `config`;
+    told: of PATHS, those that the report has; resolved: every key that is known of the
+    configuration."""
+
+    asked: dict[str, str]
+    settings: dict[str, str]
+    status: str
+    reason: str = ""
+    told: dict[str, object] = dataclasses.field(default_factory=dict)
+    resolved: dict[str, str] = dataclasses.field(default_factory=dict)
+    commit: str = ""
+
+    def case(self) -> tuple[str, str, str]:
+        return self.asked["scene"], self.asked["view"], self.asked.get("size", "")
+
+    def machine(self) -> tuple:
+        """Equal for points that have been asked for with the same configuration."""
+        return self.asked["config"], *sorted(self.settings.items())
+
+    def command(self) -> str:
+        words = ["streaminggs", "simulate", self.asked["scene"], "--config", self.asked["config"]]
+        for name in ("cameras", "view", "size"):
+            if value := self.asked.get(name):
+                words += [f"--{name}", value]
+        for key, value in self.settings.items():
+            words += ["--set", f"{key}={value}"]
+        return shlex.join(words)
+
+
+def text_of(value: object) -> str:
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def point_of_line(line: str) -> Point:
+    """Raises ValueError, KeyError or TypeError where it is no result."""
+    result = json.loads(line)
+    asked = result["point"]
+    report = result.get("report", {})
+    if result["status"] == DONE and any(value_at(report, path) is None for path in NEEDED):
+        raise KeyError("report")
+    return Point(
+        {name: text_of(asked[name]) for name in OF_POINT if name in asked},
+        {key: text_of(value) for key, value in asked["set"].items()},
+        result["status"],
+        result.get("reason", ""),
+        {path: value for path in PATHS if (value := value_at(report, path)) is not None},
+        {key: text_of(value) for key, value in flat(report.get("config", {}))},
+        report.get("provenance", {}).get("commit", ""),
+    )
+
+
+def read_lines(path: pathlib.Path) -> list[Point]:
+    """Raises ValueError. What a killed sweep has left of a line does not count."""
+    text = path.read_text(encoding="utf-8", errors="replace")
+    whole, _, _ = text.rpartition("\n")
+    points = []
+    for number, line in enumerate(whole.splitlines(), start=1):
+        try:
+            points.append(point_of_line(line))
+        except (ValueError, KeyError, TypeError) as error:
+            raise ValueError(
+                f"{path}:{number}: got {line[:40]!r}, expected a result of `streaminggs sweep`"
+            ) from error
+    return points
+
+
+def number_in(text: str) -> object:
+    """Of a cell; words as they are."""
+    try:
+        return float(text) if set(text) & set(".enif") else int(text)
+    except ValueError:
+        return text
+
+
+def read_table(path: pathlib.Path) -> list[Point]:
+    """Settings are those that the table shows, the model's choices among them. Raises
+    ValueError."""
+    head, *rows = list(csv.reader(path.read_text(errors="replace").splitlines())) or [[]]
+    missing = [name for name in ("scene", "view", "config", "status", *NEEDED) if name not in head]
+    if missing:
+        raise ValueError(
+            f"{path}: no column {', '.join(missing)}; expected a table of `streaminggs sweep --csv`"
+        )
+    keys = head[head.index("config") + 1 : head.index("status")]
+    points = []
+    for number, row in enumerate(rows, start=2):
+        if len(row) != len(head):
+            raise ValueError(f"{path}:{number}: got {len(row)} cells, expected {len(head)}")
+        cells = {name: cell for name, cell in zip(head, row) if cell}
+        settings = {key: cells[key] for key in keys if key in cells}
+        points.append(
+            Point(
+                {name: cells[name] for name in OF_POINT if name in cells},
+                settings,
+                cells["status"],
+                told={name: number_in(cells[name]) for name in PATHS if name in cells},
+                resolved=settings,
+            )
+        )
+    return points
+
+
+def read_sweep(path: pathlib.Path) -> list[Point]:
+    """Of each point what came last. Raises ValueError where there is none."""
+    points = read_table(path) if path.suffix == ".csv" else read_lines(path)
+    if not points:
+        raise ValueError(f"{path}: no results, expected those of `streaminggs sweep`")
+    return list({(point.case(), point.machine()): point for point in points}.values())
