@@ -8,8 +8,9 @@ it.
   figures.py variants roofline    these two
 
 The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units.
-Ours: exploration, fronts_of_orders, equal_area, group_size; compare_machines_rates, _traffic and
-_ratios; and of the runs of `simulate` below the folder roofline, waits, traffic.
+Ours: training_curve; exploration, fronts_of_orders, equal_area, group_size;
+compare_machines_rates, _traffic and _ratios; and of the runs of `simulate` below the folder
+roofline, waits, traffic.
 
 Needs Debian's python3-matplotlib, which scripts/tools.sh installs.
 """
@@ -34,9 +35,11 @@ def make_figures(arguments: argparse.Namespace) -> None:
     import figures_of_exploration
     import figures_of_machines
     import figures_of_paper
+    import figures_of_tuning
 
     known = {
         **figures_of_paper.FIGURES,
+        **figures_of_tuning.FIGURES,
         **figures_of_exploration.FIGURES,
         **figures_of_machines.FIGURES,
         **figures_of_comparison.FIGURES,

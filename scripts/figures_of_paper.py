@@ -117,42 +117,6 @@ def dram_by_stage(results: Results) -> Made:
     return figure, f"DRAM traffic by stage. {said.replace('`', '')}. From {data.made}"
 
 
-def tuning_curve(results: Results) -> Made:
-    data = results.table(
-        "boundary_study",
-        "boundary_study.py",
-        ("scene", "of the preset's", "beta", "step", "PSNR dB", "misordered"),
-    )
-    cases = list(
-        dict.fromkeys((row["scene"], row["of the preset's"], row["beta"]) for row in data.rows)
-    )
-    figure, (quality, order) = panels(2)
-    for at, (scene, factor, beta) in enumerate(cases):
-        rows = [
-            row
-            for row in data.rows
-            if (row["scene"], row["of the preset's"], row["beta"]) == (scene, factor, beta)
-        ]
-        steps = [number(row["step"]) for row in rows]
-        label = f"{scene}, voxels x {factor}, beta {beta}"
-        for axes, column in ((quality, "PSNR dB"), (order, "misordered")):
-            values = [number(row[column]) for row in rows]
-            axes.plot(
-                steps,
-                [float("nan") if v is None else v for v in values],
-                label=label,
-                markevery=max(1, len(steps) // 10),
-                **line_style(at),
-            )
-    quality.set_title("PSNR of paper order, dB")
-    order.set_title("Share of Gaussians that are misordered")
-    from_zero(order)
-    for axes in (quality, order):
-        axes.set_xlabel("step")
-    legend_above(figure, quality, columns=2)
-    return figure, f"Boundary-aware tuning. From {data.made}"
-
-
 def variants(results: Results) -> Made:
     data = results.table(
         "compare_variants", "compare_variants.py", ("scene", "variant", "M cycles", "mJ")
@@ -271,7 +235,6 @@ def filter_units(results: Results) -> Made:
 FIGURES = {
     "characterisation": characterisation,
     "dram_by_stage": dram_by_stage,
-    "tuning_curve": tuning_curve,
     "variants": variants,
     "voxel_size": voxel_size,
     "filter_units": filter_units,

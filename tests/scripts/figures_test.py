@@ -22,6 +22,7 @@ import machine_tables
 import machine_views
 import simulations
 import tables
+import training_curves
 import voxel_study
 from scenes import find_scene
 
@@ -89,7 +90,16 @@ TABLES = {
             for beta in ("0", "0.5")
             for step in (0, 500, 1000)
         ],
-        ("truck, voxels x 1, beta 0.5", "step"),
+        ("truck: PSNR", "voxels x 1, beta 0.5", "step"),
+    ),
+    "training_curve": (
+        "training_curves",
+        training_curves.HEAD,
+        [
+            {"data set": "lego", "seed": 2, "step": step, "seconds": step / 2, "PSNR dB": "20.1"}
+            for step in (400, 800)
+        ],
+        ("lego, seed 2", "minutes"),
     ),
     "variants": (
         "compare_variants",
