@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import contextlib
+import fcntl
 import hashlib
 import os
 import pathlib
@@ -12,6 +13,7 @@ import shutil
 import signal
 import subprocess
 import threading
+from typing import TextIO
 
 import covering_tests
 from covering_tests import Target, Test
@@ -48,6 +50,7 @@ class FaultTree:
     def __init__(self, project: pathlib.Path, work: pathlib.Path, jobs: int, patience: float):
         self.project, self.jobs, self.patience = project.resolve(), jobs, patience
         self.folder = work.resolve() / "tree"
+        self.lock = self.locked(work)
         self.build = self.folder / "build" / PRESET
         self.files = self.copied()
         self.digest = hashlib.sha256(
@@ -66,6 +69,17 @@ class FaultTree:
         self.sound: dict[str, bool] = {}  # by name of a test, whether it passes without a fault
         self.planted = False
         self.configure()
+
+    @staticmethod
+    def locked(work: pathlib.Path) -> TextIO:
+        """Open as long as the tree is in use. Raises ValueError when another one has it."""
+        work.mkdir(parents=True, exist_ok=True)
+        lock = (work / "lock").open("w")
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise ValueError(f"--work: {work}: another run plants faults there") from error
+        return lock
 
     def copied(self) -> list[str]:
         """Makes the copy what the project is; a file that is the same keeps its time."""
@@ -185,12 +199,14 @@ class FaultTree:
         passed = 0
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             waiting = {pool.submit(self.passes, test, stop): test for test in tests}
-            for done in concurrent.futures.as_completed(waiting):
-                if not done.result():
-                    stop.set()
-                    pool.shutdown(cancel_futures=True)
-                    return waiting[done], passed
-                passed += 1
+            try:
+                for done in concurrent.futures.as_completed(waiting):
+                    if not done.result():
+                        return waiting[done], passed
+                    passed += 1
+            finally:  # also of what is interrupted no test goes on
+                stop.set()
+                pool.shutdown(cancel_futures=True)
         return None, passed
 
     def passes_without(self, test: Test, target: Target) -> bool:

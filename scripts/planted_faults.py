@@ -21,6 +21,7 @@ import dataclasses
 import itertools
 import json
 import pathlib
+import signal
 import sys
 import time
 from collections.abc import Iterator
@@ -222,6 +223,7 @@ def main() -> int:
         metavar="FOLDER",
         help="for tables",
     )
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends what it has started
     return run_arguments.main_of_tables(make, parser.parse_args())
 
 

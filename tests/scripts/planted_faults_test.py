@@ -13,6 +13,7 @@ import covering_tests
 import fault_kinds
 import planted_faults
 from covering_tests import Target
+from fault_tree import FaultTree
 
 
 def of_line(line: str) -> dict[str, set[str]]:
@@ -224,6 +225,12 @@ class Planting(InFolder):
     def test_a_test_that_fails_anyway_finds_nothing(self):
         (self.project / "tests" / "small_test.cpp").write_text("int main() { return 1; }\n")
         self.assertNotIn("| found |", self.run_script("--faults", "100"))
+
+    def test_two_do_not_plant_in_one_tree(self):
+        lock = FaultTree.locked(self.folder / "work")
+        with self.assertRaisesRegex(AssertionError, "another run plants faults there"):
+            self.run_script()
+        lock.close()
 
     def test_what_is_no_project(self):
         status, said, _ = self.ended(
