@@ -13,7 +13,7 @@ import shutil
 import signal
 import subprocess
 import threading
-from typing import TextIO
+from collections.abc import Iterator
 
 import covering_tests
 from covering_tests import Target, Test
@@ -43,6 +43,22 @@ def limit() -> None:
         resource.setrlimit(what, (most if hard < 0 else min(most, hard), hard))
 
 
+def digest_of(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+@contextlib.contextmanager
+def only_one(work: pathlib.Path) -> Iterator[None]:
+    """Raises ValueError when another run has its tree in this folder."""
+    work.mkdir(parents=True, exist_ok=True)
+    with (work / "lock").open("w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise ValueError(f"--work: {work}: another run plants faults there") from error
+        yield
+
+
 class FaultTree:
     """files: tracked ones, as they stand in the project. patience: seconds that a test may take.
     Raises ValueError where there is nothing to copy."""
@@ -50,12 +66,10 @@ class FaultTree:
     def __init__(self, project: pathlib.Path, work: pathlib.Path, jobs: int, patience: float):
         self.project, self.jobs, self.patience = project.resolve(), jobs, patience
         self.folder = work.resolve() / "tree"
-        self.lock = self.locked(work)
         self.build = self.folder / "build" / PRESET
         self.files = self.copied()
-        self.digest = hashlib.sha256(
-            "".join(self.file_digest(name) for name in self.files).encode()
-        ).hexdigest()
+        self.digests = {name: digest_of((self.folder / name).read_bytes()) for name in self.files}
+        self.digest = digest_of("".join(self.digests.values()).encode())
         self.environment = {
             **os.environ,
             "GIT_CEILING_DIRECTORIES": str(self.folder.parent),  # a commit is no part of a program
@@ -67,19 +81,8 @@ class FaultTree:
             self.environment["CMAKE_CXX_COMPILER_LAUNCHER"] = "ccache"
         self.without_fault: dict[str, str] = {}  # by name of a target, its programs' digest
         self.sound: dict[str, bool] = {}  # by name of a test, whether it passes without a fault
-        self.planted = False
+        self.original = ""  # of the file with a fault; empty: there is none
         self.configure()
-
-    @staticmethod
-    def locked(work: pathlib.Path) -> TextIO:
-        """Open as long as the tree is in use. Raises ValueError when another one has it."""
-        work.mkdir(parents=True, exist_ok=True)
-        lock = (work / "lock").open("w")
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise ValueError(f"--work: {work}: another run plants faults there") from error
-        return lock
 
     def copied(self) -> list[str]:
         """Makes the copy what the project is; a file that is the same keeps its time."""
@@ -90,7 +93,7 @@ class FaultTree:
             raise ValueError(f"--project: {self.project}: expected a folder under git")
         files = {f for f in asked.stdout.split("\0") if (self.project / f).is_file()}
         for name in files:
-            self.restore_from_project(name)
+            self.copy(name)
         for folder, folders, names in os.walk(self.folder):
             if folder == str(self.folder) and "build" in folders:
                 folders.remove("build")
@@ -100,16 +103,13 @@ class FaultTree:
                     path.unlink()
         return sorted(files)
 
-    def restore_from_project(self, name: str) -> None:
+    def copy(self, name: str) -> None:
         source, copy = self.project / name, self.folder / name
         if copy.is_file() and copy.read_bytes() == source.read_bytes():
             return
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_bytes(source.read_bytes())
         copy.chmod(source.stat().st_mode)
-
-    def file_digest(self, name: str) -> str:
-        return hashlib.sha256((self.project / name).read_bytes()).hexdigest()
 
     def commit(self) -> str:
         command = ["git", "-C", str(self.project), "describe", "--always", "--dirty"]
@@ -133,27 +133,27 @@ class FaultTree:
 
     def plant(self, fault: Fault) -> None:
         path = self.folder / fault.path
-        lines = path.read_text().splitlines(keepends=True)
+        self.original = path.read_text()
+        lines = self.original.splitlines(keepends=True)
         at = fault.line - 1
         if lines[at].rstrip("\n") != fault.before:
             raise ValueError(f"{path}: line {fault.line} is not what the fault is planted in")
         lines[at] = fault.after + "\n"
         path.write_text("".join(lines))
-        self.planted = True
 
-    def restore(self, name: str) -> None:
-        self.restore_from_project(name)
-        self.planted = False
+    def restore(self, fault: Fault) -> None:
+        (self.folder / fault.path).write_text(self.original)
+        self.original = ""
 
     def programs_of(self, target: Target) -> str:
         """Builds it; the digest of what it is and what it runs."""
-        if not self.planted and target.name in self.without_fault:
+        if not self.original and target.name in self.without_fault:
             return self.without_fault[target.name]
         self.built(target)
         digest = hashlib.sha256()
         for name in target.programs:
             digest.update((self.build / name).read_bytes())
-        if not self.planted:
+        if not self.original:
             self.without_fault[target.name] = digest.hexdigest()
         return digest.hexdigest()
 
@@ -177,7 +177,7 @@ class FaultTree:
             return
         failed = [line for line in said.splitlines() if line.startswith("FAILED: ")]
         step = failed[0].split()[1] if failed else said.strip()[-200:]
-        if not self.planted:
+        if not self.original:
             raise ValueError(f"{target.name} does not build without a fault: {step}")
         raise (DoesNotCompile if step.endswith(".o") else DoesNotBuild)(step)
 

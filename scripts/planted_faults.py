@@ -30,7 +30,7 @@ import run_arguments
 import tables
 from covering_tests import covering, includers
 from fault_kinds import Fault, drawn, faults_in
-from fault_tree import DoesNotBuild, DoesNotCompile, FaultTree
+from fault_tree import DoesNotBuild, DoesNotCompile, FaultTree, only_one
 from simulations import REPOSITORY
 
 PRODUCT = ("algorithm", "modules", "testbench", "tlm")
@@ -95,7 +95,7 @@ class Trial:
                     return "", 0
                 failed, passed = self.tree.first_failure(target)
             finally:
-                self.tree.restore(fault.path)
+                self.tree.restore(fault)
             if not failed or self.tree.passes_without(failed, target):
                 return failed and failed.name, passed
 
@@ -115,7 +115,7 @@ class Kept:
 
     def verdict(self, fault: Fault, tree: FaultTree) -> Verdict | None:
         entry = self.known.get(fault.name())
-        if entry is None or entry["file"] != tree.file_digest(fault.path):
+        if entry is None or entry["file"] != tree.digests[fault.path]:
             return None
         verdict = Verdict(**entry["verdict"])
         same_tests = entry["sources"] == tree.digest
@@ -124,7 +124,7 @@ class Kept:
     def keep(self, fault: Fault, verdict: Verdict, tree: FaultTree) -> None:
         entry = {
             "fault": fault.name(),
-            "file": tree.file_digest(fault.path),
+            "file": tree.digests[fault.path],
             "sources": tree.digest,
             "verdict": dataclasses.asdict(verdict),
         }
@@ -170,23 +170,23 @@ def summary(verdicts: list[Verdict]) -> str:
 
 
 def make(arguments: argparse.Namespace) -> None:
-    tree = FaultTree(arguments.project, arguments.work, arguments.side_by_side, arguments.patience)
-    trial = Trial(tree, 60 * arguments.minutes_each)
     kept = Kept(arguments.out / "planted_faults.jsonl")
     rows, verdicts = [], []
-    order = drawn(all_faults(tree), arguments.seed)
-    while sum(verdict.outcome in COUNTED for verdict in verdicts) < arguments.faults:
-        fault = next(order, None)
-        if fault is None:
-            break
-        verdict = kept.verdict(fault, tree)
-        if verdict is None:
-            verdict = trial.verdict(fault)
-            kept.keep(fault, verdict, tree)
-        verdicts.append(verdict)
-        rows.append(row(len(rows) + 1, fault, verdict))
-        print(*rows[-1], file=sys.stderr, flush=True)
-    made = run_arguments.how_made_at([tree.commit()])
+    of_tree = (arguments.project, arguments.work, arguments.side_by_side, arguments.patience)
+    with only_one(arguments.work):
+        tree = FaultTree(*of_tree)
+        trial = Trial(tree, 60 * arguments.minutes_each)
+        for fault in drawn(all_faults(tree), arguments.seed):
+            if sum(verdict.outcome in COUNTED for verdict in verdicts) == arguments.faults:
+                break
+            verdict = kept.verdict(fault, tree)
+            if verdict is None:
+                verdict = trial.verdict(fault)
+                kept.keep(fault, verdict, tree)
+            verdicts.append(verdict)
+            rows.append(row(len(rows) + 1, fault, verdict))
+            print(*rows[-1], file=sys.stderr, flush=True)
+        made = run_arguments.how_made_at([tree.commit()])
     tables.write(arguments.out, "planted_faults", made + summary(verdicts), HEAD, rows)
 
 

@@ -13,7 +13,7 @@ import covering_tests
 import fault_kinds
 import planted_faults
 from covering_tests import Target
-from fault_tree import FaultTree
+from fault_tree import only_one
 
 
 def of_line(line: str) -> dict[str, set[str]]:
@@ -227,10 +227,9 @@ class Planting(InFolder):
         self.assertNotIn("| found |", self.run_script("--faults", "100"))
 
     def test_two_do_not_plant_in_one_tree(self):
-        lock = FaultTree.locked(self.folder / "work")
-        with self.assertRaisesRegex(AssertionError, "another run plants faults there"):
-            self.run_script()
-        lock.close()
+        with only_one(self.folder / "work"):
+            with self.assertRaisesRegex(AssertionError, "another run plants faults there"):
+                self.run_script()
 
     def test_what_is_no_project(self):
         status, said, _ = self.ended(
