@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "algorithm/memory/splat_record.h"
-#include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/rendering_work.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 
