@@ -7,7 +7,7 @@ dropped waits and counts, swapped counters. Writes
   planted_faults.md    each fault, and the test that found it; and .csv
   planted_faults.jsonl the same as it goes: what is interrupted goes on where it ended. A fault that
                        was found is not tried again as long as its file is the same, one that
-                       survived as long as all sources are.
+                       survived as long as all sources are, and there is no more time for it.
 
 A fault after which the programs are the same, byte for byte, is none, and counted apart, as is one
 that does not compile. Run it at low priority (`nice`) beside other work, and with ccache, which
@@ -113,13 +113,17 @@ class Kept:
                 continue
             self.known[entry["fault"]] = entry
 
-    def verdict(self, fault: Fault, tree: FaultTree) -> Verdict | None:
+    def verdict(self, fault: Fault, tree: FaultTree, seconds_each: float) -> Verdict | None:
+        """None where it is to be tried."""
         entry = self.known.get(fault.name())
         if entry is None or entry["file"] != tree.digests[fault.path]:
             return None
         verdict = Verdict(**entry["verdict"])
-        same_tests = entry["sources"] == tree.digest
-        return verdict if verdict.outcome not in (SURVIVED, UNFINISHED) or same_tests else None
+        if verdict.outcome not in (SURVIVED, UNFINISHED):
+            return verdict
+        again = entry["sources"] != tree.digest
+        again = again or verdict.outcome == UNFINISHED and verdict.seconds < seconds_each
+        return None if again else verdict
 
     def keep(self, fault: Fault, verdict: Verdict, tree: FaultTree) -> None:
         entry = {
@@ -179,7 +183,7 @@ def make(arguments: argparse.Namespace) -> None:
         for fault in drawn(all_faults(tree), arguments.seed):
             if sum(verdict.outcome in COUNTED for verdict in verdicts) == arguments.faults:
                 break
-            verdict = kept.verdict(fault, tree)
+            verdict = kept.verdict(fault, tree, trial.seconds_each)
             if verdict is None:
                 verdict = trial.verdict(fault)
                 kept.keep(fault, verdict, tree)
