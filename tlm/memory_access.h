@@ -9,6 +9,14 @@
 
 namespace sgs {
 
+// What the activity does from now on, and what it asks the port for, is for this group; for
+// timelines and the bytes of groups.
+inline void take_up_group(Activity& activity, MemoryPort& port, std::uint32_t group,
+                          std::uint32_t visit = Activity::kNoVisit) {
+  activity.takes_up_group(group, visit);
+  port.charge_to(group);
+}
+
 inline MemoryPort::Ticket start_read(MemoryPort& port, Activity& activity, std::uint64_t address,
                                      void* into, std::uint32_t bytes, std::uint8_t region) {
   activity.waits_for(WaitFor::kPort, port);

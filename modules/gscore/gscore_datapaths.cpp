@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
-#include "algorithm/splat/filter_work.h"
 #include "algorithm/splat/lane_macs.h"
+#include "algorithm/splat/rendering_work.h"
 #include "algorithm/splat/tile_work.h"
 #include "modules/datapath/counted_datapath.h"
 #include "modules/datapath/scheduled_datapath.h"

@@ -7,6 +7,7 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/rendering_work.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 #include "modules/streaminggs/hfu/fine_filter.h"
 

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "algorithm/render/group_state.h"
-#include "algorithm/splat/filter_work.h"
 #include "algorithm/splat/lane_macs.h"
+#include "algorithm/splat/rendering_work.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/rendering_timing_model.h"
 

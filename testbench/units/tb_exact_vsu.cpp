@@ -4,15 +4,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "algorithm/splat/lane_macs.h"
-#include "algorithm/splat/reorder.h"
-#include "algorithm/storage/build_memory_image.h"
-#include "algorithm/voxel/chunk_tree.h"
-#include "algorithm/voxel/chunk_work.h"
-#include "modules/streaminggs/vsu/exact_vsu.h"
 #include "testbench/units/case_runner.h"
+#include "testbench/units/exact_vsu_plan.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/random_scene.h"
 #include "testbench/units/reported_groups.h"
 #include "testbench/units/unit_bench.h"
 
@@ -20,104 +14,6 @@ namespace sgs::tb {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-struct Plan {
-  ExactVsuConfig config;
-  ChunkTree tree;
-  MemoryImage image;
-  StreamingJob job;
-  std::uint32_t hfus = 4;
-  std::uint32_t fifo_entries = kVisitFifoEntries;
-  std::uint32_t feedback_cycles = 1;
-  int saturate_one_in = 0;          // 0: never; else how often a reader reports a group as finished
-  bool finished_before = false;     // all groups are reported before the first visit
-  std::uint64_t hfus_begin_at = 0;  // cycle before which they take nothing
-  bool reads_overlap = false;       // most of their latency is hidden
-  int finished_columns = 0;         // of sub-tiles of each group, from the left, from the start on
-};
-
-Plan plan_of(const TestScene& scene, std::uint32_t chunk) {
-  Plan plan;
-  auto [tree, order] = arrange_by_chunks(scene.cloud, chunk);
-  plan.tree = std::move(tree);
-  const std::uint64_t aside_bytes =
-      (plan.tree.chunk_count + plan.tree.nodes.size()) * kWalkEntryBytes;
-  plan.job = scene.job;
-  plan.config.test_depth_cycles = 60;
-  plan.image = build_memory_image(encode_raw(reordered(scene.cloud, order)), plan.tree);
-  place(plan.image.layout, aside_bytes, plan.job);
-  return plan;
-}
-
-struct Expected {
-  std::vector<std::vector<WalkEntry>> groups;  // chunks in order
-  std::vector<std::uint64_t> nodes_of;         // [group] opened
-  std::uint64_t nodes = 0, upper = 0;          // opened; of these kept on chip
-  std::uint64_t tests = 0, testing_cycles = 0, turn_cycles = 0, cycles = 0, empty = 0, visits = 0,
-                queue_operations = 0;
-};
-
-std::uint64_t macs_of_a_test() { return folded_macs(chunk_work(longest_chunk_case())); }
-
-bool hidden(const Plan& plan, const GroupReach& reach) { return reach.x1 < plan.finished_columns; }
-
-// All below one node that touches: its chunks, and the cost of opening it.
-void expect_node(const Plan& plan, const PixelRect& group, const WalkEntry& entry, Expected& out) {
-  const ExactVsuConfig& c = plan.config;
-  const ChunkNode& node = plan.tree.nodes[entry.at];
-  std::uint32_t slot = node.first_slot, inner = node.first_node;
-  std::uint64_t touching = 0;
-  for (int k = 0; k < node.children; ++k) {
-    const std::uint16_t count = node.count[k];
-    const ChunkTest test = GroupFrustum(plan.job.view, group).test(child_bound(node, k));
-    const WalkEntry child{std::max(test.nearest, entry.nearest), count > 0 ? slot : inner, count, 0,
-                          test.reach};
-    (count > 0 ? slot : inner) += count > 0 ? count : 1;
-    if (!test.touches || hidden(plan, test.reach)) continue;
-    ++touching;
-    if (count > 0) {
-      out.groups.back().push_back(child);
-    } else {
-      expect_node(plan, group, child, out);
-    }
-  }
-  const auto tests = static_cast<std::uint64_t>(node.children);
-  const std::uint64_t a_operation = c.cycles_per_queue_operation;
-  const bool upper = entry.at < c.upper_nodes;
-  // Taken from its queue; where it was not on chip, on to the test when it has come; its children.
-  out.cycles += a_operation + (upper ? 0 : 1) + std::max(touching * a_operation, std::uint64_t{1});
-  const std::uint64_t of_test = (macs_of_a_test() + c.test_lanes - 1) / c.test_lanes;
-  out.testing_cycles += tests * of_test;
-  out.turn_cycles += of_test - 1;
-  out.queue_operations += 1 + touching;
-  out.tests += tests;
-  out.upper += upper ? 1 : 0;
-  ++out.nodes;
-}
-
-Expected expect(const Plan& plan) {
-  Expected out;
-  const std::uint64_t a_operation = plan.config.cycles_per_queue_operation;
-  for (const PixelRect& group : plan.job.groups) {
-    const std::uint64_t before = out.nodes;
-    std::vector<WalkEntry>& chunks = out.groups.emplace_back();
-    out.cycles += 1;  // the group's end
-    if (plan.tree.nodes.empty()) {
-      out.cycles += 1;  // its beginning
-    } else {
-      out.cycles += a_operation;
-      ++out.queue_operations;
-      expect_node(plan, group, {}, out);
-    }
-    std::sort(chunks.begin(), chunks.end(), walks_before);
-    out.nodes_of.push_back(out.nodes - before);
-    out.cycles += chunks.size() * a_operation + (chunks.empty() ? 0 : 1);  // the last one's release
-    out.queue_operations += chunks.size();
-    out.visits += chunks.size();
-    out.empty += chunks.empty() ? 1 : 0;
-  }
-  return out;
-}
 
 // One group's visits, [first, end) of all that came out, and its end at `end`.
 void check_group(Checks& checks, std::uint32_t group, const std::vector<WalkEntry>& expected,
@@ -159,7 +55,7 @@ void check_left_out(Checks& checks, const ReportedGroups& groups, std::uint32_t 
               fmt::format("group {}: the rest is left out too soon", group));
 }
 
-void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected,
+void check_counters(UnitBench& bench, const ExactVsuPlan& plan, const ExpectedWalk& expected,
                     bool any_finished) {
   Checks& checks = bench.checks();
   const std::uint64_t put_aside = bench.counter("queue_entries_put_aside");
@@ -183,6 +79,14 @@ void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected
   bench.check_accesses("upper nodes", 4 * bench.counter("upper_nodes_opened"), 4 * upper);
   bench.check_accesses("nodes in flight", 4 * bench.counter("nodes_read"),
                        4 * bench.counter("nodes_read"));
+  // A key is written for each node that is taken and each entry put aside, and all are compared
+  // with the nearest chunk whenever a queue has changed.
+  const std::uint64_t operations =
+      bench.counter("chunk_queue_operations") + bench.counter("node_queue_operations");
+  const std::uint64_t keys = plan.config.nodes_in_flight + plan.config.nodes_in_test + 1;
+  bench.check_accesses(
+      "keys of open nodes", keys * operations,
+      bench.counter("upper_nodes_opened") + bench.counter("nodes_read") + put_aside);
   checks.equal(bench.busy_cycles("visits"),
                bench.counter("visits") + bench.counter("visits_dropped") + plan.job.groups.size(),
                "cycles of handing out or dropping visits, and of ends of groups");
@@ -196,8 +100,6 @@ void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected
   bench.check_accesses("nodes in test", 2 * 4 * expected.nodes, 2 * 4 * expected.nodes);
   bench.check_counter("groups_empty", expected.empty);
   bench.check_counter("groups_saturated", 0);
-  const std::uint64_t operations =
-      bench.counter("chunk_queue_operations") + bench.counter("node_queue_operations");
   if (put_aside == 0) {
     checks.equal(bench.busy_cycles("vsu"), expected.cycles, "busy cycles");
     // The first child of a node waits for its turn at the lanes.
@@ -212,8 +114,8 @@ void check_counters(UnitBench& bench, const Plan& plan, const Expected& expected
   }
 }
 
-void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
-  const Expected expected = expect(plan);
+void run_plan(Case& test, const BenchConfig& bench_config, const ExactVsuPlan& plan) {
+  const ExpectedWalk expected = expect(plan);
   UnitBench bench(test, bench_config);
   bench.load(0, plan.image.bytes);
   ReportedGroups finished(bench.clock(), plan.job.groups.size(), plan.feedback_cycles);
@@ -292,7 +194,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   bench.check_accesses("finished sub-tiles", 32 * bench.counter("looked_up"), mask.news());
 }
 
-BenchConfig still_bench(const Plan& plan) {
+BenchConfig still_bench(const ExactVsuPlan& plan) {
   BenchConfig config;
   config.memory_bytes = memory_bytes(plan.job);
   return config;
@@ -300,15 +202,15 @@ BenchConfig still_bench(const Plan& plan) {
 
 void directed(Case& test, const SceneShape& shape, std::uint32_t chunk,
               std::uint32_t queue_entries) {
-  Plan plan = plan_of(random_scene(test.random, shape), chunk);
+  ExactVsuPlan plan = plan_of(random_scene(test.random, shape), chunk);
   plan.config.queue_entries = plan.config.node_queue_entries = queue_entries;
   run_plan(test, still_bench(plan), plan);
 }
 
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
-  Plan plan = plan_of(random_scene(random, random_shape(random)),
-                      1 + static_cast<std::uint32_t>(random() % 20));
+  ExactVsuPlan plan = plan_of(random_scene(random, random_shape(random)),
+                              1 + static_cast<std::uint32_t>(random() % 20));
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.fifo_entries = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.config.test_lanes = 1 + static_cast<std::uint32_t>(random() % 600);
@@ -353,12 +255,12 @@ int sc_main(int argc, char* argv[]) {
   runner.add_directed("groups whose left half is finished", [=](Case& test) {
     SceneShape wide = shape;
     wide.group = {64, 24};
-    Plan plan = plan_of(random_scene(test.random, wide), 2);
+    ExactVsuPlan plan = plan_of(random_scene(test.random, wide), 2);
     plan.finished_columns = 6;
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("groups finished before they begin", [=](Case& test) {
-    Plan plan = plan_of(random_scene(test.random, shape), 8);
+    ExactVsuPlan plan = plan_of(random_scene(test.random, shape), 8);
     plan.finished_before = true;
     run_plan(test, still_bench(plan), plan);
   });
@@ -367,7 +269,7 @@ int sc_main(int argc, char* argv[]) {
     SceneShape crowded = shape;
     crowded.gaussians = 1000;
     crowded.group = square_of(8);
-    Plan plan = plan_of(random_scene(test.random, crowded), 1);
+    ExactVsuPlan plan = plan_of(random_scene(test.random, crowded), 1);
     plan.config.queue_entries = plan.config.node_queue_entries = kChunkNodeWidth + 1;
     plan.saturate_one_in = 12;
     plan.fifo_entries = 1;
@@ -376,14 +278,14 @@ int sc_main(int argc, char* argv[]) {
   runner.add_directed("the next group's walk begins while this one's visits wait", [=](Case& test) {
     SceneShape few = shape;
     few.gaussians = 300;
-    Plan plan = plan_of(random_scene(test.random, few), 4);
+    ExactVsuPlan plan = plan_of(random_scene(test.random, few), 4);
     plan.hfus_begin_at = 50'000;
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("reads overlap", [=](Case& test) {
     SceneShape many = shape;
     many.gaussians = 1000;
-    Plan plan = plan_of(random_scene(test.random, many), 2);
+    ExactVsuPlan plan = plan_of(random_scene(test.random, many), 2);
     plan.config.upper_nodes = 0;
     plan.config.nodes_in_flight = 4;
     plan.reads_overlap = true;

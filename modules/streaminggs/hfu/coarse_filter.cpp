@@ -37,13 +37,12 @@ void CoarseFilter::run_load() {
   }
   while (true) {
     VisitShare share = shares->pop(load_);
-    load_.takes_up_group(share.group, share.visit);
+    take_up_group(load_, memory, share.group, share.visit);
     if (share.count > 0 && all_finished(finished, share.group)) {
       counters_.dropped_saturated += share.count;
       share.count = 0;
     }
     const std::uint32_t end = share.first + share.count;
-    memory.charge_to(share.group);
     do {
       Slice slice;
       slice.share = share;

@@ -10,17 +10,6 @@
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
-namespace {
-
-// Of second halves: as wide as the port, or as a record that is narrower.
-SramShape word_of(std::uint32_t record_bytes) {
-  return {8 * std::clamp(record_bytes, 1U, kPortBytes)};
-}
-
-// Of those whose second halves are on their way or waiting, and a mark.
-std::uint32_t fetched_entries(const HfuConfig& config) { return config.second_half_slots + 1; }
-
-}  // namespace
 
 FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
                        const CodebookConfig& codebook, const FineFilterPlace& place,
@@ -261,83 +250,6 @@ void FineFilter::reject(Part& part, const FineCandidate& candidate) {
 FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t visit) {
   const std::size_t of_part = static_cast<std::size_t>(splats.size()) / parts_.size();
   return *splats[static_cast<int>(part.index * of_part + visit % of_part)];
-}
-
-std::uint32_t FineFilter::read_cycles(std::uint32_t record_bytes) {
-  return static_cast<std::uint32_t>(sram_words(record_bytes, word_of(record_bytes)));
-}
-
-SramUses FineFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for,
-                               std::uint32_t parts) {
-  // A part's reads do not wait for another's: as many banks, while there are words for them.
-  const SramShape word = word_of(built_for.second_half_bytes);
-  const auto words = static_cast<std::uint32_t>(config.second_half_slots *
-                                                sram_words(built_for.second_half_bytes, word));
-  const std::uint32_t banks = std::clamp(words, 1U, parts);
-  SramUses uses = {
-      sram_use("second halves", kSharedSram,
-               {{config.second_half_slots, "slots"}, {built_for.second_half_bytes, "B"}},
-               {word.width_bits, word.ports, banks}, {banks, 1}),
-      outstanding_table(kSharedSram, built_for.memory_port)};
-  add(uses,
-      fifo_use<FineCandidate>("fetched candidates", kSharedSram, fetched_entries(config),
-                              "candidates"),
-      parts);
-  if (built_for.second_half.quantised()) {
-    add(uses, fifo_use<Decoded>("decoded Gaussians", kSharedSram, kDecodedEntries, "entries"),
-        parts);
-  }
-  return uses;
-}
-
-// A slot is held until the last part has taken what is in it: that is the busiest, mostly.
-void FineFilter::name_holder_of_slots() {
-  for (const auto& part : parts_) part->taker().close();
-  const auto busiest = std::max_element(parts_.begin(), parts_.end(), [](auto& a, auto& b) {
-    return a->taker().busy_cycles() < b->taker().busy_cycles();
-  });
-  free_slots_.name_writer((*busiest)->taker());
-}
-
-void FineFilter::publish(DataSheet& sheet) {
-  name_holder_of_slots();
-  sheet.unit(*this);
-  sheet.activity(fetch_, "fetch", "asks for second halves");
-  for (const auto& part : parts_) {
-    if (part->stage) sheet.activity(part->stage->decode, "decode", "reads their codebook entries");
-    sheet.activity(part->filter, "fine", "puts them through the FFU");
-  }
-  sheet.counter("second_halves", "Gaussians", "fetched", counters_.second_halves);
-  sheet.counter("second_halves_taken", "Gaussians",
-                "of these, once for each part of the group that wanted them", counters_.taken);
-  sheet.counter("fine_tests", "Gaussians", "tested, once for each part of the group",
-                counters_.tests);
-  sheet.counter("splats", "splats", "that touch their part, passed on", counters_.splats);
-  sheet.counter("dropped_saturated", "Gaussians", "dropped: their part was finished",
-                counters_.dropped_saturated);
-  sheet.counter("dropped_fetched", "Gaussians", "of these with their second half already fetched",
-                counters_.dropped_fetched);
-  sheet.datapath(tests_, counters_.tests);
-  const std::uint64_t words = read_cycles(record_bytes_);
-  sheet.accesses("second halves", counters_.taken * words, counters_.second_halves * words);
-  sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
-                 counters_.dropped_saturated - counters_.dropped_fetched,
-                 "filtering and second halves");
-  sheet.left_out("saturated_tests", "the group finished while second halves were under way",
-                 counters_.dropped_fetched, "the fine test: second halves were fetched");
-  sheet.port(memory);
-  sheet.sram(sram_uses(config_, built_for_, static_cast<std::uint32_t>(parts_.size())));
-  for (const auto& part : parts_) {
-    sheet.queue(part->fetched, "fetched candidates");
-    sheet.remedy(part->filter, "hfu.ffu_lanes");
-    sheet.remedy(part->fetched, WaitFor::kRoom, "hfu.second_half_slots");
-    if (!part->stage) continue;
-    sheet.queue(part->stage->decoded, "decoded Gaussians");
-    sheet.remedy(part->stage->decode, "codebook.line_bytes");
-  }
-  sheet.remedy(memory, WaitFor::kReads, "hfu.second_half_slots");
-  sheet.remedy(memory, WaitFor::kPort, "memory_port.max_outstanding");
-  sheet.remedy(free_slots_, WaitFor::kRoom, "hfu.second_half_slots");
 }
 
 }  // namespace sgs

@@ -96,6 +96,11 @@ class FineFilter : public sc_core::sc_module {
           fetched(("fetched" + number).c_str(), clock, fetched_entries) {}
   };
 
+  // Of candidates whose second halves are on their way or waiting, and a mark.
+  static std::uint32_t fetched_entries(const HfuConfig& config) {
+    return config.second_half_slots + 1;
+  }
+
   void make_part(std::uint32_t index, const ClockDomain& clock, const CodebookConfig& codebook);
   void run_fetch();             // thread: second halves of the candidates
   void run_decode(Part& part);  // thread: codebook entries of quantised ones

@@ -70,6 +70,10 @@ class MergeUnit : public sc_core::sc_module {
   };
   using RunReader = SpillReader<KeyCodec>;
 
+  // Keys that the heap must hold. With blend_early nothing leaves it before the visit has come to
+  // its end, whose chunk it needs room for.
+  static std::uint32_t heap_entries(const MergeConfig& config, const BuiltFor& built_for);
+
   void run();  // thread
   void take(const FineCandidate& key);
   void release_below(float nearest);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "algorithm/splat/filter_work.h"
+#include "algorithm/splat/rendering_work.h"
 #include "modules/datapath/counted_datapath.h"
 #include "modules/datapath/scheduled_datapath.h"
 #include "modules/datapath/work_rates.h"

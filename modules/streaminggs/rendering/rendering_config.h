@@ -52,7 +52,7 @@ struct RenderingConfig {
   std::uint32_t pixel_state_bytes() const { return precision == BlendPrecision::kHalf ? 8 : 16; }
 };
 
-// Counted by running the code (algorithm/splat/filter_work.h): the lanes that every splat passes
+// Counted by running the code (algorithm/splat/rendering_work.h): the lanes that every splat passes
 // ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile; those
 // that begin a splat's spans, an item a splat; those of its rows. Scheduled on lanes of these
 // latencies.

@@ -73,8 +73,7 @@ SplatToken PaperSorter::collect(FifoSelector<SplatToken>& inputs) {
         inputs.select(sort_, [&](int i) { return !ended[static_cast<std::size_t>(i)]; });
     const SplatToken token = splats[from]->pop(sort_);
     group_ = token.group;
-    memory.charge_to(group_);
-    sort_.takes_up_group(group_, visit_);
+    take_up_group(sort_, memory, group_, visit_);
     if (token.visit != visit_) {
       SC_REPORT_ERROR("/sgs/sorting", fmt::format("{}: a splat of visit {} while sorting visit {}",
                                                   name(), token.visit, visit_)

@@ -1,10 +1,10 @@
 // Voxel sorting unit (VSU), exact order: for each pixel group it walks the chunk tree front to back
 // and hands out the chunks that can touch the group, each with the depth below which nothing
 // follows. Nodes are read ahead, several at a time, as long as their children are sure to fit the
-// queues; when a group's nodes have all been read the next group's walk begins. A node or chunk that
-// reaches finished sub-tiles only is left out when it is taken from its queue.
-// Timing: a node's children pass the tests' lanes and come out of their pipeline test_depth_cycles
-// later, nodes_in_test nodes at a time, while the walk goes on; each operation of a queue takes
+// queues; when a group's nodes have all been read the next group's walk begins. A node or chunk
+// that reaches finished sub-tiles only is left out when it is taken from its queue. Timing: a
+// node's children pass the tests' lanes and come out of their pipeline test_depth_cycles later,
+// nodes_in_test nodes at a time, while the walk goes on; each operation of a queue takes
 // cycles_per_queue_operation; a visit leaves a cycle.
 // Function: algorithm/order/chunk_walk.h.
 #pragma once
@@ -22,6 +22,7 @@
 #include "modules/streaminggs/vsu/chunk_tester.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
 #include "modules/streaminggs/vsu/node_buffer.h"
+#include "modules/streaminggs/vsu/walk_aside.h"
 #include "tlm/data_sheet.h"
 #include "tlm/memory_access.h"
 #include "tlm/timed_fifo.h"
@@ -48,7 +49,7 @@ class ExactVsu : public sc_core::sc_module {
     std::uint64_t nodes_hidden = 0;      // not read: all sub-tiles that they reach were finished
     std::uint64_t chunks_hidden = 0;     // not handed out, likewise
     std::uint64_t visits = 0;            // handed out
-    std::uint64_t visits_dropped = 0;  // final, and their group was finished by then
+    std::uint64_t visits_dropped = 0;    // final, and their group was finished by then
     std::uint64_t groups_saturated = 0;  // whose walk ended before the tree did
     std::uint64_t groups_empty = 0;      // no chunk touches
   };
@@ -58,19 +59,8 @@ class ExactVsu : public sc_core::sc_module {
   void publish(DataSheet& sheet);
 
  private:
-  // The overflow area as the walk sees it: bytes in DRAM.
-  class Aside {
-   public:
-    Aside(ExactVsu& vsu, const RegionSpan& span) : vsu_(vsu), span_(span) {}
-    void put_aside(const WalkEntry& entry);
-    std::vector<WalkEntry> take_back();
-    void forget_aside();
-
-   private:
-    ExactVsu& vsu_;
-    const RegionSpan span_;
-    std::uint32_t count_ = 0;
-  };
+  static constexpr std::uint32_t kReadyVisits =
+      4;  // a cycle there, a cycle back, and some of jitter
 
   // Where the walk waits for room in one of its queues.
   struct QueueRoom : sc_core::sc_object {
@@ -106,8 +96,8 @@ class ExactVsu : public sc_core::sc_module {
   NodeBuffer nodes_;
   ChunkTester tester_;
   const QueueRoom node_room_{"node_queue"}, chunk_room_{"chunk_queue"};
-  Aside aside_;
-  ChunkWalk<Aside> chunk_walk_;
+  WalkAside aside_;  // what the queues have no room for
+  ChunkWalk<WalkAside> chunk_walk_;
   TimedFifo<VisitShare> ready_;         // final visits
   TimedFifo<std::uint32_t> taken_;      // of these, room that hand_out has given back
   sc_core::sc_event news_;              // for the walk: a node has come, or room

@@ -44,8 +44,7 @@ void PaperVsu::run_traverse() {
   const ClockDomain& clock = traverse_.clock();
   for (std::uint32_t group = 0; group < job_.groups.size(); ++group) {
     current_group_ = group;
-    node_memory.charge_to(group);
-    traverse_.takes_up_group(group);
+    take_up_group(traverse_, node_memory, group);
     const std::uint64_t from = clock.now_cycles();
     const GroupVisits visits = order_group(job_.groups[group]);
     const std::uint64_t cycles = clock.now_cycles() - from;
@@ -86,7 +85,7 @@ void PaperVsu::hand_over(const std::vector<std::uint32_t>& voxels, bool last) {
 void PaperVsu::run_emit() {
   for (std::size_t done = 0; done < job_.groups.size();) {
     const std::shared_ptr<OrderedPass> ordered = ordered_.pop(emit_);
-    emit_.takes_up_group(ordered->group);
+    take_up_group(emit_, record_memory, ordered->group);
     for (const std::uint32_t voxel : ordered->voxels) {
       if (all_finished(finished, ordered->group)) {
         ++counters_.visits_saturated;
@@ -103,7 +102,6 @@ void PaperVsu::run_emit() {
 
 void PaperVsu::visit_voxel(std::uint32_t group, std::uint32_t voxel) {
   current_voxel_ = voxel;
-  record_memory.charge_to(group);
   ++counters_.voxels;
   const auto plane = [&](std::uint32_t index) {
     emit_.work(1);

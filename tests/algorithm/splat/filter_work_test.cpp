@@ -12,6 +12,7 @@
 #include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/rendering_work.h"
 #include "tests/algorithm/splat/random_gaussian.h"
 
 namespace sgs::test {

@@ -10,6 +10,7 @@
 #include "algorithm/splat/filter_work.h"
 #include "algorithm/splat/folded_pipeline.h"
 #include "algorithm/splat/lane_macs.h"
+#include "algorithm/splat/rendering_work.h"
 #include "algorithm/splat/shorter_lives.h"
 
 namespace sgs {
