@@ -50,7 +50,7 @@ inline CountingHalf min_of<CountingHalf>(CountingHalf a, CountingHalf b) {
 
 template <>
 inline CountingHalf narrowed<CountingHalf, Counting>(Counting x) {
-  return CountingHalf(recorded(rounded_to_half(x.value), Operation::kRound, x));
+  return CountingHalf(recorded(clamped_to_half(x.value), Operation::kRound, x));
 }
 
 template <>

@@ -1,20 +1,26 @@
 // Arithmetic in 16 bits as a unit does it that has no wider registers: every sum, difference and
-// product is rounded to the nearest IEEE half (ties to even), too large ones to the largest. A
-// float holds each value: its 24 bits are more than twice the 11 of a half and two, so that
-// computing in float and rounding once gives the correctly rounded half. Branch-free, so that loops
-// over pixels become vector code.
+// product is rounded to the nearest IEEE half (ties to even), too large ones to infinity. A float
+// holds each value: its 24 bits are more than twice the 11 of a half and two, so that computing in
+// float and rounding once gives the correctly rounded half. Branch-free, so that loops over pixels
+// become vector code.
+//
+// Infinity rather than the largest half: far from a needle's centre the two sides of its exponent
+// are too large and of opposite signs. As infinities they add up to no number, which is not blended
+// (alpha_of); as largest halves they add up to 0, and the needle would cover the frame.
 #pragma once
 
 #include <cstdint>
 
 #include "algorithm/splat/exp2.h"
+#include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/scalar.h"
 
 namespace sgs {
 
 constexpr float kLargestHalf = 65504.0F;
+constexpr float kLeastInfinite = 65520.0F;  // halfway to the next power of two
 
-// The half nearest to x; NaN becomes +-kLargestHalf.
+// The half nearest to x; NaN stays NaN.
 inline float rounded_to_half(float x) {
   constexpr float kLeastNormal = 0x1p-14F;
   // In [0.5, 1) neighbours in float lie 2^-24 apart, as halves do below kLeastNormal.
@@ -27,8 +33,14 @@ inline float rounded_to_half(float x) {
   const float subnormal = (x + kAlign) - kAlign;
   const float magnitude = __builtin_fabsf(x);
   const float rounded = magnitude < kLeastNormal ? subnormal : normal;
-  const float largest = __builtin_copysignf(kLargestHalf, x);
-  return __builtin_fabsf(rounded) <= kLargestHalf ? rounded : largest;
+  return magnitude < kLeastInfinite ? rounded : x * __builtin_inff();
+}
+
+// The same, but too large ones become the largest: for what is multiplied by 0 where it is not
+// wanted.
+inline float clamped_to_half(float x) {
+  const float rounded = rounded_to_half(x);
+  return __builtin_fabsf(rounded) <= kLargestHalf ? rounded : __builtin_copysignf(kLargestHalf, x);
 }
 
 // A half in a float.
@@ -45,9 +57,15 @@ class HalfScalar {
   float value() const { return value_; }
 
   friend HalfScalar operator-(HalfScalar a) { return exactly(-a.value_); }
-  friend HalfScalar operator+(HalfScalar a, HalfScalar b) { return HalfScalar(a.value_ + b.value_); }
-  friend HalfScalar operator-(HalfScalar a, HalfScalar b) { return HalfScalar(a.value_ - b.value_); }
-  friend HalfScalar operator*(HalfScalar a, HalfScalar b) { return HalfScalar(a.value_ * b.value_); }
+  friend HalfScalar operator+(HalfScalar a, HalfScalar b) {
+    return HalfScalar(a.value_ + b.value_);
+  }
+  friend HalfScalar operator-(HalfScalar a, HalfScalar b) {
+    return HalfScalar(a.value_ - b.value_);
+  }
+  friend HalfScalar operator*(HalfScalar a, HalfScalar b) {
+    return HalfScalar(a.value_ * b.value_);
+  }
   friend bool operator<(HalfScalar a, HalfScalar b) { return a.value_ < b.value_; }
   friend bool operator>(HalfScalar a, HalfScalar b) { return a.value_ > b.value_; }
   friend bool operator>=(HalfScalar a, HalfScalar b) { return a.value_ >= b.value_; }
@@ -55,6 +73,11 @@ class HalfScalar {
  private:
   float value_;
 };
+
+template <>
+inline HalfScalar narrowed<HalfScalar, float>(float x) {
+  return HalfScalar::exactly(clamped_to_half(x));
+}
 
 // In half a line for each step is as good as a parabola.
 template <>

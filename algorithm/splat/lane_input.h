@@ -34,7 +34,7 @@ LaneInput<S> lane_input(const SplatOf<S>& s, S left, S top) {
 // x times a power of two: an addition to its exponent.
 inline float scaled_by(float x, float power_of_two) { return x * power_of_two; }
 
-// In a narrower format: what no operation before has rounded.
+// In a narrower format, within its range: what no operation before has rounded.
 template <class H, class S>
 H narrowed(S x) {
   return H(x);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 #include "algorithm/input_error.h"
@@ -13,11 +14,15 @@
 namespace sgs::gscore {
 namespace {
 
-// With a line for more tiles than these, lists on chip make room; then a pass takes fewer tiles
+// A list on chip is so long where that leaves a line for so few tiles, and else the next
 // (README.md).
-constexpr std::uint32_t kTilesOfLine = 4, kMostTilesOfLine = 8;
-// Of a list on chip: where lines have room, at least, at most.
-constexpr std::uint32_t kUsualEntries = 1024, kLeastEntries = 512, kMostEntries = 8192;
+struct ListLength {
+  std::uint32_t entries, tiles_of_line;
+};
+constexpr std::array<ListLength, 3> kLengths = {{{1024, 2}, {768, 4}, {512, 8}}};
+// With a line for more tiles than that a pass takes fewer tiles.
+constexpr std::uint32_t kMostTilesOfLine = kLengths.back().tiles_of_line;
+constexpr std::uint32_t kMostEntries = 8192;  // of a list on chip
 
 // The most in [least, most] that fits, in steps; 0 if not even `least` does.
 std::uint32_t most_that_fits(std::uint32_t least, std::uint32_t most, std::uint32_t step,
@@ -57,9 +62,12 @@ void choose_list_memory(GscoreConfig& config, std::uint32_t tiles,
     });
   };
   const auto lines_of = [&](std::uint32_t of_pass) {
-    const std::uint32_t lines = lines_beside(kUsualEntries, of_pass);
-    if (!open_entries || lines >= cycles_for(of_pass, kTilesOfLine)) return lines;
-    return lines_beside(kLeastEntries, of_pass);
+    std::uint32_t lines = 0;
+    for (const ListLength& length : kLengths) {
+      lines = lines_beside(length.entries, of_pass);
+      if (!open_entries || lines >= cycles_for(of_pass, length.tiles_of_line)) break;
+    }
+    return lines;
   };
   if (open_tiles && lines_of(1) == 0) return;  // who refuses it shows the sum
   std::uint32_t of_pass = open_tiles ? tiles : config.lists.tiles, lines = lines_of(of_pass);

@@ -40,6 +40,12 @@ std::uint32_t listed_entries(const GscoreConfig& config) {
                                     cycles_for(tests.depth_cycles, tests.part_interval_cycles));
 }
 
+// Of a record's place, written one a cycle.
+std::uint32_t record_words(const GscoreConfig& config) {
+  return static_cast<std::uint32_t>(
+      cycles_for(record_place_bytes(config.tiles.features), kPortBytes));
+}
+
 // Of records that are written at once: what a transaction takes, at least one.
 std::uint32_t records_at_once(const GscoreConfig& config) {
   return std::max(
@@ -121,7 +127,7 @@ bool TileLister::project(const Pass& pass) {
 }
 
 void TileLister::take(const ListedTile& tile, const Pass& pass) {
-  list_.work(1);
+  list_.work(tile.first ? record_words(config_) : 1);
   ++counters_.pairs;
   if (tile.first) put_record(tile.splat);
   put_entry(tile.tile - pass.first, {tile.key, record_number_ - 1, tile.bitmap});
@@ -134,7 +140,7 @@ void TileLister::put_record(const Splat& splat) {
   ++record_number_;
   ++waiting_records_;
   ++counters_.records;
-  counters_.record_words += cycles_for(place, kPortBytes);
+  counters_.record_words += record_words(config_);
   if (waiting_records_ == records_at_once(config_)) flush_records();
 }
 

@@ -203,8 +203,9 @@ TEST_CASE(
   int wrong = 0;
   const auto right = [&](float x) {
     const float nearest = static_cast<float>(half(x));
-    const float want = std::isinf(nearest) ? std::copysign(kLargestHalf, x) : nearest;
-    wrong += rounded_to_half(x) == want ? 0 : 1;
+    const float within = std::isinf(nearest) ? std::copysign(kLargestHalf, x) : nearest;
+    wrong += rounded_to_half(x) == nearest ? 0 : 1;
+    wrong += clamped_to_half(x) == within ? 0 : 1;
   };
   for (unsigned bits = 0; bits < 0x7c00; ++bits) {
     half h, above;
@@ -219,7 +220,9 @@ TEST_CASE(
   }
   right(1e30F);
   right(-1e30F);
+  right(INFINITY);
   CHECK(wrong == 0);
+  CHECK(std::isnan(rounded_to_half(NAN)));
 }
 
 TEST_CASE("blending in half: within what its roundings allow of blending in float") {
@@ -264,4 +267,55 @@ TEST_CASE("blending in half: a splat wider than a half can say is not lost") {
   SubtileState state = make_subtile(0, 0, 100, 100);
   blend_in_half(state, 0, 0, s);
   CHECK(state.red[0] == Approx(0.5 * std::exp(-2.0)).epsilon(0.01));  // two sigmas from the centre
+}
+
+TEST_CASE(
+    "blending in half: far from a needle's centre, where terms are too large, nothing is drawn") {
+  struct Needle {
+    const char* which;
+    float x, y, conic_a, conic_b, conic_c;
+  };
+  // In float the exponent is below -8 on every pixel, and no pixel is drawn.
+  const Needle needles[] = {
+      {"from platform, both terms too large", 1082.6F, 775.7F, 0.113709F, -0.440972F, 1.71026F},
+      {"from platform, one of them, flat", -1152.9F, 2168.3F, 1.59323e-4F, 0.0188418F, 2.26637F},
+      {"from platform, hardly too large", 343.9F, 262.5F, 0.441502F, -0.55427F, 0.695975F},
+      {"of the other slope", -1082.6F, 775.7F, 0.113709F, 0.440972F, 1.71026F},
+      {"upright", 1.6F, 70000, 1.71026F, 0, 1e-6F},
+      {"centre beyond the largest half, in its units", 3e6F, 3e6F, 1, -0.9999F, 1},
+      {"centre beyond all", 1e30F, -1e30F, 1, 0.5F, 1},
+  };
+  for (const Needle& needle : needles) {
+    CAPTURE(needle.which);
+    Splat s{};
+    s.x = needle.x;
+    s.y = needle.y;
+    s.conic_a = needle.conic_a;
+    s.conic_b = needle.conic_b;
+    s.conic_c = needle.conic_c;
+    s.opacity = 0.78F;
+    s.rgb = {0.5F, 0.5F, 0.5F};
+    SubtileState single = make_subtile(0, 0, 100, 100), in_half = single;
+    blend(single, 0, 0, s);
+    blend_in_half(in_half, 0, 0, s);
+    for (int lane = 0; lane < kSubtilePixels; ++lane) {
+      CHECK(single.contributors[lane] == 0);
+      CHECK(in_half.contributors[lane] == 0);
+      CHECK(in_half.red[lane] == 0);
+      CHECK(in_half.transmittance[lane] == 1);
+    }
+  }
+}
+
+TEST_CASE("blending in half: a colour beyond the largest half leaves pixels that it misses alone") {
+  Splat s{};
+  s.conic_a = s.conic_c = 1;
+  s.opacity = 0.5F;
+  s.rgb = {1e30F, 1, INFINITY};
+  SubtileState state = make_subtile(0, 0, 100, 100);
+  for (int layer = 0; layer < 3; ++layer) blend_in_half(state, 0, 0, s);
+  constexpr int kFarthest = kSubtilePixels - 1;
+  CHECK(state.red[kFarthest] == 0);
+  CHECK(state.red[0] > 57000);
+  CHECK_FALSE(std::isnan(state.blue[0]));
 }

@@ -44,6 +44,28 @@ TEST_CASE("list memory: a pass if that leaves tiles their lines, several if not"
   CHECK(chosen_for(14400).lists.tiles == 7200);
 }
 
+TEST_CASE("list memory: lists are the longest that leave tiles their lines") {
+  // With keys of 32 bits lines hold fewer entries and lists on chip take more.
+  GscoreConfig preset;
+  preset.memory_port.max_outstanding = 48;
+  GscoreConfig wide = preset;
+  wide.tiles.keys = NumberFormat::kSingle;
+  struct Case {
+    GscoreConfig config;
+    std::uint32_t tiles, least_entries, tiles_of_line;
+  };
+  for (const Case& of :
+       {Case{preset, 2500, 1024, 2}, Case{preset, 3600, 1024, 2}, Case{wide, 2170, 1024, 2},
+        Case{wide, 2500, 768, 4}, Case{wide, 3600, 768, 4}, Case{wide, 5400, 512, 8}}) {
+    INFO(of.tiles << " tiles, keys of " << of.config.entries().key_bytes() << " B");
+    const GscoreConfig config = chosen_for(of.tiles, of.config);
+    CHECK(config.lists.tiles == of.tiles);
+    CHECK(config.sorting.list_entries >= of.least_entries);
+    CHECK(config.sorting.list_entries < of.least_entries + 256);
+    CHECK(of.tiles_of_line * config.lists.lines >= of.tiles);
+  }
+}
+
 TEST_CASE("list memory: what is given stays") {
   GscoreConfig given;
   given.lists.tiles = 5;
