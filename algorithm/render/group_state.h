@@ -87,6 +87,20 @@ class GroupState {
       return blends;
     });
   }
+  // Observed and told.
+  template <class Observer, class Schedule>
+  BlendWork blend_scheduled(const Splat& splat, Observer&& observer, Schedule&& schedule) {
+    const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half_and_tell : blend_and_tell;
+    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t row) {
+      const bool blends = finished_[at] == 0;
+      if (blends) {
+        const LaneShares shares = into(states_[at], x, y, splat);
+        observer(SubtileBlend{at, x, y, shares, states_[at]});
+      }
+      schedule(SubtileReach{at, x, y, blends, blends && finished(states_[at]), row});
+      return blends;
+    });
+  }
   SplatBox box_of(const Splat& splat) const {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
     if (reach.empty()) return {};

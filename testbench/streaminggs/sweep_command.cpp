@@ -67,7 +67,8 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
   std::vector<SweepPoint> points = arguments.listed_points();
   SweepDefaults defaults{arguments.all,      arguments.each_scene(),
                          arguments.all.view, arguments.all.size,
-                         arguments.config,   fnv1a64_of_file(arguments.technology)};
+                         arguments.config,   fnv1a64_of_file(arguments.technology),
+                         arguments.estimate ? Fidelity::kEstimate : Fidelity::kAccurate};
   if (defaults.scenes.empty() && !arguments.axes.empty()) {
     throw InputError(fmt::format("SCENE: got none, expected {}", kSceneForms));
   }

@@ -17,9 +17,6 @@ SramShape word_of(std::uint32_t record_bytes) {
   return {8 * std::clamp(record_bytes, 1U, kPortBytes)};
 }
 
-// Of those whose second halves are on their way or waiting, and a mark.
-std::uint32_t fetched_entries(const HfuConfig& config) { return config.second_half_slots + 1; }
-
 }  // namespace
 
 FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
@@ -261,6 +258,19 @@ void FineFilter::reject(Part& part, const FineCandidate& candidate) {
 FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t visit) {
   const std::size_t of_part = static_cast<std::size_t>(splats.size()) / parts_.size();
   return *splats[static_cast<int>(part.index * of_part + visit % of_part)];
+}
+
+void FineFilter::assume(const Work& work) {
+  counters_ = work.counters;
+  fetch_.assume(work.fetch_cycles);
+  Part& part = *parts_.front();
+  part.filter.assume(work.filter_cycles);
+  part.fetched.assume(work.fetched);
+  if (part.stage) {
+    part.stage->decode.assume(work.decode_cycles);
+    part.stage->decoded.assume(work.decoded);
+  }
+  memory.assume(work.traffic);
 }
 
 std::uint32_t FineFilter::read_cycles(std::uint32_t record_bytes) {

@@ -12,7 +12,7 @@ namespace {
 
 // Keys that the heap must hold. With blend_early nothing leaves it before the visit has come to its
 // end, whose chunk it needs room for.
-std::uint32_t heap_entries(const MergeConfig& config, const BuiltFor& built_for) {
+std::uint32_t entries_of_heap(const MergeConfig& config, const BuiltFor& built_for) {
   const bool spills = config.on_overflow == OnOverflow::kSpill;
   return config.entries + (spills ? 0 : built_for.chunk_gaussians);
 }
@@ -53,7 +53,7 @@ MergeUnit::MergeUnit(const sc_core::sc_module_name& name, const MergeConfig& con
       built_for_(context.built_for),
       spill_(spill),
       merge_("merge", context.clock),
-      pending_(heap_entries(config, context.built_for)) {
+      pending_(entries_of_heap(config, context.built_for)) {
   SC_THREAD(run);
 }
 
@@ -160,13 +160,11 @@ void MergeUnit::end_group(const FineCandidate& end) {
   ++sequence_;
 }
 
-// The farthest keys on chip become a sorted run in DRAM: an eighth of the buffer at first, since
-// the excess is mostly small, more when it turns out not to be. The farthest comes first: the run
-// is written from its back.
+// The farthest keys on chip become a sorted run in DRAM. The farthest comes first: the run is
+// written from its back.
 void MergeUnit::spill_farthest() {
   if (runs_.size() == config_.spill_runs) merge_shortest_runs();
-  const std::uint32_t eighths = std::min(4U, 1 + spills_ / config_.spill_runs);
-  const std::uint64_t keys = std::max<std::uint64_t>(1, pending_.size() * eighths / 8);
+  const std::uint64_t keys = keys_to_spill(config_, pending_.size(), spills_);
   ++spills_;
   if (!fits_spill_area(keys)) merge_runs(runs_.end());
   const SpillPort to = spill_port();
@@ -256,8 +254,15 @@ void MergeUnit::drop_all() {
   spills_ = 0;
 }
 
+void MergeUnit::assume(const Work& work) {
+  counters_ = work.counters;
+  assumed_heap_ = work.heap;
+  merge_.assume(work.merge_cycles);
+  memory.assume(work.traffic);
+}
+
 SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_for) {
-  SramUses uses = kHeap.sram_uses(heap_entries(config, built_for), config.cycles_per_operation);
+  SramUses uses = kHeap.sram_uses(entries_of_heap(config, built_for), config.cycles_per_operation);
   uses.push_back(mask_use(built_for.group));
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
   if (config.on_overflow != OnOverflow::kSpill) return uses;
@@ -282,7 +287,7 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
 }
 
 void MergeUnit::publish_ledger(DataSheet& sheet) {
-  kHeap.publish(sheet, heap_entries(config_, built_for_), config_.cycles_per_operation,
+  kHeap.publish(sheet, entries_of_heap(config_, built_for_), config_.cycles_per_operation,
                 heap_work());
   const double of_mask = mask_comparators(built_for_.group);
   sheet.part("merge", "comparator", of_mask, 1);

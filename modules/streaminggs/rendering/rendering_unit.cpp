@@ -10,7 +10,6 @@
 namespace sgs {
 namespace {
 
-constexpr std::uint64_t kClearCycles = 1;
 constexpr std::uint32_t kSubtileNumberBytes = 2;
 constexpr const char* kBegunSpans = "begun spans";
 constexpr std::uint32_t kBegunSpanBytes = 4 * kBegunSpanWords;
@@ -163,6 +162,16 @@ void RenderingUnit::write_group(const GroupState& state) {
   // A sub-tile is cleared in the cycle after its last row was read: all but the last while others
   // are drained.
   if (!pixels.empty()) drain_.work(kClearCycles);
+}
+
+void RenderingUnit::assume(const Work& work) {
+  counters_ = work.counters;
+  schedule_.assume(work.clusters);
+  blend_.assume(work.blend_cycles);
+  drain_.assume(work.drain_cycles);
+  cycles_of_groups_ = work.cycles_of_groups;
+  finished_.assume(work.counters.groups);
+  memory.assume(work.traffic);
 }
 
 // A memory for each place of a pixel in a sub-tile, in each cluster: a blend reads and writes all

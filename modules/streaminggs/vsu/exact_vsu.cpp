@@ -13,7 +13,6 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr HeapLedger kChunkQueue{"chunk queue", "vsu", kWalkEntryBytes, 2};
 constexpr HeapLedger kNodeQueue{"node queue", "vsu", kNodeEntryBytes, 2};
-constexpr std::uint32_t kReadyVisits = 4;  // a cycle there, a cycle back, and some of jitter
 
 // Keys of the nodes that are taken from their queue and not open yet, and of the nearest entry that
 // was put aside: depth, node and one of two walks, in registers, since a chunk is compared with all
@@ -298,8 +297,27 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
   return uses;
 }
 
+ExactVsu::Walked ExactVsu::walked() const {
+  if (assumed_) return *assumed_;
+  return {chunk_walk_.counters(), chunk_walk_.node_queue().work(), chunk_walk_.chunk_queue().work(),
+          chunk_walk_.node_queue().most(), chunk_walk_.chunk_queue().most()};
+}
+
+void ExactVsu::assume(const Work& work) {
+  counters_ = work.counters;
+  assumed_ = work.walked;
+  assumed_->node_queue.levels.resize(heap_levels(config_.node_queue_entries));
+  assumed_->chunk_queue.levels.resize(heap_levels(config_.queue_entries));
+  walk_.assume(work.walk_cycles);
+  hand_out_.assume(work.hand_out_cycles);
+  tester_.assume(work.walked.walk.nodes, work.walked.walk.tests, work.test_cycles);
+  ready_.assume(work.ready_entries);
+  memory.assume(work.traffic);
+}
+
 void ExactVsu::publish(DataSheet& sheet) {
-  const WalkCounters& walk = chunk_walk_.counters();
+  const Walked done = walked();
+  const WalkCounters& walk = done.walk;
   sheet.unit(*this);
   sheet.activity(walk_, "vsu", "walks the chunk tree, one group after the other");
   sheet.activity(tester_.activity(), "chunk_tests", "tests the children of nodes");
@@ -322,13 +340,13 @@ void ExactVsu::publish(DataSheet& sheet) {
                 counters_.groups_saturated);
   sheet.counter("groups_empty", "groups", "that no chunk can touch", counters_.groups_empty);
   sheet.counter("chunk_queue_max", "entries", "most in the queue of chunks",
-                chunk_walk_.chunk_queue().most());
+                done.chunk_queue_max);
   sheet.counter("node_queue_max", "entries", "most in the queue of nodes",
-                chunk_walk_.node_queue().most());
+                done.node_queue_max);
   sheet.counter("chunk_queue_operations", "operations", "insertions and removals",
-                chunk_walk_.chunk_queue().work().operations());
+                done.chunk_queue.operations());
   sheet.counter("node_queue_operations", "operations", "insertions and removals",
-                chunk_walk_.node_queue().work().operations());
+                done.node_queue.operations());
   sheet.counter("queue_entries_put_aside", "entries", "that went to DRAM: the queue was full",
                 walk.put_aside);
   sheet.datapath(tester_.lanes(), tester_.tests());
@@ -344,7 +362,7 @@ void ExactVsu::publish(DataSheet& sheet) {
   const double of_mask = mask_comparators(built_for_.group);
   // Whenever one of the queues has changed the nearest chunk is compared with all open nodes.
   const double of_open = kOpenNodeWords * open_nodes(config_);
-  const std::uint64_t compared = chunk_walk_.queue_operations();
+  const std::uint64_t compared = done.chunk_queue.operations() + done.node_queue.operations();
   sheet.part("vsu", "comparator", of_mask + of_open, 1);
   sheet.operations(
       "vsu", "comparator",
@@ -361,9 +379,9 @@ void ExactVsu::publish(DataSheet& sheet) {
   const std::uint64_t in_test = 2 * kWords * tester_.nodes();
   sheet.accesses("nodes in test", in_test, in_test);
   kChunkQueue.publish(sheet, config_.queue_entries, config_.cycles_per_queue_operation,
-                      chunk_walk_.chunk_queue().work());
+                      done.chunk_queue);
   kNodeQueue.publish(sheet, config_.node_queue_entries, config_.cycles_per_queue_operation,
-                     chunk_walk_.node_queue().work());
+                     done.node_queue);
   sheet.port(memory, "entries put aside");
   sheet.queue(ready_, "final visits");
   if (config_.cycles_per_queue_operation > kFewestHeapCycles) {

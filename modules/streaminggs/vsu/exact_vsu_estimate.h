@@ -1,0 +1,75 @@
+// The time of the exact VSU (exact_vsu.h) without a kernel, node by node and chunk by chunk of what
+// the golden walk opened and gave. Nodes are read in that order, ahead of need as far as the buffers
+// and the queue of chunks allow; the queues' operations share their time with each other.
+// Not in it: entries put aside, room in the queue of nodes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "algorithm/memory/regions.h"
+#include "algorithm/render/exact_work.h"
+#include "modules/streaminggs/vsu/exact_vsu.h"
+#include "tlm/booked_time.h"
+#include "tlm/fifo_times.h"
+#include "tlm/port_estimate.h"
+
+namespace sgs {
+
+class ExactVsuEstimate {
+ public:
+  // Whether all sub-tiles of a reach are known to be finished in a cycle.
+  using Hidden = std::function<bool(const GroupReach&, std::uint64_t)>;
+
+  ExactVsuEstimate(const ExactVsuConfig& config, const Datapath& lanes, const RecordArray& table,
+                   const PortEstimate& port, Hidden hidden);
+
+  void begin_group(std::uint32_t group, const ExactGroupWork& work);
+  // The cycle in which the walk has taken the group's next chunk.
+  std::uint64_t take_chunk(const VisitWork& chunk);
+  bool hidden(const VisitWork& chunk, std::uint64_t cycle);
+  // A visit or the end of the group, from the walk on in `now`: the cycle in which it is ready for
+  // the HFUs, and that in which they took it.
+  std::uint64_t give(std::uint64_t now);
+  void given(std::uint64_t cycle) { hand_out_ = cycle; }
+  void end_group(std::uint64_t now, bool saturated);
+  void count_visit(bool dropped) { ++(dropped ? work_.counters.visits_dropped : work_.counters.visits); }
+
+  // What was done so far.
+  ExactVsu::Work work() const;
+  std::uint64_t entries_given() const { return ready_.pushed(); }
+
+ private:
+  struct Opened {
+    std::uint64_t entered = 0;  // the cycle in which its children are in the queues
+    bool left_out = false;
+  };
+  Opened open(const NodeWork& node);
+  std::uint64_t room_for_chunks() const;
+  std::uint64_t queue_cycles(std::uint64_t operations) const;
+
+  const ExactVsuConfig config_;
+  const Datapath lanes_;
+  const RecordArray table_;
+  PortEstimate port_;
+  const Hidden hidden_;
+  BookedTime walk_;
+  FifoTimes ready_;
+  std::vector<std::uint64_t> room_;       // ring: when the walk knows of room in `ready_`
+  std::vector<std::uint64_t> fetched_;    // ring: when the last nodes in flight left their slots
+  std::vector<std::uint64_t> tested_;     // ring: when the last nodes in test did
+  std::uint64_t fetches_ = 0, puts_ = 0;  // so far
+  std::uint32_t group_ = 0;
+  const ExactGroupWork* of_ = nullptr;
+  std::vector<Opened> opened_;             // [node] of the group
+  std::vector<std::uint64_t> taken_;       // [chunk] of the frame, when
+  std::uint64_t chunks_before_ = 0;        // the group
+  std::uint64_t last_read_ = 0, last_put_ = 0, last_take_ = 0, known_ = 0;
+  std::uint64_t tests_free_ = 0, test_busy_ = 0, hand_out_ = 0, handed_out_ = 0;
+  std::uint64_t ended_[2] = {0, 0};  // groups, by their number
+  bool any_chunk_ = false;
+  ExactVsu::Work work_;
+};
+
+}  // namespace sgs
