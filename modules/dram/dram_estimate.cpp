@@ -44,11 +44,13 @@ std::uint64_t DramEstimate::refresh_cycles() const {
 
 // A refresh closes the bank.
 RowOutcome DramEstimate::find_row(const DramAddress& place, std::uint64_t now) {
-  Bank& bank = banks_[rank_of(place) * memspec_.organisation.banks + place.bank];
+  Bank& bank = bank_of(place);
   const std::uint64_t between = refresh_cycles();
   const std::uint64_t refreshes = between == 0 ? 0 : now / between;
-  if (refreshes != bank.refreshes) bank.open_row = kNoRow;
-  bank.refreshes = refreshes;
+  if (refreshes > bank.refreshes) {
+    bank.open_row = kNoRow;
+    bank.refreshes = refreshes;
+  }
   const RowOutcome outcome = bank.open_row == place.row ? RowOutcome::kHit
                              : bank.open_row == kNoRow  ? RowOutcome::kMiss
                                                         : RowOutcome::kConflict;
@@ -56,8 +58,21 @@ RowOutcome DramEstimate::find_row(const DramAddress& place, std::uint64_t now) {
   return outcome;
 }
 
-std::uint64_t DramEstimate::answered(std::uint64_t cycle, const Transaction& of) {
+// The cycle of the first column command for a request that is there in `now`: behind the activate
+// that the row wants, which its bank can take tRC after the one before.
+std::uint64_t DramEstimate::column_from(const DramAddress& place, RowOutcome outcome,
+                                        std::uint64_t now) {
+  if (outcome == RowOutcome::kHit) return now;
   const Memspec::Timing& t = memspec_.timing_cycles;
+  Bank& bank = bank_of(place);
+  std::uint64_t activate = now + (outcome == RowOutcome::kConflict ? t.rp_bank : 0);
+  // What was asked for before may be of a later time.
+  if (bank.activated <= activate) activate = std::max(activate, bank.activated + t.rc);
+  bank.activated = std::max(bank.activated, activate);
+  return activate + t.rcd;
+}
+
+std::uint64_t DramEstimate::answered(std::uint64_t cycle, const Transaction& of) {
   const bool writes = of.direction == Direction::kWrite;
   const std::uint64_t comes = dram_cycle(cycle), run = mapping_.run_bytes();
   const std::uint64_t end = of.address + of.bytes, burst_bytes = mapping_.burst_bytes();
@@ -68,11 +83,10 @@ std::uint64_t DramEstimate::answered(std::uint64_t cycle, const Transaction& of)
     const std::uint64_t bursts = (stop - at + burst_bytes - 1) / burst_bytes;
     const DramAddress place = mapping_.decode(at);
     const RowOutcome outcome = find_row(place, comes);
-    std::uint64_t until_data = path_.front_end;
-    if (outcome == RowOutcome::kConflict) until_data += t.rp_bank;
-    if (outcome != RowOutcome::kHit) until_data += t.rcd;
-    until_data += (writes ? derived_.write_data_end : derived_.read_data_end) - derived_.burst;
-    done = std::max(done, buses_[place.channel].book(comes + until_data, bursts * derived_.burst));
+    const std::uint64_t data = column_from(place, outcome, comes + path_.front_end) +
+                               (writes ? derived_.write_data_end : derived_.read_data_end) -
+                               derived_.burst;
+    done = std::max(done, buses_[place.channel].book(data, bursts * derived_.burst));
 
     DramChannelStats& channel = counts_.channels[place.channel];
     channel.rows.count(outcome);
@@ -89,8 +103,9 @@ std::uint64_t DramEstimate::answered(std::uint64_t cycle, const Transaction& of)
     at = stop;
   }
   if (writes && config_.posted_writes) return cycle;
+  done += path_.back_end(of.direction);
   if (!writes) counts_.read_latency_cycles.add(done - comes);
-  const double answer = static_cast<double>(done + path_.back_end(of.direction)) / dram_cycles_;
+  const double answer = static_cast<double>(done) / dram_cycles_;
   return std::max(cycle, static_cast<std::uint64_t>(std::ceil(answer)));
 }
 

@@ -1,7 +1,7 @@
 // The memory without its commands: each transaction takes its bursts of the channel's data bus in a
 // window of time (tlm/booked_time.h), behind the latency of the row that it finds. Rows are found
 // in the order in which the transactions are asked for, which is nearly that of a run.
-// Not in it: what banks, ranks and turn-arounds of the bus hold back beside that latency, the order
+// Not in it: what ranks and turn-arounds of the bus hold back beside that latency, the order
 // in which a scheduler takes what waits, full queues, power-down and self-refresh.
 #pragma once
 
@@ -33,9 +33,14 @@ class DramEstimate : public MemoryEstimate {
   struct Bank {
     std::uint32_t open_row = kNoRow;
     std::uint64_t refreshes = 0;  // that it had had when it was last looked at
+    std::uint64_t activated = 0;
   };
   std::uint64_t dram_cycle(std::uint64_t cycle) const;
   RowOutcome find_row(const DramAddress& place, std::uint64_t now);
+  std::uint64_t column_from(const DramAddress& place, RowOutcome outcome, std::uint64_t now);
+  Bank& bank_of(const DramAddress& place) {
+    return banks_[rank_of(place) * memspec_.organisation.banks + place.bank];
+  }
   std::uint64_t rank_of(const DramAddress& place) const {
     return std::uint64_t{place.channel} * config_.ranks + place.rank;
   }

@@ -48,7 +48,7 @@ void ExactEstimate::draw_group(std::uint32_t group) {
   group_ = group;
   of_ = &work_.groups[group];
   rendering_.begin_group(group, of_->blends);
-  units_.vsu.begin_group(group, *of_);
+  units_.vsu.begin_group();
   units_.merge.begin_group(group);
   last_depth_ = -1;
   bool saturated = false;

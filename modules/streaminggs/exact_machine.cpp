@@ -109,7 +109,7 @@ std::uint64_t ExactMachine::estimate(const FrameWork& work, MemoryEstimate& memo
   }
   const std::uint64_t aside = aside_bytes(layout.chunk_table());
   ExactUnitEstimates units{
-      {config_.vsu, vsu_->test_lanes(), layout.chunk_table().nodes, port(*vsu_),
+      {config_.vsu, vsu_->test_lanes(), layout.chunk_table().nodes, of.groups, port(*vsu_),
        [&](const GroupReach& reach, std::uint64_t cycle) {
          return spills && rendering.finished(reach, cycle);
        }},

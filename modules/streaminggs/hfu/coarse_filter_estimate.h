@@ -56,6 +56,8 @@ class CoarseFilterEstimate {
 
   CoarseFilter::Work work() const {
     CoarseFilter::Work work = work_;
+    work.counters.tests_of_parts = work.counters.tests;
+    work.counters.passed = work.counters.candidates;
     work.traffic = port_.traffic();
     return work;
   }

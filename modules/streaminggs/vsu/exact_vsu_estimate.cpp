@@ -2,6 +2,7 @@
 #include "modules/streaminggs/vsu/exact_vsu_estimate.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "algorithm/voxel/chunk_node.h"
@@ -10,13 +11,15 @@
 namespace sgs {
 namespace {
 
+constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kWindowCycles = 64;  // in which the queues' operations come as if at once
 
 }  // namespace
 
 ExactVsuEstimate::ExactVsuEstimate(const ExactVsuConfig& config, const Datapath& lanes,
-                                   const RecordArray& table, const PortEstimate& port,
-                                   Hidden hidden)
+                                   const RecordArray& table,
+                                   const std::vector<ExactGroupWork>& groups,
+                                   const PortEstimate& port, Hidden hidden)
     : config_(config),
       lanes_(lanes),
       table_(table),
@@ -26,7 +29,8 @@ ExactVsuEstimate::ExactVsuEstimate(const ExactVsuConfig& config, const Datapath&
       ready_(kReadyVisits),
       room_(kReadyVisits),
       fetched_(config.nodes_in_flight),
-      tested_(config.nodes_in_test) {
+      tested_(config.nodes_in_test),
+      groups_(groups) {
   const std::uint64_t upper = std::min<std::uint64_t>(config.upper_nodes, table.count);
   if (upper == 0) return;
   last_read_ =
@@ -39,77 +43,150 @@ std::uint64_t ExactVsuEstimate::queue_cycles(std::uint64_t operations) const {
   return std::max<std::uint64_t>(1, operations * config_.cycles_per_queue_operation);
 }
 
-void ExactVsuEstimate::begin_group(std::uint32_t group, const ExactGroupWork& work) {
-  group_ = group;
-  of_ = &work;
-  opened_.clear();
-  any_chunk_ = !work.visits.empty();
-  chunks_before_ = taken_.size();
-  known_ = 0;
-  last_read_ = walk_.book(std::max(last_read_, ended_[group % 2]), queue_cycles(1));
+void ExactVsuEstimate::begin_group() {
+  if (walks_.empty()) begin_walk(last_read_);
 }
 
-// Read ahead, a node leaves a quarter of the queue free and a place for each of its children. What
-// cannot be had before the chunk at hand is taken is needed for it, and is read all the same.
+void ExactVsuEstimate::begin_walk(std::uint64_t cycle) {
+  Walk& walk = walks_.emplace_back();
+  walk.group = next_group_;
+  walk.work = &groups_[next_group_++];
+  walk.nodes.resize(walk.work->nodes.size());
+  for (auto number = static_cast<std::uint32_t>(walk.nodes.size()); number-- > 1;) {
+    Node& parent = walk.nodes[walk.work->nodes[number].parent];
+    walk.nodes[number].next_child = parent.first_child;
+    parent.first_child = number;
+  }
+  last_read_ = walk_.book(cycle, queue_cycles(1));
+  if (!walk.nodes.empty()) walk.coming.emplace(last_read_, 0);
+}
+
+// Read ahead, a node leaves a quarter of the queue free and a place for each of its children: when
+// that many chunks have been taken. kNever: none of those yet.
 std::uint64_t ExactVsuEstimate::room_for_chunks() const {
   const std::uint64_t capacity = config_.queue_entries;
   const std::uint64_t most =
       capacity - std::min<std::uint64_t>(capacity, capacity / 4 + kChunkNodeWidth);
-  const std::size_t node = opened_.size();
-  const std::uint64_t known =
-      chunks_before_ + (node == 0 ? 0 : of_->nodes[node - 1].chunks_known);
-  if (known <= most || taken_.empty()) return 0;
-  return taken_[std::min<std::uint64_t>(known - most, taken_.size()) - 1];
+  if (chunks_known_ <= most) return 0;
+  const std::uint64_t taken = chunks_known_ - most;
+  return taken <= taken_.size() ? taken_[taken - 1] : kNever;
 }
 
-ExactVsuEstimate::Opened ExactVsuEstimate::open(const NodeWork& node) {
-  const bool root = node.parent == NodeWork::kRoot;
-  if (!root && opened_[node.parent].left_out) return {0, true};
-  std::uint64_t at = std::max(last_read_, root ? 0 : opened_[node.parent].entered);
-  at = std::max(at, room_for_chunks());
+// The nearest node that is known, of the group at hand or, where of that none is, of the next.
+// needed: nodes of the group at hand that are read whatever room there is.
+void ExactVsuEstimate::read_next(std::size_t needed) {
+  for (std::uint64_t at = last_read_;;) {
+    std::uint64_t next = kNever;
+    for (Walk& walk : walks_) {
+      for (; !walk.coming.empty() && walk.coming.top().first <= at; walk.coming.pop()) {
+        walk.known.push(walk.coming.top().second);
+      }
+      if (!walk.coming.empty()) next = std::min(next, walk.coming.top().first);
+    }
+    Walk* nearest = nullptr;
+    for (Walk& walk : walks_) {
+      if (nearest == nullptr && !walk.known.empty()) nearest = &walk;
+    }
+    if (walks_.front().known.empty() && walks_.size() == 1 && next_group_ < groups_.size()) {
+      if (at >= ended_) {
+        begin_walk(at);
+        at = last_read_;
+        continue;
+      }
+      next = std::min(next, ended_);
+    }
+    if (nearest != nullptr) {
+      const std::uint32_t number = nearest->known.top();
+      const bool is_needed = nearest == &walks_.front() && number < needed;
+      const std::uint64_t room = is_needed ? 0 : room_for_chunks();
+      if (room <= at) {
+        nearest->known.pop();
+        read(*nearest, number, at);
+        return;
+      }
+      next = std::min(next, room);
+    }
+    at = next;
+  }
+}
+
+bool ExactVsuEstimate::leave_out(const Walk& walk, const NodeWork& node, std::uint64_t cycle) {
+  ++work_.counters.looked_up;
+  if (&walk != &walks_.front() || !hidden_(node.reach, cycle)) return false;
+  ++work_.counters.nodes_hidden;
+  return true;
+}
+
+void ExactVsuEstimate::read(Walk& walk, std::uint32_t number, std::uint64_t cycle) {
+  const NodeWork& node = walk.work->nodes[number];
+  Node& own = walk.nodes[number];
+  own.read = true;
   const bool on_chip = node.at < config_.upper_nodes;
   std::uint64_t& slot = fetched_[fetches_ % fetched_.size()];
-  std::uint64_t& place = tested_[puts_ % tested_.size()];
-  at = std::max(at, on_chip ? place : slot);
-  ++work_.counters.looked_up;
-  if (hidden_(node.reach, at)) {
-    ++work_.counters.nodes_hidden;
-    last_read_ = walk_.book(at, queue_cycles(1));
-    return {0, true};
-  }
-  std::uint64_t put = last_read_ = walk_.book(at, queue_cycles(1));
-  if (on_chip) {
-    ++work_.counters.upper_reads;
+  const std::uint64_t place = tested_[puts_ % tested_.size()];
+  const std::uint64_t at = std::max(cycle, on_chip ? place : slot);
+  own.left_out = leave_out(walk, node, at);
+  last_read_ = walk_.book(at, queue_cycles(1));
+  if (!own.left_out) {
+    std::uint64_t put = last_read_;
+    if (on_chip) {
+      ++work_.counters.upper_reads;
+    } else {
+      ++work_.counters.nodes_read;
+      ++fetches_;
+      port_.charge_to(walk.group);
+      const auto [sent, answered] =
+          port_.read(put, table_.address(node.at), sizeof(ChunkNode), table_.region);
+      slot = std::max({answered + 1, place, last_put_});
+      last_read_ = std::max(last_read_, sent);
+      put = walk_.book(slot, 1);
+    }
+    own.entered = test(node, put);
+    const std::uint32_t known_before = number == 0 ? 0 : walk.work->nodes[number - 1].chunks_known;
+    chunks_known_ += node.chunks_known - known_before;
+    for (std::uint32_t child = own.first_child; child > 0; child = walk.nodes[child].next_child) {
+      walk.coming.emplace(own.entered, child);
+    }
   } else {
-    ++work_.counters.nodes_read;
-    ++fetches_;
-    port_.charge_to(group_);
-    const auto [sent, answered] =
-        port_.read(put, table_.address(node.at), sizeof(ChunkNode), table_.region);
-    const std::uint64_t taken = std::max({answered + 1, place, last_put_});
-    slot = taken;
-    last_read_ = std::max(last_read_, sent);
-    put = walk_.book(taken, 1);
+    // Nothing below is ever known.
+    for (std::uint32_t child = own.first_child; child > 0; child = walk.nodes[child].next_child) {
+      leave_out_below(walk, child);
+    }
   }
+  while (walk.read < walk.nodes.size() && walk.nodes[walk.read].read) ++walk.read;
+}
+
+void ExactVsuEstimate::leave_out_below(Walk& walk, std::uint32_t number) {
+  walk.nodes[number].read = true;
+  for (std::uint32_t child = walk.nodes[number].first_child; child > 0;
+       child = walk.nodes[child].next_child) {
+    leave_out_below(walk, child);
+  }
+}
+
+// The cycle in which its children are in the queues.
+std::uint64_t ExactVsuEstimate::test(const NodeWork& node, std::uint64_t put) {
   last_put_ = put;
-  ++puts_;
   const std::uint64_t interval = lanes_.interval_cycles();
   const std::uint64_t comes = std::max(put + 1, tests_free_);
   tests_free_ = next_turn(comes, interval) + node.children * interval;
   test_busy_ += tests_free_ - comes;
   ++work_.walked.walk.nodes;
   work_.walked.walk.tests += node.children;
-  place = walk_.book(tests_free_ + config_.test_depth_cycles, queue_cycles(node.entered));
-  return {place, false};
+  const std::uint64_t entered =
+      walk_.book(tests_free_ + config_.test_depth_cycles, queue_cycles(node.entered));
+  tested_[puts_++ % tested_.size()] = entered;
+  return entered;
 }
 
 std::uint64_t ExactVsuEstimate::take_chunk(const VisitWork& chunk) {
-  while (opened_.size() < chunk.nodes) {
-    opened_.push_back(open(of_->nodes[opened_.size()]));
-    known_ = std::max(known_, opened_.back().entered);
+  Walk& walk = walks_.front();
+  while (walk.read < chunk.nodes) read_next(chunk.nodes);
+  for (; walk.open < chunk.nodes; ++walk.open) {
+    walk.entered = std::max(walk.entered, walk.nodes[walk.open].entered);
   }
   const std::uint64_t room = room_[ready_.pushed() % room_.size()];
-  last_take_ = walk_.book(std::max({known_, last_take_, room}), queue_cycles(1));
+  last_take_ = walk_.book(std::max({walk.entered, last_take_, room}), queue_cycles(1));
   taken_.push_back(last_take_);
   return last_take_;
 }
@@ -132,9 +209,20 @@ std::uint64_t ExactVsuEstimate::give(std::uint64_t now) {
 }
 
 void ExactVsuEstimate::end_group(std::uint64_t now, bool saturated) {
+  const Walk& walk = walks_.front();
   work_.counters.groups_saturated += saturated ? 1 : 0;
-  work_.counters.groups_empty += any_chunk_ ? 0 : 1;
-  ended_[group_ % 2] = last_take_ = walk_.book(std::max(now, last_take_), 1);
+  work_.counters.groups_empty += walk.work->visits.empty() ? 1 : 0;
+  ended_ = last_take_ = walk_.book(std::max(now, last_take_), 1);
+  walks_.pop_front();
+  // What is left of it in the queue is dropped.
+  std::uint64_t of_next = 0;
+  for (const Walk& next : walks_) {
+    for (std::size_t n = 0; n < next.nodes.size(); ++n) {
+      if (!next.nodes[n].read) continue;
+      of_next += next.work->nodes[n].chunks_known - (n == 0 ? 0 : next.work->nodes[n - 1].chunks_known);
+    }
+  }
+  chunks_known_ = taken_.size() + of_next;
 }
 
 ExactVsu::Work ExactVsuEstimate::work() const {

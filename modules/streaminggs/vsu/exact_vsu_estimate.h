@@ -1,11 +1,15 @@
 // The time of the exact VSU (exact_vsu.h) without a kernel, node by node and chunk by chunk of what
-// the golden walk opened and gave. Nodes are read in that order, ahead of need as far as the buffers
-// and the queue of chunks allow; the queues' operations share their time with each other.
+// the golden walk opened and gave. Nodes are read in the order of that walk as far as they are known
+// by then, ahead of need and of the next group too, while the buffers and the queue of chunks have
+// room; the queues' operations share their time with each other.
 // Not in it: entries put aside, room in the queue of nodes.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <queue>
+#include <utility>
 #include <vector>
 
 #include "algorithm/memory/regions.h"
@@ -23,9 +27,11 @@ class ExactVsuEstimate {
   using Hidden = std::function<bool(const GroupReach&, std::uint64_t)>;
 
   ExactVsuEstimate(const ExactVsuConfig& config, const Datapath& lanes, const RecordArray& table,
-                   const PortEstimate& port, Hidden hidden);
+                   const std::vector<ExactGroupWork>& groups, const PortEstimate& port,
+                   Hidden hidden);
 
-  void begin_group(std::uint32_t group, const ExactGroupWork& work);
+  // The next one.
+  void begin_group();
   // The cycle in which the walk has taken the group's next chunk.
   std::uint64_t take_chunk(const VisitWork& chunk);
   bool hidden(const VisitWork& chunk, std::uint64_t cycle);
@@ -41,11 +47,29 @@ class ExactVsuEstimate {
   std::uint64_t entries_given() const { return ready_.pushed(); }
 
  private:
-  struct Opened {
-    std::uint64_t entered = 0;  // the cycle in which its children are in the queues
-    bool left_out = false;
+  template <class T>
+  using Smallest = std::priority_queue<T, std::vector<T>, std::greater<T>>;
+  struct Node {
+    bool read = false, left_out = false;
+    std::uint64_t entered = 0;  // the cycle in which its children are known
+    std::uint32_t first_child = 0, next_child = 0;  // of its parent's; 0: none
   };
-  Opened open(const NodeWork& node);
+  struct Walk {
+    std::uint32_t group = 0;
+    const ExactGroupWork* work = nullptr;
+    std::vector<Node> nodes;
+    Smallest<std::pair<std::uint64_t, std::uint32_t>> coming;  // (known from, node)
+    Smallest<std::uint32_t> known;
+    std::size_t read = 0;       // nodes before it all are
+    std::size_t open = 0;       // of these, that the chunk at hand waited for
+    std::uint64_t entered = 0;  // the last of them
+  };
+  void begin_walk(std::uint64_t cycle);
+  void read_next(std::size_t needed);
+  void read(Walk& walk, std::uint32_t number, std::uint64_t cycle);
+  void leave_out_below(Walk& walk, std::uint32_t number);
+  bool leave_out(const Walk& walk, const NodeWork& node, std::uint64_t cycle);
+  std::uint64_t test(const NodeWork& node, std::uint64_t put);
   std::uint64_t room_for_chunks() const;
   std::uint64_t queue_cycles(std::uint64_t operations) const;
 
@@ -60,15 +84,14 @@ class ExactVsuEstimate {
   std::vector<std::uint64_t> fetched_;    // ring: when the last nodes in flight left their slots
   std::vector<std::uint64_t> tested_;     // ring: when the last nodes in test did
   std::uint64_t fetches_ = 0, puts_ = 0;  // so far
-  std::uint32_t group_ = 0;
-  const ExactGroupWork* of_ = nullptr;
-  std::vector<Opened> opened_;             // [node] of the group
+  const std::vector<ExactGroupWork>& groups_;
+  std::uint32_t next_group_ = 0;           // whose walk has not begun
+  std::deque<Walk> walks_;                 // at most two, the first is of the group at hand
   std::vector<std::uint64_t> taken_;       // [chunk] of the frame, when
-  std::uint64_t chunks_before_ = 0;        // the group
-  std::uint64_t last_read_ = 0, last_put_ = 0, last_take_ = 0, known_ = 0;
+  std::uint64_t chunks_known_ = 0;         // of nodes that were read, but for groups that have ended
+  std::uint64_t last_read_ = 0, last_put_ = 0, last_take_ = 0;
+  std::uint64_t ended_ = 0;  // the group before that at hand
   std::uint64_t tests_free_ = 0, test_busy_ = 0, hand_out_ = 0, handed_out_ = 0;
-  std::uint64_t ended_[2] = {0, 0};  // groups, by their number
-  bool any_chunk_ = false;
   ExactVsu::Work work_;
 };
 
