@@ -247,7 +247,7 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
   stats.nodes_read = walk.counters().nodes;
   stream.finish(frame);
   if (counted.work == nullptr) return;
-  for (std::uint32_t behind = 0; chunk && behind < kVisitsBehind; ++behind) {
+  for (std::uint32_t behind = 0; chunk && behind < config.visits_behind; ++behind) {
     stream.count_unneeded(*chunk);
     chunk = chunks.next();
   }

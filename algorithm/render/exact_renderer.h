@@ -25,7 +25,10 @@ struct ExactOrderConfig {
   OnOverflow on_overflow = OnOverflow::kSpill;
   WalkRoom walk_room{256, 384};                        // of the front-to-back walk
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
-  SubtileTest subtile_test = SubtileTest::kEllipse;    // changes no pixel
+  // What is counted beside the picture, and changes no pixel: sub-tiles of which splats; visits
+  // behind a finished group, as many as can be under way in a machine that does not know it yet.
+  SubtileTest subtile_test = SubtileTest::kEllipse;
+  std::uint32_t visits_behind = 128;
   glm::vec3 background{0.0F};
 };
 

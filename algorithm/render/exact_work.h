@@ -56,7 +56,4 @@ struct ExactWork {
   std::uint64_t contributors = 0;      // (splat, pixel) blends
 };
 
-// Visits behind a finished group that are counted: as many as can be under way in a machine.
-constexpr std::uint32_t kVisitsBehind = 64;
-
 }  // namespace sgs

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "algorithm/voxel/chunk_work.h"
 #include "modules/streaminggs/exact_estimate.h"
 #include "modules/streaminggs/exact_machine.h"
@@ -47,6 +49,9 @@ ExactOrderConfig ExactDesign::order() const {
   order.precision = config_.rendering.precision;
   order.subtile_test =
       config_.rendering.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox;
+  if (!config_.rendering.saturation_feedback) {
+    order.visits_behind = std::numeric_limits<std::uint32_t>::max();
+  }
   return order;
 }
 
@@ -84,9 +89,10 @@ CountedFrame ExactDesign::count(const StoredScene& scene, const FrameJob& job,
 std::string ExactDesign::work_key() const {
   const ExactOrderConfig of = order();
   const bool spills = of.on_overflow == OnOverflow::kSpill;
-  return fmt::format("{}x{} {} {} {} {}", of.group.width, of.group.height, of.coarse_filter,
+  return fmt::format("{}x{} {} {} {} {} {}", of.group.width, of.group.height, of.coarse_filter,
                      spills ? "spill" : fmt::format("early {}", of.merge_entries),
-                     static_cast<int>(of.precision), static_cast<int>(of.subtile_test));
+                     static_cast<int>(of.precision), static_cast<int>(of.subtile_test),
+                     of.visits_behind);
 }
 
 void ExactDesign::publish_left_out(const StoredScene& scene, const StreamingStats& stats,
