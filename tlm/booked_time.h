@@ -1,6 +1,8 @@
-// A resource that does one thing at a time, for users who ask in the order of a program and not of
-// time: each window of its time has room for as much work as it is long. What comes when a window
-// is part taken goes behind that part; when exactly the others came is not kept.
+// A resource that does one thing at a time, first come first served, for users who ask in the order
+// of a program and not of time. Windows of its time know how much work came in each and what was
+// left over from the one before: that is what whoever comes then waits for. Work that is booked
+// later does not move what was answered before, whenever it came: who asks for all it has to do
+// should see that it is done in no less time than that (busy_cycles()).
 #pragma once
 
 #include <algorithm>
@@ -12,42 +14,37 @@ namespace sgs {
 class BookedTime {
  public:
   // window: cycles.
-  explicit BookedTime(std::uint64_t window) : window_(window) {}
+  explicit BookedTime(std::uint64_t window) : window_(window), windows_(1) {}
 
   // Work that can begin in cycle `from`: the cycle in which it ends.
   std::uint64_t book(std::uint64_t from, std::uint64_t work) {
     busy_ += work;
-    std::uint64_t at = from;
-    while (work > 0) {
-      const std::size_t w = free_window(at / window_);
-      const std::uint64_t begin = w * window_;
-      at = std::max(at, begin + used_[w]);
-      const std::uint64_t taken = std::min(work, begin + window_ - at);
-      used_[w] += static_cast<std::uint32_t>(taken);
-      work -= taken;
-      at += taken;
+    std::size_t at = from / window_;
+    while (windows_.size() <= at) windows_.push_back({left_after(windows_.back()), 0});
+    Window& window = windows_[at];
+    const std::uint64_t begin = at * window_;
+    const std::uint64_t end = std::max(from, begin + window.left + window.came) + work;
+    window.came += work;
+    while (++at < windows_.size()) {
+      const std::uint64_t left = left_after(windows_[at - 1]);
+      if (left == windows_[at].left) break;
+      windows_[at].left = left;
     }
-    return at;
+    return end;
   }
   std::uint64_t busy_cycles() const { return busy_; }
 
  private:
-  // The first from `w` on that is not full.
-  std::size_t free_window(std::size_t w) {
-    if (w >= used_.size()) {
-      used_.resize(2 * w + 1);
-      next_.resize(used_.size());
-    }
-    std::size_t at = w;
-    while (at < used_.size() && used_[at] == window_) at += 1 + next_[at];
-    if (at >= used_.size()) return free_window(at);
-    if (at > w && used_[w] == window_) next_[w] = static_cast<std::uint32_t>(at - w - 1);
-    return at;
+  struct Window {
+    std::uint64_t left = 0, came = 0;  // work: of earlier windows, and its own
+  };
+  std::uint64_t left_after(const Window& window) const {
+    const std::uint64_t work = window.left + window.came;
+    return work - std::min(work, window_);
   }
 
   const std::uint64_t window_;
-  std::vector<std::uint32_t> used_;  // [window] of its cycles
-  std::vector<std::uint32_t> next_;  // [window] full ones that are known to follow
+  std::vector<Window> windows_;  // up to the latest that anything came in
   std::uint64_t busy_ = 0;
 };
 

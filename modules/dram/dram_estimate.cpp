@@ -109,6 +109,12 @@ std::uint64_t DramEstimate::answered(std::uint64_t cycle, const Transaction& of)
   return std::max(cycle, static_cast<std::uint64_t>(std::ceil(answer)));
 }
 
+std::uint64_t DramEstimate::least_cycles() const {
+  std::uint64_t busiest = 0;
+  for (const BookedTime& bus : buses_) busiest = std::max(busiest, bus.busy_cycles());
+  return static_cast<std::uint64_t>(std::ceil(static_cast<double>(busiest) / dram_cycles_));
+}
+
 // With open pages some bank is open all the time.
 DramStats DramEstimate::stats(std::uint64_t cycle) const {
   const Memspec::Timing& t = memspec_.timing_cycles;

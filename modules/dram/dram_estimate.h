@@ -26,6 +26,9 @@ class DramEstimate : public MemoryEstimate {
 
   std::uint64_t answered(std::uint64_t cycle, const Transaction& transaction) override;
 
+  // Cycles of the machine's clock that the busiest channel's bus takes for all of it.
+  std::uint64_t least_cycles() const;
+
   // Of a frame that ended in this cycle of the machine's clock.
   DramStats stats(std::uint64_t cycle) const;
 

@@ -1,6 +1,7 @@
 // A machine without a kernel's time.
 #include "testbench/streaminggs/frame_estimate.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <systemc>
@@ -30,6 +31,7 @@ FrameResult estimate_frame(const MachineDesign& design, const FrameJob& job, con
   FrameResult result;
   result.fidelity = Fidelity::kEstimate;
   result.cycles = machine->estimate(work, memory);
+  result.cycles = std::max(result.cycles, memory.least_cycles());
   result.clock_mhz = machine->clock().mhz();
   result.drained = true;
   result.machine = collect(*machine);

@@ -61,33 +61,45 @@ void ExactVsuEstimate::begin_walk(std::uint64_t cycle) {
   if (!walk.nodes.empty()) walk.coming.emplace(last_read_, 0);
 }
 
-// Read ahead, a node leaves a quarter of the queue free and a place for each of its children: when
-// that many chunks have been taken. kNever: none of those yet.
-std::uint64_t ExactVsuEstimate::room_for_chunks() const {
-  const std::uint64_t capacity = config_.queue_entries;
-  const std::uint64_t most =
-      capacity - std::min<std::uint64_t>(capacity, capacity / 4 + kChunkNodeWidth);
-  if (chunks_known_ <= most) return 0;
-  const std::uint64_t taken = chunks_known_ - most;
-  return taken <= taken_.size() ? taken_[taken - 1] : kNever;
+// As ChunkWalk::has_room_for_another(), and needs_node().
+bool ExactVsuEstimate::has_room(const Walk& walk, std::uint64_t cycle) const {
+  const bool of_first = &walk == &walks_.front() && cycle >= ended_;
+  const bool has_chunk = chunks_taken_ < taken_.size() && final_[chunks_taken_] <= cycle;
+  const bool starves = of_first && !has_chunk;
+  if (starves && opening_.empty()) return true;
+  std::uint64_t nodes = 0;
+  for (const Walk& of : walks_) nodes += of.known.size();
+  const std::uint64_t children = (opening_.size() + 1) * kChunkNodeWidth;
+  const auto fit = [&](std::uint64_t entries, std::uint64_t capacity) {
+    return capacity >= entries + children + (starves ? 0 : capacity / 4);
+  };
+  return fit(chunks_known_ - std::min(chunks_known_, chunks_taken_), config_.queue_entries) &&
+         fit(nodes, config_.node_queue_entries);
+}
+
+void ExactVsuEstimate::look_around(std::uint64_t cycle) {
+  for (; !opening_.empty() && opening_.front().entered <= cycle; opening_.pop_front()) {
+    chunks_known_ += opening_.front().chunks;
+  }
+  while (chunks_taken_ < taken_.size() && taken_[chunks_taken_] <= cycle) ++chunks_taken_;
+  for (Walk& walk : walks_) {
+    for (; !walk.coming.empty() && walk.coming.top().first <= cycle; walk.coming.pop()) {
+      walk.known.push(walk.coming.top().second);
+    }
+  }
 }
 
 // The nearest node that is known, of the group at hand or, where of that none is, of the next.
-// needed: nodes of the group at hand that are read whatever room there is.
-void ExactVsuEstimate::read_next(std::size_t needed) {
+void ExactVsuEstimate::read_next() {
   for (std::uint64_t at = last_read_;;) {
-    std::uint64_t next = kNever;
-    for (Walk& walk : walks_) {
-      for (; !walk.coming.empty() && walk.coming.top().first <= at; walk.coming.pop()) {
-        walk.known.push(walk.coming.top().second);
-      }
-      if (!walk.coming.empty()) next = std::min(next, walk.coming.top().first);
-    }
+    look_around(at);
+    std::uint64_t next = opening_.empty() ? kNever : opening_.front().entered;
     Walk* nearest = nullptr;
     for (Walk& walk : walks_) {
+      if (!walk.coming.empty()) next = std::min(next, walk.coming.top().first);
       if (nearest == nullptr && !walk.known.empty()) nearest = &walk;
     }
-    if (walks_.front().known.empty() && walks_.size() == 1 && next_group_ < groups_.size()) {
+    if (nearest == nullptr && walks_.size() == 1 && next_group_ < groups_.size()) {
       if (at >= ended_) {
         begin_walk(at);
         at = last_read_;
@@ -97,14 +109,16 @@ void ExactVsuEstimate::read_next(std::size_t needed) {
     }
     if (nearest != nullptr) {
       const std::uint32_t number = nearest->known.top();
-      const bool is_needed = nearest == &walks_.front() && number < needed;
-      const std::uint64_t room = is_needed ? 0 : room_for_chunks();
-      if (room <= at) {
+      if (has_room(*nearest, at)) {
         nearest->known.pop();
         read(*nearest, number, at);
         return;
       }
-      next = std::min(next, room);
+      if (chunks_taken_ < taken_.size()) next = std::min(next, taken_[chunks_taken_]);
+      if (chunks_taken_ < final_.size() && final_[chunks_taken_] > at) {
+        next = std::min(next, final_[chunks_taken_]);
+      }
+      if (at < ended_) next = std::min(next, ended_);
     }
     at = next;
   }
@@ -143,7 +157,7 @@ void ExactVsuEstimate::read(Walk& walk, std::uint32_t number, std::uint64_t cycl
     }
     own.entered = test(node, put);
     const std::uint32_t known_before = number == 0 ? 0 : walk.work->nodes[number - 1].chunks_known;
-    chunks_known_ += node.chunks_known - known_before;
+    opening_.push_back({own.entered, node.chunks_known - known_before, walk.group});
     for (std::uint32_t child = own.first_child; child > 0; child = walk.nodes[child].next_child) {
       walk.coming.emplace(own.entered, child);
     }
@@ -181,12 +195,13 @@ std::uint64_t ExactVsuEstimate::test(const NodeWork& node, std::uint64_t put) {
 
 std::uint64_t ExactVsuEstimate::take_chunk(const VisitWork& chunk) {
   Walk& walk = walks_.front();
-  while (walk.read < chunk.nodes) read_next(chunk.nodes);
+  while (walk.read < chunk.nodes) read_next();
   for (; walk.open < chunk.nodes; ++walk.open) {
     walk.entered = std::max(walk.entered, walk.nodes[walk.open].entered);
   }
   const std::uint64_t room = room_[ready_.pushed() % room_.size()];
-  last_take_ = walk_.book(std::max({walk.entered, last_take_, room}), queue_cycles(1));
+  final_.push_back(std::max(walk.entered, last_take_));
+  last_take_ = walk_.book(std::max(final_.back(), room), queue_cycles(1));
   taken_.push_back(last_take_);
   return last_take_;
 }
@@ -214,15 +229,21 @@ void ExactVsuEstimate::end_group(std::uint64_t now, bool saturated) {
   work_.counters.groups_empty += walk.work->visits.empty() ? 1 : 0;
   ended_ = last_take_ = walk_.book(std::max(now, last_take_), 1);
   walks_.pop_front();
-  // What is left of it in the queue is dropped.
+  // What is left of it in the queue is dropped: there are those of the next group alone.
+  for (Opening& node : opening_) {
+    if (node.group + 1 < next_group_ || walks_.empty()) node.chunks = 0;
+  }
   std::uint64_t of_next = 0;
   for (const Walk& next : walks_) {
     for (std::size_t n = 0; n < next.nodes.size(); ++n) {
-      if (!next.nodes[n].read) continue;
-      of_next += next.work->nodes[n].chunks_known - (n == 0 ? 0 : next.work->nodes[n - 1].chunks_known);
+      if (!next.nodes[n].read || next.nodes[n].left_out) continue;
+      of_next += next.work->nodes[n].chunks_known -
+                 (n == 0 ? 0 : next.work->nodes[n - 1].chunks_known);
     }
   }
-  chunks_known_ = taken_.size() + of_next;
+  for (const Opening& node : opening_) of_next -= node.chunks;
+  chunks_taken_ = taken_.size();
+  chunks_known_ = chunks_taken_ + of_next;
 }
 
 ExactVsu::Work ExactVsuEstimate::work() const {

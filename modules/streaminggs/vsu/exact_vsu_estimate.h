@@ -2,7 +2,7 @@
 // the golden walk opened and gave. Nodes are read in the order of that walk as far as they are known
 // by then, ahead of need and of the next group too, while the buffers and the queue of chunks have
 // room; the queues' operations share their time with each other.
-// Not in it: entries put aside, room in the queue of nodes.
+// Not in it: entries put aside.
 #pragma once
 
 #include <cstdint>
@@ -65,12 +65,13 @@ class ExactVsuEstimate {
     std::uint64_t entered = 0;  // the last of them
   };
   void begin_walk(std::uint64_t cycle);
-  void read_next(std::size_t needed);
+  void read_next();
   void read(Walk& walk, std::uint32_t number, std::uint64_t cycle);
   void leave_out_below(Walk& walk, std::uint32_t number);
   bool leave_out(const Walk& walk, const NodeWork& node, std::uint64_t cycle);
   std::uint64_t test(const NodeWork& node, std::uint64_t put);
-  std::uint64_t room_for_chunks() const;
+  bool has_room(const Walk& walk, std::uint64_t cycle) const;
+  void look_around(std::uint64_t cycle);
   std::uint64_t queue_cycles(std::uint64_t operations) const;
 
   const ExactVsuConfig config_;
@@ -87,8 +88,16 @@ class ExactVsuEstimate {
   const std::vector<ExactGroupWork>& groups_;
   std::uint32_t next_group_ = 0;           // whose walk has not begun
   std::deque<Walk> walks_;                 // at most two, the first is of the group at hand
-  std::vector<std::uint64_t> taken_;       // [chunk] of the frame, when
-  std::uint64_t chunks_known_ = 0;         // of nodes that were read, but for groups that have ended
+  std::vector<std::uint64_t> final_, taken_;  // [chunk] of the frame, when
+  // What the walk has before it in the cycle that was looked at last.
+  struct Opening {
+    std::uint64_t entered = 0;
+    std::uint32_t chunks = 0;  // of its children
+    std::uint32_t group = 0;
+  };
+  std::deque<Opening> opening_;      // nodes that were read, and are not open
+  std::uint64_t chunks_known_ = 0;   // so far, but for those that were dropped with their group
+  std::uint64_t chunks_taken_ = 0;   // of `taken_`
   std::uint64_t last_read_ = 0, last_put_ = 0, last_take_ = 0;
   std::uint64_t ended_ = 0;  // the group before that at hand
   std::uint64_t tests_free_ = 0, test_busy_ = 0, hand_out_ = 0, handed_out_ = 0;
