@@ -4,14 +4,23 @@
 #include <algorithm>
 
 namespace sgs {
+namespace {
+
+constexpr std::uint64_t kWindowCycles = 16;  // in which answers come as if at once
+
+}  // namespace
 
 PortEstimate::PortEstimate(const MemoryPortConfig& config, MemoryEstimate& memory,
                            std::uint8_t requester)
-    : config_(config),
-      memory_(memory),
-      requester_(requester),
-      outstanding_(config.max_outstanding),
-      writes_(config.max_writes) {}
+    : config_(config), memory_(memory), requester_(requester), back_(kWindowCycles) {}
+
+// The first of them makes room.
+std::uint64_t PortEstimate::room_from(Answers& answers, std::uint32_t most) {
+  if (answers.size() < most) return 0;
+  const std::uint64_t first = answers.top();
+  answers.pop();
+  return first;
+}
 
 PortEstimate::Access PortEstimate::read(std::uint64_t now, std::uint64_t address,
                                         std::uint32_t bytes, std::uint8_t region) {
@@ -34,24 +43,22 @@ PortEstimate::Access PortEstimate::start(std::uint64_t now, Direction direction,
   while (address < end) {
     const auto length =
         static_cast<std::uint32_t>(std::min(end, (address / step + 1) * step) - address);
-    std::uint64_t& place = outstanding_[traffic_.transactions++ % outstanding_.size()];
-    std::uint64_t leaves = std::max({access.sent, next_leaves_, place});
-    std::uint64_t cycles = 1;
-    if (writes) {
-      leaves = std::max(leaves, writes_[sent_writes_ % writes_.size()]);
-      cycles = words(length);
-    }
+    ++traffic_.transactions;
+    std::uint64_t leaves = std::max(
+        {access.sent, next_leaves_, room_from(outstanding_, config_.max_outstanding)});
+    if (writes) leaves = std::max(leaves, room_from(writes_, config_.max_writes));
+    const std::uint64_t cycles = writes ? words(length) : 1;
     next_leaves_ = leaves + cycles;
     const std::uint64_t comes = leaves + config_.path_cycles + cycles - 1;
     std::uint64_t answered =
         memory_.answered(comes, {direction, requester_, region, address, length}) +
         config_.path_cycles;
     if (writes) {
-      writes_[sent_writes_++ % writes_.size()] = answered;
+      writes_.push(answered);
     } else {
-      answered = last_arrived_ = std::max(answered, last_arrived_ + words(length));
+      answered = back_.book(answered - words(length), words(length));
     }
-    place = answered;
+    outstanding_.push(answered);
     access.sent = leaves;
     access.answered = std::max(access.answered, answered);
     last_answered_ = std::max(last_answered_, answered);

@@ -1,10 +1,12 @@
-// A MemoryPort without a kernel: when what it is asked for leaves and is answered. As memory_port.h,
-// but that answers come in the order in which they were asked for.
+// A MemoryPort (memory_port.h) without a kernel: when what it is asked for leaves and is answered.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <queue>
 #include <vector>
 
+#include "tlm/booked_time.h"
 #include "tlm/memory_estimate.h"
 #include "tlm/memory_port.h"
 
@@ -37,9 +39,12 @@ class PortEstimate {
   const MemoryPortConfig config_;
   MemoryEstimate& memory_;
   const std::uint8_t requester_;
-  std::vector<std::uint64_t> outstanding_, writes_;  // rings: when the last ones were answered
-  std::uint64_t sent_writes_ = 0;
-  std::uint64_t next_leaves_ = 0, last_arrived_ = 0, last_answered_ = 0;
+  // When what is under way will be answered, of all and of writes: at most as many as there may be.
+  using Answers = std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>>;
+  static std::uint64_t room_from(Answers& answers, std::uint32_t most);
+  Answers outstanding_, writes_;
+  BookedTime back_;  // the path of the answers' words
+  std::uint64_t next_leaves_ = 0, last_answered_ = 0;
   PortTraffic traffic_;
 };
 

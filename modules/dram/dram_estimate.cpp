@@ -7,8 +7,7 @@
 namespace sgs {
 namespace {
 
-// Cycles in which what comes is taken as if at once: two of the largest transactions' bursts.
-constexpr std::uint64_t kWindowCycles = 64;
+constexpr std::uint64_t kWindowCycles = 16;  // in which bursts come as if at once: of four
 
 DramConfig validated(const DramConfig& config) {
   config.validate();

@@ -87,20 +87,26 @@ void MergeEstimate::spill_farthest() {
   keep(std::move(keys));
 }
 
+// As MergeUnit::merge_shortest_runs().
 void MergeEstimate::merge_shortest_runs() {
   std::sort(runs_.begin(), runs_.end(),
-            [](const Run& a, const Run& b) { return a.left() > b.left(); });
+            [](const Run& a, const Run& b) { return a.left() < b.left(); });
+  constexpr std::size_t kFewest = 2;
   std::vector<Key> keys;
-  for (int run = 0; run < 2 && !runs_.empty(); ++run) {
-    const Run& shortest = runs_.back();
-    keys.insert(keys.end(), shortest.keys.begin() + static_cast<std::ptrdiff_t>(shortest.taken),
-                shortest.keys.end());
-    runs_.pop_back();
+  std::size_t merged = 0;
+  for (; merged < runs_.size(); ++merged) {
+    const Run& run = runs_[merged];
+    if (merged >= kFewest && run.left() > 2 * keys.size()) break;
+    const auto bytes = static_cast<std::uint32_t>((run.keys.size() - run.requested) * kKeyBytes);
+    if (bytes > 0) {
+      now_ = port_.read(now_, run.address + run.requested * kKeyBytes, bytes, spill_.region).sent;
+    }
+    keys.insert(keys.end(), run.keys.begin() + static_cast<std::ptrdiff_t>(run.taken),
+                run.keys.end());
   }
+  runs_.erase(runs_.begin(), runs_.begin() + static_cast<std::ptrdiff_t>(merged));
   std::sort(keys.begin(), keys.end());
-  const auto count = static_cast<std::uint32_t>(keys.size());
-  now_ = port_.read(now_, spill_.base, count * kKeyBytes, spill_.region).answered;
-  work_for(count);
+  work_for(keys.size());
   keep(std::move(keys));
 }
 

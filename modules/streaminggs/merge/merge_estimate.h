@@ -1,6 +1,5 @@
-// The time of the merge unit (merge_unit.h) without a kernel: the same heap over the same keys. What
-// does not fit is spilled and comes back as there, but that of too many runs the two shortest become
-// one.
+// The time of the merge unit (merge_unit.h) without a kernel: the same heap over the same keys, and
+// the same runs of what does not fit.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace sgs {
 namespace {
 
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kWindowCycles = 64;  // in which the queues' operations come as if at once
+constexpr std::uint64_t kWindowCycles = 16;  // in which the queues' operations come as if at once
 
 }  // namespace
 
