@@ -44,8 +44,8 @@ PortEstimate::Access PortEstimate::start(std::uint64_t now, Direction direction,
     const auto length =
         static_cast<std::uint32_t>(std::min(end, (address / step + 1) * step) - address);
     ++traffic_.transactions;
-    std::uint64_t leaves = std::max(
-        {access.sent, next_leaves_, room_from(outstanding_, config_.max_outstanding)});
+    std::uint64_t leaves =
+        std::max({access.sent, next_leaves_, room_from(outstanding_, config_.max_outstanding)});
     if (writes) leaves = std::max(leaves, room_from(writes_, config_.max_writes));
     const std::uint64_t cycles = writes ? words(length) : 1;
     next_leaves_ = leaves + cycles;

@@ -130,9 +130,9 @@ class GroupStream {
     const auto observe = [&](const SubtileBlend& blend) {
       if (watch_.see(blend, splat.depth)) contributing_.set(slot);
     };
-    stats_.subtile_blends += (work_ == nullptr ? state_.blend(splat, observe)
-                                               : count_blend(splat, key.number, observe))
-                                 .blended;
+    stats_.subtile_blends +=
+        (work_ == nullptr ? state_.blend(splat, observe) : count_blend(splat, key.number, observe))
+            .blended;
   }
   template <class Observe>
   BlendWork count_blend(const Splat& splat, std::uint32_t key, const Observe& observe) {

@@ -50,10 +50,10 @@ struct ExactGroupWork {
 };
 
 struct ExactWork {
-  std::vector<ExactGroupWork> groups;  // row by row
-  HeapWork node_queue, chunk_queue;    // of the walks, with room for everything
+  std::vector<ExactGroupWork> groups;                   // row by row
+  HeapWork node_queue, chunk_queue;                     // of the walks, with room for everything
   std::size_t node_queue_max = 0, chunk_queue_max = 0;  // entries
-  std::uint64_t contributors = 0;      // (splat, pixel) blends
+  std::uint64_t contributors = 0;                       // (splat, pixel) blends
 };
 
 }  // namespace sgs

@@ -36,11 +36,11 @@ struct SubtileBlend {
 
 // A sub-tile that a splat reaches, as whoever schedules the blending sees it.
 struct SubtileReach {
-  std::size_t at;       // the sub-tile's place in the group
-  int x, y;             // the sub-tile, in the whole frame
-  bool blends;          // it was unfinished; a finished one does not change
-  bool finishes;        // with this splat
-  std::uint32_t row;    // of the splat's rows, the first is 0
+  std::size_t at;     // the sub-tile's place in the group
+  int x, y;           // the sub-tile, in the whole frame
+  bool blends;        // it was unfinished; a finished one does not change
+  bool finishes;      // with this splat
+  std::uint32_t row;  // of the splat's rows, the first is 0
 };
 
 // What a splat may reach of a group, before its rows have spans.
@@ -134,8 +134,8 @@ class GroupState {
     return test_ == SubtileTest::kEllipse &&
            (reach.x1 - reach.x0) * (reach.y1 - reach.y0) > kUntestedSubtiles;
   }
-  // blend_into(place in the group, x, y, row of the splat) for each sub-tile that the splat reaches,
-  // row by row; it says whether it has blended.
+  // blend_into(place in the group, x, y, row of the splat) for each sub-tile that the splat
+  // reaches, row by row; it says whether it has blended.
   template <class BlendInto>
   BlendWork for_reached(const Splat& splat, const BlendInto& blend_into) {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);

@@ -129,11 +129,12 @@ DramStats DramEstimate::stats(std::uint64_t cycle) const {
     const std::uint64_t refreshes =
         config_.refresh == RefreshMode::kOff ? 0 : stats.elapsed_cycles / between;
     (all ? rank.refreshes_all : rank.refreshes_bank) = refreshes;
-    stats.channels[r / config_.ranks].commands[static_cast<std::size_t>(
-        all ? Command::kRefreshAll : Command::kRefreshBank)] += refreshes;
+    stats.channels[r / config_.ranks]
+        .commands[static_cast<std::size_t>(all ? Command::kRefreshAll : Command::kRefreshBank)] +=
+        refreshes;
     const bool closed = config_.page_policy == PagePolicyKind::kClosed;
-    rank.active_cycles = closed ? std::min(stats.elapsed_cycles, rank.activates * t.ras)
-                                : stats.elapsed_cycles;
+    rank.active_cycles =
+        closed ? std::min(stats.elapsed_cycles, rank.activates * t.ras) : stats.elapsed_cycles;
     rank.precharged_cycles = stats.elapsed_cycles - rank.active_cycles;
   }
   add_energy(stats, memspec_, config_, regions_);

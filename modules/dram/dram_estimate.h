@@ -54,7 +54,7 @@ class DramEstimate : public MemoryEstimate {
   const AddressMapping mapping_;
   const PathLatency path_;
   const DerivedTiming derived_;
-  const double dram_cycles_;  // of a machine's
+  const double dram_cycles_;       // of a machine's
   std::vector<BookedTime> buses_;  // [channel]
   std::vector<Bank> banks_;        // [channel, rank, bank]
   DramStats counts_;

@@ -47,8 +47,7 @@ ExactOrderConfig ExactDesign::order() const {
   order.on_overflow = config_.merge.on_overflow;
   order.walk_room = config_.vsu.walk_room();
   order.precision = config_.rendering.precision;
-  order.subtile_test =
-      config_.rendering.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox;
+  order.subtile_test = config_.rendering.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox;
   if (!config_.rendering.saturation_feedback) {
     order.visits_behind = std::numeric_limits<std::uint32_t>::max();
   }

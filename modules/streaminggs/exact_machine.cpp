@@ -21,8 +21,7 @@ std::uint64_t aside_bytes(const ChunkTableLayout& table) {
 }  // namespace
 
 std::uint64_t exact_spill_bytes(const SceneLayout& layout) {
-  return aside_bytes(layout.chunk_table()) +
-         2 * std::uint64_t{layout.gaussian_count()} * kKeyBytes;
+  return aside_bytes(layout.chunk_table()) + 2 * std::uint64_t{layout.gaussian_count()} * kKeyBytes;
 }
 
 ExactMachine::ExactMachine(const sc_core::sc_module_name& name, const ExactConfig& config,

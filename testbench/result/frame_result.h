@@ -127,7 +127,7 @@ struct FrameResult {
   MemoryResult memory;
   // The frame buffer as read back from the memory; of an estimate as it would be.
   std::vector<std::byte> frame;
-  double wall_s = 0;             // elaboration, loading of the memory, simulation
+  double wall_s = 0;  // elaboration, loading of the memory, simulation
 
   double time_s() const { return static_cast<double>(cycles) / (clock_mhz * 1e6); }
 };

@@ -105,9 +105,8 @@ void check_estimate(const SimulateArguments& arguments) {
                                                 {"--process-order", run.build.process_order > 0}};
   for (const auto& [name, is_given] : given) {
     if (!is_given) continue;
-    throw InputError(
-        fmt::format("--estimate: got it with {}, which needs a simulation, expected one of the two",
-                    name));
+    throw InputError(fmt::format(
+        "--estimate: got it with {}, which needs a simulation, expected one of the two", name));
   }
 }
 

@@ -93,9 +93,8 @@ std::unique_ptr<ChildProcess> SweepSimulations::start(const SweepTask& task) {
   const std::string of_picture =
       fmt::format("{}\n{} {}", of_view, task.picture, static_cast<int>(job.frame.frame_format));
   const Fidelity fidelity = plan_.fidelity();
-  const auto expected = expected_.get(of_picture, [&] {
-    return expected_of(*config.design, fidelity, *scene, job, *references);
-  });
+  const auto expected = expected_.get(
+      of_picture, [&] { return expected_of(*config.design, fidelity, *scene, job, *references); });
   return std::make_unique<ChildProcess>([&] {
     ViewResult view =
         view_result(*scene, job, *references, expected->counted.golden, expected->judged,

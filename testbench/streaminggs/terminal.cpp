@@ -45,8 +45,7 @@ void print_table_line(const ViewResult& v) {
       v.run.fidelity == Fidelity::kEstimate ? "is its"
       : v.equals_golden                     ? "yes"
                                             : "NO",
-      grouped(v.run.cycles),
-      grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
+      grouped(v.run.cycles), grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
       static_cast<double>(v.run.memory.bytes) / 1e6, v.once_ratio(), v.energy_j.total.middle * 1e3,
       v.mean_power_w(), v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
 }

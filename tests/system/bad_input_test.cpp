@@ -296,11 +296,13 @@ TEST_CASE("bad input: messages are short, clean and begin with the program") {
   check({"$SG",
          2,
          {"got no command",
-          "simulate, what-if, sweep, diff, pack, train, tune, render, compare, photographs, gpu, info, "
+          "simulate, what-if, sweep, diff, pack, train, tune, render, compare, photographs, gpu, "
+          "info, "
           "describe"}});
   check({"$SG simulat $S",
          2,
-         {"'simulat': no such command", "simulate, what-if, sweep, diff, pack, train, tune, render"}});
+         {"'simulat': no such command",
+          "simulate, what-if, sweep, diff, pack, train, tune, render"}});
   check({"$SG '' --help", 2, {"'': no such command"}});
   check({"$SG simulate", 2, {"SCENE"}});
   check({"$SG simulate $B --no-such-option", 2, {"--no-such-option"}});

@@ -43,11 +43,10 @@ const Arguments kOutdoor = {"builtin:outdoor?n=6000", "--size", "200x120"};
 TEST_CASE("estimate: bytes are the simulation's where nothing depends on when it happens") {
   for (const Arguments& scene : {kObject, kOutdoor}) {
     INFO(scene[0]);
-    const Both frame(
-        with_settings(scene, {"rendering.saturation_feedback=false", "merge.entries=4096",
-                              "sram.shared_bytes=0", "vsu.queue_entries=4096",
-                              "vsu.node_queue_entries=4096", "group_width_px=64",
-                              "group_height_px=48"}));
+    const Both frame(with_settings(
+        scene, {"rendering.saturation_feedback=false", "merge.entries=4096", "sram.shared_bytes=0",
+                "vsu.queue_entries=4096", "vsu.node_queue_entries=4096", "group_width_px=64",
+                "group_height_px=48"}));
     CHECK(frame.estimated["dram"]["bytes_by_region"] == frame.simulated["dram"]["bytes_by_region"]);
     CHECK(frame.estimated["dram"]["transactions"] == frame.simulated["dram"]["transactions"]);
     CHECK(frame.estimated["datapath"] == frame.simulated["datapath"]);

@@ -321,8 +321,9 @@ TEST_CASE("sweep: estimates are no simulations, and simulations no estimates") {
   CHECK(table.find("accurate") == std::string::npos);
   // Of a machine without one nothing is simulated in its place.
   const ShellOutcome refused =
-      shell(scratch, "$SG sweep 'builtin:object?n=600' --size 64x48 --config gscore --axis "
-                     "tiles.reach=visible --estimate --out g.jsonl");
+      shell(scratch,
+            "$SG sweep 'builtin:object?n=600' --size 64x48 --config gscore --axis "
+            "tiles.reach=visible --estimate --out g.jsonl");
   CHECK(refused.status == 2);
   CHECK(refused.err.find("no estimate") != std::string::npos);
 }

@@ -1,5 +1,5 @@
-// When the CFUs of a coarse filter take their Gaussians: one each in their turns, a cycle after each
-// other as these come out of the input buffer; so they are done a cycle apart. Without CFUs a
+// When the CFUs of a coarse filter take their Gaussians: one each in their turns, a cycle after
+// each other as these come out of the input buffer; so they are done a cycle apart. Without CFUs a
 // Gaussian takes that cycle.
 #pragma once
 

@@ -93,8 +93,8 @@ std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
          (std::size_t{slot} * config_.slice_gaussians + at) * std::size_t{record_bytes_};
 }
 
-// A candidate a cycle goes on. Simulated time is only let pass where somebody could see it: before a
-// candidate is handed on, and at the end.
+// A candidate a cycle goes on. Simulated time is only let pass where somebody could see it: before
+// a candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
   const RecordSplit& split = job_.layout.split;
   const CfuTurns turns(tests_, has_cfus_);

@@ -17,8 +17,9 @@ CoarseFilterEstimate::CoarseFilterEstimate(const HfuConfig& config, const Coarse
 std::uint64_t CoarseFilterEstimate::fetch(std::uint32_t group, std::uint32_t first,
                                           std::uint32_t count) {
   port_.charge_to(group);
-  const auto [sent, answered] = port_.read(load_, first_halves_.address(first),
-                                           count * first_halves_.record_bytes, first_halves_.region);
+  const auto [sent, answered] =
+      port_.read(load_, first_halves_.address(first), count * first_halves_.record_bytes,
+                 first_halves_.region);
   load_ = sent;
   work_.counters.first_halves += count;
   return answered;

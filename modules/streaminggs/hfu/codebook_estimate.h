@@ -1,5 +1,6 @@
-// The time of the codebook buffer (codebook_buffer.h) without a kernel: the load, and of a record the
-// lines of its entries, of each codebook the mean of all. Not in it: readers that want one bank.
+// The time of the codebook buffer (codebook_buffer.h) without a kernel: the load, and of a record
+// the lines of its entries, of each codebook the mean of all. Not in it: readers that want one
+// bank.
 #pragma once
 
 #include <cstdint>

@@ -32,8 +32,7 @@ void MergeEstimate::take(const Key& key, FifoTimes& sorted, std::uint64_t finish
   if (pending_.full()) spill_farthest();
   wait_for_heap();
   pending_.insert(key);
-  work_.counters.pending_max =
-      std::max<std::uint64_t>(work_.counters.pending_max, pending_.size());
+  work_.counters.pending_max = std::max<std::uint64_t>(work_.counters.pending_max, pending_.size());
   work_for(1);
 }
 
@@ -135,8 +134,9 @@ void MergeEstimate::request(Run& run) {
   const std::size_t count =
       std::min<std::size_t>(config_.spill_block_entries, run.keys.size() - run.requested);
   if (count == 0) return;
-  now_ = port_.read(now_, run.address + run.requested * kKeyBytes,
-                    static_cast<std::uint32_t>(count * kKeyBytes), spill_.region)
+  now_ = port_
+             .read(now_, run.address + run.requested * kKeyBytes,
+                   static_cast<std::uint32_t>(count * kKeyBytes), spill_.region)
              .sent;
   run.requested += count;
 }

@@ -117,8 +117,9 @@ void RenderingEstimate::drain(const PixelRect& pixels) {
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     const std::uint32_t cycles = config_.drain_row_cycles(width);
     work_.drain_cycles += cycles;
-    drain_ = port_.write(drain_ + cycles, job_.pixel_address(pixels.x0, y), bytes,
-                         job_.frame_buffer.region)
+    drain_ = port_
+                 .write(drain_ + cycles, job_.pixel_address(pixels.x0, y), bytes,
+                        job_.frame_buffer.region)
                  .sent;
   }
   if (pixels.empty()) return;

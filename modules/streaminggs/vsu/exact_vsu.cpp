@@ -339,10 +339,8 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.counter("groups_saturated", "groups", "finished before their walk ended",
                 counters_.groups_saturated);
   sheet.counter("groups_empty", "groups", "that no chunk can touch", counters_.groups_empty);
-  sheet.counter("chunk_queue_max", "entries", "most in the queue of chunks",
-                done.chunk_queue_max);
-  sheet.counter("node_queue_max", "entries", "most in the queue of nodes",
-                done.node_queue_max);
+  sheet.counter("chunk_queue_max", "entries", "most in the queue of chunks", done.chunk_queue_max);
+  sheet.counter("node_queue_max", "entries", "most in the queue of nodes", done.node_queue_max);
   sheet.counter("chunk_queue_operations", "operations", "insertions and removals",
                 done.chunk_queue.operations());
   sheet.counter("node_queue_operations", "operations", "insertions and removals",

@@ -1,10 +1,10 @@
 // Voxel sorting unit (VSU), exact order: for each pixel group it walks the chunk tree front to back
 // and hands out the chunks that can touch the group, each with the depth below which nothing
 // follows. Nodes are read ahead, several at a time, as long as their children are sure to fit the
-// queues; when a group's nodes have all been read the next group's walk begins. A node or chunk that
-// reaches finished sub-tiles only is left out when it is taken from its queue.
-// Timing: a node's children pass the tests' lanes and come out of their pipeline test_depth_cycles
-// later, nodes_in_test nodes at a time, while the walk goes on; each operation of a queue takes
+// queues; when a group's nodes have all been read the next group's walk begins. A node or chunk
+// that reaches finished sub-tiles only is left out when it is taken from its queue. Timing: a
+// node's children pass the tests' lanes and come out of their pipeline test_depth_cycles later,
+// nodes_in_test nodes at a time, while the walk goes on; each operation of a queue takes
 // cycles_per_queue_operation; a visit leaves a cycle.
 // Function: algorithm/order/chunk_walk.h.
 #pragma once
@@ -50,7 +50,7 @@ class ExactVsu : public sc_core::sc_module {
     std::uint64_t nodes_hidden = 0;      // not read: all sub-tiles that they reach were finished
     std::uint64_t chunks_hidden = 0;     // not handed out, likewise
     std::uint64_t visits = 0;            // handed out
-    std::uint64_t visits_dropped = 0;  // final, and their group was finished by then
+    std::uint64_t visits_dropped = 0;    // final, and their group was finished by then
     std::uint64_t groups_saturated = 0;  // whose walk ended before the tree did
     std::uint64_t groups_empty = 0;      // no chunk touches
   };

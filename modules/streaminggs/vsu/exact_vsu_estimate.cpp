@@ -237,8 +237,8 @@ void ExactVsuEstimate::end_group(std::uint64_t now, bool saturated) {
   for (const Walk& next : walks_) {
     for (std::size_t n = 0; n < next.nodes.size(); ++n) {
       if (!next.nodes[n].read || next.nodes[n].left_out) continue;
-      of_next += next.work->nodes[n].chunks_known -
-                 (n == 0 ? 0 : next.work->nodes[n - 1].chunks_known);
+      of_next +=
+          next.work->nodes[n].chunks_known - (n == 0 ? 0 : next.work->nodes[n - 1].chunks_known);
     }
   }
   for (const Opening& node : opening_) of_next -= node.chunks;

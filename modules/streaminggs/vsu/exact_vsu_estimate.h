@@ -1,8 +1,7 @@
 // The time of the exact VSU (exact_vsu.h) without a kernel, node by node and chunk by chunk of what
-// the golden walk opened and gave. Nodes are read in the order of that walk as far as they are known
-// by then, ahead of need and of the next group too, while the buffers and the queue of chunks have
-// room; the queues' operations share their time with each other.
-// Not in it: entries put aside.
+// the golden walk opened and gave. Nodes are read in the order of that walk as far as they are
+// known by then, ahead of need and of the next group too, while the buffers and the queue of chunks
+// have room; the queues' operations share their time with each other. Not in it: entries put aside.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +39,9 @@ class ExactVsuEstimate {
   std::uint64_t give(std::uint64_t now);
   void given(std::uint64_t cycle) { hand_out_ = cycle; }
   void end_group(std::uint64_t now, bool saturated);
-  void count_visit(bool dropped) { ++(dropped ? work_.counters.visits_dropped : work_.counters.visits); }
+  void count_visit(bool dropped) {
+    ++(dropped ? work_.counters.visits_dropped : work_.counters.visits);
+  }
 
   // What was done so far.
   ExactVsu::Work work() const;
@@ -51,7 +52,7 @@ class ExactVsuEstimate {
   using Smallest = std::priority_queue<T, std::vector<T>, std::greater<T>>;
   struct Node {
     bool read = false, left_out = false;
-    std::uint64_t entered = 0;  // the cycle in which its children are known
+    std::uint64_t entered = 0;                      // the cycle in which its children are known
     std::uint32_t first_child = 0, next_child = 0;  // of its parent's; 0: none
   };
   struct Walk {
@@ -86,8 +87,8 @@ class ExactVsuEstimate {
   std::vector<std::uint64_t> tested_;     // ring: when the last nodes in test did
   std::uint64_t fetches_ = 0, puts_ = 0;  // so far
   const std::vector<ExactGroupWork>& groups_;
-  std::uint32_t next_group_ = 0;           // whose walk has not begun
-  std::deque<Walk> walks_;                 // at most two, the first is of the group at hand
+  std::uint32_t next_group_ = 0;              // whose walk has not begun
+  std::deque<Walk> walks_;                    // at most two, the first is of the group at hand
   std::vector<std::uint64_t> final_, taken_;  // [chunk] of the frame, when
   // What the walk has before it in the cycle that was looked at last.
   struct Opening {
@@ -95,9 +96,9 @@ class ExactVsuEstimate {
     std::uint32_t chunks = 0;  // of its children
     std::uint32_t group = 0;
   };
-  std::deque<Opening> opening_;      // nodes that were read, and are not open
-  std::uint64_t chunks_known_ = 0;   // so far, but for those that were dropped with their group
-  std::uint64_t chunks_taken_ = 0;   // of `taken_`
+  std::deque<Opening> opening_;     // nodes that were read, and are not open
+  std::uint64_t chunks_known_ = 0;  // so far, but for those that were dropped with their group
+  std::uint64_t chunks_taken_ = 0;  // of `taken_`
   std::uint64_t last_read_ = 0, last_put_ = 0, last_take_ = 0;
   std::uint64_t ended_ = 0;  // the group before that at hand
   std::uint64_t tests_free_ = 0, test_busy_ = 0, hand_out_ = 0, handed_out_ = 0;
