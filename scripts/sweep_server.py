@@ -20,9 +20,12 @@ Answer = dict
 
 
 class SweepServer:
-    """For any number of threads. jobs: simulations side by side. failures: what ended badly."""
+    """For any number of threads. jobs: simulations side by side; options: further ones of the
+    command. failures: what ended badly."""
 
-    def __init__(self, binary: pathlib.Path, results: pathlib.Path, jobs: int):
+    def __init__(
+        self, binary: pathlib.Path, results: pathlib.Path, jobs: int, options: Sequence[str] = ()
+    ):
         """Raises ValueError when there is no such program."""
         self.binary, self.program, self.jobs = binary, program_digest(binary), jobs
         self.failures: list[Failure] = []
@@ -36,7 +39,7 @@ class SweepServer:
         words = [str(binary.absolute()), "sweep", "--points", "-", "--out", str(results)]
         try:
             self.process = subprocess.Popen(
-                [*words, "--jobs", str(jobs)],
+                [*words, "--jobs", str(jobs), *options],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=self.said,

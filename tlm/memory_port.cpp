@@ -56,22 +56,16 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConf
 
 MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint32_t bytes,
                                     std::uint8_t region) {
-  bytes_read_ += bytes;
+  traffic_.read(bytes);
   return start(tlm::TLM_READ_COMMAND, address, static_cast<std::uint8_t*>(into), bytes, region);
 }
 
 MemoryPort::Ticket MemoryPort::write(std::uint64_t address, const void* from, std::uint32_t bytes,
                                      std::uint8_t region) {
-  bytes_written_ += bytes;
-  words_written_ += (bytes + kPortBytes - 1) / kPortBytes;
+  traffic_.write(bytes);
   // start() only reads through this pointer when the command is a write.
   auto* data = static_cast<std::uint8_t*>(const_cast<void*>(from));
   return start(tlm::TLM_WRITE_COMMAND, address, data, bytes, region);
-}
-
-void MemoryPort::charge_to(std::size_t part) {
-  if (bytes_of_parts_.size() <= part) bytes_of_parts_.resize(part + 1);
-  part_ = part;
 }
 
 bool MemoryPort::done(Ticket ticket) const {
@@ -96,7 +90,6 @@ MemoryPort::Ticket MemoryPort::start(tlm::tlm_command command, std::uint64_t add
                                      std::uint8_t* data, std::uint32_t bytes, std::uint8_t region) {
   const std::uint64_t step = config_.max_transaction_bytes;
   const std::uint64_t end = address + bytes;
-  if (part_) bytes_of_parts_[*part_] += bytes;
   const std::uint64_t count = bytes == 0 ? 0 : (end - 1) / step - address / step + 1;
   const Ticket ticket = new_ticket(static_cast<std::uint32_t>(count));
   while (address < end) {
@@ -146,7 +139,7 @@ void MemoryPort::send(PooledPayload& payload) {
   next_leaves_ = sc_core::sc_time_stamp() + static_cast<double>(cycles) * cycle_;
   ++outstanding_;
   writes_outstanding_ += payload.is_write() ? 1 : 0;
-  ++transactions_;
+  ++traffic_.transactions;
   bytes_outstanding_ += payload.get_data_length();
   // The memory takes a write when it has its last word.
   const std::uint64_t way = config_.path_cycles + cycles - 1;

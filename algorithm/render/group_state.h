@@ -36,11 +36,11 @@ struct SubtileBlend {
 
 // A sub-tile that a splat reaches, as whoever schedules the blending sees it.
 struct SubtileReach {
-  std::size_t at;       // the sub-tile's place in the group
-  int x, y;             // the sub-tile, in the whole frame
-  bool blends;          // it was unfinished; a finished one does not change
-  bool finishes;        // with this splat
-  std::uint32_t row;    // of the splat's rows, the first is 0
+  std::size_t at;     // the sub-tile's place in the group
+  int x, y;           // the sub-tile, in the whole frame
+  bool blends;        // it was unfinished; a finished one does not change
+  bool finishes;      // with this splat
+  std::uint32_t row;  // of the splat's rows, the first is 0
 };
 
 // What a splat may reach of a group, before its rows have spans.
@@ -87,6 +87,20 @@ class GroupState {
       return blends;
     });
   }
+  // Observed and told.
+  template <class Observer, class Schedule>
+  BlendWork blend_scheduled(const Splat& splat, Observer&& observer, Schedule&& schedule) {
+    const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half_and_tell : blend_and_tell;
+    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t row) {
+      const bool blends = finished_[at] == 0;
+      if (blends) {
+        const LaneShares shares = into(states_[at], x, y, splat);
+        observer(SubtileBlend{at, x, y, shares, states_[at]});
+      }
+      schedule(SubtileReach{at, x, y, blends, blends && finished(states_[at]), row});
+      return blends;
+    });
+  }
   SplatBox box_of(const Splat& splat) const {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
     if (reach.empty()) return {};
@@ -120,8 +134,8 @@ class GroupState {
     return test_ == SubtileTest::kEllipse &&
            (reach.x1 - reach.x0) * (reach.y1 - reach.y0) > kUntestedSubtiles;
   }
-  // blend_into(place in the group, x, y, row of the splat) for each sub-tile that the splat reaches,
-  // row by row; it says whether it has blended.
+  // blend_into(place in the group, x, y, row of the splat) for each sub-tile that the splat
+  // reaches, row by row; it says whether it has blended.
   template <class BlendInto>
   BlendWork for_reached(const Splat& splat, const BlendInto& blend_into) {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);

@@ -8,13 +8,7 @@
 namespace sgs {
 
 DramController::Commands::Commands(const Memspec& memspec, const DramConfig& config)
-    : activity(memspec, config) {
-  counts.channels.resize(config.channels);
-  counts.clock_period_ns = memspec.clock_period_ns;
-  counts.peak_gb_per_s = memspec.peak_gb_per_s() * config.channels;
-  counts.burst_bytes = memspec.burst_bytes();
-  counts.burst_cycles = memspec.burst_cycles();
-}
+    : counts(DramStats::of(memspec, config.channels)), activity(memspec, config) {}
 
 void DramController::Commands::on_command(const CommandRecord& record) {
   DramChannelStats& channel = counts.channels[record.channel];
@@ -67,14 +61,7 @@ DramStats DramController::stats() {
     stats.forwarded_reads += channels_[c].queued.forwarded_reads();
   }
   stats.ranks = commands_.activity.ranks(cycle);
-  for (const auto& [name, currents] : memspec_.currents) {
-    const DramEnergy energy = dram_energy(memspec_, currents, stats.ranks,
-                                          commands_.activity.regions(), config_.io_pj_per_bit);
-    stats.energy_by_current_set_pj[name] = energy.total_pj();
-    if (config_.current_set.empty() ? name == memspec_.default_currents
-                                    : name == config_.current_set)
-      stats.energy = energy;
-  }
+  add_energy(stats, memspec_, config_, commands_.activity.regions());
   return stats;
 }
 

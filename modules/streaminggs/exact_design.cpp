@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "algorithm/voxel/chunk_work.h"
+#include "modules/streaminggs/exact_estimate.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
@@ -44,6 +47,10 @@ ExactOrderConfig ExactDesign::order() const {
   order.on_overflow = config_.merge.on_overflow;
   order.walk_room = config_.vsu.walk_room();
   order.precision = config_.rendering.precision;
+  order.subtile_test = config_.rendering.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox;
+  if (!config_.rendering.saturation_feedback) {
+    order.visits_behind = std::numeric_limits<std::uint32_t>::max();
+  }
   return order;
 }
 
@@ -61,11 +68,38 @@ GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
   ExactOrderConfig order = this->order();
   order.background = job.background;
   StreamingResult result = render_exact_order(job.view, scene.decoded, scene.tree(), order);
-  publish_left_out(config_, scene, sheet);
-  sheet.left_out("chunks_not_needed", "they cannot touch any group",
-                 scene.image.layout.chunk_table().chunk_count - result.stats.blocks_visited,
-                 "their Gaussians are never fetched");
+  publish_left_out(scene, result.stats, sheet);
   return golden_frame(std::move(result), streaming_job(config_, job).groups);
+}
+
+CountedFrame ExactDesign::count(const StoredScene& scene, const FrameJob& job,
+                                DataSheet& sheet) const {
+  ExactOrderConfig order = this->order();
+  order.background = job.background;
+  CountedExactFrame counted = count_exact_order(job.view, scene.decoded, scene.tree(), order);
+  publish_left_out(scene, counted.result.stats, sheet);
+  auto work = std::make_shared<ExactFrameWork>();
+  work->of = std::move(counted.work);
+  return {golden_frame(std::move(counted.result), streaming_job(config_, job).groups),
+          std::move(work)};
+}
+
+// What waits decides the picture with blend_early only; room in the walk's queues never does.
+std::string ExactDesign::work_key() const {
+  const ExactOrderConfig of = order();
+  const bool spills = of.on_overflow == OnOverflow::kSpill;
+  return fmt::format("{}x{} {} {} {} {} {}", of.group.width, of.group.height, of.coarse_filter,
+                     spills ? "spill" : fmt::format("early {}", of.merge_entries),
+                     static_cast<int>(of.precision), static_cast<int>(of.subtile_test),
+                     of.visits_behind);
+}
+
+void ExactDesign::publish_left_out(const StoredScene& scene, const StreamingStats& stats,
+                                   DataSheet& sheet) const {
+  sgs::publish_left_out(config_, scene, sheet);
+  sheet.left_out("chunks_not_needed", "they cannot touch any group",
+                 scene.image.layout.chunk_table().chunk_count - stats.blocks_visited,
+                 "their Gaussians are never fetched");
 }
 
 std::unique_ptr<Machine> ExactDesign::build(const sc_core::sc_module_name& name,

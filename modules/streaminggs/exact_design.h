@@ -22,6 +22,9 @@ class ExactDesign : public MachineDesign {
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                      DataSheet& sheet) const override;
   std::string golden_key() const override;
+  CountedFrame count(const StoredScene& scene, const FrameJob& job,
+                     DataSheet& sheet) const override;
+  std::string work_key() const override;
   bool draws_reference() const override;
   PixelSize group() const override { return config_.group(); }
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
@@ -29,6 +32,8 @@ class ExactDesign : public MachineDesign {
 
  private:
   ExactOrderConfig order() const;
+  void publish_left_out(const StoredScene& scene, const StreamingStats& stats,
+                        DataSheet& sheet) const;
 
   ExactConfig config_;
   std::vector<PixelSize> frames_;

@@ -17,10 +17,9 @@ RegionTraffic& entry(std::vector<RegionTraffic>& traffic, const std::string& reg
 
 }  // namespace
 
-MemoryResult collect_memory(DramController& memory, const Regions& regions,
+MemoryResult collect_memory(const DramStats& stats, const Regions& regions,
                             const std::vector<std::string>& requesters) {
   constexpr double kPj = 1e-12;
-  const DramStats stats = memory.stats();
   const DramChannelStats all = stats.all_channels();
   const auto latency_ns = [&](double fraction) {
     return static_cast<double>(stats.read_latency_cycles.percentile(fraction)) *

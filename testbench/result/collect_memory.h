@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "algorithm/memory/regions.h"
-#include "modules/dram/dram_controller.h"
+#include "modules/dram/dram_stats.h"
 #include "testbench/result/frame_result.h"
 
 namespace sgs {
 
-// requesters: by number. Work that was left to do in idle time is caught up with.
-MemoryResult collect_memory(DramController& memory, const Regions& regions,
+// requesters: by number.
+MemoryResult collect_memory(const DramStats& stats, const Regions& regions,
                             const std::vector<std::string>& requesters);
 
 }  // namespace sgs

@@ -138,7 +138,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
   ContactSheet sheet(job.frames.size());
   double energy_j = 0;
   bool equal = true;
-  print_table_head();
+  print_table_head(setting.options.fidelity);
   for (std::size_t i = 0; i < job.frames.size(); ++i) {
     const RunConfig& machine = i > 0 && later ? *later : config;
     ViewResult view;

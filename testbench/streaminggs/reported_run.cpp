@@ -120,7 +120,7 @@ ReportedView read_view(const JsonPlace& report) {
   view.cycles = report.at("frame").at("cycles").number();
   const JsonPlace psnr_db = report.at("image").at("psnr_db");
   view.psnr_db = psnr_db.json().is_null() ? "equal" : fmt::format("{:.2f}", psnr_db.number());
-  view.model = report.at("image").at("equals_streaming_renderer").json() == true;
+  view.model = report.at("image").at("equals_streaming_renderer").json() != false;
   view.holds = report.at("binding").at("holds").text();
   add_units(report.at("units"), view);
   view.of(Quantity::kBusy).whole = view.cycles;

@@ -65,9 +65,13 @@ void print_end(const SweepCounts& counts, const std::string& first_refusal,
 int run(const SweepArguments& arguments, const Kinds& kinds) {
   const auto began = std::chrono::steady_clock::now();
   std::vector<SweepPoint> points = arguments.listed_points();
-  SweepDefaults defaults{arguments.all,      arguments.each_scene(),
-                         arguments.all.view, arguments.all.size,
-                         arguments.config,   fnv1a64_of_file(arguments.technology)};
+  SweepDefaults defaults{arguments.all,
+                         arguments.each_scene(),
+                         arguments.all.view,
+                         arguments.all.size,
+                         arguments.config,
+                         fnv1a64_of_file(arguments.technology),
+                         arguments.estimate ? Fidelity::kEstimate : Fidelity::kAccurate};
   if (defaults.scenes.empty() && !arguments.axes.empty()) {
     throw InputError(fmt::format("SCENE: got none, expected {}", kSceneForms));
   }

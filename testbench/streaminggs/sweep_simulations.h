@@ -20,7 +20,7 @@ namespace sgs {
 
 // The frame that a machine must give, and what it is worth.
 struct ExpectedFrame {
-  GoldenFrame golden;
+  CountedFrame counted;          // the work only where it is asked for
   std::vector<std::byte> bytes;  // of the frame buffer
   JudgedFrame judged;
 };

@@ -64,7 +64,7 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   std::vector<std::pair<int, std::string>> failed;
   std::vector<ViewResult> results;
   bool equal = true;
-  print_table_head();
+  print_table_head(setting.options.fidelity);
   for (const auto& [number, camera] : views) {
     try {
       ViewResult view = simulate_view(setting.scene, number, camera, setting.config,

@@ -252,4 +252,17 @@ FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t 
   return *splats[static_cast<int>(part.index * of_part + visit % of_part)];
 }
 
+void FineFilter::assume(const Work& work) {
+  counters_ = work.counters;
+  fetch_.assume(work.fetch_cycles);
+  Part& part = *parts_.front();
+  part.filter.assume(work.filter_cycles);
+  part.fetched.assume(work.fetched);
+  if (part.stage) {
+    part.stage->decode.assume(work.decode_cycles);
+    part.stage->decoded.assume(work.decoded);
+  }
+  memory.assume(work.traffic);
+}
+
 }  // namespace sgs

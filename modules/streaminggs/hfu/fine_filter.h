@@ -37,6 +37,11 @@ struct FineFilterPlace {
   Rejects rejects = Rejects::kDropped;
 };
 
+// Of those whose second halves are on their way or waiting, and a mark.
+inline std::uint32_t fetched_entries(const HfuConfig& config) {
+  return config.second_half_slots + 1;
+}
+
 class FineFilter : public sc_core::sc_module {
  public:
   FifoIn<FineCandidate> candidates{"candidates"};
@@ -60,6 +65,18 @@ class FineFilter : public sc_core::sc_module {
     std::uint64_t dropped_fetched = 0;    // of these, with their second half
   };
   const Counters& counters() const { return counters_; }
+  const Datapath& tests() const { return tests_; }
+  std::uint64_t test_cycles() const { return test_cycles_; }
+
+  // All that the data sheet says of a frame, in one part.
+  struct Work {
+    Counters counters;
+    std::uint64_t fetch_cycles = 0, decode_cycles = 0, filter_cycles = 0;
+    std::uint64_t fetched = 0, decoded = 0;  // entries of the FIFOs
+    PortTraffic traffic;
+  };
+  // As if it had done this. For an estimate, in place of a run.
+  void assume(const Work& work);
   // Of a second half out of its slot: a word a cycle.
   static std::uint32_t read_cycles(std::uint32_t record_bytes);
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for,
@@ -95,11 +112,6 @@ class FineFilter : public sc_core::sc_module {
           filter(("filter" + number).c_str(), clock),
           fetched(("fetched" + number).c_str(), clock, fetched_entries) {}
   };
-
-  // Of candidates whose second halves are on their way or waiting, and a mark.
-  static std::uint32_t fetched_entries(const HfuConfig& config) {
-    return config.second_half_slots + 1;
-  }
 
   void make_part(std::uint32_t index, const ClockDomain& clock, const CodebookConfig& codebook);
   void run_fetch();             // thread: second halves of the candidates

@@ -149,13 +149,11 @@ void MergeUnit::end_group(const FineCandidate& end) {
   ++sequence_;
 }
 
-// The farthest keys on chip become a sorted run in DRAM: an eighth of the buffer at first, since
-// the excess is mostly small, more when it turns out not to be. The farthest comes first: the run
-// is written from its back.
+// The farthest keys on chip become a sorted run in DRAM. The farthest comes first: the run is
+// written from its back.
 void MergeUnit::spill_farthest() {
   if (runs_.size() == config_.spill_runs) merge_shortest_runs();
-  const std::uint32_t eighths = std::min(4U, 1 + spills_ / config_.spill_runs);
-  const std::uint64_t keys = std::max<std::uint64_t>(1, pending_.size() * eighths / 8);
+  const std::uint64_t keys = keys_to_spill(config_, pending_.size(), spills_);
   ++spills_;
   if (!fits_spill_area(keys)) merge_runs(runs_.end());
   const SpillPort to = spill_port();
@@ -243,6 +241,13 @@ void MergeUnit::drop_all() {
   runs_.clear();
   spill_used_ = 0;
   spills_ = 0;
+}
+
+void MergeUnit::assume(const Work& work) {
+  counters_ = work.counters;
+  assumed_heap_ = work.heap;
+  merge_.assume(work.merge_cycles);
+  memory.assume(work.traffic);
 }
 
 }  // namespace sgs

@@ -1,0 +1,116 @@
+// simulate --estimate: what the streaming renderer's counts come to, against the simulation of the
+// same frame.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/support/scratch_folder.h"
+#include "tests/system/report_values.h"
+#include "tests/system/streaminggs_run.h"
+
+namespace sgs::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// The first view of both.
+struct Both {
+  Json simulated, estimated;
+  explicit Both(const Arguments& arguments) {
+    const ScratchFolder out;
+    for (const bool estimate : {false, true}) {
+      const std::string folder = out.path(estimate ? "estimated" : "simulated");
+      Arguments all = joined(arguments, {"--out", folder});
+      if (estimate) all.push_back("--estimate");
+      const Outcome outcome = run_streaminggs(joined({"simulate"}, all));
+      INFO(outcome.out << outcome.err);
+      REQUIRE(outcome.status == 0);
+      (estimate ? estimated : simulated) = views_of_report(folder + "/report.json").front();
+      CHECK((outcome.out.find("fidelity: estimate") != std::string::npos) == estimate);
+    }
+  }
+  double error(const char* section, const char* key) const {
+    const double wanted = simulated[section][key], got = estimated[section][key];
+    return std::abs(got / wanted - 1);
+  }
+};
+
+const Arguments kObject = {"builtin:object?n=4000", "--size", "200x160"};
+const Arguments kOutdoor = {"builtin:outdoor?n=6000", "--size", "200x120"};
+
+TEST_CASE("estimate: bytes are the simulation's where nothing depends on when it happens") {
+  for (const Arguments& scene : {kObject, kOutdoor}) {
+    INFO(scene[0]);
+    const Both frame(with_settings(
+        scene, {"rendering.saturation_feedback=false", "merge.entries=4096", "sram.shared_bytes=0",
+                "vsu.queue_entries=4096", "vsu.node_queue_entries=4096", "group_width_px=64",
+                "group_height_px=48"}));
+    CHECK(frame.estimated["dram"]["bytes_by_region"] == frame.simulated["dram"]["bytes_by_region"]);
+    CHECK(frame.estimated["dram"]["transactions"] == frame.simulated["dram"]["transactions"]);
+    for (const char* path : {"chunk_test", "coarse", "fine"}) {
+      CHECK(frame.estimated["datapath"][path] == frame.simulated["datapath"][path]);
+    }
+  }
+}
+
+TEST_CASE("estimate: close to the simulation, and never below what one resource takes") {
+  struct Case {
+    Arguments scene, options;
+  };
+  const std::vector<Case> cases = {
+      {kObject, {}},
+      {kOutdoor, {}},
+      {kOutdoor, {"--config", "exact_half"}},
+      {kObject, {"--config", "exact_fp16"}},
+      {kOutdoor, {"--config", "exact_vq"}},
+      {kObject, settings({"merge.entries=64", "group_width_px=160", "group_height_px=160",
+                          "sram.shared_bytes=0"})},
+      {kOutdoor, settings({"merge.entries=48", "merge.on_overflow=blend_early"})},
+      {kOutdoor, settings({"hfus=1", "sorting_units=2", "dram.channels=1"})},
+      {kObject,
+       settings({"hfus=8", "rendering.clusters=1", "sram.shared_bytes=0", "sram.input_bytes=0"})}};
+  for (const Case& c : cases) {
+    std::string words = c.scene[0];
+    for (const std::string& option : c.options) words += " " + option;
+    INFO(words);
+    const Both frame(joined(c.scene, c.options));
+    const Json& view = frame.estimated;
+    // What README.md states for these.
+    CHECK(frame.error("frame", "cycles") < 0.12);
+    CHECK(frame.error("dram", "bytes") < 0.03);
+    CHECK(frame.error("energy", "total_j") < 0.05);
+    CHECK(view["area_mm2"] == frame.simulated["area_mm2"]);
+
+    CHECK(view["ledger"]["faults"].empty());
+    const double cycles = view["frame"]["cycles"], seconds = view["frame"]["time_s"];
+    for (const Json& line : view["ledger"]["lines"]) {
+      INFO(line);
+      CHECK(line["utilisation"].get<double>() <= 1);
+    }
+    for (const auto& [name, unit] : view["units"].items()) {
+      for (const auto& [activity, of] : unit["activities"].items()) {
+        INFO(name << "." << activity);
+        CHECK(of["busy_cycles"].get<double>() <= cycles);
+      }
+    }
+    const double bus_gb = view["dram"]["bus_bytes"].get<double>() / 1e9;
+    CHECK(bus_gb / view["dram"]["peak_gb_s"].get<double>() <= seconds);
+  }
+}
+
+TEST_CASE("estimate: says so, and that its picture is the streaming renderer's") {
+  const Both frame(kObject);
+  CHECK(frame.simulated["fidelity"] == "accurate");
+  CHECK(frame.estimated["fidelity"] == "estimate");
+  CHECK(frame.simulated["image"]["frame_from"] == "dram");
+  CHECK(frame.estimated["image"]["frame_from"] == "streaming_renderer");
+  CHECK(frame.estimated["image"]["equals_streaming_renderer"].is_null());
+  for (const char* key : {"psnr_db", "ssim", "max_abs_error", "blends"}) {
+    CHECK(frame.estimated["image"][key] == frame.simulated["image"][key]);
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test
