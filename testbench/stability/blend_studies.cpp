@@ -33,10 +33,10 @@ T times_rest(T alpha, T before) {
   return T(before * T(T(1.0F) - alpha));
 }
 
-// 1/255 as the format holds it, never below: a layer that is blended.
+// 1/255 as the format holds it: the faintest layer that is blended.
 template <class T>
 T faint() {
-  return T(std::nextafter(T(static_cast<float>(kAlphaMin)).value, 1.0F));
+  return T(constant<T>(kAlphaMin).value);
 }
 
 // With the bound of its own analysis: fl(T - fl(alpha T)) is off by u (1 + alpha / (1 - alpha)) of
@@ -220,8 +220,10 @@ std::vector<Study> blend_studies() {
   s.law = [](double place) { return place <= 1000 ? 1.1 * h * place : INFINITY; };
   s.law_text = "u layers";
   s.why =
-      "Each layer takes 4 last places of T, rounded; below 6 10^-5 halves thin out and T stands "
-      "still. A pixel is finished before.";
+      "Each layer takes some 4 last places of T, rounded: percents of T from 1,000 layers on, "
+      "where T "
+      "is 0.02. The pixel is finished at 2,356; below 6 10^-5, which no pixel sees, T stands "
+      "still.";
   out.push_back(s);
 
   for (const bool taken : {true, false}) {
@@ -249,8 +251,10 @@ std::vector<Study> blend_studies() {
   set_sample(s, white<H>);
   s.law = [](double place) { return 2 * h * std::min(place, 2400.0); };
   s.why =
-      "What is less than half a last place of the sum (2.4 10^-4 of white from 0.5 on) is lost: "
-      "the faint rest of many layers. Haze of a thousand splats is the scene for float.";
+      "What is less than half a last place of the sum (2.4 10^-4 of white from 0.5 on) is lost, "
+      "and "
+      "errors of T add up: 3.7 % of white once it is finished. A haze of a thousand splats wants "
+      "float.";
   out.push_back(s);
 
   s = study("dL/dalpha", "back to front: T (g c) - behind / (1 - alpha)", false, "layers",

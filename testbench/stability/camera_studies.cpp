@@ -140,14 +140,19 @@ std::vector<Study> camera_studies() {
   s = coordinates<BoundedFloat>("p - c, c as one float", false, "float", one_number);
   s.law = [](double place) { return 12 * u + 2 * u * place / kNearest; };
   s.law_text = "12 u + u |c| / |p - c|";
-  s.why = "The camera stands where float puts it; saves 3 sums and a picture at 10^5.";
+  s.why =
+      "The camera stands where float puts it: 3 sums less, and details of the picture gone from "
+      "10^5 on, "
+      "all of it from 10^7.";
   s.operations = operations_of(one_number);
   out.push_back(s);
 
   s = coordinates<BoundedFloat>("R^T p + t", false, "float", world_form);
   s.law = [](double place) { return 12 * u + 12 * u * place / kNearest; };
   s.law_text = "12 u + 6 u |c| / |p - c|";
-  s.why = "Sums of the size of |c| cancel to |p - c|; six times earlier than the form above.";
+  s.why =
+      "Sums of the size of |c| cancel to |p - c|: ten times earlier than the form above, for as "
+      "many sums.";
   s.operations = operations_of(world_form);
   out.push_back(s);
 
@@ -155,8 +160,9 @@ std::vector<Study> camera_studies() {
   s.law = [](double place) { return place < 1e4 ? 12 * h + 2 * h * place / kNearest : INFINITY; };
   s.law_text = "12 u + u |p| / |p - c|";
   s.why =
-      "Centres as halves are 10^-3 off beside the camera, gone at 10^5. Why centres stay in "
-      "float; a half would do for offsets from a chunk's corner.";
+      "Centres as halves are 10^-3 of the distance off beside the origin, 1 % at 100. Why centres "
+      "stay "
+      "in float; a half would do for offsets from a chunk's corner.";
   out.push_back(s);
 
   for (const bool in_half : {false, true}) {
@@ -177,10 +183,11 @@ std::vector<Study> camera_studies() {
       return (in_half ? h : u) * 16;
     };
     s.law_text = "16 u";
-    s.why = in_half
-                ? "Two splats nearer to each other than 0.5 % of their depth may change places, "
-                  "beyond 65,504 all are one: a preset with keys of 16 bits says so in its dB."
-                : "Does not break: splats whose depths differ by 32 u (2 10^-6) are in order.";
+    s.why =
+        in_half
+            ? "Two splats nearer to each other than 0.3 % of their depth may change places, beyond "
+              "65,504 all are one. Keys stay in float; only the preset gscore has halves."
+            : "Does not break: splats whose depths differ by a millionth are in order.";
     out.push_back(s);
   }
 

@@ -207,7 +207,7 @@ std::vector<Study> colour_studies() {
 
   for (const bool in_half : {false, true}) {
     s = study("colour, degree 3", "SH of the unit direction", "|p - c|", "of 0.5 + sum |coeff|",
-              decades(-6, 20));
+              in_half ? decades(-3, 6) : decades(-6, 20));
     s.arithmetic = in_half ? "half" : "float";
     s.taken = !in_half;
     s.sample = [in_half](double place, Random& r) {
@@ -218,10 +218,10 @@ std::vector<Study> colour_studies() {
       return place < 1e18 ? 32 * u : INFINITY;
     };
     s.law_text = in_half ? "32 u from 0.02 to 100" : "32 u to 10^18";
-    s.why = in_half
-                ? "|p - c|^2 leaves the range at both ends: 255 units is as far as a half sees. "
-                  "Coefficients may be halves (an encoding), the direction may not."
-                : "|p - c|^2 leaves float at 1.8 10^19; coordinates are refused from 10^18 on.";
+    s.why = in_half ? "|p - c|^2 leaves the range at 255 units, and its digits below 10^-2. "
+                      "Coefficients may "
+                      "be halves (an encoding), the direction may not."
+                    : "|p - c|^2 leaves float at 1.8 10^19; coordinates are refused from 10^18 on.";
     out.push_back(s);
   }
 

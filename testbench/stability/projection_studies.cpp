@@ -161,7 +161,8 @@ std::vector<Study> projection_studies() {
   s.sample = [](double place, Random& r) { return determinant<F>(place, r, by_difference); };
   s.law = [](double place) { return place <= 1e18 ? 80 * u * place : INFINITY; };
   s.law_text = "80 u condition to 10^18";
-  s.why = "Cancels: a needle of 300 px has lost two digits of three, of 2,000 px its sign.";
+  s.why =
+      "Cancels: a needle of 550 px of sigma is percents off, one of 5,000 px has lost its sign.";
   s.operations = counted([](auto a, auto b, auto c) { return a * c - b * b; }, 1.1F, 1.3F, 1.7F);
   out.push_back(s);
   s.arithmetic = "half";
@@ -213,9 +214,10 @@ std::vector<Study> projection_studies() {
     };
     s.law = [taken](double) { return taken ? 64 * u : 8 * std::sqrt(u); };
     s.law_text = taken ? "64 u" : "8 sqrt(u)";
-    s.why = taken ? "Does not break; a product less."
-                  : "Cancels where a splat is round: half of the digits, radii a pixel off from "
-                    "1,000 px on.";
+    s.why = taken
+                ? "Does not break; a product less."
+                : "Cancels where a splat is round: half of the digits are gone, radii a pixel off "
+                  "from 1,500 px of sigma on.";
     s.operations = taken ? counted(
                                [](auto a, auto b, auto c) {
                                  Projected<Counting> p{};
