@@ -233,7 +233,7 @@ std::vector<Study> blend_studies() {
     s.sample = [taken](double place, Random& r) {
       return behind_one<F>(place, r, taken ? less_weight<F> : times_rest<F>);
     };
-    s.law = [taken](double place) { return taken ? u * (1 + 1 / place) : 2.1 * u; };
+    s.law = [taken](double place) { return taken ? u * (1 + 1 / place) : 2.2 * u; };
     s.law_text = taken ? "u / (1 - alpha)" : "2 u";
     s.why = taken ? "100 u at the cap of 0.99: nothing beside the 1 % of light that is left."
                   : "Better where a splat is opaque, for a product more; no picture shows it.";

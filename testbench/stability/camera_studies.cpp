@@ -97,7 +97,7 @@ Deviation pixel(double beyond_near, Random& random) {
 std::string operations_of(CameraForm<Counting> form) {
   Random random(1);
   Camera camera = turned_camera(random);
-  camera.position = {1.1, 2.3, 3.7};
+  camera.position = {1.1, 2.9, 3.7};
   const View<Counting> view = make_view<Counting>(camera);
   return counted(
       [&](Counting x, Counting y, Counting z) {
@@ -160,9 +160,9 @@ std::vector<Study> camera_studies() {
   s.law = [](double place) { return place < 1e4 ? 12 * h + 2 * h * place / kNearest : INFINITY; };
   s.law_text = "12 u + u |p| / |p - c|";
   s.why =
-      "Centres as halves are 10^-3 of the distance off beside the origin, 1 % at 100. Why centres "
-      "stay "
-      "in float; a half would do for offsets from a chunk's corner.";
+      "Centres as halves are 0.5 % of their distance off 10 units from the origin, 4 % off 100 "
+      "units "
+      "from it. Centres stay in float. A half would do for offsets from a chunk's corner.";
   out.push_back(s);
 
   for (const bool in_half : {false, true}) {

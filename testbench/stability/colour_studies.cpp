@@ -166,7 +166,7 @@ std::vector<Study> colour_studies() {
   Study s = study("scale = exp(s)", "in double, rounded once", "log-scale", "of the scale",
                   {16, 8, 1, -1, -10, -40, -80, -90, -100, -110});
   s.sample = scale;
-  s.law = [](double place) { return place > -85 ? 1.001 * u : INFINITY; };
+  s.law = [](double place) { return place >= -80 ? 1.001 * u : INFINITY; };
   s.law_text = "u";
   s.why =
       "Below e^-87 a float has fewer digits, below e^-103 none: the axis has no thickness, which "
@@ -176,7 +176,7 @@ std::vector<Study> colour_studies() {
   s = study("opacity = sigmoid(o)", "in double, rounded once", "logit", "of the opacity",
             {90, 30, 10, 1, -1, -10, -30, -80, -95, -110});
   s.sample = opacity;
-  s.law = [](double place) { return place > -85 ? 1.001 * u : INFINITY; };
+  s.law = [](double place) { return place >= -80 ? 1.001 * u : INFINITY; };
   s.law_text = "u";
   s.why = "As the scale; below 1/255 (logit -5.5) nothing is drawn anyway. From 17 on it is 1.";
   out.push_back(s);

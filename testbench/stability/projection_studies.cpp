@@ -215,7 +215,7 @@ std::vector<Study> projection_studies() {
     s.law = [taken](double) { return taken ? 64 * u : 8 * std::sqrt(u); };
     s.law_text = taken ? "64 u" : "8 sqrt(u)";
     s.why = taken
-                ? "Does not break; a product less."
+                ? "Does not break; two products and a sum more than the other."
                 : "Cancels where a splat is round: half of the digits are gone, radii a pixel off "
                   "from 1,500 px of sigma on.";
     s.operations = taken ? counted(
