@@ -56,7 +56,7 @@ def short(number: float) -> str:
 def place_text(place: float) -> str:
     """A power of ten as such."""
     power = round(math.log10(place)) if place > 0 else 0
-    if place > 0 and (power > 4 or power < -2) and math.isclose(place, 10.0**power):
+    if place > 0 and (power > 3 or power < -2) and math.isclose(place, 10.0**power):
         return f"10^{power}"
     return f"{place:.4g}"
 
