@@ -39,7 +39,8 @@ def tuning_curve(results: Results) -> Made:
     }
     figure, flat = panels(len(columns) * len(scenes), across=len(columns), width=3.6, height=2.4)
     for at, axes in enumerate(flat):
-        scene, (column, title) = scenes[at // len(columns)], list(columns.items())[at % len(columns)]
+        scene = scenes[at // len(columns)]
+        column, title = list(columns.items())[at % len(columns)]
         for size, factor in enumerate(factors):
             for dash, beta in enumerate(betas):
                 rows = data.where(**{"scene": scene, "of the preset's": factor, "beta": beta})

@@ -27,9 +27,9 @@ def axis(key: str, *values: object) -> Axis:
 @dataclasses.dataclass(frozen=True)
 class Order:
     """A preset with the axes of its machine, of which a search tries each setting of the first at
-    its start; storage: what may be chosen for each scene; keeps_picture: no scene's may be worse than
-    that of the preset `paper`; begins_at: another order, of the same axes: each of the two is begun
-    at the other's best machine as well."""
+    its start; storage: what may be chosen for each scene; keeps_picture: no scene's may be worse
+    than that of the preset `paper`; begins_at: another order, of the same axes: each of the two is
+    begun at the other's best machine as well."""
 
     name: str
     preset: str

@@ -92,8 +92,8 @@ class Descent:
             if worth:
                 return ahead[max(worth, key=lambda name: worth[name])]
         raise TooSlow(
-            f"none: {slowest.scene.name} has {slowest.fps():.1f} fps, and one step on any axis gains "
-            f"less than {LEAST_GAIN - 1:.1%}"
+            f"none: {slowest.scene.name} has {slowest.fps():.1f} fps, and one step on any axis "
+            f"gains less than {LEAST_GAIN - 1:.1%}"
         )
 
     def shrunk(self, machine: Machine) -> Machine:

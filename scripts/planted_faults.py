@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import itertools
 import json
 import pathlib
 import signal
@@ -195,9 +194,7 @@ def make(arguments: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=run_arguments.Help, allow_abbrev=False
-    )
+    parser = run_arguments.Parser(__doc__)
     parser.add_argument("--faults", type=int, default=10, help="how many")
     parser.add_argument("--seed", type=int, default=1, help="which")
     parser.add_argument(

@@ -13,6 +13,7 @@ import compare_variants
 import energy_tables
 import explore
 import fair_fight
+import half_by_stage
 import paper_claims
 import published_figures
 import published_gpu
@@ -74,6 +75,7 @@ class WithTheCommand(InFolder):
                 | {"| truck | preset paper |": 1, "| truck | exact, best cycles |": 1},
             ),
             (smallest_machine, ("--sizes", "64x36", "--fps", "100000"), {"| truck 0 |": 1}),
+            (half_by_stage, ("--size", "64x36"), {"| truck | 0 |": 1, "| depth keys |": 1}),
             (work_precision, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
             (
                 boundary_study,

@@ -16,6 +16,7 @@ import measures
 import run_arguments
 import search_space
 import simulations
+import stability_table
 import tables
 import view_numbers
 import work_precision
@@ -179,6 +180,44 @@ class Configurations(unittest.TestCase):
     def test_unknown_scene_is_refused_with_what_there_is(self):
         with self.assertRaisesRegex(ValueError, "nowhere: no scene; expected .*builtin:object"):
             find_scene("nowhere")
+
+
+class Stability(unittest.TestCase):
+    """Rows of a study that is whole at its first two places, and infinite at its last."""
+
+    STUDY = {
+        "formula": "x",
+        "form": "as written",
+        "taken": True,
+        "arithmetic": "float",
+        "axis": "size",
+        "unit": "of x",
+        "law": "u",
+        "operations": "2 x",
+        "why": "Too large.",
+        "breaks_at": 1e6,
+        "places": [
+            {"place": 1, "error": 1e-7, "bound": 2e-7, "error_over_bound": 0.5, "law": 1e-6},
+            {"place": 1000, "error": 3e-3, "bound": None, "error_over_bound": 0.1, "law": None},
+            {"place": 1e6, "error": None, "bound": None, "error_over_bound": 0, "law": None},
+        ],
+    }
+
+    def test_a_row_tells_of_what_comes_before_it_breaks(self):
+        row = stability_table.row_of(self.STUDY)
+        self.assertEqual(row[4:9], ("size 1 .. 10^6", "3.0e-03 of x", "nothing", "u", "10^6"))
+        whole = self.STUDY | {"breaks_at": None, "places": self.STUDY["places"][:1]}
+        row = stability_table.row_of(whole)
+        self.assertEqual(row[4:9], ("size 1 .. 1", "1.0e-07 of x", "2.0e-07", "u", "nowhere"))
+
+    def test_never_whole(self):
+        broken = self.STUDY | {"breaks_at": 1000, "places": self.STUDY["places"][1:]}
+        self.assertEqual(stability_table.row_of(broken)[5], "3.0e-03 of x")
+
+    def test_every_place_is_in_the_csv(self):
+        rows = stability_table.csv_rows(self.STUDY)
+        self.assertEqual(rows[1][6:], (1000, 3e-3, None, 0.1, None))
+        self.assertEqual(len(rows), 3)
 
 
 class Tables(unittest.TestCase):

@@ -14,9 +14,11 @@ import energy_tables
 import explore
 import fair_fight
 import fill_readme
+import half_by_stage
 import quality_table
 import simulations
 import smallest_machine
+import stability_table
 import timing
 import training_curves
 import voxel_study
@@ -63,6 +65,7 @@ SCRIPTS = (
     (energy_tables, ()),
     (explore, ("--axis", "hfus=2,4")),
     (fair_fight, ()),
+    (half_by_stage, ()),
     (quality_table, ()),
     (smallest_machine, ()),
     (timing, ()),
@@ -162,6 +165,25 @@ class Ends(InFolder):
                         importlib.import_module(name).main()
                 self.assertEqual(ended.exception.code, 2)
                 self.assertRegex(said.getvalue(), rf"\A{name}\.py: {expected}.*\n\Z")
+
+    def test_of_the_program_that_measures(self):
+        refusing = self.folder / "refusing"
+        refusing.write_text("#!/bin/sh\necho 'stability: --samples: got 0' >&2\nexit 2\n")
+        failing = self.folder / "failing"
+        failing.write_text("#!/bin/sh\nexit 1\n")
+        for program in (refusing, failing):
+            program.chmod(0o755)
+        out = str(self.folder / "out")
+        for program, status, said in (
+            ("no", 2, "no: not there; scripts/setup.sh builds it$"),
+            (str(refusing), 2, "stability: --samples: got 0$"),
+            (str(failing), 1, "failing: exit status 1$"),
+        ):
+            with self.subTest(program):
+                ended, line, _ = self.ended(stability_table, "--stability", program, "--out", out)
+                self.assertRegex(line, f"^stability_table.py: {said}")
+                self.assertEqual(ended, status)
+                self.assertEqual(list(self.folder.glob("*/*.md")), [])
 
     def test_unknown_scene_and_readme(self):
         for script in (explore, fill_readme):

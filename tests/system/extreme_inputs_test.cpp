@@ -185,5 +185,124 @@ TEST_CASE("extreme input: SH of every degree") {
   }
 }
 
+// Two Gaussians in view, and a third whose parameters are what is tested.
+GaussianCloud two_and_one() {
+  GaussianCloud cloud;
+  cloud.resize(3, 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = static_cast<float>(i);
+    cloud.means[i] = {0.3F * at - 0.3F, 0.1F, 5 + at};
+    cloud.log_scales[i] = glm::vec3(kUnitScale);
+    cloud.quats[i] = {1, 0, 0, 0};
+    cloud.sh_coeffs[16 * i] = {1, 0.5F, 0.2F};
+  }
+  return cloud;
+}
+
+struct ExtremeRow {
+  const char* what;
+  void (*change)(GaussianCloud& cloud);  // of the last Gaussian
+  const char* refused = "";              // what is said of it; empty: drawn
+};
+
+// Not by both sides' leaving it out: it shows beside the two alone.
+TEST_CASE("extreme input: at the limits of every parameter it is drawn, in both orders") {
+  const std::vector<Camera> cameras{camera_at({0, 0, 0})};
+  GaussianCloud two = two_and_one();
+  two.opacity_logits[2] = -20;
+  const auto without = check_scene(two, cameras);
+  for (const ExtremeRow& row : {
+           ExtremeRow{"the largest scale",
+                      [](GaussianCloud& c) { c.log_scales[2] = glm::vec3(16.118F); }},
+           {"a needle of the largest scale and none",
+            [](GaussianCloud& c) {
+              c.log_scales[2] = {16.118F, -3e38F, -3e38F};
+            }},
+           {"a scale of nothing, e^-110",
+            [](GaussianCloud& c) { c.log_scales[2] = glm::vec3(-110); }},
+           {"an opacity logit of 3e38", [](GaussianCloud& c) { c.opacity_logits[2] = 3e38F; }},
+           {"a quaternion of 10^-38",
+            [](GaussianCloud& c) {
+              c.quats[2] = {1e-38F, 2e-38F, 0, 0};
+            }},
+           {"a quaternion of 3e38",
+            [](GaussianCloud& c) {
+              c.quats[2] = {3e38F, 3e38F, -3e38F, 3e38F};
+            }},
+           {"coefficients of 10^18",
+            [](GaussianCloud& c) {
+              for (std::size_t k = 32; k < 48; ++k) c.sh_coeffs[k] = {1e18F, -1e18F, 1e18F};
+            }},
+       }) {
+    INFO(row.what);
+    GaussianCloud cloud = two_and_one();
+    row.change(cloud);
+    const auto views = check_scene(cloud, cameras);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      CHECK(views[i]["image"]["blends"].get<int>() > without[i]["image"]["blends"].get<int>());
+      CHECK(views[i]["image"]["ssim"].is_number());
+    }
+  }
+}
+
+TEST_CASE("extreme input: as far away as can be it is drawn, or its voxels are refused") {
+  GaussianCloud cloud = two_and_one();
+  cloud.means[2].z = 1e18F;
+  cloud.log_scales[2] = glm::vec3(16);
+  const Camera camera = camera_at({0, 0, 0});
+  GaussianCloud two = cloud;
+  two.opacity_logits[2] = -20;
+  const auto views = check_machine("exact", cloud, {camera});
+  const auto without = check_machine("exact", two, {camera});
+  CHECK(views[0]["image"]["blends"].get<int>() > without[0]["image"]["blends"].get<int>());
+
+  // Paper order has no cells for such an extent.
+  const ScratchFolder scratch;
+  write_ply(scratch.path("scene.ply"), cloud);
+  write_cameras(scratch.path("cameras.json"), {camera});
+  const Outcome outcome = run_streaminggs({"simulate", scratch.path("scene.ply"), "--cameras",
+                                           scratch.path("cameras.json"), "--config", "paper",
+                                           "--out", scratch.path("o")});
+  INFO(outcome.err);
+  CHECK(outcome.status == 2);
+  CHECK(outcome.err.find("into more than 2^20 cells an axis") != std::string::npos);
+}
+
+TEST_CASE("extreme input: what leaves float is refused by vertex and property, by every command") {
+  for (const ExtremeRow& row : {
+           ExtremeRow{"scale e^43", [](GaussianCloud& c) { c.log_scales[2].y = 43; },
+                      "vertex 2, property scale_1: got 43, expected at most 16.118"},
+           {"a depth of 3e38", [](GaussianCloud& c) { c.means[2].z = 3e38F; },
+            "vertex 2, property z: got 3e+38, expected a magnitude of at most 1e+18"},
+           {"f_dc of -3e38", [](GaussianCloud& c) { c.sh_coeffs[32].x = -3e38F; },
+            "vertex 2, property f_dc_0: got -3e+38, expected a magnitude of at most 1e+18"},
+           {"f_rest of 3e38", [](GaussianCloud& c) { c.sh_coeffs[47].z = 3e38F; },
+            "vertex 2, property f_rest_44: got 3e+38, expected a magnitude of at most 1e+18"},
+       }) {
+    INFO(row.what);
+    const ScratchFolder scratch;
+    GaussianCloud cloud = two_and_one();
+    row.change(cloud);
+    const std::string scene = scratch.path("scene.ply"), cameras = scratch.path("cameras.json");
+    write_ply(scene, cloud);
+    write_cameras(cameras, {camera_at({0, 0, 0})});
+    const std::size_t files = scratch.file_count();
+    for (const Arguments& command : std::vector<Arguments>{
+             {"simulate", scene, "--cameras", cameras, "--out", scratch.path("o")},
+             {"simulate", scene, "--cameras", cameras, "--config", "paper", "--out",
+              scratch.path("o")},
+             {"render", scene, "--cameras", cameras, "--view", "0", "--out", scratch.path("o.png")},
+             {"pack", scene, "--out", scratch.path("o.sgs")},
+             {"info", scene}}) {
+      INFO(command[0]);
+      const Outcome outcome = run_streaminggs(command);
+      INFO(outcome.err);
+      CHECK(outcome.status == 2);
+      CHECK(outcome.err.find(row.refused) != std::string::npos);
+      CHECK(scratch.file_count() == files);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sgs::test

@@ -1,0 +1,218 @@
+// What half precision costs the picture, by stage of blending and by form of the exponent: each
+// view blended pixel by pixel in several arithmetics, PSNR beside double. Twice: in all sub-tiles
+// of each splat's footprint, and in those that its ellipse reaches.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "algorithm/input_error.h"
+#include "algorithm/splat/activate.h"
+#include "algorithm/splat/half_scalar.h"
+#include "algorithm/splat/lane_input.h"
+#include "algorithm/splat/make_splat.h"
+#include "testbench/bench/bench_scene.h"
+#include "testbench/command_line/guard.h"
+#include "testbench/stability/square_conic.h"
+
+namespace sgs {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 360;
+
+struct Arithmetic {
+  const char* name;
+  bool exponent_in_half, square, pixels_in_half;
+};
+constexpr Arithmetic kArithmetics[] = {
+    {"float", false, false, false},
+    {"float, square completed", false, true, false},
+    {"pixels in half", false, false, true},
+    {"exponent in half", true, false, false},
+    {"exponent in half, square completed", true, true, false},
+    {"both in half", true, false, true},
+    {"both in half, square completed", true, true, true},
+};
+constexpr std::size_t kCount = std::size(kArithmetics);
+
+template <class T>
+struct Pixel {
+  T light = 1, rgb[3] = {0, 0, 0};
+  bool finished = false;
+
+  void blend(T alpha, const glm::vec3& colour) {
+    if (finished || !(alpha > 0)) return;
+    const LightShare<T> share = take_light(alpha, light);
+    finished = share.after < constant<T>(kTransmittanceMin);
+    if (finished) return;
+    for (int c = 0; c < 3; ++c) rgb[c] += colour[c] * share.weight;
+    light = share.after;
+  }
+};
+void blend_in_half(Pixel<float>& pixel, HalfScalar alpha, const glm::vec3& colour) {
+  if (pixel.finished || !(alpha.value() > 0)) return;
+  const auto share = take_light(alpha, HalfScalar::exactly(pixel.light));
+  pixel.finished = share.after < constant<HalfScalar>(kTransmittanceMin);
+  if (pixel.finished) return;
+  for (int c = 0; c < 3; ++c) {
+    const HalfScalar before = HalfScalar::exactly(pixel.rgb[c]);
+    pixel.rgb[c] = (before + HalfScalar(colour[c]) * share.weight).value();
+  }
+  pixel.light = share.after.value();
+}
+
+// A splat in float, and what the other arithmetics take of it.
+struct Candidate {
+  Splat splat;
+  SquareConic<float> square;
+  SplatOf<double> in_double;
+};
+
+template <class T>
+Gaussian<T> widened(const Gaussian<float>& g) {
+  return {glm::vec<3, T>(g.mean),
+          glm::vec<3, T>(g.scale),
+          {T(g.quat[0]), T(g.quat[1]), T(g.quat[2]), T(g.quat[3])},
+          T(g.opacity)};
+}
+
+// Front to back.
+std::vector<Candidate> candidates(const Camera& camera, const ActivatedCloud& cloud) {
+  const auto view = make_view<float>(camera);
+  const auto view_in_double = make_view<double>(camera);
+  std::vector<Candidate> out;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    Candidate c{};
+    Projected<float> p;
+    if (!make_geometry(view, cloud.gaussians[i], c.splat, p)) continue;
+    add_colour(view, cloud.sh_degree, cloud.gaussians[i].mean, cloud.sh(i), c.splat);
+    c.splat.index = static_cast<std::uint32_t>(i);
+    c.square = square_conic(p);
+    const Gaussian<double> g = widened<double>(cloud.gaussians[i]);
+    const auto exact = project(view_in_double, g, to_camera(view_in_double, g.mean));
+    c.in_double.x = exact.x;
+    c.in_double.y = exact.y;
+    c.in_double.conic_a = exact.conic_a;
+    c.in_double.conic_b = exact.conic_b;
+    c.in_double.conic_c = exact.conic_c;
+    out.push_back(c);
+  }
+  std::sort(out.begin(), out.end(),
+            [](const Candidate& a, const Candidate& b) { return in_front(a.splat, b.splat); });
+  return out;
+}
+
+struct Pictures {
+  std::vector<Pixel<double>> in_double;
+  std::vector<Pixel<float>> of[kCount];
+
+  Pictures() : in_double(std::size_t{kWidth} * kHeight) {
+    for (auto& picture : of) picture.resize(in_double.size());
+  }
+
+  void blend(const Candidate& c, int subtile_x, int subtile_y) {
+    const Splat& s = c.splat;
+    const float left = s.x - static_cast<float>(subtile_x * kSubtilePx);
+    const float top = s.y - static_cast<float>(subtile_y * kSubtilePx);
+    const auto in = lane_input(s, left, top);
+    const auto in_half = lane_input_in_half<HalfScalar>(s, left, top);
+    const auto square_in_half =
+        square_conic_in_half<HalfScalar>(s.conic_a, s.conic_b, s.conic_c, in_half.pixel_px);
+    for (int lane = 0; lane < kSubtilePixels; ++lane) {
+      const int column = lane % kSubtilePx, row = lane / kSubtilePx;
+      const int x = subtile_x * kSubtilePx + column, y = subtile_y * kSubtilePx + row;
+      if (x >= kWidth || y >= kHeight) continue;
+      const std::size_t at = static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
+      in_double[at].blend(alpha_at(c.in_double.conic_a, c.in_double.conic_b, c.in_double.conic_c,
+                                   double{s.opacity}, c.in_double.x - x, c.in_double.y - y),
+                          s.rgb);
+      const float dx = in.left - static_cast<float>(column);
+      const float dy = in.top - static_cast<float>(row);
+      const HalfScalar hx =
+          in_half.left - HalfScalar(static_cast<float>(column) * in_half.pixel_px);
+      const HalfScalar hy = in_half.top - HalfScalar(static_cast<float>(row) * in_half.pixel_px);
+      const auto alpha = [](auto exponent, auto opacity) {
+        return alpha_of(exponent, exp2_of(exponent), opacity);
+      };
+      const float alphas[] = {alpha(log2_falloff(in.conic, dx, dy), in.opacity),
+                              alpha(completed_square(c.square, dx, dy), in.opacity)};
+      const HalfScalar halves[] = {
+          alpha(log2_falloff(in_half.conic, hx, hy), in_half.opacity),
+          alpha(completed_square(square_in_half, hx, hy), in_half.opacity)};
+      for (std::size_t k = 0; k < kCount; ++k) {
+        const Arithmetic& how = kArithmetics[k];
+        const HalfScalar half =
+            how.exponent_in_half ? halves[how.square] : HalfScalar(alphas[how.square]);
+        Pixel<float>& pixel = of[k][at];
+        if (how.pixels_in_half) {
+          blend_in_half(pixel, half, s.rgb);
+        } else {
+          pixel.blend(how.exponent_in_half ? half.value() : alphas[how.square], s.rgb);
+        }
+      }
+    }
+  }
+
+  double psnr_db(std::size_t k) const {
+    double squares = 0;
+    for (std::size_t at = 0; at < in_double.size(); ++at) {
+      for (int c = 0; c < 3; ++c) {
+        const double d = std::clamp(double{of[k][at].rgb[c]}, 0.0, 1.0) -
+                         std::clamp(in_double[at].rgb[c], 0.0, 1.0);
+        squares += d * d;
+      }
+    }
+    return -10 * std::log10(squares / (3.0 * static_cast<double>(in_double.size())));
+  }
+};
+
+void measure(const std::string& spec) {
+  const Scene scene = load_bench_scene(spec);
+  const ActivatedCloud cloud = activate(scene.cloud);
+  for (const Camera& full : scene.cameras) {
+    const Camera camera = scaled_to(full, kWidth, kHeight);
+    Pictures everywhere, reached;
+    for (const Candidate& c : candidates(camera, cloud)) {
+      const auto& s = c.splat;
+      for (int y = s.footprint.y0; y < s.footprint.y1; ++y) {
+        for (int x = s.footprint.x0; x < s.footprint.x1; ++x) {
+          everywhere.blend(c, x, y);
+          const PixelRect pixels{x * kSubtilePx, y * kSubtilePx, (x + 1) * kSubtilePx,
+                                 (y + 1) * kSubtilePx};
+          if (reaches(s.x, s.y, s.conic_a, s.conic_b, s.conic_c, visible_cutoff(s.opacity),
+                      pixels)) {
+            reached.blend(c, x, y);
+          }
+        }
+      }
+    }
+    fmt::print("| {} {} |", scene.name, camera.id);
+    for (std::size_t k = 0; k < kCount; ++k) {
+      fmt::print(" {:.1f}, {:.1f} |", everywhere.psnr_db(k), reached.psnr_db(k));
+    }
+    fmt::print("\n");
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace sgs
+
+int main(int argc, char** argv) {
+  return sgs::run_guarded("bench_precision", [&] {
+    if (argc < 2) throw sgs::InputError("got no scene, expected bench_precision SCENE...");
+    fmt::print(
+        "PSNR in dB of {}x{} px beside double: sub-tiles of the footprint, of them those that the "
+        "ellipse reaches\n| view |",
+        sgs::kWidth, sgs::kHeight);
+    for (const auto& how : sgs::kArithmetics) fmt::print(" {} |", how.name);
+    fmt::print("\n| --- |");
+    for (std::size_t k = 0; k < sgs::kCount; ++k) fmt::print(" --- |");
+    fmt::print("\n");
+    for (int i = 1; i < argc; ++i) sgs::measure(argv[i]);
+    return sgs::kDone;
+  });
+}

@@ -1,0 +1,277 @@
+// Alpha, the light that is left, colour, and their derivatives.
+#include "algorithm/splat/blend.h"
+#include "algorithm/tune/blend_gradient.h"
+#include "testbench/stability/counted.h"
+#include "testbench/stability/study.h"
+
+namespace sgs {
+namespace {
+
+constexpr double u = Single::kRoundoff, h = Half::kRoundoff;
+
+template <class T>
+Deviation alpha(double opacity, Random& random) {
+  const T held = constant<T>(opacity);
+  const T o(held.value), exponent(static_cast<float>(-random.uniform() * std::log2(255 * opacity)));
+  const Exact truth = Exact(o.value) * pow(Exact(2), Exact(exponent.value));
+  // Decisions are not computed: what the two thresholds do with a rounding is counted elsewhere.
+  const Exact least = Exact(1) / 255, most = Exact(99) / 100;
+  const Exact margin = 16 * (std::is_same_v<T, BoundedHalf> ? h : u);
+  if (truth < least * (1 + margin)) return {};
+  const Exact capped = truth > most ? most : truth;
+  return deviation(alpha_of(exponent, exp2_of(exponent), o), capped, capped);
+}
+
+template <class T>
+using LightForm = T (*)(T alpha, T before);
+template <class T>
+T less_weight(T alpha, T before) {
+  return take_light(alpha, before).after;
+}
+template <class T>
+T times_rest(T alpha, T before) {
+  return T(before * T(T(1.0F) - alpha));
+}
+
+// 1/255 as the format holds it: the faintest layer that is blended.
+template <class T>
+T faint() {
+  return T(constant<T>(kAlphaMin).value);
+}
+
+// With the bound of its own analysis: fl(T - fl(alpha T)) is off by u (1 + alpha / (1 - alpha)) of
+// itself, for alpha of 1/255 by 1.004 u a layer. That T is taken twice the running bound cannot
+// see.
+template <class Format>
+Bounded<Format> through(Bounded<Format> light, int layers) {
+  const double relative = 1.01 * Format::kRoundoff * layers;
+  constexpr double kAllUnderflows = 300 * Format::kUnderflow;  // each decays by 254/255 a layer
+  return {light.value, relative * (1 + relative) * light.value + kAllUnderflows};
+}
+
+// The light behind so many layers of alpha 1/255; finishing is left out.
+template <class T>
+Deviation through_layers(double layers, LightForm<T> form) {
+  const T alpha = faint<T>();
+  T light(1.0F);
+  for (int i = 0; i < static_cast<int>(layers); ++i) light = through(form(alpha, light), i + 1);
+  const Exact truth = pow(1 - Exact(alpha.value), static_cast<int>(layers));
+  return deviation(light, truth, truth);
+}
+template <class T>
+Deviation by_logarithms(double layers) {
+  const T alpha = faint<T>();
+  const T per_ln2 = constant<T>(kLog2E);
+  T sum(0.0F);
+  for (int i = 0; i < static_cast<int>(layers); ++i) {
+    sum = T(sum + T(log_of(T(T(1.0F) - alpha)) * per_ln2));
+  }
+  const Exact truth = pow(1 - Exact(alpha.value), static_cast<int>(layers));
+  return deviation(exp2_of(sum), truth, truth);
+}
+
+template <class T>
+Deviation behind_one(double rest, Random& random, LightForm<T> form) {
+  const T alpha(static_cast<float>(1 - rest)), before(static_cast<float>(random.uniform(0.1, 1)));
+  const Exact truth = Exact(before.value) * (1 - Exact(alpha.value));
+  return deviation(form(alpha, before), truth, truth);
+}
+
+// A white pixel behind so many layers of alpha 1/255, until it is finished.
+template <class T>
+Deviation white(double layers) {
+  const T alpha = faint<T>();
+  T light(1.0F), sum(0.0F);
+  int blended = 0;
+  for (; blended < static_cast<int>(layers); ++blended) {
+    const LightShare<T> share = take_light(alpha, light);
+    if (share.after < constant<T>(kTransmittanceMin)) break;
+    sum = T(sum + T(1.0F) * share.weight);
+    light = through(share.after, blended + 1);
+  }
+  const Exact truth = 1 - pow(1 - Exact(alpha.value), blended);
+  return deviation(sum, truth, 1);
+}
+
+// dL/dalpha of the first of so many layers, back to front.
+Deviation first_of(double layers, Random& random) {
+  using T = BoundedFloat;
+  const int count = static_cast<int>(layers);
+  std::vector<T> alphas, before;
+  std::vector<float> toward;
+  T light(1.0F);
+  Exact exact_light = 1, behind = 0, unit = 0;
+  std::vector<Exact> exact_before;
+  for (int i = 0; i < count; ++i) {
+    alphas.emplace_back(static_cast<float>(random.uniform(1, 2) / 255));
+    toward.push_back(static_cast<float>(random.normal()));
+    before.push_back(light);
+    exact_before.push_back(exact_light);
+    light = through(take_light(alphas.back(), light).after, i + 1);
+    exact_light *= 1 - Exact(alphas.back().value);
+  }
+  T carried(0.0F), by_alpha(0.0F);
+  for (int i = count; i-- > 0;) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto share = share_gradient(alphas[at], before[at], T(toward[at]), carried, T(1.0F));
+    carried = share.behind;
+    by_alpha = share.falloff;
+    if (i == 0) break;
+    const Exact weight = Exact(alphas[at].value) * exact_before[at];
+    behind += weight * toward[at];
+    unit += weight * std::abs(toward[at]);
+  }
+  const Exact truth = toward[0] - behind / (1 - Exact(alphas[0].value));
+  return deviation(by_alpha, truth, Exact(unit + std::abs(toward[0])));
+}
+
+// dL/dalpha of a splat that leaves `rest`.
+Deviation slope_at(double rest, Random& random) {
+  using T = BoundedFloat;
+  const auto alpha = static_cast<float>(1 - rest), before = static_cast<float>(random.uniform());
+  const auto toward = static_cast<float>(random.normal()),
+             behind = static_cast<float>(rest * random.normal());
+  const auto share = share_gradient(T(alpha), T(before), T(toward), T(behind), T(1.0F));
+  const Exact front = Exact(before) * toward, back = Exact(behind) / (1 - Exact(alpha));
+  return deviation(share.falloff, front - back, abs(front) + abs(back));
+}
+
+Study study(const char* formula, const char* form, bool in_half, const char* axis, const char* unit,
+            std::vector<double> places) {
+  Study s;
+  s.formula = formula;
+  s.form = form;
+  s.arithmetic = in_half ? "half" : "float";
+  s.axis = axis;
+  s.unit = unit;
+  s.places = std::move(places);
+  return s;
+}
+
+// Where nothing is random.
+void set_sample(Study& s, Deviation (*f)(double)) {
+  s.sample = [f](double place, Random&) { return f(place); };
+  s.drawn = false;
+}
+
+}  // namespace
+
+std::vector<Study> blend_studies() {
+  using F = BoundedFloat;
+  using H = BoundedHalf;
+  const std::vector<double> opacities{1.0, 0.99, 0.9, 0.5, 0.1, 0.01, 1.001 / 255};
+  const std::vector<double> layers{1, 10, 100, 300, 1000, 2348, 10'000, 22'000, 100'000};
+  const std::vector<double> until_finished{1, 10, 100, 200, 300, 500, 1000, 2348, 100'000};
+  const std::vector<double> rests{0.9, 0.5, 0.1, 0.05, 0.02, 0.01};
+  std::vector<Study> out;
+
+  Study s = study("alpha = min(0.99, opacity 2^t)", "table of 64 parabolas", false, "opacity",
+                  "of alpha", opacities);
+  s.sample = alpha<F>;
+  s.law = [](double) { return 4 * u; };
+  s.law_text = "4 u";
+  s.why = "Does not break at either end.";
+  out.push_back(s);
+  s = study("alpha = min(0.99, opacity 2^t)", "table of 64 lines", true, "opacity", "of alpha",
+            opacities);
+  s.sample = alpha<H>;
+  s.law = [](double) { return 5 * h; };
+  s.law_text = "5 u";
+  s.why = "Does not break: 0.2 %, a tenth of what the exponent in half is off by.";
+  out.push_back(s);
+
+  s = study("light behind layers of 1/255", "T - alpha T", false, "layers", "of T", layers);
+  set_sample(s, [](double n) { return through_layers<F>(n, less_weight); });
+  s.law = [](double place) { return place <= 10'000 ? 1.1 * u * place : INFINITY; };
+  s.law_text = "u layers";
+  s.why =
+      "Right until float ends at 22,000 layers; the pixel was finished at 2,348 (T < 10^-4). "
+      "The product alpha T is needed for the colour.";
+  s.operations = counted([](auto alpha, auto t) { return take_light(alpha, t).after; }, 0.3F, 0.7F);
+  out.push_back(s);
+  s.form = "T (1 - alpha)";
+  s.taken = false;
+  set_sample(s, [](double n) { return through_layers<F>(n, times_rest); });
+  s.why = "No better over layers, and a product more, since alpha T is wanted as well.";
+  s.operations =
+      counted([](auto alpha, auto t) { return alpha * t + times_rest(alpha, t); }, 0.3F, 0.7F);
+  out.push_back(s);
+  s.form = "2^(sum of log2(1 - alpha))";
+  set_sample(s, by_logarithms<F>);
+  s.law = [](double place) {
+    return place <= 10'000 ? 3 * u * (1 + place * place / 255) : INFINITY;
+  };
+  s.law_text = "3 u layers^2 / 255";
+  s.why =
+      "The sum loses what the product keeps: each addition rounds at the size of the sum. And a "
+      "logarithm and a power of two for each splat and pixel.";
+  s.operations = counted(
+      [](auto alpha, auto sum) {
+        using T = Counting;
+        return exp2_of(T(sum + T(log_of(T(T(1.0F) - alpha)) * constant<T>(kLog2E))));
+      },
+      0.3F, -0.7F);
+  out.push_back(s);
+  s.form = "T - alpha T";
+  s.taken = true;
+  s.arithmetic = "half";
+  s.operations.clear();
+  set_sample(s, [](double n) { return through_layers<H>(n, less_weight); });
+  s.law = [](double place) { return place <= 1000 ? 1.1 * h * place : INFINITY; };
+  s.law_text = "u layers";
+  s.why =
+      "Each layer takes some 4 last places of T, rounded: percents of T from 1,000 layers on, "
+      "where T "
+      "is 0.02. The pixel is finished at 2,356; below 6 10^-5, which no pixel sees, T stands "
+      "still.";
+  out.push_back(s);
+
+  for (const bool taken : {true, false}) {
+    s = study("light behind one splat", taken ? "T - alpha T" : "T (1 - alpha)", false, "1 - alpha",
+              "of T", rests);
+    s.taken = taken;
+    s.sample = [taken](double place, Random& r) {
+      return behind_one<F>(place, r, taken ? less_weight<F> : times_rest<F>);
+    };
+    s.law = [taken](double place) { return taken ? u * (1 + 1 / place) : 2.2 * u; };
+    s.law_text = taken ? "u / (1 - alpha)" : "2 u";
+    s.why = taken ? "100 u at the cap of 0.99: nothing beside the 1 % of light that is left."
+                  : "Better where a splat is opaque, for a product more; no picture shows it.";
+    out.push_back(s);
+  }
+
+  s = study("colour of a pixel, layers of 1/255", "C + c (alpha T)", false, "layers", "of white",
+            until_finished);
+  set_sample(s, white<F>);
+  s.law = [](double place) { return 2 * u * std::min(place, 2400.0); };
+  s.law_text = "2 u layers";
+  s.why = "Does not break: after 2,348 layers nothing is added.";
+  out.push_back(s);
+  s.arithmetic = "half";
+  set_sample(s, white<H>);
+  s.law = [](double place) { return 2 * h * std::min(place, 2400.0); };
+  s.why =
+      "What is less than half a last place of the sum (2.4 10^-4 of white from 0.5 on) is lost, "
+      "and "
+      "errors of T add up: 3.7 % of white once it is finished. A haze of a thousand splats wants "
+      "float.";
+  out.push_back(s);
+
+  s = study("dL/dalpha", "back to front: T (g c) - behind / (1 - alpha)", false, "layers",
+            "of sum |g c| alpha T", {1, 10, 100, 1000, 2348, 10'000});
+  s.sample = first_of;
+  s.law = [](double place) { return 8 * u + 4 * u * place; };
+  s.law_text = "8 u + 4 u layers";
+  s.why = "Does not break: nothing is taken away from a sum, as front to back would.";
+  out.push_back(s);
+  s = study("dL/dalpha", "back to front: T (g c) - behind / (1 - alpha)", false, "1 - alpha",
+            "of the two terms", rests);
+  s.sample = slope_at;
+  s.law = [](double) { return 4 * u; };
+  s.law_text = "4 u";
+  s.why = "Does not break: 1 - alpha is exact from 0.5 on, and never below 0.01.";
+  out.push_back(s);
+  return out;
+}
+
+}  // namespace sgs

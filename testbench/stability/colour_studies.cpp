@@ -1,0 +1,246 @@
+// Activations and spherical harmonics, and their derivatives.
+#include "algorithm/tune/activation_gradient.h"
+#include "algorithm/tune/colour_gradient.h"
+#include "testbench/stability/exact_colour.h"
+#include "testbench/stability/study.h"
+
+namespace sgs {
+namespace {
+
+constexpr double u = Single::kRoundoff, h = Half::kRoundoff;
+constexpr int kDegree = 3, kCoeffs = 16;
+
+// Computed in double and rounded once, as activate() does for a file's floats.
+BoundedFloat rounded_once(float value) {
+  return {value, (1 + 1e-6) * u * std::abs(static_cast<double>(value)) + Single::kUnderflow};
+}
+
+RawGaussian<float> raw_with(float log_scale, float logit) {
+  return {glm::vec3(0), glm::vec3(log_scale), {1, 0, 0, 0}, logit};
+}
+
+Deviation scale(double log_scale, Random& random) {
+  const auto s = static_cast<float>(log_scale * random.uniform(0.9, 1));
+  const Exact truth = exp(Exact(s));
+  return deviation(rounded_once(activate(raw_with(s, 0)).scale.x), truth, truth);
+}
+
+Deviation opacity(double logit, Random& random) {
+  const auto x = static_cast<float>(logit * random.uniform(0.9, 1));
+  const Exact truth = 1 / (1 + exp(-Exact(x)));
+  return deviation(rounded_once(activate(raw_with(0, x)).opacity), truth, truth);
+}
+
+Deviation rotation(double length_of_quat, Random& random) {
+  RawGaussian<float> raw = raw_with(0, 0);
+  Exact squares = 0;
+  for (float& component : raw.quat) {
+    component = static_cast<float>(length_of_quat * random.normal());
+    squares += Exact(component) * component;
+  }
+  const Gaussian<float> g = activate(raw);
+  Deviation worst;
+  for (std::size_t k = 0; k < 4; ++k) {
+    worst.add(deviation(rounded_once(g.quat[k]), raw.quat[k] / sqrt(squares), 1));
+  }
+  return worst;
+}
+
+enum class Slope { kOfLogit, kOfOpacity };
+
+// d sigmoid / d logit.
+Deviation opacity_slope(double logit, Random& random, Slope by) {
+  using T = BoundedFloat;
+  const auto x = static_cast<float>(logit * random.uniform(0.9, 1));
+  RawGaussian<T> raw{};
+  raw.quat[0] = T(1.0F);
+  raw.opacity_logit = T(x);
+  Gaussian<T> g{}, wanted{};
+  wanted.opacity = T(1.0F);
+  g.opacity = rounded_once(activate(raw_with(0, x)).opacity);
+  const T computed = by == Slope::kOfLogit ? activation_gradient(raw, g, wanted).opacity_logit
+                                           : T(g.opacity * T(T(1.0F) - g.opacity));
+  const Exact e = exp(-abs(Exact(x))), truth = e / ((1 + e) * (1 + e));
+  return deviation(computed, truth, truth);
+}
+
+// Coefficients of a size, seen along an offset.
+struct Seen {
+  glm::vec3 offset;
+  std::vector<glm::vec3> coeffs;
+  std::vector<ExactVector> exact_coeffs;
+  Exact unit = 0.5;  // 0.5 and the sum of the largest channels' sizes
+};
+Seen seen(double distance, double size, Random& random) {
+  Seen out;
+  out.offset = glm::vec3(distance * random.direction());
+  for (int k = 0; k < kCoeffs; ++k) {
+    Exact largest = 0;
+    glm::vec3 c;
+    for (int channel = 0; channel < 3; ++channel) {
+      c[channel] =
+          static_cast<float>(size * random.uniform(0.5, 1) * (random.bits() % 2 == 0 ? 1 : -1));
+      largest = std::max(largest, Exact(std::abs(c[channel])));
+    }
+    out.coeffs.push_back(c);
+    out.exact_coeffs.push_back(exact(c));
+    out.unit += largest;
+  }
+  return out;
+}
+
+template <class T>
+glm::vec<3, T> given(const glm::vec3& v) {
+  return {T(v.x), T(v.y), T(v.z)};
+}
+template <class T>
+std::vector<glm::vec<3, T>> given(const std::vector<glm::vec3>& all) {
+  std::vector<glm::vec<3, T>> out;
+  for (const glm::vec3& v : all) out.push_back(given<T>(v));
+  return out;
+}
+
+template <class T>
+Deviation colour(double distance, double size, Random& random) {
+  const Seen s = seen(distance, size, random);
+  const auto computed = sh_colour(kDegree, given<T>(s.coeffs).data(), given<T>(s.offset));
+  const ExactVector truth = exact_colour(kDegree, s.exact_coeffs, exact(s.offset));
+  Deviation worst;
+  for (std::size_t k = 0; k < 3; ++k) {
+    worst.add(deviation(computed[static_cast<int>(k)], truth[k] > 0 ? truth[k] : Exact(0), s.unit));
+  }
+  return worst;
+}
+
+// dL/doffset of L = sum w colour, against differences with a step of 10^-30.
+Deviation colour_slope(double distance, Random& random) {
+  using T = BoundedFloat;
+  const Seen s = seen(distance, 0.5, random);
+  const ExactVector at = exact(s.offset);
+  const ExactVector here = exact_colour(kDegree, s.exact_coeffs, at);
+  glm::vec3 w;
+  glm::vec<3, T> drawn;
+  Exact unit = 0;
+  for (int k = 0; k < 3; ++k) {
+    w[k] = static_cast<float>(random.normal());
+    const Exact& channel = here[static_cast<std::size_t>(k)];
+    drawn[k] = T(channel > 0 ? 1.0F : 0.0F);  // what counts is whether it was clamped
+    unit += std::abs(w[k]) * s.unit / length(at);
+  }
+  glm::vec<3, T> by_coeffs[kCoeffs];
+  const auto computed = colour_gradient(kDegree, given<T>(s.coeffs).data(), given<T>(s.offset),
+                                        drawn, given<T>(w), by_coeffs);
+  const Exact step = length(at) * Exact("1e-30");
+  Deviation worst;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    ExactVector ahead = at, behind = at;
+    ahead[axis] += step;
+    behind[axis] -= step;
+    const ExactVector more = exact_colour(kDegree, s.exact_coeffs, ahead);
+    const ExactVector less = exact_colour(kDegree, s.exact_coeffs, behind);
+    Exact truth = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (here[k] > 0) truth += w[static_cast<int>(k)] * (more[k] - less[k]) / (2 * step);
+    }
+    worst.add(deviation(computed[static_cast<int>(axis)], truth, unit));
+  }
+  return worst;
+}
+
+Study study(const char* formula, const char* form, const char* axis, const char* unit,
+            std::vector<double> places) {
+  Study s;
+  s.formula = formula;
+  s.form = form;
+  s.arithmetic = "float";
+  s.axis = axis;
+  s.unit = unit;
+  s.places = std::move(places);
+  return s;
+}
+
+}  // namespace
+
+std::vector<Study> colour_studies() {
+  std::vector<Study> out;
+  Study s = study("scale = exp(s)", "in double, rounded once", "log-scale", "of the scale",
+                  {16, 8, 1, -1, -10, -40, -80, -90, -100, -110});
+  s.sample = scale;
+  s.law = [](double place) { return place >= -80 ? 1.001 * u : INFINITY; };
+  s.law_text = "u";
+  s.why =
+      "Below e^-87 a float has fewer digits, below e^-103 none: the axis has no thickness, which "
+      "0.3 px^2 hides at any depth. From 10^7 units (e^16.1) on the reader refuses.";
+  out.push_back(s);
+
+  s = study("opacity = sigmoid(o)", "in double, rounded once", "logit", "of the opacity",
+            {90, 30, 10, 1, -1, -10, -30, -80, -95, -110});
+  s.sample = opacity;
+  s.law = [](double place) { return place >= -80 ? 1.001 * u : INFINITY; };
+  s.law_text = "u";
+  s.why = "As the scale; below 1/255 (logit -5.5) nothing is drawn anyway. From 17 on it is 1.";
+  out.push_back(s);
+
+  s = study("q / |q|", "in double, rounded once", "|q|", "of 1", decades(-18, 18));
+  s.sample = rotation;
+  s.law = [](double) { return 1.001 * u; };
+  s.law_text = "u";
+  s.why = "Does not break: no square of a float leaves double.";
+  out.push_back(s);
+
+  s = study("derivative of the opacity", "e / (1 + e)^2, e = exp(-|o|)", "logit",
+            "of the derivative", {-80, -40, -10, 1, 5, 10, 15, 20, 40, 80, 95});
+  s.sample = [](double place, Random& r) { return opacity_slope(place, r, Slope::kOfLogit); };
+  s.law = [](double place) { return std::abs(place) < 86 ? 8 * u : INFINITY; };
+  s.law_text = "8 u";
+  s.why = "exp is clamped at e^-87: nothing moves such an opacity anyway.";
+  out.push_back(s);
+  s.form = "o (1 - o)";
+  s.taken = false;
+  s.sample = [](double place, Random& r) { return opacity_slope(place, r, Slope::kOfOpacity); };
+  s.law = [](double place) {
+    return place > -80 && place < 80 ? 4 * u * (1 + std::exp(place)) : INFINITY;
+  };
+  s.law_text = "4 u (1 + e^o)";
+  s.why = "1 - o has no digits: an opaque Gaussian would never fade again, from a logit of 17 on.";
+  out.push_back(s);
+
+  for (const bool in_half : {false, true}) {
+    s = study("colour, degree 3", "SH of the unit direction", "|p - c|", "of 0.5 + sum |coeff|",
+              in_half ? decades(-3, 6) : decades(-6, 20));
+    s.arithmetic = in_half ? "half" : "float";
+    s.taken = !in_half;
+    s.sample = [in_half](double place, Random& r) {
+      return in_half ? colour<BoundedHalf>(place, 0.5, r) : colour<BoundedFloat>(place, 0.5, r);
+    };
+    s.law = [in_half](double place) {
+      if (in_half) return place > 0.02 && place < 100 ? 32 * h : INFINITY;
+      return place < 1e18 ? 32 * u : INFINITY;
+    };
+    s.law_text = in_half ? "32 u from 0.02 to 100" : "32 u to 10^18";
+    s.why = in_half ? "|p - c|^2 leaves the range at 255 units, and its digits below 10^-2. "
+                      "Coefficients may "
+                      "be halves (an encoding), the direction may not."
+                    : "|p - c|^2 leaves float at 1.8 10^19; coordinates are refused from 10^18 on.";
+    out.push_back(s);
+  }
+
+  s = study("colour, degree 3", "SH of the unit direction", "coefficients", "of 0.5 + sum |coeff|",
+            decades(0, 38));
+  s.sample = [](double place, Random& r) { return colour<BoundedFloat>(3, 3.4 * place, r); };
+  s.law = [](double place) { return place < 1e37 ? 32 * u : INFINITY; };
+  s.law_text = "32 u to 10^37";
+  s.why = "A sum of sixteen 3 10^38 is infinite; coefficients are refused from 10^18 on.";
+  out.push_back(s);
+
+  s = study("derivative of the colour by p", "by x, y, z of the direction, then tangential",
+            "|p - c|", "of sum |w coeff| / |p - c|", decades(-6, 20));
+  s.sample = colour_slope;
+  s.law = [](double place) { return place < 1e18 ? 256 * u : INFINITY; };
+  s.law_text = "256 u to 10^18";
+  s.why = "As the colour.";
+  out.push_back(s);
+  return out;
+}
+
+}  // namespace sgs

@@ -1,0 +1,246 @@
+// The exponent of a splat's falloff at a pixel, and its derivative.
+#include <algorithm>
+
+#include "algorithm/splat/lane_input.h"
+#include "algorithm/tune/blend_gradient.h"
+#include "testbench/stability/counted.h"
+#include "testbench/stability/projected_case.h"
+#include "testbench/stability/square_conic.h"
+#include "testbench/stability/study.h"
+
+namespace sgs {
+namespace {
+
+constexpr double u = Single::kRoundoff, h = Half::kRoundoff;
+constexpr double kFrame = 1e5;  // px: no pixel lies farther from a centre and is computed
+
+// A pixel within the visible ellipse, relative to the centre, px; exact.
+struct Offset {
+  float x, y;
+};
+Offset visible_offset(const ExactSplat& e, Random& random) {
+  const auto a = static_cast<double>(e.cov_a), b = static_cast<double>(e.cov_b),
+             c = static_cast<double>(e.cov_c);
+  const double lambda = static_cast<double>(e.lambda);
+  const double lean = (a - c) / 2, root = std::hypot(lean, b);
+  const double angle = lean > 0 ? std::atan2(b, lean + root) : std::atan2(root - lean, b);
+  const double other = static_cast<double>(Exact(e.determinant / e.lambda));
+  const double turn = random.uniform(0, 2 * M_PI), reach = random.uniform(0.1, 3.3);
+  const double along =
+      std::min(kFrame, std::max(-kFrame, reach * std::cos(turn) * std::sqrt(lambda)));
+  const double across = reach * std::sin(turn) * std::sqrt(other);
+  return {static_cast<float>(std::cos(angle) * along - std::sin(angle) * across),
+          static_cast<float>(std::sin(angle) * along + std::cos(angle) * across)};
+}
+
+Exact exact_power(const ExactSplat& e, const Offset& d) {
+  const Exact x(d.x), y(d.y);
+  return -(e.conic_a * x * x + e.conic_c * y * y) / 2 - e.conic_b * x * y;
+}
+
+const Exact& exact_log2_e() {
+  static const Exact value = 1 / log(Exact(2));
+  return value;
+}
+
+// Lane 0 of a sub-tile whose first pixel this is.
+template <class T>
+T in_lane(const LaneInput<T>& in) {
+  return log2_falloff(in.conic, in.left, in.top);
+}
+
+template <class T>
+SplatOf<T> splat_of(const Projected<T>& p) {
+  SplatOf<T> s{};
+  s.conic_a = p.conic_a;
+  s.conic_b = p.conic_b;
+  s.conic_c = p.conic_c;
+  s.opacity = T(0.9F);
+  s.rgb = {T(1.0F), T(1.0F), T(1.0F)};
+  return s;
+}
+
+BoundedFloat quadratic(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
+  return in_lane(lane_input(splat_of(p), dx, dy));
+}
+BoundedHalf quadratic_in_half(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
+  return in_lane(lane_input_in_half<BoundedHalf>(splat_of(p), dx, dy));
+}
+
+BoundedFloat completed(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
+  return completed_square(square_conic(p), dx, dy);
+}
+// In the units of length that the lanes take.
+BoundedHalf completed_in_half(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
+  const auto lanes = lane_input_in_half<BoundedHalf>(splat_of(p), dx, dy);
+  const auto conic =
+      square_conic_in_half<BoundedHalf>(p.conic_a, p.conic_b, p.conic_c, lanes.pixel_px);
+  return completed_square(conic, lanes.left, lanes.top);
+}
+
+template <class T>
+Deviation exponent(double condition, Random& random,
+                   T (*form)(const Projected<BoundedFloat>&, BoundedFloat, BoundedFloat)) {
+  const ProjectedCase c = long_splat(condition, random);
+  const ExactSplat e = c.exact_splat();
+  const Offset d = visible_offset(e, random);
+  const T computed = form(c.projected<BoundedFloat>(), BoundedFloat(d.x), BoundedFloat(d.y));
+  return deviation(computed, Exact(exact_power(e, d) * exact_log2_e()), exact_log2_e());
+}
+
+// dL/dcov of a loss that is sum f power over pixels, by the arms e = K d: sum f e e^T / 2.
+template <class T>
+std::array<T, 3> by_arms(const Projected<T>& p, const std::vector<Offset>& pixels,
+                         const std::vector<float>& f) {
+  FalloffMoments<T> sums{T(0.0F), T(0.0F), T(0.0F), T(0.0F), T(0.0F),
+                         T(0.0F), T(0.0F), T(0.0F), T(0.0F)};
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto arm = conic_arm(p.conic_a, p.conic_b, p.conic_c, T(pixels[i].x), T(pixels[i].y));
+    const T fx = T(T(f[i]) * arm.x), fy = T(T(f[i]) * arm.y);
+    sums.xx = T(sums.xx + fx * arm.x);
+    sums.xy = T(sums.xy + fx * arm.y);
+    sums.yy = T(sums.yy + fy * arm.y);
+  }
+  const SplatGradient<T> g = splat_gradient(sums, T(1.0F));
+  return {g.cov_a, g.cov_b, g.cov_c};
+}
+
+// By way of the conic: D = sum f d d^T, then K D K / 2.
+template <class T>
+std::array<T, 3> by_conic(const Projected<T>& p, const std::vector<Offset>& pixels,
+                          const std::vector<float>& f) {
+  T xx = T(0.0F), xy = T(0.0F), yy = T(0.0F);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const T x = T(pixels[i].x), y = T(pixels[i].y), w = T(f[i]);
+    xx = T(xx + w * x * x);
+    xy = T(xy + w * x * y);
+    yy = T(yy + w * y * y);
+  }
+  const T &a = p.conic_a, &b = p.conic_b, &c = p.conic_c;
+  const T ax = T(a * xx + b * xy), ay = T(a * xy + b * yy);  // rows of K D
+  const T bx = T(b * xx + c * xy), by = T(b * xy + c * yy);
+  const T half = T(0.5F);
+  return {T(half * T(ax * a + ay * b)), T(ax * b + ay * c), T(half * T(bx * b + by * c))};
+}
+
+Deviation by_covariance(double condition, Random& random,
+                        std::array<BoundedFloat, 3> (*form)(const Projected<BoundedFloat>&,
+                                                            const std::vector<Offset>&,
+                                                            const std::vector<float>&)) {
+  const ProjectedCase c = long_splat(condition, random);
+  const ExactSplat e = c.exact_splat();
+  std::vector<Offset> pixels;
+  std::vector<float> f;
+  std::array<Exact, 3> truth{0, 0, 0};
+  Exact unit = 0;
+  for (int i = 0; i < 16; ++i) {
+    pixels.push_back(visible_offset(e, random));
+    f.push_back(static_cast<float>(random.normal()));
+    const Exact x(pixels.back().x), y(pixels.back().y), w(f.back());
+    const Exact arm_x = e.conic_a * x + e.conic_b * y, arm_y = e.conic_b * x + e.conic_c * y;
+    truth[0] += w * arm_x * arm_x / 2;
+    truth[1] += w * arm_x * arm_y;
+    truth[2] += w * arm_y * arm_y / 2;
+    unit += abs(w) * (arm_x * arm_x + arm_y * arm_y);
+  }
+  const auto computed = form(c.projected<BoundedFloat>(), pixels, f);
+  Deviation worst;
+  for (std::size_t k = 0; k < 3; ++k) worst.add(deviation(computed[k], truth[k], unit));
+  return worst;
+}
+
+}  // namespace
+
+std::vector<Study> exponent_studies() {
+  std::vector<Study> out;
+  Study s;
+  s.formula = "exponent of the falloff";
+  s.form = "A dx^2 + C dy^2 + 2 B dx dy";
+  s.arithmetic = "float";
+  s.axis = "condition";
+  s.unit = "of e^power";
+  s.places = decades(0, 20);
+  s.sample = [](double place, Random& r) { return exponent(place, r, quadratic); };
+  s.law = [](double place) { return 200 * u * (1 + place); };
+  s.law_text = "200 u condition";
+  s.why =
+      "Three large terms cancel far out on a needle: percents of alpha there from 170 px of sigma "
+      "on, "
+      "noise from 2,000 px on (bounded: power > 0 is skipped). It is the original's form, to which "
+      "pictures are held; cut needles where it shows.";
+  s.operations = counted(
+      [](auto a, auto b, auto c, auto x, auto y) {
+        return log2_falloff(Log2Conic<Counting>{a, b, c}, x, y);
+      },
+      1.1F, 1.3F, 1.7F, 1.9F, 2.9F);
+  out.push_back(s);
+
+  s.form = "A (dx + (B/A) dy)^2 + dy^2 / c";
+  s.taken = false;
+  s.sample = [](double place, Random& r) { return exponent(place, r, completed); };
+  s.law = [](double place) { return 400 * u * (1 + std::sqrt(place)); };
+  s.law_text = "400 u sqrt(condition)";
+  s.why =
+      "Nothing cancels but inside the square: the root of the condition, a product a pixel less, "
+      "as "
+      "many divisions a splat. Not taken: it moves the last places of every picture, and the ends "
+      "of "
+      "needles away from the original's.";
+  s.operations = counted(
+      [](auto a, auto b, auto c, auto x, auto y) {
+        return completed_square(SquareConic<Counting>{a, b, c}, x, y);
+      },
+      1.1F, 1.3F, 1.7F, 1.9F, 2.9F);
+  out.push_back(s);
+
+  s.form = "A dx^2 + C dy^2 + 2 B dx dy, lengths in units of 2^e px";
+  s.taken = true;
+  s.arithmetic = "half";
+  s.sample = [](double place, Random& r) { return exponent(place, r, quadratic_in_half); };
+  s.law = [](double place) { return place < 1e4 ? 100 * h * (1 + place) : INFINITY; };
+  s.law_text = "100 u condition";
+  s.why =
+      "A round splat is up to 0.7 % off where it is faintest, one 10 times as long as wide 16 % "
+      "far "
+      "out, one of 30 times noise: what blending in half loses most by. Scenes with needles want "
+      "float.";
+  s.operations.clear();
+  out.push_back(s);
+
+  s.form = "A (dx + (B/A) dy)^2 + (C - B^2/A) dy^2, lengths in units of 2^e px";
+  s.taken = false;
+  s.sample = [](double place, Random& r) { return exponent(place, r, completed_in_half); };
+  s.law = [](double place) { return place < 1e6 ? 100 * h * (1 + std::sqrt(place)) : INFINITY; };
+  s.law_text = "100 u sqrt(condition) to 10^6";
+  s.why =
+      "Cancels no more: 5 % at a condition of 1,000, where the three terms are 240 % off; a "
+      "product a "
+      "pixel less, a division a splat more (B/A, in float). Not taken yet: every picture in half "
+      "would change, and what its lanes cost.";
+  out.push_back(s);
+
+  s = {};
+  s.formula = "derivative of the falloff by the covariance";
+  s.form = "sum f e e^T / 2, e = K d";
+  s.arithmetic = "float";
+  s.axis = "condition";
+  s.unit = "of sum |f| |e|^2";
+  s.places = decades(0, 20);
+  s.sample = [](double place, Random& r) { return by_covariance(place, r, by_arms); };
+  s.law = [](double place) { return place <= 1e12 ? 100 * u * (1 + std::sqrt(place)) : INFINITY; };
+  s.law_text = "100 u sqrt(condition) to 10^12";
+  s.why =
+      "e = K d cancels along a needle, once; from 10^5 px of sigma on a needle has no slope to "
+      "tune by.";
+  out.push_back(s);
+  s.form = "K (sum f d d^T) K / 2";
+  s.taken = false;
+  s.sample = [](double place, Random& r) { return by_covariance(place, r, by_conic); };
+  s.law = [](double place) { return place <= 1e12 ? 100 * u * (1 + place) : INFINITY; };
+  s.law_text = "100 u condition to 10^12";
+  s.why = "d d^T is huge along a needle and has to cancel twice.";
+  out.push_back(s);
+  return out;
+}
+
+}  // namespace sgs
