@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """What an estimate is worth: seeded random machines on scenes, each simulated and reckoned, and how
 far the reckoned numbers are from the simulated ones.
 
@@ -28,7 +28,7 @@ import time
 
 import run_arguments
 import tables
-from figure_style import COLOURS, INK, MARKERS, panels
+from figures_beside import draw_beside
 from machine_axes import ORDERS, Machine, Order
 from scenes import Scene, find_scenes
 from simulations import Run
@@ -153,35 +153,6 @@ def csv_rows(frames: list[Frame]) -> list[tuple]:
     ]
 
 
-def draw_figure(frames: list[Frame], scenes: list[str], out) -> None:
-    figure, (errors, seconds) = panels(2, 4.4, 3.4)
-    for at, scene in enumerate(scenes):
-        of_scene = [f for f in frames if f.scene == scene]
-        look = {"color": COLOURS[at], "marker": MARKERS[at], "s": 18, "linewidths": 0}
-        cycles = MEASURES[0][1]
-        errors.scatter(
-            [cycles(f.accurate) / 1e6 for f in of_scene],
-            [100 * f.error(cycles) for f in of_scene],
-            label=scene,
-            **look,
-        )
-        seconds.scatter(
-            [f.accurate["host"]["simulation_wall_s"] for f in of_scene],
-            [f.estimate["host"]["simulation_wall_s"] for f in of_scene],
-            label=scene,
-            **look,
-        )
-    errors.axhline(0, color=INK, linewidth=0.8)
-    errors.set(xscale="log", xlabel="simulated, M cycles", ylabel="error of the estimate, %")
-    errors.set_title("Cycles: estimate against simulation")
-    errors.legend()
-    seconds.set(xscale="log", yscale="log", xlabel="simulated, s", ylabel="estimated, s")
-    seconds.set_title("Seconds a frame")
-    figure.tight_layout()
-    figure.savefig(out / "estimate_error.svg", metadata={"Date": None})
-    figure.savefig(out / "estimate_error.png")
-
-
 def make_table(arguments: argparse.Namespace) -> None:
     scenes: list[Scene] = find_scenes(arguments.scenes)
     order = ORDERS[arguments.machine]
@@ -219,9 +190,10 @@ def make_table(arguments: argparse.Namespace) -> None:
         f"{statistics.median(walls[1]):.2f} s reckoned (medians).\n"
     )
     print(text, end="")
-    (arguments.out / "estimate_error.md").write_text(text)
-    (arguments.out / "estimate_error.csv").write_text(tables.csv_text(CSV_HEAD, csv_rows(frames)))
-    draw_figure(frames, names, arguments.out)
+    tables.write_text(arguments.out / "estimate_error.md", text)
+    rows = tables.csv_text(CSV_HEAD, csv_rows(frames))
+    tables.write_text(arguments.out / "estimate_error.csv", rows)
+    draw_beside(arguments.out, "estimate_error")
 
 
 def main() -> int:

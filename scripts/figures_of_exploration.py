@@ -143,4 +143,24 @@ def exploration(results: Results) -> Made:
     )
 
 
-FIGURES = {"exploration": exploration}
+def estimate_error(results: Results) -> Made:
+    measured = ("cycles", "cycles_estimated", "seconds", "seconds_estimated")
+    data = results.table("estimate_error", "estimate_error.py", ("scene", *measured))
+    figure, (errors, seconds) = panels(2)
+    for at, scene in enumerate(data.different("scene")):
+        rows = [[number(row[name]) for name in measured] for row in data.where(scene=scene)]
+        cycles, reckoned, simulated_s, reckoned_s = zip(*rows)
+        style = {**line_style(at), "linestyle": "none", "markersize": 4, "label": scene}
+        off = [100 * (r / c - 1) for c, r in zip(cycles, reckoned)]
+        errors.plot([c / 1e6 for c in cycles], off, **style)
+        seconds.plot(simulated_s, reckoned_s, **style)
+    errors.axhline(0, color=INK, linewidth=0.8)
+    errors.set(xscale="log", xlabel="simulated, M cycles")
+    errors.set_title("Cycles reckoned over cycles simulated, %")
+    seconds.set(xscale="log", yscale="log", xlabel="simulated, s", ylabel="reckoned, s")
+    seconds.set_title("Seconds a frame")
+    legend_above(figure, errors)
+    return figure, f"Estimates beside simulations of the same machines. From {data.made}"
+
+
+FIGURES = {"exploration": exploration, "estimate_error": estimate_error}

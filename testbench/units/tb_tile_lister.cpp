@@ -173,11 +173,14 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   if (tile == 1 && part == 1 && made == 1 && plan.tiles_each == 1) {
     checks.equal(busy, beside + bench.counter("tile_steps"), "cycles of tile tests");
   }
-  // A listed tile, a tile and each core's end a cycle; a line and a row of the table each pass.
+  // A listed tile, a tile and each core's end a cycle, each word more of a record another; a line
+  // and a row of the table each pass.
+  const std::uint64_t words = cycles_for(record_place_bytes(config.tiles.features), kPortBytes) - 1;
   const std::uint64_t good = made - bench.counter("passes_overflowed");
   const std::uint64_t table = bench.accesses("ends of lists").second - pairs;
   checks.equal(bench.busy_cycles("listing"),
-               pairs + job.tile_count + good * config.cores + made * config.lists.lines + table,
+               pairs + words * bench.counter("records") + job.tile_count + good * config.cores +
+                   made * config.lists.lines + table,
                "cycles of listing");
   if (made == 1) {
     checks.equal(bench.counter("records") * record_place_bytes(config.tiles.features) <=

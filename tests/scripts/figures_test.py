@@ -16,6 +16,7 @@ import compare_machines
 import compare_variants
 import debian_python
 import energy_tables
+import estimate_error
 import fair_fight_tables
 import machine_ratios
 import machine_tables
@@ -100,6 +101,17 @@ TABLES = {
             for step in (400, 800)
         ],
         ("lego, seed 2", "minutes"),
+    ),
+    "estimate_error": (
+        "estimate_error",
+        estimate_error.CSV_HEAD,
+        [
+            {"scene": scene, "cycles": cycles, "cycles_estimated": 0.99 * cycles}
+            | {"seconds": 2, "seconds_estimated": 0.5}
+            for scene in ("truck", "yard")
+            for cycles in (1_000_000, 2_000_000)
+        ],
+        ("truck", "yard", "simulated, M cycles"),
     ),
     "variants": (
         "compare_variants",
