@@ -145,6 +145,10 @@ def save(figure: Figure, out: pathlib.Path, name: str, caption: str) -> None:
     for kind, about in (("svg", {"Date": None}), ("png", {"Software": None})):
         path = out / f"{name}.{kind}"
         part = out / f"{name}.{kind}.part"
-        figure.savefig(part, format=kind, bbox_inches="tight", pad_inches=0.12, metadata=about)
-        os.replace(part, path)
+        try:
+            figure.savefig(part, format=kind, bbox_inches="tight", pad_inches=0.12, metadata=about)
+            os.replace(part, path)
+        except BaseException:
+            part.unlink(missing_ok=True)
+            raise
     pyplot.close(figure)

@@ -12,8 +12,8 @@ case "${1:-}" in
 esac
 scripts/tools.sh
 . scripts/debian_packages.sh
-# For the page that report.py makes, and the studies of explore.py.
-install_missing chromium postgresql
+# For the page that report.py makes, the studies of explore.py, and faults of write_faults.py.
+install_missing chromium postgresql strace
 for suite in "${suites[@]}"; do
   scripts/setup.sh "${suite/full/release}"
   ctest --preset "$suite"

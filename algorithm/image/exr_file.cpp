@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <new>
 
 #include "algorithm/input_error.h"
@@ -49,6 +50,31 @@ void check_channels(const std::string& path, const Imf::ChannelList& channels) {
     for (auto i = channels.begin(); i != channels.end(); ++i) got += std::string(" ") + i.name();
     throw InputError(
         fmt::format("{}: got the channels{}, expected R, G and B at full resolution", path, got));
+  }
+}
+
+// OpenEXR makes room for an attribute of whatever size it states. What else is wrong is for OpenEXR
+// to say.
+void check_attribute_sizes(const InputFile& file) {
+  constexpr std::uint64_t kMagicAndVersionBytes = 8;
+  constexpr std::uint64_t kMostNameBytes = 256, kSizeBytes = 4;  // a name, a type, a size
+  if (file.text_from(0, 4) != "\x76\x2f\x31\x01") return;
+  std::uint64_t at = kMagicAndVersionBytes;
+  while (at < file.size_bytes()) {
+    const std::string head = file.text_from(at, 2 * kMostNameBytes + kSizeBytes);
+    const std::size_t name_end = head.find('\0');
+    if (name_end == 0 || name_end == std::string::npos) return;  // 0: the header ends
+    const std::size_t type_end = head.find('\0', name_end + 1);
+    if (type_end == std::string::npos || type_end + kSizeBytes >= head.size()) return;
+    std::uint32_t size = 0;
+    std::memcpy(&size, head.data() + type_end + 1, kSizeBytes);
+    at += type_end + 1 + kSizeBytes;
+    if (size > file.size_bytes() - at) {
+      throw InputError(fmt::format(
+          "{}: byte {}: attribute {}: got {} bytes, expected at most the {} to the end",
+          file.path(), at - kSizeBytes, head.substr(0, name_end), size, file.size_bytes() - at));
+    }
+    at += size;
   }
 }
 
@@ -90,7 +116,7 @@ std::string encode_exr(const Image& image) {
 }
 
 Image read_exr(const std::string& path) {
-  { const InputFile regular(path); }  // OpenEXR would wait for the writer of a pipe
+  check_attribute_sizes(InputFile(path));  // and OpenEXR would wait for the writer of a pipe
   try {
     return read_pixels(path);
   } catch (const InputError&) {

@@ -60,7 +60,8 @@ DecodedGaussian decode_raw_second_half(const FirstHalf& first, const std::byte* 
                                        int sh_degree) {
   DecodedGaussian out{};
   out.gaussian.mean = first.mean;
-  const float others[2] = {take(bytes), take(bytes)};
+  // The third is for both signs set, which no axis has: whoever restores a scene refuses NaN.
+  const float others[3] = {take(bytes), take(bytes), NAN};
   const int axis = (std::signbit(others[0]) ? 1 : 0) | (std::signbit(others[1]) ? 2 : 0);
   for (int k = 0, other = 0; k < 3; ++k) {
     out.gaussian.scale[k] = k == axis ? first.scale_max : std::abs(others[other++]);

@@ -50,7 +50,8 @@ DecodedGaussian decode_half(const FirstHalf& first, const std::byte* record, int
   DecodedGaussian out{};
   Gaussian<float>& g = out.gaussian;
   g.mean = first.mean;
-  const float others[2] = {take_half(record), take_half(record)};
+  // The third is for both signs set, which no axis has: whoever restores a scene refuses NaN.
+  const float others[3] = {take_half(record), take_half(record), NAN};
   const int axis = (std::signbit(others[0]) ? 1 : 0) | (std::signbit(others[1]) ? 2 : 0);
   for (int k = 0, other = 0; k < 3; ++k) {
     g.scale[k] = k == axis ? first.scale_max : first.scale_max * std::abs(others[other++]);

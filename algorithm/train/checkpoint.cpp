@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
 #include "algorithm/input_error.h"
 #include "algorithm/input_file.h"
 #include "algorithm/output_file.h"
@@ -32,6 +36,41 @@ std::string four_bytes(std::uint32_t value) {
   return out;
 }
 
+// What cereal has written, front to back. It would make room for whatever length a text states.
+class Body {
+ public:
+  // path: for messages. The first byte says that numbers are little-endian.
+  Body(const std::string& path, std::string_view bytes) : path_(path), left_(bytes) { take(1); }
+
+  std::string text() { return std::string(take(number<std::uint64_t>())); }
+
+  template <class Number>
+  Number number() {
+    Number value;
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    return value;
+  }
+
+  void expect_end() const {
+    if (!left_.empty()) refuse(0);
+  }
+
+ private:
+  std::string_view take(std::uint64_t bytes) {
+    if (bytes > left_.size()) refuse(bytes);
+    const std::string_view taken = left_.substr(0, bytes);
+    left_.remove_prefix(bytes);
+    return taken;
+  }
+  [[noreturn]] void refuse(std::uint64_t bytes) const {
+    throw InputError(
+        fmt::format("{}: {} bytes are left of it, expected {}", path_, left_.size(), bytes));
+  }
+
+  const std::string& path_;
+  std::string_view left_;
+};
+
 }  // namespace
 
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
@@ -58,7 +97,13 @@ Checkpoint read_checkpoint(const std::string& path) {
     throw InputError(path + ": was cut off or changed, its checksum is another");
   }
   Checkpoint checkpoint;
-  restore_bytes(body, checkpoint);
+  Body fields(path, body);
+  checkpoint.work = fields.text();
+  checkpoint.contents = fields.text();
+  checkpoint.log = fields.text();
+  checkpoint.seconds = fields.number<double>();
+  checkpoint.state = fields.text();
+  fields.expect_end();
   return checkpoint;
 }
 

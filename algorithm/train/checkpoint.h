@@ -17,7 +17,8 @@ struct Checkpoint {
 // std::runtime_error when it cannot be written.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
-// Throws InputError: not such a file, of another version, cut off or changed.
+// Throws InputError: not such a file, of another version, cut off or changed, or with lengths that
+// it has not the bytes for.
 Checkpoint read_checkpoint(const std::string& path);
 
 }  // namespace sgs

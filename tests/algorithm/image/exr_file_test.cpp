@@ -76,3 +76,15 @@ TEST_CASE("exr refuses: other files, and windows beyond 65,535 px") {
   const std::string path = scratch.write("c.exr", forged);
   CHECK_THAT(test::input_error_of([&] { read_exr(path); }), Contains("c.exr"));
 }
+
+TEST_CASE("exr refuses: an attribute beyond the end of the file, before there is room for it") {
+  const test::ScratchFolder scratch;
+  write_image(scratch.path("a.exr"), Image(4, 4));
+  std::string bytes = test::bytes_of(scratch.path("a.exr"));
+  const std::string compression("compression\0compression\0", 24);
+  const std::size_t at = bytes.find(compression) + compression.size();
+  REQUIRE(at < bytes.size());
+  bytes.replace(at, 4, std::string("\x00\x00\x00\x78", 4));
+  CHECK_THAT(test::input_error_of([&] { read_exr(scratch.write("b.exr", bytes)); }),
+             Contains("attribute compression: got 2013265920 bytes, expected at most the"));
+}

@@ -165,6 +165,11 @@ TEST_CASE("restore: records that nothing encodes are refused") {
       {kRaw, kVoxels, "opacity: got nan", [&](P& p) { put(p, half(p) + 24, NAN); }},
       {kRaw, kVoxels, "SH coefficient 3", [&](P& p) { put(p, half(p) + 72, INFINITY); }},
       {kRaw, kVoxels, "SH coefficient 3", [&](P& p) { put(p, half(p) + 72, -2e18F); }},
+      // Both signs set: the largest scale has no axis.
+      {kRaw, kVoxels, "nan), expected 0 to 10000000",
+       [&](P& p) { put(p, half(p), 0xbc000000bc000000U); }},
+      {SecondHalfEncoding::kHalf, kVoxels, "nan), expected 0 to 10000000",
+       [&](P& p) { put(p, half(p), 0xa000a000U); }},
       {SecondHalfEncoding::kHalf, kVoxels, "rotation",
        [&](P& p) { put(p, half(p) + 4, std::uint64_t{0}); }},
       {SecondHalfEncoding::kHalf, kVoxels, "SH coefficient 0",

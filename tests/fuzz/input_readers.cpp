@@ -1,0 +1,63 @@
+// Readers of scenes, cameras, pictures and data sets.
+#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/image/exr_file.h"
+#include "algorithm/image/jpeg_file.h"
+#include "algorithm/image/pfm_file.h"
+#include "algorithm/image/png_file.h"
+#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/ply_reader.h"
+#include "tests/fuzz/few_views.h"
+#include "tests/fuzz/fuzzed_reader.h"
+
+namespace sgs::test {
+namespace {
+
+using WriteDataset = void (*)(const std::string& folder, const MadeScene& scene);
+
+FuzzedReader dataset_reader(const std::string& name, WriteDataset write, const std::string& file) {
+  return {name, file, [](const std::string& folder) { open_dataset(folder); },
+          [write](const std::string& folder) { write(folder, few_views()); }};
+}
+
+}  // namespace
+
+const std::vector<FuzzedReader>& fuzzed_readers() {
+  static const std::vector<FuzzedReader> readers = {
+      {"ply", "a.ply",
+       [](const std::string& folder) {
+         PlyReadOptions dropping;
+         dropping.drop_invalid = true;
+         read_ply(folder + "/a.ply", dropping);
+         read_ply(folder + "/a.ply");
+       }},
+      {"cameras", "a.json", [](const std::string& folder) { read_cameras(folder + "/a.json"); }},
+      {"png", "a.png",
+       [](const std::string& folder) {
+         read_png_header(folder + "/a.png");
+         read_png(folder + "/a.png");
+       }},
+      {"jpeg", "a.jpg",
+       [](const std::string& folder) {
+         read_jpeg_header(folder + "/a.jpg");
+         read_jpeg(folder + "/a.jpg");
+       }},
+      {"exr", "a.exr", [](const std::string& folder) { read_exr(folder + "/a.exr"); }},
+      {"pfm", "a.pfm", [](const std::string& folder) { read_pfm(folder + "/a.pfm"); }},
+      dataset_reader("dataset_cameras", write_cameras_json, "cameras.json"),
+      dataset_reader("transforms", write_transforms, "transforms.json"),
+      dataset_reader("transforms_points", write_transforms_with_points, "points.ply"),
+      dataset_reader("split_transforms", write_nerf_synthetic, "transforms_train.json"),
+      dataset_reader("colmap_cameras_bin", write_colmap_binary, "sparse/0/cameras.bin"),
+      dataset_reader("colmap_images_bin", write_colmap_binary, "sparse/0/images.bin"),
+      dataset_reader("colmap_points_bin", write_colmap_binary, "sparse/0/points3D.bin"),
+      dataset_reader("colmap_cameras_txt", write_colmap_text, "sparse/0/cameras.txt"),
+      dataset_reader("colmap_images_txt", write_colmap_text, "sparse/0/images.txt"),
+      dataset_reader("colmap_points_txt", write_colmap_text, "sparse/0/points3D.txt"),
+      dataset_reader("nsvf_intrinsics", write_nsvf_matrix, "intrinsics.txt"),
+      dataset_reader("nsvf_pose", write_nsvf_matrix, "pose/0_0000.txt"),
+      dataset_reader("nsvf_bbox", write_nsvf_matrix, "bbox.txt"),
+  };
+  return readers;
+}
+
+}  // namespace sgs::test

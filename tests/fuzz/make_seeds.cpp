@@ -1,0 +1,116 @@
+// usage: make_seeds CORPUS. Writes CORPUS/READER/good_* for the readers whose files are not made by
+// hand; again where a format of the project has changed.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "algorithm/image/exr_file.h"
+#include "algorithm/image/pfm_file.h"
+#include "algorithm/scene/ply_writer.h"
+#include "algorithm/train/checkpoint.h"
+#include "tests/algorithm/image/jpeg_bytes.h"
+#include "tests/algorithm/storage/packed_scenes.h"
+#include "tests/fuzz/few_views.h"
+#include "tests/fuzz/zero_runs.h"
+
+namespace sgs::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The file of a data set that is fuzzed.
+struct DatasetSeed {
+  const char* reader;
+  void (*write)(const std::string& folder, const MadeScene& scene);
+  const char* file;
+};
+
+constexpr DatasetSeed kDatasetSeeds[] = {
+    {"dataset_cameras", write_cameras_json, "cameras.json"},
+    {"transforms", write_transforms, "transforms.json"},
+    {"split_transforms", write_nerf_synthetic, "transforms_train.json"},
+    {"colmap_cameras_bin", write_colmap_binary, "sparse/0/cameras.bin"},
+    {"colmap_images_bin", write_colmap_binary, "sparse/0/images.bin"},
+    {"colmap_points_bin", write_colmap_binary, "sparse/0/points3D.bin"},
+    {"colmap_cameras_txt", write_colmap_text, "sparse/0/cameras.txt"},
+    {"colmap_images_txt", write_colmap_text, "sparse/0/images.txt"},
+    {"colmap_points_txt", write_colmap_text, "sparse/0/points3D.txt"},
+    {"nsvf_intrinsics", write_nsvf_matrix, "intrinsics.txt"},
+    {"nsvf_pose", write_nsvf_matrix, "pose/0_0000.txt"},
+    {"nsvf_bbox", write_nsvf_matrix, "bbox.txt"},
+};
+
+void make_datasets(const std::string& corpus, const fs::path& scratch) {
+  for (const DatasetSeed& seed : kDatasetSeeds) {
+    const fs::path folder = scratch / seed.reader;
+    seed.write(folder.string(), few_views());
+    const std::string extension = fs::path(seed.file).extension().string();
+    write_file(corpus, seed.reader + ("/good_made" + extension), bytes_of(folder / seed.file));
+  }
+}
+
+void make_pictures(const std::string& corpus) {
+  const MadeScene scene = few_views();
+  const RgbaImage picture = picture_of(scene, scene.cameras[0]);
+  const Image small = over(cropped(picture, 0, 0, 4, 3), glm::vec3(0.4f));
+  write_file(corpus, "png/good_rgba.png", rgba_png(picture));
+  write_file(corpus, "png/good_rgb.png", grey_before_png(picture));
+  write_file(corpus, "exr/good_zip.exr", encode_exr(small));
+  write_file(corpus, "pfm/good_colour.pfm", encode_pfm(small));
+  const std::vector<std::uint8_t> samples(16 * 12 * 4, 90);
+  write_file(corpus, "jpeg/good_grey.jpg", jpeg_bytes(16, 12, 1, samples));
+  write_file(corpus, "jpeg/good_progressive.jpg", jpeg_bytes(16, 12, 3, samples, true));
+  write_file(corpus, "jpeg/bad_cmyk.jpg", jpeg_bytes(16, 12, 4, samples));
+}
+
+void make_scenes(const std::string& corpus) {
+  GaussianCloud cloud;
+  for (int i = 0; i < 2; ++i) {
+    cloud.means.emplace_back(i, 2, 3);
+    cloud.log_scales.emplace_back(-3, -4, -5);
+    cloud.quats.push_back({1, 0, 0, 0.5f});
+    cloud.opacity_logits.push_back(0.5f);
+    cloud.sh_coeffs.emplace_back(0.1f, 0.2f, 0.3f);
+  }
+  fs::create_directories(corpus + "/ply");
+  write_ply(corpus + "/ply/good_binary.ply", cloud);
+  fs::create_directories(corpus + "/packed");
+  constexpr const char* kOrders[] = {"voxels", "chunks", "file"};
+  constexpr const char* kEncodingNames[] = {"raw", "half", "vq", "vq_packed"};
+  for (const StorageOrder order : kStorageOrders) {
+    for (const SecondHalfEncoding encoding : kEncodings) {
+      const Packing packing = make_packing(cut_object(6, 0), encoding, order);
+      const std::string path = corpus + "/packed/good_" + kOrders[static_cast<int>(order)] + "_" +
+                               kEncodingNames[static_cast<int>(encoding)];
+      write_image_file(path, packing.facts, packing.stored.storage, packing.stored.image);
+      const std::string bytes = bytes_of(path);
+      std::ofstream(path, std::ios::binary) << without_runs(bytes);
+    }
+  }
+  fs::create_directories(corpus + "/checkpoint");
+  write_checkpoint(corpus + "/checkpoint/good_short", {"train", "digest", "{}\n", 2.5, "state"});
+}
+
+void make_seeds(const std::string& corpus) {
+  std::string scratch = (fs::temp_directory_path() / "sgs-seeds-XXXXXX").string();
+  if (::mkdtemp(scratch.data()) == nullptr) throw fs::filesystem_error(scratch, {});
+  make_datasets(corpus, scratch);
+  fs::remove_all(scratch);
+  make_pictures(corpus);
+  make_scenes(corpus);
+}
+
+}  // namespace
+}  // namespace sgs::test
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  sgs::test::make_seeds(argv[1]);
+}
