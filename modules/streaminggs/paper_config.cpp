@@ -33,13 +33,21 @@ void check(const PaperConfig& c) {
         c.sorting.buffer_entries, 4 * c.sorting.spill_block_entries,
         c.sorting.spill_block_entries));
   }
+  if (c.vsu.table_bytes < kTableWordBytes * c.vsu.table_banks) {
+    throw InputError(
+        fmt::format("vsu.table_bytes: got {}, expected at least {}: a word of {} B in "
+                    "each of vsu.table_banks {}",
+                    c.vsu.table_bytes, kTableWordBytes * c.vsu.table_banks, kTableWordBytes,
+                    c.vsu.table_banks));
+  }
 }
 
 void check_rays(const PaperConfig& c) {
   const std::uint32_t longer = std::max(c.group_width_px, c.group_height_px);
   if (c.vsu.ray_step_px <= longer) return;
-  throw InputError(fmt::format("vsu.ray_step_px: got {}, expected at most {}, a group's longer side",
-                               c.vsu.ray_step_px, longer));
+  throw InputError(
+      fmt::format("vsu.ray_step_px: got {}, expected at most {}, a group's longer side",
+                  c.vsu.ray_step_px, longer));
 }
 
 PaperFifos::PaperFifos(const PaperConfig& c)

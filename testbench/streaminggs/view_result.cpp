@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "algorithm/image/quality.h"
@@ -21,9 +22,12 @@ void check_capacity(const FrameJob& job, const DramConfig& dram) {
   const std::uint64_t capacity = AddressMapping(dram, load_memspec(dram.memspec)).capacity_bytes();
   const std::uint64_t needed = job.layout.regions.total_bytes();
   if (needed <= capacity) return;
-  throw InputError(
-      fmt::format("dram: the scene and its frame take {} bytes, {} channels x {} ranks hold {}",
-                  needed, dram.channels, dram.ranks, capacity));
+  const auto& largest =
+      *std::max_element(job.layout.regions.begin(), job.layout.regions.end(),
+                        [](const Region& a, const Region& b) { return a.bytes < b.bytes; });
+  throw InputError(fmt::format(
+      "dram: the scene and its frame take {} bytes ({} alone {}), {} channels x {} ranks hold {}",
+      needed, largest.name, largest.bytes, dram.channels, dram.ranks, capacity));
 }
 
 // What the storage left out, and the machine.

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "algorithm/image/image_io.h"
+#include "algorithm/input_error.h"
 #include "algorithm/output_set.h"
 #include "testbench/streaminggs/error_maps.h"
 #include "testbench/streaminggs/group_table.h"
@@ -63,7 +64,8 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   RunReport report(setting.config, setting.facts);
   std::vector<std::pair<int, std::string>> failed;
   std::vector<ViewResult> results;
-  bool equal = true;
+  bool equal = true, all_refused = true;
+  std::size_t named = 0;  // of failed
   print_table_head(setting.options.fidelity);
   for (const auto& [number, camera] : views) {
     try {
@@ -78,11 +80,19 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
       results.push_back(std::move(view));
     } catch (const std::exception& error) {
       if (views.size() == 1) throw;
-      std::fflush(stdout);
-      fmt::print(stderr, "streaminggs: view {}: {}\n", number, error.what());
       failed.emplace_back(number, error.what());
+      all_refused = all_refused && dynamic_cast<const InputError*>(&error) != nullptr;
     }
     std::fflush(stdout);
+    if (all_refused && results.empty()) continue;  // one line is enough if it goes on like this
+    for (; named < failed.size(); ++named) {
+      fmt::print(stderr, "streaminggs: view {}: {}\n", failed[named].first, failed[named].second);
+    }
+  }
+  if (results.empty() && all_refused) {
+    const auto& [number, why] = failed.front();
+    throw InputError(
+        fmt::format("view {}: {}; none of {} views can be drawn", number, why, views.size()));
   }
   if (results.empty()) throw std::runtime_error("no view could be finished");
   const std::string text = report.text(failed);

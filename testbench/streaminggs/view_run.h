@@ -19,8 +19,8 @@ std::vector<std::filesystem::path> files_of_views(const NumberedCameras& views,
 
 // Simulates the views and writes their files and, at the end, the report of all that were finished.
 // The first one's take the place of an earlier run's. One that fails is named and does not keep the
-// others from running; a single one throws. dropping: --drop-invalid was given. Returns the exit
-// status.
+// others from running; a single one throws, and InputError when all are refused. dropping:
+// --drop-invalid was given. Returns the exit status.
 int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFolder& out,
               bool dropping);
 

@@ -129,6 +129,10 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
                     {"--set vsu.ray_step_px=65: vsu.ray_step_px: got 65, expected at most 64"});
   check_set_refused("paper", {"fetch=shared", "sorting_units=3"},
                     {"sorting_units: got 3", "divisor or a multiple of hfus 4"});
+  check_set_refused("paper", {"vsu.table_bytes=8"},
+                    {"vsu.table_bytes: got 8, expected at least 16", "vsu.table_banks 2"});
+  check_set_refused("gscore", {"lists.pool_bytes=99999999999"},
+                    {"dram: the scene and its frame take", "tile_lists alone 99999999999", "hold"});
   check_set_refused("paper", {"dram.memspec=ddr9"},
                     {"dram.memspec: got 'ddr9'", "lpddr3_1600_4gb"});
   check_set_refused("no_such_preset", {}, {"no_such_preset"});
@@ -139,6 +143,12 @@ TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
                     {"streaminggs: --set storage.voxel_size=0.0000001: storage.voxel_size: 1e-07 "
                      "divides",
                      "2^20", "at least"});
+}
+
+TEST_CASE("refusals: what every view refuses, in one line") {
+  check_refused({"simulate", "builtin:object?n=300", "--size", "16x16", "--view", "all", "--config",
+                 "gscore", "--set", "lists.pool_bytes=4096"},
+                {"view 0: lists.pool_bytes: got 4096", "none of 5 views can be drawn"});
 }
 
 TEST_CASE("refusals: scenes, cameras and sizes that are not there") {

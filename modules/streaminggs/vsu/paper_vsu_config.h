@@ -8,6 +8,8 @@
 
 namespace sgs {
 
+constexpr std::uint32_t kTableWordBytes = 8;  // of the ordering table: a record
+
 struct PaperVsuConfig {
   std::uint32_t rays_in_flight = 102;  // of a group, side by side
   std::uint32_t chain_entries = 3;     // voxels that a ray keeps until they are entered

@@ -159,11 +159,12 @@ SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
           {rays, 1});
   // In order() an edge is read beside the record that the one before it names.
   uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
-                          {64, SramPorts::kReadAndWrite, config.table_banks},
+                          {8 * kTableWordBytes, SramPorts::kReadAndWrite, config.table_banks},
                           {std::min(config.table_banks, 2U), config.table_banks}));
-  uses.push_back(sram_use("renamed voxels", kSharedSram,
-                          {{names_bytes(config) / kNameBytes, "slots"}, {kNameBytes, "B"}},
-                          {8 * kNamesWord}, kOneOfEach));
+  const std::uint64_t names = names_bytes(config);
+  uses.push_back(sram_use(
+      "renamed voxels", kSharedSram, {{names / kNameBytes, "slots"}, {kNameBytes, "B"}},
+      {8 * static_cast<std::uint32_t>(std::min<std::uint64_t>(kNamesWord, names))}, kOneOfEach));
   uses.push_back(sram_use("ready voxels", kSharedSram,
                           {{ready_words(config), "words"}, {kReadyWord, "B"}}, {8 * kReadyWord},
                           kOneOfEach));

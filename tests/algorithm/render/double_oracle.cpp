@@ -50,6 +50,16 @@ glm::dvec3 colour_of(int degree, const glm::vec3* sh, const glm::dvec3& directio
   return glm::max(colour, glm::dvec3(0));
 }
 
+// Of [u; w] [u; w]^T + 0.3 I, |u| >= |w|: rows (u, sqrt(0.3), 0) and (w, 0, sqrt(0.3)) made
+// orthogonal. a c - b^2 has no digit left of splats wider than 10^8 px; this loses one for each ten
+// times of width.
+double determinant(const glm::dvec3& u, const glm::dvec3& w) {
+  const double a = glm::dot(u, u) + 0.3;
+  const double share = glm::dot(u, w) / a;
+  const glm::dvec3 rest = w - share * u;
+  return a * (glm::dot(rest, rest) + share * share * 0.3 + 0.3);
+}
+
 OracleSplat project_one(const Camera& camera, const GaussianCloud& cloud, std::size_t i,
                         const glm::dvec3& v) {
   OracleSplat s{};
@@ -66,20 +76,20 @@ OracleSplat project_one(const Camera& camera, const GaussianCloud& cloud, std::s
   const glm::dmat3 r = rotation_of(cloud.quats[i]);
   const glm::dvec3 scale = glm::exp(glm::dvec3(cloud.log_scales[i]));
   const glm::dmat3 m(r[0] * scale.x, r[1] * scale.y, r[2] * scale.z);
-  const glm::dmat3 sigma = m * glm::transpose(m);
-  const double u = std::clamp(v.x / v.z, -1.3 * tan_x, 1.3 * tan_x) * v.z;
-  const double w = std::clamp(v.y / v.z, -1.3 * tan_y, 1.3 * tan_y) * v.z;
+  const double slope_x = std::clamp(v.x / v.z, -1.3 * tan_x, 1.3 * tan_x) * v.z;
+  const double slope_y = std::clamp(v.y / v.z, -1.3 * tan_y, 1.3 * tan_y) * v.z;
   // Rows of J R^T, world frame.
   const glm::dmat3& axes = camera.world_from_camera;
   const glm::dvec3 row_x =
-      camera.focal_x / v.z * axes[0] - camera.focal_x * u / (v.z * v.z) * axes[2];
+      camera.focal_x / v.z * axes[0] - camera.focal_x * slope_x / (v.z * v.z) * axes[2];
   const glm::dvec3 row_y =
-      camera.focal_y / v.z * axes[1] - camera.focal_y * w / (v.z * v.z) * axes[2];
-  s.a = glm::dot(row_x, sigma * row_x) + 0.3;
-  s.b = glm::dot(row_x, sigma * row_y);
-  s.c = glm::dot(row_y, sigma * row_y) + 0.3;
+      camera.focal_y / v.z * axes[1] - camera.focal_y * slope_y / (v.z * v.z) * axes[2];
+  const glm::dvec3 u = row_x * m, w = row_y * m;  // of the covariance's factor
+  s.a = glm::dot(u, u) + 0.3;
+  s.b = glm::dot(u, w);
+  s.c = glm::dot(w, w) + 0.3;
 
-  const double det = s.a * s.c - s.b * s.b;
+  const double det = s.a >= s.c ? determinant(u, w) : determinant(w, u);
   s.conic[0] = s.c / det;
   s.conic[1] = -s.b / det;
   s.conic[2] = s.a / det;

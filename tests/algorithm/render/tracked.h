@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "algorithm/splat/scalar.h"
 
@@ -30,6 +31,11 @@ inline Tracked rounded(double value) {
 // The result of one float operation: `carried` is what the errors of its operands make of it.
 inline Tracked after_rounding(double value, double carried) {
   constexpr double kUnitRoundoff = 0x1p-24, kUnderflow = 0x1p-149;
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  // Beyond float, or no number: anything may come of it.
+  if (!(std::abs(value) + carried <= kLargest)) {
+    return {value, std::numeric_limits<double>::infinity()};
+  }
   return {value, carried + kUnitRoundoff * (std::abs(value) + carried) + kUnderflow};
 }
 
@@ -44,9 +50,10 @@ inline Tracked operator*(Tracked a, Tracked b) {
   return after_rounding(a.value * b.value, std::abs(a.value) * b.error +
                                                std::abs(b.value) * a.error + a.error * b.error);
 }
-// b stays away from 0 by more than its error wherever the projection divides.
+// b stays away from 0 by more than its error wherever the projection divides, unless it left float.
 inline Tracked operator/(Tracked a, Tracked b) {
   const double quotient = a.value / b.value;
+  if (!(b.error < std::abs(b.value))) return {quotient, std::numeric_limits<double>::infinity()};
   return after_rounding(quotient,
                         (a.error + std::abs(quotient) * b.error) / (std::abs(b.value) - b.error));
 }
