@@ -128,7 +128,7 @@ void opacities(Draft& d) {
 void long_quaternions(Draft& d) {
   d.add_plain(80);
   for (auto& quat : d.cloud().quats) {
-    const double length = d.log_uniform(1e-15, 1e15);
+    const double length = d.log_uniform(1e-30, 1e30);
     for (float& component : quat) component = static_cast<float>(component * length);
   }
 }
@@ -158,7 +158,7 @@ void faint_layers(Draft& d) {
 
 void strong_colours(Draft& d) {
   d.add_plain(60);
-  const double strength = d.log_uniform(10, 1e4);
+  const double strength = d.log_uniform(10, 1e17);
   for (auto& coeff : d.cloud().sh_coeffs) coeff = glm::vec3(strength * d.normal3());
 }
 
@@ -170,11 +170,16 @@ void wide_extents(Draft& d) {
   }
 }
 
-// A lattice of faces of voxels, cameras inside, on a face, an edge, a corner, and outside.
-void on_faces(Draft& d) {
+// A lattice of faces of voxels.
+void lattice(Draft& d) {
   for (int i = 0; i < 216; ++i) {
     d.add(glm::dvec3(i % 6, i / 6 % 6, i / 36) * 0.4 - 1.0, glm::dvec3(0.05), 0.6);
   }
+}
+
+// Cameras inside of a voxel, on a face, an edge, and outside of all.
+void on_faces(Draft& d) {
+  lattice(d);
   for (const auto& at :
        {glm::dvec3(0.11, 0.13, 0.17), {0, 0.13, 0.17}, {0, 0.4, -0.4}, {40, 0, 0}}) {
     d.look_along(d.add_camera(at), -at + glm::dvec3(0.01, 0.02, 1));
@@ -182,7 +187,7 @@ void on_faces(Draft& d) {
 }
 
 void axis_parallel(Draft& d) {
-  on_faces(d);
+  lattice(d);
   const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   for (const auto& axes :
        {glm::dmat3(x, y, z), glm::dmat3(y, z, x), glm::dmat3(z, x, y), glm::dmat3(-x, y, -z)}) {
@@ -205,7 +210,7 @@ void tiny_frames(Draft& d) {
 void focal_lengths(Draft& d) {
   d.add_plain(60);
   for (Camera& camera : d.cameras()) {
-    camera.focal_x = d.pick(2) == 0 ? d.log_uniform(1e-3, 1) : d.log_uniform(1e3, 1e7);
+    camera.focal_x = d.pick(2) == 0 ? d.log_uniform(1e-3, 1) : d.log_uniform(1e3, 1e8);
     camera.focal_y = camera.focal_x * d.log_uniform(0.1, 10);
   }
 }

@@ -129,7 +129,7 @@ class HostileRun {
 
   // Keys that a refusal of these settings may name, whole or within their section.
   static std::vector<std::string> keys_of(const Arguments& drawn) {
-    std::vector<std::string> keys = {"dram: the scene and its frame take"};
+    std::vector<std::string> keys = {"dram: the scene and its frame take", "bytes are there"};
     for (const std::string& setting : drawn) {
       const std::string key = setting.substr(0, setting.find('='));
       keys.push_back(key.substr(key.rfind('.') + 1));
@@ -241,6 +241,14 @@ class HostileRun {
     INFO("tune " << mode << ": status " << outcome.status << " " << outcome.err);
     if (outcome.status == 2) {
       return check_refusal(tuning, outcome, out, {"scene.ply", "cameras.json"});
+    }
+    // A step beyond what a scene may hold ends it, the last good state kept.
+    if (outcome.status == 1) {
+      CHECK(outcome.err.rfind("streaminggs: step ", 0) == 0);
+      CHECK(outcome.err.find("the last good state is in ") != std::string::npos);
+      CHECK(std::filesystem::exists(folder_.path(out + ".checkpoint")));
+      CHECK_FALSE(std::filesystem::exists(folder_.path(out)));
+      return;
     }
     REQUIRE(outcome.status == 0);
     if (mode != "--quantise") {

@@ -19,7 +19,8 @@ struct HostileTotals {
 //   is given away on purpose also the reference's; everything accounted for (frame_checks.h,
 //   tile_frame_checks.h);
 // - pack, and the packed scene simulated: the frames of the scene itself;
-// - a few steps of tune: a scene that can be read, every number finite.
+// - a few steps of tune: a scene that can be read, every number finite; or the step and the
+//   Gaussian that left the limits, and the last good state.
 // Or exit status 2 and one line that names file and property, or a key that was set, and nothing
 // written. Fails the test otherwise, with the seed and the command that repeats it.
 void check_hostile(std::uint64_t seed, HostileTotals& totals);

@@ -13,7 +13,7 @@
 
 namespace {
 
-std::string seeds = "21:4";  // behind the extremes one by one
+std::string seeds = "21:2";  // behind the extremes one by one
 
 }  // namespace
 

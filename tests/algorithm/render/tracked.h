@@ -63,6 +63,7 @@ inline Tracked sqrt(Tracked a) {
 }
 // The middle of the whole numbers that a rounded argument can give, and half their distance.
 inline Tracked ceil(Tracked a) {
+  if (!(a.error < std::numeric_limits<double>::infinity())) return a;
   const double low = std::ceil(a.low()), high = std::ceil(a.high());
   return {(low + high) / 2, (high - low) / 2};
 }
