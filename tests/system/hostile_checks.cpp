@@ -9,9 +9,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "algorithm/render/reference_renderer.h"
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/scene/ply_writer.h"
+#include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/decisions.h"
 #include "tests/algorithm/render/pixel_bounds.h"
 #include "tests/system/frame_checks.h"
@@ -99,7 +101,8 @@ class HostileRun {
       INFO(decisions.first_unexplained);
       CHECK(decisions.unexplained == 0);
       if (decisions.near_plane > 0) continue;  // pixels of other splats cannot be compared
-      const PixelBounds bounds = bound_pixels(camera, case_.cloud);
+      const PixelBounds bounds = bound_pixels(
+          camera, case_.cloud, render_reference(make_view<float>(camera), activate(case_.cloud)));
       INFO(bounds.first_outside);
       CHECK(bounds.outside == 0);
       totals_.pixels += bounds.pixels;

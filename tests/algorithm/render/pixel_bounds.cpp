@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/make_splat.h"
@@ -100,9 +99,8 @@ class Bounding {
   Bounding(const Camera& camera, const GaussianCloud& cloud)
       : camera_(camera), cloud_(cloud), view_(tracked_view(camera)) {}
 
-  PixelBounds run() {
+  PixelBounds run(const RenderResult& in_float) {
     project_all();
-    const RenderResult in_float = render_reference(make_view<float>(camera_), activate(cloud_));
     const OracleImage in_double = oracle_blend(camera_, oracle_);
     for (int y = 0; y < camera_.height; ++y) {
       for (int x = 0; x < camera_.width; ++x) {
@@ -209,8 +207,9 @@ class Bounding {
 
 }  // namespace
 
-PixelBounds bound_pixels(const Camera& camera, const GaussianCloud& cloud) {
-  return Bounding(camera, cloud).run();
+PixelBounds bound_pixels(const Camera& camera, const GaussianCloud& cloud,
+                         const RenderResult& in_float) {
+  return Bounding(camera, cloud).run(in_float);
 }
 
 }  // namespace sgs::test

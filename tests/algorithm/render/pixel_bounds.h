@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include "algorithm/render/render_result.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/gaussian_cloud.h"
 
@@ -22,6 +23,8 @@ struct PixelBounds {
 // transmittance against 1e-4) lies within rounding both ways are followed and their hull is kept.
 // Order and tile rectangles are those of float; compare_decisions (decisions.h) is what judges
 // them. Both pictures must lie in the interval, so that their difference is at most its width.
-PixelBounds bound_pixels(const Camera& camera, const GaussianCloud& cloud);
+// in_float: what the reference renderer makes of it.
+PixelBounds bound_pixels(const Camera& camera, const GaussianCloud& cloud,
+                         const RenderResult& in_float);
 
 }  // namespace sgs::test
