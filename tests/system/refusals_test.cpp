@@ -146,8 +146,8 @@ TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
 }
 
 TEST_CASE("refusals: what every view refuses, in one line") {
-  check_refused({"simulate", "builtin:object?n=300", "--size", "16x16", "--view", "all", "--config",
-                 "gscore", "--set", "lists.pool_bytes=4096"},
+  check_refused({"simulate", "builtin:object?n=3000", "--size", "16x16", "--view", "all",
+                 "--config", "gscore", "--set", "lists.pool_bytes=4096"},
                 {"view 0: lists.pool_bytes: got 4096", "none of 5 views can be drawn"});
 }
 
