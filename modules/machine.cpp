@@ -32,9 +32,9 @@ std::uint64_t Machine::estimate(const FrameWork&, MemoryEstimate&) {
   throw std::logic_error("this machine has no estimate");
 }
 
-PortEstimate Machine::estimate_of(const MemoryPort& port, MemoryEstimate& memory) const {
+PortEstimate Machine::estimate_of(const MemoryPort& port, MemoryEstimate& dram) const {
   const auto at = std::find(requesters_.begin(), requesters_.end(), requester_name(port, *this));
-  return {port.config(), memory, static_cast<std::uint8_t>(at - requesters_.begin())};
+  return {port.config(), dram, static_cast<std::uint8_t>(at - requesters_.begin())};
 }
 
 void Machine::connect_memory() {

@@ -40,7 +40,7 @@ class Machine : public sc_core::sc_module {
   // In place of a run: reckons the frame of this work, of the machine's job, against a memory; the
   // units then say of themselves that they did it. The cycles that it takes. Only where its design
   // can count such work (modules/machine_design.h).
-  virtual std::uint64_t estimate(const FrameWork& work, MemoryEstimate& memory);
+  virtual std::uint64_t estimate(const FrameWork& work, MemoryEstimate& dram);
 
  protected:
   explicit Machine(const sc_core::sc_module_name& name) : sc_module(name) {}
@@ -52,7 +52,7 @@ class Machine : public sc_core::sc_module {
   void connect_memory();
 
   // A unit's port, for an estimate.
-  PortEstimate estimate_of(const MemoryPort& port, MemoryEstimate& memory) const;
+  PortEstimate estimate_of(const MemoryPort& port, MemoryEstimate& dram) const;
 
   // Where units that share something decide who gets it.
   InstantEnd& instant_end() { return instant_end_; }

@@ -96,10 +96,10 @@ void ExactMachine::bind() {
   }
 }
 
-std::uint64_t ExactMachine::estimate(const FrameWork& work, MemoryEstimate& memory) {
+std::uint64_t ExactMachine::estimate(const FrameWork& work, MemoryEstimate& dram) {
   const ExactWork& of = dynamic_cast<const ExactFrameWork&>(work).of;
   const SceneLayout& layout = job().layout;
-  const auto port = [&](const auto& unit) { return estimate_of(unit.memory, memory); };
+  const auto port = [&](const auto& unit) { return estimate_of(unit.memory, dram); };
   RenderingEstimate rendering(config_.rendering, job(), port(*rendering_[0]));
   const bool spills = config_.merge.on_overflow == OnOverflow::kSpill;
   std::optional<CodebookEstimate> codebooks;
