@@ -14,7 +14,7 @@ namespace sgs {
 namespace {
 
 template <class T>
-LaneInput<T> input_of(const Splat& s, float left, float top) {
+auto input_of(const Splat& s, float left, float top) {
   if constexpr (std::is_same_v<T, HalfScalar>) {
     return lane_input_in_half<T>(s, left, top);
   } else {
@@ -79,15 +79,14 @@ class Exp2Lanes {
 template <class T, class Note>
 [[gnu::always_inline]] inline void blend_lanes(SubtileState& state, int subtile_x, int subtile_y,
                                                const Splat& splat, const Note& note) {
-  const LaneInput<T> in =
-      input_of<T>(splat, splat.x - static_cast<float>(subtile_x * kSubtilePx),
-                  splat.y - static_cast<float>(subtile_y * kSubtilePx));
+  const auto in = input_of<T>(splat, splat.x - static_cast<float>(subtile_x * kSubtilePx),
+                              splat.y - static_cast<float>(subtile_y * kSubtilePx));
   const T finish = constant<T>(kTransmittanceMin);
   T exponent[kSubtilePixels], alpha[kSubtilePixels];
   Exp2Lanes<T> exp2;
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_px);
-    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_px);
+    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_x);
+    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_y);
     exponent[lane] = log2_falloff(in.conic, dx, dy);
     exp2.put(lane, exponent[lane]);
   }

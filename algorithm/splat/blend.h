@@ -52,8 +52,9 @@ struct SubtileState {
 };
 
 // In which arithmetic pixels are blended and kept. kHalf: each operation rounded to 16 bits
-// (half_scalar.h), the conic (once log2(e) is in it) and distances of a splat scaled by a power of
-// two of its own, so that wide splats do not vanish among the subnormal.
+// (half_scalar.h), the conic with its square completed (square_conic.h; once a splat, in single
+// precision), it and distances scaled by powers of two of the splat's own, so that wide splats do
+// not vanish among the subnormal.
 enum class BlendPrecision : std::uint8_t { kSingle, kHalf };
 
 // Fresh state; lanes whose pixel lies outside the frame (width x height px) begin finished.

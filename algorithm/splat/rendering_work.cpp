@@ -8,6 +8,7 @@
 #include "algorithm/splat/flow_ends.h"
 #include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/row_span.h"
+#include "algorithm/splat/square_conic.h"
 
 namespace sgs {
 namespace {
@@ -15,11 +16,11 @@ namespace {
 constexpr std::size_t kBesideBlend = 1;  // a word that goes along: the sub-tile's number
 
 // What blending does for 16 pixels, in the arithmetic T; state(value): of a pixel, from outside.
-template <class T, class State>
-void blend_work(const LaneInput<T>& in, const State& state) {
+template <class T, class Conic, class State>
+void blend_work(const LaneInput<T, Conic>& in, const State& state) {
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_px);
-    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_px);
+    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_x);
+    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_y);
     const T exponent = log2_falloff(in.conic, dx, dy);
     const T alpha = alpha_of(exponent, exp2_of(exponent), in.opacity);
     const LightShare<T> light = take_light(alpha, T(state(0.5F)));
@@ -85,7 +86,11 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   const auto below = spans.carried();
   for (std::size_t i = below.size() - kEdgeWords; i < below.size(); ++i) keep(flow, {below[i]});
   out.spanned = flow.size();
-  static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
+  if (precision == BlendPrecision::kHalf) {
+    static_cast<void>(square_conic(splat.conic_a, splat.conic_b, splat.conic_c));
+  } else {
+    static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
+  }
   out.in_base_2 = flow.size();
   flow.pass_beside(kBesideBlend);
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
@@ -137,8 +142,8 @@ std::vector<LaneStep> span_steps(const OperationLatencies& single) {
   return lane_steps(of.flow, of.spans_begun, of.spanned, single, {of.edge});
 }
 
-std::vector<LaneStep> conic_steps(const OperationLatencies& single) {
-  const RenderingFlow of = rendering_flow(BlendPrecision::kSingle);
+std::vector<LaneStep> conic_steps(BlendPrecision precision, const OperationLatencies& single) {
+  const RenderingFlow of = rendering_flow(precision);
   return lane_steps(of.flow, of.spanned, of.in_base_2, single);
 }
 

@@ -83,8 +83,8 @@ Datapath part_test_pipeline(const GscoreConfig& config) {
 // A splat that is blended takes a turn for each block of a part at least, so that lanes for that
 // pace suffice. Ahead of them the halves of its record are widened, and the conic's scaled.
 Datapath conic_pipeline(const GscoreConfig& config) {
-  Datapath path =
-      counted_datapath("conic", "rendering", rendering_work(BlendPrecision::kSingle).conic);
+  const BlendPrecision precision = config.rendering.precision;
+  Datapath path = counted_datapath("conic", "rendering", rendering_work(precision).conic);
   constexpr std::uint32_t kHalves = 7, kOfConic = 3;
   if (config.tiles.features == NumberFormat::kHalf) {
     path.part_of("comparator").operations +=
@@ -93,7 +93,7 @@ Datapath conic_pipeline(const GscoreConfig& config) {
   const int across = kSubtilesPerTile / config.tiles.subtiles_across;
   const std::uint64_t turn = static_cast<std::uint64_t>(across * across) * blend_interval(config);
   path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, turn));
-  schedule(path, conic_steps(config.single()), config.single());
+  schedule(path, conic_steps(precision, config.single()), config.single());
   return path;
 }
 

@@ -14,9 +14,9 @@ Datapath convert_pipeline(const GscoreConfig& config, int sh_degree);
 Datapath tile_test_pipeline(const GscoreConfig& config);
 Datapath part_test_pipeline(const GscoreConfig& config);
 
-// Of the VRUs of one core: log2(e) into a splat's conic, once a splat; where its centre is beside a
-// block of 16 pixels, in single precision whatever follows; the block, a pixel for each VRU;
-// finished pixels to the frame's format.
+// Of the VRUs of one core: log2(e) into a splat's conic, and its square completed for blending in
+// half, once a splat; where its centre is beside a block of 16 pixels; both in single precision
+// whatever follows; the block, a pixel for each VRU; finished pixels to the frame's format.
 Datapath conic_pipeline(const GscoreConfig& config);
 Datapath corner_pipeline(const GscoreConfig& config);
 Datapath blend_pipeline(const GscoreConfig& config);
