@@ -7,6 +7,7 @@
 #include "algorithm/splat/exp2.h"
 #include "algorithm/splat/scalar.h"
 #include "algorithm/splat/splat.h"
+#include "algorithm/splat/square_splat.h"
 
 namespace sgs {
 
@@ -79,11 +80,12 @@ inline LightShare<T> take_light(T alpha, T before) {
 
 // Blends `splat` into the sub-tile (subtile_x, subtile_y) of the frame.
 void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
-void blend_in_half(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
+// In half.
+void blend(SubtileState& state, int subtile_x, int subtile_y, const SquareSplat& splat);
 // The same, and what the splat took. A function of its own: who does not look pays nothing.
 LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
-LaneShares blend_in_half_and_tell(SubtileState& state, int subtile_x, int subtile_y,
-                                  const Splat& splat);
+LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
+                          const SquareSplat& splat);
 
 // Whether every pixel of the block is finished.
 bool finished(const SubtileState& state);

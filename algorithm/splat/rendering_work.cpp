@@ -65,15 +65,41 @@ DataFlow spans_begin_flow() {
   return flow;
 }
 
+// A pixel's numbers come when they are taken.
+auto state_into(RenderingFlow& of) {
+  return [&of](float value) {
+    const Counting of_pixel = input(of.flow, value);
+    of.state.push_back(of_pixel.node);
+    return of_pixel;
+  };
+}
+
+// Of a splat whose numbers come as halves, in units of its own, from the corner on.
+RenderingFlow halves_flow() {
+  RenderingFlow out;
+  constexpr AxisUnits kUnits = {0.125F, 0.25F};
+  const auto half = [&](float value) { return CountingHalf(input(out.flow, value)); };
+  const Counting left = input(out.flow, 5.5F), top = input(out.flow, 5.25F);
+  out.flow.pass_beside(kBesideBlend);
+  blend_work(
+      LaneInput<CountingHalf, SquareConic<CountingHalf>>{{half(-0.7F), half(0.6F), half(-0.6F)},
+                                                         half(0.9F),
+                                                         half(0.1F),
+                                                         half(0.2F),
+                                                         half(0.3F),
+                                                         CountingHalf(scaled_by(left, kUnits.x)),
+                                                         CountingHalf(scaled_by(top, kUnits.y)),
+                                                         kUnits.x,
+                                                         kUnits.y},
+      state_into(out));
+  return out;
+}
+
 RenderingFlow rendering_flow(BlendPrecision precision) {
   RenderingFlow out;
   DataFlow& flow = out.flow;
   const SplatOf<Counting> splat = leaning_splat(flow);
-  const auto state = [&](float value) {
-    const Counting of_pixel = input(flow, value);
-    out.state.push_back(of_pixel.node);
-    return of_pixel;
-  };
+  const auto state = state_into(out);
   RowSpans<Counting> spans(splat);
   // The edge above is that of another line, or the graph would find there where the row's top lies.
   spans.start(kFirstRowPx - 1);
@@ -96,7 +122,7 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
   out.cornered = flow.size();
   if (precision == BlendPrecision::kHalf) {
-    blend_work(lane_input_in_half<CountingHalf>(splat, left, top), state);
+    blend_work(lane_input_in_half<CountingHalf>(square_splat(splat), left, top), state);
   } else {
     blend_work(lane_input(splat, left, top), state);
   }
@@ -178,6 +204,25 @@ std::vector<LaneStep> blend_from_corner_steps(BlendPrecision precision,
                                               const OperationLatencies& latencies) {
   const RenderingFlow of = rendering_flow(precision);
   return blend_steps_from(of, of.cornered, latencies);
+}
+
+OperationCounts blend_of_halves_work() {
+  const RenderingFlow of = halves_flow();
+  return of.flow.counts(0, of.flow.size());
+}
+
+std::vector<LaneStep> blend_of_halves_steps(const OperationLatencies& half) {
+  return blend_steps_from(halves_flow(), 0, half);
+}
+
+DataFlow terms_of_square_flow() {
+  DataFlow flow;
+  const SquareConic<Counting> square = {input(flow, -0.02F), input(flow, 0.3F),
+                                        input(flow, -0.03F)};
+  const ConicTerms<Counting> terms = conic_terms(square);
+  const Log2Conic<Counting> conic = log2_conic(terms.a, terms.b, terms.c);
+  keep(flow, {conic.a, conic.b, conic.c});
+  return flow;
 }
 
 }  // namespace sgs

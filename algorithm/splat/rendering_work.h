@@ -47,4 +47,12 @@ std::vector<LaneStep> corner_steps(const OperationLatencies& single);
 std::vector<LaneStep> blend_from_corner_steps(BlendPrecision precision,
                                               const OperationLatencies& latencies);
 
+// The same from the corner on of a splat whose numbers come as halves, its square completed
+// (algorithm/memory/tile_records.h): nothing is rounded but where its centre is.
+OperationCounts blend_of_halves_work();
+std::vector<LaneStep> blend_of_halves_steps(const OperationLatencies& half);
+
+// Such a splat for blending in single: its conic's terms come back, and log2(e) into them.
+DataFlow terms_of_square_flow();
+
 }  // namespace sgs

@@ -3,6 +3,8 @@
 // count; these two have one sign.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "algorithm/splat/constants.h"
@@ -28,6 +30,52 @@ inline SquareConic<T> square_conic(T conic_a, T conic_b, T conic_c) {
                      T(std::numeric_limits<float>::min()));
   const T lean = T(conic_b / a);
   return {T(a * factor), lean, T(T(conic_c - conic_b * lean) * factor)};
+}
+
+// What square_conic() was made of.
+template <class T>
+struct ConicTerms {
+  T a, b, c;
+};
+template <class T>
+inline ConicTerms<T> conic_terms(const SquareConic<T>& conic) {
+  const T inverse = constant<T>(-2 / kLog2E);
+  const T a = T(conic.a * inverse), b = T(a * conic.lean);
+  return {a, b, T(conic.rest * inverse + b * conic.lean)};
+}
+
+// Powers of two, 2^e, by which lengths along x and along y are multiplied.
+struct AxisUnits {
+  float x, y;
+};
+
+// |factor| of a square along an axis is in [1/4, 1) of 4^e, or as near to it as 4^e and 4^-e are
+// normal floats.
+inline float axis_unit(float factor) {
+  constexpr int kFarthest = 126;
+  int exponent = 0;
+  std::frexp(factor, &exponent);
+  exponent = std::clamp(exponent, -kFarthest, kFarthest);
+  return std::ldexp(1.0F, (exponent + (exponent & 1)) / 2);
+}
+
+// Of both axes: both factors are near 1, however long the ellipse is, and B/A is what it is for a
+// round one that leans.
+template <class T>
+inline AxisUnits axis_units(const SquareConic<T>& conic) {
+  return {axis_unit(value_of(conic.a)), axis_unit(value_of(conic.rest))};
+}
+
+// For lengths in these units: additions to exponents.
+template <class T>
+inline SquareConic<T> in_units(const SquareConic<T>& conic, const AxisUnits& of) {
+  return {scaled_by(conic.a, 1 / (of.x * of.x)), scaled_by(conic.lean, of.x / of.y),
+          scaled_by(conic.rest, 1 / (of.y * of.y))};
+}
+// The way back.
+template <class T>
+inline SquareConic<T> in_px(const SquareConic<T>& conic, const AxisUnits& of) {
+  return in_units(conic, AxisUnits{1 / of.x, 1 / of.y});
 }
 
 // log2 of exp(power), as of a Log2Conic (blend.h).

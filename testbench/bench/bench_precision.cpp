@@ -119,7 +119,7 @@ struct Pictures {
     const float left = s.x - static_cast<float>(subtile_x * kSubtilePx);
     const float top = s.y - static_cast<float>(subtile_y * kSubtilePx);
     const auto in = lane_input(s, left, top);
-    const auto square_in_half = lane_input_in_half<HalfScalar>(s, left, top);
+    const auto square_in_half = lane_input_in_half<HalfScalar>(square_splat(s), left, top);
     const auto in_half = quadratic_lanes_in_half<HalfScalar>(s, left, top);
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
       const int column = lane % kSubtilePx, row = lane / kSubtilePx;

@@ -72,7 +72,7 @@ BoundedFloat completed(const Projected<BoundedFloat>& p, BoundedFloat dx, Bounde
   return log2_falloff(conic_by_covariance(p), dx, dy);
 }
 BoundedHalf completed_in_half(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
-  return in_lane(lane_input_in_half<BoundedHalf>(splat_of(p), dx, dy));
+  return in_lane(lane_input_in_half<BoundedHalf>(square_splat(splat_of(p)), dx, dy));
 }
 
 template <class T>

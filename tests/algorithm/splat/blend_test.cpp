@@ -245,7 +245,7 @@ TEST_CASE("blending in half: within what its roundings allow of blending in floa
       s.opacity = opacity(random);
       s.rgb = {shade(random), shade(random), shade(random)};
       blend(single, 3, 5, s);
-      blend_in_half(in_half, 3, 5, s);
+      blend(in_half, 3, 5, square_splat(s));
     }
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
       worst = std::max(worst, std::abs(single.red[lane] - in_half.red[lane]));
@@ -265,7 +265,7 @@ TEST_CASE("blending in half: a splat wider than a half can say is not lost") {
   s.rgb = {1, 1, 1};
   s.x = 20000;
   SubtileState state = make_subtile(0, 0, 100, 100);
-  blend_in_half(state, 0, 0, s);
+  blend(state, 0, 0, square_splat(s));
   CHECK(state.red[0] == Approx(0.5 * std::exp(-2.0)).epsilon(0.01));  // two sigmas from the centre
 }
 
@@ -297,7 +297,7 @@ TEST_CASE(
     s.rgb = {0.5F, 0.5F, 0.5F};
     SubtileState single = make_subtile(0, 0, 100, 100), in_half = single;
     blend(single, 0, 0, s);
-    blend_in_half(in_half, 0, 0, s);
+    blend(in_half, 0, 0, square_splat(s));
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
       CHECK(single.contributors[lane] == 0);
       CHECK(in_half.contributors[lane] == 0);
@@ -348,7 +348,7 @@ TEST_CASE("blending in half: conics at the ends of their range are drawn as in f
     s.rgb = {1, 1, 1};
     SubtileState single = make_subtile(0, 0, 100, 100), in_half = single;
     blend(single, 0, 0, s);
-    blend_in_half(in_half, 0, 0, s);
+    blend(in_half, 0, 0, square_splat(s));
     int pixels = 0;
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
       CAPTURE(lane, single.red[lane], in_half.red[lane]);
@@ -377,7 +377,7 @@ TEST_CASE("blending in half: a needle is as long and as wide as in float, at eve
     s.rgb = {1, 1, 1};
     SubtileState single = make_subtile(0, 0, 100, 100), in_half = single;
     blend(single, 0, 0, s);
-    blend_in_half(in_half, 0, 0, s);
+    blend(in_half, 0, 0, square_splat(s));
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
       CAPTURE(lane, single.red[lane], in_half.red[lane]);
       CHECK(std::abs(in_half.red[lane] - single.red[lane]) < 0.2F);
@@ -391,7 +391,7 @@ TEST_CASE("blending in half: a colour beyond the largest half leaves pixels that
   s.opacity = 0.5F;
   s.rgb = {1e30F, 1, INFINITY};
   SubtileState state = make_subtile(0, 0, 100, 100);
-  for (int layer = 0; layer < 3; ++layer) blend_in_half(state, 0, 0, s);
+  for (int layer = 0; layer < 3; ++layer) blend(state, 0, 0, square_splat(s));
   constexpr int kFarthest = kSubtilePixels - 1;
   CHECK(state.red[kFarthest] == 0);
   CHECK(state.red[0] > 57000);
