@@ -324,7 +324,7 @@ TEST_CASE("blending in half: conics at the ends of their range are drawn as in f
       {"A is tiny, B is its root", 1e-30F, 1e-15F, 3, 12},
       {"C is tiny", 3, 1e-20F, kTiny, 12},
       {"C is tiny, B is its root", 3, 1e-15F, 1e-30F, 12},
-      {"A below what a record in half holds", 0, 1e-4F, 3, 12},
+      {"A is 0, and the ellipse leans", 0, 1e-4F, 3, 12},
       {"a needle along x, hardly leaning", 1e-7F, 3e-4F, 3, 12},
       {"a needle at 45 degrees", 1.6F, -1.599999F, 1.6F, 13},
       {"power rises above 0 on a diagonal", 1, -2, 1, 9},

@@ -258,6 +258,15 @@ TEST_CASE("work of rendering a splat, counted") {
   CHECK(folded_macs(in_half.conic) == kReciprocalMacs + kQuotientMacs + 1 + 2);
   CHECK(in_half.conic.comparisons == 2);
   CHECK(in_half.conic.scalings == 1);
+  // Of a record that holds halves: only where the centre is gets units; nothing is rounded.
+  const OperationCounts of_halves = blend_of_halves_work();
+  CHECK(folded_macs(of_halves) == folded_macs(in_half.blend_from_corner));
+  CHECK(of_halves.comparisons == 16 * 5);
+  CHECK(of_halves.scalings == 16 + 2);
+  CHECK(of_halves.roundings == 0);
+  // Such a record in single: three products, a sum with one; three products with log2(e).
+  const DataFlow terms = terms_of_square_flow();
+  CHECK(folded_macs(terms.counts(0, terms.size())) == 4 + 3);
   CHECK(work.subtile_blend.roundings == 0);
   CHECK(work.span.square_roots == 1);
   CHECK(work.spans_begin.square_roots == 2);
