@@ -18,8 +18,8 @@ struct SquareConic {
   T a, lean, rest;
 };
 
-// Once a splat. A is taken as 2^-26 of C at least, so that there is a quotient where no more of it is
-// left: as C is below 1 / 0.3 px^2, that moves alpha by 4 % at most 1,280 px from the centre, of
+// Once a splat. A is taken as 2^-26 of C at least, so that there is a quotient where no more of it
+// is left: as C is below 1 / 0.3 px^2, that moves alpha by 4 % at most 1,280 px from the centre, of
 // splats longer than 4,500 px along x. The least number is for a conic of 0, of splats wider than
 // 10^10 px.
 template <class T>
