@@ -97,7 +97,8 @@ class ClockedWalk {
   // Until one takes time: what can be done, the longest way first.
   void begin_step() {
     while (busy_ == 0 && group_ < groups_.size()) {
-      if (!(begin_group() || read_node() || give_chunk() || enter_children() || begin_test())) return;
+      if (!(begin_group() || read_node() || give_chunk() || enter_children() || begin_test()))
+        return;
     }
   }
   bool begin_group() {

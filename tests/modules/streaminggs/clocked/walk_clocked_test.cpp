@@ -27,8 +27,8 @@ tb::ExactVsuPlan plan_of(const WalkWorkload& load, std::uint64_t seed) {
   plan.config.upper_nodes = hw.upper_nodes;
   plan.config.nodes_in_flight = hw.nodes_in_flight;
   plan.config.nodes_in_test = hw.nodes_in_test;
-  plan.config.test_lanes = static_cast<std::uint32_t>(
-      (tb::macs_of_a_test() + hw.test_cycles - 1) / hw.test_cycles);
+  plan.config.test_lanes =
+      static_cast<std::uint32_t>((tb::macs_of_a_test() + hw.test_cycles - 1) / hw.test_cycles);
   plan.config.test_depth_cycles = hw.depth_cycles;
   plan.config.cycles_per_queue_operation = hw.operation_cycles;
   plan.config.queue_entries = hw.queue_entries;
