@@ -23,6 +23,12 @@ class FifoTimes {
     ++pushed_;
     return at;
   }
+  // The first cycle from `now` on with room for one more entry beside so many, fewer than the
+  // capacity.
+  std::uint64_t room(std::uint64_t now, std::uint64_t beside = 0) const {
+    return std::max(now, entries_[place(pushed_ + beside)].removed);
+  }
+  std::uint64_t capacity() const { return entries_.size(); }
   // The cycle in which a reader that looks in `now` has the oldest entry, which stays until it is
   // removed.
   std::uint64_t front(std::uint64_t now) const {

@@ -116,17 +116,15 @@ void ExactEstimate::filter(std::uint32_t first, std::uint32_t count, std::uint32
   const auto hand_on = [&](std::uint64_t now) {
     const KeyWork& key = of_->keys[next];
     list_.push_back({key.depth, key.slot, next++});
-    now = keys.push(now);
+    keys.push(now);
     units_.sorters[sorter].take(keys);
-    return now;
   };
   const auto end_visit = [&](std::uint64_t now) {
-    now = keys.push(now);
+    keys.push(now);
     units_.sorters[sorter].sort(keys);
-    return now;
   };
   units_.coarse[hfu].take({group_, first, count, rendering_.finished_from()},
-                          visits_[visit_ % visits_.size()], passes, hand_on, end_visit);
+                          visits_[visit_ % visits_.size()], keys, passes, hand_on, end_visit);
 }
 
 void ExactEstimate::merge_keys() {
@@ -163,15 +161,15 @@ void ExactEstimate::emit(const MergeEstimate::Key& key) {
 void ExactEstimate::to_fine(const FineFilterEstimate::Candidate& candidate, std::uint32_t splat) {
   const std::size_t hfu = sequence_++ % released_.size();
   units_.merge.go_on(released_[hfu].push(units_.merge.now()));
-  units_.fine[hfu].take(candidate, released_[hfu], [&](std::uint64_t now, bool tested) {
-    now = splats_[hfu].push(now);
+  const auto hand_on = [&](std::uint64_t now, bool tested) {
+    splats_[hfu].push(now);
     if (tested && candidate.splat) {
       rendering_.blend(splats_[hfu], splat);
     } else {
       rendering_.pass(splats_[hfu]);
     }
-    return now;
-  });
+  };
+  units_.fine[hfu].take(candidate, released_[hfu], splats_[hfu], hand_on);
 }
 
 }  // namespace sgs

@@ -7,6 +7,7 @@ CoarseFilterEstimate::CoarseFilterEstimate(const HfuConfig& config, const Coarse
                                            const RecordArray& first_halves,
                                            const PortEstimate& port)
     : config_(config),
+      depth_cycles_(config.cfu_depth_cycles),
       turns_(unit.tests(), unit.with_cfus()),
       copies_(unit.tests().copies),
       first_halves_(first_halves),

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
+#include <limits>
 #include <vector>
 
 #include "algorithm/memory/regions.h"
@@ -23,11 +25,11 @@ class CoarseFilterEstimate {
     std::uint32_t group = 0, first = 0, count = 0;  // storage slots
     std::uint64_t finished_from = 0;                // its group, as far as that is known
   };
-  // passes(slot): whether the Gaussian does; hand_on(cycle): gives the next candidate to sorting,
-  // end_visit(cycle): the mark behind them; both say the cycle in which it is there.
+  // passes(slot): whether the Gaussian does; hand_on(cycle): gives the next candidate to `keys`,
+  // end_visit(cycle): the mark behind them.
   template <class Passes, class HandOn, class End>
-  void take(const Share& share, FifoTimes& shares, const Passes& passes, const HandOn& hand_on,
-            const End& end_visit) {
+  void take(const Share& share, FifoTimes& shares, const FifoTimes& keys, const Passes& passes,
+            const HandOn& hand_on, const End& end_visit) {
     load_ = shares.pop(load_);
     std::uint32_t count = share.count;
     if (count > 0 && share.finished_from <= load_) {
@@ -45,13 +47,14 @@ class CoarseFilterEstimate {
       const std::uint64_t there = of_slice > 0 ? fetch(share.group, at, of_slice) : 0;
       slices_.push(load_);
       filter_ = std::max(slices_.pop(filter_), there);
-      if (of_slice > 0) filter(share, at, of_slice, at + of_slice < end, passes, hand_on);
+      if (of_slice > 0) filter(share, at, of_slice, at + of_slice < end, keys, passes, hand_on);
       slot = filter_;
       at += of_slice;
     } while (at < end);
     ++work_.counters.shares;
     ++work_.filter_cycles;
-    filter_ = end_visit(filter_ + 1);
+    filter_ = place_in(keys, filter_) + 1;
+    end_visit(filter_);
   }
 
   CoarseFilter::Work work() const {
@@ -69,7 +72,7 @@ class CoarseFilterEstimate {
   // As CoarseFilter::filter_slice().
   template <class Passes, class HandOn>
   void filter(const Share& share, std::uint32_t first, std::uint32_t count, bool more,
-              const Passes& passes, const HandOn& hand_on) {
+              const FifoTimes& keys, const Passes& passes, const HandOn& hand_on) {
     const std::uint64_t began = filter_;
     std::uint64_t passed = began, cycle = began;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -77,25 +80,44 @@ class CoarseFilterEstimate {
         work_.counters.dropped_saturated += count - i;
         break;
       }
-      cycle = turns_.next(cycle);
+      cycle = turns_.next(place_in(keys, cycle));
       ++work_.counters.read;
       work_.counters.tests += config_.coarse_filter ? 1 : 0;
-      if (!passes(first + i)) continue;
+      if (!passes(first + i)) {
+        under_test_.push_back(cycle + depth_cycles_);
+        continue;
+      }
       ++work_.counters.candidates;
       work_.filter_cycles += cycle - passed;
-      cycle = passed = hand_on(cycle);
+      hand_on(cycle);
+      passed = cycle;
     }
     if (cycle == began && more) ++cycle;
     work_.filter_cycles += cycle - passed;
     filter_ = cycle;
   }
 
+  // The first cycle from `now` on in which `keys` has a place for one more beside what is under
+  // test and will not pass.
+  std::uint64_t place_in(const FifoTimes& keys, std::uint64_t now) {
+    for (;;) {
+      while (!under_test_.empty() && under_test_.front() <= now) under_test_.pop_front();
+      const std::uint64_t room =
+          under_test_.size() < keys.capacity() ? keys.room(now, under_test_.size()) : kNever;
+      if (room == now) return now;
+      now = under_test_.empty() ? room : std::min(room, under_test_.front());
+    }
+  }
+
+  static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
   const HfuConfig config_;
+  const std::uint64_t depth_cycles_;
   const CfuTurns turns_;
   const std::uint32_t copies_;
   const RecordArray first_halves_;
   PortEstimate port_;
-  std::vector<std::uint64_t> slots_;  // ring: when the slices in them were filtered
+  std::vector<std::uint64_t> slots_;      // ring: when the slices in them were filtered
+  std::deque<std::uint64_t> under_test_;  // and will not pass: when they leave the pipeline
   FifoTimes slices_;
   std::uint64_t load_ = 0, filter_ = 0;  // until when they work
   CoarseFilter::Work work_;

@@ -150,6 +150,8 @@ void FineFilter::run_decode(Part& part) {
 }
 
 void FineFilter::run_filter(Part& part) {
+  part.places.assign(static_cast<std::size_t>(splats.size()) / parts_.size(),
+                     PlacesUnderTest(config_.ffu_depth_cycles));
   while (true) {
     if (part.stage) {
       filter_decoded(part);
@@ -162,12 +164,14 @@ void FineFilter::run_filter(Part& part) {
 void FineFilter::filter_decoded(Part& part) {
   const Decoded& front = part.stage->decoded.front(part.filter);
   take_up(front.candidate, part.filter);
+  const bool waited = part.stage->decoded.front_waited();
+  wait_for_place(part, front.candidate.visit);
   const bool wanted = is_wanted(part, front.candidate);
   if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
   const Decoded next = front;
   part.stage->decoded.remove_front();
   if (next.candidate.mark != Mark::kNone) {
-    pass_mark(part, next.candidate);
+    pass_mark(part, next.candidate, waited);
   } else if (wanted) {
     test(part, next);
   } else {
@@ -180,12 +184,15 @@ void FineFilter::filter_fetched(Part& part) {
   next.candidate = part.fetched.front(part.filter);
   take_up(next.candidate, part.filter);
   if (next.candidate.mark != Mark::kNone) {
+    const bool waited = part.fetched.front_waited();
+    wait_for_place(part, next.candidate.visit);
     part.fetched.remove_front();
-    pass_mark(part, next.candidate);
+    pass_mark(part, next.candidate, waited);
     return;
   }
   await(memory, part.filter, next.candidate.ticket);
   ++counters_.taken;
+  wait_for_place(part, next.candidate.visit);
   const bool wanted = is_wanted(part, next.candidate);
   if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
   next.second = read_slot(part, next.candidate);
@@ -203,8 +210,13 @@ bool FineFilter::is_wanted(const Part& part, const FineCandidate& candidate) con
          !finished[static_cast<int>(part.index)]->finished(candidate.group);
 }
 
-void FineFilter::pass_mark(Part& part, const FineCandidate& candidate) {
-  part.filter.work(1);
+void FineFilter::wait_for_place(Part& part, std::uint32_t visit) {
+  part.places[visit % part.places.size()].wait_for_one(to_sorting(part, visit), part.filter);
+}
+
+// beside_lanes: it has been there while the lanes were at work.
+void FineFilter::pass_mark(Part& part, const FineCandidate& candidate, bool beside_lanes) {
+  if (!beside_lanes) part.filter.work(1);
   SplatToken end;
   end.group = candidate.group;
   end.visit = candidate.visit;
@@ -220,12 +232,23 @@ void FineFilter::drop(Part& part, const FineCandidate& candidate) {
 }
 
 void FineFilter::test(Part& part, const Decoded& decoded) {
-  const FineCandidate& candidate = decoded.candidate;
-  part.filter.work(test_cycles_);
+  const std::uint64_t began = part.filter.clock().now_cycles();
+  part.filter.work(1);
   ++counters_.tests;
+  hand_on(part, decoded, began);
+  const std::uint64_t now = part.filter.clock().now_cycles();
+  if (now < began + test_cycles_) part.filter.work(began + test_cycles_ - now);
+}
+
+// What becomes of a test, from its first cycle on on the way through the pipeline.
+void FineFilter::hand_on(Part& part, const Decoded& decoded, std::uint64_t began) {
+  const FineCandidate& candidate = decoded.candidate;
   SplatToken token;
   if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||
       !reaches_group(token.splat, job_.parts[part.index][candidate.group])) {
+    if (place_.rejects == Rejects::kDropped) {
+      part.places[candidate.visit % part.places.size()].add(began);
+    }
     reject(part, candidate);
     return;
   }

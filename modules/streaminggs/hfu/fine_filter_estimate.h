@@ -27,33 +27,41 @@ class FineFilterEstimate {
     bool splat = false;               // it touches the group
     std::uint64_t finished_from = 0;  // its group, as far as that is known
   };
-  // Which came to `candidates` before. hand_on(cycle, tested): gives what became of it to the next
-  // unit and says the cycle in which that has taken it; tested: a fine test has been done.
+  // Which came to `candidates` before. hand_on(cycle, tested): gives what becomes of it to
+  // `splats`, which has a place for it then; tested: a fine test is done.
   template <class HandOn>
-  void take(const Candidate& candidate, FifoTimes& candidates, const HandOn& hand_on) {
+  void take(const Candidate& candidate, FifoTimes& candidates, const FifoTimes& splats,
+            const HandOn& hand_on) {
     const Fetched fetched = fetch(candidate, candidates);
     if (codebooks_ != nullptr) decode(candidate, fetched);
     FifoTimes& from = codebooks_ != nullptr ? decoded_ : fetched_;
-    filter_ = from.front(filter_);
+    const std::uint64_t there = from.front(0);
+    const bool waited = there < filter_;
+    filter_ = std::max(filter_, there);
     bool tested = false;
     if (fetched.there) {
       if (codebooks_ == nullptr) {
         filter_ = std::max(filter_, fetched.answered);
         ++work_.counters.taken;
       }
+      filter_ = splats.room(filter_);
       const std::uint64_t began = filter_;
       tested = candidate.finished_from > filter_;
       if (tested) filter_ = next_turn(filter_, interval_);
       if (codebooks_ == nullptr) free_slot(fetched.slot, filter_);
       from.remove(filter_);
-      filter_ += tested ? test_cycles_ : 1;
-      work_.filter_cycles += filter_ - began;
+      const std::uint64_t of_test = tested ? test_cycles_ : 1;
+      work_.filter_cycles += filter_ + of_test - began;
+      hand_on(filter_ + 1, tested);
+      filter_ += of_test;
     } else {
-      from.remove(filter_++);
-      ++work_.filter_cycles;
+      filter_ = splats.room(filter_);
+      from.remove(filter_);
+      filter_ += waited ? 0 : 1;
+      work_.filter_cycles += waited ? 0 : 1;
+      hand_on(filter_, tested);
     }
     count(candidate, fetched.there, tested);
-    filter_ = hand_on(filter_, tested);
   }
 
   FineFilter::Work work() const {
