@@ -70,6 +70,13 @@ def main() -> int:
     parser.add_argument("--steps", type=int, default=240, help="of tuning")
     parser.add_argument("--tuning-size", default="240x135", metavar="WxH", help="px, for tuning")
     parser.add_argument(
+        "--between",
+        type=int,
+        default=60,
+        metavar="N",
+        help="cameras between a scene's own to tune on",
+    )
+    parser.add_argument(
         "--rates", nargs="+", type=float, default=[0.25, 1, 4], metavar="X", help="of tuning"
     )
     parser.add_argument(

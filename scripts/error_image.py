@@ -88,12 +88,13 @@ def make(scenes: list[Scene], arguments: argparse.Namespace) -> None:
     """Raises Failure, ValueError."""
     rows, measured = [], []
     kept = arguments.out / KEPT
-    with SweepServer(arguments.streaminggs, kept, arguments.jobs) as server:
-        for scene in scenes:
+    for scene in scenes:
+        # A server of its own: it holds all ways in which points want their scene stored.
+        with SweepServer(arguments.streaminggs, kept, arguments.jobs) as server:
             more, views = swept_rows(scene, arguments, server)
-            rows, measured = rows + more, measured + views
-            print(f"{scene.name}: {len(more)} frames", file=sys.stderr, flush=True)
-        server.end()
+            server.end()
+        rows, measured = rows + more, measured + views
+        print(f"{scene.name}: {len(more)} frames", file=sys.stderr, flush=True)
     for scene in scenes:
         more, views = tuned_rows(scene, arguments)
         rows, measured = rows + more, measured + views

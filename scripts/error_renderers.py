@@ -45,7 +45,7 @@ def timed(program: pathlib.Path, threads: int, specs: list[str]) -> list[list[st
         raise ValueError(" ".join(done.stderr.split()))
     if done.returncode != 0:
         raise Failure(f"{program.name}: {simulations.said(done)}")
-    head, *rows = csv.reader(done.stdout.splitlines())
+    head, *rows = list(csv.reader(done.stdout.splitlines())) or [[]]
     if tuple(head) != HEAD:
         raise Failure(f"{program}: columns {', '.join(head)}; expected {', '.join(HEAD)}")
     return rows

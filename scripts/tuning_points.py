@@ -16,7 +16,6 @@ from subjects import Subject
 from target_pictures import target_pictures
 
 LOOKS = 8  # at the test views on the way
-BETWEEN = 60  # cameras made to tune on
 
 
 def kept_fittings(arguments: argparse.Namespace) -> KeptFittings:
@@ -25,7 +24,8 @@ def kept_fittings(arguments: argparse.Namespace) -> KeptFittings:
 
 def tuning(scene: Scene, rate: float, arguments: argparse.Namespace) -> Fitting:
     """To paper order in single precision; no L_CBP, which slows a step and gains no decibel."""
-    subject = Subject(scene.name, scene.spec, scene.cameras, arguments.tuning_size, BETWEEN)
+    facts = (scene.name, scene.spec, scene.cameras, arguments.tuning_size, arguments.between)
+    subject = Subject(*facts)
     words = (scene.spec, "--boundary", "--config", tunings.PAPER, "--beta", "0")
     words += tunings.set_words(("rendering.precision=fp32", "sram.shared_bytes=0"))
     words += (*subject.target_words(), "--rate", f"{rate:g}")
