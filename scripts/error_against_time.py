@@ -12,9 +12,8 @@ tuning     quality of test views against wall time: rates of tuning on the scene
 renderers  pictures of the renderers in software, and of thresholds at which a pixel is finished,
            against wall time, by threads
 
-Writes error_NAME.md and .csv, and figures beside them where Matplotlib is there. All frames and
-fittings are kept in the folder for tables: started again it goes on where it ended, but for the
-renderers, whose times are measured anew.
+Writes error_NAME.md and .csv, and figures beside them where Matplotlib is there. All frames,
+fittings and times are kept in the folder for tables: started again it goes on where it ended.
 """
 
 from __future__ import annotations
@@ -67,8 +66,8 @@ def main() -> int:
         "--configurations", type=int, default=12, help="machines that the model is judged by"
     )
     parser.add_argument("--seed", type=int, default=1, help="that they are drawn by")
-    parser.add_argument("--steps", type=int, default=240, help="of tuning")
-    parser.add_argument("--tuning-size", default="240x135", metavar="WxH", help="px, for tuning")
+    parser.add_argument("--steps", type=int, default=120, help="of tuning; 0: nothing is tuned")
+    parser.add_argument("--tuning-size", default="160x90", metavar="WxH", help="px, for tuning")
     parser.add_argument(
         "--between",
         type=int,

@@ -95,7 +95,7 @@ def make(scenes: list[Scene], arguments: argparse.Namespace) -> None:
             server.end()
         rows, measured = rows + more, measured + views
         print(f"{scene.name}: {len(more)} frames", file=sys.stderr, flush=True)
-    for scene in scenes:
+    for scene in scenes if arguments.steps else ():
         more, views = tuned_rows(scene, arguments)
         rows, measured = rows + more, measured + views
     if not measured:

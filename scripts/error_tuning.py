@@ -41,11 +41,13 @@ def make(scenes: list[Scene], arguments: argparse.Namespace) -> None:
         if not folder:
             raise ValueError(f"{name}: no data set; expected {subjects.DATASET_FORMS}")
         folders.append(folder)
+    if not folders and not arguments.steps:
+        raise ValueError("--steps: 0 and no --datasets: nothing to fit")
     kept = kept_fittings(arguments)
     asked = [
         (("tuning", scene.name, "rate", rate), tuning(scene, rate, arguments))
         for scene in scenes
-        for rate in arguments.rates
+        for rate in (arguments.rates if arguments.steps else ())
     ] + [
         (("training", folder.name, "budget", budget), training(folder, budget, arguments))
         for folder in folders

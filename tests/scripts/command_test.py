@@ -95,7 +95,7 @@ class WithTheCommand(InFolder):
                 ("--diagrams", "image", "model", "tuning", "renderers", *SMALL_ERRORS),
                 {"| truck | 0 | exact |": 27, "| truck | 0 | paper |": 20 + 2, "| tuning |": 2 + 3}
                 | {"| truck | 0 | tiles |": 4, "| truck | estimate | 2 |": 1}
-                | {"| tuning | truck | rate | 0.5 |": 3, "| truck | double |": 7 * 2}
+                | {"| tuning | truck | rate | 0.5 |": 3, "| truck | double |": 5 * 2}
                 | {"| truck | paper order in half |": 2},
             ),
             (
@@ -251,6 +251,11 @@ class WithTheCommand(InFolder):
                 error_against_time,
                 ("--diagrams", "tuning", "--datasets", "nope"),
                 "nope: no data set; expected",
+            ),
+            (
+                error_against_time,
+                ("--diagrams", "tuning", "--datasets", "--steps", "0"),
+                "--steps: 0 and no --datasets: nothing to fit",
             ),
             (
                 error_against_time,
