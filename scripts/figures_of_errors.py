@@ -115,7 +115,13 @@ def draw_thresholds(axes: Axes, rows: Sequence[dict[str, str]]) -> None:
         of_threads = [row for row in rows if row["threads"] == threads]
         x, y = ([number(row[name]) for row in of_threads] for name in ("ms", "PSNR dB"))
         style = {"color": COLOURS[3 * at % len(COLOURS)], "linestyle": LINES[at % len(LINES)]}
-        axes.plot(x, y, marker=MARKERS[at % len(MARKERS)], label=f"{threads} threads", **style)
+        axes.plot(
+            x,
+            y,
+            marker=MARKERS[at % len(MARKERS)],
+            label=f"{threads} thread{'s' * (threads != '1')}",
+            **style,
+        )
         for row, *place in zip(of_threads, x, y) if at == 0 else ():
             axes.annotate(row["finished below"], place, xytext=(5, -3),
                           textcoords="offset points", fontsize=7, bbox=ON_PAPER)  # fmt: skip
