@@ -62,7 +62,7 @@ def error_tuning(results: Results) -> Made:
             axes.plot(x, y, **line_style(at), label=f"{knob} {value}")
         axes.set_title(f"{what} {of}: PSNR of test views, dB", fontsize=8.5)
         axes.set_xlabel("seconds, with the looks in them")
-        axes.legend(loc="lower right")
+        axes.legend(loc="best")
     return (
         figure,
         f"Quality against wall time; a marker is a look at the test views. From {data.made}",
