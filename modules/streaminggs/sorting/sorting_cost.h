@@ -102,9 +102,9 @@ inline void publish_network(DataSheet& sheet, const SortingNetworkConfig& config
   if (entries <= kNetworkWidth) return;
   const std::uint32_t selected = kMergeWidth * (kNetworkWidth - 1) * exchanged_bits(entries);
   sheet.part("sorting", "select_bit", static_cast<double>(selected) / units_of_network, 1);
-  sheet.operations("sorting", "select_bit",
-                   static_cast<double>(kKeySelections) * exchanged_bits(entries) *
-                       static_cast<double>(moves));
+  sheet.operations(
+      "sorting", "select_bit",
+      static_cast<double>(kKeySelections) * exchanged_bits(entries) * static_cast<double>(moves));
 }
 
 constexpr const char* kComparedKeys = "compared keys";
@@ -141,9 +141,8 @@ inline void publish_sort_accesses(DataSheet& sheet, const char* rest, std::uint6
 // What lists of one entry spare, for the data sheet.
 inline void publish_trivial_sorts(DataSheet& sheet, const SortingNetworkConfig& config,
                                   std::uint64_t lists) {
-  sheet.left_out(
-      "trivial_sorts", "a visit with one splat", lists,
-      config.skip_trivial ? "a pass of the sorting network each" : "nothing: switched off");
+  sheet.left_out("trivial_sorts", "a visit with one splat", config.skip_trivial ? lists : 0,
+                 "a pass of the sorting network each");
 }
 
 }  // namespace sgs
