@@ -1,5 +1,5 @@
-// What a machine has and a frame never fed, with the number that would do: the same pixels in no
-// more cycles, for less area.
+// What a machine has and a frame never fed, with the number that would do: the same pixels, as
+// fast as before or nearly so, for less area.
 #pragma once
 
 #include <fmt/format.h>
