@@ -463,6 +463,9 @@ TEST_CASE("left out: what a tile-centric machine spares") {
   };
   for (const auto& [what, count] :
        {Counts{"tiles_not_touched", total(view, "tile_tests") - pairs},
+        // Of 16 blocks of a tile, those of looked-at splats that were not blended.
+        Counts{"parts_not_touched", 16 * counter_of_all(view, "rendering", "splats") -
+                                        counter_of_all(view, "rendering", "blocks")},
         Counts{"entries_of_finished_tiles", pairs - sorted},
         Counts{"reads_of_finished_tiles",
                pairs + total(view, "entries_split") - total(view, "entries_read")},
