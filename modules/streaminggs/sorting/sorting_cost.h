@@ -145,9 +145,8 @@ inline void publish_sort_accesses(DataSheet& sheet, const char* rest, std::uint6
 // What lists of one entry spare, for the data sheet.
 inline void publish_trivial_sorts(DataSheet& sheet, const SortingNetworkConfig& config,
                                   std::uint64_t lists) {
-  sheet.left_out(
-      "trivial_sorts", "a visit with one splat", lists,
-      config.skip_trivial ? "a pass of the sorting network each" : "nothing: switched off");
+  sheet.left_out("trivial_sorts", "a visit with one splat", config.skip_trivial ? lists : 0,
+                 "a pass of the sorting network each");
 }
 
 }  // namespace sgs
