@@ -158,8 +158,6 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
     wait_for_front(reader, WaitFor::kInput);
     return entries_[head_].value;
   }
-  // The oldest entry, which can be taken, could be in the cycle before already.
-  bool front_waited() const { return entries_[head_].ready < sc_core::sc_time_stamp(); }
   void remove_front() {
     head_ = wrapped(head_ + 1);
     --fill_;

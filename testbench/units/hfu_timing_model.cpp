@@ -174,7 +174,7 @@ class Pipeline {
     const bool waited = there < fine_;
     fine_ = std::max(fine_, there);
     if (gaussian == nullptr) {
-      decoded_taken_.push_back(fine_);
+      decoded_taken_.push_back(fine_ - (waited && lanes_work_ ? 1 : 0));
       pass_mark(waited);
       return;
     }
@@ -188,7 +188,7 @@ class Pipeline {
     const bool waited = fetch_ + 1 < fine_;
     fine_ = std::max(fine_, fetch_ + 1);
     if (gaussian == nullptr) {
-      fetched_taken_.push_back(fine_);
+      fetched_taken_.push_back(fine_ - (waited && lanes_work_ ? 1 : 0));
       pass_mark(waited);
       return;
     }
@@ -201,8 +201,10 @@ class Pipeline {
 
   // Beside what the lanes do, where it has waited for them.
   void pass_mark(bool waited) {
-    fine_ += waited ? 0 : 1;
-    times_.fine_busy += waited ? 0 : 1;
+    const bool beside = waited && lanes_work_;
+    lanes_work_ = false;
+    fine_ += beside ? 0 : 1;
+    times_.fine_busy += beside ? 0 : 1;
   }
 
   // A record, a word of the port's width a cycle.
@@ -229,6 +231,7 @@ class Pipeline {
   }
 
   void test(std::size_t gaussian, bool wanted) {
+    lanes_work_ = false;
     if (!wanted) {
       ++times_.dropped;
       ++fine_;
@@ -238,6 +241,7 @@ class Pipeline {
     const Cycle of_test =
         std::max<Cycle>(config_.ffu_interval_cycles(), decode_latency_ ? 0 : read_cycles());
     fine_ += of_test;
+    lanes_work_ = of_test > 1;
     times_.fine_busy += of_test;
     times_.tested.back()[gaussian] = true;
     ++times_.fine_tests;
@@ -253,6 +257,7 @@ class Pipeline {
   std::vector<Cycle> failed_leave_;  // what did not pass leaves the CFUs
   std::vector<Cycle> half_free_, slice_taken_, candidate_taken_, fetched_taken_, slot_free_,
       decoded_taken_;
+  bool lanes_work_ = false;  // up to fine_, and no mark has passed beside them
   HfuTimes times_;
 };
 

@@ -164,14 +164,13 @@ void FineFilter::run_filter(Part& part) {
 void FineFilter::filter_decoded(Part& part) {
   const Decoded& front = part.stage->decoded.front(part.filter);
   take_up(front.candidate, part.filter);
-  const bool waited = part.stage->decoded.front_waited();
   wait_for_place(part, front.candidate.visit);
   const bool wanted = is_wanted(part, front.candidate);
   if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
   const Decoded next = front;
   part.stage->decoded.remove_front();
   if (next.candidate.mark != Mark::kNone) {
-    pass_mark(part, next.candidate, waited);
+    pass_mark(part, next.candidate);
   } else if (wanted) {
     test(part, next);
   } else {
@@ -184,10 +183,9 @@ void FineFilter::filter_fetched(Part& part) {
   next.candidate = part.fetched.front(part.filter);
   take_up(next.candidate, part.filter);
   if (next.candidate.mark != Mark::kNone) {
-    const bool waited = part.fetched.front_waited();
     wait_for_place(part, next.candidate.visit);
     part.fetched.remove_front();
-    pass_mark(part, next.candidate, waited);
+    pass_mark(part, next.candidate);
     return;
   }
   await(memory, part.filter, next.candidate.ticket);
@@ -214,9 +212,8 @@ void FineFilter::wait_for_place(Part& part, std::uint32_t visit) {
   part.places[visit % part.places.size()].wait_for_one(to_sorting(part, visit), part.filter);
 }
 
-// beside_lanes: it has been there while the lanes were at work.
-void FineFilter::pass_mark(Part& part, const FineCandidate& candidate, bool beside_lanes) {
-  if (!beside_lanes) part.filter.work(1);
+void FineFilter::pass_mark(Part& part, const FineCandidate& candidate) {
+  part.filter.work(1);
   SplatToken end;
   end.group = candidate.group;
   end.visit = candidate.visit;
@@ -236,8 +233,26 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
   part.filter.work(1);
   ++counters_.tests;
   hand_on(part, decoded, began);
+  const std::uint64_t last = began + test_cycles_ - 1;
   const std::uint64_t now = part.filter.clock().now_cycles();
-  if (now < began + test_cycles_) part.filter.work(began + test_cycles_ - now);
+  if (now > last) return;
+  part.filter.work(last - now);
+  if (!mark_is_next(part)) {
+    part.filter.work(1);
+  } else if (part.stage) {
+    filter_decoded(part);
+  } else {
+    filter_fetched(part);
+  }
+}
+
+// It passes in the last of the cycles that the lanes take, beside them.
+bool FineFilter::mark_is_next(Part& part) {
+  if (part.stage) {
+    auto& from = part.stage->decoded;
+    return from.can_pop() && from.front(part.filter).candidate.mark != Mark::kNone;
+  }
+  return part.fetched.can_pop() && part.fetched.front(part.filter).mark != Mark::kNone;
 }
 
 // What becomes of a test, from its first cycle on on the way through the pipeline.

@@ -128,7 +128,8 @@ class FineFilter : public sc_core::sc_module {
   void filter_decoded(Part& part);
   bool is_wanted(const Part& part, const FineCandidate& candidate) const;
   void drop(Part& part, const FineCandidate& candidate);
-  void pass_mark(Part& part, const FineCandidate& candidate, bool beside_lanes);
+  void pass_mark(Part& part, const FineCandidate& candidate);
+  bool mark_is_next(Part& part);
   void wait_for_place(Part& part, std::uint32_t visit);
   void test(Part& part, const Decoded& decoded);
   void hand_on(Part& part, const Decoded& decoded, std::uint64_t began);
