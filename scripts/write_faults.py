@@ -146,6 +146,20 @@ def whole(name: str, content: bytes, other: bytes, killed: bool) -> bool:
     return not lines.pop() and all(line.count(b",") == columns for line in lines)
 
 
+def tampered(calls: Sequence[str]) -> list[str]:
+    """Lines of strace where the calls begin that were tampered with: those of several processes are
+    cut in two, and what a kill has hit is only in the first half."""
+    began: dict[str, str] = {}
+    hit = []
+    for line in calls:
+        process, what = line.split(maxsplit=1) if line[:1].isdigit() else ("", line)
+        if re.match(r"\w+\(", what):
+            began[process] = line
+        if "(INJECTED)" in what or "by SIGKILL" in what:
+            hit.append(began.get(process, line))
+    return hit
+
+
 @dataclasses.dataclass
 class Ended:
     status: int
@@ -229,7 +243,7 @@ class Bench:
         """What is not as it must be when the fault is in the N-th call; nothing where none was."""
         inject = f"inject={fault.calls}:{fault.how}:when={number}"
         ended = self.run(self.strace(*whose, "-e", inject))
-        hit = [line for line in ended.calls if "(INJECTED)" in line or "by SIGKILL" in line]
+        hit = tampered(ended.calls)
         # A pipe is on no disk, and nobody waits for what SystemC's files say of theirs.
         if hit and not any("<pipe:" in line for line in hit):
             # What cannot be said is not.

@@ -35,6 +35,31 @@ WRITERS = {
 }
 
 
+class Tampered(unittest.TestCase):
+    CALLS = (
+        ("one process", ['write(1<a>, "x", 1) = -1 ENOSPC (INJECTED)'], [0]),
+        ("one that is killed", ['write(1<a>, "x", 1) = ?', "+++ killed by SIGKILL +++"], [0]),
+        (
+            "one of two, in the call that it began",
+            [
+                '17 write(7<pipe:[3]>, "x", 1 <unfinished ...>',
+                '18 write(5<b>, "y", 1 <unfinished ...>',
+                "17 <... write resumed>) = ?",
+                "18 <... write resumed>) = 1",
+                "17 +++ killed by SIGKILL +++",
+                "16 --- SIGCHLD {si_code=CLD_KILLED, si_status=SIGKILL} ---",
+            ],
+            [0],
+        ),
+        ("none", ['write(1<a>, "x", 1) = 1'], []),
+    )
+
+    def test_calls_by_table(self):
+        for name, calls, expected in self.CALLS:
+            with self.subTest(name):
+                self.assertEqual(write_faults.tampered(calls), [calls[i] for i in expected])
+
+
 @unittest.skipUnless(shutil.which("strace"), "strace: not there, Debian's package of that name")
 class WriteFaults(InFolder):
     def found(self, work: Work, programs: dict, most: int) -> list[str]:
