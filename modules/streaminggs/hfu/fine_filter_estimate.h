@@ -1,8 +1,10 @@
-// The time of a fine filter (fine_filter.h) without a kernel, for groups in one part.
+// The time of a fine filter (fine_filter.h) without a kernel.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <queue>
 #include <vector>
 
 #include "algorithm/memory/regions.h"
@@ -23,65 +25,56 @@ class FineFilterEstimate {
 
   struct Candidate {
     std::uint32_t group = 0, slot = 0;
-    bool mark = false;                // there is no Gaussian
-    bool splat = false;               // it touches the group
-    std::uint64_t finished_from = 0;  // its group, as far as that is known
+    bool mark = false;         // there is no Gaussian
+    std::uint32_t parts = 1;   // of the group that it may touch, a bit each
+    std::uint32_t splats = 0;  // of these, that it does touch
+    // [part] from which cycle on it is known to be finished, as far as that is known
+    const std::uint64_t* finished_from = nullptr;
   };
-  // Which came to `candidates` before. hand_on(cycle, tested): gives what became of it to the next
-  // unit and says the cycle in which that has taken it; tested: a fine test has been done.
+  // Which came to `candidates` before. hand_on(part, cycle, tested): gives what became of it in a
+  // part to the next unit and says the cycle in which that has taken it; tested: a fine test has
+  // been done.
   template <class HandOn>
   void take(const Candidate& candidate, FifoTimes& candidates, const HandOn& hand_on) {
     const Fetched fetched = fetch(candidate, candidates);
-    if (codebooks_ != nullptr) decode(candidate, fetched);
-    FifoTimes& from = codebooks_ != nullptr ? decoded_ : fetched_;
-    filter_ = from.front(filter_);
-    bool tested = false;
-    if (fetched.there) {
-      if (codebooks_ == nullptr) {
-        filter_ = std::max(filter_, fetched.answered);
-        ++work_.counters.taken;
-      }
-      const std::uint64_t began = filter_;
-      tested = candidate.finished_from > filter_;
-      if (tested) filter_ = next_turn(filter_, interval_);
-      if (codebooks_ == nullptr) free_slot(fetched.slot, filter_);
-      from.remove(filter_);
-      filter_ += tested ? test_cycles_ : 1;
-      work_.filter_cycles += filter_ - began;
-    } else {
-      from.remove(filter_++);
-      ++work_.filter_cycles;
+    freed_ = 0;
+    for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+      if ((fetched.goes_to >> p & 1U) == 0) continue;
+      Part& part = parts_[p];
+      fetch_ = part.fetched.push(fetch_);
+      const bool tested = filter(p, candidate, fetched);
+      part.filter = hand_on(p, part.filter, tested);
     }
-    count(candidate, fetched.there, tested);
-    filter_ = hand_on(filter_, tested);
+    if (fetched.parts != 0) slots_.push(freed_);
   }
 
-  FineFilter::Work work() const {
-    FineFilter::Work work = work_;
-    work.fetched = fetched_.pushed();
-    work.decoded = codebooks_ == nullptr ? 0 : decoded_.pushed();
-    work.traffic = port_.traffic();
-    return work;
-  }
+  FineFilter::Work work() const;
 
  private:
   struct Fetched {
-    bool there = false;  // a second half
-    std::uint64_t slot = 0, answered = 0;
+    std::uint32_t parts = 0, goes_to = 0;  // that want a second half; that see it or its mark
+    std::uint64_t answered = 0;
+  };
+  struct Part {
+    FifoTimes fetched, decoded;
+    std::uint64_t decode = 0, filter = 0;  // until when they work
+    std::uint64_t decode_cycles = 0, filter_cycles = 0;
   };
   Fetched fetch(const Candidate& candidate, FifoTimes& candidates);
-  void decode(const Candidate& candidate, const Fetched& fetched);
-  void free_slot(std::uint64_t slot, std::uint64_t cycle) { slots_[slot] = cycle + read_cycles_; }
-  void count(const Candidate& candidate, bool fetched, bool tested);
+  bool filter(std::uint32_t part, const Candidate& candidate, const Fetched& fetched);
+  void decode(Part& part, bool there, std::uint64_t finished_from, std::uint64_t answered);
+  void free_slot(std::uint64_t cycle) { freed_ = std::max(freed_, cycle + read_cycles_); }
 
   const std::uint64_t interval_, test_cycles_, read_cycles_;
+  const bool reports_;
   const RecordArray second_halves_;
   PortEstimate port_;
   CodebookEstimate* const codebooks_;
-  std::vector<std::uint64_t> slots_;  // ring: when they were free again
-  FifoTimes fetched_, decoded_;
-  std::uint64_t fetches_ = 0;
-  std::uint64_t fetch_ = 0, decode_ = 0, filter_ = 0;  // until when they work
+  std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>>
+      slots_;                // free from
+  std::uint64_t freed_ = 0;  // that of the candidate at hand
+  std::vector<Part> parts_;
+  std::uint64_t fetch_ = 0;  // until when it works
   FineFilter::Work work_;
 };
 

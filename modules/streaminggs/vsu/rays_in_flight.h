@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "algorithm/order/group_visits.h"
-#include "modules/streaminggs/vsu/ray_unit.h"
+#include "modules/streaminggs/vsu/node_fetches.h"
+#include "modules/streaminggs/vsu/ray_turns.h"
 
 namespace sgs {
 
@@ -23,12 +24,13 @@ namespace sgs {
 // waits itself.
 //
 // Events are taken in the order of their cycles, those of one cycle in the order of the contexts.
-// The kernel's time follows where it matters to somebody else: when a node has to be fetched, when
-// one is waited for, and at the end.
-template <class Path>
+// The unit's time, which is the kernel's or an estimate's, follows where it matters to somebody
+// else: when a node has to be fetched, when one is waited for, and at the end. Unit: RayUnit or
+// RayUnitEstimate.
+template <class Path, class Unit>
 class RaysInFlight {
  public:
-  RaysInFlight(const View<float>& view, const Path& path, RayUnit& unit)
+  RaysInFlight(const View<float>& view, const Path& path, Unit& unit)
       : view_(view), unit_(unit), contexts_(unit.config.rays_in_flight, Context(path)) {}
 
   bool follow(const PixelRect& group, VisitWindow& window, OrderingTable& table, GroupVisits& out) {
@@ -64,7 +66,7 @@ class RaysInFlight {
   }
 
  private:
-  static constexpr std::uint64_t kNever = RayUnit::kNever;
+  static constexpr std::uint64_t kNever = RayTurns::kNever;
   static constexpr std::uint32_t kNoNode = ~0U;
 
   enum class State : std::uint8_t { kFlies, kWithoutRoom, kEnded, kFree };
@@ -180,7 +182,7 @@ class RaysInFlight {
     const std::uint32_t node = std::exchange(contexts_[c].wanted, kNoNode);
     if (const auto* const line = unit_.nodes.find(node)) {
       contexts_[c].path.give(unit_.nodes.record_in(*line, node));
-      at(cycle + RayUnit::kLookUpCycles, c);
+      at(cycle + RayTurns::kLookUpCycles, c);
       return;
     }
     unit_.waiting_for(unit_.nodes.line_of(node), cycle).push_back({c, node});
@@ -244,7 +246,7 @@ class RaysInFlight {
   }
 
   const View<float>& view_;
-  RayUnit& unit_;
+  Unit& unit_;
   std::vector<Context> contexts_;
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
   Pass* pass_ = nullptr;
