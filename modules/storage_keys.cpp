@@ -28,6 +28,8 @@ void visit(ConfigVisitor& v, StorageConfig& c) {
     "of second halves: 32-bit floats, 16-bit floats, codebook indices of 32 bits or packed");
   v.section("vq", c.vq, "how codebooks are made");
   v("store_invisible", c.store_invisible, "also store Gaussians with opacity below 1/255");
+  v("sh_tolerance", c.sh_tolerance, in_range(0, 1),
+    "most that a channel of a colour may change by SH bands that are not stored; 0: all are");
 }
 
 }  // namespace sgs

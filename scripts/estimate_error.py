@@ -153,8 +153,9 @@ def csv_rows(frames: list[Frame]) -> list[tuple]:
     ]
 
 
-def make_table(arguments: argparse.Namespace) -> None:
-    scenes: list[Scene] = find_scenes(arguments.scenes)
+def compared_frames(scenes: list[Scene], arguments: argparse.Namespace) -> tuple[list[Frame], int]:
+    """Frames that both sides drew, and how many were refused. Raises ValueError where all were,
+    Failure."""
     order = ORDERS[arguments.machine]
     machines = draw_machines(order, arguments.configurations, arguments.seed)
     runs = [
@@ -162,14 +163,13 @@ def make_table(arguments: argparse.Namespace) -> None:
         for machine in machines
         for scene in scenes
     ]
-    sides, took = [], []
+    sides = []
     for name, options in (("reckoned", ("--estimate",)), ("accurate", ())):
         kept = arguments.out / f"estimate_{name}.jsonl"
         with SweepServer(arguments.streaminggs, kept, arguments.jobs, options) as server:
             views, seconds = reports(server, runs, arguments.jobs)
             print(f"{name}: {len(runs)} frames in {seconds:.0f} s, {server.simulated} of them new")
         sides.append(views)
-        took.append(seconds)
     frames = [
         Frame(run.scene.name, at // len(scenes), " ".join(machines[at // len(scenes)].settings()),
               accurate, estimate)
@@ -178,11 +178,17 @@ def make_table(arguments: argparse.Namespace) -> None:
     ]  # fmt: skip
     if not frames:
         raise ValueError("all configurations are refused")
+    return frames, len(runs) - len(frames)
+
+
+def make_table(arguments: argparse.Namespace) -> None:
+    scenes: list[Scene] = find_scenes(arguments.scenes)
+    frames, refused = compared_frames(scenes, arguments)
     names = [scene.name for scene in scenes]
     walls = [[r(f)["host"]["simulation_wall_s"] for f in frames] for r in SIDES]
     text = (
         run_arguments.how_made(f.accurate for f in frames)
-        + f"{len(frames)} frames, {len(runs) - len(frames)} refused.\n\n"
+        + f"{len(frames)} frames, {refused} refused.\n\n"
         + tables.markdown(HEAD, error_rows(frames, names))
         + "\n"
         + "\n".join(rank_lines(frames, names))

@@ -11,7 +11,9 @@ from collections.abc import Sequence
 import matplotlib
 from matplotlib import pyplot
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 matplotlib.use("Agg")
 # From dark to light and back, told apart in grey and by those who see no red or green.
@@ -108,6 +110,13 @@ def case_label(scene: str, size: str) -> str:
 def from_zero(axes: Axes) -> None:
     """The axis of values begins at 0, with room above what is drawn."""
     axes.set_ylim(0, 1.08 * axes.dataLim.y1 or 1)
+
+
+def plain_logarithmic(axis: Axis) -> None:
+    """1, 2, 5, 10 and so on, as written, in place of powers with minor marks between."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(NullLocator())
 
 
 def published(axes: Axes, value: float, text: str, vertical: bool = False) -> None:

@@ -9,7 +9,8 @@ it.
 
 The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units.
 Ours: training_curve; exploration, estimate_error, fronts_of_orders, equal_area, group_size;
-compare_machines_rates, _traffic and _ratios; and of the runs of `simulate` below the folder
+compare_machines_rates, _traffic and _ratios; error_image, error_image_kinds, error_model,
+error_tuning and error_renderers; and of the runs of `simulate` below the folder
 roofline, waits, traffic.
 
 Needs Debian's python3-matplotlib, which scripts/tools.sh installs.
@@ -32,7 +33,9 @@ def make_figures(arguments: argparse.Namespace) -> None:
     debian_python.need("matplotlib", "python3-matplotlib")
     import figure_style  # these need it
     import figures_of_comparison
+    import figures_of_errors
     import figures_of_exploration
+    import figures_of_image_errors
     import figures_of_machines
     import figures_of_paper
     import figures_of_tuning
@@ -43,6 +46,8 @@ def make_figures(arguments: argparse.Namespace) -> None:
         **figures_of_exploration.FIGURES,
         **figures_of_machines.FIGURES,
         **figures_of_comparison.FIGURES,
+        **figures_of_image_errors.FIGURES,
+        **figures_of_errors.FIGURES,
     }
     for name in arguments.names:
         if name not in known:

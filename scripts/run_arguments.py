@@ -18,7 +18,10 @@ BAD_INPUT = 2
 INTERRUPTED = 130
 
 # What made a table, where it was put and at what pace: no number of it depends on them.
-NOT_IN_TABLES = ("--streaminggs", "--stability", "--out", "--side-by-side", "--storage", "-j")
+NOT_IN_TABLES = (
+    *("--streaminggs", "--stability", "--renderers"),
+    *("--out", "--side-by-side", "--storage", "-j"),
+)
 
 
 class Help(argparse.RawDescriptionHelpFormatter, argparse.ArgumentDefaultsHelpFormatter):

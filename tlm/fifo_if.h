@@ -1,6 +1,8 @@
 // The two ends of a FIFO as units see them, and the ports that bind to them.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <systemc>
 
 #include "tlm/activity.h"
@@ -13,6 +15,12 @@ class FifoWriteIf : public virtual sc_core::sc_interface {
   // Puts an entry in; blocks the calling thread while the FIFO is full, which is charged to
   // `writer` as waiting for room.
   virtual void push(T value, Activity& writer) = 0;
+
+  // Entries that there is room for now.
+  virtual std::uint32_t room() const = 0;
+  // Until there is room for so many or, whatever comes first, cycle `until`; charged as push().
+  static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+  virtual void wait_for_room(std::uint32_t entries, std::uint64_t until, Activity& writer) = 0;
 };
 
 template <class T>

@@ -125,6 +125,25 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
     if (listener_ != nullptr) listener_->notify(sc_core::SC_ZERO_TIME);
   }
 
+  std::uint32_t room() const override { return capacity() - fill_; }
+  void wait_for_room(std::uint32_t entries, std::uint64_t until, Activity& writer) override {
+    const auto wanted = [&] { return room() < entries && clock_.now_cycles() < until; };
+    if (!wanted()) return;
+    writer_ = &writer;
+    writer.waits_for(WaitFor::kRoom, *this);
+    writer_waits_ = true;
+    while (wanted()) {
+      if (until == FifoWriteIf<T>::kNever) {
+        sc_core::wait(room_);
+      } else {
+        sc_core::wait(static_cast<double>(until - clock_.now_cycles()) * clock_.period(), room_);
+      }
+    }
+    writer_waits_ = false;
+    clock_.jitter();
+    writer.works();
+  }
+
   using FifoReadIf<T>::pop;
   T pop(Activity& reader, WaitFor what) override {
     wait_for_front(reader, what);

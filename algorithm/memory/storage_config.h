@@ -15,7 +15,8 @@ struct StorageConfig {
   double voxel_size = 0;              // by voxels: world units; 0: to be chosen
   std::uint32_t chunk_gaussians = 8;  // by chunks: most Gaussians in one; 0: to be chosen
   bool store_invisible = false;       // also Gaussians that no view can show
-  VqConfig vq;                        // how codebooks are made, where the encoding has any
+  double sh_tolerance = 0;  // most that a colour may change by SH bands that are not stored
+  VqConfig vq;              // how codebooks are made, where the encoding has any
 
   // The format of second halves with every codebook as large as it may become.
   SecondHalfFormat widest_format(int sh_degree) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace sgs {
 namespace {
@@ -22,40 +23,77 @@ float float_of(std::uint16_t bits) {
   return value;
 }
 
+std::int8_t exponent_of(float power_of_two) {
+  return static_cast<std::int8_t>(std::ilogb(power_of_two));
+}
+
+constexpr std::size_t kCentreBytes = 8, kUnitsAt = 22;
+
+void encode_halves(const Splat& s, std::byte* out) {
+  const SquareConic<float> in_px = square_conic(s.conic_a, s.conic_b, s.conic_c);
+  const AxisUnits units = axis_units(in_px);
+  const SquareConic<float> conic = in_units(in_px, units);
+  const float rest[7] = {conic.a, conic.lean, conic.rest, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z};
+  for (std::size_t k = 0; k < std::size(rest); ++k) {
+    const std::uint16_t bits = nearest_half(rest[k]);
+    std::memcpy(out + kCentreBytes + k * sizeof bits, &bits, sizeof bits);
+  }
+  const std::int8_t exponents[2] = {exponent_of(units.x), exponent_of(units.y)};
+  std::memcpy(out + kUnitsAt, exponents, sizeof exponents);
+}
+
+SquareSplat decode_halves(const std::byte* bytes) {
+  float centre[2], rest[7];
+  std::memcpy(centre, bytes, sizeof centre);
+  for (std::size_t k = 0; k < std::size(rest); ++k) {
+    std::uint16_t bits;
+    std::memcpy(&bits, bytes + kCentreBytes + k * sizeof bits, sizeof bits);
+    rest[k] = float_of(bits);
+  }
+  std::int8_t exponents[2];
+  std::memcpy(exponents, bytes + kUnitsAt, sizeof exponents);
+  const AxisUnits units = {std::ldexp(1.0F, exponents[0]), std::ldexp(1.0F, exponents[1])};
+  SquareSplat s{};
+  s.x = centre[0];
+  s.y = centre[1];
+  s.conic = in_px(SquareConic<float>{rest[0], rest[1], rest[2]}, units);
+  s.opacity = rest[3];
+  s.rgb = {rest[4], rest[5], rest[6]};
+  return s;
+}
+
+// The terms come back from the completed square.
+Splat with_terms(const SquareSplat& square) {
+  const ConicTerms<float> conic = conic_terms(square.conic);
+  Splat s{};
+  s.x = square.x;
+  s.y = square.y;
+  s.conic_a = conic.a;
+  s.conic_b = conic.b;
+  s.conic_c = conic.c;
+  s.opacity = square.opacity;
+  s.rgb = square.rgb;
+  return s;
+}
+
 }  // namespace
 
 void encode_projected(NumberFormat format, const Splat& s, std::byte* out) {
-  const float rest[7] = {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z};
   const float centre[2] = {s.x, s.y};
   std::memcpy(out, centre, sizeof centre);
-  if (format == NumberFormat::kSingle) {
-    std::memcpy(out + 8, rest, sizeof rest);
+  if (format == NumberFormat::kHalf) {
+    encode_halves(s, out);
     return;
   }
-  int exponent = 0;
-  std::frexp(std::max(s.conic_a, s.conic_c), &exponent);
-  exponent = std::clamp(exponent, -128, 127);
-  for (int k = 0; k < 7; ++k) {
-    const std::uint16_t bits = nearest_half(k < 3 ? std::ldexp(rest[k], -exponent) : rest[k]);
-    std::memcpy(out + 8 + 2 * k, &bits, sizeof bits);
-  }
-  out[22] = static_cast<std::byte>(exponent + 128);
-  out[23] = std::byte{0};
+  const float rest[7] = {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z};
+  std::memcpy(out + kCentreBytes, rest, sizeof rest);
 }
 
 Splat decode_projected(NumberFormat format, const std::byte* bytes) {
+  if (format == NumberFormat::kHalf) return with_terms(decode_halves(bytes));
   float centre[2], rest[7];
   std::memcpy(centre, bytes, sizeof centre);
-  if (format == NumberFormat::kSingle) {
-    std::memcpy(rest, bytes + 8, sizeof rest);
-  } else {
-    const int exponent = std::to_integer<int>(bytes[22]) - 128;
-    for (int k = 0; k < 7; ++k) {
-      std::uint16_t bits;
-      std::memcpy(&bits, bytes + 8 + 2 * k, sizeof bits);
-      rest[k] = k < 3 ? std::ldexp(float_of(bits), exponent) : float_of(bits);
-    }
-  }
+  std::memcpy(rest, bytes + kCentreBytes, sizeof rest);
   Splat s{};
   s.x = centre[0];
   s.y = centre[1];
@@ -65,6 +103,11 @@ Splat decode_projected(NumberFormat format, const std::byte* bytes) {
   s.opacity = rest[3];
   s.rgb = {rest[4], rest[5], rest[6]};
   return s;
+}
+
+SquareSplat decode_square(NumberFormat format, const std::byte* bytes) {
+  if (format == NumberFormat::kHalf) return decode_halves(bytes);
+  return square_splat(decode_projected(format, bytes));
 }
 
 std::uint32_t depth_key(NumberFormat format, float depth) {

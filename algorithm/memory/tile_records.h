@@ -6,15 +6,18 @@
 #include <cstdint>
 
 #include "algorithm/splat/splat.h"
+#include "algorithm/splat/square_splat.h"
 
 namespace sgs {
 
 enum class NumberFormat : std::uint8_t { kSingle, kHalf };
 
 // Projected Gaussians. kSingle: x, y, conic, opacity, colour as 32-bit floats. kHalf: x and y so (a
-// half counts places above 512 px by halves of one), then conic, opacity and colour as halves, the
-// conic over a power of two of its own, whose exponent is the last byte: wide splats do not vanish
-// among the subnormal. A place is whole bursts, since records are read one here, one there.
+// half counts places above 512 px by halves of one), then the conic with its square completed
+// (square_conic.h; of three halved terms, which cancel, it would be lost), opacity and colour as
+// halves; the conic in units of its own along x and y, whose exponents are the last two bytes: wide
+// splats do not vanish among the subnormal. A place is whole bursts, since records are read one
+// here, one there.
 constexpr std::uint32_t record_bytes(NumberFormat format) {
   return format == NumberFormat::kHalf ? 24 : 36;
 }
@@ -24,6 +27,8 @@ constexpr std::uint32_t record_place_bytes(NumberFormat format) {
 void encode_projected(NumberFormat format, const Splat& splat, std::byte* out);
 // Without depth, index and footprint, which the lists hold.
 Splat decode_projected(NumberFormat format, const std::byte* bytes);
+// The same for blending in half.
+SquareSplat decode_square(NumberFormat format, const std::byte* bytes);
 
 // The depth as a key, larger for what is farther: its bits, of the float or of the nearest half.
 std::uint32_t depth_key(NumberFormat format, float depth);

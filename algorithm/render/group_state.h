@@ -12,6 +12,7 @@
 #include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/splat/row_span.h"
+#include "algorithm/splat/square_splat.h"
 
 namespace sgs {
 
@@ -56,22 +57,22 @@ class GroupState {
              BlendPrecision precision = BlendPrecision::kSingle,
              SubtileTest test = SubtileTest::kEllipse);
 
-  // Blends a splat into the unfinished 4x4 sub-tiles of its footprint that it reaches.
-  BlendWork blend(const Splat& splat) {
-    const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half : sgs::blend;
-    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t) {
+  // Blends a splat into the unfinished 4x4 sub-tiles of its footprint that it reaches. AnySplat: a
+  // Splat; or a SquareSplat in a group in half without SubtileTest::kEllipse, which asks for terms.
+  template <class AnySplat>
+  BlendWork blend(const AnySplat& splat) {
+    return for_reached(splat, [&](const auto& taken, std::size_t at, int x, int y, std::uint32_t) {
       if (finished_[at] != 0) return false;
-      into(states_[at], x, y, splat);
+      sgs::blend(states_[at], x, y, taken);
       return true;
     });
   }
   // The same, observed: observer(SubtileBlend) is called behind each.
-  template <class Observer>
-  BlendWork blend(const Splat& splat, Observer&& observer) {
-    const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half_and_tell : blend_and_tell;
-    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t) {
+  template <class AnySplat, class Observer>
+  BlendWork blend(const AnySplat& splat, Observer&& observer) {
+    return for_reached(splat, [&](const auto& taken, std::size_t at, int x, int y, std::uint32_t) {
       if (finished_[at] != 0) return false;
-      const LaneShares shares = into(states_[at], x, y, splat);
+      const LaneShares shares = blend_and_tell(states_[at], x, y, taken);
       observer(SubtileBlend{at, x, y, shares, states_[at]});
       return true;
     });
@@ -79,27 +80,27 @@ class GroupState {
   // The same, told of every sub-tile that is reached, row by row: schedule(SubtileReach).
   template <class Schedule>
   BlendWork blend_scheduled(const Splat& splat, Schedule&& schedule) {
-    const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half : sgs::blend;
-    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t row) {
+    const auto into = [&](const auto& taken, std::size_t at, int x, int y, std::uint32_t row) {
       const bool blends = finished_[at] == 0;
-      if (blends) into(states_[at], x, y, splat);
+      if (blends) sgs::blend(states_[at], x, y, taken);
       schedule(SubtileReach{at, x, y, blends, blends && finished(states_[at]), row});
       return blends;
-    });
+    };
+    return for_reached(splat, into);
   }
   // Observed and told.
   template <class Observer, class Schedule>
   BlendWork blend_scheduled(const Splat& splat, Observer&& observer, Schedule&& schedule) {
-    const auto into = precision_ == BlendPrecision::kHalf ? blend_in_half_and_tell : blend_and_tell;
-    return for_reached(splat, [&](std::size_t at, int x, int y, std::uint32_t row) {
+    const auto into = [&](const auto& taken, std::size_t at, int x, int y, std::uint32_t row) {
       const bool blends = finished_[at] == 0;
       if (blends) {
-        const LaneShares shares = into(states_[at], x, y, splat);
+        const LaneShares shares = blend_and_tell(states_[at], x, y, taken);
         observer(SubtileBlend{at, x, y, shares, states_[at]});
       }
       schedule(SubtileReach{at, x, y, blends, blends && finished(states_[at]), row});
       return blends;
-    });
+    };
+    return for_reached(splat, into);
   }
   SplatBox box_of(const Splat& splat) const {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
@@ -134,15 +135,39 @@ class GroupState {
     return test_ == SubtileTest::kEllipse &&
            (reach.x1 - reach.x0) * (reach.y1 - reach.y0) > kUntestedSubtiles;
   }
-  // blend_into(place in the group, x, y, row of the splat) for each sub-tile that the splat
-  // reaches, row by row; it says whether it has blended.
+  // blend_into(the splat as it is blended, place in the group, x, y, row of the splat) for each
+  // sub-tile that the splat reaches, row by row; it says whether it has blended.
   template <class BlendInto>
   BlendWork for_reached(const Splat& splat, const BlendInto& blend_into) {
+    if (precision_ == BlendPrecision::kHalf) {
+      return for_rows(splat, of_taken(square_splat(splat), blend_into));
+    }
+    return for_rows(splat, of_taken(splat, blend_into));
+  }
+  template <class BlendInto>
+  BlendWork for_reached(const SquareSplat& splat, const BlendInto& blend_into) {
+    const SubtileRect reach = intersection(splat.footprint, subtiles_);
+    BlendWork work;
+    if (!reach.empty()) box_rows(reach, of_taken(splat, blend_into), work);
+    return work;
+  }
+  template <class Taken, class BlendInto>
+  static auto of_taken(const Taken& taken, const BlendInto& blend_into) {
+    return [taken, &blend_into](std::size_t at, int x, int y, std::uint32_t row) {
+      return blend_into(taken, at, x, y, row);
+    };
+  }
+  template <class BlendInto>
+  void box_rows(const SubtileRect& reach, const BlendInto& blend_into, BlendWork& work) {
+    for (int y = reach.y0; y < reach.y1; ++y) blend_row(y, reach.x0, reach.x1, blend_into, work);
+  }
+  template <class BlendInto>
+  BlendWork for_rows(const Splat& splat, const BlendInto& blend_into) {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
     BlendWork work;
     if (reach.empty()) return work;
     if (!spanned(reach)) {
-      for (int y = reach.y0; y < reach.y1; ++y) blend_row(y, reach.x0, reach.x1, blend_into, work);
+      box_rows(reach, blend_into, work);
       return work;
     }
     RowSpans<float> spans(splat);

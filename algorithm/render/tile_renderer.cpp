@@ -5,6 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "algorithm/input_error.h"
@@ -17,19 +19,12 @@ namespace sgs {
 namespace {
 
 struct TileSplat {
-  Splat splat;  // as its record gives it back; depth and index of the Gaussian
+  std::array<std::byte, record_bytes(NumberFormat::kSingle)> record;
+  float depth;
+  std::uint32_t index;  // of the Gaussian
   TileBoxes boxes;
   std::uint32_t key;
 };
-
-Splat through_record(NumberFormat format, const Splat& splat) {
-  std::byte bytes[record_place_bytes(NumberFormat::kSingle)];
-  encode_projected(format, splat, bytes);
-  Splat out = decode_projected(format, bytes);
-  out.depth = splat.depth;
-  out.index = splat.index;
-  return out;
-}
 
 std::vector<TileSplat> project_block(const View<float>& view, const ActivatedCloud& cloud,
                                      const TileOrderConfig& config, std::size_t begin,
@@ -44,11 +39,13 @@ std::vector<TileSplat> project_block(const View<float>& view, const ActivatedClo
       continue;
     }
     TileSplat made;
-    if (!make_tile_geometry(view, g, config.rules, made.splat, made.boxes)) continue;
-    add_colour(view, cloud.sh_degree, g.mean, cloud.sh(i), made.splat);
-    made.splat.index = static_cast<std::uint32_t>(i);
-    made.key = depth_key(config.keys, made.splat.depth);
-    made.splat = through_record(config.features, made.splat);
+    Splat splat;
+    if (!make_tile_geometry(view, g, config.rules, splat, made.boxes)) continue;
+    add_colour(view, cloud.sh_degree, g.mean, cloud.sh(i), splat);
+    encode_projected(config.features, splat, made.record.data());
+    made.depth = splat.depth;
+    made.index = static_cast<std::uint32_t>(i);
+    made.key = depth_key(config.keys, splat.depth);
     out.push_back(made);
   }
   return out;
@@ -105,13 +102,15 @@ void render_tile(const View<float>& view, const TileOrderConfig& config, int til
   for (const ListEntry& entry : list) {
     if (state.saturated()) break;
     ++stats.entries_taken;
-    const Splat& splat = splats[entry.splat].splat;
+    const TileSplat& splat = splats[entry.splat];
     const auto observe = [&](const SubtileBlend& blend) {
       if (watch.see(blend, splat.depth)) contributing.set(splat.index);
       warps.see(blend);
     };
-    for_each_part(config.rules, tile_x, tile_y, entry.bitmap, splat, [&](const Splat& part, int) {
-      stats.subtile_blends += state.blend(part, observe).blended;
+    with_record(config.features, config.precision, splat.record.data(), [&](const auto& record) {
+      for_each_part(config.rules, tile_x, tile_y, entry.bitmap, record, [&](const auto& part, int) {
+        stats.subtile_blends += state.blend(part, observe).blended;
+      });
     });
     warps.end_entry();
   }

@@ -4,22 +4,18 @@
 #include "algorithm/splat/blend.h"
 
 #include <array>
-#include <type_traits>
 
 #include "algorithm/splat/half_scalar.h"
 #include "algorithm/splat/lane_input.h"
+#include "algorithm/splat/square_splat.h"
 #include "algorithm/splat/widest_lanes.h"
 
 namespace sgs {
 namespace {
 
-template <class T>
-LaneInput<T> input_of(const Splat& s, float left, float top) {
-  if constexpr (std::is_same_v<T, HalfScalar>) {
-    return lane_input_in_half<T>(s, left, top);
-  } else {
-    return lane_input(s, left, top);
-  }
+auto input_of(const Splat& s, float left, float top) { return lane_input(s, left, top); }
+auto input_of(const SquareSplat& s, float left, float top) {
+  return lane_input_in_half<HalfScalar>(s, left, top);
 }
 
 // of_lane[lane] = column[steps[lane] mod 64], all aligned to 64 B. Permutations of registers: 16
@@ -76,18 +72,17 @@ class Exp2Lanes {
 
 // note(lane, alpha, T before) is told of each lane, with alpha 0 where nothing is blended. Inlined,
 // so that it is compiled for the same machine as its caller.
-template <class T, class Note>
+template <class T, class AnySplat, class Note>
 [[gnu::always_inline]] inline void blend_lanes(SubtileState& state, int subtile_x, int subtile_y,
-                                               const Splat& splat, const Note& note) {
-  const LaneInput<T> in =
-      input_of<T>(splat, splat.x - static_cast<float>(subtile_x * kSubtilePx),
-                  splat.y - static_cast<float>(subtile_y * kSubtilePx));
+                                               const AnySplat& splat, const Note& note) {
+  const auto in = input_of(splat, splat.x - static_cast<float>(subtile_x * kSubtilePx),
+                           splat.y - static_cast<float>(subtile_y * kSubtilePx));
   const T finish = constant<T>(kTransmittanceMin);
   T exponent[kSubtilePixels], alpha[kSubtilePixels];
   Exp2Lanes<T> exp2;
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_px);
-    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_px);
+    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_x);
+    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_y);
     exponent[lane] = log2_falloff(in.conic, dx, dy);
     exp2.put(lane, exponent[lane]);
   }
@@ -116,9 +111,9 @@ template <class T, class Note>
   }
 }
 
-template <class T>
+template <class T, class AnySplat>
 [[gnu::always_inline]] inline LaneShares shares_of(SubtileState& state, int subtile_x,
-                                                   int subtile_y, const Splat& splat) {
+                                                   int subtile_y, const AnySplat& splat) {
   LaneShares shares;
   blend_lanes<T>(state, subtile_x, subtile_y, splat, [&](int lane, float alpha, float before) {
     shares.alpha[lane] = alpha;
@@ -157,13 +152,13 @@ LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y, con
 }
 
 SGS_WIDEST_LANES
-void blend_in_half(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
+void blend(SubtileState& state, int subtile_x, int subtile_y, const SquareSplat& splat) {
   blend_lanes<HalfScalar>(state, subtile_x, subtile_y, splat, [](int, float, float) {});
 }
 
 SGS_WIDEST_LANES
-LaneShares blend_in_half_and_tell(SubtileState& state, int subtile_x, int subtile_y,
-                                  const Splat& splat) {
+LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
+                          const SquareSplat& splat) {
   return shares_of<HalfScalar>(state, subtile_x, subtile_y, splat);
 }
 

@@ -7,6 +7,7 @@
 #include "algorithm/splat/exp2.h"
 #include "algorithm/splat/scalar.h"
 #include "algorithm/splat/splat.h"
+#include "algorithm/splat/square_splat.h"
 
 namespace sgs {
 
@@ -52,8 +53,9 @@ struct SubtileState {
 };
 
 // In which arithmetic pixels are blended and kept. kHalf: each operation rounded to 16 bits
-// (half_scalar.h), the conic (once log2(e) is in it) and distances of a splat scaled by a power of
-// two of its own, so that wide splats do not vanish among the subnormal.
+// (half_scalar.h), the conic with its square completed (square_conic.h; once a splat, in single
+// precision), it and distances scaled by powers of two of the splat's own, so that wide splats do
+// not vanish among the subnormal.
 enum class BlendPrecision : std::uint8_t { kSingle, kHalf };
 
 // Fresh state; lanes whose pixel lies outside the frame (width x height px) begin finished.
@@ -78,11 +80,12 @@ inline LightShare<T> take_light(T alpha, T before) {
 
 // Blends `splat` into the sub-tile (subtile_x, subtile_y) of the frame.
 void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
-void blend_in_half(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
+// In half.
+void blend(SubtileState& state, int subtile_x, int subtile_y, const SquareSplat& splat);
 // The same, and what the splat took. A function of its own: who does not look pays nothing.
 LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
-LaneShares blend_in_half_and_tell(SubtileState& state, int subtile_x, int subtile_y,
-                                  const Splat& splat);
+LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
+                          const SquareSplat& splat);
 
 // Whether every pixel of the block is finished.
 bool finished(const SubtileState& state);

@@ -4,9 +4,10 @@
 // float and rounding once gives the correctly rounded half. Branch-free, so that loops over pixels
 // become vector code.
 //
-// Infinity rather than the largest half: far from a needle's centre the two sides of its exponent
-// are too large and of opposite signs. As infinities they add up to no number, which is not blended
-// (alpha_of); as largest halves they add up to 0, and the needle would cover the frame.
+// Infinity rather than the largest half: far from a needle's centre the two lengths that make up
+// the one across it may be too large and of opposite signs. As infinities they add up to no number,
+// which is not blended (alpha_of); as largest halves they add up to 0, and the needle would cover
+// the frame.
 #pragma once
 
 #include <cstdint>

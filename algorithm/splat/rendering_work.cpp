@@ -8,6 +8,7 @@
 #include "algorithm/splat/flow_ends.h"
 #include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/row_span.h"
+#include "algorithm/splat/square_conic.h"
 
 namespace sgs {
 namespace {
@@ -15,11 +16,11 @@ namespace {
 constexpr std::size_t kBesideBlend = 1;  // a word that goes along: the sub-tile's number
 
 // What blending does for 16 pixels, in the arithmetic T; state(value): of a pixel, from outside.
-template <class T, class State>
-void blend_work(const LaneInput<T>& in, const State& state) {
+template <class T, class Conic, class State>
+void blend_work(const LaneInput<T, Conic>& in, const State& state) {
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_px);
-    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_px);
+    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_x);
+    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_y);
     const T exponent = log2_falloff(in.conic, dx, dy);
     const T alpha = alpha_of(exponent, exp2_of(exponent), in.opacity);
     const LightShare<T> light = take_light(alpha, T(state(0.5F)));
@@ -64,15 +65,41 @@ DataFlow spans_begin_flow() {
   return flow;
 }
 
+// A pixel's numbers come when they are taken.
+auto state_into(RenderingFlow& of) {
+  return [&of](float value) {
+    const Counting of_pixel = input(of.flow, value);
+    of.state.push_back(of_pixel.node);
+    return of_pixel;
+  };
+}
+
+// Of a splat whose numbers come as halves, in units of its own, from the corner on.
+RenderingFlow halves_flow() {
+  RenderingFlow out;
+  constexpr AxisUnits kUnits = {0.125F, 0.25F};
+  const auto half = [&](float value) { return CountingHalf(input(out.flow, value)); };
+  const Counting left = input(out.flow, 5.5F), top = input(out.flow, 5.25F);
+  out.flow.pass_beside(kBesideBlend);
+  blend_work(
+      LaneInput<CountingHalf, SquareConic<CountingHalf>>{{half(-0.7F), half(0.6F), half(-0.6F)},
+                                                         half(0.9F),
+                                                         half(0.1F),
+                                                         half(0.2F),
+                                                         half(0.3F),
+                                                         CountingHalf(scaled_by(left, kUnits.x)),
+                                                         CountingHalf(scaled_by(top, kUnits.y)),
+                                                         kUnits.x,
+                                                         kUnits.y},
+      state_into(out));
+  return out;
+}
+
 RenderingFlow rendering_flow(BlendPrecision precision) {
   RenderingFlow out;
   DataFlow& flow = out.flow;
   const SplatOf<Counting> splat = leaning_splat(flow);
-  const auto state = [&](float value) {
-    const Counting of_pixel = input(flow, value);
-    out.state.push_back(of_pixel.node);
-    return of_pixel;
-  };
+  const auto state = state_into(out);
   RowSpans<Counting> spans(splat);
   // The edge above is that of another line, or the graph would find there where the row's top lies.
   spans.start(kFirstRowPx - 1);
@@ -85,13 +112,17 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   const auto below = spans.carried();
   for (std::size_t i = below.size() - kEdgeWords; i < below.size(); ++i) keep(flow, {below[i]});
   out.spanned = flow.size();
-  static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
+  if (precision == BlendPrecision::kHalf) {
+    static_cast<void>(square_conic(splat.conic_a, splat.conic_b, splat.conic_c));
+  } else {
+    static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
+  }
   out.in_base_2 = flow.size();
   flow.pass_beside(kBesideBlend);
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
   out.cornered = flow.size();
   if (precision == BlendPrecision::kHalf) {
-    blend_work(lane_input_in_half<CountingHalf>(splat, left, top), state);
+    blend_work(lane_input_in_half<CountingHalf>(square_splat(splat), left, top), state);
   } else {
     blend_work(lane_input(splat, left, top), state);
   }
@@ -137,8 +168,8 @@ std::vector<LaneStep> span_steps(const OperationLatencies& single) {
   return lane_steps(of.flow, of.spans_begun, of.spanned, single, {of.edge});
 }
 
-std::vector<LaneStep> conic_steps(const OperationLatencies& single) {
-  const RenderingFlow of = rendering_flow(BlendPrecision::kSingle);
+std::vector<LaneStep> conic_steps(BlendPrecision precision, const OperationLatencies& single) {
+  const RenderingFlow of = rendering_flow(precision);
   return lane_steps(of.flow, of.spanned, of.in_base_2, single);
 }
 
@@ -173,6 +204,25 @@ std::vector<LaneStep> blend_from_corner_steps(BlendPrecision precision,
                                               const OperationLatencies& latencies) {
   const RenderingFlow of = rendering_flow(precision);
   return blend_steps_from(of, of.cornered, latencies);
+}
+
+OperationCounts blend_of_halves_work() {
+  const RenderingFlow of = halves_flow();
+  return of.flow.counts(0, of.flow.size());
+}
+
+std::vector<LaneStep> blend_of_halves_steps(const OperationLatencies& half) {
+  return blend_steps_from(halves_flow(), 0, half);
+}
+
+DataFlow terms_of_square_flow() {
+  DataFlow flow;
+  const SquareConic<Counting> square = {input(flow, -0.02F), input(flow, 0.3F),
+                                        input(flow, -0.03F)};
+  const ConicTerms<Counting> terms = conic_terms(square);
+  const Log2Conic<Counting> conic = log2_conic(terms.a, terms.b, terms.c);
+  keep(flow, {conic.a, conic.b, conic.c});
+  return flow;
 }
 
 }  // namespace sgs

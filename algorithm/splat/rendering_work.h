@@ -13,7 +13,8 @@ namespace sgs {
 
 // Of rendering: a splat's spans are begun once; each row of sub-tiles adds one; each sub-tile is
 // blended. What its 16 pixels share (a column's A dx^2, a row's C dy^2) counts once. Ahead of all
-// log2(e) goes into the splat's conic, in single precision.
+// log2(e) goes into the splat's conic, in single precision; for blending in half its square is
+// completed there.
 struct RenderingWork {
   OperationCounts conic, spans_begin, span, subtile_blend;
   // The same with lanes of its own for where the splat's centre is beside the sub-tile: always in
@@ -39,11 +40,19 @@ constexpr std::uint32_t kBegunSpanWords = 10;
 // sub-tile's blend, each pixel's state coming at once when it is needed.
 std::vector<LaneStep> spans_begin_steps(const OperationLatencies& single);
 std::vector<LaneStep> span_steps(const OperationLatencies& single);
-std::vector<LaneStep> conic_steps(const OperationLatencies& single);
+std::vector<LaneStep> conic_steps(BlendPrecision precision, const OperationLatencies& single);
 std::vector<LaneStep> blend_steps(BlendPrecision precision, const OperationLatencies& latencies);
 // The same in two parts.
 std::vector<LaneStep> corner_steps(const OperationLatencies& single);
 std::vector<LaneStep> blend_from_corner_steps(BlendPrecision precision,
                                               const OperationLatencies& latencies);
+
+// The same from the corner on of a splat whose numbers come as halves, its square completed
+// (algorithm/memory/tile_records.h): nothing is rounded but where its centre is.
+OperationCounts blend_of_halves_work();
+std::vector<LaneStep> blend_of_halves_steps(const OperationLatencies& half);
+
+// Such a splat for blending in single: its conic's terms come back, and log2(e) into them.
+DataFlow terms_of_square_flow();
 
 }  // namespace sgs

@@ -84,6 +84,9 @@ inline float exp_of<float>(float x) {
   return p * __builtin_bit_cast(float, exponent + 0x3f800000U);
 }
 
+// x times a power of two: an addition to its exponent.
+inline float scaled_by(float x, float power_of_two) { return x * power_of_two; }
+
 template <class T>
 inline T max_of(T a, T b) {
   return a < b ? b : a;

@@ -8,6 +8,7 @@
 #include "algorithm/splat/counting_half.h"
 #include "algorithm/splat/frame_sides.h"
 #include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/square_conic.h"
 
 namespace sgs {
 namespace {
@@ -101,12 +102,10 @@ DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records) 
                 {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth});
     return flow;
   }
-  // The conic over a power of two: that of the larger of its diagonal.
-  static_cast<void>(max_of(s.conic_a, s.conic_c));
-  constexpr float kPowerOfTwo = 4;
+  const SquareConic<Counting> square = square_conic(s.conic_a, s.conic_b, s.conic_c);
+  const SquareConic<Counting> conic = in_units(square, axis_units(square));
   for (const Counting& value :
-       {scaled_by(s.conic_a, kPowerOfTwo), scaled_by(s.conic_b, kPowerOfTwo),
-        scaled_by(s.conic_c, kPowerOfTwo), s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth}) {
+       {conic.a, conic.lean, conic.rest, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth}) {
     keep_values(flow, {narrowed<CountingHalf>(value).counting()});
   }
   return flow;

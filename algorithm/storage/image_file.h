@@ -3,7 +3,7 @@
 //
 //   offset  bytes  field
 //        0      8  magic 89 53 47 53 0d 0a 1a 0a ("\x89SGS\r\n\x1a\n": text mode would change it)
-//        8      4  version, 3
+//        8      4  version, 4
 //       12      4  header bytes h, from offset 0
 //       16      8  length of the file
 //       24         fields of image_file_fields.h, those of the scene's storage order, in that order
@@ -21,7 +21,7 @@
 namespace sgs {
 
 constexpr const char* kImageFileExtension = ".sgs";
-constexpr std::uint32_t kImageFileVersion = 3;
+constexpr std::uint32_t kImageFileVersion = 4;
 constexpr std::size_t kMostNameBytes = 255;
 
 // Of a scene, whichever way it is stored.
@@ -29,6 +29,7 @@ struct PackedFacts {
   std::string name;                   // cut to kMostNameBytes in the file
   std::uint64_t gaussians = 0;        // in the scene, stored or not
   std::uint64_t dropped_invalid = 0;  // before that, because a value was not finite
+  int sh_bands_left_out = 0;          // of the scene's, that storage.sh_tolerance spared
 };
 
 struct PackedScene {

@@ -74,6 +74,7 @@ void visit_fields(Fields& fields, ImageFileHeader& header) {
   fields("storage order", storage.order, 0, kMostStorageOrder);
   fields("encoding", storage.encoding, 0, 3);  // as SecondHalfEncoding
   fields("store_invisible", storage.store_invisible, 0, 1);
+  fields("sh_tolerance", storage.sh_tolerance, 0, 1);
   fields("vq.scale_entries", storage.vq.scale_entries, 1, kMaxCodebookEntries);
   fields("vq.rotation_entries", storage.vq.rotation_entries, 1, kMaxCodebookEntries);
   fields("vq.dc_entries", storage.vq.dc_entries, 1, kMaxCodebookEntries);
@@ -84,6 +85,7 @@ void visit_fields(Fields& fields, ImageFileHeader& header) {
   fields("Gaussians dropped as invalid", header.facts.dropped_invalid, 0, kAny);
   fields("stored Gaussians", header.stored, 0, kWord);
   fields("SH degree", header.format.sh_degree, 0, kMostDegree);
+  fields("SH bands left out", header.facts.sh_bands_left_out, 0, kMostDegree);
   for (auto& entries : header.format.entries) {
     fields("codebook entries", entries, 0, kMaxCodebookEntries);
   }

@@ -20,8 +20,9 @@ StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
 QuantisedCloud quantise_scene(const ActivatedCloud& cloud, const VqConfig& config,
                               const std::vector<Camera>& weighing, const VqProgress& progress = {});
 
-// Of a scene that was quantised elsewhere. quantised: of this cloud, whose centres, largest scales
-// and order are stored as they are; config's encoding: vq or vq_packed.
+// Of a scene that was quantised elsewhere. quantised: of this cloud, with the bands that are stored
+// (sh_bands.h), whose centres, largest scales and order are stored as they are; config's encoding:
+// vq or vq_packed.
 StoredScene store_quantised(ActivatedCloud cloud, const QuantisedCloud& quantised,
                             const StorageConfig& config);
 

@@ -1,5 +1,7 @@
 #include "algorithm/train/scene_tuner.h"
 
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "algorithm/splat/activate.h"
@@ -13,23 +15,40 @@ void serialize(Archive& archive, SceneTuner::State& state) {
   archive(state.next_step, state.cloud, state.moments);
 }
 
+namespace {
+
+// A step of a quaternion is a part of 1: it turns a short one anywhere, and a long one not at all.
+// Such ones become unit quaternions, of the same rotation; what trainings write stays as it is.
+GaussianCloud of_usual_lengths(GaussianCloud cloud) {
+  constexpr double kShortest = 0.01, kLongest = 100;
+  for (std::array<float, 4>& quat : cloud.quats) {
+    const double length = std::sqrt(double{quat[0]} * quat[0] + double{quat[1]} * quat[1] +
+                                    double{quat[2]} * quat[2] + double{quat[3]} * quat[3]);
+    if (length >= kShortest && length <= kLongest) continue;
+    for (float& part : quat) part = static_cast<float>(part / length);
+  }
+  return cloud;
+}
+
+}  // namespace
+
 SceneTuner::SceneTuner(const TuningConfig& config, const Photographs& photographs,
                        DrawingOrder order, Penalty penalty, GaussianCloud given)
+    : SceneTuner(config, photographs, std::move(order), std::move(penalty),
+                 State{0, of_usual_lengths(std::move(given)), {}}) {}
+
+SceneTuner::SceneTuner(const TuningConfig& config, const Photographs& photographs,
+                       DrawingOrder order, Penalty penalty, State state)
     : config_(config),
       photographs_(photographs),
       order_(std::move(order)),
       penalty_(std::move(penalty)),
-      cloud_(std::move(given)),
+      next_step_(state.next_step),
+      cloud_(std::move(state.cloud)),
       activated_(activate(cloud_)),
       adam_(cloud_),
-      view_order_(config.seed) {}
-
-SceneTuner::SceneTuner(const TuningConfig& config, const Photographs& photographs,
-                       DrawingOrder order, Penalty penalty, State state)
-    : SceneTuner(config, photographs, std::move(order), std::move(penalty),
-                 std::move(state.cloud)) {
-  next_step_ = state.next_step;
-  adam_.restore(std::move(state.moments));
+      view_order_(config.seed) {
+  if (!state.moments.updates.empty()) adam_.restore(std::move(state.moments));
 }
 
 std::string SceneTuner::saved() const {

@@ -28,8 +28,8 @@ class SceneTuner : public Fitting {
     AdamMoments moments;
   };
 
-  // photographs: loaded; must outlive the tuner. given: in the order's storage order. penalty: may
-  // be empty.
+  // photographs: loaded; must outlive the tuner. given: in the order's storage order; of its
+  // quaternions those shorter than 0.01 or longer than 100 become unit ones. penalty: may be empty.
   SceneTuner(const TuningConfig& config, const Photographs& photographs, DrawingOrder order,
              Penalty penalty, GaussianCloud given);
   SceneTuner(const TuningConfig& config, const Photographs& photographs, DrawingOrder order,

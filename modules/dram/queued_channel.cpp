@@ -40,6 +40,7 @@ void QueuedChannel::push(const ChannelRequest& request, std::uint64_t cycle) {
     forwarded_.push({ready + 1 + path_.back_end_read, request.owner});
     return;
   }
+  arrived_ = cycle;
   RequestQueue::Entry entry;
   entry.request = request;
   entry.arrival = cycle;
@@ -157,12 +158,13 @@ void QueuedChannel::renew_work(std::uint32_t bank) {
 
 QueuedChannel::Choice QueuedChannel::best_of(std::uint64_t banks, Choice best) {
   std::vector<Work>& works = this->works(considered_);
+  const std::uint64_t from = std::max(clock_, arrived_);
   for (; banks != 0; banks &= banks - 1) {
     const auto flat_bank = static_cast<std::uint32_t>(__builtin_ctzll(banks));
     Work& work = works[flat_bank];
     if (!work.settled) work = work_of(queue(considered_), flat_bank);
     const std::uint64_t cycle =
-        std::max({device_.earliest_flat(work.command, work.rank, flat_bank), work.ready, clock_});
+        std::max({device_.earliest_flat(work.command, work.rank, flat_bank), work.ready, from});
     const bool possible =
         (work.entry != RequestQueue::kNone) &
         (cycle + work.wasted_within < maintenance_[work.rank].request_limit(work.bank));

@@ -45,8 +45,8 @@ class QueuedChannel {
   // No queue entry becomes free before this cycle.
   std::uint64_t next_decision();
 
-  // Requests that are answered by `cycle`: their last datum has been transferred, and has come back.
-  // Earliest first. Null: no more.
+  // Requests that are answered by `cycle`: their last datum has been transferred, and has come
+  // back. Earliest first. Null: no more.
   struct Completion {
     std::uint64_t cycle;
     void* owner;
@@ -114,6 +114,8 @@ class QueuedChannel {
   Direction direction_ = Direction::kRead;   // of the last request's command
   Direction considered_ = Direction::kRead;  // of the choice at hand; a look must change nothing
   std::uint64_t clock_ = 0;                  // the command bus is free from here on
+  // Of the last request: what it changes, as the wanted direction, is not decided before.
+  std::uint64_t arrived_ = 0;
   std::uint64_t next_order_ = 0;
   std::vector<std::uint32_t> waiting_;      // requests by rank
   std::vector<std::uint64_t> wanted_from_;  // by rank: since when requests have been waiting

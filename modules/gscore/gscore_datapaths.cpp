@@ -36,11 +36,21 @@ Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
   return counted("convert", "ccu", flow, config.ccu.convert_lanes, config.single());
 }
 
+// What a record holds is what the lanes of blending take.
+bool blends_its_records(const GscoreConfig& config) {
+  return config.tiles.features == NumberFormat::kHalf &&
+         config.rendering.precision == BlendPrecision::kHalf;
+}
+
+OperationCounts blend_work(const GscoreConfig& config) {
+  if (blends_its_records(config)) return blend_of_halves_work();
+  return rendering_work(config.rendering.precision).blend_from_corner;
+}
+
 // Of a block of pixels to the next.
 std::uint64_t blend_interval(const GscoreConfig& config) {
-  const RenderingConfig& c = config.rendering;
-  if (c.core_lanes == 0) return 1;
-  return cycles_for(folded_macs(rendering_work(c.precision).blend_from_corner), c.core_lanes);
+  const std::uint32_t lanes = config.rendering.core_lanes;
+  return lanes == 0 ? 1 : cycles_for(folded_macs(blend_work(config)), lanes);
 }
 
 }  // namespace
@@ -81,19 +91,27 @@ Datapath part_test_pipeline(const GscoreConfig& config) {
 }
 
 // A splat that is blended takes a turn for each block of a part at least, so that lanes for that
-// pace suffice. Ahead of them the halves of its record are widened, and the conic's scaled.
-Datapath conic_pipeline(const GscoreConfig& config) {
-  Datapath path =
-      counted_datapath("conic", "rendering", rendering_work(BlendPrecision::kSingle).conic);
+// pace suffice. Ahead of them the halves of its record are widened.
+std::optional<Datapath> conic_pipeline(const GscoreConfig& config) {
+  if (blends_its_records(config)) return std::nullopt;
+  const BlendPrecision precision = config.rendering.precision;
+  const bool of_halves = config.tiles.features == NumberFormat::kHalf;
   constexpr std::uint32_t kHalves = 7, kOfConic = 3;
-  if (config.tiles.features == NumberFormat::kHalf) {
+  const DataFlow terms = terms_of_square_flow();
+  Datapath path =
+      counted_datapath("conic", "rendering",
+                       of_halves ? terms.counts(0, terms.size()) : rendering_work(precision).conic);
+  if (of_halves) {
     path.part_of("comparator").operations +=
         kHalves * kConversionComparisons + kOfConic * kScalingComparisons;
   }
   const int across = kSubtilesPerTile / config.tiles.subtiles_across;
   const std::uint64_t turn = static_cast<std::uint64_t>(across * across) * blend_interval(config);
   path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, turn));
-  schedule(path, conic_steps(config.single()), config.single());
+  schedule(path,
+           of_halves ? lane_steps(terms, 0, terms.size(), config.single())
+                     : conic_steps(precision, config.single()),
+           config.single());
   return path;
 }
 
@@ -110,13 +128,14 @@ Datapath corner_pipeline(const GscoreConfig& config) {
 Datapath blend_pipeline(const GscoreConfig& config) {
   const BlendPrecision precision = config.rendering.precision;
   const bool in_half = precision == BlendPrecision::kHalf;
-  Datapath path =
-      counted_datapath("blend", "rendering", rendering_work(precision).blend_from_corner,
-                       in_half ? "exp2_table_half" : "exp2_table");
+  Datapath path = counted_datapath("blend", "rendering", blend_work(config),
+                                   in_half ? "exp2_table_half" : "exp2_table");
   if (in_half) path.lane = "fp16_lane";
   path.lanes = config.rendering.core_lanes > 0 ? config.rendering.core_lanes : path.used_macs;
-  schedule(path, blend_from_corner_steps(precision, config.blending()), config.blending(),
-           in_half ? kHalfBits : kSingleBits);
+  schedule(path,
+           blends_its_records(config) ? blend_of_halves_steps(config.blending())
+                                      : blend_from_corner_steps(precision, config.blending()),
+           config.blending(), in_half ? kHalfBits : kSingleBits);
   return path;
 }
 

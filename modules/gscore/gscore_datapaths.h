@@ -1,6 +1,8 @@
 // The lanes of the tile-centric machine, counted by running the code and scheduled.
 #pragma once
 
+#include <optional>
+
 #include "modules/gscore/gscore_config.h"
 #include "tlm/datapath.h"
 
@@ -14,10 +16,11 @@ Datapath convert_pipeline(const GscoreConfig& config, int sh_degree);
 Datapath tile_test_pipeline(const GscoreConfig& config);
 Datapath part_test_pipeline(const GscoreConfig& config);
 
-// Of the VRUs of one core: log2(e) into a splat's conic, once a splat; where its centre is beside a
-// block of 16 pixels, in single precision whatever follows; the block, a pixel for each VRU;
-// finished pixels to the frame's format.
-Datapath conic_pipeline(const GscoreConfig& config);
+// Of the VRUs of one core: log2(e) into a splat's conic, and its square completed for blending in
+// half, once a splat, none where the record in half holds what blending in half takes (the CCU has
+// made it); where its centre is beside a block of 16 pixels; both in single precision whatever
+// follows; the block, a pixel for each VRU; finished pixels to the frame's format.
+std::optional<Datapath> conic_pipeline(const GscoreConfig& config);
 Datapath corner_pipeline(const GscoreConfig& config);
 Datapath blend_pipeline(const GscoreConfig& config);
 Datapath drain_pipeline(const GscoreConfig& config);

@@ -62,10 +62,6 @@ GoldenFrame GscoreDesign::golden(const StoredScene& scene, const FrameJob& job,
   const TileStats& stats = result.stats;
   sheet.left_out("tiles_not_touched", "boxes along the ellipses", stats.tile_tests - stats.pairs,
                  "entries of lists");
-  constexpr std::uint64_t kWholeTile = kSubtilesPerTile * kSubtilesPerTile;
-  sheet.left_out("parts_not_touched", "bits of parts of tiles",
-                 kWholeTile * stats.entries_taken - stats.subtile_blends,
-                 "16 fragments each, with those that were finished");
   GoldenFrame golden;
   golden.image = std::move(result.frame.image);
   golden.blends = stats.contributors;

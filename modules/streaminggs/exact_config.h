@@ -26,6 +26,7 @@ struct ExactConfig : StreamingConfig {
     hfu.slice_gaussians = 8;
     hfu.input_slots = 5;
     hfu.cfu_lanes = 2;
+    hfu.candidate_fifo_entries = 18;  // 14 are under test in the CFUs, and marks
     hfu.second_half_slots = 8;
     rendering.cluster_lanes = 64;
     rendering.pixel_buffers = 1;

@@ -109,8 +109,8 @@ void ExactEstimate::filter(std::uint32_t first, std::uint32_t count, std::uint32
     return next < of_->keys.size() && of_->keys[next].slot == slot ? 1 : 0;
   };
   CoarseFilterEstimate& coarse = units_.coarse[hfu];
-  coarse.begin({group_, first, count, rendering_.finished_from()},
-               visits_[visit_ % visits_.size()]);
+  coarse.begin({group_, first, count, rendering_.finished_from()}, visits_[visit_ % visits_.size()],
+               keys);
   while (coarse.next(passes)) {
     const KeyWork& key = of_->keys[next];
     list_.push_back({key.depth, key.slot, next++});
@@ -157,16 +157,17 @@ void ExactEstimate::emit(const MergeEstimate::Key& key) {
 void ExactEstimate::to_fine(const FineFilterEstimate::Candidate& candidate, std::uint32_t splat) {
   const std::size_t hfu = sequence_++ % released_.size();
   units_.merge.go_on(released_[hfu].push(units_.merge.now()));
-  units_.fine[hfu].take(candidate, released_[hfu],
-                        [&](std::uint32_t, std::uint64_t now, bool tested) {
-                          now = splats_[hfu].push(now);
-                          if (tested && candidate.splats != 0) {
-                            rendering_.blend(splats_[hfu], splat);
-                          } else {
-                            rendering_.pass(splats_[hfu]);
-                          }
-                          return now;
-                        });
+  FifoTimes& splats = splats_[hfu];
+  units_.fine[hfu].take(
+      candidate, released_[hfu], [&](std::uint32_t) -> FifoTimes& { return splats; },
+      [&](std::uint32_t, std::uint64_t now, bool tested) {
+        splats.push(now);
+        if (tested && candidate.splats != 0) {
+          rendering_.blend(splats, splat);
+        } else {
+          rendering_.pass(splats);
+        }
+      });
 }
 
 }  // namespace sgs

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "modules/streaminggs/exact_estimate.h"
+#include "modules/streaminggs/spare_parts.h"
 
 namespace sgs {
 namespace {
@@ -149,6 +150,9 @@ void ExactMachine::publish_units(DataSheet& sheet) {
   if (codebooks_) codebooks_->publish(sheet);
   for (const auto& hfu : hfus_) hfu->publish(sheet);
   for (const auto& sorter : sorters_) sorter->publish(sheet);
+  const auto sorts = [](const ExactSorter& sorter) { return sorter.counters().keys > 0; };
+  publish_spare(sheet, "spare_sorting_units", "sorting_units", sorters_.size(),
+                units_fed(sorters_, sorts), 1);
   merge_->publish(sheet);
   rendering_[0]->publish(sheet);
 }

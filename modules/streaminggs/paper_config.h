@@ -27,7 +27,7 @@ struct PaperConfig : StreamingConfig {
     rendering.pixel_buffers = 1;
     rendering.cluster_queue_entries = 4;
     memory_port.max_outstanding = 8;
-    hfu.candidate_fifo_entries = 10;  // what 89 KB leave
+    hfu.candidate_fifo_entries = 30;  // 28 are under test in the CFUs, and marks
     rendering.input_fifo_entries = 4;
   }
 

@@ -102,7 +102,8 @@ std::uint64_t PaperEstimate::send_end(std::uint64_t cycle) {
 void PaperEstimate::follow_visit() {
   const std::uint64_t all = *std::max_element(finished_from_.begin(), finished_from_.end());
   for (std::size_t f = 0; f < streams_.size(); ++f) {
-    units_.coarse[f].begin({group_, streams_[f].first, streams_[f].count, all}, visits_[f]);
+    units_.coarse[f].begin({group_, streams_[f].first, streams_[f].count, all}, visits_[f],
+                           candidates_[f]);
   }
   for (std::uint32_t p = 0; p < finished_from_.size(); ++p) {
     units_.sorters[list_of(p)].begin_visit(group_);
@@ -186,22 +187,20 @@ void PaperEstimate::to_fine(std::size_t f, const FineFilterEstimate::Candidate& 
   Stream& stream = streams_[f];
   const std::uint32_t* const splats =
       of == nullptr ? nullptr : work_.groups[group_].splats.data() + of->first_splat;
-  units_.fine[f].take(candidate, candidates_[f],
-                      [&](std::uint32_t part, std::uint64_t now, bool tested) {
-                        const std::uint32_t* splat = nullptr;
-                        if (of != nullptr) {
-                          if (!tested || (of->splats >> part & 1U) == 0) return now;
-                          splat = splats + count_parts(of->splats & ((1U << part) - 1));
-                        }
-                        now = splats_of(f, part).push(now);
-                        if (streams_.size() == 1) {
-                          take(f, part, splat);
-                        } else {
-                          stream.arrived = true;
-                          if (splat != nullptr) stream.splat = *splat;
-                        }
-                        return now;
-                      });
+  units_.fine[f].take(
+      candidate, candidates_[f],
+      [&](std::uint32_t part) -> FifoTimes& { return splats_of(f, part); },
+      [&](std::uint32_t part, std::uint64_t now, bool) {
+        const std::uint32_t* const splat =
+            of == nullptr ? nullptr : splats + count_parts(of->splats & ((1U << part) - 1));
+        splats_of(f, part).push(now);
+        if (streams_.size() == 1) {
+          take(f, part, splat);
+        } else {
+          stream.arrived = true;
+          if (splat != nullptr) stream.splat = *splat;
+        }
+      });
 }
 
 // splat: null: the mark behind those of a fetch.

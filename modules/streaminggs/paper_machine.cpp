@@ -1,9 +1,11 @@
 // Wiring of paper order.
 #include "modules/streaminggs/paper_machine.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "modules/streaminggs/paper_estimate.h"
+#include "modules/streaminggs/spare_parts.h"
 
 namespace sgs {
 
@@ -119,6 +121,11 @@ void PaperMachine::publish_units(DataSheet& sheet) {
   if (codebooks_) codebooks_->publish(sheet);
   for (const auto& hfu : hfus_) hfu->publish(sheet);
   for (const auto& sorter : sorters_) sorter->publish(sheet);
+  std::uint64_t longest = 0;
+  for (const auto& sorter : sorters_) longest = std::max(longest, sorter->counters().list_max);
+  constexpr std::uint64_t kFewestEntries = 16;  // a block of the network
+  publish_spare(sheet, "spare_sort_buffer_entries", "sorting.buffer_entries",
+                config_.sorting.buffer_entries, longest, kFewestEntries);
   for (const auto& rendering : rendering_) rendering->publish(sheet);
 }
 

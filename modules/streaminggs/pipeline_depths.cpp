@@ -59,7 +59,7 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   // The conic's lanes stand ahead of the queues: what they take comes on top.
   const Datapath blend = blend_pipeline(part, blending);
   resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend, paths.blend, blending,
-                conic_pipeline(single).depth_cycles + kReadCycles + kWriteCycles, chosen);
+                conic_pipeline(part, single).depth_cycles + kReadCycles + kWriteCycles, chosen);
   take("rendering.state_loop_cycles", rendering.state_loop_cycles, blend.loop_cycles,
        "subtile_blend, from a pixel's state on", paths.state_loop, blending,
        kReadCycles + kWriteCycles, chosen);

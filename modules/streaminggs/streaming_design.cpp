@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "algorithm/render/group_parts.h"
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/filter_cost.h"
@@ -67,41 +69,44 @@ GoldenFrame golden_frame(StreamingResult&& result, const std::vector<PixelRect>&
 
 void publish_left_out(const StreamingConfig& config, const StoredScene& scene, DataSheet& sheet) {
   const SecondHalfFormat& format = scene.image.layout.second_half;
-  SecondHalfFormat full{format.encoding, kMaxDegree, {}};
-  for (std::size_t id = 0; id < kCodebookCount; ++id) {
-    full.entries[id] = format.quantised() ? scene.storage.vq.entries(static_cast<Codebook>(id)) : 0;
-  }
-  SecondHalfFormat of_degree = full;
-  of_degree.sh_degree = format.sh_degree;
-  if (format.sh_degree == 0) of_degree.entries[static_cast<std::size_t>(Codebook::kSh)] = 0;
-  const auto bytes = [&](const SecondHalfFormat& of) {
-    const RecordSplit split = split_of(scene.image.layout.order(), of);
-    return split.first_bytes() + split.second_bytes;
-  };
-  const std::string degree = fmt::format("the scene has SH degree {}", format.sh_degree);
-  if (format.sh_degree < kMaxDegree) {
-    sheet.left_out("sh_bands", degree.c_str(), scene.image.layout.gaussian_count(),
-                   fmt::format("{} B a Gaussian", bytes(full) - bytes(of_degree)));
-  }
+  constexpr auto kSh = static_cast<std::size_t>(Codebook::kSh);
   if (!format.quantised()) {
+    const std::uint64_t fewer = kCodebookCount - (format.sh_degree == 0 ? 1 : 0);
     sheet.left_out("codebooks", "second halves are not quantised",
-                   config.sram.codebook_bytes > 0 ? 1 : 0,
+                   config.sram.codebook_bytes > 0 ? fewer : 0,
                    fmt::format("{} B of SRAM stay empty", config.sram.codebook_bytes));
     return;
   }
   if (format.sh_degree < kMaxDegree) {
-    sheet.left_out("codebook_words", degree.c_str(), 1,
-                   fmt::format("{} B of DRAM, of the load and of SRAM",
-                               full.codebook_bytes() - of_degree.codebook_bytes()));
+    SecondHalfFormat whole = format;
+    whole.sh_degree = kMaxDegree;
+    whole.entries[kSh] = std::max(1U, format.entries[kSh]);
+    const std::uint32_t fewer = whole.codebook_bytes() - format.codebook_bytes();
+    const std::string degree =
+        fmt::format("the scene is stored with SH degree {}", format.sh_degree);
+    sheet.left_out("codebook_words", degree.c_str(), fewer / sizeof(float),
+                   fmt::format("{} B of DRAM, of the load and of SRAM", fewer));
   }
-  std::uint32_t fewer = 0;
+  // With codebooks as large as they may become.
+  const SecondHalfFormat full = scene.storage.widest_format(format.sh_degree);
+  std::uint32_t fewer = 0, fewer_bits = 0;
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
-    fewer += of_degree.entries[id] - format.entries[id];
+    const auto codebook = static_cast<Codebook>(id);
+    fewer += full.entries[id] - format.entries[id];
+    fewer_bits += full.index_bits(codebook) - format.index_bits(codebook);
   }
+  const auto bytes = [&](const SecondHalfFormat& of) {
+    const RecordSplit split = split_of(scene.image.layout.order(), of);
+    return split.first_bytes() + split.second_bytes;
+  };
+  const std::string of_record = fmt::format("{} B a Gaussian", bytes(full) - bytes(format));
   sheet.left_out("codebook_entries", "the scene has no more distinct values", fewer,
-                 fmt::format("{} B of DRAM, of the load and of SRAM, {} B a Gaussian",
-                             of_degree.codebook_bytes() - format.codebook_bytes(),
-                             bytes(of_degree) - bytes(format)));
+                 fmt::format("{} B of DRAM, of the load and of SRAM, {}",
+                             full.codebook_bytes() - format.codebook_bytes(), of_record));
+  if (format.encoding == SecondHalfEncoding::kVqPacked) {
+    sheet.left_out("index_bits", "no more are needed to tell the entries apart", fewer_bits,
+                   of_record);
+  }
   sheet.left_out("codebook_load", "an earlier frame left them in the buffer",
                  config.codebook.preloaded ? 1 : 0,
                  fmt::format("{} B of traffic", format.codebook_bytes()));

@@ -1,7 +1,12 @@
 // Shared units of the two tops.
 #include "modules/streaminggs/streaming_machine.h"
 
+#include <algorithm>
+
+#include "algorithm/render/group_state.h"
+#include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/filter_cost.h"
+#include "modules/streaminggs/spare_parts.h"
 #include "modules/streaminggs/streaming_sram.h"
 
 namespace sgs {
@@ -94,6 +99,7 @@ void StreamingMachine::make_units(Construction parts, Rejects rejects, Arrival a
 void StreamingMachine::publish(DataSheet& sheet) {
   publish_units(sheet);
   sheet.unit(*this);
+  publish_spare_units(sheet);
   for (const Queue& queue : queues_) {
     sheet.sram(queue.use);
     sheet.queue(*queue.fifo, queue.use.name.c_str());
@@ -102,6 +108,26 @@ void StreamingMachine::publish(DataSheet& sheet) {
   sheet.sram_available(kInputSram, config_.sram.input_bytes);
   sheet.sram_available(kCodebookSram, config_.sram.codebook_bytes);
   sheet.sram_available(kSharedSram, config_.sram.shared_bytes);
+}
+
+// Parts of a group that share a fetch have their units for themselves, fed or not.
+void StreamingMachine::publish_spare_units(DataSheet& sheet) {
+  if (config_.parts() > 1) return;
+  publish_spare(sheet, "spare_hfus", "hfus", config_.hfus,
+                units_fed(hfus_,
+                          [](const Hfu& hfu) {
+                            return hfu.coarse.counters().first_halves + hfu.fine.counters().taken >
+                                   0;
+                          }),
+                1);
+  // Those of the sub-tiles of any group: (x + 2 y) modulo clusters.
+  std::uint64_t most = 1;
+  for (const PixelRect& px : job_.groups) {
+    const std::uint64_t columns = cycles_for(static_cast<std::uint64_t>(px.width()), kSubtilePx);
+    const std::uint64_t rows = cycles_for(static_cast<std::uint64_t>(px.height()), kSubtilePx);
+    most = std::max(most, columns + 2 * rows - 2);
+  }
+  publish_spare(sheet, "spare_clusters", "rendering.clusters", config_.rendering.clusters, most, 1);
 }
 
 }  // namespace sgs

@@ -30,6 +30,8 @@ class StreamingMachine : public Machine {
   void publish(DataSheet& sheet) override;
 
  private:
+  void publish_spare_units(DataSheet& sheet);
+
   const StreamingConfig config_;
   const StreamingJob job_;
   const BuiltFor built_for_;

@@ -16,7 +16,8 @@
 #include "algorithm/splat/make_splat.h"
 #include "testbench/bench/bench_scene.h"
 #include "testbench/command_line/guard.h"
-#include "testbench/stability/square_conic.h"
+#include "testbench/stability/conic_by_covariance.h"
+#include "testbench/stability/quadratic_in_half.h"
 
 namespace sgs {
 namespace {
@@ -90,7 +91,7 @@ std::vector<Candidate> candidates(const Camera& camera, const ActivatedCloud& cl
     if (!make_geometry(view, cloud.gaussians[i], c.splat, p)) continue;
     add_colour(view, cloud.sh_degree, cloud.gaussians[i].mean, cloud.sh(i), c.splat);
     c.splat.index = static_cast<std::uint32_t>(i);
-    c.square = square_conic(p);
+    c.square = conic_by_covariance(p);
     const Gaussian<double> g = widened<double>(cloud.gaussians[i]);
     const auto exact = project(view_in_double, g, to_camera(view_in_double, g.mean));
     c.in_double.x = exact.x;
@@ -118,9 +119,8 @@ struct Pictures {
     const float left = s.x - static_cast<float>(subtile_x * kSubtilePx);
     const float top = s.y - static_cast<float>(subtile_y * kSubtilePx);
     const auto in = lane_input(s, left, top);
-    const auto in_half = lane_input_in_half<HalfScalar>(s, left, top);
-    const auto square_in_half =
-        square_conic_in_half<HalfScalar>(s.conic_a, s.conic_b, s.conic_c, in_half.pixel_px);
+    const auto square_in_half = lane_input_in_half<HalfScalar>(square_splat(s), left, top);
+    const auto in_half = quadratic_lanes_in_half<HalfScalar>(s, left, top);
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
       const int column = lane % kSubtilePx, row = lane / kSubtilePx;
       const int x = subtile_x * kSubtilePx + column, y = subtile_y * kSubtilePx + row;
@@ -131,17 +131,17 @@ struct Pictures {
                           s.rgb);
       const float dx = in.left - static_cast<float>(column);
       const float dy = in.top - static_cast<float>(row);
-      const HalfScalar hx =
-          in_half.left - HalfScalar(static_cast<float>(column) * in_half.pixel_px);
-      const HalfScalar hy = in_half.top - HalfScalar(static_cast<float>(row) * in_half.pixel_px);
       const auto alpha = [](auto exponent, auto opacity) {
         return alpha_of(exponent, exp2_of(exponent), opacity);
       };
+      const auto alpha_in_half = [&](const auto& lanes) {
+        const HalfScalar of_x(static_cast<float>(column) * lanes.pixel_x);
+        const HalfScalar of_y(static_cast<float>(row) * lanes.pixel_y);
+        return alpha(log2_falloff(lanes.conic, lanes.left - of_x, lanes.top - of_y), lanes.opacity);
+      };
       const float alphas[] = {alpha(log2_falloff(in.conic, dx, dy), in.opacity),
-                              alpha(completed_square(c.square, dx, dy), in.opacity)};
-      const HalfScalar halves[] = {
-          alpha(log2_falloff(in_half.conic, hx, hy), in_half.opacity),
-          alpha(completed_square(square_in_half, hx, hy), in_half.opacity)};
+                              alpha(log2_falloff(c.square, dx, dy), in.opacity)};
+      const HalfScalar halves[] = {alpha_in_half(in_half), alpha_in_half(square_in_half)};
       for (std::size_t k = 0; k < kCount; ++k) {
         const Arithmetic& how = kArithmetics[k];
         const HalfScalar half =

@@ -37,6 +37,10 @@ void print_packed(const PackedFacts& facts, const StorageConfig& storage, const 
        fmt::format("{} of {}", grouped(layout.gaussian_count()), grouped(facts.gaussians)));
   line("dropped invalid", fmt::format("{} Gaussians", grouped(facts.dropped_invalid)));
   line("sh degree", std::to_string(format.sh_degree));
+  if (facts.sh_bands_left_out > 0) {
+    line("sh bands left out", fmt::format("{}: they change no colour by more than {:.3g}",
+                                          facts.sh_bands_left_out, storage.sh_tolerance));
+  }
   line("storage order", order_line(storage, layout, readers));
   line("second halves",
        fmt::format("{}, {} B each", kEncodingNames[static_cast<std::size_t>(format.encoding)],

@@ -63,7 +63,8 @@ int run(const PackArguments& arguments, const Kinds& kinds) {
   const PreparedScene prepared = prepare(scene, config, weighing);
   const MemoryImage& image = prepared.stored.image;
   check_records(image, arguments.scene);
-  const PackedFacts facts{prepared.name, prepared.stored.gaussians, prepared.dropped_invalid};
+  const PackedFacts facts{prepared.name, prepared.stored.gaussians, prepared.dropped_invalid,
+                          prepared.stored.sh_bands_left_out};
   if (as_ply) {
     write_ply(arguments.out, stored_cloud(scene.cloud, prepared.stored));
   } else {

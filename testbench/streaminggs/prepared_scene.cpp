@@ -5,6 +5,7 @@
 
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/restore_scene.h"
+#include "algorithm/storage/sh_bands.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/store_scene.h"
 #include "testbench/streaminggs/progress.h"
@@ -17,11 +18,21 @@ void choose_storage(const ActivatedCloud& cloud, RunConfig& config) {
   config.add_choices(scheme_of(config.storage.order).choose(config.storage, cloud));
 }
 
+// Codebooks are made of what is stored.
+QuantisedCloud quantised_bands(const ActivatedCloud& cloud, const StorageConfig& storage,
+                               const Quantise& quantise) {
+  const int degree = bands_to_store(cloud, storage).degree;
+  return degree == cloud.sh_degree ? quantise(cloud, storage.vq)
+                                   : quantise(with_bands(cloud, degree), storage.vq);
+}
+
 }  // namespace
 
 void adapt(RunConfig& config, const Scene& scene) {
-  choose_storage(activate(scene.cloud), config);
-  adapt(config, SecondHalfFormat{config.storage.encoding, scene.cloud.sh_degree, {}});
+  const ActivatedCloud cloud = activate(scene.cloud);
+  choose_storage(cloud, config);
+  const int degree = bands_to_store(cloud, config.storage).degree;
+  adapt(config, SecondHalfFormat{config.storage.encoding, degree, {}});
 }
 
 void adapt(RunConfig& config, const PackedScene& packed) {
@@ -43,7 +54,7 @@ PreparedScene store(std::string name, std::uint64_t dropped_invalid, ActivatedCl
   naming_origins(config, [&] {
     scheme.check(storage);  // before the work
     if (SecondHalfFormat{storage.encoding, 0, {}}.quantised()) {
-      const QuantisedCloud quantised = quantise(cloud, storage.vq);
+      const QuantisedCloud quantised = quantised_bands(cloud, storage, quantise);
       out.stored = store_quantised(std::move(cloud), quantised, storage);
     } else {
       out.stored = store_scene(std::move(cloud), storage, {});

@@ -97,7 +97,7 @@ PreparedScene SweepScene::prepared(RunConfig& config, const VqProgress& progress
     return restore(std::move(packed), arguments_.scene);
   }
   const Quantise quantise = [&](const ActivatedCloud& cloud, const VqConfig& vq) {
-    std::string key = config_to_json(vq);
+    std::string key = fmt::format("{} {}", cloud.sh_degree, config_to_json(vq));
     const std::vector<Camera> cameras = weighing(config);
     for (const Camera& camera : cameras) key += text_of(camera) + "\n";
     const auto known = codebooks_.find(key);

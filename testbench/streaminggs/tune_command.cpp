@@ -1,6 +1,8 @@
 // streaminggs tune SCENE --boundary|--quantise|--streaming --out FILE
 #include "testbench/streaminggs/tune_command.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +41,10 @@ TuningViews views_for(const TuneArguments& arguments, const Scene& scene, Output
 int run(const TuneArguments& arguments, const Kinds& kinds) {
   arguments.check();
   RunConfig config = read_run_config(arguments.config.document(), kinds);
+  if (config.storage.sh_tolerance > 0) {
+    throw InputError(fmt::format("storage.sh_tolerance: got {}, expected 0: tune keeps all bands",
+                                 config.storage.sh_tolerance));
+  }
   OutputPlan plan;
   arguments.add_inputs_to(plan);
   plan.add_input(arguments.config.path());

@@ -30,12 +30,43 @@ void check_capacity(const FrameJob& job, const DramConfig& dram) {
       needed, largest.name, largest.bytes, dram.channels, dram.ranks, capacity));
 }
 
+// Bytes of a Gaussian, were the scene stored with colours of another degree.
+std::uint64_t record_bytes(const StoredScene& scene, int sh_degree) {
+  const SceneLayout& layout = scene.image.layout;
+  SecondHalfFormat format = layout.second_half;
+  format.sh_degree = sh_degree;
+  std::uint32_t& of_bands = format.entries[static_cast<std::size_t>(Codebook::kSh)];
+  if (format.quantised() && of_bands == 0) of_bands = scene.storage.vq.entries(Codebook::kSh);
+  if (sh_degree == 0) of_bands = 0;
+  const RecordSplit split = split_of(layout.order(), format);
+  return std::uint64_t{split.first_bytes()} + split.second_bytes;
+}
+
+// Those that the scene does not have, and those that its storage spares.
+void list_sh_bands(const StoredScene& scene, DataSheet& sheet) {
+  constexpr int kMaxDegree = 3;
+  const int stored = scene.image.layout.sh_degree(), whole = stored + scene.sh_bands_left_out;
+  const std::uint64_t gaussians = scene.image.layout.gaussian_count();
+  const auto list = [&](const char* what, const std::string& why, int from, int to) {
+    if (from == to) return;
+    sheet.left_out(
+        what, why.c_str(), gaussians,
+        fmt::format("{} B a Gaussian", record_bytes(scene, from) - record_bytes(scene, to)));
+  };
+  list("sh_bands", fmt::format("the scene has SH degree {}", whole), kMaxDegree, whole);
+  list("sh_bands_below_tolerance",
+       fmt::format("stored with degree {}: no colour changes by more than {:.3g}", stored,
+                   scene.sh_error),
+       whole, stored);
+}
+
 // What the storage left out, and the machine.
 void list_left_out(const StoredScene& scene, const MachineResult& machine, DataSheet& sheet) {
   const SceneLayout& layout = scene.image.layout;
   const std::uint64_t invisible = scene.gaussians - layout.gaussian_count();
   sheet.left_out("invisible_gaussians", "opacity below 1/255: no view can show them", invisible,
                  fmt::format("{} B of DRAM", invisible * layout.record_bytes()));
+  list_sh_bands(scene, sheet);
   for (const LeftOut& entry : machine.left_out) {
     sheet.left_out(entry.what.c_str(), entry.why.c_str(), entry.count, entry.saves);
   }

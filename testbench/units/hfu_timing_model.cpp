@@ -53,7 +53,7 @@ class Pipeline {
       half_free_.push_back(coarse_);
       at += count;
     } while (at < end);
-    ++coarse_;  // the mark
+    coarse_ = place(coarse_) + 1;  // the mark
     ++times_.coarse_busy;
     candidate(nullptr);
     times_.shares_done.push_back(fine_);
@@ -95,10 +95,17 @@ class Pipeline {
           break;
         }
       }
+      if (place(coarse_ + owed) > coarse_ + owed) {
+        spend(owed);
+        coarse_ = place(coarse_);
+      }
       for (; (coarse_ + owed) % interval >= cfus; ++owed) ++times_.coarse_turns;
       ++owed;
       times_.coarse_tests += config_.coarse_filter ? 1 : 0;
-      if (!share_->passes[at + i]) continue;
+      if (!share_->passes[at + i]) {
+        failed_leave_.push_back(coarse_ + owed + config_.cfu_depth_cycles);
+        continue;
+      }
       spend(owed);
       ++times_.coarse_passed;
       const std::size_t gaussian = at + i;
@@ -106,6 +113,17 @@ class Pipeline {
     }
     if (coarse_ + owed == began && !last) ++owed;
     spend(owed);
+  }
+
+  // The first cycle from `now` on with a place behind the CFUs, beside what is under test and will
+  // not pass.
+  Cycle place(Cycle now) const {
+    for (;; ++now) {
+      std::size_t held = 0;
+      for (const Cycle cycle : candidate_taken_) held += cycle > now ? 1 : 0;
+      for (const Cycle cycle : failed_leave_) held += cycle > now ? 1 : 0;
+      if (held < config_.candidate_fifo_entries) return now;
+    }
   }
 
   void spend(Cycle& owed) {
@@ -116,7 +134,6 @@ class Pipeline {
 
   // From the coarse filter to sorting. gaussian: its place in the share; null: a mark.
   void candidate(const std::size_t* gaussian) {
-    coarse_ = std::max(coarse_, before(candidate_taken_, config_.candidate_fifo_entries));
     fetch_ = std::max(fetch_, coarse_ + config_.cfu_depth_cycles);
     candidate_taken_.push_back(fetch_);
     if (gaussian != nullptr && finished(fetch_)) {
@@ -153,10 +170,12 @@ class Pipeline {
     if (gaussian != nullptr) slot_free_.push_back(decode_ + read_cycles());
     fetched_taken_.push_back(decode_);
     decode_ = std::max(decode_, before(decoded_taken_, kDecodedEntries));
-    fine_ = std::max(fine_, decode_ + *decode_latency_);
+    const Cycle there = decode_ + *decode_latency_;
+    const bool waited = there < fine_;
+    fine_ = std::max(fine_, there);
     if (gaussian == nullptr) {
-      decoded_taken_.push_back(fine_);
-      pass_mark();
+      decoded_taken_.push_back(fine_ - (waited && lanes_work_ ? 1 : 0));
+      pass_mark(waited);
       return;
     }
     const bool wanted = wait_for_turn();
@@ -166,10 +185,11 @@ class Pipeline {
 
   // The FFU itself, straight from the slots.
   void take(const std::size_t* gaussian, Cycle data) {
+    const bool waited = fetch_ + 1 < fine_;
     fine_ = std::max(fine_, fetch_ + 1);
     if (gaussian == nullptr) {
-      fetched_taken_.push_back(fine_);
-      pass_mark();
+      fetched_taken_.push_back(fine_ - (waited && lanes_work_ ? 1 : 0));
+      pass_mark(waited);
       return;
     }
     fine_ = std::max(fine_, data);
@@ -179,9 +199,12 @@ class Pipeline {
     test(*gaussian, wanted);
   }
 
-  void pass_mark() {
-    ++fine_;
-    ++times_.fine_busy;
+  // Beside what the lanes do, where it has waited for them.
+  void pass_mark(bool waited) {
+    const bool beside = waited && lanes_work_;
+    lanes_work_ = false;
+    fine_ += beside ? 0 : 1;
+    times_.fine_busy += beside ? 0 : 1;
   }
 
   // A record, a word of the port's width a cycle.
@@ -208,6 +231,7 @@ class Pipeline {
   }
 
   void test(std::size_t gaussian, bool wanted) {
+    lanes_work_ = false;
     if (!wanted) {
       ++times_.dropped;
       ++fine_;
@@ -217,6 +241,7 @@ class Pipeline {
     const Cycle of_test =
         std::max<Cycle>(config_.ffu_interval_cycles(), decode_latency_ ? 0 : read_cycles());
     fine_ += of_test;
+    lanes_work_ = of_test > 1;
     times_.fine_busy += of_test;
     times_.tested.back()[gaussian] = true;
     ++times_.fine_tests;
@@ -229,8 +254,10 @@ class Pipeline {
   const TimedShare* share_ = nullptr;
   // When each thread is free.
   Cycle loaded_ = 0, coarse_ = 0, fetch_ = 0, decode_ = 0, fine_ = 0;
+  std::vector<Cycle> failed_leave_;  // what did not pass leaves the CFUs
   std::vector<Cycle> half_free_, slice_taken_, candidate_taken_, fetched_taken_, slot_free_,
       decoded_taken_;
+  bool lanes_work_ = false;  // up to fine_, and no mark has passed beside them
   HfuTimes times_;
 };
 

@@ -267,10 +267,12 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
       ceil_div(plan.config.state_loop_cycles, plan.config.cluster_interval_cycles());
   const std::uint64_t dispatched = (bench.counter("splats_taken") + dropped) * rows * words +
                                    sum.row_cycles * plan.config.clusters * words + looks * in_loop;
-  bench.check_operations(
-      "rendering", "comparator",
-      dispatched + pixels * comparisons(drained) + sum.blends * comparisons(work.subtile_blend) +
-          sum.spans * comparisons(work.span) + sum.splats_spanned * comparisons(work.spans_begin));
+  bench.check_operations("rendering", "comparator",
+                         dispatched + pixels * comparisons(drained) +
+                             bench.counter("splats_taken") * comparisons(work.conic) +
+                             sum.blends * comparisons(work.subtile_blend) +
+                             sum.spans * comparisons(work.span) +
+                             sum.splats_spanned * comparisons(work.spans_begin));
   const bool in_half = plan.config.precision == BlendPrecision::kHalf;
   bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", sum.blends * 16);
   bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));

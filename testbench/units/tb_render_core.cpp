@@ -63,9 +63,10 @@ Expected expect(const Plan& plan, const GscoreJob& job) {
     for (const SortedEntry& entry : plan.tiles[t]) {
       std::byte bytes[64];
       encode_projected(format, plan.records[entry.record], bytes);
-      for_each_part(plan.config.tiles.rules(), job.tile_x(t), job.tile_y(t), entry.bitmap,
-                    decode_projected(format, bytes),
-                    [&](const Splat& part, int) { state.blend(part); });
+      with_record(format, plan.config.rendering.precision, bytes, [&](const auto& splat) {
+        for_each_part(plan.config.tiles.rules(), job.tile_x(t), job.tile_y(t), entry.bitmap, splat,
+                      [&](const auto& part, int) { state.blend(part); });
+      });
     }
     state.store(job.background, frame);
     out.contributors += state.contributors();

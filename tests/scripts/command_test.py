@@ -11,6 +11,7 @@ import boundary_study
 import compare_machines
 import compare_variants
 import energy_tables
+import error_against_time
 import explore
 import fair_fight
 import half_by_stage
@@ -27,6 +28,19 @@ import work_precision
 from scenes import find_scene
 
 
+RENDERERS = pathlib.Path(COMMAND).with_name("bench_renderers") if COMMAND else ""
+SMALL_ERRORS = ("--size", "64x36", "--configurations", "2", "--renderers", str(RENDERERS))
+SMALL_ERRORS += (
+    "--tuning-size",
+    "64x36",
+    "--between",
+    "0",
+    "--steps",
+    "2",
+    "--rates",
+    "0.5",
+    "--datasets",
+)
 SMALL_TUNING = ("--size", "64x36", "--between", "0", "--steps", "4")
 
 
@@ -56,8 +70,7 @@ class WithTheCommand(InFolder):
             (
                 energy_tables,
                 ("--groups", "16", "64x32"),
-                {"| exact | all |": 1, "| paper_no_vq | 64x32 |": 1}
-                | {"View 0 at 640x360 px": 2},
+                {"| exact | all |": 1, "| paper_no_vq | 64x32 |": 1} | {"View 0 at 640x360 px": 2},
             ),
             (
                 explore,
@@ -77,6 +90,14 @@ class WithTheCommand(InFolder):
             (smallest_machine, ("--sizes", "64x36", "--fps", "100000"), {"| truck 0 |": 1}),
             (half_by_stage, ("--size", "64x36"), {"| truck | 0 |": 1, "| depth keys |": 1}),
             (work_precision, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
+            (
+                error_against_time,
+                ("--diagrams", "image", "model", "tuning", "renderers", *SMALL_ERRORS),
+                {"| truck | 0 | exact |": 27, "| truck | 0 | paper |": 20 + 2, "| tuning |": 2 + 3}
+                | {"| truck | 0 | tiles |": 4, "| truck | estimate | 2 |": 1}
+                | {"| tuning | truck | rate | 0.5 |": 3, "| truck | double |": 5 * 2}
+                | {"| truck | paper order in half |": 2},
+            ),
             (
                 boundary_study,
                 (*SMALL_TUNING, "--betas", "0", "0.5", "--voxels", "1", "0.5"),
@@ -224,6 +245,28 @@ class WithTheCommand(InFolder):
             (timing, ("--configs", "nope"), "streaminggs: .*nope"),
             (work_precision, ("--view", "7"), "--view: got '7'"),
             (work_precision, ("--set", "nope=1"), "streaminggs: .*nope"),
+            (error_against_time, ("--view", "7"), "--view: got '7'"),
+            (error_against_time, ("--diagrams", "model", "--size", "3"), "--size: got '3'"),
+            (
+                error_against_time,
+                ("--diagrams", "tuning", "--datasets", "nope"),
+                "nope: no data set; expected",
+            ),
+            (
+                error_against_time,
+                ("--diagrams", "tuning", "--datasets", "--steps", "0"),
+                "--steps: 0 and no --datasets: nothing to fit",
+            ),
+            (
+                error_against_time,
+                ("--diagrams", "renderers", "--renderers", "nope"),
+                "nope: not there; scripts/setup.sh builds it",
+            ),
+            (
+                error_against_time,
+                ("--diagrams", "renderers", "--renderers", str(RENDERERS), "--threads", "0"),
+                "--threads: got '0', expected a number from 1 to 999",
+            ),
             (boundary_study, ("--size", "3"), "truck boundary .*--size: got '3'"),
             (boundary_study, ("--betas", "-1"), "truck boundary .*--beta"),
             (quality_table, ("--view", "7"), "--view: got '7'"),

@@ -11,6 +11,7 @@ import binding_check
 import boundary_study
 import compare_variants
 import energy_tables
+import error_against_time
 import explore
 import fair_fight
 import fill_readme
@@ -151,6 +152,8 @@ class Ends(InFolder):
         cases = [
             *((name, ("x", "--nope"), "(unrecognized|the following) arg") for name in taking),
             ("explore", ("-j", "x"), "-j: invalid int value: 'x'"),
+            ("error_against_time", ("--view", "0,x"), "--view: got '0,x', expected numbers of cam"),
+            ("error_against_time", ("--diagrams", "x"), "--diagrams: invalid choice: 'x'"),
             ("explore", ("--search", "x"), "--search: invalid choice: 'x'"),
             ("explore", ("--axis", "a=1", "--points", "x"), "--points: not allowed with"),
             ("report", (), "the following arguments are required: RESULTS"),
@@ -182,6 +185,23 @@ class Ends(InFolder):
             with self.subTest(program):
                 ended, line, _ = self.ended(stability_table, "--stability", program, "--out", out)
                 self.assertRegex(line, f"^stability_table.py: {said}")
+                self.assertEqual(ended, status)
+                self.assertEqual(list(self.folder.glob("*/*.md")), [])
+
+    def test_of_the_program_that_draws_and_times(self):
+        out = str(self.folder / "out")
+        for body, status, said in (
+            ("echo 'bench_renderers: got no scene' >&2; exit 2", 2, "bench_renderers: got no"),
+            ("exit 1", 1, "renderers: exit status 1$"),
+            ("echo scene,ms", 1, ".*renderers: columns scene, ms; expected scene, renderer"),
+        ):
+            with self.subTest(body):
+                program = self.folder / "renderers"
+                program.write_text(f"#!/bin/sh\n{body}\n")
+                program.chmod(0o755)
+                words = ("--diagrams", "renderers", "--renderers", str(program), "--out", out)
+                ended, line, _ = self.ended(error_against_time, str(self.scene), *words)
+                self.assertRegex(line, f"^error_against_time.py: {said}")
                 self.assertEqual(ended, status)
                 self.assertEqual(list(self.folder.glob("*/*.md")), [])
 

@@ -16,6 +16,10 @@ import compare_machines
 import compare_variants
 import debian_python
 import energy_tables
+import error_image
+import error_model
+import error_renderers
+import error_tuning
 import estimate_error
 import fair_fight_tables
 import machine_ratios
@@ -223,6 +227,51 @@ TABLES |= {
         ],
         ("gscore, 25.6", "exact / gscore, 25.6", "than the modelled GPU", "black where derived"),
     ),
+}
+MADE_TOGETHER = {
+    "error_image": (
+        "error_image",
+        error_image.HEAD,
+        [
+            {"scene": "truck", "order": order, "moved": moved, "to": to, "PSNR dB": quality}
+            for order, moved, to, quality in (
+                ("exact", "as the preset", "", "equal"),
+                ("exact", "precision", "fp16", "63.1"),
+                ("paper", "voxel", "x 2", "30"),
+                ("tiles", "combined", "gscore", "46"),
+            )
+        ],
+        ("truck: PSNR", "tile-centric", "DRAM traffic, MB", "voxel x 2", "equal"),
+    ),
+    "error_model": (
+        "error_model",
+        error_model.CSV_HEAD,
+        grid("scene", ("truck", "yard"), "fidelity", ("accurate", "estimate")),
+        ("truck, accurate", "yard, estimate", "bytes, error in %"),
+    ),
+    "error_tuning": (
+        "error_tuning",
+        error_tuning.HEAD,
+        [
+            {"what": "tuning", "of": "truck", "moved": "rate", "to": rate, "seconds": seconds}
+            for rate in ("0.5", "1")
+            for seconds in (1, 2)
+        ],
+        ("tuning truck: PSNR of test views", "rate 0.5"),
+    ),
+    "error_renderers": (
+        "error_renderers",
+        error_renderers.HEAD,
+        [
+            {"scene": "truck", "renderer": name, "finished below": below, "threads": threads}
+            for name, below in (("double", "0.01"), ("double", "0.0001"), ("reference", "0.0001"))
+            for threads in (1, 2)
+        ],
+        ("truck, renderers: PSNR", "reference", "2 threads", "0.01"),
+    ),
+}
+TABLES |= MADE_TOGETHER | {
+    "error_image_kinds": (*MADE_TOGETHER["error_image"][:3], ("misordered",))
 }
 OF_RUNS = ("roofline", "waits", "traffic")
 

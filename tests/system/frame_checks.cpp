@@ -311,7 +311,9 @@ void check_streaming_machine(const Json& view) {
   INFO("view " << view["view"] << " of " << view["scene"]["name"]);
   if (view["config"]["machine"] == "exact") {
     const Json& config = view["config"];
-    const bool raw = config["storage"]["encoding"] == "raw";
+    // The picture of the whole scene.
+    const bool raw =
+        config["storage"]["encoding"] == "raw" && left_out(view, "sh_bands_below_tolerance") == 0;
     if (config["framebuffer"] == "rgb32f" && config["rendering"]["precision"] == "fp32" &&
         config["merge"]["on_overflow"] == "spill") {
       CHECK(view["image"]["decoded_psnr_db"].is_null());

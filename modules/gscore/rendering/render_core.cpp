@@ -74,8 +74,9 @@ RenderCore::RenderCore(const sc_core::sc_module_name& name, const UnitContext& c
 
 // The conic is wanted behind the corner's subtractions.
 std::uint64_t RenderCore::depth_cycles() const {
-  return std::max(conic_path_.depth_cycles, corner_path_.depth_cycles) + blend_path_.depth_cycles +
-         kReadCycles + kWriteCycles;
+  const std::uint32_t conic = conic_path_ ? conic_path_->depth_cycles : 0;
+  return std::max(conic, corner_path_.depth_cycles) + blend_path_.depth_cycles + kReadCycles +
+         kWriteCycles;
 }
 
 void RenderCore::run_fetch() {
@@ -158,14 +159,16 @@ void RenderCore::take(const Fetched& next) {
   } else {
     wait_for_turn(blend_, blend_path_.interval_cycles());
     fetched_.remove_front();
-    blend(next.entry, decode_projected(config_.tiles.features,
-                                       records_.data() + std::size_t{next.slot} * record_bytes_));
+    with_record(config_.tiles.features, config_.rendering.precision,
+                records_.data() + std::size_t{next.slot} * record_bytes_,
+                [&](const auto& splat) { blend(next.entry, splat); });
   }
   free_records_.push(next.slot, blend_);
 }
 
 // In its turn.
-void RenderCore::blend(const SortedEntry& entry, const Splat& splat) {
+template <class AnySplat>
+void RenderCore::blend(const SortedEntry& entry, const AnySplat& splat) {
   const std::uint64_t now = blend_.clock().now_cycles();
   ++counters_.splats;
   const TileRules rules = config_.tiles.rules();
@@ -175,7 +178,7 @@ void RenderCore::blend(const SortedEntry& entry, const Splat& splat) {
   const std::uint64_t depth = depth_cycles();
   std::uint64_t begin = now;
   for_each_part(rules, job_.tile_x(entry.tile), job_.tile_y(entry.tile), entry.bitmap, splat,
-                [&](const Splat& in_part, int part) {
+                [&](const AnySplat& in_part, int part) {
                   std::uint64_t& known = finished_from_[static_cast<std::size_t>(part)];
                   if (known <= now && (config_.rendering.skip_finished || known == 0)) {
                     ++counters_.parts_finished;
@@ -280,7 +283,7 @@ void RenderCore::publish(DataSheet& sheet) {
                 n.hazard_cycles);
   sheet.counter("contributors", "pixels", "blended with an alpha above 1/255", n.contributors);
   sheet.counter("pixels", "pixels", "written", n.pixels);
-  sheet.datapath(conic_path_, n.splats);
+  if (conic_path_) sheet.datapath(*conic_path_, n.splats);
   sheet.datapath(corner_path_, n.blocks);
   sheet.datapath(blend_path_, n.blocks);
   sheet.datapath(drain_path_, n.pixels);
@@ -302,6 +305,8 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.queue(finished_states_, kPixels);
   sheet.port(record_memory);
   sheet.port(pixel_memory, kPixelWrites);
+  sheet.left_out("parts_not_touched", "bits of parts of tiles, or the part was finished",
+                 kBlocks * n.splats - n.blocks, "16 fragments each");
   sheet.left_out("records_of_finished_tiles", "their tile finished before they were fetched",
                  n.dropped, "their records");
   sheet.remedy(blend_, "cores");

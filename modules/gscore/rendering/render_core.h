@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -54,7 +55,8 @@ class RenderCore : public sc_core::sc_module {
   void run_drain();  // thread
   void begin_tile(std::uint32_t tile);
   void take(const Fetched& next);
-  void blend(const SortedEntry& entry, const Splat& splat);
+  template <class AnySplat>
+  void blend(const SortedEntry& entry, const AnySplat& splat);
   // From a splat's turn to the pixels behind its first block.
   std::uint64_t depth_cycles() const;
   void write_tile(const GroupState& state);
@@ -62,7 +64,8 @@ class RenderCore : public sc_core::sc_module {
   const GscoreConfig config_;
   const GscoreJob& job_;
   FinishedTiles& finished_;
-  const Datapath conic_path_, corner_path_, blend_path_, drain_path_;
+  const std::optional<Datapath> conic_path_;
+  const Datapath corner_path_, blend_path_, drain_path_;
   const std::uint32_t record_bytes_;
   Activity fetch_, blend_, drain_;
   std::vector<std::byte> records_;

@@ -64,6 +64,8 @@ void CoarseFilter::run_load() {
 }
 
 void CoarseFilter::run_filter() {
+  places_.assign(static_cast<std::size_t>(survivors.size()),
+                 PlacesUnderTest(config_.cfu_depth_cycles));
   while (true) {
     const Slice slice = slices_.pop(filter_);
     current_group_ = slice.share.group;
@@ -76,6 +78,7 @@ void CoarseFilter::run_filter() {
     free_slots_.push(slice.slot, filter_);
     if (slice.share.mark != Mark::kNone) {
       ++counters_.shares;
+      places_of(slice.share.visit).wait_for_one(in_turn(survivors, slice.share.visit), filter_);
       filter_.work(1);
       FineCandidate end;
       end.group = slice.share.group;
@@ -97,6 +100,8 @@ std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
 void CoarseFilter::filter_slice(const Slice& slice) {
   const RecordSplit& split = job_.layout.split;
   const CfuTurns turns(tests_, has_cfus_);
+  FifoWriteIf<FineCandidate>& to = in_turn(survivors, slice.share.visit);
+  PlacesUnderTest& places = places_of(slice.share.visit);
   const std::uint64_t began = filter_.clock().now_cycles();
   std::uint64_t passed = began, cycle = began;
   std::uint32_t open = 0;  // parts
@@ -108,12 +113,20 @@ void CoarseFilter::filter_slice(const Slice& slice) {
         break;
       }
     }
+    if (places.taken(cycle) >= to.room()) {
+      filter_.work(cycle - passed);
+      places.wait_for_one(to, filter_);
+      cycle = passed = filter_.clock().now_cycles();
+    }
     cycle = turns.next(cycle);
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
     const FirstHalfBound bound = bound_first_half(split, first, job_.view);
     const std::uint32_t parts = test(bound, slice.share.group, open);
-    if (parts == 0) continue;
+    if (parts == 0) {
+      places.add(cycle - 1);
+      continue;
+    }
     counters_.passed += count_parts(parts);
     ++counters_.candidates;
     filter_.work(cycle - passed);
@@ -128,7 +141,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
     candidate.mean_z = first.mean.z;
     candidate.carried = first.carried;
     candidate.reach = reach(bound, slice.share.group);
-    in_turn(survivors, candidate.visit).push(candidate, filter_);
+    to.push(candidate, filter_);
     cycle = passed = filter_.clock().now_cycles();
   }
   // A slice of a finished group is taken in a cycle of its own, if no mark behind it has one.

@@ -13,6 +13,7 @@
 #include "algorithm/memory/first_half_test.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
+#include "modules/streaminggs/hfu/places_under_test.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
 #include "tlm/data_sheet.h"
@@ -70,6 +71,7 @@ class CoarseFilter : public sc_core::sc_module {
   void run_load();    // thread: first halves into the input buffer
   void run_filter();  // thread: CFUs
   void filter_slice(const Slice& slice);
+  PlacesUnderTest& places_of(std::uint32_t visit) { return places_[visit % places_.size()]; }
   std::uint32_t test(const FirstHalfBound& bound, std::uint32_t group, std::uint32_t open);
   GroupReach reach(const FirstHalfBound& bound, std::uint32_t group) const;
   std::uint32_t part_count() const { return static_cast<std::uint32_t>(job_.parts.size()); }
@@ -86,6 +88,7 @@ class CoarseFilter : public sc_core::sc_module {
   std::vector<std::byte> input_;  // [input_slots, slice_gaussians] first halves
   TimedFifo<Slice> slices_;       // filled slots
   TimedFifo<std::uint32_t> free_slots_;
+  std::vector<PlacesUnderTest> places_;  // in each FIFO of survivors
   Counters counters_;
   std::uint32_t current_group_ = 0, current_visit_ = 0;  // for the waveform
 };

@@ -17,9 +17,10 @@ CoarseFilterEstimate::CoarseFilterEstimate(const HfuConfig& config, const Coarse
       slots_(config.input_slots),
       slices_(config.input_slots) {}
 
-void CoarseFilterEstimate::begin(const Share& share, FifoTimes& shares) {
+void CoarseFilterEstimate::begin(const Share& share, FifoTimes& shares, FifoTimes& survivors) {
   load_ = shares.pop(load_);
   share_ = share;
+  survivors_ = &survivors;
   if (share.count > 0 && share.finished_from <= load_) {
     work_.counters.dropped_saturated += share.count;
     share_.count = 0;
@@ -55,7 +56,7 @@ bool CoarseFilterEstimate::next_slice() {
 void CoarseFilterEstimate::end() {
   ++work_.counters.shares;
   ++work_.filter_cycles;
-  ++filter_;
+  filter_ = survivors_->room(filter_) + 1;
 }
 
 std::uint64_t CoarseFilterEstimate::fetch(std::uint32_t group, std::uint32_t first,

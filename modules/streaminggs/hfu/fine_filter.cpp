@@ -150,6 +150,8 @@ void FineFilter::run_decode(Part& part) {
 }
 
 void FineFilter::run_filter(Part& part) {
+  part.places.assign(static_cast<std::size_t>(splats.size()) / parts_.size(),
+                     PlacesUnderTest(config_.ffu_depth_cycles));
   while (true) {
     if (part.stage) {
       filter_decoded(part);
@@ -162,6 +164,7 @@ void FineFilter::run_filter(Part& part) {
 void FineFilter::filter_decoded(Part& part) {
   const Decoded& front = part.stage->decoded.front(part.filter);
   take_up(front.candidate, part.filter);
+  wait_for_place(part, front.candidate.visit);
   const bool wanted = is_wanted(part, front.candidate);
   if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
   const Decoded next = front;
@@ -180,12 +183,14 @@ void FineFilter::filter_fetched(Part& part) {
   next.candidate = part.fetched.front(part.filter);
   take_up(next.candidate, part.filter);
   if (next.candidate.mark != Mark::kNone) {
+    wait_for_place(part, next.candidate.visit);
     part.fetched.remove_front();
     pass_mark(part, next.candidate);
     return;
   }
   await(memory, part.filter, next.candidate.ticket);
   ++counters_.taken;
+  wait_for_place(part, next.candidate.visit);
   const bool wanted = is_wanted(part, next.candidate);
   if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
   next.second = read_slot(part, next.candidate);
@@ -201,6 +206,10 @@ void FineFilter::filter_fetched(Part& part) {
 bool FineFilter::is_wanted(const Part& part, const FineCandidate& candidate) const {
   return candidate.mark == Mark::kNone &&
          !finished[static_cast<int>(part.index)]->finished(candidate.group);
+}
+
+void FineFilter::wait_for_place(Part& part, std::uint32_t visit) {
+  part.places[visit % part.places.size()].wait_for_one(to_sorting(part, visit), part.filter);
 }
 
 void FineFilter::pass_mark(Part& part, const FineCandidate& candidate) {
@@ -220,12 +229,41 @@ void FineFilter::drop(Part& part, const FineCandidate& candidate) {
 }
 
 void FineFilter::test(Part& part, const Decoded& decoded) {
-  const FineCandidate& candidate = decoded.candidate;
-  part.filter.work(test_cycles_);
+  const std::uint64_t began = part.filter.clock().now_cycles();
+  part.filter.work(1);
   ++counters_.tests;
+  hand_on(part, decoded, began);
+  const std::uint64_t last = began + test_cycles_ - 1;
+  const std::uint64_t now = part.filter.clock().now_cycles();
+  if (now > last) return;
+  part.filter.work(last - now);
+  if (!mark_is_next(part)) {
+    part.filter.work(1);
+  } else if (part.stage) {
+    filter_decoded(part);
+  } else {
+    filter_fetched(part);
+  }
+}
+
+// It passes in the last of the cycles that the lanes take, beside them.
+bool FineFilter::mark_is_next(Part& part) {
+  if (part.stage) {
+    auto& from = part.stage->decoded;
+    return from.can_pop() && from.front(part.filter).candidate.mark != Mark::kNone;
+  }
+  return part.fetched.can_pop() && part.fetched.front(part.filter).mark != Mark::kNone;
+}
+
+// What becomes of a test, from its first cycle on on the way through the pipeline.
+void FineFilter::hand_on(Part& part, const Decoded& decoded, std::uint64_t began) {
+  const FineCandidate& candidate = decoded.candidate;
   SplatToken token;
   if (!make_geometry(job_.view, decoded.second.gaussian, token.splat) ||
       !reaches_group(token.splat, job_.parts[part.index][candidate.group])) {
+    if (place_.rejects == Rejects::kDropped) {
+      part.places[candidate.visit % part.places.size()].add(began);
+    }
     reject(part, candidate);
     return;
   }

@@ -2,7 +2,8 @@
 // candidate, decodes it and puts it through the FFU: projection, exact test against the group,
 // colour. With a shared fetch a second half is read once and taken by the HFU of each part of the
 // group that the candidate may touch; its slot is free when all have it.
-// Timing: one candidate every ffu_interval_cycles in each FFU, second_half_slots fetches ahead;
+// Timing: one candidate every ffu_interval_cycles in each FFU, marks beside what its lanes do,
+// whatever begins with a place in the FIFO behind its pipeline; second_half_slots fetches ahead;
 // quantised second halves pass a stage before the FFU that reads the codebook buffer. Function:
 // algorithm/splat/make_splat.h.
 #pragma once
@@ -19,6 +20,7 @@
 #include "modules/streaminggs/hfu/codebook_config.h"
 #include "modules/streaminggs/hfu/codebook_if.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
+#include "modules/streaminggs/hfu/places_under_test.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
 #include "tlm/data_sheet.h"
@@ -110,7 +112,8 @@ class FineFilter : public sc_core::sc_module {
     const std::uint32_t index;
     Activity filter;
     TimedFifo<FineCandidate> fetched;
-    std::unique_ptr<DecodeStage> stage;  // null where second halves are not quantised
+    std::unique_ptr<DecodeStage> stage;   // null where second halves are not quantised
+    std::vector<PlacesUnderTest> places;  // in each FIFO of its splats
     // What takes second halves out of their slots.
     Activity& taker() { return stage ? stage->decode : filter; }
     Part(std::uint32_t at, const std::string& number, const ClockDomain& clock,
@@ -133,7 +136,10 @@ class FineFilter : public sc_core::sc_module {
   bool is_wanted(const Part& part, const FineCandidate& candidate) const;
   void drop(Part& part, const FineCandidate& candidate);
   void pass_mark(Part& part, const FineCandidate& candidate);
+  bool mark_is_next(Part& part);
+  void wait_for_place(Part& part, std::uint32_t visit);
   void test(Part& part, const Decoded& decoded);
+  void hand_on(Part& part, const Decoded& decoded, std::uint64_t began);
   void reject(Part& part, const FineCandidate& candidate);
   void take_up(const FineCandidate& candidate, Activity& activity) const;
   void drop_saturated(const FineCandidate& candidate);

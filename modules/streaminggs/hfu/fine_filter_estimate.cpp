@@ -1,6 +1,8 @@
 // Second halves on their way, and through each part's FFU.
 #include "modules/streaminggs/hfu/fine_filter_estimate.h"
 
+#include <utility>
+
 namespace sgs {
 
 FineFilterEstimate::FineFilterEstimate(const HfuConfig& config, const FineFilter& unit,
@@ -78,35 +80,45 @@ void FineFilterEstimate::decode(Part& part, bool there, std::uint64_t finished_f
   part.decode = part.decoded.push(part.decode);
 }
 
-bool FineFilterEstimate::filter(std::uint32_t p, const Candidate& candidate,
-                                const Fetched& fetched) {
+// One that is there by then passes in the last of the cycles that the lanes take, beside them.
+std::uint64_t FineFilterEstimate::pass_mark(Part& part, FifoTimes& from, FifoTimes& splats) {
+  const bool beside_lanes = std::exchange(part.lanes_last, false) && from.front(0) < part.filter;
+  if (beside_lanes) --part.filter;
+  part.filter = splats.room(from.front(part.filter));
+  from.remove(part.filter++);
+  part.filter_cycles += beside_lanes ? 0 : 1;
+  return part.filter;
+}
+
+FineFilterEstimate::Filtered FineFilterEstimate::filter(std::uint32_t p, const Candidate& candidate,
+                                                        const Fetched& fetched, FifoTimes& splats) {
   Part& part = parts_[p];
   const bool there = (fetched.parts >> p & 1U) != 0;
   const std::uint64_t finished_from = there ? candidate.finished_from[p] : 0;
   if (codebooks_ != nullptr) decode(part, there, finished_from, fetched.answered);
   FifoTimes& from = codebooks_ != nullptr ? part.decoded : part.fetched;
+  if (!there) return {false, false, pass_mark(part, from, splats)};
   part.filter = from.front(part.filter);
-  if (!there) {
-    from.remove(part.filter++);
-    ++part.filter_cycles;
-    return false;
-  }
   if (codebooks_ == nullptr) {
     part.filter = std::max(part.filter, fetched.answered);
     ++work_.counters.taken;
   }
+  part.filter = splats.room(part.filter);
   const std::uint64_t began = part.filter;
   const bool tested = finished_from > part.filter;
+  const bool splat = tested && (candidate.splats >> p & 1U) != 0;
   if (tested) part.filter = next_turn(part.filter, interval_);
   if (codebooks_ == nullptr) free_slot(part.filter);
   from.remove(part.filter);
+  const std::uint64_t leaves = part.filter + 1;
   part.filter += tested ? test_cycles_ : 1;
   part.filter_cycles += part.filter - began;
+  part.lanes_last = tested && test_cycles_ > 1;
   work_.counters.tests += tested ? 1 : 0;
-  work_.counters.splats += tested ? candidate.splats >> p & 1U : 0;
+  work_.counters.splats += splat ? 1 : 0;
   work_.counters.dropped_saturated += tested ? 0 : 1;
   work_.counters.dropped_fetched += tested ? 0 : 1;
-  return tested;
+  return {tested, splat, leaves};
 }
 
 FineFilter::Work FineFilterEstimate::work() const {

@@ -31,19 +31,25 @@ class FineFilterEstimate {
     // [part] from which cycle on it is known to be finished, as far as that is known
     const std::uint64_t* finished_from = nullptr;
   };
-  // Which came to `candidates` before. hand_on(part, cycle, tested): gives what became of it in a
-  // part to the next unit and says the cycle in which that has taken it; tested: a fine test has
-  // been done.
-  template <class HandOn>
-  void take(const Candidate& candidate, FifoTimes& candidates, const HandOn& hand_on) {
+  // Which came to `candidates` before. splats(part): the FIFO behind a part's pipeline.
+  // hand_on(part, cycle, tested): puts what becomes of it in a part into that, which has a place
+  // for it then; tested: a fine test is done. Not where nothing is said of what is no splat.
+  template <class Splats, class HandOn>
+  void take(const Candidate& candidate, FifoTimes& candidates, const Splats& splats,
+            const HandOn& hand_on) {
     const Fetched fetched = fetch(candidate, candidates);
     freed_ = 0;
     for (std::uint32_t p = 0; p < parts_.size(); ++p) {
       if ((fetched.goes_to >> p & 1U) == 0) continue;
       Part& part = parts_[p];
       fetch_ = part.fetched.push(fetch_);
-      const bool tested = filter(p, candidate, fetched);
-      part.filter = hand_on(p, part.filter, tested);
+      FifoTimes& behind = splats(p);
+      const Filtered filtered = filter(p, candidate, fetched, behind);
+      if (candidate.mark || filtered.splat || reports_) {
+        hand_on(p, filtered.leaves, filtered.tested);
+      } else if (filtered.tested) {
+        behind.hold_place(filtered.leaves);
+      }
     }
     if (fetched.parts != 0) slots_.push(freed_);
   }
@@ -55,13 +61,20 @@ class FineFilterEstimate {
     std::uint32_t parts = 0, goes_to = 0;  // that want a second half; that see it or its mark
     std::uint64_t answered = 0;
   };
+  struct Filtered {
+    bool tested = false, splat = false;
+    std::uint64_t leaves = 0;  // into the pipeline
+  };
   struct Part {
     FifoTimes fetched, decoded;
+    bool lanes_last = false;               // it did a test last, of more than a cycle
     std::uint64_t decode = 0, filter = 0;  // until when they work
     std::uint64_t decode_cycles = 0, filter_cycles = 0;
   };
   Fetched fetch(const Candidate& candidate, FifoTimes& candidates);
-  bool filter(std::uint32_t part, const Candidate& candidate, const Fetched& fetched);
+  Filtered filter(std::uint32_t part, const Candidate& candidate, const Fetched& fetched,
+                  FifoTimes& splats);
+  std::uint64_t pass_mark(Part& part, FifoTimes& from, FifoTimes& splats);
   void decode(Part& part, bool there, std::uint64_t finished_from, std::uint64_t answered);
   void free_slot(std::uint64_t cycle) { freed_ = std::max(freed_, cycle + read_cycles_); }
 

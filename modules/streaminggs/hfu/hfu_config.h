@@ -21,14 +21,14 @@ struct HfuConfig {
   std::uint32_t cfus = 4;              // coarse filters in one HFU
   std::uint32_t cfu_macs = 0;          // of a test; 0: as `cost` says
   std::uint32_t cfu_lanes = 4;         // MAC lanes of one CFU
-  std::uint32_t cfu_depth_cycles = 0;  // latency beside the lanes' time; 0: by its schedule
+  std::uint32_t cfu_depth_cycles = 0;  // from a test's beginning to its end; 0: by its schedule
   std::uint32_t ffu_macs = 0;          // likewise
   std::uint32_t ffu_lanes = 16;
   std::uint32_t ffu_depth_cycles = 0;         // likewise
   bool coarse_filter = true;                  // off: every Gaussian goes to the fine filter
   std::uint32_t input_slots = 2;              // slices in the input buffer: fetched and filtered
   std::uint32_t slice_gaussians = 128;        // first halves in one half of the input buffer
-  std::uint32_t candidate_fifo_entries = 16;  // coarse -> fine
+  std::uint32_t candidate_fifo_entries = 16;  // coarse -> fine, with what is under test
   std::uint32_t second_half_slots = 6;        // second halves on their way or waiting
 
   // Cycles that the lanes of a filter are busy with one test; its Gaussians are so far apart.

@@ -1,6 +1,7 @@
 // What the merge unit says of itself: its on-chip memories, counters and costs.
 #include "modules/streaminggs/heap_ledger.h"
 #include "modules/streaminggs/merge/merge_unit.h"
+#include "modules/streaminggs/spare_parts.h"
 
 namespace sgs {
 namespace {
@@ -88,6 +89,9 @@ void MergeUnit::publish(DataSheet& sheet) {
   sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
   sheet.counter("keys_spilled", "keys", "written to DRAM, over all passes", counters_.keys_spilled);
   publish_ledger(sheet);
+  constexpr std::uint64_t kFewestEntries = 2;
+  publish_spare(sheet, "spare_merge_entries", "merge.entries", config_.entries,
+                counters_.pending_max, kFewestEntries);
   sheet.left_out("hidden_gaussians", "all sub-tiles that they reach were finished",
                  counters_.dropped_hidden, "second halves and fine filtering");
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",

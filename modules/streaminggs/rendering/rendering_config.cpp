@@ -42,11 +42,10 @@ Datapath span_datapath(const RenderingConfig& config) {
 
 }  // namespace
 
-Datapath conic_pipeline(const OperationLatencies& single) {
-  Datapath path =
-      counted_datapath("conic", "rendering", counted(BlendPrecision::kSingle).work.conic);
+Datapath conic_pipeline(const RenderingConfig& config, const OperationLatencies& single) {
+  Datapath path = counted_datapath("conic", "rendering", counted(config.precision).work.conic);
   path.lanes = path.used_macs;
-  schedule(path, conic_steps(single), single);
+  schedule(path, conic_steps(config.precision, single), single);
   return path;
 }
 

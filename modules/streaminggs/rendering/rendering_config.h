@@ -56,7 +56,7 @@ struct RenderingConfig {
 // ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile; those
 // that begin a splat's spans, an item a splat; those of its rows. Scheduled on lanes of these
 // latencies.
-Datapath conic_pipeline(const OperationLatencies& single);
+Datapath conic_pipeline(const RenderingConfig& config, const OperationLatencies& single);
 Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies);
 Datapath begin_pipeline(const RenderingConfig& config, const OperationLatencies& single);
 Datapath span_pipeline(const RenderingConfig& config, const OperationLatencies& single);

@@ -15,6 +15,9 @@ constexpr std::uint32_t kNetworkWidth = 16;
 constexpr std::uint32_t kMergeWidth = kNetworkWidth / 2;
 constexpr std::uint32_t kSortStages = 10;  // log2(16) (log2(16) + 1) / 2
 constexpr std::uint32_t kMergeStages = 4;  // log2(16)
+// Of a merge: read, through the stages, written. A level of the tree begins when the last merge of
+// the one before is written.
+constexpr std::uint32_t kMergeLatency = 1 + kMergeStages + 1;
 
 // What is compared: depth, then slot. A comparator of the technology table has 32 bits.
 constexpr std::uint32_t kSortKeyBytes = 8;
@@ -65,9 +68,10 @@ constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_
   if (n == 0 || (n == 1 && config.skip_trivial)) return {};
   const std::uint64_t blocks = (n + kNetworkWidth - 1) / kNetworkWidth;
   const std::uint64_t of_a_level = (n + kMergeWidth - 1) / kMergeWidth;
-  const std::uint64_t merges = merge_levels(blocks) * of_a_level;
-  return {lists * (config.sort_latency_cycles + blocks * config.sort_interval_cycles) +
-              of_a_level * merge_tree_cycles(config, blocks, lists),
+  const std::uint64_t levels = merge_levels(blocks);
+  const std::uint64_t merges = levels * of_a_level;
+  return {lists * (config.sort_latency_cycles + (blocks - 1) * config.sort_interval_cycles) +
+              (of_a_level - 1) * merge_tree_cycles(config, blocks, lists) + levels * kMergeLatency,
           (blocks * kSortStages + merges * kMergeStages) * kMergeWidth,
           blocks * kNetworkWidth + merges * kMergeWidth};
 }
@@ -102,9 +106,9 @@ inline void publish_network(DataSheet& sheet, const SortingNetworkConfig& config
   if (entries <= kNetworkWidth) return;
   const std::uint32_t selected = kMergeWidth * (kNetworkWidth - 1) * exchanged_bits(entries);
   sheet.part("sorting", "select_bit", static_cast<double>(selected) / units_of_network, 1);
-  sheet.operations("sorting", "select_bit",
-                   static_cast<double>(kKeySelections) * exchanged_bits(entries) *
-                       static_cast<double>(moves));
+  sheet.operations(
+      "sorting", "select_bit",
+      static_cast<double>(kKeySelections) * exchanged_bits(entries) * static_cast<double>(moves));
 }
 
 constexpr const char* kComparedKeys = "compared keys";
@@ -141,9 +145,8 @@ inline void publish_sort_accesses(DataSheet& sheet, const char* rest, std::uint6
 // What lists of one entry spare, for the data sheet.
 inline void publish_trivial_sorts(DataSheet& sheet, const SortingNetworkConfig& config,
                                   std::uint64_t lists) {
-  sheet.left_out(
-      "trivial_sorts", "a visit with one splat", lists,
-      config.skip_trivial ? "a pass of the sorting network each" : "nothing: switched off");
+  sheet.left_out("trivial_sorts", "a visit with one splat", config.skip_trivial ? lists : 0,
+                 "a pass of the sorting network each");
 }
 
 }  // namespace sgs

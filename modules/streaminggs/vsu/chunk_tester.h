@@ -22,14 +22,23 @@ struct NodeInTest {
 // One thread puts and takes; another is the lanes.
 class ChunkTester {
  public:
-  // slots: nodes in it at a time; depth_cycles: behind the lanes.
+  // slots: nodes in it at a time; depth_cycles: from a child's beginning to its end.
   ChunkTester(const ClockDomain& clock, const Datapath& lanes, std::uint32_t slots,
               std::uint32_t depth_cycles)
       : lanes_(lanes),
         slots_(slots),
         test_("test", clock),
         waiting_("nodes_to_test", clock, slots),
-        tested_("nodes_tested", clock, slots, depth_cycles) {}
+        tested_("nodes_tested", clock, slots,
+                cycles_behind_lanes(depth_cycles, lanes.interval_cycles())) {}
+
+  // From when the lanes are free of a node's last child until it has left the pipeline and stands
+  // in a register.
+  static std::uint32_t cycles_behind_lanes(std::uint32_t depth_cycles,
+                                           std::uint64_t interval_cycles) {
+    const std::uint64_t end = depth_cycles + std::uint64_t{1};
+    return end > interval_cycles ? static_cast<std::uint32_t>(end - interval_cycles) : 1;
+  }
 
   bool full() const { return used_ == slots_; }
   std::uint32_t used() const { return used_; }

@@ -13,7 +13,7 @@ struct ExactVsuConfig {
   std::uint32_t nodes_in_flight = 2;       // others, on their way from DRAM
   std::uint32_t test_lanes = 32;           // multiply-accumulates a cycle of the chunk test
   std::uint32_t nodes_in_test = 8;         // nodes whose children are in the test's pipeline
-  std::uint32_t test_depth_cycles = 0;     // of it, beside the lanes' time; 0: by its schedule
+  std::uint32_t test_depth_cycles = 0;     // of a child, first to last; 0: by its schedule
   std::uint32_t queue_entries = 512;       // chunks in the queue of the front-to-back walk
   std::uint32_t node_queue_entries = 256;  // nodes in that of the nodes
   // Of a queue's heap, as the merge unit's: 2 would take four banks a level, which read ahead; with

@@ -7,6 +7,7 @@
 
 #include "algorithm/voxel/chunk_node.h"
 #include "modules/datapath/work_rates.h"
+#include "modules/streaminggs/vsu/chunk_tester.h"
 
 namespace sgs {
 namespace {
@@ -187,8 +188,9 @@ std::uint64_t ExactVsuEstimate::test(const NodeWork& node, std::uint64_t put) {
   test_busy_ += tests_free_ - comes;
   ++work_.walked.walk.nodes;
   work_.walked.walk.tests += node.children;
-  const std::uint64_t entered =
-      walk_.book(tests_free_ + config_.test_depth_cycles, queue_cycles(node.entered));
+  const std::uint64_t left =
+      tests_free_ + ChunkTester::cycles_behind_lanes(config_.test_depth_cycles, interval);
+  const std::uint64_t entered = walk_.book(left, queue_cycles(node.entered));
   tested_[puts_++ % tested_.size()] = entered;
   return entered;
 }

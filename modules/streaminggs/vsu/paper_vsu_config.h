@@ -11,10 +11,10 @@ namespace sgs {
 constexpr std::uint32_t kTableWordBytes = 8;  // of the ordering table: a record
 
 struct PaperVsuConfig {
-  std::uint32_t rays_in_flight = 102;  // of a group, side by side
-  std::uint32_t chain_entries = 3;     // voxels that a ray keeps until they are entered
-  std::uint32_t step_lanes = 24;       // multiply-accumulates a cycle of the rays' steps
-  std::uint32_t ray_lanes = 8;         // of their beginnings
+  std::uint32_t rays_in_flight = 80;  // of a group, side by side
+  std::uint32_t chain_entries = 3;    // voxels that a ray keeps until they are entered
+  std::uint32_t step_lanes = 24;      // multiply-accumulates a cycle of the rays' steps
+  std::uint32_t ray_lanes = 8;        // of their beginnings
   // From a step's beginning to the ray's next, and of one out of a single cell, which moves along
   // one axis only; 0: by its schedule.
   std::uint32_t step_depth_cycles = 0, cell_step_depth_cycles = 0;

@@ -6,7 +6,7 @@
 #include "algorithm/image/image.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/gaussian_cloud.h"
-#include "tests/algorithm/render/double_oracle.h"
+#include "testbench/oracle/double_oracle.h"
 
 namespace sgs::test {
 

@@ -8,7 +8,7 @@
 
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/footprint.h"
-#include "tests/algorithm/render/double_oracle.h"
+#include "testbench/oracle/double_oracle.h"
 #include "tests/algorithm/render/tracked_projection.h"
 
 namespace sgs::test {

@@ -30,7 +30,7 @@ std::uint64_t total(const std::vector<std::uint32_t>& contributors) {
 // of flipping.
 void check_pixels(const Camera& camera, const GaussianCloud& cloud, double tolerance) {
   const RenderResult in_float = render(camera, cloud);
-  const test::OracleImage in_double = test::oracle_render(camera, cloud);
+  const OracleImage in_double = oracle_render(camera, cloud);
   CHECK(max_abs_error(in_float.image, test::as_image(in_double)) <= tolerance);
   const bool same_contributors = in_float.contributors == in_double.contributors;
   CHECK(same_contributors);
@@ -41,7 +41,7 @@ void check_pixels(const Camera& camera, const GaussianCloud& cloud, double toler
 void check_frame(const std::string& name, const Camera& camera, const GaussianCloud& cloud) {
   test::check_against_double(name, camera, cloud);
   const RenderResult in_float = render(camera, cloud);
-  const Image in_double = test::as_image(test::oracle_render(camera, cloud));
+  const Image in_double = test::as_image(oracle_render(camera, cloud));
   const double psnr = psnr_db(in_float.image, in_double);
   const double within = fraction_within(in_float.image, in_double, 1e-4);
   fmt::print("{}: {:.1f} dB, {:.3f} % of pixels within 1e-4\n", name, psnr, 100 * within);
@@ -202,7 +202,7 @@ TEST_CASE("at the limits of parameters: drawn as in double precision") {
     add_ball(cloud, c.mean, c.scale, 0.6, glm::vec3(c.rgb));
     const Camera camera = forward_camera(70, 50, c.focal_px);
     const RenderResult in_float = render(camera, cloud);
-    const test::OracleImage in_double = test::oracle_render(camera, cloud);
+    const OracleImage in_double = oracle_render(camera, cloud);
     CHECK(in_float.contributors == in_double.contributors);
     CHECK(total(in_float.contributors) == c.pixels);
     const double unit = std::max(1.0, std::abs(static_cast<double>(c.rgb)));
@@ -219,7 +219,7 @@ TEST_CASE("frames of 1x1 and of no multiple of 16") {
     CAPTURE(width, height);
     const Camera camera = forward_camera(width, height, 50);
     const Image in_float = render(camera, cloud).image;
-    const Image in_double = test::as_image(test::oracle_render(camera, cloud));
+    const Image in_double = test::as_image(oracle_render(camera, cloud));
     CHECK(fraction_within(in_float, in_double, 1e-4) == 1);
   }
 }

@@ -6,8 +6,8 @@
 
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
+#include "testbench/oracle/double_oracle.h"
 #include "tests/algorithm/render/decisions.h"
-#include "tests/algorithm/render/double_oracle.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/render/tracked_projection.h"
 
@@ -53,7 +53,7 @@ TEST_CASE("long needles of ratio 10^10: every pixel is within the rounding of it
     const Tracked opacity =
         test::rounded(1 / (1 + std::exp(-static_cast<double>(cloud.opacity_logits[0]))));
     const RenderResult in_float = render_reference(make_view<float>(camera), activate(cloud));
-    const test::OracleImage in_double = test::oracle_render(camera, cloud);
+    const OracleImage in_double = oracle_render(camera, cloud);
     for (int y = 0; y < camera.height; ++y) {
       for (int x = 0; x < camera.width; ++x) {
         const auto at = static_cast<std::size_t>(y) * camera.width + x;

@@ -11,7 +11,7 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/make_splat.h"
-#include "tests/algorithm/render/double_oracle.h"
+#include "testbench/oracle/double_oracle.h"
 #include "tests/algorithm/render/tracked_projection.h"
 
 namespace sgs::test {

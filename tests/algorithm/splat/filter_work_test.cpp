@@ -237,14 +237,36 @@ TEST_CASE("work of rendering a splat, counted") {
   CHECK(work.subtile_blend.scalings == 16);
   CHECK(work.subtile_blend.exponentials == 0);
   CHECK(work.subtile_blend.comparisons == 16 * 5);
-  // In half: a line for a parabola; the larger of A and C, five numbers scaled by a power of two.
-  const OperationCounts half = rendering_work(BlendPrecision::kHalf).subtile_blend;
-  CHECK(folded_macs(half) == 30 + 16 * 9);
-  CHECK(folded_macs(rendering_work(BlendPrecision::kHalf).blend_from_corner) == 28 + 16 * 9);
-  CHECK(half.comparisons == 16 * 5 + 1);
+  // In half: 4 columns of dx, 4 rows of dy, its part of the length across and the second square
+  // (2); a sum and two products for the first square, a line for a parabola. Five numbers scaled by
+  // a power of two.
+  const RenderingWork in_half = rendering_work(BlendPrecision::kHalf);
+  const OperationCounts half = in_half.subtile_blend;
+  CHECK(half.multiplies == 4 * 3 + 16 * (2 + 1 + 1 + 1 + 3));
+  CHECK(half.adds == 2 + 4 + 4 + 16 * (2 + 1 + 1 + 3));
+  CHECK(half.fused == 16 * (1 + 1 + 3));
+  CHECK(folded_macs(half) == 22 + 16 * 10);
+  CHECK(folded_macs(in_half.blend_from_corner) == 20 + 16 * 10);
+  CHECK(half.comparisons == 16 * 5);
   CHECK(half.scalings == 16 + 5);
   // What nothing has rounded before: opacity and colour.
   CHECK(half.roundings == 4);
+  // Once a splat, in single precision: the quotient B/A, the rest C - B (B/A), two products with
+  // log2(e); A at least 2^-26 of C, and no 0.
+  CHECK(in_half.conic.divisions == 1);
+  CHECK(in_half.conic.divisors == 1);
+  CHECK(folded_macs(in_half.conic) == kReciprocalMacs + kQuotientMacs + 1 + 2);
+  CHECK(in_half.conic.comparisons == 2);
+  CHECK(in_half.conic.scalings == 1);
+  // Of a record that holds halves: only where the centre is gets units; nothing is rounded.
+  const OperationCounts of_halves = blend_of_halves_work();
+  CHECK(folded_macs(of_halves) == folded_macs(in_half.blend_from_corner));
+  CHECK(of_halves.comparisons == 16 * 5);
+  CHECK(of_halves.scalings == 16 + 2);
+  CHECK(of_halves.roundings == 0);
+  // Such a record in single: three products, a sum with one; three products with log2(e).
+  const DataFlow terms = terms_of_square_flow();
+  CHECK(folded_macs(terms.counts(0, terms.size())) == 4 + 3);
   CHECK(work.subtile_blend.roundings == 0);
   CHECK(work.span.square_roots == 1);
   CHECK(work.spans_begin.square_roots == 2);

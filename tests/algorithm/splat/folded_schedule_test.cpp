@@ -41,7 +41,8 @@ std::vector<Work> all_work() {
   const RenderingPaths paths = rendering_paths(BlendPrecision::kSingle, kLatencies, kLatencies);
   all.push_back({"beginning", spans_begin_steps(kLatencies), work.spans_begin, paths.spans_begin});
   all.push_back({"span", span_steps(kLatencies), work.span, paths.span});
-  all.push_back({"conic", conic_steps(kLatencies), work.conic, paths.conic});
+  all.push_back(
+      {"conic", conic_steps(BlendPrecision::kSingle, kLatencies), work.conic, paths.conic});
   all.push_back(
       {"blend", blend_steps(BlendPrecision::kSingle, kLatencies), work.subtile_blend, paths.blend});
   return all;

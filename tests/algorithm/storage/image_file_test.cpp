@@ -67,6 +67,7 @@ void check_same(const StorageConfig& a, const StorageConfig& b) {
   CHECK(a.voxel_size == b.voxel_size);
   CHECK(a.chunk_gaussians == b.chunk_gaussians);
   CHECK(a.store_invisible == b.store_invisible);
+  CHECK(a.sh_tolerance == b.sh_tolerance);
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
     CHECK(a.vq.entries(static_cast<Codebook>(id)) == b.vq.entries(static_cast<Codebook>(id)));
   }
@@ -78,6 +79,7 @@ void check_same(const PackedFacts& a, const PackedFacts& b) {
   CHECK(a.name == b.name);
   CHECK(a.gaussians == b.gaussians);
   CHECK(a.dropped_invalid == b.dropped_invalid);
+  CHECK(a.sh_bands_left_out == b.sh_bands_left_out);
 }
 
 void write(const std::string& path, const Packing& packing) {
@@ -108,6 +110,8 @@ TEST_CASE("image file: every encoding in every order comes back") {
         Packing packing = make_packing(cut_object(300, degree), encoding, order);
         packing.stored.storage.vq.seed = ~std::uint64_t{0};
         packing.stored.storage.store_invisible = degree == 2;
+        packing.stored.storage.sh_tolerance = 0.01 * degree;
+        packing.facts.sh_bands_left_out = 3 - degree;
         write(path, packing);
         const PackedScene back = read_image_file(path);
         check_same(back.facts, packing.facts);
@@ -139,7 +143,7 @@ TEST_CASE("image file: the first bytes are as documented") {
   const ScratchFolder scratch;
   const std::string bytes = small_file(scratch);
   CHECK(bytes.substr(0, 8) == "\x89SGS\r\n\x1a\n");
-  CHECK(bytes.substr(8, 4) == std::string("\3\0\0\0", 4));
+  CHECK(bytes.substr(8, 4) == std::string("\4\0\0\0", 4));
   std::uint64_t length = 0;
   std::uint32_t header_bytes = 0;
   std::memcpy(&header_bytes, bytes.data() + 12, 4);
@@ -190,12 +194,12 @@ TEST_CASE("image file: foreign files, other versions, what is no file") {
              Contains("byte 0: not the magic number"));
   CHECK_THAT(refusal_of(scratch.write("empty.sgs", "")), Contains("not the magic number"));
   std::string bytes = small_file(scratch);
-  bytes[8] = 4;
+  bytes[8] = 5;
   CHECK_THAT(refusal_of(scratch.write("b.sgs", bytes)),
-             Contains("byte 8: version 4, expected 3: made by a newer program"));
-  bytes[8] = 2;
+             Contains("byte 8: version 5, expected 4: made by a newer program"));
+  bytes[8] = 3;
   CHECK_THAT(refusal_of(scratch.write("b.sgs", bytes)),
-             Contains("version 2, expected 3: pack the scene again"));
+             Contains("version 3, expected 4: pack the scene again"));
   refusal_of(scratch.path("not_there.sgs"));
   refusal_of(scratch.path(""));
 }

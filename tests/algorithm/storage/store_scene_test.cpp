@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 
 #include "algorithm/input_error.h"
 #include "algorithm/splat/reorder.h"
+#include "algorithm/splat/spherical_harmonics.h"
+#include "algorithm/storage/sh_bands.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/storage/packed_scenes.h"
@@ -85,6 +88,49 @@ TEST_CASE("store: cameras weigh codebooks, whose making is told") {
     const bool quantised = weighed.image.layout.second_half.quantised();
     CHECK((told > 0) == quantised);
     CHECK((weighed.image.bytes == even.image.bytes) == !quantised);
+  }
+}
+
+// The bound against colours themselves, from everywhere.
+TEST_CASE("store: bands that change no colour by more than the tolerance are not stored") {
+  ActivatedCloud cloud = cut_object(60, 3);
+  for (std::size_t i = 0; i < cloud.sh_coeffs.size(); ++i) {
+    if (i % 16 > 8) cloud.sh_coeffs[i] *= 0.002F;
+    if (i % 16 == 2) cloud.sh_coeffs[i] = glm::vec3(0.5F);  // of degree 1
+  }
+  for (const SecondHalfEncoding encoding : kEncodings) {
+    StorageConfig config = small_storage(encoding, StorageOrder::kChunks);
+    config.sh_tolerance = 1.0 / 510;
+    const ShBands bands = bands_to_store(cloud, config);
+    REQUIRE(bands.degree < 3);
+    REQUIRE(bands.degree > 0);
+    CHECK(bands.most_error <= config.sh_tolerance);
+    const StoredScene scene = store_scene(cloud, config, {});
+    CHECK(scene.image.layout.sh_degree() == bands.degree);
+    CHECK(scene.sh_bands_left_out == 3 - bands.degree);
+    CHECK(scene.sh_error == bands.most_error);
+    CHECK(scene.original->sh_degree == 3);
+    const ActivatedCloud cut = with_bands(cloud, bands.degree);
+    double worst = 0;
+    for (int at = 0; at < 400; ++at) {
+      const float z = 1 - (2 * static_cast<float>(at) + 1) / 400, angle = 2.4F * at;
+      const float across = std::sqrt(1 - z * z);
+      const glm::vec3 offset(across * std::cos(angle), across * std::sin(angle), z);
+      for (const std::uint32_t i : stored_gaussians(cloud, Stored::kVisible)) {
+        const glm::vec3 change =
+            sh_colour(3, cloud.sh(i), offset) - sh_colour(bands.degree, cut.sh(i), offset);
+        for (int channel = 0; channel < 3; ++channel) {
+          worst = std::max(worst, double{std::abs(change[channel])});
+        }
+      }
+    }
+    constexpr double kRounding = 1e-6;
+    CHECK(worst <= bands.most_error + kRounding);
+    CHECK(worst >= 0.3 * bands.most_error);  // no more cautious than that
+    config.sh_tolerance = 0.5 * bands.most_error;
+    CHECK(bands_to_store(cloud, config).degree > bands.degree);
+    config.sh_tolerance = 0;
+    CHECK(store_scene(cloud, config, {}).image.layout.sh_degree() == 3);
   }
 }
 

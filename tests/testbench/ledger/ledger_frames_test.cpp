@@ -285,7 +285,7 @@ TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are fol
     for (const bool folded : {false, true}) {
       INFO(preset << (folded ? ", folded" : ""));
       const bool exact = std::string(preset) == "exact";
-      Settings settings = {exact ? "rendering.cluster_lanes=190" : "rendering.cluster_lanes=174"};
+      Settings settings = {exact ? "rendering.cluster_lanes=190" : "rendering.cluster_lanes=182"};
       if (folded) settings = {"rendering.cluster_lanes=64", "hfu.cfu_lanes=2"};
       const MachineResult machine =
           simulated(preset, settings, "builtin:object?n=64").result.machine;

@@ -91,9 +91,8 @@ TEST_CASE("stability: where each form breaks") {
       {"exponent of the falloff | A dx^2 + C dy^2 + 2 B dx dy, lengths in units of 2^e px | half | "
        "condition",
        1e0, 1e2},
-      {"exponent of the falloff | A (dx + (B/A) dy)^2 + (C - B^2/A) dy^2, lengths in units of 2^e "
-       "px "
-       "| half | condition",
+      {"exponent of the falloff | A (dx + (B/A) dy)^2 + (C - B^2/A) dy^2, along x and y in "
+       "units of their own | half | condition",
        1e1, 1e3},
       {"derivative of the falloff by the covariance | sum f e e^T / 2, e = K d | float | condition",
        1e12, 1e14},

@@ -9,7 +9,7 @@
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/gaussian_cloud.h"
 
-namespace sgs::test {
+namespace sgs {
 
 // A Gaussian after section 2: [x0, x1) x [y0, y1) is its tile rectangle.
 struct OracleSplat {
@@ -39,11 +39,13 @@ std::vector<OracleSplat> oracle_project(const Camera& camera, const GaussianClou
 // Without those of empty rectangle, ordered by (depth_key, index).
 std::vector<OracleSplat> oracle_order(std::vector<OracleSplat> splats);
 
-// Section 3; `ordered` as oracle_order returns it.
+// Section 3; `ordered` as oracle_order returns it. finished_below: transmittance at which a pixel
+// takes no more.
 OracleImage oracle_blend(const Camera& camera, const std::vector<OracleSplat>& ordered,
-                         const glm::dvec3& background = glm::dvec3(0));
+                         const glm::dvec3& background = glm::dvec3(0),
+                         double finished_below = 0.0001);
 
 OracleImage oracle_render(const Camera& camera, const GaussianCloud& cloud,
                           const glm::dvec3& background = glm::dvec3(0));
 
-}  // namespace sgs::test
+}  // namespace sgs

@@ -1,5 +1,5 @@
 // Sections 1 to 3 of the rendering semantics, one after the other.
-#include "tests/algorithm/render/double_oracle.h"
+#include "testbench/oracle/double_oracle.h"
 
 #include <tbb/parallel_for.h>
 
@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-namespace sgs::test {
+namespace sgs {
 namespace {
 
 int tile_of(double value, int tiles) {
@@ -110,7 +110,8 @@ OracleSplat project_one(const Camera& camera, const GaussianCloud& cloud, std::s
 }
 
 void blend_pixel(const std::vector<OracleSplat>& splats, const std::vector<std::uint32_t>& list,
-                 int x, int y, const glm::dvec3& background, OracleImage& image) {
+                 int x, int y, const glm::dvec3& background, double finished_below,
+                 OracleImage& image) {
   double t = 1;
   glm::dvec3 colour(0);
   std::uint32_t contributors = 0;
@@ -122,7 +123,7 @@ void blend_pixel(const std::vector<OracleSplat>& splats, const std::vector<std::
     const double alpha = std::min(0.99, s.opacity * std::exp(power));
     if (alpha < 1.0 / 255) continue;
     const double after = t * (1 - alpha);
-    if (after < 0.0001) break;
+    if (after < finished_below) break;
     colour += s.rgb * alpha * t;
     t = after;
     ++contributors;
@@ -156,7 +157,7 @@ std::vector<OracleSplat> oracle_order(std::vector<OracleSplat> splats) {
 }
 
 OracleImage oracle_blend(const Camera& camera, const std::vector<OracleSplat>& ordered,
-                         const glm::dvec3& background) {
+                         const glm::dvec3& background, double finished_below) {
   OracleImage image;
   image.width = camera.width;
   image.height = camera.height;
@@ -174,7 +175,8 @@ OracleImage oracle_blend(const Camera& camera, const std::vector<OracleSplat>& o
     }
     for (int y = tile_y * 16; y < std::min(tile_y * 16 + 16, camera.height); ++y) {
       for (int x = 0; x < camera.width; ++x) {
-        blend_pixel(ordered, lists[static_cast<std::size_t>(x / 16)], x, y, background, image);
+        blend_pixel(ordered, lists[static_cast<std::size_t>(x / 16)], x, y, background,
+                    finished_below, image);
       }
     }
   });
@@ -186,4 +188,4 @@ OracleImage oracle_render(const Camera& camera, const GaussianCloud& cloud,
   return oracle_blend(camera, oracle_order(oracle_project(camera, cloud)), background);
 }
 
-}  // namespace sgs::test
+}  // namespace sgs

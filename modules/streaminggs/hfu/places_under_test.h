@@ -1,0 +1,41 @@
+// The places of what is under test in the FIFO behind a filter's pipeline. Whether it will pass
+// nobody knows when it begins, so that it begins only where there is a place for it; what does not
+// pass gives it back when it leaves the pipeline. What passes is an entry of the FIFO from its
+// beginning on.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "tlm/fifo_if.h"
+
+namespace sgs {
+
+class PlacesUnderTest {
+ public:
+  // depth_cycles: of the pipeline, which is the FIFO's latency.
+  explicit PlacesUnderTest(std::uint32_t depth_cycles) : depth_cycles_(depth_cycles) {}
+
+  // It began in cycle `begin`, and will not pass.
+  void add(std::uint64_t begin) { left_in_.push_back(begin + 1 + depth_cycles_); }
+  // Places that are taken in cycle `now`, which does not go back.
+  std::uint32_t taken(std::uint64_t now) {
+    while (!left_in_.empty() && left_in_.front() <= now) left_in_.pop_front();
+    return static_cast<std::uint32_t>(left_in_.size());
+  }
+  // Blocks until there is a place for one more in `to`.
+  template <class T>
+  void wait_for_one(FifoWriteIf<T>& to, Activity& activity) {
+    for (;;) {
+      const std::uint32_t besides = taken(activity.clock().now_cycles());
+      if (to.room() > besides) return;
+      to.wait_for_room(besides + 1, besides > 0 ? left_in_.front() : to.kNever, activity);
+    }
+  }
+
+ private:
+  std::uint32_t depth_cycles_;
+  std::deque<std::uint64_t> left_in_;  // cycle in which each leaves the pipeline
+};
+
+}  // namespace sgs

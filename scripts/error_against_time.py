@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Error against run time, in diagrams with a table each: what to choose when.
+
+  error_against_time.py truck yard platform park
+  error_against_time.py truck --diagrams image tuning
+
+image      pictures against frame time, bytes and energy: order, group, voxel, chunk, merge buffer,
+           encoding, precision, finishing, tuning
+model      cycles, bytes and energy that --estimate reckons, against wall time
+tuning     quality of test views against wall time: rates of tuning on the scenes, budgets of
+           Gaussians in training on data sets
+renderers  pictures of the renderers in software, and of thresholds at which a pixel is finished,
+           against wall time, by threads
+
+Writes error_NAME.md and .csv, and figures beside them where Matplotlib is there. All frames,
+fittings and times are kept in the folder for tables: started again it goes on where it ended.
+"""
+
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+
+import error_image
+import error_model
+import error_renderers
+import error_tuning
+import run_arguments
+from figures_beside import draw_beside
+from scenes import find_scenes
+
+DIAGRAMS = {
+    "image": error_image.make,
+    "model": error_model.make,
+    "tuning": error_tuning.make,
+    "renderers": error_renderers.make,
+}
+FIGURES = {"image": ("error_image", "error_image_kinds")}
+
+
+def make_diagrams(arguments: argparse.Namespace) -> None:
+    scenes = find_scenes(arguments.scenes)
+    for name in arguments.diagrams:
+        DIAGRAMS[name](scenes, arguments)
+        draw_beside(arguments.out, *FIGURES.get(name, (f"error_{name}",)))
+
+
+def views(text: str) -> list[str]:
+    numbers = text.split(",")
+    if not all(number.isdecimal() for number in numbers):
+        raise argparse.ArgumentTypeError(f"got '{text}', expected numbers of cameras, as in 0,2")
+    return numbers
+
+
+def main() -> int:
+    parser = run_arguments.parser(__doc__)
+    parser.add_argument(
+        "--diagrams", nargs="+", choices=DIAGRAMS, default=list(DIAGRAMS), metavar="NAME",
+        help="which of the four",
+    )  # fmt: skip
+    parser.add_argument("--view", dest="views", type=views, default="0", help="as in 0,2")
+    parser.add_argument("--size", default="640x360", metavar="WxH", help="px of a view")
+    parser.add_argument("-j", "--jobs", type=int, default=1, help="frames side by side")
+    parser.add_argument(
+        "--configurations", type=int, default=12, help="machines that the model is judged by"
+    )
+    parser.add_argument("--seed", type=int, default=1, help="that they are drawn by")
+    parser.add_argument("--steps", type=int, default=120, help="of tuning; 0: nothing is tuned")
+    parser.add_argument("--tuning-size", default="160x90", metavar="WxH", help="px, for tuning")
+    parser.add_argument(
+        "--between",
+        type=int,
+        default=60,
+        metavar="N",
+        help="cameras between a scene's own to tune on",
+    )
+    parser.add_argument(
+        "--rates", nargs="+", type=float, default=[0.25, 1, 4], metavar="X", help="of tuning"
+    )
+    parser.add_argument(
+        "--datasets", nargs="*", default=["lego", "desk"], metavar="DATASET", help="to train on"
+    )
+    parser.add_argument("--downscale", type=float, default=8, help="of their photographs")
+    parser.add_argument("--train-steps", type=int, default=1200, help="of training")
+    parser.add_argument(
+        "--budgets", nargs="+", type=int, default=[1000, 4000, 16000], metavar="N",
+        help="Gaussians that a training may have",
+    )  # fmt: skip
+    parser.add_argument(
+        "--renderers",
+        type=pathlib.Path,
+        default=error_renderers.PROGRAM,
+        metavar="PROGRAM",
+        help="that draws and times them",
+    )
+    parser.add_argument("--threads", nargs="+", type=int, default=[1, 2], metavar="N")
+    return run_arguments.main_of_tables(make_diagrams, parser.parse_args())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

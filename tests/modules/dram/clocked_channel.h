@@ -1,0 +1,168 @@
+// One channel's controller and its rank cycle by cycle: queues of reads and writes, and a command a
+// cycle, the first that is legal, columns before row commands, older requests before younger. Open
+// rows, no refresh, no aging. Rules of time by pairs of commands, as JESD209-3 names them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "modules/dram/channel_request.h"
+#include "modules/dram/command.h"
+#include "modules/dram/memspec.h"
+
+namespace sgs::test {
+
+struct ChannelHardware {
+  std::uint32_t front_end = 8;  // cycles from arrival to the first command
+  std::size_t read_entries = 32, write_entries = 32, high_watermark = 24, low_watermark = 8;
+  bool hits_first = true;  // of a bank's requests those of its open row go first
+};
+
+class ClockedChannel {
+ public:
+  struct Sent {
+    std::uint64_t cycle;
+    Command command;
+    std::uint32_t bank, row, burst;
+  };
+
+  // Write latency of set A, the later read strobe.
+  ClockedChannel(const ChannelHardware& hardware, const Memspec& memspec)
+      : hw_(hardware),
+        t_(memspec.timing_cycles),
+        burst_(memspec.burst_cycles()),
+        banks_(memspec.organisation.banks) {}
+
+  bool full(Direction d) const {
+    return d == Direction::kRead ? reads_.size() == hw_.read_entries
+                                 : writes_.size() == hw_.write_entries;
+  }
+  bool empty() const { return reads_.empty() && writes_.empty(); }
+  void push(const ChannelRequest& request) {
+    queue(request.direction).push_back({request, now_ + hw_.front_end, order_++});
+  }
+  // A cycle: at most one command.
+  void step() {
+    std::optional<Choice> best;
+    const Direction wanted = wanted_direction();
+    for (std::uint32_t bank = 0; bank < banks_.size(); ++bank) consider(wanted, bank, best);
+    if (best) send(wanted, *best);
+    ++now_;
+  }
+  const std::vector<Sent>& sent() const { return sent_; }
+
+ private:
+  struct Entry {
+    ChannelRequest request;
+    std::uint64_t ready, order;
+  };
+  using Queue = std::vector<Entry>;  // by age
+  struct Bank {
+    std::uint32_t row = kNoRow;
+    std::optional<std::uint64_t> activated, precharged, read, written;  // last
+  };
+  struct Choice {
+    bool column;
+    std::uint64_t order;
+    std::size_t at;  // in its queue
+    Command command;
+  };
+
+  Queue& queue(Direction d) { return d == Direction::kRead ? reads_ : writes_; }
+
+  Direction wanted_direction() const {
+    if (writes_.empty()) return Direction::kRead;
+    if (reads_.empty()) return Direction::kWrite;
+    const std::size_t enough =
+        direction_ == Direction::kWrite ? hw_.low_watermark + 1 : hw_.high_watermark;
+    return writes_.size() >= enough ? Direction::kWrite : Direction::kRead;
+  }
+
+  // The bank's next command, if it is legal in this cycle.
+  void consider(Direction wanted, std::uint32_t bank, std::optional<Choice>& best) {
+    const Queue& requests = queue(wanted);
+    const Bank& b = banks_[bank];
+    std::optional<std::size_t> oldest, hit;
+    for (std::size_t i = requests.size(); i-- > 0;) {
+      if (requests[i].request.bank != bank) continue;
+      oldest = i;
+      if (requests[i].request.row == b.row) hit = i;
+    }
+    if (!oldest || (!hw_.hits_first && *oldest != 0)) return;
+    const std::size_t at = hw_.hits_first && hit ? *hit : *oldest;
+    const Entry& entry = requests[at];
+    Choice choice{entry.request.row == b.row, entry.order, at, Command::kActivate};
+    if (choice.column) {
+      choice.command = wanted == Direction::kRead ? Command::kRead : Command::kWrite;
+    } else if (b.row != kNoRow) {
+      choice.command = Command::kPrecharge;
+    }
+    if (now_ < entry.ready || !legal(choice.command, b)) return;
+    const bool better = !best || (choice.column && !best->column) ||
+                        (choice.column == best->column && choice.order < best->order);
+    if (better) best = choice;
+  }
+
+  bool since(const std::optional<std::uint64_t>& last, std::uint64_t cycles) const {
+    return !last || now_ >= *last + cycles;
+  }
+  bool legal(Command command, const Bank& b) const {
+    const std::uint64_t write_end = t_.write_latency_a + 1 + burst_;
+    switch (command) {
+      case Command::kActivate:
+        return since(b.precharged, t_.rp_bank) && since(b.activated, t_.rc) &&
+               since(activates_[3], t_.rrd) && since(activates_[0], t_.faw);
+      case Command::kRead:
+        return since(b.activated, t_.rcd) && since(read_, t_.ccd) &&
+               since(written_, write_end + t_.wtr);
+      case Command::kWrite:
+        return since(b.activated, t_.rcd) && since(written_, t_.ccd) &&
+               since(read_, t_.read_latency + t_.dqsck_max + burst_ + 1 - t_.write_latency_a);
+      default:
+        return since(b.activated, t_.ras) && since(b.read, t_.rtp) &&
+               since(b.written, write_end + t_.wr);
+    }
+  }
+
+  void send(Direction wanted, const Choice& choice) {
+    direction_ = wanted;
+    Queue& requests = queue(wanted);
+    ChannelRequest& request = requests[choice.at].request;
+    Bank& b = banks_[request.bank];
+    sent_.push_back({now_, choice.command, request.bank,
+                     choice.command == Command::kActivate ? request.row : 0,
+                     choice.column ? request.burst : 0});
+    if (choice.command == Command::kActivate) {
+      b.row = request.row;
+      b.activated = now_;
+      std::rotate(activates_.begin(), activates_.begin() + 1, activates_.end());
+      activates_.back() = now_;
+    } else if (choice.command == Command::kPrecharge) {
+      b.row = kNoRow;
+      b.precharged = now_;
+    } else {
+      (wanted == Direction::kRead ? b.read : b.written) = now_;
+      (wanted == Direction::kRead ? read_ : written_) = now_;
+      ++request.burst;
+      if (--request.bursts == 0) {
+        requests.erase(requests.begin() + static_cast<std::ptrdiff_t>(choice.at));
+      }
+    }
+  }
+
+  const ChannelHardware hw_;
+  const Memspec::Timing t_;
+  const std::uint32_t burst_;
+  std::vector<Bank> banks_;
+  std::optional<std::uint64_t> read_, written_;            // last of the rank
+  std::array<std::optional<std::uint64_t>, 4> activates_;  // the last four
+  Queue reads_, writes_;
+  Direction direction_ = Direction::kRead;  // of the last command
+  std::uint64_t now_ = 0, order_ = 0;
+  std::vector<Sent> sent_;
+};
+
+}  // namespace sgs::test

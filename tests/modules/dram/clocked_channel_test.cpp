@@ -1,0 +1,126 @@
+// The commands of a channel, against a controller that is stepped cycle by cycle: every command in
+// the very cycle.
+#include "tests/modules/dram/clocked_channel.h"
+
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "modules/dram/queued_channel.h"
+#include "tests/modules/dram/recording_sink.h"
+
+namespace sgs {
+namespace {
+
+using test::ChannelHardware;
+using test::ClockedChannel;
+
+struct DramWorkload {
+  const char* name;
+  std::uint32_t banks = 8, rows = 64, longest = 4, writes_percent = 30;
+  std::uint32_t gap = 1;  // at most, between two requests
+  ChannelHardware hardware = {};
+};
+
+DramConfig config_of(const ChannelHardware& hw) {
+  DramConfig c;
+  c.channels = 1;
+  c.refresh = RefreshMode::kOff;
+  c.front_end_ns = 10;  // 8 cycles of 1.25 ns
+  c.scheduler = hw.hits_first ? SchedulerKind::kFrFcfs : SchedulerKind::kFcfs;
+  c.age_cap_cycles = 1000000;
+  c.read_queue_entries = static_cast<std::uint32_t>(hw.read_entries);
+  c.write_queue_entries = static_cast<std::uint32_t>(hw.write_entries);
+  c.write_high_watermark = static_cast<std::uint32_t>(hw.high_watermark);
+  c.write_low_watermark = static_cast<std::uint32_t>(hw.low_watermark);
+  return c;
+}
+
+// Reads of even rows, writes of odd ones: none is answered by a write that waits.
+std::vector<ChannelRequest> requests_of(const DramWorkload& load, const Memspec& memspec,
+                                        std::uint64_t seed, std::vector<std::uint64_t>& gaps) {
+  std::mt19937_64 random(seed);
+  std::vector<ChannelRequest> requests(1000);
+  for (ChannelRequest& r : requests) {
+    const bool write = random() % 100 < load.writes_percent;
+    r.direction = write ? Direction::kWrite : Direction::kRead;
+    r.bank = static_cast<std::uint32_t>(random() % load.banks);
+    r.row = 2 * static_cast<std::uint32_t>(random() % load.rows) + (write ? 1 : 0);
+    r.bursts = 1 + static_cast<std::uint32_t>(random() % load.longest);
+    r.burst = static_cast<std::uint32_t>(random() % (memspec.bursts_per_row() - r.bursts));
+    gaps.push_back(1 + random() % load.gap);
+  }
+  return requests;
+}
+
+void compare(const DramWorkload& load) {
+  const Memspec memspec = load_memspec(DramConfig{}.memspec);
+  std::size_t commands = 0;
+  std::uint64_t cycles = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    INFO(load.name << ", seed " << seed);
+    std::vector<std::uint64_t> gaps;
+    const std::vector<ChannelRequest> requests = requests_of(load, memspec, seed, gaps);
+    test::RecordingSink sink;
+    QueuedChannel channel(config_of(load.hardware), memspec, 0, sink);
+    ClockedChannel clocked(load.hardware, memspec);
+    std::uint64_t cycle = 0;
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      cycle += gaps[i];
+      channel.advance(cycle);
+      while (channel.full(requests[i].direction)) {
+        channel.advance(cycle = channel.next_decision() + 1);
+      }
+      channel.push(requests[i], cycle);
+    }
+    while (!channel.empty()) channel.advance(channel.next_decision() + 1);
+    std::size_t next = 0;
+    std::uint64_t due = gaps[0];
+    for (std::uint64_t now = 0; next < requests.size() || !clocked.empty(); ++now) {
+      if (next < requests.size() && now >= due && !clocked.full(requests[next].direction)) {
+        clocked.push(requests[next++]);
+        if (next < requests.size()) due = now + gaps[next];
+      }
+      clocked.step();
+    }
+    const std::vector<ClockedChannel::Sent>& expected = clocked.sent();
+    REQUIRE(sink.records.size() == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const CommandRecord& got = sink.records[i];
+      INFO("command " << i);
+      REQUIRE(got.cycle == expected[i].cycle);
+      REQUIRE(got.command == expected[i].command);
+      REQUIRE(got.bank == expected[i].bank);
+      REQUIRE(got.row == expected[i].row);
+      REQUIRE(got.burst == expected[i].burst);
+    }
+    commands += expected.size();
+    cycles += expected.back().cycle;
+  }
+  fmt::print("{:18} {:34} {:8} {:9}, every command in the same cycle\n", "DRAM commands", load.name,
+             commands, cycles);
+}
+
+TEST_CASE("clocked reference: DRAM commands") {
+  ChannelHardware in_order, tiny;
+  in_order.hits_first = false;
+  tiny.read_entries = tiny.write_entries = 2;
+  tiny.high_watermark = 2;
+  tiny.low_watermark = 0;
+  for (const DramWorkload& load : {
+           DramWorkload{"light: a request in 100 cycles", 8, 64, 4, 30, 200},
+           DramWorkload{"heavy: random rows", 8, 1000, 2, 30},
+           DramWorkload{"heavy: few rows", 8, 2, 8, 30},
+           DramWorkload{"reads only", 8, 8, 4, 0},
+           DramWorkload{"writes only", 8, 8, 4, 100},
+           DramWorkload{"one bank", 1, 4, 4, 50},
+           DramWorkload{"first come, first served", 8, 64, 4, 30, 1, in_order},
+           DramWorkload{"tiny queues", 8, 64, 4, 50, 1, tiny},
+       }) {
+    compare(load);
+  }
+}
+
+}  // namespace
+}  // namespace sgs

@@ -1,0 +1,148 @@
+// The coarse filter register by register: a loader that fills the slots of the input buffer, a
+// dispatcher that hands a first half a cycle to the CFU whose turn it is, the pipelines of the
+// CFUs, and the FIFO behind them, in which whatever is under test has its place already: that it
+// will not pass nobody knows before.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+
+namespace sgs::test {
+
+struct CoarseHardware {
+  std::uint32_t cfus = 4;
+  std::uint32_t test_cycles = 39;  // that the lanes of a CFU take for a test
+  std::uint32_t depth_cycles = 131;
+  std::uint32_t slice_gaussians = 8, input_slots = 5;
+  std::uint32_t output_entries = 16;
+  std::uint32_t memory_latency = 20;
+};
+
+// Of a visit; behind it comes its mark.
+struct CoarseShare {
+  std::uint64_t mark = 0;                   // what the mark is told by
+  std::vector<std::uint64_t> what;          // [Gaussian]
+  std::vector<bool> passes;                 // [Gaussian]
+  std::vector<std::uint32_t> transactions;  // [slice] that fetch it
+};
+
+class ClockedCoarseFilter {
+ public:
+  ClockedFifo<std::uint64_t> out;
+
+  explicit ClockedCoarseFilter(const CoarseHardware& hardware)
+      : out(hardware.output_entries, 0), hw_(hardware), free_slots_(hardware.input_slots) {
+    while (between_turns_ < hw_.cfus) between_turns_ += hw_.test_cycles;
+  }
+
+  // What leaves the pipelines in this cycle; ahead of the reader of `out`.
+  void step_results() {
+    for (InTest& test : in_test_) --test.left;
+    while (!in_test_.empty() && in_test_.front().left == 0) {
+      if (in_test_.front().passes) out.put(in_test_.front().what);
+      in_test_.pop_front();
+    }
+  }
+  // The rest of the cycle, behind that reader and ahead of the writer of `shares`.
+  void step(ClockedFifo<CoarseShare>& shares) {
+    dispatch();
+    load(shares);
+    for (Slice& slice : slices_) {
+      slice.seen_in -= slice.seen_in > 0 ? 1 : 0;
+      slice.data_in -= slice.data_in > 0 ? 1 : 0;
+    }
+    ++now_;
+  }
+
+ private:
+  struct Slice {
+    std::size_t first = 0, end = 0;  // in its share
+    bool last = false;
+    std::uint32_t transactions = 0;          // that are still to leave
+    std::uint32_t seen_in = 1, data_in = 0;  // cycles
+  };
+  struct InTest {
+    std::uint64_t left, what;
+    bool passes;
+  };
+
+  bool has_place() const { return in_test_.size() + out.fill() < hw_.output_entries; }
+  // Into a pipeline in this cycle; behind its depth stands a register ahead of the FIFO.
+  void begin(std::uint64_t what, bool passes) {
+    in_test_.push_back({hw_.depth_cycles + 1, what, passes});
+  }
+
+  void dispatch() {
+    free_slots_ += freed_;
+    freed_ = 0;
+    if (slices_.empty() || slices_.front().seen_in > 0) return;
+    Slice& slice = slices_.front();
+    if (!dispatching_) {
+      dispatching_ = true;
+      at_ = slice.first;
+      if (at_ == slice.end) ++free_slots_;  // it was never filled
+    }
+    const CoarseShare& share = shares_.front();
+    if (at_ < slice.end) {
+      const bool turn = now_ % between_turns_ < hw_.cfus;
+      if (slice.data_in > 0 || !turn || !has_place()) return;
+      begin(share.what[at_], share.passes[at_]);
+      if (++at_ < slice.end) return;
+      freed_ = 1;  // when this word has been read
+      if (!slice.last) end_slice();
+      return;
+    }
+    if (!has_place()) return;
+    begin(share.mark, true);
+    shares_.pop_front();
+    end_slice();
+  }
+  void end_slice() {
+    dispatching_ = false;
+    slices_.pop_front();
+  }
+
+  void load(ClockedFifo<CoarseShare>& shares) {
+    if (asking_) {
+      if (asking_->transactions > 0) --asking_->transactions;
+      if (asking_->transactions > 0) return;
+      if (asking_->end > asking_->first) asking_->data_in = hw_.memory_latency;
+      slices_.push_back(*asking_);
+      asking_.reset();
+    }
+    if (!loading_) {
+      if (!shares.can_take()) return;
+      shares_.push_back(shares.take());
+      loading_ = Slice{};
+    }
+    if (free_slots_ == 0) return;
+    --free_slots_;
+    const CoarseShare& share = shares_.back();
+    Slice slice = *loading_;
+    slice.end = std::min<std::size_t>(slice.first + hw_.slice_gaussians, share.what.size());
+    slice.last = slice.end == share.what.size();
+    if (slice.end > slice.first) {
+      slice.transactions = share.transactions[slice.first / hw_.slice_gaussians];
+    }
+    asking_ = slice;
+    loading_->first = slice.end;
+    if (slice.last) loading_.reset();
+  }
+
+  const CoarseHardware hw_;
+  std::uint64_t between_turns_ = 0, now_ = 0;
+  std::deque<CoarseShare> shares_;         // that are loaded or dispatched
+  std::optional<Slice> loading_, asking_;  // the share that is cut; the slice that is asked for
+  std::deque<Slice> slices_;               // asked for; the first goes to the CFUs
+  bool dispatching_ = false;
+  std::size_t at_ = 0;  // in the share, of what goes next
+  std::uint32_t free_slots_, freed_ = 0;
+  std::deque<InTest> in_test_;
+};
+
+}  // namespace sgs::test

@@ -1,0 +1,78 @@
+// The merge unit register by register, where the keys of a group fit: a key at hand, the heap's
+// root with its pace, and a register ahead of the FIFOs of released keys. That a heap keeps that
+// pace is shown by one that is stepped itself (tests/algorithm/order/stepped_heap.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+
+namespace sgs::test {
+
+struct MergeItem {
+  std::uint64_t key = 0;  // in final order; of a mark what it is told by
+  bool is_mark = false, ends_group = false;
+  std::uint64_t bound = 0;  // of a mark: keys below it are final
+};
+
+class ClockedMerge {
+ public:
+  explicit ClockedMerge(std::uint32_t cycles_per_operation) : pace_(cycles_per_operation) {}
+
+  void step(std::vector<ClockedFifo<MergeItem>>& in, std::vector<ClockedFifo<MergeItem>>& out) {
+    if (sent_ && out[sequence_ % out.size()].has_room()) {
+      out[sequence_++ % out.size()].put(*sent_);
+      sent_.reset();
+    }
+    if (!sent_ && releasing_) release();
+    if (!sent_ && !releasing_) take(in[visit_ % in.size()]);
+    heap_busy_ -= heap_busy_ > 0 ? 1 : 0;
+  }
+
+ private:
+  bool begin_operation() {
+    if (heap_busy_ > 0) return false;
+    heap_busy_ = pace_;
+    return true;
+  }
+
+  void take(ClockedFifo<MergeItem>& in) {
+    if (!at_hand_ && in.can_take()) at_hand_ = in.take();
+    if (!at_hand_) return;
+    if (at_hand_->is_mark) {
+      mark_ = *at_hand_;
+      at_hand_.reset();
+      releasing_ = true;  // from the next cycle on
+      ++visit_;
+    } else if (begin_operation()) {
+      heap_.insert(at_hand_->key);
+      at_hand_.reset();
+    }
+  }
+
+  // What is final, then the mark of a group.
+  void release() {
+    if (!heap_.empty() && *heap_.begin() < mark_.bound) {
+      if (!begin_operation()) return;
+      sent_ = MergeItem{*heap_.begin()};
+      heap_.erase(heap_.begin());
+      return;
+    }
+    releasing_ = false;
+    if (!mark_.ends_group) return;
+    sent_ = mark_;
+  }
+
+  const std::uint32_t pace_;
+  std::multiset<std::uint64_t> heap_;
+  std::uint32_t heap_busy_ = 0;  // cycles until it begins another operation
+  std::optional<MergeItem> at_hand_, sent_;
+  MergeItem mark_;
+  bool releasing_ = false;
+  std::uint64_t visit_ = 0, sequence_ = 0;
+};
+
+}  // namespace sgs::test

@@ -1,0 +1,206 @@
+// VSU of exact order register by register: the control of the walk, busy while a queue's heap is;
+// nodes on their way from memory; the lanes of the chunk test, a child in each of their turns, and
+// the pipeline behind them; the FIFO of final visits with its credits, and what hands them out.
+// Which node and chunk comes next is the walk's own (algorithm/order/chunk_walk.h).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "algorithm/order/chunk_walk.h"
+#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+
+namespace sgs::test {
+
+struct WalkHardware {
+  std::uint32_t upper_nodes = 24, nodes_in_flight = 2, nodes_in_test = 8;
+  std::uint32_t test_cycles = 8;  // of a child on the lanes
+  std::uint32_t depth_cycles = 200;
+  std::uint32_t operation_cycles = 3;  // of a queue
+  std::uint32_t queue_entries = 512, node_queue_entries = 256;
+  std::uint32_t memory_latency = 40;
+  std::uint32_t upper_transactions = 1;  // that load the upper nodes
+};
+
+class ClockedWalk {
+ public:
+  static constexpr std::uint64_t kEndOfGroup = std::numeric_limits<std::uint64_t>::max();
+
+  // nodes: of the tree, which outlive it as view and groups do.
+  ClockedWalk(const WalkHardware& hardware, const View<float>& view,
+              const std::vector<ChunkNode>& nodes, const std::vector<PixelRect>& groups)
+      : hw_(hardware),
+        nodes_(nodes),
+        groups_(groups),
+        walk_(view, aside_, {hw_.node_queue_entries, hw_.queue_entries}) {
+    const bool loads = !nodes.empty() && hw_.upper_nodes > 0;
+    if (loads) busy_ = hw_.upper_transactions + hw_.memory_latency;
+  }
+
+  // visits: one FIFO a HFU, taken in turn.
+  void step(std::vector<ClockedFifo<std::uint64_t>>& visits) {
+    hand_out(visits);
+    room_ += credits_;
+    credits_ = std::exchange(new_credits_, 0);
+    if (busy_ > 0) --busy_;
+    if (busy_ == 0) {
+      finish_step();
+      begin_step();
+    }
+    test();
+    for (InFlight& node : in_flight_) node.left -= node.left > 0 ? 1 : 0;
+    for (Tested& node : tested_) node.left -= node.left > 0 ? 1 : 0;
+    waiting_.step();
+    ready_.step();
+    ++now_;
+  }
+  // Entries that did not fit the queues, which this machine cannot put aside.
+  std::uint64_t put_aside() const { return walk_.counters().put_aside; }
+
+ private:
+  struct Aside {
+    std::vector<WalkEntry> entries;
+    void put_aside(const WalkEntry& entry) { entries.push_back(entry); }
+    std::vector<WalkEntry> take_back() { return std::exchange(entries, {}); }
+    void forget_aside() { entries.clear(); }
+  };
+  struct InFlight {
+    WalkEntry entry;
+    std::uint32_t left;  // cycles until it can be taken
+  };
+  using Tested = InFlight;
+
+  // What the operation that ends now gives on.
+  void finish_step() {
+    if (to_test_) {
+      waiting_.put(*to_test_);
+      to_test_.reset();
+    }
+    if (to_read_) {
+      in_flight_.push_back({*to_read_, hw_.memory_latency + 1});
+      to_read_.reset();
+    }
+  }
+
+  // The queues' operations since the last step, or a cycle of another kind beside them.
+  void take_time(std::uint64_t cycles) {
+    const std::uint64_t operations = walk_.queue_operations();
+    busy_ = std::max((operations - operations_) * hw_.operation_cycles, cycles);
+    operations_ = operations;
+  }
+
+  // Until one takes time: what can be done, the longest way first.
+  void begin_step() {
+    while (busy_ == 0 && group_ < groups_.size()) {
+      if (!(begin_group() || read_node() || give_chunk() || enter_children() || begin_test()))
+        return;
+    }
+  }
+  bool begin_group() {
+    if (next_group_ == groups_.size()) return false;
+    if (walk_.begun() > 0 && !walk_.has_read_ahead()) return false;
+    walk_.begin(groups_[next_group_++], nodes_.empty());
+    take_time(1);
+    return true;
+  }
+  bool read_node() {
+    if (!walk_.has_node()) return false;
+    if (!walk_.has_room_for_another() && !walk_.needs_node()) return false;
+    const bool on_chip = walk_.next_node().at < hw_.upper_nodes;
+    if (on_chip ? in_test_ == hw_.nodes_in_test : in_flight_.size() == hw_.nodes_in_flight) {
+      return false;
+    }
+    (on_chip ? to_test_ : to_read_) = walk_.take_node();
+    in_test_ += on_chip ? 1 : 0;
+    take_time(1);
+    return true;
+  }
+  bool give_chunk() {
+    if (room_ == 0 || walk_.begun() == 0) return false;
+    if (const std::optional<WalkEntry> next = walk_.take_chunk()) {
+      if (held_) give(held_->at);
+      held_ = next;
+      take_time(1);
+      return true;
+    }
+    if (!walk_.exhausted()) return false;
+    if (held_) {
+      give(held_->at);
+      held_.reset();
+    } else {
+      walk_.end();
+      give(kEndOfGroup);
+      ++group_;
+    }
+    take_time(1);
+    return true;
+  }
+  bool enter_children() {
+    if (tested_.empty() || tested_.front().left > 0) return false;
+    const WalkEntry entry = tested_.front().entry;
+    tested_.pop_front();
+    --in_test_;
+    walk_.open(entry, nodes_[entry.at]);
+    take_time(1);
+    return true;
+  }
+  bool begin_test() {
+    if (in_flight_.empty() || in_flight_.front().left > 0) return false;
+    if (in_test_ == hw_.nodes_in_test) return false;
+    to_test_ = in_flight_.front().entry;
+    in_flight_.pop_front();
+    ++in_test_;
+    take_time(1);
+    return true;
+  }
+
+  void give(std::uint64_t what) {
+    ready_.put(what);
+    --room_;
+  }
+
+  // A child in each turn of the lanes; a node's last one, out of the pipeline, brings it back.
+  void test() {
+    if (now_ % hw_.test_cycles != 0) return;
+    if (children_ == 0) {
+      if (!waiting_.can_take()) return;
+      on_lanes_ = waiting_.take();
+      children_ = nodes_[on_lanes_.at].children;
+    }
+    if (--children_ == 0) tested_.push_back({on_lanes_, hw_.depth_cycles + 1});
+  }
+
+  void hand_out(std::vector<ClockedFifo<std::uint64_t>>& visits) {
+    if (out_ && visits[visit_ % visits.size()].has_room()) {
+      visits[visit_++ % visits.size()].put(*out_);
+      out_.reset();
+    }
+    if (out_ || !ready_.can_take()) return;
+    out_ = ready_.take();
+    ++new_credits_;
+  }
+
+  const WalkHardware hw_;
+  const std::vector<ChunkNode>& nodes_;
+  const std::vector<PixelRect>& groups_;
+  Aside aside_;
+  ChunkWalk<Aside> walk_;
+  std::uint64_t now_ = 0, busy_ = 0, operations_ = 0, visit_ = 0;
+  std::size_t group_ = 0, next_group_ = 0;
+  std::optional<WalkEntry> held_, to_test_, to_read_;
+  std::deque<InFlight> in_flight_;
+  ClockedFifo<WalkEntry> waiting_{1024};  // in_test_ bounds it
+  std::uint32_t in_test_ = 0, children_ = 0;
+  WalkEntry on_lanes_;
+  std::deque<Tested> tested_;
+  std::uint32_t room_ = 4, credits_ = 0, new_credits_ = 0;
+  ClockedFifo<std::uint64_t> ready_{4};
+  std::optional<std::uint64_t> out_;
+};
+
+}  // namespace sgs::test

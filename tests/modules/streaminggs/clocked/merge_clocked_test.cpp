@@ -1,0 +1,145 @@
+// The merge unit against its clocked reference.
+#include <catch2/catch.hpp>
+
+#include "testbench/units/merge_run.h"
+#include "tests/modules/streaminggs/clocked/clocked_merge.h"
+#include "tests/modules/streaminggs/clocked/comparison.h"
+
+namespace sgs::test {
+namespace {
+
+constexpr std::uint64_t kMark = ~std::uint64_t{0};
+
+struct MergeWorkload {
+  const char* name;
+  std::uint32_t chunk = 16;  // slots of a visit
+  std::uint32_t depths = 1000;
+  std::uint32_t cycles_per_operation = 2;
+  std::uint32_t in_one_in = 1, in_longest = 1, out_one_in = 1, out_longest = 1;
+  std::uint32_t in_entries = 16, out_entries = 4, sorters = 1, hfus = 4;
+};
+
+tb::MergePlan plan_of(const MergeWorkload& load, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  tb::MergePlan plan;
+  plan.slots = 400;
+  plan.config.cycles_per_operation = load.cycles_per_operation;
+  plan.sorters = load.sorters;
+  plan.hfus = load.hfus;
+  plan.input_entries = load.in_entries;
+  plan.output_entries = load.out_entries;
+  for (int g = 0; g < 3; ++g) {
+    plan.groups.push_back(tb::random_group(random, plan, load.chunk, load.depths));
+  }
+  return plan;
+}
+
+// Depths are multiples of 0.5.
+std::uint64_t depth_of(float depth) {
+  return depth == tb::kInfinity ? kMark >> 20U : static_cast<std::uint64_t>(2 * depth);
+}
+std::uint64_t key_of(float depth, std::uint32_t slot) { return depth_of(depth) << 16U | slot; }
+std::uint64_t what_of(const FineCandidate& key) {
+  return key.mark == Mark::kNone ? key_of(key.depth, key.slot) : kMark;
+}
+
+// [sorter] what it hands on.
+std::vector<std::vector<FineCandidate>> inputs_of(const tb::MergePlan& plan) {
+  std::vector<std::vector<FineCandidate>> inputs(plan.sorters);
+  std::uint32_t number = 0;
+  for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
+    const std::vector<tb::MergeVisit>& visits = plan.groups[g].visits;
+    for (std::size_t v = 0; v <= visits.size(); ++v, ++number) {
+      std::vector<FineCandidate>& to = inputs[number % plan.sorters];
+      FineCandidate end;
+      end.group = g;
+      end.visit = number;
+      end.mark = v < visits.size() ? Mark::kEndOfVisit : Mark::kEndOfGroup;
+      end.release_below = v < visits.size() ? visits[v].release_below : tb::kInfinity;
+      if (v < visits.size()) {
+        for (const tb::MergeKey& key : visits[v].keys) to.push_back(tb::candidate(g, number, key));
+      }
+      to.push_back(end);
+    }
+  }
+  return inputs;
+}
+
+std::size_t released(const tb::MergePlan& plan) {
+  std::size_t count = plan.groups.size();
+  for (const tb::MergeGroup& group : plan.groups) {
+    for (const tb::MergeVisit& visit : group.visits) count += visit.keys.size();
+  }
+  return count;
+}
+
+// Takes from the FIFOs in turn, as rendering does behind them.
+void run(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_t seed) {
+  const tb::MergePlan plan = plan_of(load, seed);
+  tb::MergeRun run(test, tb::still_bench(plan), plan);
+  const std::vector<std::vector<FineCandidate>> inputs = inputs_of(plan);
+  for (std::uint32_t s = 0; s < plan.sorters; ++s) {
+    add_source(run.bench, fmt::format("sorter{}", s), inputs[s],
+               {seed + s, load.in_one_in, load.in_longest}, *run.inputs[s]);
+  }
+  const Pace pace(seed + 1000, load.out_one_in, load.out_longest);
+  run.bench.add_thread("reader", [&](Activity& activity) {
+    for (std::size_t at = 0; at < released(plan); ++at) {
+      run.bench.clock().wait_cycles(pace.gap(at));
+      const std::uint64_t what = what_of(run.outputs[at % plan.hfus]->pop(activity));
+      taken.push_back({run.bench.clock().now_cycles(), what});
+    }
+  });
+  run.bench.run();
+}
+
+Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
+  const tb::MergePlan plan = plan_of(load, seed);
+  ClockedMerge unit(load.cycles_per_operation);
+  std::vector<ClockedFifo<MergeItem>> in, out;
+  std::vector<ClockedSource<MergeItem>> sources;
+  std::uint64_t number = 0;
+  for (const std::vector<FineCandidate>& keys : inputs_of(plan)) {
+    std::vector<MergeItem> items;
+    for (const FineCandidate& key : keys) {
+      const bool is_mark = key.mark != Mark::kNone;
+      items.push_back({what_of(key), is_mark, key.mark == Mark::kEndOfGroup,
+                       depth_of(key.release_below) << 16U});
+    }
+    sources.emplace_back(std::move(items), Pace(seed + number++, load.in_one_in, load.in_longest));
+    in.emplace_back(plan.input_entries);
+  }
+  for (std::uint32_t h = 0; h < plan.hfus; ++h) out.emplace_back(plan.output_entries);
+  ClockedSink<MergeItem> sink({seed + 1000, load.out_one_in, load.out_longest});
+  for (std::uint64_t now = 0; sink.taken().size() < released(plan); ++now) {
+    sink.step(out[sink.taken().size() % out.size()], now,
+              [](const MergeItem& item) { return item.key; });
+    unit.step(in, out);
+    for (std::size_t s = 0; s < in.size(); ++s) sources[s].step(in[s]);
+    for (ClockedFifo<MergeItem>& fifo : in) fifo.step();
+    for (ClockedFifo<MergeItem>& fifo : out) fifo.step();
+  }
+  return sink.taken();
+}
+
+TEST_CASE("clocked reference: merge unit") {
+  Comparison table("merge unit");
+  for (const MergeWorkload& load : {
+           MergeWorkload{"light: visits of up to 3", 3},
+           MergeWorkload{"heavy: visits of up to 16", 16},
+           MergeWorkload{"few depths", 16, 5},
+           MergeWorkload{"an operation every 3 cycles", 16, 1000, 3},
+           MergeWorkload{"input stalled", 16, 1000, 2, 4, 60},
+           MergeWorkload{"output stalled", 16, 1000, 2, 1, 1, 4, 60},
+           MergeWorkload{"tiny buffers", 16, 1000, 2, 4, 20, 4, 20, 1, 1},
+           MergeWorkload{"two sorting units, one HFU", 16, 1000, 2, 1, 1, 1, 1, 16, 4, 2, 1},
+       }) {
+    table.workload(
+        load.name,
+        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
+        [&](std::uint64_t seed) { return clocked(load, seed); });
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test
