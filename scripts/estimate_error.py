@@ -68,11 +68,14 @@ def draw_machines(order: Order, count: int, seed: int) -> list[Machine]:
 
 
 def reports(server: SweepServer, runs: list[Run], jobs: int) -> tuple[list[dict | None], float]:
-    """Of each run its view's report, None for a refused one; and the seconds that all took."""
+    """Of each run its view's report, None for a refused one; and the seconds that all took.
+    Raises ValueError with the last reason where all are refused."""
     began = time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         outcomes = list(pool.map(server.outcome, runs))
     server.end()
+    if not any(o.views for o in outcomes):
+        raise ValueError(f"all configurations are refused: {outcomes[-1].refused}")
     return [o.views[0] if o.views else None for o in outcomes], time.monotonic() - began
 
 
@@ -177,7 +180,7 @@ def compared_frames(scenes: list[Scene], arguments: argparse.Namespace) -> tuple
         if accurate and estimate
     ]  # fmt: skip
     if not frames:
-        raise ValueError("all configurations are refused")
+        raise ValueError("each configuration is refused by one side")
     return frames, len(runs) - len(frames)
 
 
