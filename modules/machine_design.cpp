@@ -7,7 +7,7 @@ namespace sgs {
 namespace {
 
 constexpr const char* kNoEstimate =
-    "--estimate: there is no estimate of this machine, expected `machine` exact";
+    "--estimate: there is no estimate of this machine, expected `machine` exact or paper";
 
 }  // namespace
 

@@ -32,6 +32,7 @@ class Judged:
     violations: tuple[float, ...] = ()
     settings: dict[str, object] = dataclasses.field(default_factory=dict)
     drawn: int = 0
+    fidelity: str = ""  # of its views: "accurate", or "estimate" where they were reckoned
     slowest: str = ""  # view of those drawn
     binding: str = ""
     commit: str = ""
@@ -51,7 +52,7 @@ class Judged:
 @dataclasses.dataclass(frozen=True)
 class Task:
     """What a configuration is judged by. base: what all of them have set, which a configuration
-    may set anew."""
+    may set anew. estimated: what is judged is reckoned first."""
 
     views: tuple[tuple[Scene, int], ...]
     keys: tuple[str, ...]  # of the settings to be shown
@@ -60,6 +61,7 @@ class Task:
     base: Assignments
     objectives: tuple[Objective, ...]
     requirements: tuple[Requirement, ...]
+    estimated: bool = False
 
     def run(self, scene: Scene, view: int, assignments: Assignments) -> Run:
         return Run(scene, str(view), self.size, self.config, (*self.base, *assignments))
@@ -120,6 +122,7 @@ class Judge:
             violations=tuple(r.violation(views) for r in self.task.requirements),
             settings={key: setting(views[0]["config"], key) for key in self.task.keys},
             drawn=len(views),
+            fidelity=views[0].get("fidelity", ""),
             slowest=f"{slowest['scene_name']} {slowest['view']}",
             binding="+".join(sorted({view["binding"]["unit"] for view in views})),
             commit=views[0]["provenance"].get("commit", ""),

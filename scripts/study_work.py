@@ -186,6 +186,7 @@ def described(work: Work, kept: SweepServer) -> str:
         "configurations": "proposed" if work.arguments.search else "all",
         "views": [[scene.name, number] for scene, number in task.views],
         "size": task.size,
+        "estimated": task.estimated,
         "config": task.config,
         "base": list(task.base),
         "objectives": [o.name for o in task.objectives],

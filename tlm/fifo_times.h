@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace sgs {
@@ -23,12 +24,21 @@ class FifoTimes {
     ++pushed_;
     return at;
   }
-  // The first cycle from `now` on with room for one more entry beside so many, fewer than the
-  // capacity.
-  std::uint64_t room(std::uint64_t now, std::uint64_t beside = 0) const {
-    return std::max(now, entries_[place(pushed_ + beside)].removed);
+  // From `now` on a place is taken for the latency, as by an entry, but none comes of it.
+  void hold_place(std::uint64_t now) { held_until_.push_back(now + latency_); }
+  // The first cycle from `now` on, which does not go back, with room for an entry beside the places
+  // that are held.
+  std::uint64_t room(std::uint64_t now) {
+    while (true) {
+      while (!held_until_.empty() && held_until_.front() <= now) held_until_.pop_front();
+      const std::uint64_t held = held_until_.size();
+      if (held == 0) return std::max(now, entries_[place(pushed_)].removed);
+      if (held < entries_.size() && entries_[place(pushed_ + held)].removed <= now) return now;
+      now = held < entries_.size()
+                ? std::min(entries_[place(pushed_ + held)].removed, held_until_.front())
+                : held_until_.front();
+    }
   }
-  std::uint64_t capacity() const { return entries_.size(); }
   // The cycle in which a reader that looks in `now` has the oldest entry, which stays until it is
   // removed.
   std::uint64_t front(std::uint64_t now) const {
@@ -49,7 +59,8 @@ class FifoTimes {
   std::size_t place(std::uint64_t number) const { return number % entries_.size(); }
 
   const std::uint64_t latency_;
-  std::vector<Entry> entries_;  // ring
+  std::vector<Entry> entries_;            // ring
+  std::deque<std::uint64_t> held_until_;  // places
   std::uint64_t pushed_ = 0, removed_ = 0;
 };
 

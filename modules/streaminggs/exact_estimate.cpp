@@ -11,11 +11,6 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-template <class T>
-std::vector<FifoTimes> fifos_of(const FifoKind<T>& kind) {
-  return {kind.count, FifoTimes(kind.entries, kind.latency_cycles)};
-}
-
 }  // namespace
 
 std::size_t ExactFrameWork::size_bytes() const {
@@ -31,11 +26,11 @@ ExactEstimate::ExactEstimate(const ExactConfig& config, const ExactWork& work,
                              ExactUnitEstimates& units, RenderingEstimate& rendering)
     : config_(config), work_(work), units_(units), rendering_(rendering) {
   const ExactFifos kinds(config);
-  visits_ = fifos_of(visit_fifos(config));
-  keys_ = fifos_of(kinds.keys);
-  sorted_ = fifos_of(kinds.sorted_keys);
-  released_ = fifos_of(kinds.released);
-  splats_ = fifos_of(kinds.splats);
+  visits_ = times_of(visit_fifos(config));
+  keys_ = times_of(kinds.keys);
+  sorted_ = times_of(kinds.sorted_keys);
+  released_ = times_of(kinds.released);
+  splats_ = times_of(kinds.splats);
 }
 
 std::uint64_t ExactEstimate::draw() {
@@ -110,21 +105,21 @@ void ExactEstimate::filter(std::uint32_t first, std::uint32_t count, std::uint32
   FifoTimes& keys = keys_[hfu * units_.sorters.size() + sorter];
   list_.clear();
   std::uint32_t next = first_key;
-  const auto passes = [&](std::uint32_t slot) {
-    return next < of_->keys.size() && of_->keys[next].slot == slot;
+  const auto passes = [&](std::uint32_t slot) -> std::uint32_t {
+    return next < of_->keys.size() && of_->keys[next].slot == slot ? 1 : 0;
   };
-  const auto hand_on = [&](std::uint64_t now) {
+  CoarseFilterEstimate& coarse = units_.coarse[hfu];
+  coarse.begin({group_, first, count, rendering_.finished_from()}, visits_[visit_ % visits_.size()],
+               keys);
+  while (coarse.next(passes)) {
     const KeyWork& key = of_->keys[next];
     list_.push_back({key.depth, key.slot, next++});
-    keys.push(now);
+    coarse.go_on(keys.push(coarse.now()));
     units_.sorters[sorter].take(keys);
-  };
-  const auto end_visit = [&](std::uint64_t now) {
-    keys.push(now);
-    units_.sorters[sorter].sort(keys);
-  };
-  units_.coarse[hfu].take({group_, first, count, rendering_.finished_from()},
-                          visits_[visit_ % visits_.size()], keys, passes, hand_on, end_visit);
+  }
+  coarse.end();
+  coarse.go_on(keys.push(coarse.now()));
+  units_.sorters[sorter].sort(keys);
 }
 
 void ExactEstimate::merge_keys() {
@@ -154,22 +149,25 @@ void ExactEstimate::emit(const MergeEstimate::Key& key) {
   counters.ties += key.depth == last_depth_ ? 1 : 0;
   last_depth_ = key.depth;
   ++counters.released;
-  const bool splat = work.splat != KeyWork::kNoSplat;
-  to_fine({group_, key.slot, false, splat, rendering_.finished_from()}, work.splat);
+  const std::uint32_t splats = work.splat == KeyWork::kNoSplat ? 0 : 1;
+  const std::uint64_t finished_from = rendering_.finished_from();
+  to_fine({group_, key.slot, false, 1, splats, &finished_from}, work.splat);
 }
 
 void ExactEstimate::to_fine(const FineFilterEstimate::Candidate& candidate, std::uint32_t splat) {
   const std::size_t hfu = sequence_++ % released_.size();
   units_.merge.go_on(released_[hfu].push(units_.merge.now()));
-  const auto hand_on = [&](std::uint64_t now, bool tested) {
-    splats_[hfu].push(now);
-    if (tested && candidate.splat) {
-      rendering_.blend(splats_[hfu], splat);
-    } else {
-      rendering_.pass(splats_[hfu]);
-    }
-  };
-  units_.fine[hfu].take(candidate, released_[hfu], splats_[hfu], hand_on);
+  FifoTimes& splats = splats_[hfu];
+  units_.fine[hfu].take(
+      candidate, released_[hfu], [&](std::uint32_t) -> FifoTimes& { return splats; },
+      [&](std::uint32_t, std::uint64_t now, bool tested) {
+        splats.push(now);
+        if (tested && candidate.splats != 0) {
+          rendering_.blend(splats, splat);
+        } else {
+          rendering_.pass(splats);
+        }
+      });
 }
 
 }  // namespace sgs

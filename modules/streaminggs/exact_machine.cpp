@@ -9,12 +9,6 @@
 namespace sgs {
 namespace {
 
-template <class T>
-void assume(const std::vector<std::unique_ptr<TimedFifo<T>>>& fifos,
-            const std::vector<FifoTimes>& estimated) {
-  for (std::size_t i = 0; i < fifos.size(); ++i) fifos[i]->assume(estimated[i].pushed());
-}
-
 std::uint64_t aside_bytes(const ChunkTableLayout& table) {
   return (table.chunk_count + table.nodes.count) * kWalkEntryBytes;
 }
@@ -143,11 +137,11 @@ std::uint64_t ExactMachine::estimate(const FrameWork& work, MemoryEstimate& dram
   of_rendering.counters.contributors = of.contributors;
   rendering_[0]->assume(of_rendering);
   (spills ? finished_subtiles_ : untold_).assume(of_rendering.news);
-  sgs::assume(visits_, frame.visits());
-  sgs::assume(keys_, frame.keys());
-  sgs::assume(sorted_keys_, frame.sorted());
-  sgs::assume(released_, frame.released());
-  sgs::assume(splats_, frame.splats());
+  assume(visits_, frame.visits());
+  assume(keys_, frame.keys());
+  assume(sorted_keys_, frame.sorted());
+  assume(released_, frame.released());
+  assume(splats_, frame.splats());
   return cycles;
 }
 

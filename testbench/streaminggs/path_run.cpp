@@ -152,7 +152,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
     }
     const Json of_view = *reports.of_view(view, scene);
     if (i == 0) {
-      for (const char* key : {"schema_version", "scene", "config", "chosen", "provenance"}) {
+      for (const char* key : {"schema_version", "fidelity", "scene", "config", "chosen", "provenance"}) {
         report[key] = of_view[key];
       }
     }

@@ -167,6 +167,23 @@ class Studies(InFolder):
         front = [row for row in self.rows("out")[1:] if row[-1]]
         self.assertEqual([row[0] for row in front], ["3"])
 
+    def test_a_search_of_estimates_simulates_its_front(self):
+        self.stand_in("finish()")
+        study = ("--study", "reckoned", "--search", "random", "--trials", "8")
+        subprocess.run(self.words("out", "--estimate", *study), check=True, capture_output=True)
+        head, *rows = self.rows("out")
+        fidelity, front = head.index("fidelity"), head.index("front")
+        self.assertEqual(
+            sorted((row[0], row[fidelity]) for row in rows if row[front]),
+            [(hfus, "accurate") for hfus in "1235"],
+        )
+        self.assertEqual({row[fidelity] for row in rows if not row[front]}, {"estimate"})
+        # A study is of one kind.
+        done = subprocess.run(
+            self.words("out", *study), capture_output=True, text=True, check=False
+        )
+        self.assertEqual(done.returncode, 2, done.stderr)
+
     def test_what_is_refused(self):
         self.stand_in("finish()")
         db = f"sqlite:///{self.folder}/study.db"

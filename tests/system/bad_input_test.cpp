@@ -32,7 +32,6 @@ TEST_CASE("bad input: what would never end is refused at once") {
            {"$SG simulate $B --estimate --dram-trace t --out o", 2, {"--estimate", "--dram-trace"}},
            {"$SG simulate $B --estimate --stalls 0.1 --out o", 2, {"--estimate", "--stalls"}},
            {"$SG simulate $B --estimate --config gscore --out o", 2, {"--estimate", "no estimate"}},
-           {"$SG simulate $B --estimate --config paper --out o", 2, {"--estimate", "no estimate"}},
            {"$SG simulate $B --path pipe --out o", 2, {"pipe", "regular"}, "mkfifo pipe"},
            {"$SG simulate $B --path builtin:path --view 1 --out o", 2, {"--view", "--path"}},
            {"$SG simulate $B --path builtin:path --vcd v --out o", 2, {"--vcd", "--path"}},

@@ -40,6 +40,12 @@ struct Both {
 const Arguments kObject = {"builtin:object?n=4000", "--size", "200x160"};
 const Arguments kOutdoor = {"builtin:outdoor?n=6000", "--size", "200x120"};
 
+// Of paper order with raw second halves, with memories as large as must be.
+Arguments paper(Arguments keys) {
+  keys.insert(keys.end(), {"sram.shared_bytes=0", "sram.input_bytes=0"});
+  return joined({"--config", "paper_no_vq"}, settings(keys));
+}
+
 TEST_CASE("estimate: bytes are the simulation's where nothing depends on when it happens") {
   for (const Arguments& scene : {kObject, kOutdoor}) {
     INFO(scene[0]);
@@ -51,6 +57,27 @@ TEST_CASE("estimate: bytes are the simulation's where nothing depends on when it
     CHECK(frame.estimated["dram"]["transactions"] == frame.simulated["dram"]["transactions"]);
     for (const char* path : {"chunk_test", "coarse", "fine"}) {
       CHECK(frame.estimated["datapath"][path] == frame.simulated["datapath"][path]);
+    }
+  }
+}
+
+TEST_CASE("estimate: bytes of paper order are the simulation's where nothing is finished early") {
+  for (const Arguments& scene : {kObject, kOutdoor}) {
+    for (const char* fetch : {"fetch=split", "fetch=shared"}) {
+      INFO(scene[0] << " " << fetch);
+      const Both frame(joined(with_settings(scene, {"rendering.saturation_feedback=false", fetch,
+                                                    "sram.shared_bytes=0", "sram.input_bytes=0"}),
+                              {"--config", "paper_no_vq"}));
+      // Which of the lines of two passes of rays comes first is a matter of time.
+      for (const char* region : {"first_halves", "second_halves", "frame_buffer"}) {
+        INFO(region);
+        CHECK(frame.estimated["dram"]["bytes_by_region"][region] ==
+              frame.simulated["dram"]["bytes_by_region"][region]);
+      }
+      for (const char* path : {"pixel_ray", "ray_step", "coarse", "fine"}) {
+        INFO(path);
+        CHECK(frame.estimated["datapath"][path] == frame.simulated["datapath"][path]);
+      }
     }
   }
 }
@@ -70,7 +97,16 @@ TEST_CASE("estimate: close to the simulation, and never below what one resource 
       {kOutdoor, settings({"merge.entries=48", "merge.on_overflow=blend_early"})},
       {kOutdoor, settings({"hfus=1", "sorting_units=2", "dram.channels=1"})},
       {kObject,
-       settings({"hfus=8", "rendering.clusters=1", "sram.shared_bytes=0", "sram.input_bytes=0"})}};
+       settings({"hfus=8", "rendering.clusters=1", "sram.shared_bytes=0", "sram.input_bytes=0"})},
+      {kObject, {"--config", "paper"}},
+      {kOutdoor, {"--config", "paper_no_cgf"}},
+      {kOutdoor, {"--config", "paper_no_vq_cgf"}},
+      {kObject, paper({"fetch=shared"})},
+      // A table that is too small, lists that spill and are merged in two passes, few slots.
+      {kOutdoor, paper({"vsu.table_bytes=512", "vsu.groups_ahead=2"})},
+      {kOutdoor, paper({"vsu.visit_gaussians=0", "storage.voxel_size=8",
+                        "sorting.buffer_entries=16", "sorting_units=1"})},
+      {kObject, paper({"hfu.second_half_slots=2", "hfus=2", "dram.channels=1"})}};
   for (const Case& c : cases) {
     std::string words = c.scene[0];
     for (const std::string& option : c.options) words += " " + option;

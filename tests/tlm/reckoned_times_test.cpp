@@ -21,6 +21,24 @@ TEST_CASE("fifo times: an entry waits for room, and its reader for the latency")
   CHECK(fifo.pushed() == 4);
 }
 
+TEST_CASE("fifo times: a place that is held is free when an entry in it would be ready") {
+  FifoTimes fifo(2, 3);
+  CHECK(fifo.room(10) == 10);
+  fifo.hold_place(10);  // until cycle 13
+  CHECK(fifo.room(11) == 11);
+  CHECK(fifo.push(11) == 11);
+  CHECK(fifo.pop(20) == 20);   // of the entry's place
+  CHECK(fifo.room(12) == 13);  // that of the held one is free before
+  fifo.hold_place(13);         // until 16
+  CHECK(fifo.room(14) == 16);
+  CHECK(fifo.room(20) == 20);
+  fifo.hold_place(20);
+  fifo.hold_place(21);
+  CHECK(fifo.room(22) == 23);  // both are held
+  CHECK(fifo.push(23) == 23);
+  CHECK(fifo.pushed() == 2);
+}
+
 TEST_CASE("booked time: who comes first is served first, in whatever order they ask") {
   BookedTime bus(16);
   CHECK(bus.book(32, 8) == 40);

@@ -46,6 +46,7 @@ class CoarseFilter : public sc_core::sc_module {
   const Counters& counters() const { return counters_; }
   const Datapath& tests() const { return tests_; }
   bool with_cfus() const { return has_cfus_; }
+  std::uint32_t parts() const { return part_count(); }
 
   // All that the data sheet says of a frame.
   struct Work {

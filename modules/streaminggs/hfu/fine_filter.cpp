@@ -293,12 +293,14 @@ FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t 
 void FineFilter::assume(const Work& work) {
   counters_ = work.counters;
   fetch_.assume(work.fetch_cycles);
-  Part& part = *parts_.front();
-  part.filter.assume(work.filter_cycles);
-  part.fetched.assume(work.fetched);
-  if (part.stage) {
-    part.stage->decode.assume(work.decode_cycles);
-    part.stage->decoded.assume(work.decoded);
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    Part& part = *parts_[p];
+    const Work::OfPart& of = work.parts[p];
+    part.filter.assume(of.filter_cycles);
+    part.fetched.assume(of.fetched);
+    if (!part.stage) continue;
+    part.stage->decode.assume(of.decode_cycles);
+    part.stage->decoded.assume(of.decoded);
   }
   memory.assume(work.traffic);
 }

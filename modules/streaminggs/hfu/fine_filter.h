@@ -70,11 +70,18 @@ class FineFilter : public sc_core::sc_module {
   const Datapath& tests() const { return tests_; }
   std::uint64_t test_cycles() const { return test_cycles_; }
 
-  // All that the data sheet says of a frame, in one part.
+  std::uint32_t parts() const { return static_cast<std::uint32_t>(parts_.size()); }
+  Rejects rejects() const { return place_.rejects; }
+
+  // All that the data sheet says of a frame.
   struct Work {
+    struct OfPart {
+      std::uint64_t decode_cycles = 0, filter_cycles = 0;
+      std::uint64_t fetched = 0, decoded = 0;  // entries of the FIFOs
+    };
     Counters counters;
-    std::uint64_t fetch_cycles = 0, decode_cycles = 0, filter_cycles = 0;
-    std::uint64_t fetched = 0, decoded = 0;  // entries of the FIFOs
+    std::uint64_t fetch_cycles = 0;
+    std::vector<OfPart> parts;
     PortTraffic traffic;
   };
   // As if it had done this. For an estimate, in place of a run.

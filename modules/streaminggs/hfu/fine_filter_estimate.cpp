@@ -1,5 +1,7 @@
-// Second halves on their way.
+// Second halves on their way, and through each part's FFU.
 #include "modules/streaminggs/hfu/fine_filter_estimate.h"
+
+#include <utility>
 
 namespace sgs {
 
@@ -9,63 +11,124 @@ FineFilterEstimate::FineFilterEstimate(const HfuConfig& config, const FineFilter
     : interval_(unit.tests().interval_cycles()),
       test_cycles_(unit.test_cycles()),
       read_cycles_(FineFilter::read_cycles(second_halves.record_bytes)),
+      reports_(unit.rejects() == Rejects::kReported),
       second_halves_(second_halves),
       port_(port),
       codebooks_(codebooks),
-      slots_(config.second_half_slots),
-      fetched_(fetched_entries(config)),
-      decoded_(kDecodedEntries, codebooks == nullptr ? 1 : codebooks->latency_cycles()) {}
+      parts_(unit.parts(),
+             {FifoTimes(fetched_entries(config)),
+              FifoTimes(kDecodedEntries, codebooks == nullptr ? 1 : codebooks->latency_cycles())}) {
+  for (std::uint32_t slot = 0; slot < config.second_half_slots; ++slot) slots_.push(0);
+}
 
 FineFilterEstimate::Fetched FineFilterEstimate::fetch(const Candidate& candidate,
                                                       FifoTimes& candidates) {
+  const std::uint32_t all = (1U << parts_.size()) - 1;
   fetch_ = candidates.pop(fetch_);
   ++work_.fetch_cycles;
   Fetched fetched;
-  fetched.there = !candidate.mark && candidate.finished_from > fetch_;
-  if (fetched.there) {
-    fetched.slot = fetches_++ % slots_.size();
-    fetch_ = std::max(fetch_, slots_[fetched.slot]) + 1;
-    port_.charge_to(candidate.group);
-    const PortEstimate::Access access =
-        port_.read(fetch_, second_halves_.address(candidate.slot), second_halves_.record_bytes,
-                   second_halves_.region);
-    fetch_ = access.sent;
-    fetched.answered = access.answered;
-    ++work_.counters.second_halves;
-  } else {
-    ++fetch_;
+  std::uint32_t dropped = 0;
+  if (!candidate.mark) {
+    for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+      if ((candidate.parts >> p & 1U) == 0) continue;
+      if (candidate.finished_from[p] > fetch_) {
+        fetched.parts |= 1U << p;
+      } else {
+        ++dropped;
+      }
+    }
   }
-  fetch_ = fetched_.push(fetch_);
+  work_.counters.dropped_saturated += dropped;
+  if (fetched.parts == 0) {
+    ++fetch_;
+    if (candidate.mark || reports_) fetched.goes_to = all;
+    return fetched;
+  }
+  work_.counters.dropped_fetched += dropped;
+  fetched.goes_to = fetched.parts;
+  fetch_ = std::max(fetch_, slots_.top()) + 1;
+  slots_.pop();
+  port_.charge_to(candidate.group);
+  const PortEstimate::Access access =
+      port_.read(fetch_, second_halves_.address(candidate.slot), second_halves_.record_bytes,
+                 second_halves_.region);
+  fetch_ = access.sent;
+  fetched.answered = access.answered;
+  ++work_.counters.second_halves;
   return fetched;
 }
 
-void FineFilterEstimate::decode(const Candidate& candidate, const Fetched& fetched) {
-  decode_ = fetched_.front(decode_);
-  std::uint64_t began = decode_;
-  if (fetched.there) {
-    began = decode_ = std::max(decode_, fetched.answered);
+void FineFilterEstimate::decode(Part& part, bool there, std::uint64_t finished_from,
+                                std::uint64_t answered) {
+  part.decode = part.fetched.front(part.decode);
+  std::uint64_t began = part.decode;
+  if (there) {
+    began = part.decode = std::max(part.decode, answered);
     ++work_.counters.taken;
-    if (candidate.finished_from > decode_) {
-      began = decode_ = std::max(decode_, codebooks_->loaded_at());
-      decode_ += codebooks_->read_record();
+    if (finished_from > part.decode) {
+      began = part.decode = std::max(part.decode, codebooks_->loaded_at());
+      part.decode += codebooks_->read_record();
     } else {
-      ++decode_;
+      ++part.decode;
     }
-    free_slot(fetched.slot, decode_);
+    free_slot(part.decode);
   } else {
-    ++decode_;
+    ++part.decode;
   }
-  work_.decode_cycles += decode_ - began;
-  fetched_.remove(decode_);
-  decode_ = decoded_.push(decode_);
+  part.decode_cycles += part.decode - began;
+  part.fetched.remove(part.decode);
+  part.decode = part.decoded.push(part.decode);
 }
 
-void FineFilterEstimate::count(const Candidate& candidate, bool fetched, bool tested) {
-  if (candidate.mark) return;
+// One that is there by then passes in the last of the cycles that the lanes take, beside them.
+std::uint64_t FineFilterEstimate::pass_mark(Part& part, FifoTimes& from, FifoTimes& splats) {
+  const bool beside_lanes = std::exchange(part.lanes_last, false) && from.front(0) < part.filter;
+  if (beside_lanes) --part.filter;
+  part.filter = splats.room(from.front(part.filter));
+  from.remove(part.filter++);
+  part.filter_cycles += beside_lanes ? 0 : 1;
+  return part.filter;
+}
+
+FineFilterEstimate::Filtered FineFilterEstimate::filter(std::uint32_t p, const Candidate& candidate,
+                                                        const Fetched& fetched, FifoTimes& splats) {
+  Part& part = parts_[p];
+  const bool there = (fetched.parts >> p & 1U) != 0;
+  const std::uint64_t finished_from = there ? candidate.finished_from[p] : 0;
+  if (codebooks_ != nullptr) decode(part, there, finished_from, fetched.answered);
+  FifoTimes& from = codebooks_ != nullptr ? part.decoded : part.fetched;
+  if (!there) return {false, false, pass_mark(part, from, splats)};
+  part.filter = from.front(part.filter);
+  if (codebooks_ == nullptr) {
+    part.filter = std::max(part.filter, fetched.answered);
+    ++work_.counters.taken;
+  }
+  part.filter = splats.room(part.filter);
+  const std::uint64_t began = part.filter;
+  const bool tested = finished_from > part.filter;
+  const bool splat = tested && (candidate.splats >> p & 1U) != 0;
+  if (tested) part.filter = next_turn(part.filter, interval_);
+  if (codebooks_ == nullptr) free_slot(part.filter);
+  from.remove(part.filter);
+  const std::uint64_t leaves = part.filter + 1;
+  part.filter += tested ? test_cycles_ : 1;
+  part.filter_cycles += part.filter - began;
+  part.lanes_last = tested && test_cycles_ > 1;
   work_.counters.tests += tested ? 1 : 0;
-  work_.counters.splats += tested && candidate.splat ? 1 : 0;
+  work_.counters.splats += splat ? 1 : 0;
   work_.counters.dropped_saturated += tested ? 0 : 1;
-  work_.counters.dropped_fetched += fetched && !tested ? 1 : 0;
+  work_.counters.dropped_fetched += tested ? 0 : 1;
+  return {tested, splat, leaves};
+}
+
+FineFilter::Work FineFilterEstimate::work() const {
+  FineFilter::Work work = work_;
+  for (const Part& part : parts_) {
+    work.parts.push_back({part.decode_cycles, part.filter_cycles, part.fetched.pushed(),
+                          codebooks_ == nullptr ? 0 : part.decoded.pushed()});
+  }
+  work.traffic = port_.traffic();
+  return work;
 }
 
 }  // namespace sgs

@@ -1,8 +1,10 @@
-// The time of a fine filter (fine_filter.h) without a kernel, for groups in one part.
+// The time of a fine filter (fine_filter.h) without a kernel.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <queue>
 #include <vector>
 
 #include "algorithm/memory/regions.h"
@@ -23,73 +25,69 @@ class FineFilterEstimate {
 
   struct Candidate {
     std::uint32_t group = 0, slot = 0;
-    bool mark = false;                // there is no Gaussian
-    bool splat = false;               // it touches the group
-    std::uint64_t finished_from = 0;  // its group, as far as that is known
+    bool mark = false;         // there is no Gaussian
+    std::uint32_t parts = 1;   // of the group that it may touch, a bit each
+    std::uint32_t splats = 0;  // of these, that it does touch
+    // [part] from which cycle on it is known to be finished, as far as that is known
+    const std::uint64_t* finished_from = nullptr;
   };
-  // Which came to `candidates` before. hand_on(cycle, tested): gives what becomes of it to
-  // `splats`, which has a place for it then; tested: a fine test is done.
-  template <class HandOn>
-  void take(const Candidate& candidate, FifoTimes& candidates, const FifoTimes& splats,
+  // Which came to `candidates` before. splats(part): the FIFO behind a part's pipeline.
+  // hand_on(part, cycle, tested): puts what becomes of it in a part into that, which has a place
+  // for it then; tested: a fine test is done. Not where nothing is said of what is no splat.
+  template <class Splats, class HandOn>
+  void take(const Candidate& candidate, FifoTimes& candidates, const Splats& splats,
             const HandOn& hand_on) {
     const Fetched fetched = fetch(candidate, candidates);
-    if (codebooks_ != nullptr) decode(candidate, fetched);
-    FifoTimes& from = codebooks_ != nullptr ? decoded_ : fetched_;
-    const std::uint64_t there = from.front(0);
-    const bool waited = there < filter_;
-    filter_ = std::max(filter_, there);
-    bool tested = false;
-    if (fetched.there) {
-      if (codebooks_ == nullptr) {
-        filter_ = std::max(filter_, fetched.answered);
-        ++work_.counters.taken;
+    freed_ = 0;
+    for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+      if ((fetched.goes_to >> p & 1U) == 0) continue;
+      Part& part = parts_[p];
+      fetch_ = part.fetched.push(fetch_);
+      FifoTimes& behind = splats(p);
+      const Filtered filtered = filter(p, candidate, fetched, behind);
+      if (candidate.mark || filtered.splat || reports_) {
+        hand_on(p, filtered.leaves, filtered.tested);
+      } else if (filtered.tested) {
+        behind.hold_place(filtered.leaves);
       }
-      filter_ = splats.room(filter_);
-      const std::uint64_t began = filter_;
-      tested = candidate.finished_from > filter_;
-      if (tested) filter_ = next_turn(filter_, interval_);
-      if (codebooks_ == nullptr) free_slot(fetched.slot, filter_);
-      from.remove(filter_);
-      const std::uint64_t of_test = tested ? test_cycles_ : 1;
-      work_.filter_cycles += filter_ + of_test - began;
-      hand_on(filter_ + 1, tested);
-      filter_ += of_test;
-    } else {
-      filter_ = splats.room(filter_);
-      from.remove(filter_);
-      filter_ += waited ? 0 : 1;
-      work_.filter_cycles += waited ? 0 : 1;
-      hand_on(filter_, tested);
     }
-    count(candidate, fetched.there, tested);
+    if (fetched.parts != 0) slots_.push(freed_);
   }
 
-  FineFilter::Work work() const {
-    FineFilter::Work work = work_;
-    work.fetched = fetched_.pushed();
-    work.decoded = codebooks_ == nullptr ? 0 : decoded_.pushed();
-    work.traffic = port_.traffic();
-    return work;
-  }
+  FineFilter::Work work() const;
 
  private:
   struct Fetched {
-    bool there = false;  // a second half
-    std::uint64_t slot = 0, answered = 0;
+    std::uint32_t parts = 0, goes_to = 0;  // that want a second half; that see it or its mark
+    std::uint64_t answered = 0;
+  };
+  struct Filtered {
+    bool tested = false, splat = false;
+    std::uint64_t leaves = 0;  // into the pipeline
+  };
+  struct Part {
+    FifoTimes fetched, decoded;
+    bool lanes_last = false;               // it did a test last, of more than a cycle
+    std::uint64_t decode = 0, filter = 0;  // until when they work
+    std::uint64_t decode_cycles = 0, filter_cycles = 0;
   };
   Fetched fetch(const Candidate& candidate, FifoTimes& candidates);
-  void decode(const Candidate& candidate, const Fetched& fetched);
-  void free_slot(std::uint64_t slot, std::uint64_t cycle) { slots_[slot] = cycle + read_cycles_; }
-  void count(const Candidate& candidate, bool fetched, bool tested);
+  Filtered filter(std::uint32_t part, const Candidate& candidate, const Fetched& fetched,
+                  FifoTimes& splats);
+  std::uint64_t pass_mark(Part& part, FifoTimes& from, FifoTimes& splats);
+  void decode(Part& part, bool there, std::uint64_t finished_from, std::uint64_t answered);
+  void free_slot(std::uint64_t cycle) { freed_ = std::max(freed_, cycle + read_cycles_); }
 
   const std::uint64_t interval_, test_cycles_, read_cycles_;
+  const bool reports_;
   const RecordArray second_halves_;
   PortEstimate port_;
   CodebookEstimate* const codebooks_;
-  std::vector<std::uint64_t> slots_;  // ring: when they were free again
-  FifoTimes fetched_, decoded_;
-  std::uint64_t fetches_ = 0;
-  std::uint64_t fetch_ = 0, decode_ = 0, filter_ = 0;  // until when they work
+  std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>>
+      slots_;                // free from
+  std::uint64_t freed_ = 0;  // that of the candidate at hand
+  std::vector<Part> parts_;
+  std::uint64_t fetch_ = 0;  // until when it works
   FineFilter::Work work_;
 };
 

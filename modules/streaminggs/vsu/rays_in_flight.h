@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "algorithm/order/group_visits.h"
-#include "modules/streaminggs/vsu/ray_unit.h"
+#include "modules/streaminggs/vsu/first_of.h"
+#include "modules/streaminggs/vsu/node_fetches.h"
+#include "modules/streaminggs/vsu/ray_turns.h"
 
 namespace sgs {
 
@@ -23,13 +25,17 @@ namespace sgs {
 // waits itself.
 //
 // Events are taken in the order of their cycles, those of one cycle in the order of the contexts.
-// The kernel's time follows where it matters to somebody else: when a node has to be fetched, when
-// one is waited for, and at the end.
-template <class Path>
+// The unit's time, which is the kernel's or an estimate's, follows where it matters to somebody
+// else: when a node has to be fetched, when one is waited for, and at the end. Unit: RayUnit or
+// RayUnitEstimate.
+template <class Path, class Unit>
 class RaysInFlight {
  public:
-  RaysInFlight(const View<float>& view, const Path& path, RayUnit& unit)
-      : view_(view), unit_(unit), contexts_(unit.config.rays_in_flight, Context(path)) {}
+  RaysInFlight(const View<float>& view, const Path& path, Unit& unit)
+      : view_(view),
+        unit_(unit),
+        contexts_(unit.config.rays_in_flight, Context(path)),
+        first_(unit.config.rays_in_flight) {}
 
   bool follow(const PixelRect& group, VisitWindow& window, OrderingTable& table, GroupVisits& out) {
     Pass pass{RayPixels(group, unit_.config.ray_step_px), window, table, out};
@@ -42,12 +48,14 @@ class RaysInFlight {
       contexts_[c].met.clear();
       contexts_[c].leaves.clear();
       begin_ray(c, unit_.now());
+      compare(c);
     }
     while (pass.fits && !(events_.empty() && unit_.fetches.empty())) {
       if (!wait_for_event()) continue;
       const Event event = events_.top();
       events_.pop();
       go_on(event.context, event.cycle);
+      compare(event.context);
       enter_in_turn(event.cycle);
     }
     unit_.advance_to(end_);
@@ -64,7 +72,7 @@ class RaysInFlight {
   }
 
  private:
-  static constexpr std::uint64_t kNever = RayUnit::kNever;
+  static constexpr std::uint64_t kNever = RayTurns::kNever;
   static constexpr std::uint32_t kNoNode = ~0U;
 
   enum class State : std::uint8_t { kFlies, kWithoutRoom, kEnded, kFree };
@@ -180,7 +188,7 @@ class RaysInFlight {
     const std::uint32_t node = std::exchange(contexts_[c].wanted, kNoNode);
     if (const auto* const line = unit_.nodes.find(node)) {
       contexts_[c].path.give(unit_.nodes.record_in(*line, node));
-      at(cycle + RayUnit::kLookUpCycles, c);
+      at(cycle + RayTurns::kLookUpCycles, c);
       return;
     }
     unit_.waiting_for(unit_.nodes.line_of(node), cycle).push_back({c, node});
@@ -210,14 +218,13 @@ class RaysInFlight {
     return context.state == State::kFree ? kNever : context.round;
   }
 
+  void compare(std::uint32_t c) { first_.set(c, earliest(contexts_[c])); }
+
   // What is next in the order of rounds: a voxel into the table, or a ray's context to another ray.
   void enter_in_turn(std::uint64_t cycle) {
     end_ = std::max(end_, cycle);
     while (pass_->fits) {
-      std::uint32_t first = 0;
-      for (std::uint32_t c = 1; c < contexts_.size(); ++c) {
-        if (earliest(contexts_[c]) < earliest(contexts_[first])) first = c;
-      }
+      const std::uint32_t first = first_.first();
       Context& context = contexts_[first];
       if (!context.met.empty()) {
         enter(context, cycle);
@@ -231,6 +238,7 @@ class RaysInFlight {
       } else {
         return;
       }
+      compare(first);
     }
   }
 
@@ -244,8 +252,9 @@ class RaysInFlight {
   }
 
   const View<float>& view_;
-  RayUnit& unit_;
+  Unit& unit_;
   std::vector<Context> contexts_;
+  FirstOf first_;  // of the contexts, in what is earliest for them
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
   Pass* pass_ = nullptr;
   std::uint64_t end_ = 0;  // of the pass, as far as it is known

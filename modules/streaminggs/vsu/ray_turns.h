@@ -1,0 +1,85 @@
+// Turns of a group's rays at what they share: lanes, look-ups in the cache of tree nodes, the
+// ordering table; each free again from some cycle on. Knows no kernel.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/order/ordering_table.h"
+#include "algorithm/splat/longest_path.h"
+#include "modules/streaminggs/vsu/paper_vsu_config.h"
+#include "tlm/datapath.h"
+
+namespace sgs {
+
+class RayTurns {
+ public:
+  // Cycles from a look-up to the next step or look-up of the ray: tags, line, masks of children. A
+  // step is behind the last of these only: its node lies in the context.
+  static constexpr std::uint64_t kLookUpCycles = 3, kMaskCycles = 1;
+  static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+
+  // The round of each ray that has something to enter is compared with the others', in a tree,
+  // before the next can be: from one voxel that is entered to the next, at least. Three levels of
+  // comparators a cycle.
+  static constexpr std::uint32_t first_of_rounds_cycles(std::uint32_t rays) {
+    constexpr std::uint32_t kLevelsOfCycle = 3;
+    std::uint32_t levels = 1;
+    while ((1U << levels) < rays) ++levels;
+    return (levels + kLevelsOfCycle - 1) / kLevelsOfCycle;
+  }
+
+  RayTurns(const PaperVsuConfig& config, const OperationLatencies& latencies);
+
+  const PaperVsuConfig config;
+
+  // Each takes the cycle from which on a ray wants something, and returns when it has it: its
+  // beginning, a step, the turn of a look-up, the result of one whose node has come only now.
+  std::uint64_t begin_ray(std::uint64_t cycle);
+  std::uint64_t step(std::uint64_t cycle, std::uint32_t log2_block);
+  std::uint64_t look_up(std::uint64_t cycle);
+  std::uint64_t look_up_again(std::uint64_t cycle) { return look_up(cycle) + kLookUpCycles; }
+
+  // A voxel was added to the table: when it is done.
+  std::uint64_t enter(const OrderingTable& table, std::uint64_t cycle);
+  void met_voxel() { ++work_.met; }
+
+  // All that the data sheet says of a frame.
+  struct Work {
+    std::uint64_t rays = 0, steps = 0, met = 0, entered = 0;
+    OrderingAccesses accesses;                           // of the table so far
+    std::uint64_t names_cleared = 0, ready_cleared = 0;  // words
+  };
+  const Work& work() const { return work_; }
+  // As if it had done this. For an estimate, in place of a run.
+  void assume(const Work& work) { work_ = work; }
+
+  const Datapath& begins() const { return begins_; }
+  const Datapath& steps() const { return steps_; }
+
+ protected:
+  // All is free from this cycle on.
+  void free_from(std::uint64_t cycle);
+  // No look-up before this cycle.
+  void hold_look_ups(std::uint64_t cycle);
+  // Cycles of ordering the table, which is cleared meanwhile; or of clearing it because it was
+  // full.
+  std::uint64_t order_cycles(const OrderingTable& table);
+  std::uint64_t clear_cycles(const OrderingTable& table);
+
+ private:
+  std::uint64_t turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle);
+  std::uint64_t cycles_since(const OrderingAccesses& all);
+
+  const Datapath begins_, steps_;
+  std::uint64_t pass_from_ = 0;
+  std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, table_free_ = 0;
+  Work work_;
+};
+
+// Memories of the ordering table beside it: names of voxels, words of ready ones.
+constexpr std::uint32_t kNameBytes = 2;  // the number of a voxel
+constexpr std::uint32_t kNamesWord = 8;
+std::uint64_t names_bytes(const PaperVsuConfig& config);
+std::uint64_t ready_words(const PaperVsuConfig& config);
+
+}  // namespace sgs
