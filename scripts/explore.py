@@ -9,8 +9,8 @@ one beats.
 --axis KEY=V1,V2,... spans a grid, of which every configuration is simulated; --points FILE takes a
 list instead, one configuration a line: KEY=VALUE KEY=VALUE ... With --search configurations are
 proposed by Optuna, between them those next to the best ones; --machine adds the axes of an order's
-machine (machine_axes.py). Every configuration gets as much input and shared on-chip memory as it
-needs, unless --set, --axis or the list say how much: memory is what it costs, not what stops it,
+machine (machine_axes.py). --config takes any machine, a tile-centric one (gscore) as well. Every
+configuration gets as much on-chip memory as it needs, but for codebooks, unless --set, --axis or the list say how much: memory is what it costs, not what stops it,
 and no other size follows from it. Tables show what was simulated: values as the resolved
 configuration has them, the size of the pixel group always among them: `group=SHAPE` stands for both
 of its sides.
@@ -60,20 +60,21 @@ import debian_python
 import run_arguments
 from exploration import Exploration, Work
 from figures_beside import draw_beside
-from group_shapes import NAME, expanded
+from group_shapes import KEYS, NAME, expanded
 from judging import Assignments, Judge, Task
-from machine_areas import start_of
+from machine_areas import SMALL, SMALL_SIZE, start_of
 from machine_axes import ORDERS, Axis
 from measures import Objective, objective, requirement
 from scenes import Scene, find_scenes
 from search_space import Space, parse_axes, parse_named, read_points
-from simulations import SRAM_AS_NEEDED, simulate
+from simulations import Run, simulate, sram_as_needed
 from sweep_server import SweepServer
 from view_numbers import view_numbers
 
 RUNS_FILE = "explore_runs.jsonl"
 ESTIMATES_FILE = "explore_estimates.jsonl"
 SAMPLERS = ("tpe", "nsga2", "random")
+OBJECTIVES = "cycles,dram_bytes,sram_bytes,filter_lanes,mm2"
 
 
 def machine_axes(
@@ -86,6 +87,13 @@ def machine_axes(
     simulated = functools.partial(simulate, kept.binary)
     order = start_of(ORDERS[arguments.machine], simulated).order
     return order.axes, order.fixed
+
+
+def config_of(arguments: argparse.Namespace, kept: SweepServer) -> dict:
+    """What --config names, resolved."""
+    run = Run(SMALL, size=SMALL_SIZE, config=arguments.config)
+    (view,) = simulate(kept.binary, run).accepted()
+    return view["config"]
 
 
 def find_space(arguments: argparse.Namespace, axes: Sequence[Axis]) -> Space:
@@ -107,12 +115,19 @@ def objectives_of(text: str) -> tuple[Objective, ...]:
     return found
 
 
+def default_objectives(config: dict) -> str:
+    """Without filters where the machine has none."""
+    return OBJECTIVES if "hfu" in config else OBJECTIVES.replace("filter_lanes,", "")
+
+
 def find_task(
     arguments: argparse.Namespace,
     scenes: Sequence[Scene],
     keys: Sequence[str],
     fixed: Sequence[str],
+    config: dict,
 ) -> Task:
+    """config: of the machine that is explored, which tells what it has."""
     views = [
         (scene, number)
         for scene in scenes
@@ -120,11 +135,11 @@ def find_task(
     ]
     return Task(
         views=tuple(views),
-        keys=tuple(dict.fromkeys([*keys, NAME])),
+        keys=tuple(dict.fromkeys([*keys, *((NAME,) if KEYS[0] in config else ())])),
         size=arguments.size,
         config=arguments.config,
-        base=expanded((*SRAM_AS_NEEDED, *fixed, *arguments.set)),
-        objectives=objectives_of(arguments.objectives),
+        base=expanded((*sram_as_needed(config), *fixed, *arguments.set)),
+        objectives=objectives_of(arguments.objectives or default_objectives(config)),
         requirements=tuple(map(requirement, arguments.require)),
         estimated=arguments.estimate,
     )
@@ -216,7 +231,7 @@ def explore_with(
     named = (parse_named(t, n, "--beside") for n, t in enumerate(arguments.beside, start=1))
     beside = {assignments: name for name, assignments in named}
     keys = [*space.keys(), *Space((Axis("", tuple(beside)),)).keys()] if beside else space.keys()
-    task = find_task(arguments, scenes, keys, fixed)
+    task = find_task(arguments, scenes, keys, fixed, config_of(arguments, simulated))
     judge, drawing = Judge(task, kept.outcome), Judge(task, simulated.outcome)
     work = Work(arguments, space, judge, Exploration(task, beside))
     complete = False
@@ -275,9 +290,9 @@ def main() -> int:
     )
     parser.add_argument(
         "--objectives",
-        default="cycles,dram_bytes,sram_bytes,filter_lanes,mm2",
+        default="",
         metavar="MEASURE,...",
-        help="numbers to make small, or large with max: before",
+        help="numbers to make small, or large with max: before; default: " + OBJECTIVES,
     )
     parser.add_argument(
         "--require", action="append", default=[], metavar="'MEASURE >= NUMBER'", help="to be held"

@@ -25,6 +25,12 @@ REFUSED = 2
 SRAM_AS_NEEDED = ("sram.input_bytes=0", "sram.shared_bytes=0")
 
 
+def sram_as_needed(config: dict) -> tuple[str, ...]:
+    """The same for any machine, of its resolved configuration. What codebooks have is a choice: 0 is
+    none of them."""
+    return tuple(f"sram.{key}=0" for key in config["sram"] if key != "codebook_bytes")
+
+
 class Failure(Exception):
     """A simulation that ended badly; the text is what it said."""
 

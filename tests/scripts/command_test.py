@@ -78,6 +78,11 @@ class WithTheCommand(InFolder):
                 {"4 configurations; ": 1, "Refused": 0},
             ),
             (explore, ("--config", "paper", "--axis", "hfus=1"), {"| 1 | 64 |": 1}),
+            (
+                explore,
+                ("--config", "gscore", "--axis", "cores=1,2"),
+                {"| cores | cycles | dram_bytes | sram_bytes | mm2 |": 2, "\n| 1 |": 1},
+            ),
             (timing, ("--repeats", "1", "--configs", "exact", "paper"), {"| truck | 64 |": 2}),
             (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, " dB; ": 1}),
             (
@@ -215,12 +220,20 @@ class WithTheCommand(InFolder):
 
     def test_memory_is_as_large_as_needed(self):
         scene = find_scene(str(self.scene))
-        for config in ("exact", "paper_no_vq"):
+        streaming = (("hfus=1", "group_width_px=48"), ("input", "shared"))
+        for config, (settings, memories) in (
+            ("exact", streaming),
+            ("paper_no_vq", streaming),
+            ("gscore", (("cores=2",), ("buffer",))),
+        ):
             with self.subTest(config):
-                overrides = (*simulations.SRAM_AS_NEEDED, "hfus=1", "group_width_px=48")
+                (view,) = simulations.simulate(
+                    pathlib.Path(COMMAND), simulations.Run(scene, config=config)
+                ).accepted()
+                overrides = (*simulations.sram_as_needed(view["config"]), *settings)
                 run = simulations.Run(scene, config=config, overrides=overrides)
                 (view,) = simulations.simulate(pathlib.Path(COMMAND), run).accepted()
-                for memory in ("input", "shared"):
+                for memory in memories:
                     needed = view["sram"][f"{memory}_bytes"]
                     self.assertGreater(needed, 0)
                     self.assertEqual(needed, view["sram"][f"{memory}_available_bytes"])
