@@ -2,8 +2,8 @@
 """Machines beside each other: the same scenes, views, DRAM, ledger and storage of scenes; and the
 original rasteriser on a mobile GPU, which is modelled, not simulated. A case is a scene at a size.
 Machines are held against those of their own precision: exact_fp16 and the paper's presets blend in
-half as gscore and gscore_fp32_keys do, exact in single as gscore_lossless; exact against gscore as
-well, and marked.
+half as gscore and gscore_fp32_keys do, exact and exact_fast in single as gscore_lossless; exact
+against gscore as well, and marked.
 
   compare_machines.md          a line for each case, memory and machine: means over the views;
                                frames a second of frames alone, and at most if frames overlapped
@@ -72,6 +72,7 @@ MACHINES = (
     "paper_no_vq_cgf",
     "exact_fp16",
     "exact",
+    "exact_fast",
     "exact_vq",
 )
 RUNS_FILE, GPU_RUNS_FILE = "compare_machines_runs.jsonl", "compare_machines_gpu_runs.jsonl"

@@ -72,8 +72,8 @@ void check_sums(const std::string& preset, Settings settings) {
 }
 
 TEST_CASE("sram budget: units publish what the configuration was checked with, queues included") {
-  for (const char* preset : {"exact", "exact_fp16", "exact_wide", "exact_half", "exact_vq",
-                             "exact_vq_packed", "paper", "paper_no_vq", "paper_no_cgf",
+  for (const char* preset : {"exact", "exact_fast", "exact_fp16", "exact_wide", "exact_half",
+                             "exact_vq", "exact_vq_packed", "paper", "paper_no_vq", "paper_no_cgf",
                              "paper_no_vq_cgf", "gscore", "gscore_fp32_keys", "gscore_lossless"}) {
     check_sums(preset, {});
   }
@@ -101,6 +101,7 @@ TEST_CASE("sram budget: the same for machines that are no preset") {
 TEST_CASE("sram budget: shipped machines fit, of one total") {
   constexpr std::uint64_t kPaper = 355 * 1024, kCodebooks = 250 * 1024;
   const std::pair<const char*, std::uint64_t> totals[] = {{"exact", kPaper},
+                                                          {"exact_fast", kPaper},
                                                           {"exact_fp16", kPaper},
                                                           {"exact_half", kPaper},
                                                           {"exact_vq", kPaper + kCodebooks},
