@@ -34,7 +34,9 @@ object, the built-in ones, and a built-in one of a million Gaussians.
 from __future__ import annotations
 
 import argparse
+import itertools
 import pathlib
+import re
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -44,22 +46,24 @@ import run_arguments
 import tables
 from gpu_views import MODEL, model_gpu
 from kept_runs import KeptRuns
-from machine_measures import GPU, MJ, modelled, simulated
+from machine_measures import GPU, modelled, simulated
 from machine_tables import (
     ABOUT,
     CHARACTER_HEAD,
     HEAD,
-    MB,
+    PARTS_TABLES,
     SECONDS_HEAD,
     Case,
     Entry,
     Parts,
+    PartsTable,
     character_row,
     parts_rows,
     row,
+    seconds_about,
     seconds_rows,
 )
-from scenes import find_scene, shared_names
+from scenes import Scene, find_scene, shared_names
 from simulations import REPOSITORY, Run, said
 
 MACHINES = (
@@ -78,22 +82,24 @@ MACHINES = (
 RUNS_FILE, GPU_RUNS_FILE = "compare_machines_runs.jsonl", "compare_machines_gpu_runs.jsonl"
 DRAWER = REPOSITORY / "scripts" / "figures.py"
 FIGURES = ("compare_machines_rates", "compare_machines_traffic", "compare_machines_ratios")
-OBJECTS = ("truck", "playbot", "builtin:object")  # by the beginning of their names
+OBJECTS = ("truck", "playbot", "builtin:object")  # whatever their parameters
+SIZES, OBJECT_SIZES = ("640x360", "980x545"), ("640x360", "800x800")
 BUILT_IN = ("builtin:object", "builtin:outdoor", "builtin:outdoor?n=1000000")
 
-PARTS_HEAD = ("scene", "size", "GB/s", "machine", "part", "value")
+PARTS_HEAD = ("scene", "size", "GB/s", "machine", "part", "value", "unit")
 
 
 def write_parts(
-    folder: pathlib.Path, name: str, made: str, entries: Sequence[Entry], of: Parts, unit: float
+    folder: pathlib.Path, made: str, entries: Sequence[Entry], of: Parts, what: PartsTable
 ) -> None:
     """The means as .md, each case as .csv."""
     machines = list(dict.fromkeys(e.machine for e in entries))
-    text = made + tables.markdown(
-        ("GB/s", "part", *machines), parts_rows(entries, machines, of, unit)
+    text = f"{made}{what.about()}" + tables.markdown(
+        ("GB/s", what.head, *machines), parts_rows(entries, machines, of, what.scale)
     )
+    name = f"compare_machines_{what.name}"
     rows = [
-        (*e.case.cells(), e.memory, e.machine, part, f"{value / unit:.4f}")
+        (*e.case.cells(), e.memory, e.machine, part, f"{value / what.scale:.4f}", what.unit)
         for e in entries
         for part, value in of(e.of).items()
     ]
@@ -102,13 +108,47 @@ def write_parts(
     print(f"{text}\n", flush=True)
 
 
+def shows_object(name: str) -> bool:
+    return any(name == text or name.startswith(f"{text}?") for text in OBJECTS)
+
+
 def sizes_of(name: str, arguments: argparse.Namespace) -> list[str]:
-    is_object = any(name == text or name.startswith(f"{text}?") for text in OBJECTS)
-    return arguments.object_sizes if is_object else arguments.sizes
+    if shows_object(name):
+        return arguments.object_sizes or OBJECT_SIZES
+    return arguments.sizes or SIZES
+
+
+def check_sizes(arguments: argparse.Namespace, scenes: Sequence[Scene]) -> None:
+    """Raises ValueError for what is no size, and where only the sizes of other scenes are given."""
+    given = {"--sizes": arguments.sizes, "--object-sizes": arguments.object_sizes}
+    for option, sizes in given.items():
+        for size in sizes or ():
+            if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", size):
+                raise ValueError(f"{option}: got {size}, expected WIDTHxHEIGHT in px")
+    asked = {option for option, sizes in given.items() if sizes}
+    used = {"--object-sizes" if shows_object(scene.name) else "--sizes" for scene in scenes}
+    if asked and not asked & used:
+        names = ", ".join(scene.name for scene in scenes)
+        objects = ", ".join(OBJECTS)
+        raise ValueError(
+            f"{asked.pop()}: got only this, expected {used.pop()} for {names} (objects: {objects})"
+        )
+
+
+def check_machines(arguments: argparse.Namespace) -> None:
+    """Before hours of simulation. Raises ValueError for what the program refuses to be told of."""
+    for machine, channels in itertools.product(arguments.machines, arguments.channels):
+        asked = ("--config", machine, "--set", f"dram.channels={channels}")
+        command = [str(arguments.streaminggs), "describe", *asked]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise ValueError(said(done))
 
 
 def find_cases(arguments: argparse.Namespace) -> list[Case]:
     scenes = [find_scene(text) for text in arguments.scenes or [*BUILT_IN, *shared_names()]]
+    check_sizes(arguments, scenes)
+    check_machines(arguments)
     return [Case(scene, size) for scene in scenes for size in sizes_of(scene.name, arguments)]
 
 
@@ -163,14 +203,11 @@ def make_tables(arguments: argparse.Namespace) -> None:
     ratios = machine_ratios.rows(entries, size_groups(cases, arguments), arguments.machines)
     about = made + machine_ratios.ABOUT
     tables.write(out, "compare_machines_ratios", about, machine_ratios.HEAD, ratios)
-    for name, of, unit in (
-        ("bytes", lambda m: m.bytes_by_region, MB),
-        ("joules", lambda m: m.joules_by_component, MJ),
-        ("busy", lambda m: m.busy, 1),
-    ):
-        write_parts(out, f"compare_machines_{name}", made, entries, of, unit)
-    seconds = seconds_rows(entries)
-    tables.write(out, "compare_machines_seconds", made, SECONDS_HEAD, seconds)
+    parts = (lambda m: m.bytes_by_region, lambda m: m.joules_by_component, lambda m: m.busy)
+    for of, what in zip(parts, PARTS_TABLES):
+        write_parts(out, made, entries, of, what)
+    about = made + seconds_about(arguments.side_by_side)
+    tables.write(out, "compare_machines_seconds", about, SECONDS_HEAD, seconds_rows(entries))
     shown = [e for e in in_turn if e.machine in (GPU, "gscore")]
     characters = list(map(character_row, shown))
     tables.write(out, "characterisation", made, CHARACTER_HEAD, characters)
@@ -182,14 +219,13 @@ def main() -> int:
     run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="all", help="number of a camera, or all")
     parser.add_argument(
-        "--sizes", nargs="+", default=["640x360", "980x545"], metavar="WxH", help="in px"
+        "--sizes", nargs="+", metavar="WxH", help=f"in px; default: {' '.join(SIZES)}"
     )
     parser.add_argument(
         "--object-sizes",
         nargs="+",
-        default=["640x360", "800x800"],
         metavar="WxH",
-        help="of scenes that show an object, in px",
+        help=f"of {', '.join(OBJECTS)}; default: {' '.join(OBJECT_SIZES)}",
     )
     parser.add_argument(
         "--channels",

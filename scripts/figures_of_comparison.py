@@ -3,6 +3,7 @@ compare_machines.py."""
 
 from __future__ import annotations
 
+import math
 import statistics
 
 from matplotlib.axes import Axes
@@ -42,11 +43,16 @@ def rates(results: Results) -> Made:
             shift = (number_of - (len(machines) - 1) / 2) * bar
             at = [list(size_of).index(row["scene"]) + shift for row in rows]
             rate = [number(row["frames/s"]) for row in rows]
-            axes.bar(at, rate, bar, label=machine, **bar_style(number_of))
+            own = {row["GB/s"] for row in rows} if machine == GPU else ()
+            label = ", ".join([machine, *(f"{gb_s} GB/s" for gb_s in own)])
+            axes.bar(at, rate, bar, label=label, **bar_style(number_of))
             most = [number(row[AT_MOST]) for row in rows]
             label = "at most, frames overlapped" if machine == machines[-1] else None
             axes.plot(at, most, "_", markersize=6, markeredgewidth=1.2, color=INK, label=label)
         axes.set_yscale("log")
+        least = min(number(row["frames/s"]) for row in data.rows)
+        axes.set_ylim(bottom=10 ** math.floor(math.log10(least)))
+        axes.yaxis.set_major_formatter("{x:g}")
         axes.set_title(f"Frames a second, {memory} GB/s")
         axes.set_xticks(range(len(size_of)), [case_label(*case) for case in size_of.items()])
         axes.set_xlim(-0.6, len(size_of) - 0.4)

@@ -45,8 +45,9 @@ ABOUT = (
     "reach, and generous to one with a barrier (gscore): it would need memory for two frames, and "
     "a resource that never waits. A ratio of two bounds is no bound. *Only the other*: what is "
     "left if it alone reaches its own. *of views*: least and most. A scene counts once in the "
-    "geometric mean; a pair of two precisions has a row of its own, and is in no other mean. "
-    "*derived*: not published itself, but out of published ratios.\n\n"
+    "geometric mean; a pair of two precisions has a row of its own, and is in no other mean. GB/s "
+    "are those of the machine; the GPU's memory is its own, and the same beside all. *derived*: "
+    "not published itself, but out of published ratios.\n\n"
 )
 
 DERIVED = " derived"

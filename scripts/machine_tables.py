@@ -114,6 +114,30 @@ def character_row(e: Entry) -> tuple:
 Parts = Callable[[Measured], Mapping[str, float]]
 
 
+@dataclasses.dataclass(frozen=True)
+class PartsTable:
+    """What stands in a table by parts. scale: of the SI unit in the table's."""
+
+    name: str
+    head: str
+    scale: float
+    unit: str
+    of_gpu: str
+
+    def about(self) -> str:
+        return (
+            f"In {self.unit}: means over the scenes of the means over their cases; each case is in "
+            f"the .csv. Of the GPU: {self.of_gpu}.\n\n"
+        )
+
+
+PARTS_TABLES = (
+    PartsTable("bytes", "region", MB, "MB a frame", "modelled, what its kernels ask for"),
+    PartsTable("joules", "component", MJ, "mJ a frame", "derived, watts times modelled time"),
+    PartsTable("busy", "resource", 1, "shares of the frame", "of its modelled time, by kernel"),
+)
+
+
 def mean_part(entries: Sequence[Entry], part: str, of: Parts) -> float | None:
     """Over the scenes of the means over their cases; None where the machine has no such part."""
     by_scene: dict[str, list[float]] = {}
@@ -137,12 +161,22 @@ def parts_rows(entries: Sequence[Entry], machines: Sequence[str], of: Parts, uni
     return rows
 
 
+def seconds_about(side_by_side: int) -> str:
+    return (
+        f"Wall time of this model on the machine that made the table, {side_by_side} simulations "
+        "side by side, which disturb each other. One view of the scene and size that take least, "
+        "and of those that take most. NeRArch-Sim (ISCA 2026) states neither scene nor size nor "
+        "host here: its time is for the order of magnitude.\n\n"
+    )
+
+
 SECONDS_HEAD = ("of", "size", "machine", "s to read and prepare the scene", "s a view", "s in all")
 
 
 def seconds_rows(entries: Sequence[Entry]) -> list[tuple]:
     """Of gscore and of exact order: one view of the case that takes least, and of the longest."""
-    rows = [("NeRArch-Sim, published", "", "gscore", "", "", f"{PUBLISHED_SECONDS}")]
+    unsaid = "not stated"
+    rows = [("NeRArch-Sim, published", unsaid, "gscore", unsaid, unsaid, f"{PUBLISHED_SECONDS}")]
     for machine in ("gscore", "exact"):
         points = []
         for e in entries:
