@@ -10,10 +10,10 @@ one beats.
 list instead, one configuration a line: KEY=VALUE KEY=VALUE ... With --search configurations are
 proposed by Optuna, between them those next to the best ones; --machine adds the axes of an order's
 machine (machine_axes.py). --config takes any machine, a tile-centric one (gscore) as well. Every
-configuration gets as much on-chip memory as it needs, but for codebooks, unless --set, --axis or the list say how much: memory is what it costs, not what stops it,
-and no other size follows from it. Tables show what was simulated: values as the resolved
-configuration has them, the size of the pixel group always among them: `group=SHAPE` stands for both
-of its sides.
+configuration gets as much on-chip memory as it needs, but for codebooks, unless --set, --axis or
+the list say how much: memory is what it costs, not what stops it, and no other size follows from
+it. Tables show what was simulated: values as the resolved configuration has them, the size of the
+pixel group always among them: `group=SHAPE` stands for both of its sides.
 
   MEASURE      a number of a view's report.json by its path, such as dram.row_conflicts: the sum
                over views, or the largest of what an accelerator has (config, sram, area_mm2); or
@@ -28,12 +28,13 @@ Views that took long are drawn first: a configuration that has lost on one of th
 other. In a search whose objectives any frame tells (area), one that is no better than another that
 holds is not drawn at all.
 
-With --estimate configurations are reckoned in place of simulated (`streaminggs sweep --estimate`), and
-then what is on the front is simulated, until all of it is: what was reckoned too well gives way to
-others. The column `fidelity` says which is which. What misses a requirement by the estimate alone is
-not simulated. A search's --minutes are those of its estimates.
+With --estimate configurations are reckoned in place of simulated (`streaminggs sweep --estimate`),
+and then what is on the front is simulated, until all of it is: what was reckoned too well gives way
+to others. The column `fidelity` says which is which. What misses a requirement by the estimate
+alone is not simulated. A search's --minutes are those of its estimates.
 
-Simulations are kept in explore_runs.jsonl, estimates in explore_estimates.jsonl: interrupted or started again it goes on where it ended.
+Simulations are kept in explore_runs.jsonl, estimates in explore_estimates.jsonl: interrupted or
+started again it goes on where it ended.
 Writes explore.csv, a line for each configuration, explore.md, the front, and exploration.svg and
 .png, which show both beside what was required; filter_units.svg and .png where CFUs and FFU lanes
 are all that differs. Of what was interrupted or failed midway there are explore_partial.csv and
@@ -67,7 +68,7 @@ from machine_axes import ORDERS, Axis
 from measures import Objective, objective, requirement
 from scenes import Scene, find_scenes
 from search_space import Space, parse_axes, parse_named, read_points
-from simulations import Run, simulate, sram_as_needed
+from simulations import Run, read_config, simulate, sram_as_needed
 from sweep_server import SweepServer
 from view_numbers import view_numbers
 
@@ -90,10 +91,8 @@ def machine_axes(
 
 
 def config_of(arguments: argparse.Namespace, kept: SweepServer) -> dict:
-    """What --config names, resolved."""
-    run = Run(SMALL, size=SMALL_SIZE, config=arguments.config)
-    (view,) = simulate(kept.binary, run).accepted()
-    return view["config"]
+    """What --config names, with all keys that its machine has."""
+    return read_config(kept.binary, Run(SMALL, size=SMALL_SIZE, config=arguments.config))
 
 
 def find_space(arguments: argparse.Namespace, axes: Sequence[Axis]) -> Space:

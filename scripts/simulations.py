@@ -26,8 +26,8 @@ SRAM_AS_NEEDED = ("sram.input_bytes=0", "sram.shared_bytes=0")
 
 
 def sram_as_needed(config: dict) -> tuple[str, ...]:
-    """The same for any machine, of its resolved configuration. What codebooks have is a choice: 0 is
-    none of them."""
+    """The same for any machine, of all its keys. What codebooks have is a choice: 0 is none of
+    them."""
     return tuple(f"sram.{key}=0" for key in config["sram"] if key != "codebook_bytes")
 
 
@@ -124,6 +124,17 @@ def simulate_into(out: pathlib.Path, binary: pathlib.Path, run: Run) -> Outcome:
         raise Failure(f"{run.label()}: {said(done)}")
     report = json.loads((out / "report.json").read_text())
     return Outcome(run, views=tuple(report["views"]), seconds=seconds)
+
+
+def read_config(binary: pathlib.Path, run: Run) -> dict:
+    """Every key of the run's configuration, without simulation: what is left open (0) stays so.
+    Raises ValueError when it is refused, Failure when it fails."""
+    done = call(binary, [*run.arguments(), "--print-config"])
+    if done.returncode == REFUSED:
+        raise ValueError(f"{run.label()}: {said(done)}")
+    if done.returncode != 0:
+        raise Failure(f"{run.label()}: {said(done)}")
+    return json.loads(done.stdout)
 
 
 def resolved_config(binary: pathlib.Path, run: Run) -> dict:

@@ -105,7 +105,7 @@ class Ends(InFolder):
                 # Some first simulate a small scene that tells areas.
                 expected = status, line.replace("truck", "(truck|area)")
                 if what == "differs" and script in ASKING:
-                    expected = 1, "simulate .*: the frame differs$"
+                    expected = 1, "info .*: the frame differs$"
                 with self.subTest(what, script=script.__name__):
                     self.check(script, (*needed, *program, *more), *expected)
 

@@ -77,8 +77,8 @@ class InFolder(unittest.TestCase):
     def stand_in(self, body: str) -> pathlib.Path:
         """A program in the command's place. It has SET, the values of --set, SCRIPT, the process
         that asked, and `finish()`, which writes the report of a view that took 8 cycles over the
-        number of HFUs, and has one more mm2 than those. As `sweep` it does for each point what it
-        does for one."""
+        number of HFUs, and has one more mm2 than those. It has a configuration to print. As
+        `sweep` it does for each point what it does for one."""
         program = self.folder / "streaminggs"
         prelude = f"""\
             #!{sys.executable} -IS
@@ -86,6 +86,10 @@ class InFolder(unittest.TestCase):
             HERE = pathlib.Path(__file__).parent
             SET = dict(word.split("=") for word in sys.argv if "=" in word)
             SCRIPT = int(os.environ.get("SCRIPT", os.getppid()))
+            if "--print-config" in sys.argv:
+                memories = {{"input_bytes": 0, "codebook_bytes": 0, "shared_bytes": 0}}
+                print(json.dumps({{"group_width_px": 112, "hfu": {{}}, "sram": memories}}))
+                sys.exit()
             def finish():
                 hfus = int(SET.get("hfus", 1))
                 number = int(sys.argv[sys.argv.index("--view") + 1])
