@@ -65,6 +65,27 @@ double used_lanes(const RasterWork& w) {
              : static_cast<double>(w.blends) / (32.0 * static_cast<double>(w.warp_entries));
 }
 
+void print_head(const GpuConfig& c) {
+  fmt::print(
+      "modelled, not simulated: {:g} MHz, {} instructions of warps a cycle, {:g} GB/s, of which it "
+      "gets {:g} and {:g}; single precision; joules are {:g} W times modelled time\n",
+      c.clock_mhz, c.schedulers, c.bandwidth_gb_s, c.issue_share, c.bandwidth_share, c.watts);
+}
+
+void print_mean(const std::vector<GpuFrame>& frames) {
+  const auto mean = [&](auto of) {
+    double sum = 0;
+    for (const GpuFrame& frame : frames) sum += of(frame);
+    return sum / static_cast<double>(frames.size());
+  };
+  const double seconds = mean([](const GpuFrame& f) { return f.seconds; });
+  fmt::print(
+      "mean of {} views, modelled: {:.2f} ms, {:.2f} frames a second, {:.1f} MB, {:.1f} mJ\n",
+      frames.size(), 1e3 * seconds, 1 / seconds,
+      mean([](const GpuFrame& f) { return f.bytes(); }) / 1e6,
+      1e3 * mean([](const GpuFrame& f) { return f.joules; }));
+}
+
 void print_view(int number, const RasterWork& work, const GpuFrame& frame) {
   fmt::print("view {}: {} of {} Gaussians listed, {} pairs, {:.1f} % of lanes blend\n", number,
              grouped(work.listed), grouped(work.gaussians), grouped(work.pairs),
@@ -96,10 +117,13 @@ int run(const GpuArguments& arguments) {
   const Scene scene = arguments.load();
   const ActivatedCloud cloud = activate(scene.cloud);
   Json views = Json::array();
+  std::vector<GpuFrame> frames;
+  print_head(config);
   for (const auto& [number, camera] : arguments.cameras(scene.cameras)) {
     const RasterWork work = count_raster_work(make_view<float>(camera), cloud);
     const GpuFrame frame = model_gpu(work, config);
     print_view(number, work, frame);
+    frames.push_back(frame);
     Json stages = Json::array();
     for (const GpuStage& stage : frame.stages) stages.push_back(in_json(stage));
     views.push_back({{"view", number},
@@ -109,9 +133,11 @@ int run(const GpuArguments& arguments) {
                      {"seconds", frame.seconds},
                      {"joules", frame.joules}});
   }
+  if (frames.size() > 1) print_mean(frames);
   if (arguments.out.empty()) return 0;
   const Json report = {{"scene", arguments.scene},
                        {"command", command_line()},
+                       {"precision", "fp32"},
                        {"gpu", Json::parse(config_to_json(config))},
                        {"views", views}};
   const std::string text = report.dump(2) + '\n';
