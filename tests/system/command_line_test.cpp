@@ -82,12 +82,12 @@ TEST_CASE("command line: options and their values") {
            {"$SG pack a.ply --out a.sgs > t && ! grep weighted t", {}, ply_of({"0 0 0"})},
            {"$SG describe > t && ! grep -q '```' t && cat t",
             {"group_width_px = 96", "\n| unit | activity | resource | what it does |\n"}},
-           {"$SG gpu $B --view 0,1 --size 32x18 --set watts=5 --out g.json && cat g.json",
+           {"$SG gpu $B --view 0,1 --set watts=5 --out g.json && cat g.json",
             {"modelled, not simulated: 918 MHz, 32 instructions of warps a cycle, 102.4 GB/s, of "
              "which it gets 0.125 and 0.125; single precision; joules are 5 W times modelled "
              "time\n",
              "\nmean of 2 views, modelled: ", "\"precision\": \"fp32\""}},
-           {"$SG gpu $B --size 32x18 > t && ! grep mean t", {}},
+           {"$SG gpu $B > t && ! grep mean t", {}},
            {"$TB --config exact --print-config", {"\"dram\": {", "\"channels\": 4"}},
            {"$TB --config c.json --set dram.ranks=2 --print-config",
             {"\"channels\": 2", "\"ranks\": 2"},
