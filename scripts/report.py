@@ -127,7 +127,8 @@ def heading(runs: Sequence[Run], folder: pathlib.Path) -> tuple[str, str]:
         f"{view['scene']['gaussians']:,} Gaussians",
         f"SH degree {view['scene']['sh_degree']}",
         ", ".join(sizes),
-        f"machine {view['config']['machine']}",
+        *filter(None, [view["provenance"].get("configuration")]),
+        f"machine {view['config']['machine']}, blends in {view['config']['rendering']['precision']}",
         f"{view['config']['clock_mhz']:g} MHz",
         f"commit {view['provenance']['commit']}",
     )

@@ -27,6 +27,12 @@ bool ConfigSource::is_preset() const {
 
 std::string ConfigSource::name() const { return std::filesystem::path(path()).stem().string(); }
 
+std::string ConfigSource::in_words() const {
+  const std::string what = config.empty() ? "defaults" : name();
+  if (overrides.empty()) return what;
+  return fmt::format("{} + {} setting{}", what, overrides.size(), overrides.size() == 1 ? "" : "s");
+}
+
 ConfigDocument ConfigSource::document() const {
   ConfigDocument document;
   if (is_preset()) {

@@ -27,6 +27,9 @@ struct ConfigSource {
   // one.
   std::string name() const;
 
+  // The same, and how many --set go over it: "exact + 2 settings".
+  std::string in_words() const;
+
   // The file with the overrides. Throws InputError, also when a preset's machine is set to another
   // that has a preset of its own.
   ConfigDocument document() const;

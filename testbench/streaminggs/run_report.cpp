@@ -55,6 +55,7 @@ std::shared_ptr<const Json> RunReport::of_view(const ViewResult& view,
                        {"technology_path", facts_.technology_path},
                        {"technology_fnv1a64", fmt::format("{:016x}", facts_.technology_hash)},
                        {"seed", facts_.seed},
+                       {"configuration", facts_.configuration},
                        {"command", facts_.command}};
   return report;
 }

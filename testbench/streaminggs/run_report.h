@@ -18,6 +18,7 @@ struct RunFacts {
   std::string technology, technology_path;
   std::uint64_t technology_hash = 0;  // of the file
   std::uint64_t seed = 0;             // of the random stalls
+  std::string configuration;          // what it is called, with how many values are set over it
   std::string command;                // the whole command line
   std::chrono::steady_clock::time_point began;
 };

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -141,6 +142,16 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
   return {path.name, frames_along(path, arguments.frames), arguments.frame_rate};
 }
 
+void print_what_runs(RunSetting& setting) {
+  const auto config = nlohmann::json::parse(to_json(setting.config));
+  const auto of = [&](const char* part, const char* key) {
+    return config.at(part).at(key).get<std::string>();
+  };
+  fmt::print("{}: machine {}, blends in {}, second halves {}\n", setting.facts.configuration,
+             config.at("machine").get<std::string>(), of("rendering", "precision"),
+             of("storage", "encoding"));
+}
+
 int run(const SimulateArguments& arguments, const Kinds& kinds) {
   RunSetting setting;
   setting.facts.began = std::chrono::steady_clock::now();
@@ -184,6 +195,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   setting.facts.technology_path = setting.technology.path;
   setting.facts.technology_hash = fnv1a64_of_file(setting.technology.path);
   setting.facts.seed = arguments.run.build.stalls.seed;
+  setting.facts.configuration = arguments.config.in_words();
   setting.facts.command = arguments.command;
   Scene scene;
   if (!packed) scene = arguments.load();
@@ -203,6 +215,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
         scene.cameras.empty() ? keys : scene.cameras, config.storage.encoding);
     setting.scene = prepare(std::move(scene), config, weighing);
   }
+  print_what_runs(setting);
   return path ? run_path(*path, setting, out)
               : run_views(views, setting, out, arguments.drop_invalid);
 }

@@ -77,9 +77,13 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
   }
   Technology technology = load_technology(arguments.technology);
   arguments.check_places();
-  const RunFacts facts{technology.name,          arguments.technology,
-                       defaults.technology_hash, BuildOptions{}.stalls.seed,
-                       command_line(),           began};
+  const RunFacts facts{technology.name,
+                       arguments.technology,
+                       defaults.technology_hash,
+                       BuildOptions{}.stalls.seed,
+                       "",  // points say theirs
+                       command_line(),
+                       began};
   SweepPlan plan(std::move(defaults), kinds);
   for (const std::string& note : plan.check_scenes()) {
     if (!arguments.streaming()) fmt::print("{}\n", note);

@@ -45,6 +45,11 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $S --size 32x24 --out o | head -1",
             {"--size 32x24: view 0 has ", "the picture is stretched; 32x18 keeps its shape"}},
            {"$SG simulate $B --out o | tail -1", {"written to o\n"}},
+           {"$SG simulate $B --out o --config gscore_lossless --set clock_mhz=500 && cat "
+            "o/report.json",
+            {"gscore_lossless + 1 setting: machine gscore, blends in fp32, second halves "
+             "raw\nview ",
+             "\"configuration\": \"gscore_lossless + 1 setting\""}},
            {"$SG simulate $B --view 2,0 --out o && ls o", {"view_0\nview_2\n"}},
            {"$SG simulate $B --view all --out o && ls o", {"view_0", "view_4"}},
            {"$SG simulate $B --out o >t && $SG simulate $B --set dram.channels=8 --out p >t && "

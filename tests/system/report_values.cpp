@@ -84,7 +84,7 @@ std::uint64_t region_bytes(const Json& view, const std::string& region,
 
 nlohmann::json without_host(nlohmann::json view) {
   view.erase("host");
-  view["provenance"].erase("command");
+  for (const char* key : {"command", "configuration"}) view["provenance"].erase(key);
   return view;
 }
 
