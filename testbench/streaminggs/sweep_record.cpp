@@ -53,7 +53,7 @@ Json kept_of(Json report) {
   drop(report, "sram", "uses");
   drop(report, "energy", "bands");
   drop(report, "area_mm2", "bands");
-  drop(report, "provenance", "command");
+  for (const char* key : {"command", "configuration"}) drop(report, "provenance", key);
   report["host"] = {{"simulation_wall_s", report["host"]["simulation_wall_s"]}};
   for (auto& [path, unit] : report["units"].items()) {
     for (auto& [name, activity] : unit["activities"].items()) activity.erase("waits");
