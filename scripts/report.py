@@ -128,7 +128,8 @@ def heading(runs: Sequence[Run], folder: pathlib.Path) -> tuple[str, str]:
         f"SH degree {view['scene']['sh_degree']}",
         ", ".join(sizes),
         *filter(None, [view["provenance"].get("configuration")]),
-        f"machine {view['config']['machine']}, blends in {view['config']['rendering']['precision']}",
+        f"machine {view['config']['machine']}",
+        *(f"blends in {p}" for p in [view["config"].get("rendering", {}).get("precision")] if p),
         f"{view['config']['clock_mhz']:g} MHz",
         f"commit {view['provenance']['commit']}",
     )

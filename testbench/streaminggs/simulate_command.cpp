@@ -142,14 +142,15 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
   return {path.name, frames_along(path, arguments.frames), arguments.frame_rate};
 }
 
+// Of what blends, the precision; of any machine how its scene is stored.
 void print_what_runs(RunSetting& setting) {
   const auto config = nlohmann::json::parse(to_json(setting.config));
-  const auto of = [&](const char* part, const char* key) {
-    return config.at(part).at(key).get<std::string>();
-  };
-  fmt::print("{}: machine {}, blends in {}, second halves {}\n", setting.facts.configuration,
-             config.at("machine").get<std::string>(), of("rendering", "precision"),
-             of("storage", "encoding"));
+  const std::string precision =
+      config.value(nlohmann::json::json_pointer("/rendering/precision"), std::string());
+  fmt::print("{}: machine {}, {}second halves {}\n", setting.facts.configuration,
+             config.at("machine").get<std::string>(),
+             precision.empty() ? "" : fmt::format("blends in {}, ", precision),
+             config.at("storage").at("encoding").get<std::string>());
 }
 
 int run(const SimulateArguments& arguments, const Kinds& kinds) {
