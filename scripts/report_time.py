@@ -17,6 +17,7 @@ CAUSES = (
     ("room", "for room behind it"),
     ("port", "for its memory port"),
     ("loading", "for an on-chip memory to be filled"),
+    ("phase", "for its phase of the frame"),
     ("idle", "nothing to do"),
 )
 MOST_WAITS = 12  # places listed
@@ -90,7 +91,7 @@ def waits(view: dict) -> str:
         for unit, of_unit in view["units"].items()
         for name, spent in of_unit["activities"].items()
         for wait in spent["waits"]
-        if wait["for"] != "idle"
+        if "on" in wait
     ]
     places.sort(key=lambda place: -place[0])
     rows = [

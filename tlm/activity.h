@@ -21,10 +21,11 @@ enum class WaitFor : std::uint8_t {
   kRoom,     // a free entry of a FIFO that is full, or of a buffer whose user gives entries back
   kPort,     // a free transaction of its memory port, or the memory's taking of a request
   kLoading,  // an on-chip memory that is being filled
+  kPhase,    // its phase of the frame to begin
 };
-constexpr std::size_t kWaitForCount = 7;
+constexpr std::size_t kWaitForCount = 8;
 constexpr std::array<const char*, kWaitForCount> kWaitForNames = {
-    "idle", "input", "reads", "writes", "room", "port", "loading"};
+    "idle", "input", "reads", "writes", "room", "port", "loading", "phase"};
 
 inline const char* name_of(WaitFor what) { return kWaitForNames[static_cast<std::size_t>(what)]; }
 
@@ -47,7 +48,7 @@ class Activity : public sc_core::sc_object {
   // Cycles of waiting for one thing at one place.
   struct Wait {
     WaitFor what = WaitFor::kIdle;
-    const sc_core::sc_object* at = nullptr;  // FIFO, port or unit; null with kIdle
+    const sc_core::sc_object* at = nullptr;  // FIFO, port or unit; null with kIdle and kPhase
     std::uint64_t cycles = 0;
   };
 
@@ -68,6 +69,19 @@ class Activity : public sc_core::sc_object {
   // What it waits for now turns out to come from `at`.
   void waits_at(const sc_core::sc_object& at) { now_ = place_of(waits_[now_].what, &at); }
 
+  // Between the two it does not wait for what it is said to wait for, but for its phase; what work
+  // there is, is work. Idle it stays.
+  void leaves_phase() {
+    close();
+    in_phase_ = false;
+    show();
+  }
+  void enters_phase() {
+    close();
+    in_phase_ = true;
+    show();
+  }
+
   // Works for so many cycles; what it did before is taken up again.
   void work(std::uint64_t cycles) {
     if (cycles == 0) return;
@@ -80,7 +94,10 @@ class Activity : public sc_core::sc_object {
   // Closes the open interval at the present time; the counters then cover [0, now).
   void close() {
     const std::uint64_t now = clock_.now_cycles();
-    (now_ == kWorking ? busy_cycles_ : waits_[now_].cycles) += now - since_;
+    if (now > since_) {
+      const std::size_t state = seen();
+      (state == kWorking ? busy_cycles_ : waits_[state].cycles) += now - since_;
+    }
     since_ = now;
   }
 
@@ -120,6 +137,17 @@ class Activity : public sc_core::sc_object {
   void enter(std::size_t state) {
     close();
     now_ = state;
+    show();
+  }
+
+  // What it is charged with: outside its phase all waiting is for that.
+  std::size_t seen() {
+    if (in_phase_ || now_ == kWorking || now_ == kIdling) return now_;
+    return place_of(WaitFor::kPhase, nullptr);
+  }
+
+  void show() {
+    const std::size_t state = seen();
     busy_ = state == kWorking;
     waiting_for_ = busy_ ? 0 : static_cast<std::uint8_t>(waits_[state].what);
   }
@@ -138,6 +166,7 @@ class Activity : public sc_core::sc_object {
   std::size_t now_ = kIdling;  // index in waits_, or kWorking
   std::uint64_t since_ = 0, busy_cycles_ = 0;
   Item item_;
+  bool in_phase_ = true;
   bool busy_ = false;             // for the waveform
   std::uint8_t waiting_for_ = 0;  // likewise
 };

@@ -8,6 +8,7 @@
 #include "modules/frame_job.h"
 #include "modules/gscore/gscore_config.h"
 #include "tlm/clock_domain.h"
+#include "tlm/phase.h"
 
 namespace sgs::gscore {
 
@@ -34,10 +35,17 @@ void add_regions(const GscoreConfig& config, FrameJob& job);
 GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job);
 
 // Clock and job outlive the units.
+// Of a pass, one after the other.
+struct Phases {
+  Phase projecting;  // Gaussians, into lists of tiles
+  Phase drawing;     // tiles are sorted and rendered
+};
+
 struct UnitContext {
   const ClockDomain& clock;
   const GscoreJob& job;
   const GscoreConfig& config;
+  Phases& phases;
 };
 
 }  // namespace sgs::gscore

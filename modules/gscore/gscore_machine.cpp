@@ -78,7 +78,7 @@ void GscoreMachine::add_all_fifos(const BuildOptions& options) {
 }
 
 void GscoreMachine::make_units(const BuildOptions& options) {
-  const UnitContext context{clock_, job_, config_};
+  const UnitContext context{clock_, job_, config_, phases_};
   Construction units;
   for (std::uint32_t c = 0; c < config_.ccus; ++c) {
     units.push_back(

@@ -53,6 +53,7 @@ class GscoreMachine : public Machine {
   const GscoreConfig config_;
   const GscoreJob job_;
   const ClockDomain clock_;
+  Phases phases_;
   Fifos<Pass> passes_;                                    // [CCU]
   Fifos<Converted> converted_;                            // [CCU]
   Fifos<TileRequest> requests_;                           // [core]

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <utility>
 
 namespace sgs {
 namespace {
@@ -24,13 +25,15 @@ Activities activities_of(const FrameResult& frame) {
   return all;
 }
 
-// The place of the most cycles among those of the cause of the most; null: it never waited. Having
-// nothing to do is no cause.
+// Having nothing to do is no cause; nor is a phase ahead of its own, which is work of others.
+bool is_cause(WaitFor what) { return what != WaitFor::kIdle && what != WaitFor::kPhase; }
+
+// The place of the most cycles among those of the cause of the most; null: it never waited.
 const WaitResult* longest_wait(const ActivityResult& activity) {
   WaitFor most = WaitFor::kIdle;
   std::uint64_t cycles = 0;
   for (const WaitResult& wait : activity.waits) {
-    if (wait.what == WaitFor::kIdle || activity.waited_for(wait.what) <= cycles) continue;
+    if (!is_cause(wait.what) || activity.waited_for(wait.what) <= cycles) continue;
     most = wait.what;
     cycles = activity.waited_for(wait.what);
   }
@@ -49,7 +52,8 @@ const char* meaning(WaitFor what) {
                                                                 "answers to its writes",
                                                                 "room behind it",
                                                                 "room in its memory port",
-                                                                "on-chip memory being filled"};
+                                                                "on-chip memory being filled",
+                                                                "its phase of the frame"};
   return kMeanings[static_cast<std::size_t>(what)];
 }
 
@@ -70,6 +74,33 @@ std::string text_of(const Cause& cause) {
   const std::string at = cause.holds == last ? "" : ", at " + cause.holds;
   if (first == last) return fmt::format("{} {}{}", first, cause.why, at);
   return fmt::format("the waiting of {} leads to {}, which {}{}", first, last, cause.why, at);
+}
+
+// Twice as much of it can save half the share in which it works; no more waiting, the rest.
+constexpr double kMostly = 2.0 / 3;
+
+// Of the frame without what others do before and after it.
+double share_of_phase(const ActivityResult& activity, const FrameResult& frame) {
+  const auto own = static_cast<double>(frame.cycles - activity.waited_for(WaitFor::kPhase));
+  return static_cast<double>(activity.busy_cycles) / std::max(1.0, own);
+}
+
+std::string works_text(const ActivityResult& activity, const FrameResult& frame) {
+  std::string text =
+      fmt::format("works {:.0f} % of the frame", 100 * share(activity.busy_cycles, frame));
+  if (activity.waited_for(WaitFor::kPhase) == 0) return text;
+  return text + fmt::format(", {:.0f} % of its phase", 100 * share_of_phase(activity, frame));
+}
+
+// Of those whose phase takes half of the frame or more, if there is one: it has the most to give.
+Activities::const_iterator busiest_of(const Activities& activities, const FrameResult& frame) {
+  const auto rank = [&](const ActivityResult& activity) {
+    const bool longest = 2 * activity.waited_for(WaitFor::kPhase) <= frame.cycles;
+    return std::pair(longest && activity.busy_cycles > 0, activity.busy_cycles);
+  };
+  return std::max_element(activities.begin(), activities.end(), [&](const auto& a, const auto& b) {
+    return rank(*a.second) < rank(*b.second);
+  });
 }
 
 constexpr const char* kNoKey = "no key of the configuration is known to change that";
@@ -97,9 +128,7 @@ std::vector<ResourceUse> resource_uses(const FrameResult& frame) {
 
 Cause follow_waiting(const FrameResult& frame) {
   const Activities activities = activities_of(frame);
-  const auto busiest = std::max_element(
-      activities.begin(), activities.end(),
-      [](const auto& a, const auto& b) { return a.second->busy_cycles < b.second->busy_cycles; });
+  const auto busiest = busiest_of(activities, frame);
   Cause cause;
   if (busiest == activities.end()) return cause;
   std::uint64_t to_explain = 0;  // cycles that the one before waited
@@ -110,9 +139,10 @@ Cause follow_waiting(const FrameResult& frame) {
     cause.remedy = activity.remedy;
     const WaitResult* wait = longest_wait(activity);
     const std::uint64_t waited = wait == nullptr ? 0 : activity.waited_for(wait->what);
-    if (wait == nullptr || 2 * waited < to_explain) {
-      cause.why =
-          fmt::format("works {:.0f} % of the frame", 100 * share(activity.busy_cycles, frame));
+    const bool fills_its_phase =
+        activity.waited_for(WaitFor::kPhase) > 0 && share_of_phase(activity, frame) >= kMostly;
+    if (wait == nullptr || 2 * waited < to_explain || fills_its_phase) {
+      cause.why = works_text(activity, frame);
       return cause;
     }
     const auto other = activities.find(wait->other);
@@ -144,8 +174,6 @@ Binding find_binding(const FrameResult& frame) {
       "take at least {:.0f} % of its time",
       binding.unit, 100 * binding.utilisation, binding.next, 100 * binding.next_utilisation,
       binding.unit, 100 * binding.next_utilisation);
-  // Twice as much of it can save half the share in which it works; no more waiting, the rest.
-  constexpr double kMostly = 2.0 / 3;
   const Cause cause = follow_waiting(frame);
   if (binding.utilisation < kMostly && !cause.path.empty()) {
     binding.holds = cause.holds;

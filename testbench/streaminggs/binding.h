@@ -28,9 +28,9 @@ struct Cause {
   Remedy remedy;
 };
 
-// From the busiest activity on, each time to the other end of the FIFO at which the most cycles
-// are lost, until one is reached whose own waiting explains less than half of that (it works
-// instead), that waits for memory, or that waits for one that was met before: then the FIFO between
+// From the busiest activity on, of the longest phase where phases follow each other, each time to
+// the other end of the FIFO at which the most cycles are lost, until one is reached that fills its
+// phase, whose own waiting explains less than half of that (it works instead), that waits for memory, or that waits for one that was met before: then the FIFO between
 // the two holds both.
 Cause follow_waiting(const FrameResult& frame);
 

@@ -62,14 +62,16 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   bench.load(0, scene.image.bytes);
   auto passes = bench.add_fifos<Pass>("passes", config.ccus, 1, 1);
   auto converted = bench.add_fifos<Converted>("converted", config.ccus, 4, 1);
+  gscore::Phases phases;
   std::vector<std::unique_ptr<Ccu>> units;
   for (std::uint32_t c = 0; c < config.ccus; ++c) {
     units.push_back(std::make_unique<Ccu>(fmt::format("ccu{}", c).c_str(), c,
-                                          gscore::UnitContext{bench.clock(), job, config}));
+                                          gscore::UnitContext{bench.clock(), job, config, phases}));
     units[c]->passes(*passes[c]);
     units[c]->converted(*converted[c]);
     bench.add_unit(*units[c]);
   }
+  phases.projecting.begin();
   std::uint64_t got = 0;
   bench.add_thread("lister", [&](Activity& activity) {
     const std::size_t size = config.ccu.slice_gaussians, count = scene.cloud.size();

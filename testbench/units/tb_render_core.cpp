@@ -93,7 +93,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
   auto& sorted = bench.add_fifo<SortedEntry>("sorted", 8, 1);
   auto& done = bench.add_fifo<PassDone>("done", 1, 1);
   FinishedTiles finished("finished_tiles", bench.clock(), plan.tiles.size(), 1);
-  RenderCore unit("rendering", {bench.clock(), job, plan.config}, finished);
+  gscore::Phases phases;
+  RenderCore unit("rendering", {bench.clock(), job, plan.config, phases}, finished);
+  phases.drawing.begin();
   unit.sorted(sorted);
   unit.done(done);
   bench.add_unit(unit);

@@ -78,7 +78,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   auto jobs = bench.add_fifos<TileJob>("jobs", config.cores, 1, 1);
   auto done = bench.add_fifos<PassDone>("done", config.cores, 1, 1);
   bool frame_done = false;
-  TileLister unit("lister", {bench.clock(), job, config}, [&] { frame_done = true; });
+  gscore::Phases phases;
+  TileLister unit("lister", {bench.clock(), job, config, phases}, [&] { frame_done = true; });
   for (auto* fifo : passes) unit.passes(*fifo);
   for (auto* fifo : converted) unit.converted(*fifo);
   for (auto* fifo : requests) unit.requests(*fifo);

@@ -74,7 +74,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   auto& jobs = bench.add_fifo<TileJob>("jobs", 1, 1);
   auto& sorted = bench.add_fifo<SortedEntry>("sorted", 64, 1);
   FinishedTiles finished("finished_tiles", bench.clock(), plan.lists.size(), 1);
-  TileSorter unit("sorter", 0, {bench.clock(), job, plan.config}, finished);
+  gscore::Phases phases;
+  TileSorter unit("sorter", 0, {bench.clock(), job, plan.config, phases}, finished);
+  phases.drawing.begin();
   unit.requests(requests);
   unit.jobs(jobs);
   unit.sorted(sorted);

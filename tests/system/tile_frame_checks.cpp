@@ -41,6 +41,24 @@ void check_bytes(const Json& view) {
         pixel_bytes * counter_of_all(view, "rendering", "pixels"));
 }
 
+// A pass is projected, then drawn: what one waits for is what the other takes.
+void check_phases(const Json& view) {
+  const auto waited = [&](const char* unit, const char* activity, const char* what) {
+    return count(view["units"][unit]["activities"][activity]["waited_cycles"][what]);
+  };
+  const std::uint64_t projecting = waited("rendering0", "drain", "phase");
+  const std::uint64_t drawing = frame_cycles(view) - projecting;
+  CHECK(waited("sorter0", "load", "phase") == projecting);
+  CHECK(waited("lister", "test", "phase") + waited("lister", "test", "idle") == drawing);
+  // The end of the frame takes up to two cycles of each.
+  for (const char* activity : {"load", "cull", "fetch", "convert"}) {
+    const std::uint64_t spare =
+        waited("ccu0", activity, "phase") + waited("ccu0", activity, "idle");
+    CHECK(spare <= drawing);
+    CHECK(spare + 2 >= drawing);
+  }
+}
+
 // What one unit hands on the next receives.
 void check_flow(const Json& view) {
   CHECK(total(view, "first_halves") == total(view, "culled") + total(view, "second_halves"));
@@ -141,6 +159,7 @@ void check_tile_machine(const Json& view) {
   check_halves(view);
   check_bytes(view);
   check_flow(view);
+  check_phases(view);
   check_bounds(view);
   check_rates(view);
 }

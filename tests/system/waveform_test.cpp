@@ -96,7 +96,7 @@ void check_activity(const std::string& vcd, const std::map<std::string, std::str
   check_time(time_at(vcd, signals.at(path + ".busy")), 1, spent["busy_cycles"]);
   const auto waiting = time_at(vcd, signals.at(path + ".waits_for[2:0]"));
   // As traces/README.md has them, from 1.
-  const char* const kNames[] = {"input", "reads", "writes", "room", "port", "loading"};
+  const char* const kNames[] = {"input", "reads", "writes", "room", "port", "loading", "phase"};
   std::uint64_t value = 0;
   for (const char* name : kNames) {
     INFO(name);

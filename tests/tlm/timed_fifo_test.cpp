@@ -9,6 +9,7 @@
 #include "testbench/process/in_child.h"
 #include "tests/tlm/threads.h"
 #include "tlm/fifo_selector.h"
+#include "tlm/phase.h"
 
 namespace sgs {
 namespace {
@@ -230,6 +231,42 @@ TEST_CASE("activity: every cycle is in one account, by what is waited for and wh
   }
   CHECK(activity.waited_for(WaitFor::kRoom) == 32);
   CHECK(activity.waited_for(WaitFor::kReads) == 0);
+}
+
+TEST_CASE("activity: outside its phase all waiting is for that, and work is work") {
+  const ClockDomain clock(1000);
+  Activity activity("unit", clock), other("other", clock);
+  const TimedFifo<int> fifo("fifo", clock, 1);
+  Phase phase;
+  phase.add(activity);
+  Threads threads({[&] {
+                     clock.wait_cycles(2);  // idle is idle in any phase
+                     activity.waits_for(WaitFor::kInput, fifo);
+                     clock.wait_cycles(20);
+                     activity.work(3);
+                     activity.waits_for(WaitFor::kRoom, fifo);
+                     clock.wait_cycles(15);
+                     activity.idles();
+                     clock.wait_cycles(1);
+                     activity.close();
+                   },
+                   [&] {
+                     other.waits_for(WaitFor::kInput, fifo);
+                     clock.wait_cycles(10);
+                     phase.begin();
+                     clock.wait_cycles(20);
+                     phase.end();
+                     clock.wait_cycles(11);
+                     other.close();
+                   }});
+  CHECK(threads.run_all());
+  CHECK(activity.busy_cycles() == 3);
+  CHECK(activity.waited_for(WaitFor::kIdle) == 3);
+  CHECK(activity.waited_for(WaitFor::kInput) == 12);  // 10 to 22
+  CHECK(activity.waited_for(WaitFor::kRoom) == 5);    // 25 to 30
+  CHECK(activity.waited_for(WaitFor::kPhase) == 18);  // 2 to 10, 30 to 40
+  CHECK(activity.waited() == 38);
+  CHECK(other.waited_for(WaitFor::kInput) == 41);
 }
 
 TEST_CASE("clock domain: whole cycles, and the next edge from between two") {

@@ -55,6 +55,7 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
       fetched_("fetched", context.clock, config_.ccu.second_half_slots + 1),
       free_second_("free_second", context.clock, config_.ccu.second_half_slots,
                    words_of(second_bytes_)) {
+  for (Activity* a : {&load_, &cull_, &fetch_, &convert_}) context.phases.projecting.add(*a);
   SC_THREAD(run_load);
   SC_THREAD(run_cull);
   SC_THREAD(run_fetch);

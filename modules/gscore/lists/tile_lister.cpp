@@ -60,6 +60,7 @@ TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& c
       memory("memory", context.config.memory_port, context.clock.period()),
       config_(context.config),
       job_(context.job),
+      phases_(context.phases),
       blocks_(config_.blocks()),
       on_done_(std::move(on_done)),
       tile_path_(tile_test_pipeline(config_)),
@@ -72,6 +73,7 @@ TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& c
       ends_(config_.lists.tiles),
       lines_(config_.lists.lines, Line{LineBuffer(blocks_.line_bytes)}),
       records_(std::size_t{records_at_once(config_)} * record_place_bytes(config_.tiles.features)) {
+  for (Activity* a : {&test_, &list_}) context.phases.projecting.add(*a);
   SC_THREAD(run_test);
   SC_THREAD(run_list);
 }
@@ -81,6 +83,7 @@ void TileLister::run_list() {
   asked_ = std::make_unique<FifoSelector<TileRequest>>(requests);
   std::uint32_t most = std::min(config_.lists.tiles, job_.tile_count);
   for (Pass pass; pass.first < job_.tile_count;) {
+    phases_.projecting.begin();
     pass.end = std::min(pass.first + most, job_.tile_count);
     ++counters_.passes;
     if (!project(pass)) {
@@ -88,7 +91,10 @@ void TileLister::run_list() {
       most = (pass.end - pass.first + 1) / 2;
       continue;
     }
+    phases_.projecting.end();
+    phases_.drawing.begin();
     hand_out(pass);
+    phases_.drawing.end();
     pass.first = pass.end;
   }
   Pass over;

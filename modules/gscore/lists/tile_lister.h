@@ -69,6 +69,7 @@ class TileLister : public sc_core::sc_module {
 
   const GscoreConfig config_;
   const GscoreJob& job_;
+  Phases& phases_;
   const BlockFormat blocks_;
   const std::function<void()> on_done_;
   const Datapath tile_path_;

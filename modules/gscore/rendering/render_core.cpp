@@ -67,6 +67,7 @@ RenderCore::RenderCore(const sc_core::sc_module_name& name, const UnitContext& c
       free_pixels_("free_pixels", context.clock, config_.rendering.pixel_buffers, 0),
       free_from_(kBlocks),
       finished_from_(parts_of(config_)) {
+  for (Activity* a : {&fetch_, &blend_, &drain_}) context.phases.drawing.add(*a);
   SC_THREAD(run_fetch);
   SC_THREAD(run_blend);
   SC_THREAD(run_drain);

@@ -61,6 +61,7 @@ TileSorter::TileSorter(const sc_core::sc_module_name& name, std::uint32_t index,
       stages_(std::size_t{kStageBlocks} * blocks_.block_bytes()),
       loaded_("loaded", context.clock, config_.sorting.list_buffers + 2),
       free_lists_("free_lists", context.clock, config_.sorting.list_buffers, 0) {
+  for (Activity* a : {&load_, &sort_}) context.phases.drawing.add(*a);
   SC_THREAD(run_load);
   SC_THREAD(run_sort);
 }

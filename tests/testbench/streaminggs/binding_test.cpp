@@ -110,6 +110,7 @@ TEST_CASE("binding: waiting leads to a unit, a memory or a FIFO") {
   const auto at_port = [](WaitFor what, const char* key, std::uint64_t n) {
     return WaitResult{what, "unit.memory", "", key, n};
   };
+  const auto phase = [](std::uint64_t n) { return WaitResult{WaitFor::kPhase, "", "", "", n}; };
   const auto idle = [](std::uint64_t n) { return WaitResult{WaitFor::kIdle, "", "", "", n}; };
   struct Row {
     const char* what;
@@ -177,6 +178,22 @@ TEST_CASE("binding: waiting leads to a unit, a memory or a FIFO") {
        "unit.memory",
        "in_flight",
        "waits for answers to its reads 41 % of the frame"},
+      {"two phases: the busiest of the longer, which it fills, though another works more",
+       {440, {visits_room(20), phase(540)}},
+       {300, {splats_room(160), phase(540)}},
+       {400, {splats_in(140), phase(460)}},
+       {"blend.draw"},
+       "blend.draw",
+       "blend.rate",
+       "works 40 % of the frame, 74 % of its phase"},
+      {"what does not fill its phase: its waiting there, not that for the other",
+       {440, {visits_room(20), phase(540)}},
+       {300, {splats_room(160), phase(540)}},
+       {300, {at_port(WaitFor::kReads, "in_flight", 240), phase(460)}},
+       {"blend.draw"},
+       "unit.memory",
+       "in_flight",
+       "waits for answers to its reads 24 % of the frame"},
       {"having had nothing to do is no cause",
        {500, {idle(500)}},
        {100, {visits_in(900)}},
