@@ -29,6 +29,11 @@ struct GoldenFrame {
   // decoded scene. Wanted only where `missed` is not 0; empty where an order misses nothing. May
   // read the scene that the frame is of.
   std::function<Image()> in_order;
+
+  // The picture of the same order in the reference's arithmetic, with every splat reaching as far
+  // as it can be seen. Empty where the machine computes so. May read the scene that the frame is
+  // of.
+  std::function<Image()> computed_exactly;
 };
 
 }  // namespace sgs

@@ -62,4 +62,19 @@ std::string sram_sum(const SramUses& uses, const std::string& memory) {
   return sum;
 }
 
+std::string largest_uses(const SramUses& uses, const std::string& memory) {
+  constexpr std::size_t kNamed = 4;
+  SramUses all;
+  for (const SramUse& use : uses) {
+    if (takes_of(use, memory)) all.push_back(use);
+  }
+  if (all.size() <= kNamed) return sram_sum(all, memory);
+  std::stable_sort(all.begin(), all.end(), [](const SramUse& a, const SramUse& b) {
+    return a.total_bytes() > b.total_bytes();
+  });
+  const std::size_t more = all.size() - kNamed;
+  all.resize(kNamed);
+  return fmt::format("{} + {} smaller", sram_sum(all, memory), more);
+}
+
 }  // namespace sgs

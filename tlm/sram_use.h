@@ -79,4 +79,7 @@ std::uint64_t sram_bytes(const SramUses& uses, const std::string& memory);
 // "a 12 (3 x 4 B) + b 8 (8 B)": the uses of one memory that sram_bytes() adds up.
 std::string sram_sum(const SramUses& uses, const std::string& memory);
 
+// Of a memory that is too small, for a line that people read: the four largest, and how many more.
+std::string largest_uses(const SramUses& uses, const std::string& memory);
+
 }  // namespace sgs

@@ -37,9 +37,8 @@ void GscoreDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>
   }
   if (needed > config_.sram.buffer_bytes) {
     throw InputError(fmt::format(
-        "sram.buffer_bytes: {} bytes are there, {} are needed: {}; expected at least {}, or 0: as "
-        "large as must be",
-        config_.sram.buffer_bytes, needed, sram_sum(uses, kBuffer), needed));
+        "sram.buffer_bytes: {} bytes are there, expected at least {}, or 0 for as many as that: {}",
+        config_.sram.buffer_bytes, needed, largest_uses(uses, kBuffer)));
   }
 }
 
@@ -67,6 +66,18 @@ GoldenFrame GscoreDesign::golden(const StoredScene& scene, const FrameJob& job,
   golden.blends = stats.contributors;
   golden.contributing = stats.contributing;
   golden.misordered = stats.misordered;
+  TileOrderConfig exactly = TileOrderConfig::lossless();
+  exactly.rules.test = order.rules.test;
+  exactly.rules.subtiles_across = order.rules.subtiles_across;
+  exactly.keys = order.keys;
+  exactly.chunk_entries = order.chunk_entries;
+  exactly.background = order.background;
+  if (order.rules.reach != exactly.rules.reach || order.features != exactly.features ||
+      order.precision != exactly.precision) {
+    golden.computed_exactly = [&scene, view = job.view, exactly] {
+      return render_tiles(view, scene.decoded, exactly).frame.image;
+    };
+  }
   return golden;
 }
 

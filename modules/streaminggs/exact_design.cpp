@@ -69,7 +69,20 @@ GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.background = job.background;
   StreamingResult result = render_exact_order(job.view, scene.decoded, scene.tree(), order);
   publish_left_out(scene, result.stats, sheet);
-  return golden_frame(std::move(result), streaming_job(config_, job).groups);
+  return golden_of(std::move(result), scene, job);
+}
+
+GoldenFrame ExactDesign::golden_of(StreamingResult result, const StoredScene& scene,
+                                   const FrameJob& job) const {
+  GoldenFrame golden = golden_frame(std::move(result), streaming_job(config_, job).groups);
+  if (config_.rendering.precision == BlendPrecision::kSingle) return golden;
+  ExactOrderConfig exactly = order();
+  exactly.background = job.background;
+  exactly.precision = BlendPrecision::kSingle;
+  golden.computed_exactly = [&scene, view = job.view, exactly] {
+    return render_exact_order(view, scene.decoded, scene.tree(), exactly).frame.image;
+  };
+  return golden;
 }
 
 CountedFrame ExactDesign::count(const StoredScene& scene, const FrameJob& job,
@@ -80,8 +93,7 @@ CountedFrame ExactDesign::count(const StoredScene& scene, const FrameJob& job,
   publish_left_out(scene, counted.result.stats, sheet);
   auto work = std::make_shared<ExactFrameWork>();
   work->of = std::move(counted.work);
-  return {golden_frame(std::move(counted.result), streaming_job(config_, job).groups),
-          std::move(work)};
+  return {golden_of(std::move(counted.result), scene, job), std::move(work)};
 }
 
 // What waits decides the picture with blend_early only; room in the walk's queues never does.

@@ -32,6 +32,8 @@ class ExactDesign : public MachineDesign {
 
  private:
   ExactOrderConfig order() const;
+  GoldenFrame golden_of(StreamingResult result, const StoredScene& scene,
+                        const FrameJob& job) const;
   void publish_left_out(const StoredScene& scene, const StreamingStats& stats,
                         DataSheet& sheet) const;
 

@@ -120,6 +120,14 @@ GoldenFrame PaperDesign::golden_of(StreamingResult result, const StoredScene& sc
                      voxels = std::move(visited)] {
     return render_visited_in_order(view, scene.decoded, scene.grid(), group, voxels, background);
   };
+  if (config_.rendering.precision != BlendPrecision::kSingle) {
+    PaperOrderConfig exactly = *paper_order();
+    exactly.background = job.background;
+    exactly.precision = BlendPrecision::kSingle;
+    golden.computed_exactly = [&scene, view = job.view, exactly] {
+      return render_paper_order(view, scene.decoded, scene.grid(), exactly).frame.image;
+    };
+  }
   return golden;
 }
 

@@ -48,7 +48,7 @@ void size(const char* key, std::uint32_t& bytes, const SramUses& uses, const std
     bytes = static_cast<std::uint32_t>(sram_bytes(uses, memory));
     chosen.push_back({key, static_cast<double>(bytes), sram_sum(uses, memory)});
   }
-  check_sram(key, bytes, uses, memory, ", or 0: as large as must be");
+  check_sram(key, bytes, uses, memory, ", or 0 for as many as that");
 }
 
 }  // namespace
@@ -74,8 +74,8 @@ void check_sram(const char* key, std::uint64_t available, const SramUses& uses,
                 const std::string& memory, const char* otherwise) {
   const std::uint64_t needed = sram_bytes(uses, memory);
   if (needed <= available) return;
-  throw InputError(fmt::format("{}: {} bytes are there, {} are needed: {}; expected at least {}{}",
-                               key, available, needed, sram_sum(uses, memory), needed, otherwise));
+  throw InputError(fmt::format("{}: {} bytes are there, expected at least {}{}: {}", key, available,
+                               needed, otherwise, largest_uses(uses, memory)));
 }
 
 void resolve_sram(StreamingConfig& config, const StorageConfig& storage,

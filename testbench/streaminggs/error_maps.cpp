@@ -24,7 +24,7 @@ std::vector<ErrorMap> error_maps(const ViewResult& view) {
                                            loss.missed.share)});
   }
   if (view.golden.misordered > 0) {
-    maps.push_back({"misordered.png", loss_map(view.golden.image, loss.in_order, "MISORDERED",
+    maps.push_back({"misordered.png", loss_map(loss.exactly, loss.in_order, "MISORDERED",
                                                loss.misordered.share)});
   }
   return maps;

@@ -1,5 +1,5 @@
-// What a lossy order cost a picture, divided between splats that it missed and blends in the wrong
-// order.
+// What a machine's order and arithmetic cost a picture, divided between splats that it missed,
+// blends in the wrong order, and what it computes otherwise than the reference.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,26 @@
 
 namespace sgs {
 
-// The frame is four steps away from the reference picture, and its squared error is divided among
-// them as error_parts.h says: the scene is encoded, splats are missed (`in_order` instead of the
-// reference picture of the scene as encoded), what is left is blended in the wrong order (the
-// golden picture instead of `in_order`), pixels are rounded.
+// The frame is up to five steps away from the reference picture, and its squared error is divided
+// among them as error_parts.h says: the scene is encoded, splats are missed (`in_order` instead of
+// the reference picture of the scene as encoded), what is left is blended in the wrong order
+// (`exactly` instead of `in_order`), half precision and boxes round and cut (the golden picture
+// instead of `exactly`), pixels are rounded.
 struct OrderLoss {
   Image in_order;                     // everything that the order streams, blended by depth
+  Image exactly;                      // as it comes, in the reference's arithmetic
   std::optional<ErrorPart> encoding;  // none where the original is not known
-  ErrorPart missed, misordered, pixel_format;
+  ErrorPart missed, misordered;
+  std::optional<ErrorPart> arithmetic;  // none where the machine computes as the reference
+  ErrorPart pixel_format;
 };
 
-inline bool is_lossy(const GoldenFrame& golden) { return golden.missed + golden.misordered > 0; }
+inline bool loses_order(const GoldenFrame& golden) { return golden.missed + golden.misordered > 0; }
+inline bool is_lossy(const GoldenFrame& golden) {
+  return loses_order(golden) || golden.computed_exactly;
+}
 
-// Of a lossy order. reference, decoded_reference: of the scene as given, null where it is not known
+// Of a lossy frame. reference, decoded_reference: of the scene as given, null where it is not known
 // (then the error counts from the latter), and as encoded. frame: `golden` in the frame buffer's
 // format.
 OrderLoss order_loss(const Image* reference, const Image& decoded_reference,

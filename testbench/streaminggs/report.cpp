@@ -71,6 +71,7 @@ Json error_parts_of(const OrderLoss& loss) {
   if (loss.encoding) out["encoding"] = part(*loss.encoding);
   out["missed"] = part(loss.missed);
   out["misordered"] = part(loss.misordered);
+  if (loss.arithmetic) out["arithmetic"] = part(*loss.arithmetic);
   out["pixel_format"] = part(loss.pixel_format);
   return out;
 }

@@ -64,7 +64,7 @@ std::uint64_t size_bytes(const ReferencePictures& pictures) {
 // Golden and judged picture, and those of the loss.
 std::uint64_t size_bytes(const ExpectedFrame& expected) {
   const FrameWork* const work = expected.counted.work.get();
-  return (expected.judged.order_loss ? 4 : 3) * bytes_of(expected.counted.golden.image) +
+  return (expected.judged.order_loss ? 5 : 3) * bytes_of(expected.counted.golden.image) +
          (work == nullptr ? 0 : work->size_bytes());
 }
 

@@ -15,12 +15,15 @@ std::string percent(double share) {
   return std::isnan(share) ? "none" : fmt::format("{:.1f} %", 100 * share);
 }
 
-void print_order_loss(const OrderLoss& loss) {
-  fmt::print(
-      "  squared error: missed splats {}, misordered blends {}, encoding {}, pixel format {}\n",
-      percent(loss.missed.share), percent(loss.misordered.share),
-      loss.encoding ? percent(loss.encoding->share) : "not known: packed",
-      percent(loss.pixel_format.share));
+// Of what the machine does, and of what is stored.
+void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
+  fmt::print("  squared error: ");
+  if (golden.missed > 0) fmt::print("missed splats {}, ", percent(loss.missed.share));
+  if (loses_order(golden)) fmt::print("misordered blends {}, ", percent(loss.misordered.share));
+  if (loss.arithmetic) fmt::print("arithmetic {}, ", percent(loss.arithmetic->share));
+  fmt::print("encoding {}, pixel format {}\n",
+             loss.encoding ? percent(loss.encoding->share) : "not known: packed",
+             percent(loss.pixel_format.share));
 }
 
 }  // namespace
@@ -64,7 +67,7 @@ void print_details(const ViewResult& v) {
         "dB, by at most {:.2g}\n",
         grouped(v.file_order->pixels), v.file_order->psnr_db, v.file_order->max_abs_error);
   }
-  if (v.order_loss) print_order_loss(*v.order_loss);
+  if (v.order_loss) print_order_loss(*v.order_loss, v.golden);
   fmt::print("  {:<14} {:>14} {:>14}\n", "DRAM region", "B asked for", "B on the bus");
   for (const auto& [region, bus_bytes] : v.run.memory.bus_bytes_by_region) {
     std::uint64_t asked = 0;

@@ -76,7 +76,8 @@ void list_left_out(const StoredScene& scene, const MachineResult& machine, DataS
 
 ViewJob view_job(const PreparedScene& scene, int view, const Camera& camera,
                  const RunConfig& config) {
-  ViewJob job{view, camera, config.design->job(scene.stored, camera)};
+  ViewJob job{view, camera, {}};
+  naming_origins(config, [&] { job.frame = config.design->job(scene.stored, camera); });
   check_capacity(job.frame, config.dram);
   return job;
 }

@@ -31,6 +31,7 @@ ViewResult view_that_lost(std::uint64_t missed, std::uint64_t misordered) {
   if (is_lossy(view.golden)) {
     view.order_loss.emplace();
     view.order_loss->in_order = grey(0.375F);
+    view.order_loss->exactly = view.golden.image;
     view.order_loss->missed.share = 0.25;
     view.order_loss->misordered.share = 0.5;
   }

@@ -59,7 +59,7 @@ double squares(const Image& a, const Image& b) {
 TEST_CASE("order loss: paper order, parts add up to the whole") {
   for (const char* encoding : {"storage.encoding=raw", "storage.encoding=half"}) {
     const GoldenView view({"machine=paper", "group_width_px=32", "group_height_px=32",
-                           "storage.voxel_size=0.4", encoding});
+                           "storage.voxel_size=0.4", encoding, "rendering.precision=fp32"});
     REQUIRE(view.golden.missed > 0);
     REQUIRE(view.golden.misordered > 0);
     const OrderLoss loss = view.loss();
@@ -79,7 +79,7 @@ TEST_CASE("order loss: paper order, parts add up to the whole") {
 TEST_CASE(
     "order loss: without the original there is no part of the encoding, and the rest is all") {
   GoldenView view({"machine=paper", "group_width_px=32", "group_height_px=32",
-                   "storage.voxel_size=0.4", "storage.encoding=half"});
+                   "storage.voxel_size=0.4", "storage.encoding=half", "rendering.precision=fp32"});
   view.scene.stored.original.reset();
   view.reference = view.decoded_reference;
   const OrderLoss loss = view.loss();
@@ -97,6 +97,47 @@ TEST_CASE("order loss: exact order that blends early misses nothing, all is miso
   CHECK(loss.in_order.pixels == view.decoded_reference.pixels);
   CHECK(loss.missed.share == 0);
   CHECK(loss.misordered.share == Approx(1));
+}
+
+TEST_CASE("order loss: what half precision and boxes cost is not the order's") {
+  struct Row {
+    std::vector<std::string> settings;
+    bool loses_order;
+  };
+  const std::vector<Row> rows = {
+      {{"machine=exact", "rendering.precision=fp16"}, false},
+      {{"machine=exact", "merge.entries=16", "merge.on_overflow=blend_early",
+        "rendering.precision=fp16"},
+       true},
+      {{"machine=paper", "group_width_px=32", "group_height_px=32", "storage.voxel_size=0.4"},
+       true},
+      {{"machine=gscore"}, true},
+      {{"machine=gscore", "tiles.keys=fp32"}, false},
+  };
+  for (const Row& row : rows) {
+    CAPTURE(row.settings);
+    const GoldenView view(row.settings);
+    REQUIRE(is_lossy(view.golden));
+    CHECK(loses_order(view.golden) == row.loses_order);
+    const OrderLoss loss = view.loss();
+    REQUIRE(loss.arithmetic);
+    CHECK(loss.arithmetic->alone > 0);
+    CHECK(loss.missed.share + loss.misordered.share + loss.arithmetic->share == Approx(1));
+    CHECK((loss.misordered.alone > 0) == row.loses_order);
+    // The same order in single precision and without boxes: what is left of the chain.
+    std::vector<std::string> exactly = row.settings;
+    for (const char* setting :
+         {"rendering.precision=fp32", "tiles.reach=visible", "tiles.features=fp32"}) {
+      const bool of_gscore = row.settings[0] == "machine=gscore";
+      if (of_gscore || setting[0] == 'r') exactly.emplace_back(setting);
+    }
+    const GoldenView other(exactly);
+    CHECK_FALSE(other.golden.computed_exactly);
+    CHECK(loss.exactly.pixels == other.golden.image.pixels);
+  }
+  CHECK_FALSE(GoldenView({"machine=exact", "merge.entries=16", "merge.on_overflow=blend_early"})
+                  .loss()
+                  .arithmetic);
 }
 
 TEST_CASE("order loss: an order that misses splats must say what they show") {
