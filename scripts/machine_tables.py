@@ -162,11 +162,16 @@ def parts_rows(entries: Sequence[Entry], machines: Sequence[str], of: Parts, uni
 
 
 def seconds_about(side_by_side: int) -> str:
+    pace = (
+        "one simulation at a time"
+        if side_by_side == 1
+        else f"{side_by_side} simulations side by side, which disturb each other"
+    )
     return (
-        f"Wall time of this model on the machine that made the table, {side_by_side} simulations "
-        "side by side, which disturb each other. One view of the scene and size that take least, "
-        "and of those that take most. NeRArch-Sim (ISCA 2026) states neither scene nor size nor "
-        "host here: its time is for the order of magnitude.\n\n"
+        f"Wall time of this model on the machine that made the table, {pace}. "
+        "One view of the scene and size that take least, and of those that take most. "
+        "NeRArch-Sim (ISCA 2026) states neither scene nor size nor host here: "
+        "its time is for the order of magnitude.\n\n"
     )
 
 
