@@ -20,6 +20,7 @@ CAUSES = (
     ("phase", "for its phase of the frame"),
     ("idle", "nothing to do"),
 )
+NO_CAUSE = ("phase", "idle")  # of the longest wait: nothing there keeps it waiting
 MOST_WAITS = 12  # places listed
 Spent = tuple[str, str, dict[str, int]]  # unit and activity, resource, cycles by cause
 
@@ -66,7 +67,8 @@ def time_bars(spent: Sequence[Spent], caption: str) -> str:
             for cause, text in CAUSES
         ]
         longest = max(
-            (cause for cause, _ in CAUSES[1:] if cause != "idle"), key=lambda cause: cycles[cause]
+            (cause for cause, _ in CAUSES[1:] if cause not in NO_CAUSE),
+            key=lambda cause: cycles[cause],
         )
         waits = f"{longest} {percent(cycles[longest] / whole)}" if cycles[longest] else ""
         rows.append((label, charts.bar(parts), (percent(cycles["busy"] / whole), waits)))
