@@ -195,7 +195,8 @@ class HostileRun {
   }
 
   static bool gives_nothing_away(const Json& view) {
-    return view["config"]["storage"]["encoding"] == "raw" &&
+    const Json& storage = view["config"]["storage"];
+    return storage["encoding"] == "raw" && storage["sh_tolerance"] == 0.0 &&
            view["config"]["framebuffer"] == "rgb32f";
   }
 
