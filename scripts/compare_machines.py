@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Machines beside each other: the same scenes, views, DRAM, ledger and storage of scenes; and the
-original rasteriser on a mobile GPU, which is modelled, not simulated. A case is a scene at a size.
+"""Machines beside each other: the same scenes, views, DRAM and ledger, each with the scene stored as
+it reads it; and the original rasteriser on a mobile GPU, which is modelled, not simulated. A case is a scene at a size.
 Machines are held against those of their own precision: exact_fp16 and the paper's presets blend in
 half as gscore and gscore_fp32_keys do, exact and exact_fast in single as gscore_lossless; exact
 against gscore as well, and marked.
@@ -11,6 +11,7 @@ against gscore as well, and marked.
                                dB and published figures beside them. A scene counts once in the
                                geometric mean, however many sizes and views it has; least and most
                                are of single views
+  compare_machines_cases.md    the same for each case, of the pairs of one precision and loss
   compare_machines_bytes.md    MB by region of DRAM, on the bus; of the GPU by kind, as its kernels
                                ask for them
   compare_machines_joules.md   mJ by component
@@ -203,6 +204,9 @@ def make_tables(arguments: argparse.Namespace) -> None:
     ratios = machine_ratios.rows(entries, size_groups(cases, arguments), arguments.machines)
     about = made + machine_ratios.ABOUT
     tables.write(out, "compare_machines_ratios", about, machine_ratios.HEAD, ratios)
+    of_cases = machine_ratios.case_rows(entries, cases)
+    about = made + machine_ratios.CASES_ABOUT
+    tables.write(out, "compare_machines_cases", about, machine_ratios.CASE_HEAD, of_cases)
     parts = (lambda m: m.bytes_by_region, lambda m: m.joules_by_component, lambda m: m.busy)
     for of, what in zip(parts, PARTS_TABLES):
         write_parts(out, made, entries, of, what)

@@ -1,5 +1,5 @@
 """How many times as fast as another, and at how many times less energy, with what is published of
-the same pair: over the cases of a size, and over all."""
+the same pair: over the cases of a size, over all, and case by case."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import statistics
 from collections.abc import Callable, Mapping, Sequence
 
 from machine_measures import GPU, Measured
-from machine_tables import Case, Entry
+from machine_tables import MB, Case, Entry
 from view_numbers import decibels_span
 
 # By scene, the cases of each: what every machine took.
@@ -49,6 +49,29 @@ ABOUT = (
     "are those of the machine; the GPU's memory is its own, and the same beside all. *derived*: "
     "not published itself, but out of published ratios.\n\n"
 )
+
+# Of these pairs each case has a line as well: of one precision, encoding and loss.
+OF_CASES = (
+    ("exact", "gscore_lossless"),
+    ("exact_fast", "gscore_lossless"),
+    ("exact_fp16", "gscore_fp32_keys"),
+)
+CASE_HEAD = (
+    "scene",
+    "size",
+    "GB/s",
+    "machine",
+    "than",
+    "times as fast",
+    "both overlapped",
+    "only the other overlapped",
+    "times less energy",
+    "bus MB",
+    "its bus MB",
+    "binds",
+    "the other's",
+)
+CASES_ABOUT = "Means over the views of each; columns as those of the ratios over all.\n\n"
 
 DERIVED = " derived"
 # StreamingGS (DAC 2025): means over its scenes, with its GPU (4.9 and 8.5 frames a second) and its
@@ -97,6 +120,11 @@ def decibels(cases: Sequence[Mapping[str, Measured]], machine: str) -> str:
     return decibels_span(values) if values else "not measured"
 
 
+def draws(m: Measured) -> str:
+    """In which precision, and from codebooks or records as they are."""
+    return f"{m.precision} from codebooks" if "vq" in m.encoding else m.precision
+
+
 def what_it_is(own: Measured, name: str, other: Measured) -> str:
     """Where the other's numbers come from."""
     if name == GPU:
@@ -110,7 +138,6 @@ def what_it_is(own: Measured, name: str, other: Measured) -> str:
 def row(memory: str, sizes: str, found: Found, own: str, other: str) -> tuple:
     cases = [case for of_scene in found.values() for case in of_scene]
     ours, theirs = cases[0][own], cases[0][other]
-    alike = ours.precision == theirs.precision
     # Published means are over all that was drawn.
     speed, joules = PUBLISHED.get((own, other), ("", "")) if sizes == ALL else ("", "")
     areas = [c[own].mm2 / c[other].mm2 for c in cases if c[own].mm2 and c[other].mm2]
@@ -119,7 +146,7 @@ def row(memory: str, sizes: str, found: Found, own: str, other: str) -> tuple:
         sizes,
         own,
         other,
-        ours.precision if alike else f"{ours.precision}, its {theirs.precision}",
+        draws(ours) if draws(ours) == draws(theirs) else f"{draws(ours)}, its {draws(theirs)}",
         decibels(cases, own),
         decibels(cases, other),
         len(found),
@@ -153,6 +180,32 @@ def pairs_of(of: Mapping[str, Measured], machines: Sequence[str]) -> list[tuple[
         if own not in tiled[: tiled.index(other) + 1] and comparable(of[own], of[other])
     ]
     return pairs + [pair for pair in ACROSS_PRECISIONS if set(pair) <= set(machines)]
+
+
+def case_rows(entries: Sequence[Entry], cases: Sequence[Case]) -> list[tuple]:
+    """A line for each case, memory and pair of OF_CASES that was measured."""
+    made = []
+    for case in cases:
+        of_case = [e for e in entries if e.case == case and e.machine != GPU]
+        for memory in dict.fromkeys(e.memory for e in of_case):
+            of = {e.machine: e.of for e in of_case if e.memory == memory}
+            for own, other in OF_CASES:
+                if own in of and other in of:
+                    made.append((*case.cells(), memory, *pair_cells(of, own, other)))
+    return made
+
+
+def pair_cells(of: Mapping[str, Measured], own: str, other: str) -> tuple[str, ...]:
+    found = {"": [of]}
+    ways = ((alone, alone), (overlapped, overlapped), (alone, overlapped), (energy, energy))
+    return (
+        own,
+        other,
+        *(over_scenes(found, own, other, *way)[0] for way in ways),
+        *(f"{of[name].bytes() / MB:.2f}" for name in (own, other)),
+        of[own].binds,
+        of[other].binds,
+    )
 
 
 def found_with(entries: Sequence[Entry], cases: Sequence[Case], memory: str) -> Found:

@@ -89,6 +89,11 @@ class Machines(unittest.TestCase):
                     "the other is": "simulated, in another precision",
                 },
             ),
+            (
+                {"encoding": "vq_packed"},
+                {},
+                {"precision": "fp16 from codebooks, its fp16", "the other is": "simulated"},
+            ),
         ):
             with self.subTest(columns=columns):
                 of_case = {
@@ -141,6 +146,33 @@ class Machines(unittest.TestCase):
         )
         few = machine_ratios.pairs_of(of, ["exact", "exact_vq", "gscore_lossless"])
         self.assertEqual(few[3:], [("exact", "gscore_lossless")])
+
+    def test_a_line_for_each_case_and_memory_of_pairs_that_lose_the_same(self):
+        case = machine_tables.Case(Scene("s", "a"), "4x2")
+        faster = dataclasses.replace(measured(1), peak_gb_s=51.2, binds="dram")
+        entries = [
+            machine_tables.Entry(case, name, of)
+            for name, of in (
+                ("gscore_lossless", measured(6, region=3e6)),
+                ("exact", measured(2, 2, region=1e6)),
+                ("exact_fp16", measured(1)),
+                ("gscore_lossless", dataclasses.replace(faster, seconds=(2.5,))),
+                ("exact_fast", faster),
+                (machine_ratios.GPU, measured(30)),
+            )
+        ]
+        place = ("s", "4x2")
+        self.assertEqual(
+            machine_ratios.case_rows(entries, [case]),
+            [
+                # fmt: off
+                (*place, "25.6", "exact", "gscore_lossless", "3.00", "3.00", "1.50", "3.00",
+                 "1.00", "3.00", "", ""),
+                (*place, "51.2", "exact_fast", "gscore_lossless", "2.50", "1.00", "0.50", "1.00",
+                 "0.00", "0.00", "dram", "dram"),
+                # fmt: on
+            ],
+        )
 
     def test_a_line_for_each_size_and_one_for_all(self):
         arguments = argparse.Namespace(sizes=["4x2", "8x4"], object_sizes=["4x2", "6x6"])
