@@ -24,7 +24,8 @@ Source = pathlib.Path | Scene  # the folder of a data set, or a scene
 
 @dataclasses.dataclass(frozen=True)
 class Subject:
-    """dataset: its folder; empty for a scene with cameras. scene: what the command takes."""
+    """dataset: its folder; empty for a scene with cameras. scene: what the command takes.
+    downscale: of the photographs."""
 
     name: str
     scene: str
@@ -32,12 +33,16 @@ class Subject:
     size: str = ""
     between: int = 0
     dataset: str = ""
+    downscale: float = 1
+
+    def photograph_words(self) -> tuple[str, ...]:
+        return downscale_words(self.downscale)
 
     def target_words(self, given: str = "") -> tuple[str, ...]:
         """Arguments of `tune` that say what to compare with. given: what is tuned, where it is not
         the scene itself."""
         if self.dataset:
-            return ("--data", self.dataset)
+            return ("--data", self.dataset, *self.photograph_words())
         words = ("--cameras", self.cameras) if self.cameras else ()
         words += ("--size", self.size, "--between", str(self.between))
         return (*words, "--target", self.scene) if given not in ("", self.scene) else words
@@ -55,12 +60,18 @@ def dataset_folder(text: str) -> pathlib.Path | None:
     return pathlib.Path(text) if pathlib.Path(text).is_dir() else None
 
 
+def downscale_words(downscale: float) -> tuple[str, ...]:
+    return () if downscale == 1 else ("--downscale", f"{downscale:g}")
+
+
 def training(
-    name: str, folder: pathlib.Path, seed: int, steps: int, gaussians: int, most_seconds: float = 0
+    folder: pathlib.Path, seed: int, steps: int, arguments: argparse.Namespace, seconds: float = 0
 ) -> Fitting:
-    words = (str(folder), "--seed", str(seed), "--steps", str(steps), "--gaussians", str(gaussians))
+    """seconds: it is stopped then; 0: never."""
+    words = (str(folder), "--seed", str(seed), "--steps", str(steps))
+    words += ("--gaussians", str(arguments.gaussians), *downscale_words(arguments.downscale))
     words += ("--test-every", str(max(1, steps // LOOKS)))
-    return Fitting(f"{name} seed {seed}", "train", words, most_seconds=most_seconds)
+    return Fitting(f"{folder.name} seed {seed}", "train", words, most_seconds=seconds)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -82,6 +93,13 @@ def add_training_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--gaussians", type=int, default=100_000, metavar="N", help="that data sets may have"
     )
+    parser.add_argument(
+        "--downscale",
+        type=float,
+        default=1,
+        metavar="N",
+        help="photographs so many times smaller, as of train",
+    )
 
 
 def find_sources(texts: Sequence[str]) -> list[Source]:
@@ -94,7 +112,7 @@ def find_subjects(
 ) -> list[Subject]:
     """Data sets are trained now. Raises Failure, ValueError."""
     trainings = [
-        training(source.name, source, arguments.seed, arguments.train_steps, arguments.gaussians)
+        training(source, arguments.seed, arguments.train_steps, arguments)
         for source in sources
         if not isinstance(source, Scene)
     ]
@@ -106,5 +124,6 @@ def find_subjects(
             subjects.append(Subject(source.name, *own))
         else:
             scene = str(next(trained).scene)
-            subjects.append(Subject(source.name, scene, dataset=str(source)))
+            of = {"dataset": str(source), "downscale": arguments.downscale}
+            subjects.append(Subject(source.name, scene, **of))
     return subjects

@@ -63,7 +63,7 @@ def target_pictures(
     """Made below the folder, once, of a subject that check_views() takes. Raises ValueError,
     Failure."""
     sources = [subject.dataset] if subject.dataset else [subject.scene, subject.cameras]
-    facts = [program, subject.dataset, subject.size]
+    facts = [program, subject.dataset, subject.size, *subject.photograph_words()]
     facts += [content_digest(file) for text in sources for file in files_of(pathlib.Path(text))]
     digest = hashlib.sha256("\n".join(facts).encode()).hexdigest()[:16]
     place = folder / f"{subject.name}_{digest}"
@@ -72,7 +72,8 @@ def target_pictures(
     if not (place / DONE).exists():
         place.mkdir(parents=True, exist_ok=True)
         if subject.dataset:
-            make(binary, "photographs", [subject.dataset, "--out", str(place)])
+            words = [subject.dataset, *subject.photograph_words(), "--out", str(place)]
+            make(binary, "photographs", words)
         else:
             draw_own(binary, subject, targets)
         tables.write_text(place / DONE, json.dumps({"of": sources}) + "\n")

@@ -103,7 +103,7 @@ def make_tables(arguments: argparse.Namespace) -> None:
     for name, folder in folders.items():
 
         def trained(seed: int, steps: int, most_seconds: float) -> Fitting:
-            return subjects.training(name, folder, seed, steps, arguments.gaussians, most_seconds)
+            return subjects.training(folder, seed, steps, arguments, most_seconds)
 
         steps, most_seconds = arguments.train_steps, 60 * arguments.minutes
         of_seeds = kept.all([trained(seed, steps, most_seconds) for seed in arguments.seeds])

@@ -183,11 +183,13 @@ class Words(InFolder):
     def test_a_scene_that_was_tuned_is_held_to_what_it_was(self):
         scene = Subject("a", "a.ply", "a.json", "64x36", 7)
         photographed = Subject("b", "b.ply", dataset="b")
+        smaller = Subject("b", "b.ply", dataset="b", downscale=2)
         own = "--cameras a.json --size 64x36 --between 7"
         for subject, given, text in (
             (scene, "a.ply", own),
             (scene, "t.ply", f"{own} --target a.ply"),
             (photographed, "t.ply", "--data b"),
+            (smaller, "t.ply", "--data b --downscale 2"),
         ):
             words = self.CALLS.quantised(subject, given, "paper", ()).words
             with self.subTest(given, subject=subject.name):
