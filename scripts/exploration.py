@@ -30,8 +30,11 @@ class Exploration:
         self.judged: dict[Assignments, Judged] = {}
 
     def add(self, judged: Judged) -> None:
+        """What was simulated stays, whoever reckons it once more."""
         with self.lock:
-            self.judged[judged.assignments] = judged
+            there = self.judged.get(judged.assignments)
+            if there is None or judged.fidelity != ESTIMATE or there.fidelity == ESTIMATE:
+                self.judged[judged.assignments] = judged
 
     def add_last(self, judged: Judged) -> None:
         """Behind all others."""

@@ -30,8 +30,9 @@ holds is not drawn at all.
 
 With --estimate configurations are reckoned in place of simulated (`streaminggs sweep --estimate`),
 and then what is on the front is simulated, until all of it is: what was reckoned too well gives way
-to others. The column `fidelity` says which is which. What misses a requirement by the estimate
-alone is not simulated. A search's --minutes are those of its estimates.
+to others. A search that asks for area alone simulates a configuration before it leaves out others
+for it. The column `fidelity` says which is which. What misses a requirement by the estimate alone
+is not simulated. A search's --minutes are those before the front is simulated.
 
 Simulations are kept in explore_runs.jsonl, estimates in explore_estimates.jsonl: interrupted or
 started again it goes on where it ended.
@@ -240,7 +241,7 @@ def explore_with(
         if is_studied(arguments):
             import study_work  # Optuna is not everybody's
 
-            study_work.explore(work, kept)
+            study_work.explore(work, kept, drawing)
         else:
             explore_all(work)
         simulate_front(work, drawing)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import concurrent.futures
 import json
 import random
+import threading
 import warnings
 
 import optuna
-from exploration import Work
-from judging import Judged
+from exploration import ESTIMATE, Work
+from judging import Judge, Judged
 from machine_axes import nearest
 from measures import dominates
 from search_space import At
@@ -24,14 +25,16 @@ TRIALS = 200
 
 
 class Searcher:
-    """What a search looks at next, and what it need not look at."""
+    """What a search looks at next, and what it need not look at. drawing: simulates what the work's
+    own judge may reckon."""
 
-    def __init__(self, work: Work, kept: SweepServer):
-        self.work, self.kept = work, kept
+    def __init__(self, work: Work, kept: SweepServer, drawing: Judge):
+        self.work, self.kept, self.drawing = work, kept, drawing
         self.judge, self.space = work.judge, work.space
         self.of_the_machine = work.judge.task.of_the_machine()
         self.random = random.Random(work.arguments.seed)
         self.known_costs: dict[At, tuple[float, ...] | None] = {}
+        self.proving = threading.Lock()
 
     def judged(self, at: At) -> Judged:
         return self.judge.judged(self.space.assignments(at))
@@ -42,14 +45,29 @@ class Searcher:
             self.known_costs[at] = self.judge.machine_costs(self.space.assignments(at))
         return self.known_costs[at]
 
-    def skips(self, at: At) -> str:
-        """Why a configuration need not be drawn; empty where it must be."""
+    def as_small(self, at: At) -> Judged | None:
+        """Of those that hold one which is no larger, where area is all that is asked for."""
         if not self.of_the_machine or (costs := self.costs(at)) is None:
-            return ""  # judging tells why there is no such machine
+            return None  # judging tells why there is no such machine
         for best in self.work.made.front():
             if best.costs == costs or dominates(best.costs, costs):
+                return best
+        return None
+
+    def skips(self, at: At) -> str:
+        """Why a configuration need not be drawn; empty where it must be. What is skipped is never
+        taken up again, so whatever it is skipped behind has to hold when it is simulated."""
+        while best := self.as_small(at):
+            if best.fidelity != ESTIMATE:
                 return "another one that holds is as small"
+            self.prove(best)
         return ""
+
+    def prove(self, reckoned: Judged) -> None:
+        """Simulates it, unless another worker has meanwhile."""
+        with self.proving:
+            if reckoned in self.work.made.reckoned():
+                self.work.made.add(self.drawing.judged(reckoned.assignments))
 
     def start(self) -> At:
         """The configuration that the preset is nearest to."""
@@ -86,12 +104,12 @@ class Searcher:
         ]
         if not self.of_the_machine:
             return near[0] if near else None
-        saving = [at for at in near if self.costs(at) and not self.skips(at)]
+        saving = [at for at in near if self.costs(at) and not self.as_small(at)]
         return min(saving, key=lambda at: self.costs(at), default=None)
 
 
-def explore(work: Work, kept: SweepServer) -> None:
-    """Into work.made. Raises Failure, ValueError."""
+def explore(work: Work, kept: SweepServer, drawing: Judge) -> None:
+    """Into work.made. kept: what work.judge asks; drawing: simulates. Raises Failure, ValueError."""
     arguments, task = work.arguments, work.judge.task
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
@@ -99,7 +117,7 @@ def explore(work: Work, kept: SweepServer) -> None:
     if not arguments.study:
         storage = ""
     lock = locked(storage)
-    searcher = Searcher(work, kept)
+    searcher = Searcher(work, kept, drawing)
     study = Study(
         optuna.create_study(
             storage=open_storage(storage, arguments.lost_after) if storage else None,
