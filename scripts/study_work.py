@@ -13,6 +13,7 @@ from exploration import ESTIMATE, Work
 from judging import Judge, Judged
 from machine_axes import nearest
 from measures import dominates
+from run_digest import content_digest, named_files
 from search_space import At
 from simulations import Run
 from studies import JUDGED, SAME_AS, Study, locked, open_storage, sampler, unpacked
@@ -109,7 +110,8 @@ class Searcher:
 
 
 def explore(work: Work, kept: SweepServer, drawing: Judge) -> None:
-    """Into work.made. kept: what work.judge asks; drawing: simulates. Raises Failure, ValueError."""
+    """Into work.made. kept: what work.judge asks; drawing: simulates. Raises Failure,
+    ValueError."""
     arguments, task = work.arguments, work.judge.task
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
@@ -196,11 +198,22 @@ def is_within(at: At, other: At) -> bool:
     return all(a <= b for a, b in zip(at, other))
 
 
+def digests_of_files(work: Work) -> list[str]:
+    """Of the contents of scenes, cameras, configuration and memspecs. Not of their paths, which may
+    be others on another machine."""
+    task = work.judge.task
+    scenes = dict.fromkeys(scene for scene, _ in task.views)
+    settings = [s for axis in work.space.axes for setting in axis.settings for s in setting]
+    runs = (Run(scene, "", "", task.config, (*task.base, *settings)) for scene in scenes)
+    return [content_digest(path) for run in runs for path in named_files(run)]
+
+
 def described(work: Work, kept: SweepServer) -> str:
     """All that a result depends on, but for the place in the space."""
     task = work.judge.task
     facts = {
         "program": kept.program,
+        "files": digests_of_files(work),
         "configurations": "proposed" if work.arguments.search else "all",
         "views": [[scene.name, number] for scene, number in task.views],
         "size": task.size,

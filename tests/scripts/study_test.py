@@ -196,6 +196,23 @@ class Studies(InFolder):
         )
         self.assertEqual(done.returncode, 2, done.stderr)
 
+    def test_another_content_of_a_file_is_another_task(self):
+        self.stand_in("finish()")
+        config, memspec = self.folder / "mine.json", self.folder / "memspec.json"
+        memspec.write_text("{}")
+        config.write_text(f'{{"dram": {{"memspec": "{memspec}"}}}}')
+        words = self.words("out", "--study", "a", "--config", str(config))
+        words[words.index("hfus=1,2,3,4,5,6,7,8")] = "hfus=1"
+        subprocess.run(words, check=True, capture_output=True)
+        for path in (config, memspec, self.scene, self.scene.with_suffix(".json")):
+            with self.subTest(path.name):
+                content = path.read_bytes()
+                path.write_bytes(content + b" ")
+                done = subprocess.run(words, capture_output=True, text=True, check=False)
+                self.assertRegex(done.stderr, "--study a: there is one of another task\n$")
+                path.write_bytes(content)
+        subprocess.run(words, check=True, capture_output=True)
+
     def test_what_is_refused(self):
         self.stand_in("finish()")
         db = f"sqlite:///{self.folder}/study.db"
