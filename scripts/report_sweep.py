@@ -6,15 +6,15 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import report_tables
 from measures import pareto_front
 from report_charts import details, escaped
 from report_folder import Table
-from sweep_results import DONE, MEMORIES, Point
+from sweep_results import DONE, ESTIMATE, MEMORIES, Point
 
-Case = tuple[str, str, str]
+Case = tuple[str, str, str, str]
 BY_SCENE = "differs by scene"
 
 
@@ -142,9 +142,20 @@ def section(machines: Sequence[Machine], title: str, most: int) -> str:
     )
 
 
-def name_of(case: Case) -> str:
-    scene, view, size = case
-    return f"{scene}, view {view}" + (f", {size}" if size else "")
+def name_of(case: Case, all_cases: Collection[Case]) -> str:
+    """Cameras only where others have all else."""
+    scene, view, size, cameras = case
+    alike = [other for other in all_cases if other[:3] == case[:3]]
+    more = (size, cameras if len(alike) > 1 else "")
+    return ", ".join([scene, f"view {view}", *filter(None, more)])
+
+
+def kind_in_words(point: Point, all_points: Sequence[Point]) -> str:
+    """Simulations need no word, and a technology only where there are several."""
+    technology = ""
+    if len({other.technology for other in all_points}) > 1:
+        technology = " ".join(filter(None, point.technology)) or "unknown technology"
+    return ", ".join(filter(None, ["estimates" if point.fidelity == ESTIMATE else "", technology]))
 
 
 def not_done(points: Sequence[Point]) -> str:
@@ -163,27 +174,42 @@ def not_done(points: Sequence[Point]) -> str:
 
 
 def panels(points: Sequence[Point]) -> list[tuple[str, str]]:
-    """(name, text) of each tab: where there are several cases, first those machines that were
-    simulated on all. Raises ValueError where no point was done."""
+    """(name, text) of each tab, simulations and estimates apart. Raises ValueError where no point
+    was done."""
     done = [point for point in points if point.status == DONE]
     if not done:
         raise ValueError(f"no point was done: {points[0].reason or points[0].status}")
+    kinds: dict[tuple, list[Point]] = {}
+    for point in done:
+        kinds.setdefault(point.kind(), []).append(point)
+    # The page has an end, however many views there are.
+    tabs = sum(len({point.case() for point in of}) + 1 for of in kinds.values())
+    most = report_tables.MOST_ROWS // tabs or 1
+    made = [
+        tab
+        for of in kinds.values()
+        for tab in panels_of_kind(of, kind_in_words(of[0], done), most)
+    ]
+    name, text = made[0]
+    made[0] = (name, text + not_done(points))
+    return [(name, f"<div class=grid>{text}</div>") for name, text in made]
+
+
+def panels_of_kind(points: Sequence[Point], kind: str, most: int) -> list[tuple[str, str]]:
+    """Where there are several cases, first those machines that were simulated on all."""
     cases: dict[Case, list[Machine]] = {}
     by_machine: dict[tuple, list[Point]] = {}
-    for point in done:
+    for point in points:
         cases.setdefault(point.case(), []).append(Machine((point,)))
         by_machine.setdefault(point.machine(), []).append(point)
-    # The page has an end, however many views there are.
-    most = report_tables.MOST_ROWS // (len(cases) + 1) or 1
+    suffix = f", {kind}" if kind else ""
     made = []
     on_all = [Machine(tuple(of)) for of in by_machine.values() if len(of) == len(cases)]
     if len(cases) > 1 and on_all:
         title = f"Sums over {len(cases)} frames; fps and PSNR of the worst, area of the largest"
-        made.append(("all", section(on_all, title, most)))
-    made += [(name_of(case), section(of, name_of(case), most)) for case, of in cases.items()]
-    name, text = made[0]
-    made[0] = (name, text + not_done(points))
-    return [(name, f"<div class=grid>{text}</div>") for name, text in made]
+        made.append((f"all{suffix}", section(on_all, title + suffix, most)))
+    names = {case: name_of(case, cases) + suffix for case in cases}
+    return made + [(names[case], section(of, names[case], most)) for case, of in cases.items()]
 
 
 def subtitle(points: Sequence[Point]) -> str:
@@ -191,5 +217,7 @@ def subtitle(points: Sequence[Point]) -> str:
     for point in points:
         counts[point.status] = counts.get(point.status, 0) + 1
     words = [f"{len(points)} points", *(f"{count} {status}" for status, count in counts.items())]
+    reckoned = sum(point.fidelity == ESTIMATE for point in points)
+    words += [f"{reckoned} of them estimates"] if reckoned else []
     commits = sorted({point.commit for point in points} - {""})
     return " · ".join(words + ([f"commit {', '.join(commits)}"] if commits else []))

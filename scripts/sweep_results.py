@@ -12,6 +12,7 @@ from measures import value_at
 from report_folder import flat
 
 DONE = "done"
+ESTIMATE = "estimate"
 MEMORIES = ("input", "codebook", "shared", "buffer")
 # Of a report, and columns of the table of the same names.
 PATHS = (
@@ -32,7 +33,8 @@ OF_POINT = ("scene", "cameras", "view", "size", "config")
 class Point:
     """What was asked for, in its words, and what came of it. settings: over those of `config`;
     told: of PATHS, those that the report has; resolved: every key that is known of the
-    configuration."""
+    configuration. fidelity: "accurate", or "estimate" of what was reckoned; technology: the cost
+    table's name and digest, as far as they are known."""
 
     asked: dict[str, str]
     settings: dict[str, str]
@@ -41,13 +43,20 @@ class Point:
     told: dict[str, object] = dataclasses.field(default_factory=dict)
     resolved: dict[str, str] = dataclasses.field(default_factory=dict)
     commit: str = ""
+    fidelity: str = ""
+    technology: tuple[str, str] = ("", "")
 
-    def case(self) -> tuple[str, str, str]:
-        return self.asked["scene"], self.asked["view"], self.asked.get("size", "")
+    def case(self) -> tuple[str, str, str, str]:
+        size, cameras = self.asked.get("size", ""), self.asked.get("cameras", "")
+        return self.asked["scene"], self.asked["view"], size, cameras
 
     def machine(self) -> tuple:
         """Equal for points that have been asked for with the same configuration."""
         return self.asked["config"], *sorted(self.settings.items())
+
+    def kind(self) -> tuple[str, tuple[str, str]]:
+        """Points of different kinds are not to be compared."""
+        return self.fidelity, self.technology
 
     def command(self) -> str:
         words = ["streaminggs", "simulate", self.asked["scene"], "--config", self.asked["config"]]
@@ -56,6 +65,7 @@ class Point:
                 words += [f"--{name}", value]
         for key, value in self.settings.items():
             words += ["--set", f"{key}={value}"]
+        words += ["--estimate"] if self.fidelity == ESTIMATE else []
         return shlex.join(words)
 
 
@@ -68,6 +78,7 @@ def point_of_line(line: str) -> Point:
     result = json.loads(line)
     asked = result["point"]
     report = result.get("report", {})
+    provenance = report.get("provenance", {})
     if result["status"] == DONE and any(value_at(report, path) is None for path in NEEDED):
         raise KeyError("report")
     return Point(
@@ -77,7 +88,9 @@ def point_of_line(line: str) -> Point:
         result.get("reason", ""),
         {path: value for path in PATHS if (value := value_at(report, path)) is not None},
         {key: text_of(value) for key, value in flat(report.get("config", {}))},
-        report.get("provenance", {}).get("commit", ""),
+        provenance.get("commit", ""),
+        report.get("fidelity", ""),
+        (provenance.get("technology", ""), provenance.get("technology_xxh64", "")),
     )
 
 
@@ -127,14 +140,21 @@ def read_table(path: pathlib.Path) -> list[Point]:
                 cells["status"],
                 told={name: number_in(cells[name]) for name in PATHS if name in cells},
                 resolved=settings,
+                fidelity=cells.get("fidelity", ""),
             )
         )
     return points
 
 
 def read_sweep(path: pathlib.Path) -> list[Point]:
-    """Of each point what came last. Raises ValueError where there is none."""
+    """Of each point what came last, of each kind. Raises ValueError where there is none."""
     points = read_table(path) if path.suffix == ".csv" else read_lines(path)
     if not points:
         raise ValueError(f"{path}: no results, expected those of `streaminggs sweep`")
-    return list({(point.case(), point.machine()): point for point in points}.values())
+    last: dict[tuple, Point] = {}
+    for point in points:
+        asked = (point.case(), point.machine())
+        if point.status == DONE:
+            last.pop((*asked, None), None)
+        last[(*asked, point.kind() if point.status == DONE else None)] = point
+    return list(last.values())

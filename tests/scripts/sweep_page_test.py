@@ -18,7 +18,9 @@ from page_checks import NEEDS_BROWSER, PageChecks
 from sweep_results import read_sweep
 
 
-def line(cycles, mm2, joules, status="done", **more) -> str:
+def line(
+    cycles, mm2, joules, status="done", fidelity="accurate", technology="32 nm", **more
+) -> str:
     """A result as `sweep` writes it. more: of the point."""
     point = {"scene": "s", "view": 0, "config": "exact", "set": {"hfus": 2}, **more}
     result = {"key": "0", "status": status, "point": point}
@@ -31,7 +33,8 @@ def line(cycles, mm2, joules, status="done", **more) -> str:
             "dram": {"bytes": 1000},
             "binding": {"unit": "fine"},
             "config": {"machine": "exact", **{"a": {"b": True}}, **point["set"]},
-            "provenance": {"commit": "0123abc"},
+            "provenance": {"commit": "0123abc", "technology": technology},
+            "fidelity": fidelity,
         }
     else:
         result["reason"] = "hfus: 0, expected <more>"
@@ -86,6 +89,31 @@ class Read(InFolder):
         self.assertEqual(status, 0)
         self.assertIn("<td class=n>222</td>", page)
         self.assertNotIn("<td class=n>111</td>", page)
+
+    def test_what_is_not_to_be_compared_stands_apart(self):
+        """Nothing is left out, and no estimate stands in the place of a simulation."""
+        path = self.folder / "sweep.jsonl"
+        for what, more, tabs in (
+            ("fidelity", {"fidelity": "estimate"}, ["s, view 0", "s, view 0, estimates"]),
+            ("table", {"technology": "22 nm"}, ["s, view 0, 32 nm", "s, view 0, 22 nm"]),
+            ("cameras", {"cameras": "a.json"}, ["all", "s, view 0", "s, view 0, a.json"]),
+        ):
+            with self.subTest(what):
+                path.write_text(line(111, 1, 1) + line(222, 1, 1, **more))
+                panels = dict(report_sweep.panels(read_sweep(path)))
+                self.assertEqual(list(panels), tabs)
+                for tab, cycles in zip(tabs[-2:], (111, 222)):
+                    self.assertIn(f"<td class=n>{cycles}</td>", panels[tab])
+                    self.assertEqual(len(re.findall("data-open=", panels[tab])), 1)
+        status, page = self.page(line(111, 1, 1) + line(222, 1, 1, fidelity="estimate"))
+        self.assertEqual(status, 0)
+        self.assertIn("2 points · 2 done · 1 of them estimates · commit", page)
+        self.assertIn("--estimate", page)
+
+    def test_what_failed_and_was_done_later_is_done(self):
+        status, page = self.page(line(0, 0, 0, "failed") + line(9, 1, 1))
+        self.assertEqual(status, 0)
+        self.assertIn("1 points · 1 done · commit", page)
 
     def test_of_many_points_the_front_is_shown(self):
         ones = [(at, v) for v in (0, 1) for at in range(30)]
