@@ -93,7 +93,7 @@ def configuration(view: dict) -> str:
     facts = view["provenance"]
     made = (
         f"Version {facts['version']}, commit {facts['commit']}; technology {facts['technology']}; "
-        f"memory image {facts['memory_image_fnv1a64']}; "
+        f"memory image {facts.get('memory_image_xxh64', 'unknown')}; "
         f"{number(view['host']['simulation_wall_s'])} s of wall time."
     )
     return (

@@ -60,14 +60,14 @@ PreparedScene store(std::string name, std::uint64_t dropped_invalid, ActivatedCl
       out.stored = store_scene(std::move(cloud), storage, {});
     }
   });
-  out.image_hash = fnv1a64(out.stored.image.bytes);
+  out.image_hash = xxh64(out.stored.image.bytes);
   return out;
 }
 
 PreparedScene restore(PackedScene packed, const std::string& path) {
   PreparedScene prepared{packed.facts.name, packed.facts.dropped_invalid, {}};
   prepared.stored = restore_scene(std::move(packed), path);
-  prepared.image_hash = fnv1a64(prepared.stored.image.bytes);
+  prepared.image_hash = xxh64(prepared.stored.image.bytes);
   return prepared;
 }
 

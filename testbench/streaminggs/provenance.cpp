@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <xxhash.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,22 +13,18 @@
 
 namespace sgs {
 
-std::uint64_t fnv1a64(const std::vector<std::byte>& bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (std::size_t at = 0; at < bytes.size(); at += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
-    hash = (hash ^ word) * 0x100000001b3U;
-  }
-  return hash;
+std::uint64_t xxh64(const std::vector<std::byte>& bytes) {
+  return XXH64(bytes.data(), bytes.size(), 0);
 }
 
-std::uint64_t fnv1a64_of_file(const std::string& path) {
+std::uint64_t xxh64_of_text(const std::string& text) { return XXH64(text.data(), text.size(), 0); }
+
+std::uint64_t xxh64_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   std::vector<std::byte> bytes(file ? static_cast<std::size_t>(file.tellg()) : 0);
   file.seekg(0);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  return fnv1a64(bytes);
+  return xxh64(bytes);
 }
 
 std::string digest_of_files(const std::vector<std::string>& paths) {
@@ -36,11 +32,11 @@ std::string digest_of_files(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) continue;
-    const std::uint64_t hash = fnv1a64_of_file(path);
+    const std::uint64_t hash = xxh64_of_file(path);
     const auto* const bytes = reinterpret_cast<const std::byte*>(&hash);
     hashes.insert(hashes.end(), bytes, bytes + sizeof hash);
   }
-  return fmt::format("{:016x}", fnv1a64(hashes));
+  return fmt::format("{:016x}", xxh64(hashes));
 }
 
 std::string command_line() {

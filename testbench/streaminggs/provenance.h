@@ -8,11 +8,12 @@
 
 namespace sgs {
 
-// FNV-1a over 64-bit words, the last filled up with zeros: tells whether two runs were fed the same
-// bytes.
-std::uint64_t fnv1a64(const std::vector<std::byte>& bytes);
-// Of a file's.
-std::uint64_t fnv1a64_of_file(const std::string& path);
+// XXH64 with seed 0, as `xxhsum` prints it: tells whether two runs were fed the same bytes.
+std::uint64_t xxh64(const std::vector<std::byte>& bytes);
+// Of a text's.
+std::uint64_t xxh64_of_text(const std::string& text);
+// Of a file's; of none where it cannot be read.
+std::uint64_t xxh64_of_file(const std::string& path);
 // Of those among these that are files, in this order, as a text.
 std::string digest_of_files(const std::vector<std::string>& paths);
 

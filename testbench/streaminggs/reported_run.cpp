@@ -107,8 +107,11 @@ void add_facts(const JsonPlace& report, ReportedView& view) {
          fmt::format("{} {}", plain(camera.at("fx_px")), plain(camera.at("fy_px"))));
   }
   fact("size, px", fmt::format("{}x{}", plain(frame.at("width_px")), plain(frame.at("height_px"))));
-  fact("technology", fmt::format("{} ({})", plain(provenance.at("technology")),
-                                 plain(provenance.at("technology_fnv1a64"))));
+  fact("technology", plain(provenance.at("technology")));
+  // Reports of earlier programs have a hash of another kind.
+  if (provenance.has("technology_xxh64")) {
+    fact("technology's hash", plain(provenance.at("technology_xxh64")));
+  }
   fact("program",
        fmt::format("{} {}", plain(provenance.at("version")), plain(provenance.at("commit"))));
 }

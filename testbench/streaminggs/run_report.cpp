@@ -50,10 +50,10 @@ std::shared_ptr<const Json> RunReport::of_view(const ViewResult& view,
   out["host"]["peak_rss_bytes"] = peak_rss_bytes();
   out["provenance"] = {{"version", version()},
                        {"commit", commit()},
-                       {"memory_image_fnv1a64", fmt::format("{:016x}", view.image_hash)},
+                       {"memory_image_xxh64", fmt::format("{:016x}", view.image_hash)},
                        {"technology", facts_.technology},
                        {"technology_path", facts_.technology_path},
-                       {"technology_fnv1a64", fmt::format("{:016x}", facts_.technology_hash)},
+                       {"technology_xxh64", fmt::format("{:016x}", facts_.technology_hash)},
                        {"seed", facts_.seed},
                        {"configuration", facts_.configuration},
                        {"command", facts_.command}};

@@ -194,7 +194,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   setting.options.timeline_groups = range_of(arguments.timeline_groups);
   setting.facts.technology = setting.technology.name;
   setting.facts.technology_path = setting.technology.path;
-  setting.facts.technology_hash = fnv1a64_of_file(setting.technology.path);
+  setting.facts.technology_hash = xxh64_of_file(setting.technology.path);
   setting.facts.seed = arguments.run.build.stalls.seed;
   setting.facts.configuration = arguments.config.in_words();
   setting.facts.command = arguments.command;

@@ -70,7 +70,7 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
                          arguments.all.view,
                          arguments.all.size,
                          arguments.config,
-                         fnv1a64_of_file(arguments.technology),
+                         xxh64_of_file(arguments.technology),
                          arguments.estimate ? Fidelity::kEstimate : Fidelity::kAccurate};
   if (defaults.scenes.empty() && !arguments.axes.empty()) {
     throw InputError(fmt::format("SCENE: got none, expected {}", kSceneForms));

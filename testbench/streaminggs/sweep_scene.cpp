@@ -34,14 +34,13 @@ std::string text_of(const Camera& camera) {
 SweepScene::SweepScene(SceneArguments arguments) : arguments_(std::move(arguments)) {
   if (is_builtin_scene(arguments_.scene)) {
     // Of the text, and of the program, which stands in every key.
-    const auto* const text = reinterpret_cast<const std::byte*>(arguments_.scene.data());
-    digest_ = fnv1a64({text, text + arguments_.scene.size()});
+    digest_ = xxh64_of_text(arguments_.scene);
     cloud();
     return;
   }
   packed_ = arguments_.load_packed();
   if (!packed_) arguments_.check_file();
-  digest_ = fnv1a64_of_file(arguments_.scene);
+  digest_ = xxh64_of_file(arguments_.scene);
 }
 
 const ActivatedCloud& SweepScene::cloud() {

@@ -11,13 +11,6 @@
 namespace sgs {
 namespace {
 
-// FNV-1a over bytes: every bit of a byte reaches all of the higher ones, and soon all.
-std::string digest_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return fmt::format("{:016x}", hash);
-}
-
 PointInWords in_words(const SceneArguments& scene, const ConfigSource& config) {
   return {scene.scene, scene.cameras_path, scene.view, scene.size, config.config, config.overrides};
 }
@@ -31,7 +24,7 @@ const std::string& either(const std::string& said, const std::string& otherwise)
 SweepPlan::SweepPlan(SweepDefaults defaults, const Kinds& kinds)
     : defaults_(std::move(defaults)),
       kinds_(kinds),
-      program_hash_(fnv1a64_of_file("/proc/self/exe")) {}
+      program_hash_(xxh64_of_file("/proc/self/exe")) {}
 
 SweepScene& SweepPlan::scene_of(const SceneArguments& arguments) {
   std::unique_ptr<SweepScene>& scene = scenes_[arguments.scene + "\n" + arguments.cameras_path];
@@ -90,14 +83,14 @@ void SweepPlan::resolve_and_name(SweepTask& task) const {
     const std::string text = to_json(config);
     const std::string golden = estimate ? config.design->work_key() : config.design->golden_key();
     task.picture = golden.empty() ? text : fmt::format("{} {}", config.machine(), golden);
-    all += fmt::format("{:016x} {}\n{}", fnv1a64_of_file(config.dram.memspec), task.storage, text);
+    all += fmt::format("{:016x} {}\n{}", xxh64_of_file(config.dram.memspec), task.storage, text);
     for (const AutoChoice& choice : config.chosen) all += "\n" + choice.key;
   } catch (const InputError& error) {
     task.refused = error.what();
     all += task.refused + "\n" + task.config.config;
     for (const std::string& assignment : task.config.overrides) all += "\n" + assignment;
   }
-  task.key = digest_of(all);
+  task.key = fmt::format("{:016x}", xxh64_of_text(all));
 }
 
 std::vector<SweepTask> SweepPlan::tasks_of(const SweepPoint& point) {

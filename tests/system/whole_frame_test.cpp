@@ -204,7 +204,7 @@ TEST_CASE("whole frame: the report names the camera and the table that prices we
     CHECK(view["camera"]["img_name"] == "seventy-seven");
     CHECK(view["provenance"]["technology"] == "32 nm");
     CHECK(view["provenance"]["technology_path"] == scratch.path("table.json"));
-    return view["provenance"]["technology_fnv1a64"].get<std::string>();
+    return view["provenance"]["technology_xxh64"].get<std::string>();
   };
   const std::string shipped = bytes_of(SGS_TECHNOLOGY);
   CHECK(provenance_with(shipped) == provenance_with(shipped));

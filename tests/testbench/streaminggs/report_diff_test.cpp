@@ -51,7 +51,7 @@ json view_of(int number) {
         {"bands", {{"fine_j", {}}, {"dram_j", {}}, {"total_j", {}}}}}},
       {"area_mm2", {{"fine", 2.0}, {"total", 2.0}, {"bands", {{"fine", {}}, {"total", {}}}}}},
       {"provenance",
-       {{"technology", "32 nm"}, {"technology_fnv1a64", "0"}, {"version", "1"}, {"commit", "c"}}},
+       {{"technology", "32 nm"}, {"technology_xxh64", "0"}, {"version", "1"}, {"commit", "c"}}},
       {"chosen", json::array({{{"key", "hfus"}, {"value", 2}}})},
       {"config", {{"hfus", 2}, {"dram", {{"channels", 4}}}}}};
 }
@@ -173,7 +173,8 @@ TEST_CASE("diff: what is not of the same is said, by table") {
            {"/scene/gaussians", 6, "scene: s, 5 Gaussians, SH degree 3, 0 dropped | s, 6 Gaus"},
            {"/camera/img_name", "side", "camera: 7 (front) | 7 (side)"},
            {"/frame/width_px", 65, "size, px: 64x36 | 65x36"},
-           {"/provenance/technology_fnv1a64", "1", "technology: 32 nm (0) | 32 nm (1)"},
+           {"/provenance/technology", "22 nm", "technology: 32 nm | 22 nm"},
+           {"/provenance/technology_xxh64", "1", "technology's hash: 0 | 1"},
            {"/provenance/commit", "d", "program: 1 c | 1 d"}}) {
     const ScratchFolder scratch;
     json changed = view_of(0);
