@@ -96,10 +96,15 @@ std::vector<std::string> shipped_memspecs() {
   return found;
 }
 
-Memspec load_memspec(const std::string& name_or_path) {
+std::string memspec_path(const std::string& name_or_path) {
   const std::string shipped = data_file("memspecs") + "/" + name_or_path + ".json";
   std::error_code missing;
-  const std::string path = fs::exists(shipped, missing) ? shipped : name_or_path;
+  return fs::exists(shipped, missing) ? shipped : name_or_path;
+}
+
+Memspec load_memspec(const std::string& name_or_path) {
+  const std::string path = memspec_path(name_or_path);
+  std::error_code missing;
   if (!fs::exists(path, missing))
     throw InputError(fmt::format("dram.memspec: got '{}', expected a JSON file or one of {}",
                                  name_or_path, join(shipped_memspecs())));

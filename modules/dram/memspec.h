@@ -85,6 +85,9 @@ struct Memspec {
 
 void visit(ConfigVisitor& v, Memspec& memspec);
 
+// The file that the name of a shipped memspec, or else a path, stands for; it may not be there.
+std::string memspec_path(const std::string& name_or_path);
+
 // Reads a memspec: the name of a shipped one ("lpddr3_1600_4gb") or the path of a JSON file.
 // InputError: not there, not readable as strict JSON, a number without source, or impossible
 // (see check_memspec).

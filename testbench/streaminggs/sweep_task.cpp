@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "algorithm/input_error.h"
+#include "modules/dram/memspec.h"
 #include "testbench/streaminggs/provenance.h"
 
 namespace sgs {
@@ -83,7 +84,8 @@ void SweepPlan::resolve_and_name(SweepTask& task) const {
     const std::string text = to_json(config);
     const std::string golden = estimate ? config.design->work_key() : config.design->golden_key();
     task.picture = golden.empty() ? text : fmt::format("{} {}", config.machine(), golden);
-    all += fmt::format("{:016x} {}\n{}", xxh64_of_file(config.dram.memspec), task.storage, text);
+    all += fmt::format("{:016x} {}\n{}", xxh64_of_file(memspec_path(config.dram.memspec)),
+                       task.storage, text);
     for (const AutoChoice& choice : config.chosen) all += "\n" + choice.key;
   } catch (const InputError& error) {
     task.refused = error.what();
