@@ -61,17 +61,40 @@ def point_of(row: dict[str, str], across: str, up: str) -> Point | None:
     return x / unit_of(across)[1], y / unit_of(up)[1]
 
 
+def is_estimate(row: dict[str, str]) -> bool:
+    return row.get("fidelity") == "estimate"
+
+
+def draw_reckoned(axes: Axes, points: list[Point], style: dict, label: str | None) -> None:
+    """Hollow and dashed, which markers of a line cannot be."""
+    axes.scatter(
+        *zip(*points),
+        label=label,
+        marker=style["marker"],
+        facecolors="white",
+        edgecolors=style["color"],
+        linestyles=[(0, (1.5, 1))],
+        s=25,
+        zorder=2,
+    )
+
+
 def draw_points(axes: Axes, data: Data, across: str, up: str) -> None:
-    """A marker for each unit that binds, filled on the front."""
+    """A marker for each unit that binds, filled on the front; dashed where it was reckoned."""
     for at, binding in enumerate(data.different("binding")):
         style = line_style(at) | {"linestyle": "none"}
         label: str | None = f"{binding} binds"
+        simulated = [row for row in data.where(binding=binding) if not is_estimate(row)]
         for best, face in (("yes", style["color"]), ("", "white")):
-            rows = [row for row in data.where(binding=binding) if row["front"] == best]
+            rows = [row for row in simulated if row["front"] == best]
             points = [p for row in rows if (p := point_of(row, across, up))]
             if points:
                 axes.plot(*zip(*points), label=label, **style, markerfacecolor=face)
                 label = None
+        reckoned = [row for row in data.where(binding=binding) if is_estimate(row)]
+        points = [p for row in reckoned if (p := point_of(row, across, up))]
+        if points:
+            draw_reckoned(axes, points, style, label)
 
 
 def draw_required(axes: Axes, name: str) -> None:
@@ -135,11 +158,16 @@ def exploration(results: Results) -> Made:
         axes.set_title(f"{measured} against {unit_of(across)[0].partition(',')[0]}")
         draw_beside(axes, data, across, up)
     legend_above(figure, all_axes[0], columns=3 if wide else 5)
+    dashes = (
+        "; dashed: reckoned (--estimate), not simulated"
+        if any(map(is_estimate, data.rows))
+        else ""
+    )
     held = "; hatched: what does not hold" if any(map(REQUIRED.fullmatch, ups)) else ""
     rings = "; in rings: what was given beside" if any(r.get("beside") for r in data.rows) else ""
     return figure, (
         "What was explored: filled where no other point that holds is better in everything that "
-        f"was asked for{held}{rings}. From {data.made}"
+        f"was asked for{dashes}{held}{rings}. From {data.made}"
     )
 
 

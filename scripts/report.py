@@ -30,7 +30,7 @@ import report_view
 import run_arguments
 import tables
 from report_charts import data_uri, escaped, ramp_css
-from report_folder import Run, Table, ViewFiles, find_runs, find_tables
+from report_folder import Run, Table, ViewFiles, find_runs, find_tables, is_estimate
 from sweep_results import read_sweep
 
 ASSETS = pathlib.Path(__file__).resolve().parent
@@ -124,6 +124,7 @@ def heading(runs: Sequence[Run], folder: pathlib.Path) -> tuple[str, str]:
     frames = [v["frame"] for v in views]
     sizes = dict.fromkeys(f"{f['width_px']} × {f['height_px']} px" for f in frames)
     words = (
+        *(("estimate",) if any(map(is_estimate, views)) else ()),
         f"{view['scene']['gaussians']:,} Gaussians",
         f"SH degree {view['scene']['sh_degree']}",
         ", ".join(sizes),

@@ -64,6 +64,11 @@ def read_json(path: pathlib.Path) -> dict:
     return found
 
 
+def is_estimate(view: dict) -> bool:
+    """Whether it was reckoned in place of simulated."""
+    return view.get("fidelity") == "estimate"
+
+
 def flat(config: dict, path: str = "") -> list[tuple[str, object]]:
     """(key.path, value) of every leaf."""
     found: list[tuple[str, object]] = []

@@ -7,7 +7,7 @@ import report_costs
 import report_pictures
 import report_time
 from report_charts import escaped, number, percent
-from report_folder import ViewFiles, flat
+from report_folder import ViewFiles, flat, is_estimate
 
 
 def quality(view: dict) -> str:
@@ -15,17 +15,23 @@ def quality(view: dict) -> str:
     return "equal" if psnr_db is None else f"{psnr_db:.2f} dB"
 
 
+def of_the_model(view: dict) -> str:
+    """How the picture stands to the streaming renderer's."""
+    if is_estimate(view):
+        return "the model's own picture"
+    return f"{'bit for bit' if view['image']['equals_streaming_renderer'] else 'NOT'} the model's"
+
+
 def key_numbers(view: dict) -> str:
     frame, image, dram, energy = view["frame"], view["image"], view["dram"], view["energy"]
     area = view["area_mm2"]
     joules, squares = energy["bands"]["total_j"], area["bands"]["total"]
-    is_model = image["equals_streaming_renderer"]
     cards = (
         ("frames a second", number(frame["fps"]), f"{number(frame['cycles'])} cycles"),
         (
             "PSNR",
             quality(view),
-            f"SSIM {image['ssim']:.4f}; {'bit for bit' if is_model else 'NOT'} the model's",
+            f"SSIM {image['ssim']:.4f}; {of_the_model(view)}",
         ),
         (
             "DRAM",
@@ -59,6 +65,14 @@ def key_numbers(view: dict) -> str:
         )
         + "</dl>"
     )
+
+
+def fidelity(view: dict) -> str:
+    """Of a simulation there is nothing to say."""
+    if not is_estimate(view):
+        return ""
+    text = "The machine was not simulated: cycles, bytes, energy and area are reckoned."
+    return f"<p class=note><b>An estimate.</b> {text}</p>"
 
 
 def binding(view: dict) -> str:
@@ -123,4 +137,4 @@ def panel(files: ViewFiles, uris: dict[str, str], name: str, remark: str) -> str
         f'<section class="{size}"><h3>{escaped(title)}</h3>{text}</section>'
         for title, text, size in sections
     )
-    return key_numbers(view) + binding(view) + f"<div class=grid>{body}</div>"
+    return key_numbers(view) + fidelity(view) + binding(view) + f"<div class=grid>{body}</div>"

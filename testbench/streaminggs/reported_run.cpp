@@ -99,7 +99,8 @@ void add_facts(const JsonPlace& report, ReportedView& view) {
                             plain(scene.at("gaussians")), plain(scene.at("sh_degree")),
                             plain(scene.at("dropped_invalid"))));
   fact("camera", fmt::format("{} ({})", plain(camera.at("id")), plain(camera.at("img_name"))));
-  // Reports of earlier programs do not say it.
+  // Reports of earlier programs do not say what follows.
+  fact("fidelity", report.has("fidelity") ? plain(report.at("fidelity")) : "accurate");
   if (camera.has("position")) {
     fact("camera stands at", plain(camera.at("position")));
     fact("camera is turned", plain(camera.at("rotation")));

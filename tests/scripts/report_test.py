@@ -171,6 +171,21 @@ class Page(WithFrames):
                 pictures = (folder / "view_0").glob("*.png")
                 self.assertEqual(page.count('src="data:image/png'), len(list(pictures)))
 
+    def test_an_estimate_is_called_one(self):
+        for config in ("exact", "paper"):
+            self.simulated(config, f"both/{config}")
+        report_file = self.folder / "both" / "exact" / "report.json"
+        whole = json.loads(report_file.read_text())
+        view = whole["views"][0]
+        view["fidelity"], view["image"]["equals_streaming_renderer"] = "estimate", None
+        report_file.write_text(json.dumps(whole))
+        page = self.page(self.folder / "both" / "exact")
+        for text in ("<p>estimate · ", "<b>An estimate.</b>", "; the model&#x27;s own picture"):
+            self.assertHolds(page, text)
+        page = self.page(self.folder / "both")
+        for text in ("<td>estimate</td>", "<td>accurate</td>"):
+            self.assertHolds(page, text)
+
     def test_several_runs_and_a_table_are_compared(self):
         for config in ("exact", "paper"):
             self.simulated(config, f"both/{config}")

@@ -171,6 +171,7 @@ TEST_CASE("diff: what is not of the same is said, by table") {
   };
   for (const Row& row : std::vector<Row>{
            {"/scene/gaussians", 6, "scene: s, 5 Gaussians, SH degree 3, 0 dropped | s, 6 Gaus"},
+           {"/fidelity", "estimate", "fidelity: accurate | estimate"},
            {"/camera/img_name", "side", "camera: 7 (front) | 7 (side)"},
            {"/frame/width_px", 65, "size, px: 64x36 | 65x36"},
            {"/provenance/technology", "22 nm", "technology: 32 nm | 22 nm"},
