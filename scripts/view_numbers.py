@@ -16,7 +16,10 @@ def view_numbers(binary: pathlib.Path, scene: Scene, text: str) -> list[int]:
     if text != "all":
         if not all(number.isdecimal() for number in text.split(",")):
             raise ValueError(f"--view: '{text}', expected numbers as in 0,2, or all")
-        return [int(number) for number in text.split(",")]
+        numbers = [int(number) for number in text.split(",")]
+        if len(set(numbers)) < len(numbers):
+            raise ValueError(f"--view: '{text}', expected each number once")
+        return numbers
     if scene.cameras:
         return list(range(len(cameras_of(pathlib.Path(scene.cameras)))))
     done = call(binary, [scene.spec], "info")

@@ -21,7 +21,7 @@ import tables
 import view_numbers
 import work_precision
 from machine_axes import Axis
-from scenes import find_scene
+from scenes import find_scene, find_scenes
 
 
 class Pareto(unittest.TestCase):
@@ -180,6 +180,12 @@ class Configurations(unittest.TestCase):
     def test_unknown_scene_is_refused_with_what_there_is(self):
         with self.assertRaisesRegex(ValueError, "nowhere: no scene; expected .*builtin:object"):
             find_scene("nowhere")
+
+    def test_a_scene_twice_is_refused(self):
+        text = "builtin:object?n=1"
+        for texts in ([text, text], [text, "builtin:outdoor", text]):
+            with self.assertRaisesRegex(ValueError, "n=1: got it twice, expected each scene once"):
+                find_scenes(texts)
 
 
 class Stability(unittest.TestCase):
