@@ -40,6 +40,14 @@ bool lock(int file) {
   return false;
 }
 
+// Whether the path still names what was opened.
+bool is_at(int file, const std::string& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
 bool may_be_torn(const std::string& line) {
   const std::size_t common = std::min(line.size(), kBegin.size());
   return line.compare(0, common, kBegin, 0, common) == 0;
@@ -63,6 +71,15 @@ SweepResults::~SweepResults() {
 }
 
 void SweepResults::open() {
+  open_and_lock();
+  // A sweep that ended while this one waited for it has removed the file if it was empty.
+  while (!is_at(file_, path_)) {
+    ::close(file_);
+    open_and_lock();
+  }
+}
+
+void SweepResults::open_and_lock() {
   const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);

@@ -40,6 +40,7 @@ class SweepResults {
     Facts facts;
   };
   void open();
+  void open_and_lock();
   void read();
   void remember(const std::string& line, std::uint64_t begin, const std::string& place);
 
