@@ -5,10 +5,11 @@
   report.py out/builtin_object
   report.py out/sweep.jsonl
 
-A folder is what `streaminggs simulate --out` wrote, with one view or several; or a folder that
-holds several of these at most three folders below, and the CSV tables that scripts wrote there
-(explore.csv): the page then begins with all of them in one table and a diagram. Pictures are
-halved until the page is small enough, then left out from the last view on, and the page says so.
+A folder is what `streaminggs simulate --out` wrote, with one view or several, or the frames of a
+--path; or a folder that holds several runs at most three folders below, and the CSV tables that
+scripts wrote there (explore.csv): the page then begins with all of them in one table and a diagram.
+Pictures are halved until the page is small enough, then left out from the last view on, and the
+page says so.
 
 A file is what `streaminggs sweep --out` wrote, or with fewer keys of each configuration its --csv:
 of each scene and view all points in a diagram and a table, with the front, and of a point that is
@@ -30,7 +31,16 @@ import report_view
 import run_arguments
 import tables
 from report_charts import data_uri, escaped, ramp_css
-from report_folder import Run, Table, ViewFiles, find_runs, find_tables, is_estimate
+from report_folder import (
+    PATH,
+    Run,
+    Table,
+    ViewFiles,
+    find_runs,
+    find_tables,
+    is_estimate,
+    read_path,
+)
 from sweep_results import read_sweep
 
 ASSETS = pathlib.Path(__file__).resolve().parent
@@ -115,8 +125,28 @@ def fitted(panels: Sequence[Panel], room: int) -> list[str]:
     return texts
 
 
-def heading(runs: Sequence[Run], folder: pathlib.Path) -> tuple[str, str]:
+def heading_of_path(path: dict) -> tuple[str, str]:
+    """Of the frames of `simulate --path`."""
+    summary = path["summary"]
+    words = (
+        *(("estimates",) if is_estimate(path) else ()),
+        f"{summary['frames']} frames along {path['path']['name']}",
+        f"frames a second: worst {summary['worst_fps']:.0f} (frame {summary['worst_frame']}), "
+        f"p99 {summary['p99_fps']:.0f}, median {summary['median_fps']:.0f}",
+        f"{summary['late_frames']} late at {summary['frame_rate']:g} a second",
+        f"{summary['energy_a_second_j']:.3g} J a second",
+        f"machine {path['config']['machine']}",
+        f"commit {path['provenance']['commit']}",
+    )
+    return path["scene"]["name"], " · ".join(words)
+
+
+def heading(runs: Sequence[Run], found: Sequence[Table], folder: pathlib.Path) -> tuple[str, str]:
     """Title and the line below it."""
+    if not runs and (folder / PATH).exists():
+        return heading_of_path(read_path(folder))
+    if not runs:
+        return folder.resolve().name, f"tables: {', '.join(table.name for table in found)}"
     views = [files.report for run in runs for files in run.views]
     if len(runs) != 1:
         return folder.resolve().name, f"{len(runs)} runs, {len(views)} views"
@@ -139,14 +169,14 @@ def heading(runs: Sequence[Run], folder: pathlib.Path) -> tuple[str, str]:
 
 def page_of_folder(folder: pathlib.Path) -> str:
     """Raises ValueError where there is nothing to show."""
-    runs = list(find_runs(folder))
-    panels = panels_of(runs, find_tables(folder))
+    runs, found = list(find_runs(folder)), find_tables(folder)
+    panels = panels_of(runs, found)
     if not panels:
         raise ValueError(
             f"{folder}: no results, expected report.json of `streaminggs simulate`, folders with "
             "one, or CSV tables"
         )
-    return page(*heading(runs, folder), panels)
+    return page(*heading(runs, found, folder), panels)
 
 
 def page_of_sweep(results: pathlib.Path) -> str:

@@ -9,6 +9,7 @@ import pathlib
 from collections.abc import Iterator
 
 REPORT = "report.json"
+PATH = "path.json"
 DEEPEST = 3  # folders below the one that is named: out/SCENE/CONFIG and one more
 # Pictures of a view by file name: what they show.
 PICTURES = {
@@ -100,6 +101,15 @@ def view_files(report: dict, folder: pathlib.Path) -> ViewFiles:
         if (folder / name).exists()
     }
     return ViewFiles(report, found, read_groups(folder / "groups.csv"))
+
+
+def read_path(folder: pathlib.Path) -> dict:
+    """What `simulate --path` says of all frames. Raises ValueError."""
+    report = read_json(folder / PATH)
+    for key in ("summary", "path", "scene", "config", "provenance"):
+        if key not in report:
+            raise ValueError(f"{folder / PATH}: no '{key}', expected the report of a path")
+    return report
 
 
 def read_run(folder: pathlib.Path, name: str) -> Run | None:

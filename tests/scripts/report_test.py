@@ -204,6 +204,18 @@ class Page(WithFrames):
         self.assertFalse("<div role=tablist" in alone)
         self.assertEqual([run.name for run in find_runs(self.folder / "both")], ["exact", "paper"])
 
+    def test_frames_of_a_path(self):
+        folder = self.folder / "path"
+        words = ["builtin:object?n=100", "--size", "32x18", "--path", "builtin:path"]
+        words += ["--frames", "2", "--out", str(folder)]
+        done = simulations.call(pathlib.Path(COMMAND), words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = self.page(folder)
+        summary = json.loads((folder / "path.json").read_text())["summary"]
+        self.assertHolds(page, f"worst {summary['worst_fps']:.0f} (frame {summary['worst_frame']})")
+        self.assertHolds(page, "2 frames along the turntable of builtin:object?n=100")
+        self.assertHolds(page, "path.csv")
+
     def test_what_a_report_says_is_text(self):
         folder = self.simulated("exact", "hostile")
         report_file = folder / "report.json"
