@@ -40,12 +40,12 @@ FITTED = dict(assignment.split("=") for assignment in simulations.SRAM_AS_NEEDED
 
 
 def run(
-    scene: str,
+    scene: str | pathlib.Path,
     *,
-    cameras: str = "",
+    cameras: str | pathlib.Path = "",
     view: str | int = 0,
     size: str = "",
-    config: str = "exact",
+    config: str | pathlib.Path = "exact",
     settings: Settings | None = None,
     out: str | pathlib.Path | None = None,
     program: str | pathlib.Path = simulations.BINARY,
@@ -59,8 +59,11 @@ def run(
     Raises ValueError for what the command refuses, Failure where a simulation ends badly or a frame
     is not the model's.
     """
-    found = Scene(pathlib.Path(scene).stem, scene, cameras) if cameras else find_scene(scene)
-    job = simulations.Run(found, str(view), size, config, assignments(settings or {}))
+    if cameras:
+        found = Scene(pathlib.Path(scene).stem, str(scene), str(cameras))
+    else:
+        found = find_scene(str(scene))
+    job = simulations.Run(found, str(view), size, str(config), assignments(settings or {}))
     if out is None:
         outcome = simulations.simulate(pathlib.Path(program), job)
     else:
@@ -83,11 +86,11 @@ def grid(axes: Mapping[str, Sequence[object]]) -> list[dict[str, object]]:
 
 def sweep(
     points: Sequence[Settings],
-    scenes: Sequence[str],
+    scenes: Sequence[str | pathlib.Path],
     views: str | int = 0,
     *,
     size: str = "",
-    config: str = "exact",
+    config: str | pathlib.Path = "exact",
     settings: Settings | None = None,
     jobs: int = os.cpu_count() or 1,
     results: str | pathlib.Path | None = None,
@@ -104,10 +107,12 @@ def sweep(
 
     Raises ValueError for arguments that are none, Failure where the command itself fails.
     """
+    if jobs < 1:
+        raise ValueError(f"jobs: {jobs}, expected at least 1")
     binary = pathlib.Path(program)
-    found = [find_scene(scene) for scene in scenes]
+    found = [find_scene(str(scene)) for scene in scenes]
     cases = [
-        (point, simulations.Run(scene, str(view), size, config, base + assignments(point)))
+        (point, simulations.Run(scene, str(view), size, str(config), base + assignments(point)))
         for base in [assignments(settings or {})]
         for scene in found
         for point in points
@@ -133,6 +138,8 @@ def swept(point: Settings, outcome: simulations.Outcome) -> dict[str, object]:
 def load(folder: str | pathlib.Path) -> list[dict]:
     """The reports of all views of a result folder, or of those at most three folders below. Raises
     ValueError where there are none."""
+    if not pathlib.Path(folder).is_dir():
+        raise ValueError(f"{folder}: no folder, expected one with results")
     reports = [files.report for run_of in find_runs(pathlib.Path(folder)) for files in run_of.views]
     if not reports:
         raise ValueError(f"{folder}: no report.json of `streaminggs simulate` in it or below")

@@ -33,8 +33,10 @@ class Reports(unittest.TestCase):
         self.assertEqual(streaminggs.diff(before, before), [])
 
     def test_an_empty_folder_is_refused(self):
-        with self.assertRaisesRegex(ValueError, "no report.json"):
-            streaminggs.load(pathlib.Path(__file__).parent)
+        here = pathlib.Path(__file__).parent
+        for folder, said in ((here, "no report.json"), ("nope", "nope: no folder")):
+            with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                streaminggs.load(folder)
 
 
 @unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
@@ -69,17 +71,19 @@ class Running(InFolder):
                 self.run_one(**more)
 
     def sweep(self, points, **more):
-        scene = [str(self.scene)]
+        more = {"size": "64x36", "program": COMMAND, "jobs": 2, **more}
         with mock.patch.object(streaminggs, "frame", list):
-            return streaminggs.sweep(points, scene, size="64x36", program=COMMAND, jobs=2, **more)
+            return streaminggs.sweep(points, [self.scene], **more)
 
     def test_a_sweep_is_as_single_runs(self):
         axes = {"hfus": [2, 4], "rendering.ellipse_test": [True, False]}
         points = streaminggs.grid(axes)
-        results = self.folder / "sweep.jsonl"
-        rows = self.sweep(points, settings=streaminggs.FITTED, results=results)
+        results, config = self.folder / "sweep.jsonl", self.folder / "mine.json"
+        config.write_text('{"machine": "exact"}')
+        more = {"settings": streaminggs.FITTED, "config": config}
+        rows = self.sweep(points, results=results, **more)
         for point, row in zip(points, rows, strict=True):
-            (view,) = self.run_one(settings={**streaminggs.FITTED, **point})
+            (view,) = self.run_one(settings={**streaminggs.FITTED, **point}, config=config)
             told = streaminggs.numbers(view)
             for path in ("frame.cycles", "dram.bytes", "area_mm2.total", "energy.total_j"):
                 self.assertEqual(row[path], told[path])
@@ -87,7 +91,7 @@ class Running(InFolder):
             self.assertEqual((row["scene"], row["view"], row["status"]), ("truck", 0, "done"))
         # What the file holds is not simulated again.
         kept = results.read_text()
-        again = self.sweep(points, settings=streaminggs.FITTED, results=results)
+        again = self.sweep(points, results=results, **more)
         self.assertEqual((again, results.read_text()), (rows, kept))
 
     def test_what_a_sweep_is_refused(self):
@@ -100,8 +104,13 @@ class Running(InFolder):
                 good, bad = self.sweep([{"hfus": 4}, point], **more)
                 self.assertEqual((good["status"], bad["status"]), (other, "refused"))
                 self.assertIn(said, bad["reason"])
-        with self.assertRaisesRegex(ValueError, "--view: 'x', expected numbers"):
-            self.sweep([{"hfus": 2}], views="x")
+        for more, said in (
+            ({"views": "x"}, "--view: 'x', expected numbers"),
+            ({"views": "0,0"}, "--view: '0,0', expected each number once"),
+            ({"jobs": 0}, "jobs: 0, expected at least 1"),
+        ):
+            with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                self.sweep([{"hfus": 2}], **more)
 
     @unittest.skipUnless(importlib.util.find_spec("pandas"), "pandas is not installed")
     def test_a_data_frame(self):
