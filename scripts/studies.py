@@ -56,7 +56,10 @@ def locked(url: str) -> IO | None:
     ValueError."""
     if not url.startswith("sqlite:"):
         return None
-    lock = open(url.removeprefix("sqlite:///") + ".lock", "w")
+    try:
+        lock = open(url.removeprefix("sqlite:///") + ".lock", "w")
+    except OSError as error:
+        raise ValueError(f"--storage: {url}: cannot be written to: {error.strerror}") from error
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:

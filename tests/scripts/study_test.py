@@ -221,6 +221,7 @@ class Studies(InFolder):
             (("--study", "a", "--storage", db, "--axis", "x=1,2"), "--study a: there is one of"),
             (("--study", "a", "--storage", db, "--size", "64x36"), "--study a: there is one of"),
             (("--study", "b", "--storage", "nowhere:///x"), "--storage: nowhere:///x: "),
+            (("--study", "b", "--storage", "sqlite:////no/x"), "--storage: sqlite:////no/x: can"),
             (("--study", "b", "--lost-after", "1"), "--lost-after: 1, expected at least 4"),
         ):
             with self.subTest(more):
