@@ -69,24 +69,24 @@ class Exploration:
         ]
 
     def numbers(self, judged: Judged) -> list[object]:
-        """Objectives, then what is required; none of those not drawn to the end, which are not what
-        the others are."""
-        objectives = [
-            whole(-cost if o.large else cost) for o, cost in zip(self.task.objectives, judged.costs)
+        """Objectives, then what else is shown, then what is required; of what was not drawn to the
+        end only the last, since the others are not what they are elsewhere."""
+        costs = zip(self.task.objectives, judged.costs)
+        measured = [(o.measure, -cost if o.large else cost) for o, cost in costs]
+        measured += zip(self.task.shown, judged.shown)
+        numbers = [
+            "" if judged.dropped and not measure.is_of_the_machine() else whole(value)
+            for measure, value in measured
         ]
-        if judged.dropped:
-            objectives = [
-                value if o.measure.is_of_the_machine() else ""
-                for o, value in zip(self.task.objectives, objectives)
-            ]
-        return [*objectives, *map(whole, judged.values)]
+        return [*numbers, *map(whole, judged.values)]
 
     def head(self) -> tuple[str, ...]:
         objectives = (o.name for o in self.task.objectives)
+        shown = (measure.text for measure in self.task.shown)
         required = (r.name for r in self.task.requirements)
         names = ("beside",) if self.names else ()
         told = ("slowest view", "binding", *self.fidelity("fidelity"), *names, "holds", "front")
-        return (*self.task.keys, *objectives, *required, *told)
+        return (*self.task.keys, *objectives, *shown, *required, *told)
 
     def fidelity(self, cell: str) -> tuple[str, ...]:
         """A column only where there are estimates."""

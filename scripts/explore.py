@@ -23,6 +23,7 @@ pixel group always among them: `group=SHAPE` stands for both of its sides.
   --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the
                largest of what should be small, the smallest of what should be large
   --require    'MEASURE >= NUMBER' or 'MEASURE <= NUMBER'
+  --show       MEASURE,..., further columns, by which nothing is judged
 
 Views that took long are drawn first: a configuration that has lost on one of them is drawn on no
 other. In a search whose objectives any frame tells (area), one that is no better than another that
@@ -66,7 +67,7 @@ from group_shapes import KEYS, NAME, expanded
 from judging import Assignments, Judge, Task
 from machine_areas import SMALL, SMALL_SIZE, start_of
 from machine_axes import ORDERS, Axis
-from measures import Objective, objective, requirement
+from measures import Objective, objective, requirement, shown
 from scenes import Scene, find_scenes
 from search_space import Space, parse_axes, parse_named, read_points
 from simulations import Run, read_config, simulate, sram_as_needed
@@ -141,6 +142,7 @@ def find_task(
         base=expanded((*sram_as_needed(config), *fixed, *arguments.set)),
         objectives=objectives_of(arguments.objectives or default_objectives(config)),
         requirements=tuple(map(requirement, arguments.require)),
+        shown=shown(arguments.show),
         estimated=arguments.estimate,
     )
 
@@ -296,6 +298,9 @@ def main() -> int:
     )
     parser.add_argument(
         "--require", action="append", default=[], metavar="'MEASURE >= NUMBER'", help="to be held"
+    )
+    parser.add_argument(
+        "--show", default="", metavar="MEASURE,...", help="further columns of the tables"
     )
     parser.add_argument(
         "--search", choices=SAMPLERS, help="Optuna's sampler; default: all there is"

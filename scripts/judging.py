@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from group_shapes import NAME as GROUP
 from group_shapes import shape_of
 from machine_areas import SMALL, SMALL_SIZE
-from measures import Objective, Requirement, value_at
+from measures import Measure, Objective, Requirement, value_at
 from scenes import Scene
 from simulations import Outcome, Run
 
@@ -22,14 +22,16 @@ Simulate = Callable[[Run], Outcome]  # called from several threads
 @dataclasses.dataclass(frozen=True)
 class Judged:
     """costs: of the objectives, each to be small; values: of the measures that the requirements are
-    about, and violations of these, as far as the views that were drawn tell. settings: what was
-    simulated, by key. dropped: why not all views were drawn; refused, failed: what the command
-    said. Nothing but what JSON can hold, since others read it out of a study."""
+    about, and violations of these, as far as the views that were drawn tell; shown: of what else is
+    to be shown. settings: what was simulated, by key. dropped: why not all views were drawn;
+    refused, failed: what the command said. Nothing but what JSON can hold, since others read it out
+    of a study."""
 
     assignments: Assignments
     costs: tuple[float, ...] = ()
     values: tuple[float, ...] = ()
     violations: tuple[float, ...] = ()
+    shown: tuple[float, ...] = ()
     settings: dict[str, object] = dataclasses.field(default_factory=dict)
     drawn: int = 0
     fidelity: str = ""  # of its views: "accurate", or "estimate" where they were reckoned
@@ -61,6 +63,7 @@ class Task:
     base: Assignments
     objectives: tuple[Objective, ...]
     requirements: tuple[Requirement, ...]
+    shown: tuple[Measure, ...] = ()  # that nothing is judged by
     estimated: bool = False
 
     def run(self, scene: Scene, view: int, assignments: Assignments) -> Run:
@@ -120,6 +123,7 @@ class Judge:
             costs=tuple(o.cost(views) for o in self.task.objectives),
             values=tuple(r.measure.of(views) for r in self.task.requirements),
             violations=tuple(r.violation(views) for r in self.task.requirements),
+            shown=tuple(measure.of(views) for measure in self.task.shown),
             settings={key: setting(views[0]["config"], key) for key in self.task.keys},
             drawn=len(views),
             fidelity=views[0].get("fidelity", ""),

@@ -1,5 +1,5 @@
 """Numbers that an exploration reads off the reports of a configuration's views: what it makes small
-or large, and what it requires.
+or large, what it requires and what it shows beside.
 
   MEASURE      PATH or AGGREGATE(PATH)
   AGGREGATE    sum, mean, min, max, or p99: the value that 99 of 100 views are below or at
@@ -144,6 +144,14 @@ def objective(text: str) -> Objective:
         return Objective(measure(rest if colon else text, "min" if large else "max"), large)
     except ValueError as error:
         raise ValueError(f"--objectives: {error}") from error
+
+
+def shown(text: str) -> tuple[Measure, ...]:
+    """Of --show; none of an empty text. Raises ValueError."""
+    try:
+        return tuple(map(measure, text.split(","))) if text else ()
+    except ValueError as error:
+        raise ValueError(f"--show: {error}") from error
 
 
 @dataclasses.dataclass(frozen=True)

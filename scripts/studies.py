@@ -232,5 +232,5 @@ class Study:
 
 def unpacked(document: dict) -> Judged:
     """Of what a trial keeps."""
-    lists = ("assignments", "costs", "values", "violations")
+    lists = ("assignments", "costs", "values", "violations", "shown")
     return Judged(**{k: tuple(v) if k in lists else v for k, v in document.items()})

@@ -222,5 +222,6 @@ def described(work: Work, kept: SweepServer) -> str:
         "base": list(task.base),
         "objectives": [o.name for o in task.objectives],
         "requirements": [r.text for r in task.requirements],
+        "shown": [measure.text for measure in task.shown],
     }
     return json.dumps(facts)

@@ -115,18 +115,19 @@ class Exploring(Explorations):
             finish()
             """
         words = ("--axis", "hfus=1,2,4,8", "--require", "min(fps) >= 3", "--objectives", "mm2")
-        done = self.explore(body, *words, "--view", "0,1")
+        done = self.explore(body, *words, "--view", "0,1", "--show", "cycles,area_mm2.total")
         self.assertEqual(done.returncode, 0)
         self.assertEqual(
-            [(row[0], row[2], row[3], *row[-2:]) for row in self.rows("explore.csv")[1:]],
+            [(row[0], *row[2:6], *row[-2:]) for row in self.rows("explore.csv")[1:]],
             [
-                ("1", "2", "1", "not all views drawn", ""),
-                ("2", "3", "2", "not all views drawn", ""),
-                ("4", "5", "4", "yes", "yes"),
-                ("8", "9", "8", "yes", ""),
+                ("1", "2", "", "2", "1", "not all views drawn", ""),
+                ("2", "3", "", "3", "2", "not all views drawn", ""),
+                ("4", "5", "4", "5", "4", "yes", "yes"),
+                ("8", "9", "2", "9", "8", "yes", ""),
             ],
         )
-        self.assertEqual(self.rows("explore.csv")[0][3], "min(fps) >= 3")
+        columns = ["mm2", "cycles", "area_mm2.total", "min(fps) >= 3"]
+        self.assertEqual(self.rows("explore.csv")[0][2:6], columns)
         self.assertIn("4 configurations, of which 2 hold min(fps) >= 3; 1 of them", done.stdout)
         drawn = sorted(path.name for path in self.folder.glob("drawn*"))
         both = [f"drawn {hfus} {view}" for hfus in (4, 8) for view in (0, 1)]
