@@ -40,16 +40,9 @@ std::uint32_t listed_entries(const GscoreConfig& config) {
                                     cycles_for(tests.depth_cycles, tests.part_interval_cycles));
 }
 
-// Of a record's place, written one a cycle.
-std::uint32_t record_words(const GscoreConfig& config) {
-  return static_cast<std::uint32_t>(
-      cycles_for(record_place_bytes(config.tiles.features), kPortBytes));
-}
-
 // Of records that are written at once: what a transaction takes, at least one.
 std::uint32_t records_at_once(const GscoreConfig& config) {
-  return std::max(
-      1U, config.memory_port.max_transaction_bytes / record_place_bytes(config.tiles.features));
+  return std::max(1U, config.memory_port.max_transaction_bytes / kRecordPlaceBytes);
 }
 
 }  // namespace
@@ -72,7 +65,7 @@ TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& c
               static_cast<std::uint32_t>(test_pipelines(config_).depth_cycles)),
       ends_(config_.lists.tiles),
       lines_(config_.lists.lines, Line{LineBuffer(blocks_.line_bytes)}),
-      records_(std::size_t{records_at_once(config_)} * record_place_bytes(config_.tiles.features)) {
+      records_(std::size_t{records_at_once(config_)} * kRecordPlaceBytes) {
   for (Activity* a : {&test_, &list_}) context.phases.projecting.add(*a);
   SC_THREAD(run_test);
   SC_THREAD(run_list);
@@ -133,26 +126,25 @@ bool TileLister::project(const Pass& pass) {
 }
 
 void TileLister::take(const ListedTile& tile, const Pass& pass) {
-  list_.work(tile.first ? record_words(config_) : 1);
+  list_.work(1);
   ++counters_.pairs;
   if (tile.first) put_record(tile.splat);
-  put_entry(tile.tile - pass.first, {tile.key, record_number_ - 1, tile.bitmap});
+  put_entry(tile.tile - pass.first, {tile.key, record_number_ - 1, tile.bitmap,
+                                     listed_opacity(config_.tiles.features, tile.splat.opacity)});
 }
 
 void TileLister::put_record(const Splat& splat) {
-  const std::uint32_t place = record_place_bytes(config_.tiles.features);
   encode_projected(config_.tiles.features, splat,
-                   records_.data() + std::size_t{waiting_records_} * place);
+                   records_.data() + std::size_t{waiting_records_} * kRecordPlaceBytes);
   ++record_number_;
   ++waiting_records_;
   ++counters_.records;
-  counters_.record_words += record_words(config_);
   if (waiting_records_ == records_at_once(config_)) flush_records();
 }
 
 void TileLister::flush_records() {
   if (waiting_records_ == 0) return;
-  const std::uint32_t bytes = waiting_records_ * record_place_bytes(config_.tiles.features);
+  const std::uint32_t bytes = waiting_records_ * kRecordPlaceBytes;
   start_write(memory, list_, job_.projected.address(record_number_ - waiting_records_),
               records_.data(), bytes, job_.projected.region);
   waiting_records_ = 0;
@@ -234,7 +226,6 @@ void TileLister::hand_out(const Pass& pass) {
 
 SramUses TileLister::sram_uses(const GscoreConfig& c) {
   const BlockFormat blocks = c.blocks();
-  const std::uint32_t place = record_place_bytes(c.tiles.features);
   const std::uint32_t end_bytes = list_end_bytes(blocks, c.pool_blocks());
   return {
       sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {end_bytes, "B"}}, {8 * end_bytes},
@@ -244,8 +235,9 @@ SramUses TileLister::sram_uses(const GscoreConfig& c) {
                {kLineBanks, kLineBanks}),
       sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {kTagBytes, "B"}}, {8 * kTagBytes},
                kOneOfEach),
-      sram_use(kWaitingRecords, kBuffer, {{records_at_once(c), "records"}, {place, "B"}},
-               {8 * kPortBytes}, kOneOfEach),
+      sram_use(kWaitingRecords, kBuffer,
+               {{records_at_once(c), "records"}, {kRecordPlaceBytes, "B"}}, {8 * kRecordPlaceBytes},
+               kOneOfEach),
       fifo_use<Pass>(kTestPasses, kBuffer, 1, "passes"),
       fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c), "tiles"),
       outstanding_table(kBuffer, c.memory_port),
@@ -280,7 +272,7 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.accesses(kEnds, counters_.table_reads, counters_.table_writes);
   sheet.accesses(kLines, counters_.line_reads, counters_.line_writes);
   sheet.accesses(kTags, counters_.line_looks, counters_.line_changes);
-  sheet.accesses(kWaitingRecords, counters_.record_words, counters_.record_words);
+  sheet.accesses(kWaitingRecords, counters_.records, counters_.records);
   sheet.part("lists", "comparator", kComparators, 1);
   sheet.operations("lists", "comparator", static_cast<double>(kComparators * counters_.pairs));
   // The Gaussian whose tiles are tested; the end of the list that was written last, which may be

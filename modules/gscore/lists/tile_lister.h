@@ -94,7 +94,6 @@ class TileLister : public sc_core::sc_module {
     std::uint64_t blocks = 0;
     std::uint64_t list_max = 0, tiles = 0, tiles_empty = 0;
     std::uint64_t line_reads = 0, line_writes = 0;  // words
-    std::uint64_t record_words = 0;
     std::uint64_t table_reads = 0, table_writes = 0;
     std::uint64_t line_looks = 0, line_changes = 0;
   } counters_;

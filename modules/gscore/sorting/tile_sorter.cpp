@@ -77,7 +77,7 @@ void TileSorter::run_sort() {
       continue;
     }
     sort_.work(1);
-    sorted->push({mark, list.tile, 0, 0}, sort_);
+    sorted->push({mark, list.tile}, sort_);
   }
   sort_.idles();
 }
@@ -140,7 +140,7 @@ void TileSorter::sort_chunk(std::uint32_t tile, std::vector<TileEntry>& entries,
 void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries) {
   for (const TileEntry& entry : entries) {
     sort_.work(1);
-    sorted->push({EntryMark::kEntry, tile, entry.record, entry.bitmap}, sort_);
+    sorted->push({EntryMark::kEntry, tile, entry.record, entry.bitmap, entry.opacity}, sort_);
   }
   counters_.emitted += entries.size();
   counters_.list_reads += entries.size();
