@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "modules/datapath/counter_bits.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 
@@ -13,10 +14,19 @@ constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists",
                      *kTags = "tiles of lines", *kWaitingRecords = "records to write",
                      *kListWrites = "list writes", *kTestPasses = "passes to test",
                      *kListed = "listed tiles";
-constexpr std::uint32_t kTagBytes = 4;  // tile, and what of the line is new
 // Beside the memories: whose line it is, whether line and block are full, whether the pool is; by
 // three subtractions of powers of two of the lines a tile's place among them.
 constexpr std::uint32_t kComparators = 4 + 3;
+
+// Of a line: its tile, what of it is new, and its number in the pool, where it is written when
+// another tile takes its place.
+std::uint32_t tag_bytes(const GscoreConfig& config) {
+  const BlockFormat blocks = config.blocks();
+  const std::uint64_t lines = std::uint64_t{config.pool_blocks()} * blocks.block_lines;
+  const std::uint32_t bits = counter_bits(config.lists.tiles) +
+                             2 * counter_bits(blocks.line_entries()) + counter_bits(lines - 1);
+  return (bits + 7) / 8;
+}
 
 bool has_parts(const GscoreConfig& config) { return config.tiles.subtiles_across > 1; }
 
@@ -233,7 +243,7 @@ SramUses TileLister::sram_uses(const GscoreConfig& c) {
       sram_use(kLines, kBuffer, {{c.lists.lines, "lines"}, {blocks.line_bytes, "B"}},
                {8 * kLineWordBytes, SramPorts::kReadAndWrite, kLineBanks},
                {kLineBanks, kLineBanks}),
-      sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {kTagBytes, "B"}}, {8 * kTagBytes},
+      sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {tag_bytes(c), "B"}}, {8 * tag_bytes(c)},
                kOneOfEach),
       sram_use(kWaitingRecords, kBuffer,
                {{records_at_once(c), "records"}, {kRecordPlaceBytes, "B"}}, {8 * kRecordPlaceBytes},
