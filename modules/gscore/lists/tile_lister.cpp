@@ -13,7 +13,10 @@ namespace {
 constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists",
                      *kTags = "tiles of lines", *kWaitingRecords = "records to write",
                      *kListWrites = "list writes", *kTestPasses = "passes to test",
-                     *kListed = "listed tiles";
+                     *kListed = "listed tiles", *kTestedRecords = "records under test",
+                     *kTestedKeys = "keys under test", *kTestedBoxes = "boxes under test";
+// Of a box, its parts along the screen, place and axes along the ellipse, and its limits there.
+constexpr std::uint32_t kTestedBoxBytes = 4 * 2 + 4 * 4 + 4 * 4;
 // Beside the memories: whose line it is, whether line and block are full, whether the pool is; by
 // three subtractions of powers of two of the lines a tile's place among them.
 constexpr std::uint32_t kComparators = 4 + 3;
@@ -50,6 +53,17 @@ std::uint32_t listed_entries(const GscoreConfig& config) {
                                     cycles_for(tests.depth_cycles, tests.part_interval_cycles));
 }
 
+// Gaussians that are kept for their tiles: a turn each in the pipelines, one for each listed tile
+// that waits, the one that is tested and the one that is listed.
+std::uint32_t tested_gaussians(const GscoreConfig& config) {
+  return config.lists.tested_entries +
+         static_cast<std::uint32_t>(test_pipelines(config).depth_cycles) + 2;
+}
+// What of it each of its entries takes: key, what there is of the opacity.
+std::uint32_t tested_key_bytes(const EntryFormat& entry) {
+  return entry.key_bytes() + (entry.opacity_bits() + 7) / 8;
+}
+
 // Of records that are written at once: what a transaction takes, at least one.
 std::uint32_t records_at_once(const GscoreConfig& config) {
   return std::max(1U, config.memory_port.max_transaction_bytes / kRecordPlaceBytes);
@@ -71,6 +85,7 @@ TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& c
       test_("test", context.clock),
       list_("list", context.clock),
       test_passes_("test_passes", context.clock, 1),
+      tested_(tested_gaussians(config_)),
       listed_("listed", context.clock, listed_entries(config_),
               static_cast<std::uint32_t>(test_pipelines(config_).depth_cycles)),
       ends_(config_.lists.tiles),
@@ -138,9 +153,10 @@ bool TileLister::project(const Pass& pass) {
 void TileLister::take(const ListedTile& tile, const Pass& pass) {
   list_.work(1);
   ++counters_.pairs;
-  if (tile.first) put_record(tile.splat);
-  put_entry(tile.tile - pass.first, {tile.key, record_number_ - 1, tile.bitmap,
-                                     listed_opacity(config_.tiles.features, tile.splat.opacity)});
+  const TestedGaussian& of = tested_[tile.gaussian];
+  if (tile.first) put_record(of.splat);
+  put_entry(tile.tile - pass.first, {of.key, record_number_ - 1, tile.bitmap,
+                                     listed_opacity(config_.tiles.features, of.splat.opacity)});
 }
 
 void TileLister::put_record(const Splat& splat) {
@@ -237,7 +253,9 @@ void TileLister::hand_out(const Pass& pass) {
 SramUses TileLister::sram_uses(const GscoreConfig& c) {
   const BlockFormat blocks = c.blocks();
   const std::uint32_t end_bytes = list_end_bytes(blocks, c.pool_blocks());
-  return {
+  const std::uint32_t tested = tested_gaussians(c), key_bytes = tested_key_bytes(c.entries());
+  const std::uint32_t record = record_bytes(c.tiles.features);
+  SramUses uses = {
       sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {end_bytes, "B"}}, {8 * end_bytes},
                kOneOfEach),
       sram_use(kLines, kBuffer, {{c.lists.lines, "lines"}, {blocks.line_bytes, "B"}},
@@ -250,8 +268,17 @@ SramUses TileLister::sram_uses(const GscoreConfig& c) {
                kOneOfEach),
       fifo_use<Pass>(kTestPasses, kBuffer, 1, "passes"),
       fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c), "tiles"),
+      sram_use(kTestedRecords, kBuffer, {{tested, "Gaussians"}, {record, "B"}}, {8 * record},
+               kOneOfEach),
+      sram_use(kTestedKeys, kBuffer, {{tested, "Gaussians"}, {key_bytes, "B"}}, {8 * key_bytes},
+               kOneOfEach),
       outstanding_table(kBuffer, c.memory_port),
       unanswered_writes(kListWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
+  if (has_parts(c)) {
+    uses.push_back(sram_use(kTestedBoxes, kBuffer, {{tested, "Gaussians"}, {kTestedBoxBytes, "B"}},
+                            {8 * kTestedBoxBytes}, kOneOfEach));
+  }
+  return uses;
 }
 
 void TileLister::publish(DataSheet& sheet) {
@@ -283,6 +310,10 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.accesses(kLines, counters_.line_reads, counters_.line_writes);
   sheet.accesses(kTags, counters_.line_looks, counters_.line_changes);
   sheet.accesses(kWaitingRecords, counters_.records, counters_.records);
+  const std::uint64_t tested = counters_.gaussians - counters_.off_pass;
+  sheet.accesses(kTestedRecords, counters_.records, tested);
+  sheet.accesses(kTestedKeys, counters_.pairs, tested);
+  if (part_path_) sheet.accesses(kTestedBoxes, counters_.part_tests, tested);
   sheet.part("lists", "comparator", kComparators, 1);
   sheet.operations("lists", "comparator", static_cast<double>(kComparators * counters_.pairs));
   // The Gaussian whose tiles are tested; the end of the list that was written last, which may be
