@@ -147,8 +147,13 @@ Datapath blend_pipeline(const GscoreConfig& config) {
   return path;
 }
 
+// Of pixels in halves colour and transmittance are widened.
 Datapath drain_pipeline(const GscoreConfig& config) {
   Datapath path = counted_datapath("drain", "rendering", pixel_work(config.framebuffer));
+  constexpr std::uint32_t kOfPixel = 4;
+  if (config.rendering.precision == BlendPrecision::kHalf) {
+    path.part_of("comparator").operations += kOfPixel * kConversionComparisons;
+  }
   path.lanes = path.used_macs;
   path.copies = config.rendering.drain_pixels_per_cycle;
   schedule(path, pixel_steps(config.framebuffer, config.single()), config.single());

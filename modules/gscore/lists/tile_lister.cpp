@@ -324,6 +324,11 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.operations("lists", "register_bit",
                    kTestedBits * static_cast<double>(counters_.gaussians) +
                        end_bits * static_cast<double>(counters_.pairs));
+  // Whose Gaussian it is, one of the CCUs' in turn: multiplexers of two.
+  sheet.part("lists", "select_bit", kTestedBits * (config_.ccus - 1), 1);
+  sheet.operations(
+      "lists", "select_bit",
+      kTestedBits * counter_bits(config_.ccus - 1) * static_cast<double>(counters_.gaussians));
   sheet.datapath(tile_path_, counters_.tile_steps);
   if (part_path_) sheet.datapath(*part_path_, counters_.part_tests);
   sheet.queue(test_passes_, kTestPasses);

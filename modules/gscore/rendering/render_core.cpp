@@ -297,6 +297,10 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.part("rendering", "register_bit", double{kBlocks} * (flight_bits + 1) + next_bits, 1);
   sheet.operations("rendering", "register_bit",
                    static_cast<double>(n.blocks) * static_cast<double>(loop + 1 + next_bits));
+  // The row of pixels that the drain fills while those before it are unanswered.
+  const double bits_of_pixel = 8.0 * pixel_bytes(config_.framebuffer);
+  sheet.part("rendering", "register_bit", kTilePx * bits_of_pixel, 1);
+  sheet.operations("rendering", "register_bit", bits_of_pixel * static_cast<double>(n.pixels));
   sheet.queue(fetched_, kFetchedEntries);
   sheet.queue(finished_states_, kPixels);
   sheet.port(record_memory);
