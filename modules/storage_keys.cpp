@@ -20,6 +20,11 @@ void visit(ConfigVisitor& v, StorageConfig& c) {
     std::visit([&](auto value) { v(size.key, c.*value, in_range(0, size.most), size.meaning); },
                size.value);
   }
+  if (scheme_of(c.order).has_sequence()) {
+    v("sequence", c.sequence,
+      names<FileSequence>({{"file", FileSequence::kFile}, {"spatial", FileSequence::kSpatial}}),
+      "of Gaussians: as in the scene's file, or neighbours in space side by side");
+  }
   v("encoding", c.encoding,
     names<SecondHalfEncoding>({{"raw", SecondHalfEncoding::kRaw},
                                {"half", SecondHalfEncoding::kHalf},

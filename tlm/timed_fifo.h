@@ -24,13 +24,14 @@ template <class T>
 struct EntryBytes<T, std::void_t<decltype(T::kSramBytes)>>
     : std::integral_constant<std::uint32_t, T::kSramBytes> {};
 
-// What a FIFO of so many entries takes.
+// What a FIFO of so many entries takes. entry_bytes: where a configuration keeps more of one than T
+// says.
 template <class T>
 SramUse fifo_use(const char* name, const char* memory, std::uint32_t entries,
-                 const char* what_they_are) {
+                 const char* what_they_are, std::uint32_t entry_bytes = EntryBytes<T>::value) {
   static_assert(EntryBytes<T>::value > 0, "T::kSramBytes says what hardware keeps of an entry");
-  return sram_use(name, memory, {{entries, what_they_are}, {EntryBytes<T>::value, "B"}},
-                  {8 * EntryBytes<T>::value}, kOneOfEach);
+  return sram_use(name, memory, {{entries, what_they_are}, {entry_bytes, "B"}}, {8 * entry_bytes},
+                  kOneOfEach);
 }
 
 // What can be said of a FIFO whatever it holds.

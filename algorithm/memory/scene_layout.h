@@ -29,7 +29,7 @@ struct ChunkTableLayout {
   std::uint32_t chunk_count = 0;
 };
 
-// In the order of the scene's file: nothing to find records with.
+// All of the scene's are read: nothing to find records with.
 struct NoTableLayout {};
 
 // [StorageOrder]

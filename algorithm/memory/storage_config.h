@@ -9,12 +9,17 @@
 
 namespace sgs {
 
+// Of a scene without a table, whose machine finds by itself what it needs: as in the scene's file,
+// or neighbours in space side by side.
+enum class FileSequence : std::uint8_t { kFile, kSpatial };
+
 struct StorageConfig {
   StorageOrder order = StorageOrder::kChunks;
   SecondHalfEncoding encoding = SecondHalfEncoding::kRaw;
   double voxel_size = 0;              // by voxels: world units; 0: to be chosen
   std::uint32_t chunk_gaussians = 8;  // by chunks: most Gaussians in one; 0: to be chosen
-  bool store_invisible = false;       // also Gaussians that no view can show
+  FileSequence sequence = FileSequence::kSpatial;  // by file
+  bool store_invisible = false;                    // also Gaussians that no view can show
   double sh_tolerance = 0;  // most that a colour may change by SH bands that are not stored
   VqConfig vq;              // how codebooks are made, where the encoding has any
 

@@ -12,42 +12,56 @@ namespace sgs {
 
 enum class NumberFormat : std::uint8_t { kSingle, kHalf };
 
-// Projected Gaussians. kSingle: x, y, conic, opacity, colour as 32-bit floats. kHalf: x and y so (a
-// half counts places above 512 px by halves of one), then the conic with its square completed
-// (square_conic.h; of three halved terms, which cancel, it would be lost), opacity and colour as
-// halves; the conic in units of its own along x and y, whose exponents are the last two bytes: wide
-// splats do not vanish among the subnormal. A place is whole bursts, since records are read one
-// here, one there.
+// Projected Gaussians. kSingle: x, y, conic, colour as 32-bit floats. With the opacity they would
+// take a second burst. One that can be seen, 1/255 to 1, is a number of 27 bits: 5 stand where the
+// signs of A, C and the colour would, which have none; the others go with each entry. kHalf: x and
+// y so (a half counts places above 512 px by halves of one), then the conic with its square
+// completed (square_conic.h; of three halved terms, which cancel, it would be lost), opacity and
+// colour as halves; the conic in units of its own along x and y, whose exponents are the last two
+// bytes: wide splats do not vanish among the subnormal. A place is a whole burst, since records are
+// read one here, one there.
 constexpr std::uint32_t record_bytes(NumberFormat format) {
-  return format == NumberFormat::kHalf ? 24 : 36;
+  return format == NumberFormat::kHalf ? 24 : 32;
 }
-constexpr std::uint32_t record_place_bytes(NumberFormat format) {
-  return format == NumberFormat::kHalf ? 32 : 64;
-}
+constexpr std::uint32_t kRecordPlaceBytes = 32;
 void encode_projected(NumberFormat format, const Splat& splat, std::byte* out);
-// Without depth, index and footprint, which the lists hold.
-Splat decode_projected(NumberFormat format, const std::byte* bytes);
+// What of an opacity each entry holds; 0 with halves.
+std::uint32_t listed_opacity(NumberFormat format, float opacity);
+// Without depth, index and footprint, which the lists hold. What cannot be seen has no opacity.
+Splat decode_projected(NumberFormat format, const std::byte* bytes, std::uint32_t listed_opacity);
 // The same for blending in half.
-SquareSplat decode_square(NumberFormat format, const std::byte* bytes);
+SquareSplat decode_square(NumberFormat format, const std::byte* bytes,
+                          std::uint32_t listed_opacity);
 
 // The depth as a key, larger for what is farther: its bits, of the float or of the nearest half.
 std::uint32_t depth_key(NumberFormat format, float depth);
 
 struct TileEntry {
   std::uint32_t key = 0;
-  std::uint32_t record = 0;  // number of the projected Gaussian
-  std::uint32_t bitmap = 0;  // of parts of the tile
+  std::uint32_t record = 0;   // number of the projected Gaussian
+  std::uint32_t bitmap = 0;   // of parts of the tile
+  std::uint32_t opacity = 0;  // listed_opacity()
 };
 
-// Key, then the record's number with the bitmap above it; a bitmap of 16 bits stands behind.
+// Key, then the record's number with the bitmap and what there is of the opacity above it; a bitmap
+// of 16 bits stands behind. A depth has no sign: its place is the number's highest bit.
 struct EntryFormat {
   NumberFormat keys = NumberFormat::kHalf;
   int subtiles_across = 2;
+  NumberFormat features = NumberFormat::kHalf;  // of records
 
   std::uint32_t key_bytes() const { return keys == NumberFormat::kHalf ? 2 : 4; }
-  std::uint32_t bytes() const { return key_bytes() + (subtiles_across > 2 ? 6 : 4); }
+  bool wide() const { return subtiles_across > 2; }
+  std::uint32_t opacity_bits() const { return features == NumberFormat::kHalf ? 0 : 22; }
+  std::uint32_t bitmap_bits() const { return wide() ? 0 : 4; }
+  std::uint32_t word_bytes() const { return features == NumberFormat::kHalf ? 4 : 6; }
+  // Of the number in the word.
+  std::uint32_t number_bits() const { return 8 * word_bytes() - bitmap_bits() - opacity_bits(); }
+  std::uint32_t bytes() const { return key_bytes() + word_bytes() + (wide() ? 2 : 0); }
   // Most records that an entry tells apart.
-  std::uint64_t records() const { return std::uint64_t{1} << (subtiles_across > 2 ? 32 : 28); }
+  std::uint64_t records() const {
+    return std::uint64_t{1} << (number_bits() < 32 ? number_bits() + 1 : 32);
+  }
 };
 void encode_entry(const EntryFormat& format, const TileEntry& entry, std::byte* out);
 TileEntry decode_entry(const EntryFormat& format, const std::byte* bytes);

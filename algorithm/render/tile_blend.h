@@ -9,15 +9,15 @@
 
 namespace sgs {
 
-// Calls visit(splat) with what the record holds, as blending in that precision takes it: a Splat or
-// a SquareSplat.
+// Calls visit(splat) with what record and entry hold, as blending in that precision takes it: a
+// Splat or a SquareSplat.
 template <class Visit>
 void with_record(NumberFormat format, BlendPrecision precision, const std::byte* record,
-                 const Visit& visit) {
+                 std::uint32_t listed_opacity, const Visit& visit) {
   if (precision == BlendPrecision::kHalf) {
-    visit(decode_square(format, record));
+    visit(decode_square(format, record, listed_opacity));
   } else {
-    visit(decode_projected(format, record));
+    visit(decode_projected(format, record, listed_opacity));
   }
 }
 

@@ -19,9 +19,10 @@ namespace sgs {
 namespace {
 
 struct TileSplat {
-  std::array<std::byte, record_bytes(NumberFormat::kSingle)> record;
+  std::array<std::byte, kRecordPlaceBytes> record;
   float depth;
-  std::uint32_t index;  // of the Gaussian
+  std::uint32_t opacity;  // listed
+  std::uint32_t index;    // of the Gaussian
   TileBoxes boxes;
   std::uint32_t key;
 };
@@ -44,6 +45,7 @@ std::vector<TileSplat> project_block(const View<float>& view, const ActivatedClo
     add_colour(view, cloud.sh_degree, g.mean, cloud.sh(i), splat);
     encode_projected(config.features, splat, made.record.data());
     made.depth = splat.depth;
+    made.opacity = listed_opacity(config.features, splat.opacity);
     made.index = static_cast<std::uint32_t>(i);
     made.key = depth_key(config.keys, splat.depth);
     out.push_back(made);
@@ -107,11 +109,13 @@ void render_tile(const View<float>& view, const TileOrderConfig& config, int til
       if (watch.see(blend, splat.depth)) contributing.set(splat.index);
       warps.see(blend);
     };
-    with_record(config.features, config.precision, splat.record.data(), [&](const auto& record) {
-      for_each_part(config.rules, tile_x, tile_y, entry.bitmap, record, [&](const auto& part, int) {
-        stats.subtile_blends += state.blend(part, observe).blended;
-      });
-    });
+    const auto blend = [&](const auto& part, int) {
+      stats.subtile_blends += state.blend(part, observe).blended;
+    };
+    with_record(config.features, config.precision, splat.record.data(), splat.opacity,
+                [&](const auto& record) {
+                  for_each_part(config.rules, tile_x, tile_y, entry.bitmap, record, blend);
+                });
     warps.end_entry();
   }
   const auto chunks = [&](std::uint64_t entries) {
@@ -173,7 +177,8 @@ TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,
     splats.insert(splats.end(), of_block[b].begin(), of_block[b].end());
     of_block[b] = {};
   }
-  const std::uint64_t most = EntryFormat{config.keys, config.rules.subtiles_across}.records();
+  const std::uint64_t most =
+      EntryFormat{config.keys, config.rules.subtiles_across, config.features}.records();
   if (splats.size() >= most) {
     throw InputError(
         fmt::format("scene: {} Gaussians projected, expected fewer than {}", splats.size(), most));

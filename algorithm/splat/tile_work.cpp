@@ -13,7 +13,7 @@
 namespace sgs {
 namespace {
 
-// Words that go along with a Gaussian: its number; with a tile: the key.
+// Words that go along with a Gaussian, or a tile of it: its number.
 constexpr std::size_t kBesideTileWork = 1;
 
 glm::vec<3, Counting> from_outside(DataFlow& flow, const glm::vec3& v) {
@@ -123,7 +123,6 @@ DataFlow tile_test_flow(int tiles_at_once) {
   const CountingIndex next_x = x + CountingIndex(tiles_at_once), next_y = y + CountingIndex(1);
   static_cast<void>(next_x < boxes.tiles.x1);
   static_cast<void>(next_y < boxes.tiles.y1);
-  keep_box(flow, boxes);
   keep_values(flow, {x, y, next_x, next_y});
   flow.pass_beside(kBesideTileWork);
   return flow;

@@ -24,7 +24,8 @@ DataFlow cull_flow();
 DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records);
 
 // Of so many neighbours in a row of tiles, and where the next ones are, by a box along the
-// ellipse's axes: the tester is the same where a Gaussian, or the machine, has none.
+// ellipse's axes: the tester is the same where a Gaussian, or the machine, has none. What parts are
+// tested by does not go along: it is read by the Gaussian's number.
 DataFlow tile_test_flow(int tiles_at_once);
 
 // Of the parts of one tile, two or four in a row, all of which are touched.

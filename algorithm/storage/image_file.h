@@ -3,7 +3,7 @@
 //
 //   offset  bytes  field
 //        0      8  magic 89 53 47 53 0d 0a 1a 0a ("\x89SGS\r\n\x1a\n": text mode would change it)
-//        8      4  version, 4
+//        8      4  version, 5
 //       12      4  header bytes h, from offset 0
 //       16      8  length of the file
 //       24         fields of image_file_fields.h, those of the scene's storage order, in that order
@@ -21,7 +21,7 @@
 namespace sgs {
 
 constexpr const char* kImageFileExtension = ".sgs";
-constexpr std::uint32_t kImageFileVersion = 4;
+constexpr std::uint32_t kImageFileVersion = 5;
 constexpr std::size_t kMostNameBytes = 255;
 
 // Of a scene, whichever way it is stored.

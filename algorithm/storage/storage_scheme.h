@@ -40,6 +40,7 @@ class StorageScheme {
 
   // Configuration.
   virtual std::vector<StorageSize> sizes() const { return {}; }
+  virtual bool has_sequence() const { return false; }  // StorageConfig::sequence
   // Fill in the sizes that are open and follow from the memory (run_bytes: what lies together in
   // one row of one channel), or from the scene; return what they chose.
   virtual std::vector<StorageChoice> choose(StorageConfig&, std::uint32_t /*run_bytes*/) const {

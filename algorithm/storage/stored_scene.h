@@ -14,7 +14,7 @@
 
 namespace sgs {
 
-// Gaussians as the scene's file has them, less those that are not stored; no table finds them.
+// All Gaussians are read, in whatever sequence; no table finds them.
 struct NoTable {};
 
 // [StorageOrder]

@@ -87,7 +87,7 @@ struct GscoreConfig {
   OperationLatencies blending() const {
     return rendering.precision == BlendPrecision::kHalf ? half() : single();
   }
-  EntryFormat entries() const { return {tiles.keys, tiles.subtiles_across}; }
+  EntryFormat entries() const { return {tiles.keys, tiles.subtiles_across, tiles.features}; }
   BlockFormat blocks() const { return {entries(), lists.line_bytes, lists.block_lines}; }
   TileOrderConfig order() const;
   std::uint32_t pool_blocks() const {

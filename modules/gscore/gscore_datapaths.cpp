@@ -30,10 +30,17 @@ Datapath counted(const char* name, const char* component, const DataFlow& flow, 
   return path;
 }
 
+// An opacity that lies in two places is counted from the least one on, and back.
+std::uint32_t opacity_comparisons(const GscoreConfig& config) {
+  return config.tiles.features == NumberFormat::kHalf ? 0 : kScalingComparisons;
+}
+
 Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
   const DataFlow flow =
       convert_flow(config.tiles.rules(), sh_degree, config.tiles.features == NumberFormat::kHalf);
-  return counted("convert", "ccu", flow, config.ccu.convert_lanes, config.single());
+  Datapath path = counted("convert", "ccu", flow, config.ccu.convert_lanes, config.single());
+  path.part_of("comparator").operations += opacity_comparisons(config);
+  return path;
 }
 
 // What a record holds is what the lanes of blending take.
@@ -105,6 +112,7 @@ std::optional<Datapath> conic_pipeline(const GscoreConfig& config) {
     path.part_of("comparator").operations +=
         kHalves * kConversionComparisons + kOfConic * kScalingComparisons;
   }
+  path.part_of("comparator").operations += opacity_comparisons(config);
   const int across = kSubtilesPerTile / config.tiles.subtiles_across;
   const std::uint64_t turn = static_cast<std::uint64_t>(across * across) * blend_interval(config);
   path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, turn));
@@ -139,8 +147,13 @@ Datapath blend_pipeline(const GscoreConfig& config) {
   return path;
 }
 
+// Of pixels in halves colour and transmittance are widened.
 Datapath drain_pipeline(const GscoreConfig& config) {
   Datapath path = counted_datapath("drain", "rendering", pixel_work(config.framebuffer));
+  constexpr std::uint32_t kOfPixel = 4;
+  if (config.rendering.precision == BlendPrecision::kHalf) {
+    path.part_of("comparator").operations += kOfPixel * kConversionComparisons;
+  }
   path.lanes = path.used_macs;
   path.copies = config.rendering.drain_pixels_per_cycle;
   schedule(path, pixel_steps(config.framebuffer, config.single()), config.single());

@@ -48,7 +48,7 @@ void add_regions(const GscoreConfig& config, FrameJob& job) {
         config.lists.pool_bytes, least * blocks.block_bytes(), count));
   }
   Regions& regions = job.layout.regions;
-  regions.add_records(kProjected, record_place_bytes(config.tiles.features), count);
+  regions.add_records(kProjected, kRecordPlaceBytes, count);
   regions.add(kTileLists, config.lists.pool_bytes);
   // A list is split once a level, into 8.
   const bool splits = count > config.sorting.list_entries;
@@ -60,15 +60,14 @@ void add_regions(const GscoreConfig& config, FrameJob& job) {
                                                      job.view.width * job.view.height);
 }
 
-GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job) {
+GscoreJob gscore_job(const FrameJob& job) {
   GscoreJob out;
   static_cast<FrameJob&>(out) = job;
   out.columns = static_cast<std::uint32_t>(cycles_for(job.view.width, kTilePx));
   out.tile_count = out.columns * static_cast<std::uint32_t>(cycles_for(job.view.height, kTilePx));
   const Regions& regions = job.layout.regions;
   out.projected =
-      span_of(regions, kProjected)
-          .records(0, record_place_bytes(config.tiles.features), job.layout.gaussian_count());
+      span_of(regions, kProjected).records(0, kRecordPlaceBytes, job.layout.gaussian_count());
   out.lists = span_of(regions, kTileLists);
   out.subsets = span_of(regions, kSubsetLists);
   return out;

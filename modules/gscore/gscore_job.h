@@ -32,7 +32,7 @@ struct GscoreJob : FrameJob {
 void add_regions(const GscoreConfig& config, FrameJob& job);
 
 // Tiles and regions of a job that has passed as a FrameJob.
-GscoreJob gscore_job(const GscoreConfig& config, const FrameJob& job);
+GscoreJob gscore_job(const FrameJob& job);
 
 // Clock and job outlive the units.
 // Of a pass, one after the other.

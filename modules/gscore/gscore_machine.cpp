@@ -41,7 +41,8 @@ SramUses queue_uses(const GscoreConfig& c) {
                 c.ccus),
           times(fifo_use<TileRequest>(kRequests, kBuffer, 1, "requests"), c.cores),
           times(fifo_use<TileJob>(kJobs, kBuffer, 1, "jobs"), c.cores),
-          times(fifo_use<SortedEntry>(kSorted, kBuffer, c.rendering.sorted_entries, "entries"),
+          times(fifo_use<SortedEntry>(kSorted, kBuffer, c.rendering.sorted_entries, "entries",
+                                      SortedEntry::sram_bytes(c.entries())),
                 c.cores),
           times(fifo_use<PassDone>(kDone, kBuffer, 1, "passes"), c.cores)};
 }

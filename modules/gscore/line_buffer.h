@@ -54,8 +54,8 @@ class LineBuffer {
   std::uint32_t begin_ = 0, end_ = 0;
 };
 
-// Lines are written by words of 64 bits and read by bursts: an entry spans two banks at most, with
-// the link before it too.
+// Lines are written by words of 64 bits and read by bursts: an entry spans three banks at most,
+// with the link before it too.
 constexpr std::uint32_t kLineWordBytes = 8, kLineBanks = kPortBytes / kLineWordBytes;
 // Words of a line that these bytes of it lie in.
 constexpr std::uint32_t line_words(std::uint32_t begin, std::uint32_t bytes) {

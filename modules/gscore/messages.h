@@ -59,8 +59,12 @@ constexpr bool of_tile(EntryMark mark) {
 }
 struct SortedEntry {
   static constexpr std::uint32_t kSramBytes = 8;  // record, bitmap, tile, mark
+  static std::uint32_t sram_bytes(const EntryFormat& format) {
+    return kSramBytes + (format.opacity_bits() + 7) / 8;
+  }
   EntryMark mark = EntryMark::kEntry;
   std::uint32_t tile = 0, record = 0, bitmap = 0;
+  std::uint32_t opacity = 0;  // listed_opacity()
 };
 
 // Rendering -> lister: the last tile of the pass is in memory.

@@ -11,6 +11,7 @@
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/line_buffer.h"
 #include "testbench/units/case_runner.h"
+#include "testbench/units/uniform.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
@@ -49,7 +50,7 @@ inline GscoreJob gscore_frame(GscoreConfig& config, const UnitBench& bench, Fram
   config.memory_port = bench.context({}).built_for.memory_port;
   job.frame_format = config.framebuffer;
   add_regions(config, job);
-  return gscore_job(config, job);
+  return gscore_job(job);
 }
 
 // A layout of `gaussians` records that nobody reads.
@@ -93,6 +94,7 @@ inline std::vector<TileEntry> random_entries(std::mt19937_64& random, const Gsco
     entries[e].key = depth_key(config.tiles.keys, 0.25F + static_cast<float>(random() % keys));
     entries[e].record = static_cast<std::uint32_t>(e);
     entries[e].bitmap = 1 + static_cast<std::uint32_t>(random() % bits);
+    entries[e].opacity = listed_opacity(config.tiles.features, uniform(random, 0, 1));
   }
   return entries;
 }

@@ -36,10 +36,12 @@ Plan make_plan(const GscoreConfig& config, std::mt19937_64& random, int width_px
   for (std::uint32_t t = 0; t < plan.tiles.size(); ++t) {
     for (std::size_t e = 0; e < entries; ++e) {
       const auto number = static_cast<std::uint32_t>(plan.records.size());
-      plan.records.push_back(random_splat(random, groups[t], frame, number, opacity));
+      const Splat splat = random_splat(random, groups[t], frame, number, opacity);
+      plan.records.push_back(splat);
       const std::uint32_t bitmap =
           whole_tiles ? parts - 1 : 1 + static_cast<std::uint32_t>(random() % (parts - 1));
-      plan.tiles[t].push_back({EntryMark::kEntry, t, number, bitmap});
+      plan.tiles[t].push_back({EntryMark::kEntry, t, number, bitmap,
+                               listed_opacity(config.tiles.features, splat.opacity)});
     }
   }
   return plan;
@@ -61,12 +63,13 @@ Expected expect(const Plan& plan, const GscoreJob& job) {
     GroupState state(job.pixels(t), plan.width_px, plan.height_px, plan.config.rendering.precision,
                      SubtileTest::kBox);
     for (const SortedEntry& entry : plan.tiles[t]) {
-      std::byte bytes[64];
+      std::byte bytes[kRecordPlaceBytes];
       encode_projected(format, plan.records[entry.record], bytes);
-      with_record(format, plan.config.rendering.precision, bytes, [&](const auto& splat) {
-        for_each_part(plan.config.tiles.rules(), job.tile_x(t), job.tile_y(t), entry.bitmap, splat,
-                      [&](const auto& part, int) { state.blend(part); });
-      });
+      with_record(
+          format, plan.config.rendering.precision, bytes, entry.opacity, [&](const auto& splat) {
+            for_each_part(plan.config.tiles.rules(), job.tile_x(t), job.tile_y(t), entry.bitmap,
+                          splat, [&](const auto& part, int) { state.blend(part); });
+          });
     }
     state.store(job.background, frame);
     out.contributors += state.contributors();
@@ -85,9 +88,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
   frame.layout = empty_layout(static_cast<std::uint32_t>(plan.records.size()));
   const GscoreJob job = gscore_frame(plan.config, bench, frame);
   const NumberFormat format = plan.config.tiles.features;
-  std::vector<std::byte> records(plan.records.size() * record_place_bytes(format));
+  std::vector<std::byte> records(plan.records.size() * kRecordPlaceBytes);
   for (std::size_t r = 0; r < plan.records.size(); ++r) {
-    encode_projected(format, plan.records[r], records.data() + r * record_place_bytes(format));
+    encode_projected(format, plan.records[r], records.data() + r * kRecordPlaceBytes);
   }
   bench.load(job.projected.base, records);
   auto& sorted = bench.add_fifo<SortedEntry>("sorted", 8, 1);
@@ -106,9 +109,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
         sorted.push(entry, activity);
         ++entries;
       }
-      sorted.push({EntryMark::kEndOfTile, t, 0, 0}, activity);
+      sorted.push({EntryMark::kEndOfTile, t}, activity);
     }
-    sorted.push({EntryMark::kEndOfFrame, 0, 0, 0}, activity);
+    sorted.push({EntryMark::kEndOfFrame}, activity);
   });
   bench.add_thread("lister", [&](Activity& activity) { done.pop(activity); });
   bench.run();

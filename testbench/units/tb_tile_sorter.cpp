@@ -98,7 +98,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
       for (SortedEntry e = sorted.pop(activity); e.mark == EntryMark::kEntry;
            e = sorted.pop(activity), ++at, ++taken) {
         checks.that(at < expected.size() && e.tile == t && e.record == expected[at].record &&
-                        e.bitmap == expected[at].bitmap,
+                        e.bitmap == expected[at].bitmap && e.opacity == expected[at].opacity,
                     fmt::format("entry {} of tile {}: record {}", at, t, e.record));
         if (t == 0 && plan.finish_after >= 0 && at == static_cast<std::size_t>(plan.finish_after)) {
           finished.finish(0, 0);

@@ -256,7 +256,7 @@ TEST_CASE("pack: info says what the file holds, as pack did") {
     CHECK(packed.out.find(line) != std::string::npos);
     CHECK(info.out.find(line) != std::string::npos);
   }
-  CHECK_THAT(info.out, Contains("version     4\n") && Contains("checksum"));
+  CHECK_THAT(info.out, Contains("version     5\n") && Contains("checksum"));
   CHECK_THAT(packed.out, Contains("packed in") && Contains("weighted by 5 cameras"));
   const Outcome of_scene = run_streaminggs({"info", scenes.ply()});
   CHECK(of_scene.status == 0);

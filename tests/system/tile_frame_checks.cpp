@@ -18,9 +18,9 @@ std::uint64_t count(const Json& value) { return value.get<std::uint64_t>(); }
 void check_bytes(const Json& view) {
   const Json& tiles = view["config"]["tiles"];
   const bool half = tiles["features"] == "fp16";
-  const std::uint64_t record = half ? 24 : 36, place = half ? 32 : 64;
+  const std::uint64_t record = half ? 24 : 32, place = 32;
   const std::uint64_t entry =
-      (tiles["keys"] == "fp16" ? 2 : 4) + (tiles["subtiles_across"] == 4 ? 6 : 4);
+      (tiles["keys"] == "fp16" ? 2 : 4) + (half ? 0 : 2) + (tiles["subtiles_across"] == 4 ? 6 : 4);
   CHECK(region_bytes(view, "projected", "write") == place * counter(view, "lister", "records"));
   CHECK(region_bytes(view, "projected", "read") ==
         record * counter_of_all(view, "rendering", "records"));
@@ -135,10 +135,7 @@ void check_rates(const Json& view) {
   if (view["datapath"].contains("part_test")) {
     CHECK(busy(view, "lister", "test") >= of_lister("part_tests") * turn("part_test"));
   }
-  // A record in floats is two words, of the place that is written and of what is read back.
-  const std::uint64_t more_words = config["tiles"]["features"] == "fp16" ? 0 : 1;
-  CHECK(busy(view, "lister", "list") >=
-        of_lister("pairs") + of_lister("tiles") + more_words * of_lister("records"));
+  CHECK(busy(view, "lister", "list") >= of_lister("pairs") + of_lister("tiles"));
   CHECK(busy(view, "sorter", "load") >= of_sorters("entries_read"));
   // Each split passes its QSU twice; a chunk takes a cycle for 16 entries into the network, for 8
   // in each level of merging, and what is sorted leaves an entry a cycle.
@@ -147,7 +144,7 @@ void check_rates(const Json& view) {
             of_sorters("merged") / 8 + of_sorters("entries_sorted"));
   CHECK(busy(view, "rendering", "fetch") >= of_cores("records") + of_cores("dropped"));
   CHECK(busy(view, "rendering", "blend") >= of_cores("blocks") * turn("blend"));
-  CHECK(busy(view, "rendering", "blend") >= (1 + more_words) * of_cores("splats"));
+  CHECK(busy(view, "rendering", "blend") >= of_cores("splats"));
   CHECK(busy(view, "rendering", "drain") * count(config["rendering"]["drain_pixels_per_cycle"]) >=
         of_cores("pixels"));
 }

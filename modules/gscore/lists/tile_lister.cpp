@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "modules/datapath/counter_bits.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 
@@ -12,11 +13,23 @@ namespace {
 constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists",
                      *kTags = "tiles of lines", *kWaitingRecords = "records to write",
                      *kListWrites = "list writes", *kTestPasses = "passes to test",
-                     *kListed = "listed tiles";
-constexpr std::uint32_t kTagBytes = 4;  // tile, and what of the line is new
+                     *kListed = "listed tiles", *kTestedRecords = "records under test",
+                     *kTestedKeys = "keys under test", *kTestedBoxes = "boxes under test";
+// Of a box, its parts along the screen, place and axes along the ellipse, and its limits there.
+constexpr std::uint32_t kTestedBoxBytes = 4 * 2 + 4 * 4 + 4 * 4;
 // Beside the memories: whose line it is, whether line and block are full, whether the pool is; by
 // three subtractions of powers of two of the lines a tile's place among them.
 constexpr std::uint32_t kComparators = 4 + 3;
+
+// Of a line: its tile, what of it is new, and its number in the pool, where it is written when
+// another tile takes its place.
+std::uint32_t tag_bytes(const GscoreConfig& config) {
+  const BlockFormat blocks = config.blocks();
+  const std::uint64_t lines = std::uint64_t{config.pool_blocks()} * blocks.block_lines;
+  const std::uint32_t bits = counter_bits(config.lists.tiles) +
+                             2 * counter_bits(blocks.line_entries()) + counter_bits(lines - 1);
+  return (bits + 7) / 8;
+}
 
 bool has_parts(const GscoreConfig& config) { return config.tiles.subtiles_across > 1; }
 
@@ -40,16 +53,20 @@ std::uint32_t listed_entries(const GscoreConfig& config) {
                                     cycles_for(tests.depth_cycles, tests.part_interval_cycles));
 }
 
-// Of a record's place, written one a cycle.
-std::uint32_t record_words(const GscoreConfig& config) {
-  return static_cast<std::uint32_t>(
-      cycles_for(record_place_bytes(config.tiles.features), kPortBytes));
+// Gaussians that are kept for their tiles: a turn each in the pipelines, one for each listed tile
+// that waits, the one that is tested and the one that is listed.
+std::uint32_t tested_gaussians(const GscoreConfig& config) {
+  return config.lists.tested_entries +
+         static_cast<std::uint32_t>(test_pipelines(config).depth_cycles) + 2;
+}
+// What of it each of its entries takes: key, what there is of the opacity.
+std::uint32_t tested_key_bytes(const EntryFormat& entry) {
+  return entry.key_bytes() + (entry.opacity_bits() + 7) / 8;
 }
 
 // Of records that are written at once: what a transaction takes, at least one.
 std::uint32_t records_at_once(const GscoreConfig& config) {
-  return std::max(
-      1U, config.memory_port.max_transaction_bytes / record_place_bytes(config.tiles.features));
+  return std::max(1U, config.memory_port.max_transaction_bytes / kRecordPlaceBytes);
 }
 
 }  // namespace
@@ -68,11 +85,12 @@ TileLister::TileLister(const sc_core::sc_module_name& name, const UnitContext& c
       test_("test", context.clock),
       list_("list", context.clock),
       test_passes_("test_passes", context.clock, 1),
+      tested_(tested_gaussians(config_)),
       listed_("listed", context.clock, listed_entries(config_),
               static_cast<std::uint32_t>(test_pipelines(config_).depth_cycles)),
       ends_(config_.lists.tiles),
       lines_(config_.lists.lines, Line{LineBuffer(blocks_.line_bytes)}),
-      records_(std::size_t{records_at_once(config_)} * record_place_bytes(config_.tiles.features)) {
+      records_(std::size_t{records_at_once(config_)} * kRecordPlaceBytes) {
   for (Activity* a : {&test_, &list_}) context.phases.projecting.add(*a);
   SC_THREAD(run_test);
   SC_THREAD(run_list);
@@ -133,26 +151,26 @@ bool TileLister::project(const Pass& pass) {
 }
 
 void TileLister::take(const ListedTile& tile, const Pass& pass) {
-  list_.work(tile.first ? record_words(config_) : 1);
+  list_.work(1);
   ++counters_.pairs;
-  if (tile.first) put_record(tile.splat);
-  put_entry(tile.tile - pass.first, {tile.key, record_number_ - 1, tile.bitmap});
+  const TestedGaussian& of = tested_[tile.gaussian];
+  if (tile.first) put_record(of.splat);
+  put_entry(tile.tile - pass.first, {of.key, record_number_ - 1, tile.bitmap,
+                                     listed_opacity(config_.tiles.features, of.splat.opacity)});
 }
 
 void TileLister::put_record(const Splat& splat) {
-  const std::uint32_t place = record_place_bytes(config_.tiles.features);
   encode_projected(config_.tiles.features, splat,
-                   records_.data() + std::size_t{waiting_records_} * place);
+                   records_.data() + std::size_t{waiting_records_} * kRecordPlaceBytes);
   ++record_number_;
   ++waiting_records_;
   ++counters_.records;
-  counters_.record_words += record_words(config_);
   if (waiting_records_ == records_at_once(config_)) flush_records();
 }
 
 void TileLister::flush_records() {
   if (waiting_records_ == 0) return;
-  const std::uint32_t bytes = waiting_records_ * record_place_bytes(config_.tiles.features);
+  const std::uint32_t bytes = waiting_records_ * kRecordPlaceBytes;
   start_write(memory, list_, job_.projected.address(record_number_ - waiting_records_),
               records_.data(), bytes, job_.projected.region);
   waiting_records_ = 0;
@@ -234,22 +252,33 @@ void TileLister::hand_out(const Pass& pass) {
 
 SramUses TileLister::sram_uses(const GscoreConfig& c) {
   const BlockFormat blocks = c.blocks();
-  const std::uint32_t place = record_place_bytes(c.tiles.features);
   const std::uint32_t end_bytes = list_end_bytes(blocks, c.pool_blocks());
-  return {
+  const std::uint32_t tested = tested_gaussians(c), key_bytes = tested_key_bytes(c.entries());
+  const std::uint32_t record = record_bytes(c.tiles.features);
+  SramUses uses = {
       sram_use(kEnds, kBuffer, {{c.lists.tiles, "tiles"}, {end_bytes, "B"}}, {8 * end_bytes},
                kOneOfEach),
       sram_use(kLines, kBuffer, {{c.lists.lines, "lines"}, {blocks.line_bytes, "B"}},
                {8 * kLineWordBytes, SramPorts::kReadAndWrite, kLineBanks},
                {kLineBanks, kLineBanks}),
-      sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {kTagBytes, "B"}}, {8 * kTagBytes},
+      sram_use(kTags, kBuffer, {{c.lists.lines, "lines"}, {tag_bytes(c), "B"}}, {8 * tag_bytes(c)},
                kOneOfEach),
-      sram_use(kWaitingRecords, kBuffer, {{records_at_once(c), "records"}, {place, "B"}},
-               {8 * kPortBytes}, kOneOfEach),
+      sram_use(kWaitingRecords, kBuffer,
+               {{records_at_once(c), "records"}, {kRecordPlaceBytes, "B"}}, {8 * kRecordPlaceBytes},
+               kOneOfEach),
       fifo_use<Pass>(kTestPasses, kBuffer, 1, "passes"),
       fifo_use<ListedTile>(kListed, kBuffer, listed_entries(c), "tiles"),
+      sram_use(kTestedRecords, kBuffer, {{tested, "Gaussians"}, {record, "B"}}, {8 * record},
+               kOneOfEach),
+      sram_use(kTestedKeys, kBuffer, {{tested, "Gaussians"}, {key_bytes, "B"}}, {8 * key_bytes},
+               kOneOfEach),
       outstanding_table(kBuffer, c.memory_port),
       unanswered_writes(kListWrites, kBuffer, c.memory_port, c.memory_port.max_transaction_bytes)};
+  if (has_parts(c)) {
+    uses.push_back(sram_use(kTestedBoxes, kBuffer, {{tested, "Gaussians"}, {kTestedBoxBytes, "B"}},
+                            {8 * kTestedBoxBytes}, kOneOfEach));
+  }
+  return uses;
 }
 
 void TileLister::publish(DataSheet& sheet) {
@@ -280,7 +309,11 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.accesses(kEnds, counters_.table_reads, counters_.table_writes);
   sheet.accesses(kLines, counters_.line_reads, counters_.line_writes);
   sheet.accesses(kTags, counters_.line_looks, counters_.line_changes);
-  sheet.accesses(kWaitingRecords, counters_.record_words, counters_.record_words);
+  sheet.accesses(kWaitingRecords, counters_.records, counters_.records);
+  const std::uint64_t tested = counters_.gaussians - counters_.off_pass;
+  sheet.accesses(kTestedRecords, counters_.records, tested);
+  sheet.accesses(kTestedKeys, counters_.pairs, tested);
+  if (part_path_) sheet.accesses(kTestedBoxes, counters_.part_tests, tested);
   sheet.part("lists", "comparator", kComparators, 1);
   sheet.operations("lists", "comparator", static_cast<double>(kComparators * counters_.pairs));
   // The Gaussian whose tiles are tested; the end of the list that was written last, which may be
@@ -291,6 +324,11 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.operations("lists", "register_bit",
                    kTestedBits * static_cast<double>(counters_.gaussians) +
                        end_bits * static_cast<double>(counters_.pairs));
+  // Whose Gaussian it is, one of the CCUs' in turn: multiplexers of two.
+  sheet.part("lists", "select_bit", kTestedBits * (config_.ccus - 1), 1);
+  sheet.operations(
+      "lists", "select_bit",
+      kTestedBits * counter_bits(config_.ccus - 1) * static_cast<double>(counters_.gaussians));
   sheet.datapath(tile_path_, counters_.tile_steps);
   if (part_path_) sheet.datapath(*part_path_, counters_.part_tests);
   sheet.queue(test_passes_, kTestPasses);

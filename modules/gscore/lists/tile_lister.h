@@ -47,11 +47,17 @@ class TileLister : public sc_core::sc_module {
     std::uint32_t tile = 0;  // of the pass, from 1 on; 0: none
   };
 
-  // A tile that a Gaussian is listed in; with its first one comes the record. Or the end of a pass.
-  struct ListedTile {
-    static constexpr std::uint32_t kSramBytes = 46;  // record, tile, key, bitmap
+  // Kept from a Gaussian's first test on until the last of its tiles is listed.
+  struct TestedGaussian {
     Splat splat{};
-    std::uint32_t tile = 0, key = 0, bitmap = 0;
+    std::uint32_t key = 0;
+  };
+  // A tile that a Gaussian is listed in; at its first one the record is written. Or the end of a
+  // pass.
+  struct ListedTile {
+    static constexpr std::uint32_t kSramBytes = 6;  // the Gaussian's number, tile, bitmap, marks
+    std::uint32_t gaussian = 0;                     // of those that are kept
+    std::uint32_t tile = 0, bitmap = 0;
     bool first = false, end = false;
   };
 
@@ -76,6 +82,8 @@ class TileLister : public sc_core::sc_module {
   const std::optional<Datapath> part_path_;  // where tiles have parts
   Activity test_, list_;
   TimedFifo<Pass> test_passes_;
+  std::vector<TestedGaussian> tested_;
+  std::uint32_t next_tested_ = 0;
   TimedFifo<ListedTile> listed_;
   std::unique_ptr<FifoSelector<TileRequest>> asked_;  // made by the thread
   std::vector<ListEnd> ends_;                         // [tile of the pass]
@@ -94,7 +102,6 @@ class TileLister : public sc_core::sc_module {
     std::uint64_t blocks = 0;
     std::uint64_t list_max = 0, tiles = 0, tiles_empty = 0;
     std::uint64_t line_reads = 0, line_writes = 0;  // words
-    std::uint64_t record_words = 0;
     std::uint64_t table_reads = 0, table_writes = 0;
     std::uint64_t line_looks = 0, line_changes = 0;
   } counters_;

@@ -33,7 +33,7 @@ void TileLister::run_test() {
 }
 
 // Tiles of rows that the pass has: neighbours in a turn of their lanes, then the parts of each that
-// is touched, one after the other.
+// is touched, one after the other. The place of a Gaussian without a listed tile is the next one's.
 void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
   ++counters_.gaussians;
   const auto columns = static_cast<int>(job_.columns);
@@ -47,9 +47,9 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
   }
   const auto at_once = static_cast<int>(config_.lists.tiles_at_once);
   const std::uint64_t part_interval = part_path_ ? part_path_->interval_cycles() : 1;
+  tested_[next_tested_] = {gaussian.splat, depth_key(config_.tiles.keys, gaussian.splat.depth)};
   ListedTile out;
-  out.splat = gaussian.splat;
-  out.key = depth_key(config_.tiles.keys, gaussian.splat.depth);
+  out.gaussian = next_tested_;
   out.first = true;
   for (int y = std::max(tiles.y0, first_row); y < std::min(tiles.y1, end_row); ++y) {
     for (int x = tiles.x0; x < tiles.x1; x += at_once) {
@@ -73,6 +73,7 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
       if (taken < tile_path_.interval_cycles()) test_.work(tile_path_.interval_cycles() - taken);
     }
   }
+  if (!out.first) next_tested_ = (next_tested_ + 1) % static_cast<std::uint32_t>(tested_.size());
 }
 
 }  // namespace sgs::gscore

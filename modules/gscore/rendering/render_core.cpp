@@ -37,10 +37,6 @@ GroupReach reach_of(int part, const TileRules& rules) {
   return {at(x), at(y), at(x + side - 1), at(y + side - 1)};
 }
 
-std::uint32_t record_words(const GscoreConfig& config) {
-  return static_cast<std::uint32_t>(cycles_for(record_bytes(config.tiles.features), kPortBytes));
-}
-
 }  // namespace
 
 RenderCore::RenderCore(const sc_core::sc_module_name& name, const UnitContext& context,
@@ -161,7 +157,7 @@ void RenderCore::take(const Fetched& next) {
     wait_for_turn(blend_, blend_path_.interval_cycles());
     fetched_.remove_front();
     with_record(config_.tiles.features, config_.rendering.precision,
-                records_.data() + std::size_t{next.slot} * record_bytes_,
+                records_.data() + std::size_t{next.slot} * record_bytes_, next.entry.opacity,
                 [&](const auto& splat) { blend(next.entry, splat); });
   }
   free_records_.push(next.slot, blend_);
@@ -205,7 +201,7 @@ void RenderCore::blend(const SortedEntry& entry, const AnySplat& splat) {
     told_ = true;
     finished_.finish(entry.tile, begin - now + depth);
   }
-  blend_.work(std::max<std::uint64_t>(begin - now, record_words(config_)));
+  blend_.work(std::max<std::uint64_t>(begin - now, 1));
 }
 
 void RenderCore::run_drain() {
@@ -250,8 +246,9 @@ SramUses RenderCore::sram_uses(const GscoreConfig& c) {
   SramUses uses = {
       sram_use(kRecordSlots, kBuffer,
                {{c.rendering.record_slots, "slots"}, {record_bytes(c.tiles.features), "B"}},
-               {8 * std::min(kPortBytes, record_bytes(c.tiles.features))}, kOneOfEach),
-      fifo_use<Fetched>(kFetchedEntries, kBuffer, c.rendering.record_slots + 1, "entries"),
+               {8 * record_bytes(c.tiles.features)}, kOneOfEach),
+      fifo_use<Fetched>(kFetchedEntries, kBuffer, c.rendering.record_slots + 1, "entries",
+                        SortedEntry::sram_bytes(c.entries())),
       sram_use(kPixels, kBuffer,
                {{c.rendering.pixel_buffers, "tiles"}, {kTilePixels, "px"}, {state_bytes(c), "B"}},
                {8 * state_bytes(c), SramPorts::kReadAndWrite, banks}, {banks, banks}),
@@ -289,9 +286,7 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.datapath(blend_path_, n.blocks);
   sheet.datapath(drain_path_, n.pixels);
   sheet.sram(sram_uses(config_));
-  const std::uint64_t words = record_words(config_);
-  const std::uint64_t looked_at = n.splats + n.dropped_fetched;
-  sheet.accesses(kRecordSlots, looked_at * words, n.records * words);
+  sheet.accesses(kRecordSlots, n.splats + n.dropped_fetched, n.records);
   sheet.accesses(kPixels, kSubtilePixels * n.blocks + n.pixels,
                  kSubtilePixels * n.blocks + n.pixels);
   sheet.accesses(kMask, n.splats, n.splats);
@@ -302,6 +297,10 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.part("rendering", "register_bit", double{kBlocks} * (flight_bits + 1) + next_bits, 1);
   sheet.operations("rendering", "register_bit",
                    static_cast<double>(n.blocks) * static_cast<double>(loop + 1 + next_bits));
+  // The row of pixels that the drain fills while those before it are unanswered.
+  const double bits_of_pixel = 8.0 * pixel_bytes(config_.framebuffer);
+  sheet.part("rendering", "register_bit", kTilePx * bits_of_pixel, 1);
+  sheet.operations("rendering", "register_bit", bits_of_pixel * static_cast<double>(n.pixels));
   sheet.queue(fetched_, kFetchedEntries);
   sheet.queue(finished_states_, kPixels);
   sheet.port(record_memory);

@@ -37,7 +37,7 @@ class RenderCore : public sc_core::sc_module {
 
  private:
   struct Fetched {
-    static constexpr std::uint32_t kSramBytes = SortedEntry::kSramBytes;
+    static constexpr std::uint32_t kSramBytes = SortedEntry::kSramBytes;  // at least
     SortedEntry entry;
     std::uint32_t slot = 0;
     std::uint64_t ticket = 0;

@@ -77,7 +77,7 @@ void TileSorter::run_sort() {
       continue;
     }
     sort_.work(1);
-    sorted->push({mark, list.tile, 0, 0}, sort_);
+    sorted->push({mark, list.tile}, sort_);
   }
   sort_.idles();
 }
@@ -140,7 +140,7 @@ void TileSorter::sort_chunk(std::uint32_t tile, std::vector<TileEntry>& entries,
 void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries) {
   for (const TileEntry& entry : entries) {
     sort_.work(1);
-    sorted->push({EntryMark::kEntry, tile, entry.record, entry.bitmap}, sort_);
+    sorted->push({EntryMark::kEntry, tile, entry.record, entry.bitmap, entry.opacity}, sort_);
   }
   counters_.emitted += entries.size();
   counters_.list_reads += entries.size();
@@ -242,6 +242,13 @@ void TileSorter::publish(DataSheet& sheet) {
   sheet.part("qsu", "register_bit", kQsus * (pivot_bits + mark_bits), 1);
   sheet.operations("qsu", "register_bit",
                    (pivot_bits + mark_bits) * static_cast<double>(n.splits + n.lists_split));
+  // The row of a subset that was written last, which may be wanted before it can be read.
+  const double on_chip_bits = 8.0 * subset_bytes(config_);
+  const double in_memory_bits = 8.0 * subset_in_memory_bytes(config_);
+  sheet.part("qsu", "register_bit", on_chip_bits + in_memory_bits, 1);
+  sheet.operations("qsu", "register_bit",
+                   2.0 * on_chip_bits * static_cast<double>(n.split_entries) +
+                       in_memory_bits * static_cast<double>(n.entries_split));
 
   sheet.sram(sram_uses(config_));
   sheet.accesses(kStages, n.stage_words + n.pivots_sampled, n.stage_words);

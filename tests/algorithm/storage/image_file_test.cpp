@@ -66,6 +66,7 @@ void check_same(const StorageConfig& a, const StorageConfig& b) {
   CHECK(a.encoding == b.encoding);
   CHECK(a.voxel_size == b.voxel_size);
   CHECK(a.chunk_gaussians == b.chunk_gaussians);
+  CHECK(a.sequence == b.sequence);
   CHECK(a.store_invisible == b.store_invisible);
   CHECK(a.sh_tolerance == b.sh_tolerance);
   for (std::size_t id = 0; id < kCodebookCount; ++id) {
@@ -110,6 +111,9 @@ TEST_CASE("image file: every encoding in every order comes back") {
         Packing packing = make_packing(cut_object(300, degree), encoding, order);
         packing.stored.storage.vq.seed = ~std::uint64_t{0};
         packing.stored.storage.store_invisible = degree == 2;
+        if (order == StorageOrder::kFile && degree % 2 == 0) {
+          packing.stored.storage.sequence = FileSequence::kSpatial;
+        }
         packing.stored.storage.sh_tolerance = 0.01 * degree;
         packing.facts.sh_bands_left_out = 3 - degree;
         write(path, packing);
@@ -143,7 +147,7 @@ TEST_CASE("image file: the first bytes are as documented") {
   const ScratchFolder scratch;
   const std::string bytes = small_file(scratch);
   CHECK(bytes.substr(0, 8) == "\x89SGS\r\n\x1a\n");
-  CHECK(bytes.substr(8, 4) == std::string("\4\0\0\0", 4));
+  CHECK(bytes.substr(8, 4) == std::string("\5\0\0\0", 4));
   std::uint64_t length = 0;
   std::uint32_t header_bytes = 0;
   std::memcpy(&header_bytes, bytes.data() + 12, 4);
@@ -194,12 +198,12 @@ TEST_CASE("image file: foreign files, other versions, what is no file") {
              Contains("byte 0: not the magic number"));
   CHECK_THAT(refusal_of(scratch.write("empty.sgs", "")), Contains("not the magic number"));
   std::string bytes = small_file(scratch);
-  bytes[8] = 5;
+  bytes[8] = 6;
   CHECK_THAT(refusal_of(scratch.write("b.sgs", bytes)),
-             Contains("byte 8: version 5, expected 4: made by a newer program"));
-  bytes[8] = 3;
+             Contains("byte 8: version 6, expected 5: made by a newer program"));
+  bytes[8] = 4;
   CHECK_THAT(refusal_of(scratch.write("b.sgs", bytes)),
-             Contains("version 3, expected 4: pack the scene again"));
+             Contains("version 4, expected 5: pack the scene again"));
   refusal_of(scratch.path("not_there.sgs"));
   refusal_of(scratch.path(""));
 }
@@ -274,6 +278,7 @@ TEST_CASE("image file: a header whose numbers do not fit, with a right checksum,
       {kVoxels, "region voxel_table", [&](H& h) { ++voxels(h).voxels.count; }},
       {kVoxels, "region voxel_table", [](H& h) { h.regions[0].base = 1; }},
       {kFile, "region first_halves", [](H& h) { ++h.stored; }},
+      {kFile, "sequence: got 2", [](H& h) { h.storage.sequence = FileSequence(2); }},
       {kFile, "region codebooks", [](H& h) { h.regions[2].bytes += 4; }},
   };
   for (const Change& change : changes) {

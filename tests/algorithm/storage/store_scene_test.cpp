@@ -55,8 +55,6 @@ TEST_CASE("store: every encoding in every order, with and without what nobody ca
           CHECK(scene.tree().chunk_count >= layout.gaussian_count() / 5);
         } else if (order == StorageOrder::kVoxels) {
           CHECK(layout.voxel_table().frame.voxel_size == 0.4F);
-        } else {
-          CHECK(std::is_sorted(scene.file_indices->begin(), scene.file_indices->end()));
         }
         // Every cloud is in storage order.
         REQUIRE(scene.file_indices);
@@ -89,6 +87,20 @@ TEST_CASE("store: cameras weigh codebooks, whose making is told") {
     CHECK((told > 0) == quantised);
     CHECK((weighed.image.bytes == even.image.bytes) == !quantised);
   }
+}
+
+TEST_CASE("store: by file as the scene's file has them, or as chunks of close ones would be") {
+  const ActivatedCloud cloud = cut_object(300, 1);
+  StorageConfig config = small_storage(SecondHalfEncoding::kRaw, StorageOrder::kFile);
+  config.sequence = FileSequence::kFile;
+  const StoredScene in_file = store_scene(cloud, config, {});
+  CHECK(in_file.file_indices == stored_gaussians(cloud, Stored::kVisible));
+  config.sequence = FileSequence::kSpatial;
+  const StoredScene spatial = store_scene(cloud, config, {});
+  CHECK(spatial.file_indices != in_file.file_indices);
+  CHECK(spatial.file_indices == arrange_by_chunks(cloud, 16).storage_order);
+  CHECK(spatial.image.layout.order() == StorageOrder::kFile);
+  CHECK(scheme_of(StorageOrder::kFile).in_words(config) == "neighbours together");
 }
 
 // The bound against colours themselves, from everywhere.
@@ -173,7 +185,7 @@ TEST_CASE("storage schemes: names, sizes, choices and facts of each order") {
             {"chunk_gaussians"},
             {},
             {"chunks"}},
-           {StorageOrder::kFile, "file", "in the file's order", "", {}, {}, {}, {}}}) {
+           {StorageOrder::kFile, "file", "neighbours together", "", {}, {}, {}, {}}}) {
     INFO(c.name);
     const StorageScheme& scheme = scheme_of(c.order);
     CHECK(scheme.name() == std::string(c.name));

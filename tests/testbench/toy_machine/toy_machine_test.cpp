@@ -212,7 +212,7 @@ TEST_CASE("toy machine: its golden picture, and a scene packed for it") {
   const Toy toy;
   CHECK(toy.file("out/view_0/frame.png") == bytes_of(scratch.path("toy.png")));
 
-  // In the order of its file, packed and read again.
+  // By file, packed and read again.
   const std::string file = scratch.path("toy.sgs"), cameras = scratch.path("cameras.json");
   const std::string config = scratch.write("toy.json", R"({"machine": "toy"})");
   write_cameras(cameras, make_builtin_scene("builtin:object?n=1000").cameras);
@@ -226,7 +226,7 @@ TEST_CASE("toy machine: its golden picture, and a scene packed for it") {
   const Outcome again = run_toy(joined(joined({"simulate"}, view), {"--config", config}));
   INFO(again.out << again.err);
   REQUIRE(again.status == 0);
-  CHECK_THAT(again.out, Contains("storage from toy.sgs: raw, in the file's order"));
+  CHECK_THAT(again.out, Contains("storage from toy.sgs: raw, neighbours together"));
   const Json packed = views_of_report(scratch.path("out/report.json"))[0];
   CHECK(packed["scene"]["stored_by"] == "file");
   CHECK(packed["scene"] == toy.view["scene"]);
