@@ -26,8 +26,10 @@ def program_digest(binary: pathlib.Path) -> str:
         raise ValueError(f"{binary}: not there; scripts/setup.sh builds it")
     data = data_folder(binary)
     digest = hashlib.sha256(binary.read_bytes())
-    # Folders of a build tree are links to the sources, which a recursive glob does not follow.
-    for path in sorted(p for pattern in ("*", "*/*") for p in data.glob(pattern) if p.is_file()):
+    # Folders of a build tree are links to the sources, which a recursive glob does not follow; what
+    # is written there for readers the program does not read.
+    files = (p for pattern in ("*", "*/*") for p in data.glob(pattern) if p.is_file())
+    for path in sorted(p for p in files if p.suffix != ".md"):
         digest.update(f"{path.relative_to(data)} {path.stat().st_size} ".encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()

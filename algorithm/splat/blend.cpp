@@ -48,7 +48,7 @@ class Exp2Lanes {
  public:
   void put(int lane, T exponent) {
     const Exp2Parts<T> parts = exp2_parts(max_of(exponent, T(kLeastExp2Argument)));
-    rest_[lane] = parts.rest;
+    rest_[lane] = in_float(parts.rest);
     steps_[lane] = parts.steps;
   }
   [[gnu::always_inline]] void look_up() {
@@ -57,15 +57,17 @@ class Exp2Lanes {
     }
   }
   T result(int lane) const {
+    T rest;
+    set(rest, rest_[lane]);
     std::array<T, kCoefficients> coefficient;
     for (std::size_t k = 0; k < kCoefficients; ++k) set(coefficient[k], coefficient_[k][lane]);
-    return scaled_by_steps(exp2_polynomial(rest_[lane], coefficient), steps_[lane]);
+    return scaled_by_steps(exp2_polynomial(rest, coefficient), steps_[lane]);
   }
 
  private:
   static constexpr std::size_t kCoefficients = Exp2TableOf<T>::kCoefficients;
 
-  T rest_[kSubtilePixels];
+  float rest_[kSubtilePixels];  // compilers do not vectorise copies of a class
   alignas(64) std::int32_t steps_[kSubtilePixels];
   alignas(64) float coefficient_[kCoefficients][kSubtilePixels];
 };

@@ -21,20 +21,19 @@ namespace sgs {
 constexpr float kLargestHalf = 65504.0F;
 constexpr float kLeastInfinite = 65520.0F;  // halfway to the next power of two
 
-// The half nearest to x; NaN stays NaN.
+// The half nearest to x; NaN stays NaN. Beside 1.5 2^(e + 13), where 2^e <= |x| < 2^(e + 1),
+// neighbours in float lie 2^(e - 10) apart, as halves do beside x: a sum with it is rounded as a
+// half. Halves below the least normal one lie as they do there.
 inline float rounded_to_half(float x) {
-  constexpr float kLeastNormal = 0x1p-14F;
-  // In [0.5, 1) neighbours in float lie 2^-24 apart, as halves do below kLeastNormal.
-  constexpr float kAlign = 0.75F;
-  constexpr std::uint32_t kDropped = 13;  // of the 23 bits behind the point
-  const auto bits = __builtin_bit_cast(std::uint32_t, x);
-  const std::uint32_t odd = (bits >> kDropped) & 1U;
-  const std::uint32_t nearest = (bits + (1U << (kDropped - 1)) - 1U + odd) >> kDropped << kDropped;
-  const float normal = __builtin_bit_cast(float, nearest);
-  const float subnormal = (x + kAlign) - kAlign;
-  const float magnitude = __builtin_fabsf(x);
-  const float rounded = magnitude < kLeastNormal ? subnormal : normal;
-  return magnitude < kLeastInfinite ? rounded : x * __builtin_inff();
+  constexpr std::uint32_t kExponent = 0x7F800000U;
+  constexpr auto kLeastNormal = __builtin_bit_cast(std::uint32_t, 0x1p-14F);
+  constexpr std::uint32_t kTimesBeside = (13U << 23) + (1U << 22);  // added to the bits of 2^e
+  const std::uint32_t exponent = __builtin_bit_cast(std::uint32_t, x) & kExponent;
+  const std::uint32_t aligned = exponent > kLeastNormal ? exponent : kLeastNormal;
+  const auto beside = __builtin_bit_cast(float, aligned + kTimesBeside);
+  const float rounded = (x + beside) - beside;
+  // A factor rather than a choice of products, which GCC makes a branch of.
+  return rounded * (__builtin_fabsf(x) < kLeastInfinite ? 1.0F : __builtin_inff());
 }
 
 // The same, but too large ones become the largest: for what is multiplied by 0 where it is not

@@ -258,6 +258,8 @@ class Keeping(InFolder):
 
         self.assertEqual(made(), 3)
         self.assertEqual(made(), 3)
+        (self.folder / "presets" / "README.md").write_text("For readers.")
+        self.assertEqual(made(), 3)
         so_far = 3
         for path, again in zip((*read, config, self.scene), (3, 3, 3, 3, 1, 3, 3)):
             with self.subTest(path.name):
