@@ -6,42 +6,29 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <utility>
 
 #include "algorithm/splat/visible_extents.h"
+#include "algorithm/voxel/chunk_cut.h"
 #include "algorithm/voxel/wide_nodes.h"
 
 namespace sgs {
 namespace {
 
-// What the builder sorts: a Gaussian's bound and its place along the four axes that may be cut.
-struct Item {
-  ChunkBound bound;
-  float along[4];  // x, y, z, log2 of the largest visible half-extent
-  std::uint32_t index;
-};
-
-constexpr int kBins = 32;
-
 class Builder {
  public:
-  Builder(std::vector<Item>& items, std::uint32_t chunk) : items_(items), chunk_(chunk) {}
+  Builder(std::vector<ChunkItem>& items, std::uint32_t chunk) : items_(items), chunk_(chunk) {}
 
   std::unique_ptr<BinaryNode> build(std::uint32_t begin, std::uint32_t end) {
     auto node = std::make_unique<BinaryNode>();
     node->begin = begin;
     node->end = end;
     if (end - begin <= chunk_) {
-      node->bound = items_[begin].bound;
-      for (std::uint32_t i = begin + 1; i < end; ++i)
-        node->bound = merged(node->bound, items_[i].bound);
+      node->bound = bound_of(&items_[begin], end - begin);
       return node;
     }
-    const std::uint32_t middle = split(begin, end);
+    const std::uint32_t middle = begin + cut_in_two(&items_[begin], end - begin, chunk_);
     constexpr std::uint32_t kWorthATask = 8192;
     if (end - begin > kWorthATask) {
       tbb::parallel_invoke([&] { node->left = build(begin, middle); },
@@ -56,92 +43,14 @@ class Builder {
   }
 
  private:
-  struct Bin {
-    ChunkBound bound;
-    std::uint32_t count = 0;
-    void add(const ChunkBound& b, std::uint32_t n) {
-      bound = count == 0 ? b : merged(bound, b);
-      count += n;
-    }
-  };
-
-  std::uint64_t chunks(std::uint64_t count) const { return (count + chunk_ - 1) / chunk_; }
-
-  // Reorders [begin, end) and returns where the right part begins: after a whole number of chunks.
-  std::uint32_t split(std::uint32_t begin, std::uint32_t end) {
-    float low[4], high[4];
-    for (int axis = 0; axis < 4; ++axis) {
-      low[axis] = std::numeric_limits<float>::max();
-      high[axis] = std::numeric_limits<float>::lowest();
-    }
-    for (std::uint32_t i = begin; i < end; ++i) {
-      for (int axis = 0; axis < 4; ++axis) {
-        low[axis] = std::min(low[axis], items_[i].along[axis]);
-        high[axis] = std::max(high[axis], items_[i].along[axis]);
-      }
-    }
-    double best_cost = std::numeric_limits<double>::max();
-    int best_axis = -1;
-    std::uint32_t best_left = 0;
-    for (int axis = 0; axis < 4; ++axis) {
-      if (!(high[axis] > low[axis])) continue;
-      std::array<Bin, kBins> bins;
-      const double scale = kBins / (static_cast<double>(high[axis]) - low[axis]);
-      for (std::uint32_t i = begin; i < end; ++i) {
-        const auto at = static_cast<std::size_t>(
-            (static_cast<double>(items_[i].along[axis]) - low[axis]) * scale);
-        bins[std::min<std::size_t>(at, kBins - 1)].add(items_[i].bound, 1);
-      }
-      sweep(bins, axis, best_cost, best_axis, best_left);
-    }
-    const std::uint32_t count = end - begin;
-    if (best_axis < 0) best_left = count / 2;  // all alike: any cut is as good
-    std::uint32_t left = static_cast<std::uint32_t>(
-        std::max<std::uint64_t>(1, (best_left + chunk_ / 2) / chunk_) * chunk_);
-    if (left >= count) left = static_cast<std::uint32_t>((chunks(count) - 1) * chunk_);
-    const auto first = items_.begin() + begin;
-    // A total order, so that the result does not depend on how the range was permuted before.
-    std::nth_element(first, first + left, items_.begin() + end, [&](const Item& a, const Item& b) {
-      const int axis = std::max(best_axis, 0);
-      return a.along[axis] < b.along[axis] || (a.along[axis] == b.along[axis] && a.index < b.index);
-    });
-    return begin + left;
-  }
-
-  void sweep(const std::array<Bin, kBins>& bins, int axis, double& best_cost, int& best_axis,
-             std::uint32_t& best_left) const {
-    std::array<double, kBins> right_cost{};
-    Bin right;
-    for (int k = kBins - 1; k > 0; --k) {
-      if (bins[static_cast<std::size_t>(k)].count > 0)
-        right.add(bins[static_cast<std::size_t>(k)].bound, bins[static_cast<std::size_t>(k)].count);
-      right_cost[static_cast<std::size_t>(k)] =
-          right.count == 0 ? -1
-                           : static_cast<double>(chunks(right.count)) * inflated_area(right.bound);
-    }
-    Bin left;
-    for (int k = 0; k + 1 < kBins; ++k) {
-      if (bins[static_cast<std::size_t>(k)].count > 0)
-        left.add(bins[static_cast<std::size_t>(k)].bound, bins[static_cast<std::size_t>(k)].count);
-      if (left.count == 0 || right_cost[static_cast<std::size_t>(k) + 1] < 0) continue;
-      const double cost = static_cast<double>(chunks(left.count)) * inflated_area(left.bound) +
-                          right_cost[static_cast<std::size_t>(k) + 1];
-      if (cost < best_cost) {
-        best_cost = cost;
-        best_axis = axis;
-        best_left = left.count;
-      }
-    }
-  }
-
-  std::vector<Item>& items_;
+  std::vector<ChunkItem>& items_;
   const std::uint32_t chunk_;
 };
 
 // Turns the binary tree into wide nodes and gives chunks their storage slots.
 class Widener {
  public:
-  Widener(std::vector<Item>& items, Arrangement<ChunkTree>& out)
+  Widener(const std::vector<ChunkItem>& items, Arrangement<ChunkTree>& out)
       : items_(items), tree_(out.table), storage_order_(out.storage_order) {}
 
   void run(const BinaryNode& root) {
@@ -201,7 +110,7 @@ class Widener {
     std::sort(storage_order_.begin() + static_cast<std::ptrdiff_t>(first), storage_order_.end());
   }
 
-  std::vector<Item>& items_;
+  const std::vector<ChunkItem>& items_;
   ChunkTree& tree_;
   std::vector<std::uint32_t>& storage_order_;
 };
@@ -224,15 +133,10 @@ Arrangement<ChunkTree> arrange_by_chunks(const ActivatedCloud& cloud, std::uint3
   Arrangement<ChunkTree> out;
   const std::vector<std::uint32_t> kept = stored_gaussians(cloud, stored);
   if (kept.empty()) return out;
-  std::vector<Item> items(kept.size());
+  std::vector<ChunkItem> items(kept.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, kept.size(), 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      Item& item = items[i];
-      item.index = kept[i];
-      item.bound = gaussian_bound(cloud.gaussians[item.index]);
-      const glm::vec3& e = item.bound.extent;
-      for (int a = 0; a < 3; ++a) item.along[a] = item.bound.low[a];
-      item.along[3] = std::log2(std::clamp(std::max({e.x, e.y, e.z}), 1e-30F, 1e30F));
+      items[i] = chunk_item(cloud.gaussians[kept[i]], kept[i]);
     }
   });
   out.storage_order.reserve(items.size());

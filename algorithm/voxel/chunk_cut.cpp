@@ -1,0 +1,138 @@
+#include "algorithm/voxel/chunk_cut.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+
+#include "algorithm/splat/visible_extents.h"
+#include "algorithm/voxel/binary_tree.h"
+
+namespace sgs {
+namespace {
+
+constexpr int kAxes = 4;
+constexpr std::size_t kBins = 32;
+
+// Compilers do not find by themselves that four numbers are compared at once here.
+using Four [[gnu::vector_size(16)]] = float;
+
+Four four(const float* of) {
+  Four out;
+  std::memcpy(&out, of, sizeof out);
+  return out;
+}
+Four all_four(float x) { return Four{x, x, x, x}; }
+Four least(Four a, Four b) { return b < a ? b : a; }
+Four largest(Four a, Four b) { return a < b ? b : a; }
+
+struct Bin {
+  Four low = all_four(std::numeric_limits<float>::max());
+  Four high = all_four(std::numeric_limits<float>::lowest());
+  Four reach = all_four(0.0F);
+  std::uint32_t count = 0;
+
+  void add(const Bin& other) {
+    low = least(low, other.low);
+    high = largest(high, other.high);
+    reach = largest(reach, other.reach);
+    count += other.count;
+  }
+  ChunkBound bound() const {
+    return {{low[0], low[1], low[2]},
+            {high[0], high[1], high[2]},
+            {reach[0], reach[1], reach[2]},
+            reach[3]};
+  }
+};
+
+Bin bin_of(const ChunkItem& item) { return {four(item.at), four(item.at), four(item.reach), 1}; }
+
+Bin all_of(const ChunkItem* items, std::uint32_t count) {
+  Bin all;
+  for (std::uint32_t i = 0; i < count; ++i) all.add(bin_of(items[i]));
+  return all;
+}
+
+struct Cut {
+  double cost = std::numeric_limits<double>::max();
+  int axis = -1;
+  std::uint32_t left = 0;
+};
+
+// The least of its own cost and those of all cuts between bins.
+Cut better(Cut best, const std::array<Bin, kBins>& bins, int axis, std::uint32_t chunk) {
+  const auto cost_of = [&](const Bin& part) {
+    const std::uint64_t chunks = (std::uint64_t{part.count} + chunk - 1) / chunk;
+    return static_cast<double>(chunks) * inflated_area(part.bound());
+  };
+  std::array<double, kBins> right_cost{};
+  Bin right;
+  for (std::size_t k = kBins - 1; k > 0; --k) {
+    if (bins[k].count > 0) right.add(bins[k]);
+    right_cost[k] = right.count == 0 ? -1 : cost_of(right);
+  }
+  Bin left;
+  for (std::size_t k = 0; k + 1 < kBins; ++k) {
+    if (bins[k].count > 0) left.add(bins[k]);
+    if (left.count == 0 || right_cost[k + 1] < 0) continue;
+    const double cost = cost_of(left) + right_cost[k + 1];
+    if (cost < best.cost) best = {cost, axis, left.count};
+  }
+  return best;
+}
+
+Cut best_cut(const ChunkItem* items, std::uint32_t count, std::uint32_t chunk) {
+  const Bin all = all_of(items, count);
+  double scale[kAxes];
+  for (int k = 0; k < kAxes; ++k) {
+    const double length = static_cast<double>(all.high[k]) - all.low[k];
+    scale[k] = length > 0 ? kBins / length : 0;
+  }
+  std::array<std::array<Bin, kBins>, kAxes> bins;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Bin one = bin_of(items[i]);
+    for (int k = 0; k < kAxes; ++k) {
+      const auto at =
+          static_cast<std::size_t>((static_cast<double>(items[i].at[k]) - all.low[k]) * scale[k]);
+      bins[static_cast<std::size_t>(k)][std::min(at, kBins - 1)].add(one);
+    }
+  }
+  Cut best;
+  for (int k = 0; k < kAxes; ++k) {
+    if (scale[k] > 0) best = better(best, bins[static_cast<std::size_t>(k)], k, chunk);
+  }
+  return best;
+}
+
+}  // namespace
+
+ChunkItem chunk_item(const Gaussian<float>& g, std::uint32_t index) {
+  const VisibleExtents visible = visible_extents(g);
+  const glm::vec3& e = visible.extent;
+  const float size = std::clamp(std::max({e.x, e.y, e.z}), 1e-30F, 1e30F);
+  return {
+      {g.mean.x, g.mean.y, g.mean.z, std::log2(size)}, {e.x, e.y, e.z, visible.scale_max}, index};
+}
+
+ChunkBound bound_of(const ChunkItem* items, std::uint32_t count) {
+  return all_of(items, count).bound();
+}
+
+std::uint32_t cut_in_two(ChunkItem* items, std::uint32_t count, std::uint32_t chunk) {
+  const Cut best = best_cut(items, count, chunk);
+  const std::uint32_t wanted = best.axis < 0 ? count / 2 : best.left;  // all alike: any is as good
+  std::uint32_t left = std::max<std::uint32_t>(1, (wanted + chunk / 2) / chunk) * chunk;
+  if (left >= count) left = (count - 1) / chunk * chunk;
+  // A total order, so that the result does not depend on how the range was permuted before.
+  const int axis = std::max(best.axis, 0);
+  std::nth_element(
+      items, items + left, items + count, [axis](const ChunkItem& a, const ChunkItem& b) {
+        return a.at[axis] < b.at[axis] || (a.at[axis] == b.at[axis] && a.index < b.index);
+      });
+  return left;
+}
+
+}  // namespace sgs
