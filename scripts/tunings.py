@@ -118,7 +118,7 @@ def study_parser(doc: str | None, forms: str) -> run_arguments.Parser:
         choices=("fp32", "fp16"),
         default="fp32",
         help="that paper order is drawn in while it is tuned for; fp16, as its presets have it, "
-        "takes several times as long to draw",
+        "takes half as long again to draw",
     )
     parser.add_argument(
         "--paper-set",

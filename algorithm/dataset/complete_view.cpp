@@ -14,18 +14,9 @@ namespace {
 
 constexpr int kMostSidePx = 65536;  // sub-tile bounds are 16-bit numbers
 
-// Whether one factor brings both stated sides to within a pixel of the image's.
-bool sizes_match(const Intrinsics& stated, const ImageHeader& image) {
-  const auto factor = [](int image_px, int stated_px, int off_px) {
-    return static_cast<double>(image_px + off_px) / stated_px;
-  };
-  return std::max(factor(image.width, stated.width, -1), factor(image.height, stated.height, -1)) <
-         std::min(factor(image.width, stated.width, 1), factor(image.height, stated.height, 1));
-}
-
 void check_sizes(const StatedView& view) {
   const Intrinsics& stated = view.intrinsics;
-  if (!sizes_match(stated, view.image)) {
+  if (!of_one_shape(view.image.width, view.image.height, stated.width, stated.height)) {
     throw InputError(fmt::format(
         "{}: {} is {}x{} px, expected {}x{} px as its camera, or both sides by one factor",
         view.where, view.image_path, view.image.width, view.image.height, stated.width,
@@ -74,6 +65,14 @@ Cut cut_around(const StatedView& view, const char* axis, double principal, int s
 }
 
 }  // namespace
+
+bool of_one_shape(int width, int height, int stated_width, int stated_height) {
+  const auto factor = [](int px, int stated_px, int off_px) {
+    return static_cast<double>(px + off_px) / stated_px;
+  };
+  return std::max(factor(width, stated_width, -1), factor(height, stated_height, -1)) <
+         std::min(factor(width, stated_width, 1), factor(height, stated_height, 1));
+}
 
 DatasetView complete_view(const StatedView& view) {
   check_sizes(view);

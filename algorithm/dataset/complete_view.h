@@ -5,6 +5,9 @@
 
 namespace sgs {
 
+// Whether one factor brings both stated sides to within a pixel of the others.
+bool of_one_shape(int width, int height, int stated_width, int stated_height);
+
 // Scales the intrinsics to the image, whose size may be the stated one times a common factor, each
 // side rounded either way. Then cuts off the image's side that has the principal point farther from
 // its border, until it is in the middle within half a pixel: Camera knows no other place, and

@@ -34,7 +34,8 @@ constexpr std::array<Layout, 5> kLayouts = {{
 const Layout& layout_of(const std::string& folder) {
   std::error_code unknown;
   if (!std::filesystem::is_directory(folder, unknown)) {
-    throw InputError(fmt::format("{}: no such folder, expected one with a data set", folder));
+    const char* got = std::filesystem::exists(folder, unknown) ? "is a file" : "no such folder";
+    throw InputError(fmt::format("{}: {}, expected a folder with a data set", folder, got));
   }
   std::vector<const Layout*> found;
   std::vector<std::string> looked_for, there;

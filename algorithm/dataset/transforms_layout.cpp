@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
+#include "algorithm/dataset/complete_view.h"
 #include "algorithm/dataset/find_image.h"
 #include "algorithm/dataset/layouts.h"
 #include "algorithm/dataset/points_ply.h"
@@ -81,6 +83,7 @@ class TransformsFile {
  private:
   StatedView view_of(const TransformsFrame& frame, const std::string& file, Split split) const {
     const FoundImage found = find_image({folder_}, file, frame.where());
+    if (!frame.number("w") || !frame.number("h")) check_shape(frame, found);
     return {frame.where(),
             view_name(file),
             found.path,
@@ -90,8 +93,22 @@ class TransformsFile {
             split};
   }
 
+  // Where frames do not say how large their images are, one angle of all is of one shape: others
+  // were cut, and nobody says where.
+  void check_shape(const TransformsFrame& frame, const FoundImage& found) const {
+    if (!of_all("camera_angle_x") && !of_all("camera_angle_y")) return;
+    if (!first_) first_ = found;
+    const ImageHeader &one = found.header, &first = first_->header;
+    if (of_one_shape(one.width, one.height, first.width, first.height)) return;
+    throw InputError(fmt::format("{}: {} is {}x{} px, expected the shape of {}, {}x{} px",
+                                 frame.where(), found.path, one.width, one.height, first_->path,
+                                 first.width, first.height));
+  }
+  bool of_all(const char* key) const { return json_.contains(key); }
+
   std::string folder_, path_;
   Json json_;
+  mutable std::optional<FoundImage> first_;  // whose shape all have
 };
 
 }  // namespace

@@ -118,6 +118,16 @@ void CommandLine::real(const char* name, double& value, double lo, double hi, co
   app_->add(name, value, what)->check(in_interval(lo, hi, "a number"))->capture_default_str();
 }
 
+void CommandLine::whole(const char* name, std::optional<std::uint32_t>& value, std::uint32_t lo,
+                        std::uint32_t hi, const char* what) {
+  app_->add(name, value, what)->check(in_interval(lo, hi, "a whole number"));
+}
+
+void CommandLine::real(const char* name, std::optional<double>& value, double lo, double hi,
+                       const char* what) {
+  app_->add(name, value, what)->check(in_interval(lo, hi, "a number"));
+}
+
 // What follows the value of an option that may be repeated is another argument.
 void CommandLine::texts(const char* name, std::vector<std::string>& values, const char* what) {
   app_->add(name, values, what)->allow_extra_args(false);

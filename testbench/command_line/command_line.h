@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ class CommandLine {
              const char* what);
   // A finite number in [lo, hi].
   void real(const char* name, double& value, double lo, double hi, const char* what);
+  // Where none is given, the command itself decides.
+  void whole(const char* name, std::optional<std::uint32_t>& value, std::uint32_t lo,
+             std::uint32_t hi, const char* what);
+  void real(const char* name, std::optional<double>& value, double lo, double hi, const char* what);
   // May be repeated, one text each.
   void texts(const char* name, std::vector<std::string>& values, const char* what);
   // Positional, any number of them.

@@ -53,6 +53,7 @@ void FittingLog::add(int done, std::optional<double> loss, std::size_t gaussians
                      const Look& look) {
   const double in_all_s = seconds();
   test_psnr_db_ = look.test.psnr_db;
+  if (done == 0) first_psnr_db_ = test_psnr_db_;
   if (terminal_) fmt::print(stderr, "\r{:<79}\r", "");
   fmt::print("{:>8} {:>9} {:>11} {:>9.2f} {:>8.5f}", done,
              loss ? fmt::format("{:.5f}", *loss) : "-", grouped(gaussians), look.test.psnr_db,
@@ -70,6 +71,12 @@ void FittingLog::add(int done, std::optional<double> loss, std::size_t gaussians
                       look.test.ssim);
   for (const double value : look.more) csv_ += fmt::format(",{:.7g}", value);
   csv_ += '\n';
+}
+
+void FittingLog::end() const {
+  if (!first_psnr_db_ || !test_psnr_db_ || !(*test_psnr_db_ < *first_psnr_db_)) return;
+  fmt::print("the test views are {:.2f} dB worse than before the first step\n",
+             *first_psnr_db_ - *test_psnr_db_);
 }
 
 }  // namespace sgs

@@ -39,6 +39,8 @@ class FittingLog {
   void tell(const FittingStep& step, std::size_t gaussians);
   // After so many steps; loss: of the last one, none before the first.
   void add(int done, std::optional<double> loss, std::size_t gaussians, const Look& look);
+  // After the last step: says so if the test views are worse than before the first.
+  void end() const;
   // step, seconds, loss, Gaussians, PSNR and SSIM of the test views, further columns.
   const std::string& csv() const { return csv_; }
   double seconds() const { return before_s_ + own_seconds(); }  // all runs together
@@ -52,7 +54,8 @@ class FittingLog {
   const double before_s_;  // that earlier runs took
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   int first_step_ = -1;                 // of this run
-  std::optional<double> test_psnr_db_;  // at the last look
+  std::optional<double> first_psnr_db_;  // before the first step, where this run saw it
+  std::optional<double> test_psnr_db_;   // at the last look
 };
 
 }  // namespace sgs

@@ -28,6 +28,7 @@ class FittingRun {
       : arguments_(arguments), task_(task), log_(task.fitting.steps(), task.more, earlier(from)) {}
 
   int run(bool look_first) {
+    const int first = task_.fitting.next_step();
     try {
       const Interrupt interrupt;
       if (look_first) look({});
@@ -36,8 +37,13 @@ class FittingRun {
         step();
       }
       task_.write();
+      log_.end();
       return kDone;
     } catch (const std::exception& error) {
+      // All photographs are read for the first step: what cannot be is bad input, and nothing is
+      // lost.
+      const bool of_input = dynamic_cast<const InputError*>(&error) != nullptr;
+      if (of_input && task_.fitting.next_step() == first) throw;
       throw std::runtime_error(fmt::format("{}; {}", error.what(), kept()));
     }
   }

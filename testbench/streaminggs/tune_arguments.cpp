@@ -36,10 +36,12 @@ void TuneArguments::add_to(CommandLine& line) {
              "them drawn by lot, on the line between the centres, turned the shortest way");
   config.add_to(line);
   FittingArguments::add_to(line, "scene to write: .sgs with --quantise, else .ply");
-  line.whole("--steps", steps, 0, 1'000'000, "a picture each; 0: 3,000, with --quantise 5,000");
+  line.whole("--steps", steps, 1, 1'000'000,
+             "a picture each; 3,000 if not given, with --quantise 5,000");
   line.whole("--seed", seed, 0, kMostSeed, "of all that is drawn by lot");
-  line.real("--rate", rate, 0, 1'000,
-            "of learning, times the original's; 0: 1, with --quantise and --streaming 0.2");
+  line.real("--rate", rate, 1e-6, 1'000,
+            "of learning, times the original's; 1 if not given, with --quantise and --streaming "
+            "0.2");
   line.real("--beta", beta, 0, 1e9, "of L_CBP in the loss");
   line.one_of({"group", "pixel"}, "--misordered-in", misordered_in,
               "where a Gaussian comes behind a farther one: in its group or at a pixel of its own");
@@ -76,8 +78,8 @@ void TuneArguments::check() const {
 }
 
 void TuneArguments::set(TuningConfig& tuning, int own_steps, double own_rate) const {
-  tuning.steps = steps > 0 ? static_cast<int>(steps) : own_steps;
-  tuning.rate = rate > 0 ? rate : own_rate;
+  tuning.steps = steps ? static_cast<int>(*steps) : own_steps;
+  tuning.rate = rate.value_or(own_rate);
   tuning.seed = seed;
   tuning.comparison.gradients = gradient_rule();
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "algorithm/train/tuning_config.h"
@@ -19,9 +20,9 @@ struct TuneArguments : SceneArguments, FittingArguments {
   std::string target;     // scene whose pictures they are; empty: the one that is tuned
   std::uint32_t between = 0;
   ConfigSource config;
-  std::uint32_t steps = 0;  // 0: as many as the paper takes
+  std::optional<std::uint32_t> steps;  // none: as many as the paper takes
   std::uint64_t seed = 1;
-  double rate = 0;  // 0: that of the tuning
+  std::optional<double> rate;  // none: that of the tuning
   double beta = 0.05;
   std::string misordered_in = "group", penalty_mean = "rendered";
   std::uint32_t reassign_every = 100;

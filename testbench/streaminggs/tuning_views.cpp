@@ -38,12 +38,13 @@ TuningViews views_of_scene(const std::string& pictures, const ActivatedCloud& cl
     }
     if (tune.empty()) tune = test;
   }
+  const bool alone = between == 0 && cameras.size() == 1;
   TuningViews out{nullptr, tune, own_pictures(cloud, tune), own_pictures(cloud, test), ""};
   out.tune.load(1);
   out.test.load(1);
-  out.says =
-      fmt::format("no photographs: {}, {} views{}, {} to test with", pictures, grouped(tune.size()),
-                  between > 0 ? " between the cameras" : "", grouped(test.size()));
+  out.says = fmt::format("no photographs: {}, {} views{}, {} to test with", pictures,
+                         grouped(tune.size()), between > 0 ? " between the cameras" : "",
+                         alone ? "the same one" : grouped(test.size()));
   return out;
 }
 

@@ -178,6 +178,10 @@ TEST_CASE("train: refusals") {
   const std::string checkpoint = std::string(kTrain) + "--out s.ply --checkpoint 25 >t && ";
   for (const Row& row : std::vector<Row>{
            {"$SG train nofolder --out s.ply", {"nofolder: no such folder"}},
+           {"$SG train d/transforms_train.json --out s.ply", {"is a file, expected a folder"}},
+           {"i=$(ls d/train/*.png | tail -1); head -c 100 $i >cut; mv cut $i; $SG train d --out "
+            "s.ply",
+            {".png"}},
            {"$SG train d --out ''", {"--out", "got nothing"}},
            {"$SG train d --out s.sgs", {"--out", "s.sgs", ".ply"}},
            {"$SG train d --out s.ply --log s.ply.checkpoint", {"s.ply.checkpoint"}},

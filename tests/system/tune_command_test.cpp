@@ -103,8 +103,9 @@ TEST_CASE("tune: what is cheaper to stream") {
       scratch, std::string(kStreaming) + "--out t.ply --log l.csv && cat l.csv && $SG info t.ply");
   INFO(made.out << made.err);
   CHECK(made.status == 0);
-  for (const char* word : {"in chunks of 8", "test_ssim,stored,fetches\n0,", "\n15,", "\n30,",
-                           "gaussians                 300\n"}) {
+  for (const char* word :
+       {"in chunks of 8", "test_ssim,stored,fetches\n0,", "\n15,", "\n30,",
+        " dB worse than before the first step\n", "gaussians                 300\n"}) {
     INFO(word);
     CHECK(made.out.find(word) != std::string::npos);
   }
@@ -181,6 +182,8 @@ TEST_CASE("tune: refusals") {
            {"$SG tune $B --streaming --out t.ply --config exact --visit-memory 9",
             {"--visit-memory", "paper order"}},
            {"$SG tune $B --boundary --out t.ply --beta -1", {"--beta", "-1"}},
+           {"$SG tune $B --boundary --out t.ply --steps 0", {"--steps", "'0'", "from 1"}},
+           {"$SG tune $B --boundary --out t.ply --rate 0", {"--rate", "'0'"}},
            {"$SG tune $B --boundary --out t.ply --misordered-in x", {"--misordered-in", "x"}},
            {ply_of({"0 0 5"}) + "; $SG tune a.ply --boundary --out t.ply",
             {"a.ply: brings no cameras"}},
