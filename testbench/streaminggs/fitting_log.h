@@ -53,7 +53,7 @@ class FittingLog {
   std::string csv_;
   const double before_s_;  // that earlier runs took
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  int first_step_ = -1;                 // of this run
+  int first_step_ = -1;                  // of this run
   std::optional<double> first_psnr_db_;  // before the first step, where this run saw it
   std::optional<double> test_psnr_db_;   // at the last look
 };
