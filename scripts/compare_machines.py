@@ -17,8 +17,6 @@ against gscore as well, and marked.
   compare_machines_joules.md   mJ by component
   compare_machines_busy.md     share of the frame that each resource works; of the GPU's time, by
                                kernel
-  compare_machines_seconds.md  wall time of this model for one design point (--side-by-side 1: that
-                               nothing disturbs)
   characterisation.md          what the GPU and the tile-centric machine move, and what they would
                                have to move at 90 frames a second
 
@@ -37,35 +35,33 @@ from __future__ import annotations
 import argparse
 import itertools
 import pathlib
-import re
 import subprocess
 import sys
 from collections.abc import Sequence
 
+import machine_cases
 import machine_ratios
 import run_arguments
 import tables
 from gpu_views import MODEL, model_gpu
 from kept_runs import KeptRuns
+from machine_cases import Case, sizes_of
 from machine_measures import GPU, modelled, simulated
 from machine_tables import (
     ABOUT,
     CHARACTER_HEAD,
     HEAD,
     PARTS_TABLES,
-    SECONDS_HEAD,
-    Case,
     Entry,
     Parts,
     PartsTable,
     character_row,
     parts_rows,
     row,
-    seconds_about,
-    seconds_rows,
 )
-from scenes import Scene, find_scene, shared_names
 from simulations import REPOSITORY, Run, said
+from sweep_server import SweepServer
+from view_numbers import view_numbers
 
 MACHINES = (
     "gscore",
@@ -83,9 +79,6 @@ MACHINES = (
 RUNS_FILE, GPU_RUNS_FILE = "compare_machines_runs.jsonl", "compare_machines_gpu_runs.jsonl"
 DRAWER = REPOSITORY / "scripts" / "figures.py"
 FIGURES = ("compare_machines_rates", "compare_machines_traffic", "compare_machines_ratios")
-OBJECTS = ("truck", "playbot", "builtin:object")  # whatever their parameters
-SIZES, OBJECT_SIZES = ("640x360", "980x545"), ("640x360", "800x800")
-BUILT_IN = ("builtin:object", "builtin:outdoor", "builtin:outdoor?n=1000000")
 
 PARTS_HEAD = ("scene", "size", "GB/s", "machine", "part", "value", "unit")
 
@@ -109,70 +102,57 @@ def write_parts(
     print(f"{text}\n", flush=True)
 
 
-def shows_object(name: str) -> bool:
-    return any(name == text or name.startswith(f"{text}?") for text in OBJECTS)
+def runs_of(
+    arguments: argparse.Namespace, cases: Sequence[Case]
+) -> dict[tuple[Case, str, int], list[Run]]:
+    """Of each case, machine and number of channels: a run for every view."""
+    return {
+        (case, machine, channels): [
+            Run(case.scene, str(view), case.size, machine, (f"dram.channels={channels}",))
+            for view in view_numbers(arguments.streaminggs, case.scene, arguments.view)
+        ]
+        for case in cases
+        for machine in arguments.machines
+        for channels in arguments.channels
+    }
 
 
-def sizes_of(name: str, arguments: argparse.Namespace) -> list[str]:
-    if shows_object(name):
-        return arguments.object_sizes or OBJECT_SIZES
-    return arguments.sizes or SIZES
-
-
-def check_sizes(arguments: argparse.Namespace, scenes: Sequence[Scene]) -> None:
-    """Raises ValueError for what is no size, and where only the sizes of other scenes are given."""
-    given = {"--sizes": arguments.sizes, "--object-sizes": arguments.object_sizes}
-    for option, sizes in given.items():
-        for size in sizes or ():
-            if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", size):
-                raise ValueError(f"{option}: got {size}, expected WIDTHxHEIGHT in px")
-    asked = {option for option, sizes in given.items() if sizes}
-    used = {"--object-sizes" if shows_object(scene.name) else "--sizes" for scene in scenes}
-    if asked and not asked & used:
-        names = ", ".join(scene.name for scene in scenes)
-        objects = ", ".join(OBJECTS)
-        raise ValueError(
-            f"{asked.pop()}: got only this, expected {used.pop()} for {names} (objects: {objects})"
-        )
-
-
-def check_machines(arguments: argparse.Namespace) -> None:
-    """Before hours of simulation. Raises ValueError for what the program refuses to be told of."""
-    for machine, channels in itertools.product(arguments.machines, arguments.channels):
-        asked = ("--config", machine, "--set", f"dram.channels={channels}")
-        command = [str(arguments.streaminggs), "describe", *asked]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise ValueError(said(done))
-
-
-def find_cases(arguments: argparse.Namespace) -> list[Case]:
-    scenes = [find_scene(text) for text in arguments.scenes or [*BUILT_IN, *shared_names()]]
-    check_sizes(arguments, scenes)
-    check_machines(arguments)
-    return [Case(scene, size) for scene in scenes for size in sizes_of(scene.name, arguments)]
+def measure_scene(
+    arguments: argparse.Namespace, cases: Sequence[Case]
+) -> tuple[list[Entry], set[str]]:
+    """Of the cases of one scene, and the commits that the reports name. Raises ValueError for what
+    is refused, Failure for what failed, when all else has been simulated and kept."""
+    asked = runs_of(arguments, cases)
+    program, kept = arguments.streaminggs, arguments.out / RUNS_FILE
+    # A server of its own: it holds all ways in which the machines want their scene stored.
+    with SweepServer(program, kept, arguments.side_by_side) as server:
+        answered = iter(server.outcomes([run for runs in asked.values() for run in runs]))
+        server.end()
+    entries, commits = [], set()
+    for (case, machine, _), runs in asked.items():
+        views = [view for _ in runs for view in next(answered).accepted()]
+        commits.update(view["provenance"].get("commit", "") for view in views)
+        entries.append(Entry(case, machine, simulated(views)))
+    print(f"{cases[0].scene.name}: {server.simulated} frames", file=sys.stderr, flush=True)
+    return entries, commits
 
 
 def measure(arguments: argparse.Namespace, cases: Sequence[Case]) -> tuple[list[Entry], str]:
-    """And how it was made. Raises ValueError for what is refused, Failure for what failed, when
-    all else has been simulated and kept."""
-    out, program, pace = arguments.out, arguments.streaminggs, arguments.side_by_side
-    kept = KeptRuns(program, out / RUNS_FILE, pace)
-    kept_gpu = KeptRuns(program, out / GPU_RUNS_FILE, pace, model_gpu)
-    runs = {
-        (case, channels, machine): Run(
-            case.scene, arguments.view, case.size, machine, (f"dram.channels={channels}",)
-        )
-        for case in cases
-        for channels in arguments.channels
-        for machine in arguments.machines
-    }
+    """And how it was made."""
+    kept = KeptRuns(
+        arguments.streaminggs, arguments.out / GPU_RUNS_FILE, arguments.side_by_side, model_gpu
+    )
+    entries, commits = [], set()
+    for _, of_scene in itertools.groupby(cases, key=lambda case: case.scene):
+        more, of = measure_scene(arguments, list(of_scene))
+        entries, commits = entries + more, commits | of
     gpu_runs = [Run(case.scene, arguments.view, case.size, MODEL) for case in cases]
-    outcomes = dict(zip(runs, kept.outcomes(list(runs.values()))))
-    of_gpu = dict(zip(cases, kept_gpu.outcomes(gpu_runs)))
-    entries = [Entry(case, name, simulated(o)) for (case, _, name), o in outcomes.items()]
-    entries += [Entry(case, GPU, modelled(o)) for case, o in of_gpu.items()]
-    return entries, run_arguments.how_made(v for o in outcomes.values() for v in o.views)
+    for case, outcome in zip(cases, kept.outcomes(gpu_runs)):
+        entries.append(Entry(case, GPU, modelled(outcome)))
+    # Of each case in turn, memory by memory, the GPU last.
+    place = {case: at for at, case in enumerate(cases)}
+    entries.sort(key=lambda e: (place[e.case], e.machine == GPU, e.of.peak_gb_s))
+    return entries, run_arguments.how_made_at(commits)
 
 
 def size_groups(cases: Sequence[Case], arguments: argparse.Namespace) -> dict[str, list[Case]]:
@@ -196,11 +176,10 @@ def draw(folder: pathlib.Path) -> None:
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
-    cases = find_cases(arguments)
+    cases = machine_cases.find_cases(arguments)
     entries, made = measure(arguments, cases)
     out = arguments.out
-    in_turn = sorted(entries, key=lambda e: cases.index(e.case))  # stable: the GPU last
-    tables.write(out, "compare_machines", made + ABOUT, HEAD, list(map(row, in_turn)))
+    tables.write(out, "compare_machines", made + ABOUT, HEAD, list(map(row, entries)))
     ratios = machine_ratios.rows(entries, size_groups(cases, arguments), arguments.machines)
     about = made + machine_ratios.ABOUT
     tables.write(out, "compare_machines_ratios", about, machine_ratios.HEAD, ratios)
@@ -210,9 +189,7 @@ def make_tables(arguments: argparse.Namespace) -> None:
     parts = (lambda m: m.bytes_by_region, lambda m: m.joules_by_component, lambda m: m.busy)
     for of, what in zip(parts, PARTS_TABLES):
         write_parts(out, made, entries, of, what)
-    about = made + seconds_about(arguments.side_by_side)
-    tables.write(out, "compare_machines_seconds", about, SECONDS_HEAD, seconds_rows(entries))
-    shown = [e for e in in_turn if e.machine in (GPU, "gscore")]
+    shown = [e for e in entries if e.machine in (GPU, "gscore")]
     characters = list(map(character_row, shown))
     tables.write(out, "characterisation", made, CHARACTER_HEAD, characters)
     draw(out)
@@ -222,26 +199,7 @@ def main() -> int:
     parser = run_arguments.parser(__doc__, "as said above")
     run_arguments.add_side_by_side(parser)
     parser.add_argument("--view", default="all", help="number of a camera, or all")
-    parser.add_argument(
-        "--sizes", nargs="+", metavar="WxH", help=f"in px; default: {' '.join(SIZES)}"
-    )
-    parser.add_argument(
-        "--object-sizes",
-        nargs="+",
-        metavar="WxH",
-        help=f"of {', '.join(OBJECTS)}; default: {' '.join(OBJECT_SIZES)}",
-    )
-    parser.add_argument(
-        "--channels",
-        nargs="+",
-        type=int,
-        default=[4, 8],
-        metavar="N",
-        help="of LPDDR3-1600, 6.4 GB/s each",
-    )
-    parser.add_argument(
-        "--machines", nargs="+", default=list(MACHINES), metavar="PRESET", help="to compare"
-    )
+    machine_cases.add_arguments(parser, MACHINES, [4, 8])
     return run_arguments.main_of_tables(make_tables, parser.parse_args())
 
 

@@ -20,7 +20,7 @@ from collections.abc import Callable, Sequence
 
 import run_arguments
 import tables
-from energy_components import OTHER, components, joules
+from energy_components import OTHER, components, joules, joules_at_end
 from group_shapes import assignments
 from kept_runs import KeptRuns
 from measures import value_at
@@ -37,12 +37,12 @@ MJ = 1e-3
 
 def with_band(view: dict, keys: Sequence[str]) -> str:
     """The memory's band is that of the published sets of currents; the total's has none of it."""
-    ends = [joules(view, keys, end) for end in ("low", "middle", "high")]
+    middle = joules(view, keys)
     if keys == OTHER["DRAM"]:
-        sets = [*view["energy"]["dram_by_current_set_j"].values(), ends[1]]
-        ends = [min(sets), ends[1], max(sets)]
-    low, middle, high = (end / MJ for end in ends)
-    return f"{middle:.3f} ({low:.3f} .. {high:.3f})"
+        ends = [*view["energy"]["dram_by_current_set_j"].values(), middle]
+    else:
+        ends = [joules_at_end(view, keys, end) for end in ("low", "high")]
+    return f"{middle / MJ:.3f} ({min(ends) / MJ:.3f} .. {max(ends) / MJ:.3f})"
 
 
 def component_rows(by_preset: dict[str, Sequence[dict]]) -> list[tuple]:

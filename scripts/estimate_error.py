@@ -18,7 +18,6 @@ estimate finds; estimate_error.csv, a line a frame; and estimate_error.svg and .
 from __future__ import annotations
 
 import argparse
-import concurrent.futures
 import dataclasses
 import os
 import random
@@ -67,12 +66,11 @@ def draw_machines(order: Order, count: int, seed: int) -> list[Machine]:
     return [Machine(order, at) for at in drawn]
 
 
-def reports(server: SweepServer, runs: list[Run], jobs: int) -> tuple[list[dict | None], float]:
+def reports(server: SweepServer, runs: list[Run]) -> tuple[list[dict | None], float]:
     """Of each run its view's report, None for a refused one; and the seconds that all took.
     Raises ValueError with the last reason where all are refused."""
     began = time.monotonic()
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        outcomes = list(pool.map(server.outcome, runs))
+    outcomes = server.outcomes(runs)
     server.end()
     if not any(o.views for o in outcomes):
         raise ValueError(f"all configurations are refused: {outcomes[-1].refused}")
@@ -170,7 +168,7 @@ def compared_frames(scenes: list[Scene], arguments: argparse.Namespace) -> tuple
     for name, options in (("reckoned", ("--estimate",)), ("accurate", ())):
         kept = arguments.out / f"estimate_{name}.jsonl"
         with SweepServer(arguments.streaminggs, kept, arguments.jobs, options) as server:
-            views, seconds = reports(server, runs, arguments.jobs)
+            views, seconds = reports(server, runs)
             print(f"{name}: {len(runs)} frames in {seconds:.0f} s, {server.simulated} of them new")
         sides.append(views)
     frames = [

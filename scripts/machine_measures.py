@@ -27,8 +27,7 @@ class Measured:
     """Bytes: on the bus; of the GPU those that its kernels ask for. busiest_seconds: of each view,
     how long the busiest resource works, which no overlapping of frames makes less. decibels: of
     the views, against the reference picture; none of the GPU. encoding: of the scene. busy: share
-    of the frame that a resource works, mean of those that are alike. wall_seconds: of this model,
-    a view alone, and the call with all of them."""
+    of the frame that a resource works, mean of those that are alike."""
 
     seconds: tuple[float, ...]
     busiest_seconds: tuple[float, ...]
@@ -42,8 +41,6 @@ class Measured:
     mm2: float | None = None
     decibels: tuple[float, ...] = ()
     binds: str = ""
-    wall_seconds: tuple[float, ...] = ()
-    call_seconds: float = 0
 
     def bytes(self, kind: str = "") -> float:
         """All, or those of a kind: scene, intermediate, pixels."""
@@ -110,9 +107,8 @@ def component_joules(view: dict) -> dict[str, float]:
     return parts
 
 
-def simulated(outcome: Outcome) -> Measured:
-    """Raises ValueError when the run was refused, Failure when it failed."""
-    views = outcome.accepted()
+def simulated(views: Views) -> Measured:
+    """Of one machine with one memory."""
     return Measured(
         seconds=tuple(v["frame"]["time_s"] for v in views),
         busiest_seconds=tuple(map(busiest_seconds, views)),
@@ -126,8 +122,6 @@ def simulated(outcome: Outcome) -> Measured:
         mm2=max(v["area_mm2"]["total"] for v in views),
         decibels=tuple(map(decibels, views)),
         binds=binders(views),
-        wall_seconds=tuple(v["host"]["simulation_wall_s"] for v in views),
-        call_seconds=outcome.seconds,
     )
 
 

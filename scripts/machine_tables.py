@@ -6,23 +6,12 @@ import dataclasses
 import statistics
 from collections.abc import Callable, Mapping, Sequence
 
+from machine_cases import Case
 from machine_measures import MJ, Measured
-from scenes import Scene
 from view_numbers import decibels_text
 
 MB = 1e6
 WISHED_FPS = 90
-# NeRArch-Sim (ISCA 2026), of a design point of GSCore.
-PUBLISHED_SECONDS = 47.7
-
-
-@dataclasses.dataclass(frozen=True)
-class Case:
-    scene: Scene
-    size: str
-
-    def cells(self) -> tuple[str, str]:
-        return self.scene.name, self.size
 
 
 @dataclasses.dataclass(frozen=True)
@@ -158,39 +147,4 @@ def parts_rows(entries: Sequence[Entry], machines: Sequence[str], of: Parts, uni
                 for machine in machines
             )
             rows.append((memory, part, *("" if m is None else f"{m / unit:.3f}" for m in means)))
-    return rows
-
-
-def seconds_about(side_by_side: int) -> str:
-    pace = (
-        "one simulation at a time"
-        if side_by_side == 1
-        else f"{side_by_side} simulations side by side, which disturb each other"
-    )
-    return (
-        f"Wall time of this model on the machine that made the table, {pace}. "
-        "One view of the scene and size that take least, and of those that take most. "
-        "NeRArch-Sim (ISCA 2026) states neither scene nor size nor host here: "
-        "its time is for the order of magnitude.\n\n"
-    )
-
-
-SECONDS_HEAD = ("of", "size", "machine", "s to read and prepare the scene", "s a view", "s in all")
-
-
-def seconds_rows(entries: Sequence[Entry]) -> list[tuple]:
-    """Of gscore and of exact order: one view of the case that takes least, and of the longest."""
-    unsaid = "not stated"
-    rows = [("NeRArch-Sim, published", unsaid, "gscore", unsaid, unsaid, f"{PUBLISHED_SECONDS}")]
-    for machine in ("gscore", "exact"):
-        points = []
-        for e in entries:
-            if e.machine == machine:
-                wall = e.of.wall_seconds
-                before = max(0, e.of.call_seconds - sum(wall))
-                points.append((before + max(wall), before, max(wall), e.case))
-        points.sort(key=lambda point: point[0])
-        for all_of_it, before, view, case in dict.fromkeys((*points[:1], *points[-1:])):
-            seconds = (f"{s:.1f}" for s in (before, view, all_of_it))
-            rows.append((*case.cells(), machine, *seconds))
     return rows

@@ -27,12 +27,13 @@ class SweepServer:
         self, binary: pathlib.Path, results: pathlib.Path, jobs: int, options: Sequence[str] = ()
     ):
         """Raises ValueError when there is no such program."""
-        self.binary, self.program, self.jobs = binary, program_digest(binary), jobs
+        self.binary, self.program = binary, program_digest(binary)
         self.failures: list[Failure] = []
         self.simulated = 0
         self.ended: Failure | ValueError | None = None
         self.numbers = itertools.count()
         self.lock = threading.Lock()
+        self.asking = threading.Lock()  # not `lock`: what blocks the writer waits for the reader
         self.waiting: dict[int, concurrent.futures.Future[Answer]] = {}
         self.said = tempfile.TemporaryFile("w+")
         results.parent.mkdir(parents=True, exist_ok=True)
@@ -85,17 +86,24 @@ class SweepServer:
     def outcome(self, run: Run) -> Outcome:
         """Of a run of one view. Raises Failure when the server has ended,
         ValueError when it did not take its arguments."""
+        return self.answered(run, self.ask(run))
+
+    def ask(self, run: Run) -> concurrent.futures.Future[Answer]:
         asked: concurrent.futures.Future[Answer] = concurrent.futures.Future()
         with self.lock:
             if self.ended:
                 raise self.ended
             number = next(self.numbers)
             self.waiting[number] = asked
-            try:
+        try:
+            with self.asking:
                 self.process.stdin.write(json.dumps({"id": number, **point_of(run)}) + "\n")
                 self.process.stdin.flush()
-            except (BrokenPipeError, ValueError):
-                pass  # the reader says how it ended
+        except (BrokenPipeError, ValueError):
+            pass  # the reader says how it ended
+        return asked
+
+    def answered(self, run: Run, asked: concurrent.futures.Future[Answer]) -> Outcome:
         answer = asked.result()
         if answer["status"] == "done":
             return Outcome(run, views=(answer["report"],))
@@ -106,13 +114,10 @@ class SweepServer:
         return Outcome(run, refused=str(failure), failure=failure)
 
     def outcomes(self, runs: Sequence[Run]) -> list[Outcome]:
-        """In the order of the runs, which are of one view each."""
-        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            waiting = [pool.submit(self.outcome, run) for run in runs]
-            try:
-                return [each.result() for each in waiting]
-            finally:
-                pool.shutdown(cancel_futures=True)
+        """In the order of the runs, which are of one view each. The server has all of them to
+        choose from: it draws those one after the other that share most."""
+        asked = [self.ask(run) for run in runs]
+        return [self.answered(run, answer) for run, answer in zip(runs, asked)]
 
     def end(self) -> None:
         """To be called when all tables are written. Raises the first Failure there was."""

@@ -10,6 +10,7 @@ import binding_check
 import boundary_study
 import compare_machines
 import compare_variants
+import design_point_seconds
 import energy_tables
 import error_against_time
 import explore
@@ -65,6 +66,11 @@ class WithTheCommand(InFolder):
                 | {"| 25.6 | all | exact | gscore_lossless | fp32 | 62.3 | 62.3 | 1 | 1 |": 1}
                 | {"| 25.6 | all | exact | GPU, modelled | fp32 | 62.3 | not measured | 1 | 1 |": 1}
                 | {"| truck | 64x36 | GPU, modelled | 102.4 |": 1, "| frame_buffer |": 1},
+            ),
+            (
+                design_point_seconds,
+                ("--object-sizes", "64x36", "--machines", "exact"),
+                {"| truck | 64x36 | 25.6 | exact |": 1, "| 47.7 |": 1},
             ),
             (compare_variants, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
             (

@@ -7,6 +7,7 @@ import unittest
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
 import compare_machines
+import machine_cases
 import machine_measures
 import machine_ratios
 import machine_tables
@@ -148,7 +149,7 @@ class Machines(unittest.TestCase):
         self.assertEqual(few[3:], [("exact", "gscore_lossless")])
 
     def test_a_line_for_each_case_and_memory_of_pairs_that_lose_the_same(self):
-        case = machine_tables.Case(Scene("s", "a"), "4x2")
+        case = machine_cases.Case(Scene("s", "a"), "4x2")
         faster = dataclasses.replace(measured(1), peak_gb_s=51.2, binds="dram")
         entries = [
             machine_tables.Entry(case, name, of)
@@ -178,9 +179,9 @@ class Machines(unittest.TestCase):
         arguments = argparse.Namespace(sizes=["4x2", "8x4"], object_sizes=["4x2", "6x6"])
         scenes = [Scene("outside", "a"), Scene("truck", "b")]
         cases = [
-            machine_tables.Case(scene, size)
+            machine_cases.Case(scene, size)
             for scene in scenes
-            for size in compare_machines.sizes_of(scene.name, arguments)
+            for size in machine_cases.sizes_of(scene.name, arguments)
         ]
         groups = compare_machines.size_groups(cases, arguments)
         self.assertEqual(list(groups), ["4x2", "6x6, 8x4", "all"])
@@ -225,7 +226,7 @@ class Machines(unittest.TestCase):
     def test_parts_are_means_over_the_scenes(self):
         a, b = Scene("a", "a"), Scene("b", "b")
         entries = [
-            machine_tables.Entry(machine_tables.Case(scene, size), "m", measured(1, region=value))
+            machine_tables.Entry(machine_cases.Case(scene, size), "m", measured(1, region=value))
             for scene, size, value in ((a, "1x1", 1e6), (a, "2x2", 3e6), (b, "1x1", 6e6))
         ]
         rows = machine_tables.parts_rows(entries, ["m", "n"], lambda m: m.bytes_by_region, 1e6)

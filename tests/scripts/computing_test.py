@@ -314,10 +314,10 @@ class Reports(unittest.TestCase):
 
     def test_components_of_energy_hold_every_joule(self):
         keys = ("vsu_j", "merge_j", "pixel_state_j", "input_j", "clock_j", "sram_leakage_j")
-        bands = {key: {"middle": 2.0**n} for n, key in enumerate((*keys, "dram_j"))}
+        middles = {key: 2.0**n for n, key in enumerate((*keys, "dram_j"))}
         view = {
             "area_mm2": {"vsu": 1, "merge": 1, "sram": 1, "total": 3, "bands": {}},
-            "energy": {**{key: 0 for key in bands}, "bands": bands},
+            "energy": {**middles, "dram_by_region_j": {"spill": 1.0}, "bands": {}},
         }
         rows = energy_components.components(view)
         self.assertEqual(rows["SRAM: pixels"], ("pixel_state_j",))
