@@ -28,7 +28,11 @@ void expect_node(const ExactVsuPlan& plan, const PixelRect& group, const WalkEnt
     const WalkEntry child{std::max(test.nearest, entry.nearest), count > 0 ? slot : inner, count, 0,
                           test.reach};
     (count > 0 ? slot : inner) += count > 0 ? count : 1;
-    if (!test.touches || hidden(plan, test.reach)) continue;
+    if (!test.touches) continue;
+    if (hidden(plan, test.reach)) {
+      ++(count > 0 ? out.chunks_hidden : out.nodes_hidden);
+      continue;
+    }
     ++touching;
     if (count > 0) {
       out.groups.back().push_back(child);

@@ -37,6 +37,7 @@ struct ExpectedWalk {
   std::uint64_t nodes = 0, upper = 0;          // opened; of these kept on chip
   std::uint64_t tests = 0, testing_cycles = 0, turn_cycles = 0, cycles = 0, empty = 0, visits = 0,
                 queue_operations = 0;
+  std::uint64_t nodes_hidden = 0, chunks_hidden = 0;  // behind finished columns
 };
 
 // All chunks below nodes that touch a group, sorted, and what the nodes cost.

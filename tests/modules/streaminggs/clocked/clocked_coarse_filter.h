@@ -19,7 +19,7 @@ struct CoarseHardware {
   std::uint32_t test_cycles = 39;  // that the lanes of a CFU take for a test
   std::uint32_t depth_cycles = 131;
   std::uint32_t slice_gaussians = 8, input_slots = 5;
-  std::uint32_t output_entries = 16;
+  std::uint32_t output_entries = 18;
   std::uint32_t memory_latency = 20;
 };
 

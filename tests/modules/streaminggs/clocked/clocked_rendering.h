@@ -16,7 +16,7 @@ namespace sgs::test {
 
 struct RenderingHardware {
   std::uint32_t clusters = 4, blend_interval = 3, queue_entries = 8;
-  std::uint32_t depth = 90, state_loop = 10;
+  std::uint32_t depth = 50, state_loop = 10;
   std::uint32_t begin_interval = 7, begin_depth = 91, rows_at_once = 1, row_interval = 2;
   std::uint32_t row_depth = 42, slots = 48;
   std::uint32_t pixel_buffers = 1, drain_depth = 11, write_latency = 150;

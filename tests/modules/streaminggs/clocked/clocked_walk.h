@@ -20,7 +20,7 @@ namespace sgs::test {
 struct WalkHardware {
   std::uint32_t upper_nodes = 24, nodes_in_flight = 2, nodes_in_test = 8;
   std::uint32_t test_cycles = 8;  // of a child on the lanes
-  std::uint32_t depth_cycles = 200;
+  std::uint32_t depth_cycles = 198;
   std::uint32_t operation_cycles = 3;  // of a queue
   std::uint32_t queue_entries = 512, node_queue_entries = 256;
   std::uint32_t memory_latency = 40;

@@ -32,7 +32,8 @@ Takings takings_of_unit(std::uint64_t seed, const std::function<void(tb::Case&, 
 
 void Comparison::workload(const std::string& name,
                           const std::function<void(tb::Case&, Takings&, std::uint64_t)>& run,
-                          const std::function<Takings(std::uint64_t)>& reference) {
+                          const std::function<Takings(std::uint64_t)>& reference,
+                          std::size_t most_elsewhere) {
   double sum = 0, worst = 0;
   std::uint64_t cycles = 0, clocked = 0;
   std::size_t items = 0, elsewhere = 0;
@@ -57,6 +58,8 @@ void Comparison::workload(const std::string& name,
     sum += percent;
     worst = std::max(worst, percent);
   }
+  INFO(unit_ << ", " << name);
+  CHECK(elsewhere <= most_elsewhere);
   fmt::print("{:18} {:34} {:8} {:9} {:9} {:7} {:6.2f} {:6.2f}\n", unit_, name, items, cycles,
              clocked, elsewhere, sum / kSeeds, worst);
   sum_ += sum;

@@ -17,8 +17,9 @@ constexpr double kMostDifferencePercent = 2;  // in cycles, of one run
 // check of its bench fails.
 Takings takings_of_unit(std::uint64_t seed, const std::function<void(tb::Case&, Takings&)>& run);
 
-// Prints a line for each workload, and checks: the same things in the same order, the last of them
-// within kMostDifferencePercent of the reference's cycle.
+// Prints a line for each workload, and checks: the same things in the same order, each in the
+// reference's cycle but for as many as a workload is known for, and the last of them within
+// kMostDifferencePercent of it.
 class Comparison {
  public:
   explicit Comparison(std::string unit) : unit_(std::move(unit)) {}
@@ -26,10 +27,11 @@ class Comparison {
   Comparison(const Comparison&) = delete;
   Comparison& operator=(const Comparison&) = delete;
 
-  // run, reference: for a seed.
+  // run, reference: for a seed. most_elsewhere: that may come in another cycle, of all seeds.
   void workload(const std::string& name,
                 const std::function<void(tb::Case&, Takings&, std::uint64_t)>& run,
-                const std::function<Takings(std::uint64_t)>& reference);
+                const std::function<Takings(std::uint64_t)>& reference,
+                std::size_t most_elsewhere = 0);
 
  private:
   const std::string unit_;
