@@ -230,7 +230,7 @@ MachineResult collect(Machine& machine) {
                        available - used, "bytes that are not built: no area, no leakage");
   }
   collector.left_out("idle_activities", "never fed in this frame", idle,
-                     "their area, if every frame is like this one");
+                     "what only they use, if every frame is like this one");
   const auto is_empty = [](const UnitResult& unit) {
     return unit.activities.empty() && unit.counters.empty();
   };

@@ -114,6 +114,16 @@ TEST_CASE("left out: memory that no unit takes, activities without work") {
     for (const Json& activity : unit["activities"]) idle += activity["busy_cycles"] == 0 ? 1 : 0;
   }
   CHECK(left_out(view, "idle_activities") == idle);
+  // Of eight HFUs the first takes the only visit, the second the end of the group.
+  const MadeScene one(cloud_of({{at_pixel(32, 32, 4)}}));
+  const Arguments whole = {"group_width_px=64", "group_height_px=64"};
+  const Simulation few(one.arguments("exact", plus(whole, {"hfus=2"})));
+  const Simulation many(one.arguments("exact", plus(whole, {"hfus=8"})));
+  const std::uint64_t of_hfu = few.views()[0]["units"]["hfu0.coarse"]["activities"].size() +
+                               few.views()[0]["units"]["hfu0.fine"]["activities"].size();
+  CHECK(left_out(many.views()[0], "idle_activities") -
+            left_out(few.views()[0], "idle_activities") ==
+        6 * of_hfu);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ MadeScene::MadeScene(const GaussianCloud& cloud) {
 Arguments MadeScene::arguments(const char* machine, const Arguments& set) const {
   const Arguments scene = {folder_.path("scene.ply"), "--cameras", folder_.path("cameras.json"),
                            "--config", machine};
-  const bool has_groups = std::string(machine) != "gscore";
+  const bool has_groups = std::string(machine).rfind("gscore", 0) != 0;
   return with_settings(
       with_settings(scene, has_groups ? Arguments{"group_width_px=16", "group_height_px=16",
                                                   "sram.shared_bytes=0", "sram.input_bytes=0"}
