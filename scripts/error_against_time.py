@@ -89,10 +89,10 @@ def main() -> int:
         help="cameras between a scene's own to tune on",
     )
     parser.add_argument(
-        "--rates", nargs="+", type=float, default=[0.25, 1, 4], metavar="X", help="of tuning"
+        "--rates", nargs="+", type=float, default=[0.5, 2, 8], metavar="X", help="of tuning"
     )
     parser.add_argument(
-        "--datasets", nargs="*", default=["lego", "desk"], metavar="DATASET", help="to train on"
+        "--datasets", nargs="*", default=["lego"], metavar="DATASET", help="to train on"
     )
     parser.add_argument("--downscale", type=float, default=8, help="of their photographs")
     parser.add_argument("--train-steps", type=int, default=1200, help="of training")
