@@ -1,6 +1,6 @@
-// What half precision costs the picture, by stage of blending and by form of the exponent: each
-// view blended pixel by pixel in several arithmetics, PSNR beside double. Twice: in all sub-tiles
-// of each splat's footprint, and in those that its ellipse reaches.
+// What half precision and fixed point cost the picture, by stage of blending and by form of the
+// exponent: each view blended pixel by pixel in several arithmetics, PSNR beside double. Twice: in
+// all sub-tiles of each splat's footprint, and in those that its ellipse reaches.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,18 +24,22 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 360;
 
+enum class Pixels { kFloat, kHalf, kFixed };
 struct Arithmetic {
   const char* name;
-  bool exponent_in_half, square, pixels_in_half;
+  bool exponent_in_half, square;
+  Pixels pixels;
 };
 constexpr Arithmetic kArithmetics[] = {
-    {"float", false, false, false},
-    {"float, square completed", false, true, false},
-    {"pixels in half", false, false, true},
-    {"exponent in half", true, false, false},
-    {"exponent in half, square completed", true, true, false},
-    {"both in half", true, false, true},
-    {"both in half, square completed", true, true, true},
+    {"float", false, false, Pixels::kFloat},
+    {"float, square completed", false, true, Pixels::kFloat},
+    {"pixels in half", false, false, Pixels::kHalf},
+    {"pixels in fixed point", false, false, Pixels::kFixed},
+    {"exponent in half", true, false, Pixels::kFloat},
+    {"exponent in half, square completed", true, true, Pixels::kFloat},
+    {"both in half", true, false, Pixels::kHalf},
+    {"both in half, square completed", true, true, Pixels::kHalf},
+    {"exponent in half, square completed, pixels in fixed point", true, true, Pixels::kFixed},
 };
 constexpr std::size_t kCount = std::size(kArithmetics);
 
@@ -63,6 +67,24 @@ void blend_in_half(Pixel<float>& pixel, HalfScalar alpha, const glm::vec3& colou
     pixel.rgb[c] = (before + HalfScalar(colour[c]) * share.weight).value();
   }
   pixel.light = share.after.value();
+}
+
+// 16 bits a number: light and alpha in units of 2^-16, colours of splats and pixels of 2^-14, below
+// 4. What is taken of the light is rounded once, so that none is lost or gained.
+float in_units(float value, float units) { return std::nearbyint(value * units) / units; }
+void blend_in_fixed_point(Pixel<float>& pixel, float alpha, const glm::vec3& colour) {
+  constexpr float kLightUnits = 65536, kColourUnits = 16384, kLargestColour = 4 - 1 / kColourUnits;
+  if (pixel.finished || !(alpha > 0)) return;
+  const float weight = in_units(in_units(alpha, kLightUnits) * pixel.light, kLightUnits);
+  const float after = pixel.light - weight;
+  pixel.finished = after < kTransmittanceMin;
+  if (pixel.finished) return;
+  for (int c = 0; c < 3; ++c) {
+    const float of_splat = in_units(std::min(colour[c], kLargestColour), kColourUnits);
+    pixel.rgb[c] =
+        std::min(pixel.rgb[c] + in_units(of_splat * weight, kColourUnits), kLargestColour);
+  }
+  pixel.light = after;
 }
 
 // A splat in float, and what the other arithmetics take of it.
@@ -147,10 +169,17 @@ struct Pictures {
         const HalfScalar half =
             how.exponent_in_half ? halves[how.square] : HalfScalar(alphas[how.square]);
         Pixel<float>& pixel = of[k][at];
-        if (how.pixels_in_half) {
-          blend_in_half(pixel, half, s.rgb);
-        } else {
-          pixel.blend(how.exponent_in_half ? half.value() : alphas[how.square], s.rgb);
+        const float in_float = how.exponent_in_half ? half.value() : alphas[how.square];
+        switch (how.pixels) {
+          case Pixels::kFloat:
+            pixel.blend(in_float, s.rgb);
+            break;
+          case Pixels::kHalf:
+            blend_in_half(pixel, half, s.rgb);
+            break;
+          case Pixels::kFixed:
+            blend_in_fixed_point(pixel, in_float, s.rgb);
+            break;
         }
       }
     }
