@@ -77,7 +77,7 @@ def exact_points() -> Iterator[Point]:
     yield from merged()
     yield Point(EXACT, "encoding", "half", ("storage.encoding=half",))
     yield Point(EXACT, "encoding", "vq", VQ)
-    yield Point(EXACT, "precision", "fp16", (blended("fp16"),))
+    yield from (Point(EXACT, "precision", p, (blended(p),)) for p in ("fp16", "fixed16"))
     yield Point(EXACT, "finishing", "off", ("rendering.saturation_feedback=false",))
     yield Point(EXACT, "pixels", "rgb8", ("framebuffer=rgb8",))
     half = (blended("fp16"), "storage.encoding=half")

@@ -58,7 +58,8 @@ class GroupState {
              SubtileTest test = SubtileTest::kEllipse);
 
   // Blends a splat into the unfinished 4x4 sub-tiles of its footprint that it reaches. AnySplat: a
-  // Splat; or a SquareSplat in a group in half without SubtileTest::kEllipse, which asks for terms.
+  // Splat; or a SquareSplat in a group in 16 bits without SubtileTest::kEllipse, which asks for
+  // terms.
   template <class AnySplat>
   BlendWork blend(const AnySplat& splat) {
     return for_reached(splat, [&](const auto& taken, std::size_t at, int x, int y, std::uint32_t) {
@@ -139,8 +140,13 @@ class GroupState {
   // sub-tile that the splat reaches, row by row; it says whether it has blended.
   template <class BlendInto>
   BlendWork for_reached(const Splat& splat, const BlendInto& blend_into) {
-    if (precision_ == BlendPrecision::kHalf) {
-      return for_rows(splat, of_taken(square_splat(splat), blend_into));
+    switch (precision_) {
+      case BlendPrecision::kHalf:
+        return for_rows(splat, of_taken(square_splat(splat), blend_into));
+      case BlendPrecision::kFixed:
+        return for_rows(splat, of_taken(SplatOnFixedPixels{square_splat(splat)}, blend_into));
+      case BlendPrecision::kSingle:
+        break;
     }
     return for_rows(splat, of_taken(splat, blend_into));
   }
@@ -148,7 +154,12 @@ class GroupState {
   BlendWork for_reached(const SquareSplat& splat, const BlendInto& blend_into) {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
     BlendWork work;
-    if (!reach.empty()) box_rows(reach, of_taken(splat, blend_into), work);
+    if (reach.empty()) return work;
+    if (precision_ == BlendPrecision::kFixed) {
+      box_rows(reach, of_taken(SplatOnFixedPixels{splat}, blend_into), work);
+    } else {
+      box_rows(reach, of_taken(splat, blend_into), work);
+    }
     return work;
   }
   template <class Taken, class BlendInto>

@@ -14,7 +14,7 @@ namespace sgs {
 template <class Visit>
 void with_record(NumberFormat format, BlendPrecision precision, const std::byte* record,
                  std::uint32_t listed_opacity, const Visit& visit) {
-  if (precision == BlendPrecision::kHalf) {
+  if (in_16_bits(precision)) {
     visit(decode_square(format, record, listed_opacity));
   } else {
     visit(decode_projected(format, record, listed_opacity));

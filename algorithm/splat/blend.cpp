@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "algorithm/splat/fixed_pixel.h"
 #include "algorithm/splat/half_scalar.h"
 #include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/square_splat.h"
@@ -72,14 +73,83 @@ class Exp2Lanes {
   alignas(64) float coefficient_[kCoefficients][kSubtilePixels];
 };
 
-// note(lane, alpha, T before) is told of each lane, with alpha 0 where nothing is blended. Inlined,
-// so that it is compiled for the same machine as its caller.
-template <class T, class AnySplat, class Note>
+// What a splat does to a pixel whose light and colours are kept as T. note(lane, alpha, T before)
+// is told of each lane, with alpha 0 where nothing is blended.
+template <class T>
+class PixelsIn {
+ public:
+  template <class Input>
+  PixelsIn(const Input& in, const glm::vec3&)
+      : red_(in.red), green_(in.green), blue_(in.blue), finish_(constant<T>(kTransmittanceMin)) {}
+
+  template <class Note>
+  [[gnu::always_inline]] void blend(SubtileState& state, int lane, T alpha,
+                                    const Note& note) const {
+    T before, red, green, blue;
+    set(before, state.transmittance[lane]);
+    set(red, state.red[lane]);
+    set(green, state.green[lane]);
+    set(blue, state.blue[lane]);
+    const LightShare<T> light = take_light(alpha, before);
+    const std::int32_t hit = (alpha > T(0.0F) ? -1 : 0) & state.active[lane];
+    const std::int32_t ends = hit & (light.after < finish_ ? -1 : 0);
+    const std::int32_t blends = hit & ~ends;
+    const T weight = blends != 0 ? light.weight : T(0.0F);
+    state.red[lane] = in_float(T(red + red_ * weight));
+    state.green[lane] = in_float(T(green + green_ * weight));
+    state.blue[lane] = in_float(T(blue + blue_ * weight));
+    state.transmittance[lane] = in_float(blends != 0 ? light.after : before);
+    state.active[lane] &= ~ends;
+    state.contributors[lane] -= blends;
+    note(lane, blends != 0 ? in_float(alpha) : 0.0F, in_float(before));
+  }
+
+ private:
+  T red_, green_, blue_, finish_;
+};
+
+// The same in fixed point.
+class FixedPixels {
+ public:
+  template <class Input>
+  FixedPixels(const Input&, const glm::vec3& rgb)
+      : red_(fixed_colour(rgb.x)), green_(fixed_colour(rgb.y)), blue_(fixed_colour(rgb.z)) {}
+
+  template <class Note>
+  [[gnu::always_inline]] void blend(SubtileState& state, int lane, HalfScalar alpha,
+                                    const Note& note) const {
+    const std::uint32_t before = in_fixed_units(state.transmittance[lane], kFixedLight);
+    const std::uint32_t opaque = in_fixed_units(alpha.value(), kFixedLight);
+    const FixedShare light = take_fixed_light(opaque, before);
+    const std::int32_t hit = (opaque != 0 ? -1 : 0) & state.active[lane];
+    const std::int32_t ends = hit & (light.after < kFixedTransmittanceMin ? -1 : 0);
+    const std::int32_t blends = hit & ~ends;
+    const std::uint32_t weight = light.weight & static_cast<std::uint32_t>(blends);
+    add(state.red[lane], red_, weight);
+    add(state.green[lane], green_, weight);
+    add(state.blue[lane], blue_, weight);
+    state.transmittance[lane] = of_fixed_units(before - weight, kFixedLight);
+    state.active[lane] &= ~ends;
+    state.contributors[lane] -= blends;
+    note(lane, blends != 0 ? of_fixed_units(opaque, kFixedLight) : 0.0F,
+         of_fixed_units(before, kFixedLight));
+  }
+
+ private:
+  static void add(float& channel, std::uint32_t colour, std::uint32_t weight) {
+    const std::uint32_t before = in_fixed_units(channel, kFixedColour);
+    channel = of_fixed_units(add_fixed_colour(before, colour, weight), kFixedColour);
+  }
+  std::uint32_t red_, green_, blue_;
+};
+
+// Alpha in T. Inlined, so that it is compiled for the same machine as its caller.
+template <class T, class Pixels, class AnySplat, class Note>
 [[gnu::always_inline]] inline void blend_lanes(SubtileState& state, int subtile_x, int subtile_y,
                                                const AnySplat& splat, const Note& note) {
   const auto in = input_of(splat, splat.x - static_cast<float>(subtile_x * kSubtilePx),
                            splat.y - static_cast<float>(subtile_y * kSubtilePx));
-  const T finish = constant<T>(kTransmittanceMin);
+  const Pixels pixels(in, splat.rgb);
   T exponent[kSubtilePixels], alpha[kSubtilePixels];
   Exp2Lanes<T> exp2;
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
@@ -92,35 +162,18 @@ template <class T, class AnySplat, class Note>
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
     alpha[lane] = alpha_of(exponent[lane], exp2.result(lane), in.opacity);
   }
-  for (int lane = 0; lane < kSubtilePixels; ++lane) {
-    T before, red, green, blue;
-    set(before, state.transmittance[lane]);
-    set(red, state.red[lane]);
-    set(green, state.green[lane]);
-    set(blue, state.blue[lane]);
-    const LightShare<T> light = take_light(alpha[lane], before);
-    const std::int32_t hit = (alpha[lane] > T(0.0F) ? -1 : 0) & state.active[lane];
-    const std::int32_t ends = hit & (light.after < finish ? -1 : 0);
-    const std::int32_t blends = hit & ~ends;
-    const T weight = blends != 0 ? light.weight : T(0.0F);
-    state.red[lane] = in_float(T(red + in.red * weight));
-    state.green[lane] = in_float(T(green + in.green * weight));
-    state.blue[lane] = in_float(T(blue + in.blue * weight));
-    state.transmittance[lane] = in_float(blends != 0 ? light.after : before);
-    state.active[lane] &= ~ends;
-    state.contributors[lane] -= blends;
-    note(lane, blends != 0 ? in_float(alpha[lane]) : 0.0F, in_float(before));
-  }
+  for (int lane = 0; lane < kSubtilePixels; ++lane) pixels.blend(state, lane, alpha[lane], note);
 }
 
-template <class T, class AnySplat>
+template <class T, class Pixels, class AnySplat>
 [[gnu::always_inline]] inline LaneShares shares_of(SubtileState& state, int subtile_x,
                                                    int subtile_y, const AnySplat& splat) {
   LaneShares shares;
-  blend_lanes<T>(state, subtile_x, subtile_y, splat, [&](int lane, float alpha, float before) {
-    shares.alpha[lane] = alpha;
-    shares.before[lane] = before;
-  });
+  blend_lanes<T, Pixels>(state, subtile_x, subtile_y, splat,
+                         [&](int lane, float alpha, float before) {
+                           shares.alpha[lane] = alpha;
+                           shares.before[lane] = before;
+                         });
   return shares;
 }
 
@@ -145,23 +198,36 @@ bool finished(const SubtileState& state) {
 
 SGS_WIDEST_LANES
 void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
-  blend_lanes<float>(state, subtile_x, subtile_y, splat, [](int, float, float) {});
+  blend_lanes<float, PixelsIn<float>>(state, subtile_x, subtile_y, splat, [](int, float, float) {});
 }
 
 SGS_WIDEST_LANES
 LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat) {
-  return shares_of<float>(state, subtile_x, subtile_y, splat);
+  return shares_of<float, PixelsIn<float>>(state, subtile_x, subtile_y, splat);
 }
 
 SGS_WIDEST_LANES
 void blend(SubtileState& state, int subtile_x, int subtile_y, const SquareSplat& splat) {
-  blend_lanes<HalfScalar>(state, subtile_x, subtile_y, splat, [](int, float, float) {});
+  blend_lanes<HalfScalar, PixelsIn<HalfScalar>>(state, subtile_x, subtile_y, splat,
+                                                [](int, float, float) {});
 }
 
 SGS_WIDEST_LANES
 LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
                           const SquareSplat& splat) {
-  return shares_of<HalfScalar>(state, subtile_x, subtile_y, splat);
+  return shares_of<HalfScalar, PixelsIn<HalfScalar>>(state, subtile_x, subtile_y, splat);
+}
+
+SGS_WIDEST_LANES
+void blend(SubtileState& state, int subtile_x, int subtile_y, const SplatOnFixedPixels& on) {
+  blend_lanes<HalfScalar, FixedPixels>(state, subtile_x, subtile_y, on.splat,
+                                       [](int, float, float) {});
+}
+
+SGS_WIDEST_LANES
+LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
+                          const SplatOnFixedPixels& on) {
+  return shares_of<HalfScalar, FixedPixels>(state, subtile_x, subtile_y, on.splat);
 }
 
 }  // namespace sgs

@@ -55,8 +55,12 @@ struct SubtileState {
 // In which arithmetic pixels are blended and kept. kHalf: each operation rounded to 16 bits
 // (half_scalar.h), the conic with its square completed (square_conic.h; once a splat, in single
 // precision), it and distances scaled by powers of two of the splat's own, so that wide splats do
-// not vanish among the subnormal.
-enum class BlendPrecision : std::uint8_t { kSingle, kHalf };
+// not vanish among the subnormal. kFixed: alpha as in kHalf, light and colours of pixels in fixed
+// point (fixed_pixel.h).
+enum class BlendPrecision : std::uint8_t { kSingle, kHalf, kFixed };
+
+// Whether the exponent and alpha are halves, and what is kept of a pixel has 16 bits a number.
+constexpr bool in_16_bits(BlendPrecision precision) { return precision != BlendPrecision::kSingle; }
 
 // Fresh state; lanes whose pixel lies outside the frame (width x height px) begin finished.
 SubtileState make_subtile(int subtile_x, int subtile_y, int width_px, int height_px);
@@ -82,10 +86,17 @@ inline LightShare<T> take_light(T alpha, T before) {
 void blend(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
 // In half.
 void blend(SubtileState& state, int subtile_x, int subtile_y, const SquareSplat& splat);
+// On pixels in fixed point.
+struct SplatOnFixedPixels {
+  SquareSplat splat;
+};
+void blend(SubtileState& state, int subtile_x, int subtile_y, const SplatOnFixedPixels& splat);
 // The same, and what the splat took. A function of its own: who does not look pays nothing.
 LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y, const Splat& splat);
 LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
                           const SquareSplat& splat);
+LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
+                          const SplatOnFixedPixels& splat);
 
 // Whether every pixel of the block is finished.
 bool finished(const SubtileState& state);

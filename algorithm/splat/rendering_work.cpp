@@ -112,7 +112,7 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   const auto below = spans.carried();
   for (std::size_t i = below.size() - kEdgeWords; i < below.size(); ++i) keep(flow, {below[i]});
   out.spanned = flow.size();
-  if (precision == BlendPrecision::kHalf) {
+  if (in_16_bits(precision)) {
     static_cast<void>(square_conic(splat.conic_a, splat.conic_b, splat.conic_c));
   } else {
     static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
@@ -121,7 +121,7 @@ RenderingFlow rendering_flow(BlendPrecision precision) {
   flow.pass_beside(kBesideBlend);
   const Counting left = splat.x - Counting(96.0F), top = splat.y - Counting(52.0F);
   out.cornered = flow.size();
-  if (precision == BlendPrecision::kHalf) {
+  if (in_16_bits(precision)) {
     blend_work(lane_input_in_half<CountingHalf>(square_splat(splat), left, top), state);
   } else {
     blend_work(lane_input(splat, left, top), state);
@@ -147,7 +147,7 @@ RenderingWork rendering_work(BlendPrecision precision) {
 RenderingPaths rendering_paths(BlendPrecision precision, const OperationLatencies& single,
                                const OperationLatencies& half) {
   const RenderingFlow of = rendering_flow(precision);
-  const OperationLatencies& blending = precision == BlendPrecision::kHalf ? half : single;
+  const OperationLatencies& blending = in_16_bits(precision) ? half : single;
   RenderingPaths paths;
   const DataFlow begin = spans_begin_flow();
   paths.spans_begin = begin.longest_path(0, begin.size(), single);

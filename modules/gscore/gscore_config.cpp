@@ -72,7 +72,9 @@ void visit(ConfigVisitor& v, SortingConfig& c) {
 
 void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("precision", c.precision,
-    names<BlendPrecision>({{"fp32", BlendPrecision::kSingle}, {"fp16", BlendPrecision::kHalf}}),
+    names<BlendPrecision>({{"fp32", BlendPrecision::kSingle},
+                           {"fp16", BlendPrecision::kHalf},
+                           {"fixed16", BlendPrecision::kFixed}}),
     "of blending and of the pixels on chip");
   v("core_lanes", c.core_lanes, in_range(0, 4096),
     "MAC lanes of the 16 VRUs of a core; 0: a pixel a cycle each");

@@ -85,7 +85,7 @@ struct GscoreConfig {
   OperationLatencies single() const { return {lane_latency_cycles, 1, 1}; }
   OperationLatencies half() const { return {half_lane_latency_cycles, 1, 1}; }
   OperationLatencies blending() const {
-    return rendering.precision == BlendPrecision::kHalf ? half() : single();
+    return in_16_bits(rendering.precision) ? half() : single();
   }
   EntryFormat entries() const { return {tiles.keys, tiles.subtiles_across, tiles.features}; }
   BlockFormat blocks() const { return {entries(), lists.line_bytes, lists.block_lines}; }

@@ -45,8 +45,7 @@ Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
 
 // What a record holds is what the lanes of blending take.
 bool blends_its_records(const GscoreConfig& config) {
-  return config.tiles.features == NumberFormat::kHalf &&
-         config.rendering.precision == BlendPrecision::kHalf;
+  return config.tiles.features == NumberFormat::kHalf && in_16_bits(config.rendering.precision);
 }
 
 OperationCounts blend_work(const GscoreConfig& config) {
@@ -135,7 +134,7 @@ Datapath corner_pipeline(const GscoreConfig& config) {
 
 Datapath blend_pipeline(const GscoreConfig& config) {
   const BlendPrecision precision = config.rendering.precision;
-  const bool in_half = precision == BlendPrecision::kHalf;
+  const bool in_half = in_16_bits(precision);
   Datapath path = counted_datapath("blend", "rendering", blend_work(config),
                                    in_half ? "exp2_table_half" : "exp2_table");
   if (in_half) path.lane = "fp16_lane";
@@ -151,7 +150,7 @@ Datapath blend_pipeline(const GscoreConfig& config) {
 Datapath drain_pipeline(const GscoreConfig& config) {
   Datapath path = counted_datapath("drain", "rendering", pixel_work(config.framebuffer));
   constexpr std::uint32_t kOfPixel = 4;
-  if (config.rendering.precision == BlendPrecision::kHalf) {
+  if (in_16_bits(config.rendering.precision)) {
     path.part_of("comparator").operations += kOfPixel * kConversionComparisons;
   }
   path.lanes = path.used_macs;

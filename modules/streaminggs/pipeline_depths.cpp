@@ -48,7 +48,7 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   RenderingConfig& rendering = config.rendering;
   const RenderingConfig part = rendering_of_part(config);
   const RenderingPaths paths = rendering_paths(rendering.precision, single, half);
-  const bool in_half = rendering.precision == BlendPrecision::kHalf;
+  const bool in_half = in_16_bits(rendering.precision);
   const OperationLatencies& blending = in_half ? half : single;
   // What begins a splat's spans is written to its slot, and read for its first row.
   resolve_depth("rendering.begin_depth_cycles", rendering.begin_depth_cycles,

@@ -11,6 +11,7 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/splat/activate.h"
+#include "algorithm/splat/fixed_pixel.h"
 #include "algorithm/splat/half_scalar.h"
 #include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/make_splat.h"
@@ -69,22 +70,18 @@ void blend_in_half(Pixel<float>& pixel, HalfScalar alpha, const glm::vec3& colou
   pixel.light = share.after.value();
 }
 
-// 16 bits a number: light and alpha in units of 2^-16, colours of splats and pixels of 2^-14, below
-// 4. What is taken of the light is rounded once, so that none is lost or gained.
-float in_units(float value, float units) { return std::nearbyint(value * units) / units; }
 void blend_in_fixed_point(Pixel<float>& pixel, float alpha, const glm::vec3& colour) {
-  constexpr float kLightUnits = 65536, kColourUnits = 16384, kLargestColour = 4 - 1 / kColourUnits;
   if (pixel.finished || !(alpha > 0)) return;
-  const float weight = in_units(in_units(alpha, kLightUnits) * pixel.light, kLightUnits);
-  const float after = pixel.light - weight;
-  pixel.finished = after < kTransmittanceMin;
+  const FixedShare share = take_fixed_light(in_fixed_units(alpha, kFixedLight),
+                                            in_fixed_units(pixel.light, kFixedLight));
+  pixel.finished = share.after < kFixedTransmittanceMin;
   if (pixel.finished) return;
   for (int c = 0; c < 3; ++c) {
-    const float of_splat = in_units(std::min(colour[c], kLargestColour), kColourUnits);
-    pixel.rgb[c] =
-        std::min(pixel.rgb[c] + in_units(of_splat * weight, kColourUnits), kLargestColour);
+    const std::uint32_t before = in_fixed_units(pixel.rgb[c], kFixedColour);
+    pixel.rgb[c] = of_fixed_units(add_fixed_colour(before, fixed_colour(colour[c]), share.weight),
+                                  kFixedColour);
   }
-  pixel.light = after;
+  pixel.light = of_fixed_units(share.after, kFixedLight);
 }
 
 // A splat in float, and what the other arithmetics take of it.

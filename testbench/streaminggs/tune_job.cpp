@@ -37,7 +37,7 @@ std::optional<PaperOrderConfig> tuned_order(const TuneArguments& arguments,
   if (!order && arguments.visit_memory_mb != TuneArguments::kVisitMemoryMb) {
     throw InputError("--visit-memory: only paper order has visits");
   }
-  if (order && order->parts > 1 && order->precision == BlendPrecision::kHalf) {
+  if (order && order->parts > 1 && in_16_bits(order->precision)) {
     throw InputError(
         "fetch: shared with rendering.precision fp16 filters each part of a group by itself, "
         "expected split, or fp32");

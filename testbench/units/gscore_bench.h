@@ -36,7 +36,7 @@ inline GscoreConfig random_gscore(std::mt19937_64& random) {
   c.sorting.chunk_entries = 16U << random() % 3;
   c.sorting.list_entries = c.sorting.chunk_entries << random() % 3;
   c.sorting.list_buffers = 1 + static_cast<std::uint32_t>(random() % 3);
-  c.rendering.precision = random() % 2 == 0 ? BlendPrecision::kHalf : BlendPrecision::kSingle;
+  c.rendering.precision = static_cast<BlendPrecision>(random() % 3);
   c.rendering.record_slots = 1 + static_cast<std::uint32_t>(random() % 8);
   c.rendering.pixel_buffers = 1 + static_cast<std::uint32_t>(random() % 2);
   c.rendering.skip_finished = random() % 2 == 0;

@@ -273,7 +273,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
                              sum.blends * comparisons(work.subtile_blend) +
                              sum.spans * comparisons(work.span) +
                              sum.splats_spanned * comparisons(work.spans_begin));
-  const bool in_half = plan.config.precision == BlendPrecision::kHalf;
+  const bool in_half = in_16_bits(plan.config.precision);
   bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", sum.blends * 16);
   bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
   if (in_half) bench.check_operations("rendering", "fp16_lane", blend_macs);

@@ -70,7 +70,7 @@ void random_case(Case& test) {
   plan.config.span_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 60);
   plan.config.span_slots = 1 + static_cast<std::uint32_t>(random() % 12);
   plan.config.drain_depth_cycles = 1 + static_cast<std::uint32_t>(random() % 20);
-  plan.config.precision = random() % 4 == 0 ? BlendPrecision::kHalf : BlendPrecision::kSingle;
+  plan.config.precision = static_cast<BlendPrecision>(random() % 3);
   plan.arrival = random() % 2 == 0 ? Arrival::kByVisit : Arrival::kByToken;
   const BenchConfig bench = random_bench(random, memory_bytes(plan.job));
   // With stalls, tokens may as well wait for room.

@@ -91,6 +91,7 @@ TEST_CASE("estimate: close to the simulation, and never below what one resource 
       {kOutdoor, {}},
       {kOutdoor, {"--config", "exact_half"}},
       {kObject, {"--config", "exact_fp16"}},
+      {kOutdoor, settings({"rendering.precision=fixed16", "sram.shared_bytes=0"})},
       {kOutdoor, {"--config", "exact_vq"}},
       {kObject, settings({"merge.entries=64", "group_width_px=160", "group_height_px=160",
                           "sram.shared_bytes=0"})},

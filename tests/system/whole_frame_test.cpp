@@ -95,13 +95,13 @@ TEST_CASE("whole frame: groups that are left to the model cut the frame evenly")
 // In half precision a splat may reach a pixel just beyond its ellipse, unless the fine filter of
 // that pixel's part has dropped it.
 TEST_CASE("whole frame: pixels in half where parts of a group meet") {
-  for (const char* hfus : {"1", "4"}) {
+  for (const auto& [hfus, precision] : {std::pair{"1", "fp16"}, {"4", "fp16"}, {"4", "fixed16"}}) {
     for (const auto& [width, height] : {std::pair{"8", "8"}, {"24", "16"}}) {
-      INFO(hfus << " " << width << " x " << height);
+      INFO(hfus << " " << precision << " " << width << " x " << height);
       Simulation(
           joined(with_settings({"builtin:object?n=20000", "--size", "160x96", "--config", "paper"},
-                               {"storage.encoding=raw", "rendering.precision=fp16", "fetch=shared",
-                                std::string("hfus=") + hfus}),
+                               {"storage.encoding=raw", "fetch=shared", std::string("hfus=") + hfus,
+                                std::string("rendering.precision=") + precision}),
                  joined(group_of(width, height), roomy("paper"))))
           .check();
     }

@@ -22,7 +22,7 @@ constexpr std::uint32_t kTilePixels = kTilePx * kTilePx;
 
 // R, G, B and transmittance.
 std::uint32_t state_bytes(const GscoreConfig& config) {
-  return config.rendering.precision == BlendPrecision::kHalf ? 8 : 16;
+  return in_16_bits(config.rendering.precision) ? 8 : 16;
 }
 
 std::uint32_t parts_of(const GscoreConfig& config) {

@@ -23,7 +23,7 @@ struct Counted {
 
 const Counted& counted(BlendPrecision precision) {
   static const Counted single(BlendPrecision::kSingle), half(BlendPrecision::kHalf);
-  return precision == BlendPrecision::kHalf ? half : single;
+  return in_16_bits(precision) ? half : single;
 }
 
 // Without schedule.
@@ -51,7 +51,7 @@ Datapath conic_pipeline(const RenderingConfig& config, const OperationLatencies&
 
 Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies) {
   const OperationCounts& work = counted(config.precision).work.subtile_blend;
-  const bool in_half = config.precision == BlendPrecision::kHalf;
+  const bool in_half = in_16_bits(config.precision);
   Datapath path = counted_datapath("subtile_blend", "rendering", work,
                                    in_half ? "exp2_table_half" : "exp2_table");
   if (in_half) path.lane = "fp16_lane";
@@ -118,7 +118,9 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("cluster_lanes", c.cluster_lanes, in_range(1, 4096),
     "MAC lanes of one cluster: how often it starts a sub-tile follows");
   v("precision", c.precision,
-    names<BlendPrecision>({{"fp32", BlendPrecision::kSingle}, {"fp16", BlendPrecision::kHalf}}),
+    names<BlendPrecision>({{"fp32", BlendPrecision::kSingle},
+                           {"fp16", BlendPrecision::kHalf},
+                           {"fixed16", BlendPrecision::kFixed}}),
     "of blending and of the pixels on chip");
   v("cluster_queue_entries", c.cluster_queue_entries, in_range(1, 1024),
     "sub-tiles waiting for each cluster");

@@ -49,7 +49,7 @@ struct RenderingConfig {
   // cycle.
   std::uint32_t drain_row_cycles(std::uint32_t px) const;
   // Bytes of state a pixel: R, G, B and transmittance.
-  std::uint32_t pixel_state_bytes() const { return precision == BlendPrecision::kHalf ? 8 : 16; }
+  std::uint32_t pixel_state_bytes() const { return in_16_bits(precision) ? 8 : 16; }
 };
 
 // Counted by running the code (algorithm/splat/rendering_work.h): the lanes that every splat passes

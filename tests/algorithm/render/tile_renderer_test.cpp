@@ -128,6 +128,8 @@ TEST_CASE("tile-centric: what each approximation costs by itself on built-in sce
       {"features in half", [](TileOrderConfig& c) { c.features = NumberFormat::kHalf; }, 65},
       {"keys in half", [](TileOrderConfig& c) { c.keys = NumberFormat::kHalf; }, 43},
       {"blending in half", [](TileOrderConfig& c) { c.precision = BlendPrecision::kHalf; }, 57},
+      {"pixels in fixed point", [](TileOrderConfig& c) { c.precision = BlendPrecision::kFixed; },
+       67},
       {"all of them", [](TileOrderConfig& c) { c = TileOrderConfig{}; }, 43},
   };
   for (const std::string spec : {"builtin:object?n=20000", "builtin:outdoor?n=40000"}) {
