@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Whether outputs are whole whatever happens while they are written: runs each command on a small
-job again and again, and each time the kernel fails its N-th write or rename, or kills it there: for
-every N, in the command itself and in what it starts. strace does it (Debian's package). And with a
-disk that is full after so many bytes, for as many sizes. Afterwards
+job again and again, and each time the kernel fails its N-th write or rename, kills it there, or
+tells it that nobody reads its output any more: for every N, in the command itself and in what it
+starts. strace does it (Debian's package). And with a disk that is full after so many bytes, for as
+many sizes. Afterwards
 
   a file under its final name must be that of a run without fault: the same bytes or, where it states
   times (reports, logs, checkpoints), whole as its kind can be;
@@ -66,6 +67,7 @@ class Fault:
     name: str
     calls: str  # that are tampered with
     how: str  # as strace has it
+    where: str = ""  # what strace says of the descriptor; empty: any
 
 
 FAULTS = (
@@ -73,6 +75,7 @@ FAULTS = (
     Fault("a rename fails", "rename", "error=EIO"),
     Fault("killed at a write", WRITES, "signal=KILL"),
     Fault("killed at a rename", "rename", "signal=KILL"),
+    Fault("nobody reads its output any more", WRITES, "error=EPIPE:signal=PIPE", "(1<"),
 )
 FULL = "the disk is full"
 WHOSE = {"itself": (), "all it starts": ("-f",)}
@@ -160,6 +163,9 @@ def tampered(calls: Sequence[str]) -> list[str]:
     return hit
 
 
+KILLED = (-signal.SIGKILL, -signal.SIGPIPE)
+
+
 @dataclasses.dataclass
 class Ended:
     status: int
@@ -245,7 +251,8 @@ class Bench:
         ended = self.run(self.strace(*whose, "-e", inject))
         hit = tampered(ended.calls)
         # A pipe is on no disk, and nobody waits for what SystemC's files say of theirs.
-        if hit and not any("<pipe:" in line for line in hit):
+        elsewhere = any("<pipe:" in line or fault.where not in line for line in hit)
+        if hit and not elsewhere:
             # What cannot be said is not.
             yield from self.wrong(
                 ended, 0 if any("write(2<" in line for line in hit) else 1, len(hit)
@@ -260,7 +267,7 @@ class Bench:
             yield from self.wrong(ended, 1, 2)
 
     def wrong(self, ended: Ended, least_lines: int, most_lines: int) -> Iterator[str]:
-        killed = ended.status == -signal.SIGKILL
+        killed = ended.status in KILLED
         for name, content in files_below(self.place).items():
             if content == self.before.get(name) or self.is_good(name, content, killed):
                 continue
