@@ -161,13 +161,14 @@ class Pipeline {
   // The decode stage; what it has in hand stays in the FIFO behind the fetches until it is done.
   void decode(const std::size_t* gaussian, Cycle data) {
     decode_ = std::max({decode_, fetch_ + 1, data});
+    if (gaussian != nullptr) decode_ = std::max(decode_, before(decoded_taken_, kDecodedEntries));
     if (gaussian != nullptr && !finished(decode_)) {
       read_lines(share_->lines[*gaussian]);
     } else {
       ++decode_;
       ++times_.decode_busy;
     }
-    if (gaussian != nullptr) slot_free_.push_back(decode_ + read_cycles());
+    if (gaussian != nullptr) slot_free_.push_back(decode_);
     fetched_taken_.push_back(decode_);
     decode_ = std::max(decode_, before(decoded_taken_, kDecodedEntries));
     const Cycle there = decode_ + *decode_latency_;

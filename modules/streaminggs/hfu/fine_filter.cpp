@@ -34,7 +34,7 @@ FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& con
       second_halves_(std::size_t{config.second_half_slots} * record_bytes_),
       wanted_(config.second_half_slots),
       free_slots_("free_slots", context.clock, config.second_half_slots,
-                  read_cycles(record_bytes_)) {
+                  job_.layout.second_half.quantised() ? 0 : read_cycles(record_bytes_)) {
   SC_THREAD(run_fetch);
   for (std::uint32_t p = 0; p < job_.parts.size(); ++p) make_part(p, context.clock, codebook);
 }
@@ -114,7 +114,8 @@ DecodedGaussian FineFilter::read_slot(const Part& part, const FineCandidate& can
                      part.stage ? codebooks->bytes() : nullptr);
 }
 
-// By one of the parts that want what is in it, when its last word has been read.
+// By one of the parts that want what is in it: when it begins to read the record, or has read its
+// codebook entries, and so the record.
 void FineFilter::free_slot(std::uint32_t slot, Activity& activity) {
   if (--wanted_[slot] == 0) free_slots_.push(slot, activity);
 }
@@ -131,6 +132,8 @@ void FineFilter::run_decode(Part& part) {
     } else {
       await(memory, decode, candidate.ticket);
       ++counters_.taken;
+      // Where the entries' lines go as they are read.
+      part.stage->decoded.wait_for_room(1, TimedFifo<Decoded>::kNever, decode);
       if (finished[static_cast<int>(part.index)]->finished(candidate.group)) {
         decode.work(1);
       } else {

@@ -4,8 +4,8 @@
 // group that the candidate may touch; its slot is free when all have it.
 // Timing: one candidate every ffu_interval_cycles in each FFU, marks beside what its lanes do,
 // whatever begins with a place in the FIFO behind its pipeline; second_half_slots fetches ahead;
-// quantised second halves pass a stage before the FFU that reads the codebook buffer. Function:
-// algorithm/splat/make_splat.h.
+// quantised second halves pass a stage before the FFU that reads the codebook buffer, a record once
+// there is a place for what is decoded. Function: algorithm/splat/make_splat.h.
 #pragma once
 
 #include <cstddef>

@@ -10,7 +10,7 @@ FineFilterEstimate::FineFilterEstimate(const HfuConfig& config, const FineFilter
                                        CodebookEstimate* codebooks)
     : interval_(unit.tests().interval_cycles()),
       test_cycles_(unit.test_cycles()),
-      read_cycles_(FineFilter::read_cycles(second_halves.record_bytes)),
+      read_cycles_(codebooks == nullptr ? FineFilter::read_cycles(second_halves.record_bytes) : 0),
       reports_(unit.rejects() == Rejects::kReported),
       second_halves_(second_halves),
       port_(port),
@@ -63,7 +63,7 @@ void FineFilterEstimate::decode(Part& part, bool there, std::uint64_t finished_f
   part.decode = part.fetched.front(part.decode);
   std::uint64_t began = part.decode;
   if (there) {
-    began = part.decode = std::max(part.decode, answered);
+    began = part.decode = part.decoded.room(std::max(part.decode, answered));
     ++work_.counters.taken;
     if (finished_from > part.decode) {
       began = part.decode = std::max(part.decode, codebooks_->loaded_at());

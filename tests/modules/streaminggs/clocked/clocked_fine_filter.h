@@ -1,116 +1,39 @@
-// The fine filter register by register, where second halves are not quantised: a fetch that gives
-// each candidate a slot, the FIFO of those that are fetched, the lanes of the FFU with a test in
-// their turn, its pipeline, and the FIFO behind it, in which whatever is under test has its place.
+// The fine filter register by register, where second halves are not quantised: tests begin with
+// records as they lie in their slots.
 #pragma once
 
-#include <cstdint>
-#include <deque>
-#include <optional>
-
-#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+#include "tests/modules/streaminggs/clocked/clocked_fine_stages.h"
 
 namespace sgs::test {
 
-struct FineHardware {
-  std::uint32_t slots = 8;
-  std::uint32_t test_cycles = 24;  // that the lanes take for a test
-  std::uint32_t depth_cycles = 198;
-  std::uint32_t read_cycles = 7;  // of a record, out of its slot
-  std::uint32_t output_entries = 20;
-  std::uint32_t memory_latency = 20;
-};
-
-struct FineItem {
-  std::uint64_t what = 0;
-  bool is_mark = false;
-  bool passes = true;              // goes on; or nothing does
-  std::uint32_t transactions = 1;  // that fetch it
-};
-
 class ClockedFineFilter {
  public:
-  ClockedFifo<std::uint64_t> out;
-
   explicit ClockedFineFilter(const FineHardware& hardware)
-      : out(hardware.output_entries, 0), hw_(hardware), free_slots_(hardware.slots) {}
+      : hw_(hardware), fetch_(hardware), ffu_(hardware) {}
 
-  // As ClockedCoarseFilter's.
-  void step_results() {
-    for (InTest& test : in_test_) --test.left;
-    while (!in_test_.empty() && in_test_.front().left == 0) {
-      if (in_test_.front().passes) out.put(in_test_.front().what);
-      in_test_.pop_front();
-    }
-  }
+  ClockedFifo<std::uint64_t>& out() { return ffu_.out; }
+  void step_results() { ffu_.step_results(); }
   void step(ClockedFifo<FineItem>& candidates) {
-    while (!freed_.empty() && freed_.front() == 0) {
-      ++free_slots_;
-      freed_.pop_front();
-    }
+    fetch_.step_slots();
     begin_test();
-    fetch(candidates);
-    for (Fetched& entry : fetched_) {
-      entry.seen_in -= entry.seen_in > 0 ? 1 : 0;
-      entry.data_in -= entry.data_in > 0 ? 1 : 0;
-    }
-    for (std::uint32_t& left : freed_) --left;
-    lanes_free_in_ -= lanes_free_in_ > 0 ? 1 : 0;
-    ++now_;
+    fetch_.step(candidates);
+    ffu_.step();
   }
 
  private:
-  struct Fetched {
-    FineItem item;
-    std::uint32_t seen_in = 1, data_in = 0;
-  };
-  struct InTest {
-    std::uint64_t left, what;
-    bool passes;
-  };
-
-  // The oldest of those that are fetched: a mark passes beside what the lanes do.
+  // The oldest of those that are fetched.
   void begin_test() {
-    if (fetched_.empty() || fetched_.front().seen_in > 0) return;
-    const Fetched& front = fetched_.front();
-    if (in_test_.size() + out.fill() == hw_.output_entries) return;
-    if (!front.item.is_mark) {
-      const bool turn = now_ % hw_.test_cycles == 0 && lanes_free_in_ == 0;
-      if (front.data_in > 0 || !turn) return;
-      lanes_free_in_ = hw_.test_cycles < hw_.read_cycles ? hw_.read_cycles : hw_.test_cycles;
-      freed_.push_back(hw_.read_cycles);
+    if (!fetch_.can_take() || !ffu_.has_place()) return;
+    if (!fetch_.front().is_mark) {
+      if (!fetch_.data_is_in() || !ffu_.has_turn()) return;
+      fetch_.free_slot(hw_.read_cycles);
     }
-    in_test_.push_back({hw_.depth_cycles + 1, front.item.what, front.item.passes});
-    fetched_.pop_front();
-  }
-
-  void fetch(ClockedFifo<FineItem>& candidates) {
-    if (asking_) {
-      std::uint32_t& left = asking_->transactions;
-      if (!asking_->is_mark && left > 0) --left;
-      if (!asking_->is_mark && left > 0) return;
-      if (fetched_.size() == hw_.slots + 1) return;
-      fetched_.push_back({*asking_, 1, asking_->is_mark ? 0 : hw_.memory_latency});
-      asking_.reset();
-    }
-    if (!fetching_) {
-      if (!candidates.can_take()) return;
-      fetching_ = candidates.take();
-    }
-    if (!fetching_->is_mark) {
-      if (free_slots_ == 0) return;
-      --free_slots_;
-    }
-    asking_ = fetching_;
-    fetching_.reset();
+    ffu_.begin(fetch_.take(), hw_.read_cycles);
   }
 
   const FineHardware hw_;
-  std::uint64_t now_ = 0;
-  std::optional<FineItem> fetching_, asking_;  // wants a slot; its transactions leave
-  std::deque<Fetched> fetched_;
-  std::uint32_t free_slots_, lanes_free_in_ = 0;
-  std::deque<std::uint32_t> freed_;  // cycles until a slot is free
-  std::deque<InTest> in_test_;
+  ClockedFetch fetch_;
+  ClockedFfu ffu_;
 };
 
 }  // namespace sgs::test

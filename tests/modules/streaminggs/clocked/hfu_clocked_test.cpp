@@ -4,45 +4,13 @@
 #include "algorithm/memory/first_half_test.h"
 #include "modules/streaminggs/hfu/coarse_filter.h"
 #include "modules/streaminggs/hfu/fine_filter.h"
-#include "testbench/units/hfu_plan.h"
-#include "testbench/units/job_memory.h"
 #include "tests/modules/streaminggs/clocked/clocked_coarse_filter.h"
 #include "tests/modules/streaminggs/clocked/clocked_fine_filter.h"
 #include "tests/modules/streaminggs/clocked/comparison.h"
+#include "tests/modules/streaminggs/clocked/hfu_workloads.h"
 
 namespace sgs::test {
 namespace {
-
-constexpr std::uint64_t kMarks = 1U << 20U;  // a mark is told by its visit behind these
-
-// How input, output and memory keep a filter waiting.
-struct Waits {
-  std::uint32_t in_one_in = 1, in_longest = 1;
-  std::uint32_t out_one_in = 1, out_longest = 1;
-  std::uint32_t memory_latency = 40;
-  Pace in(std::uint64_t seed) const { return {seed, in_one_in, in_longest}; }
-  Pace out(std::uint64_t seed) const { return {seed + 1000, out_one_in, out_longest}; }
-};
-
-tb::SceneShape shape_of() {
-  tb::SceneShape shape;
-  shape.gaussians = 1500;
-  shape.order = StorageOrder::kChunks;
-  return shape;
-}
-
-tb::BenchConfig bench_of(const tb::HfuPlan& plan, const Waits& waits) {
-  tb::BenchConfig config;
-  config.latency_cycles = waits.memory_latency;
-  config.memory_bytes = tb::memory_bytes(plan.scene.job);
-  return config;
-}
-
-std::uint32_t transactions(const RecordArray& records, std::uint32_t first, std::size_t count) {
-  const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
-  const std::uint64_t begin = records.address(first), end = records.address(first + count);
-  return static_cast<std::uint32_t>((end - 1) / longest - begin / longest + 1);
-}
 
 // Visits of so many Gaussians each, as of the preset `exact` where nothing else is said.
 struct CoarseWorkload {
@@ -172,84 +140,20 @@ struct FineWorkload {
   Rejects rejects = Rejects::kReported;
   Waits waits;
   FineHardware hardware;
-  std::size_t late_marks = 0;  // and what waits behind them: the unit hands a mark on when its lanes
-                               // are free, the reference beside them
+  std::size_t late_marks = 0;  // and what waits behind them: the unit hands a mark on when its
+                               // lanes are free, the reference beside them
 };
 
-tb::HfuPlan fine_plan(const FineWorkload& load, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  tb::HfuPlan plan = tb::plan_of(tb::random_scene(random, shape_of()));
-  plan.config.ffu_lanes = 16;
-  plan.config.ffu_macs = 16 * load.hardware.test_cycles;
-  plan.config.ffu_depth_cycles = load.hardware.depth_cycles;
-  plan.config.second_half_slots = load.hardware.slots;
-  plan.scene.job.groups.resize(1);
-  plan.scene.job.parts = {plan.scene.job.groups};
-  std::uint32_t visit = 0;
-  for (std::uint32_t first = 0; first + load.visit <= 1000; first += load.visit) {
-    plan.shares.push_back({0, visit++, first, load.visit, Mark::kEndOfVisit});
-  }
-  return plan;
-}
-
-std::vector<FineCandidate> candidates_of(const tb::HfuPlan& plan) {
-  const SceneLayout& layout = plan.scene.job.layout;
-  std::vector<FineCandidate> candidates;
-  for (const VisitShare& share : plan.shares) {
-    for (std::uint32_t slot = share.first; slot < share.first + share.count; ++slot) {
-      const SplitFirstHalf first =
-          read_first_half(layout.split, plan.scene.image.at(layout.first_halves.address(slot)));
-      FineCandidate c;
-      c.visit = share.visit;
-      c.slot = slot;
-      c.mean_x = first.mean.x;
-      c.mean_y = first.mean.y;
-      c.mean_z = first.mean.z;
-      c.carried = first.carried;
-      candidates.push_back(c);
-    }
-    FineCandidate mark;
-    mark.visit = share.visit;
-    mark.mark = share.mark;
-    candidates.push_back(mark);
-  }
-  return candidates;
-}
-
-std::vector<FineItem> clocked_candidates(const FineWorkload& load, const tb::HfuPlan& plan) {
-  std::vector<bool> passes(plan.scene.job.layout.gaussian_count(), false);
-  tb::HfuPlan unfiltered = plan;
-  unfiltered.config.coarse_filter = false;
-  for (const VisitShare& share : plan.shares) {
-    for (const Splat& splat : tb::expect(unfiltered, share).splats) passes[splat.index] = true;
-  }
-  std::vector<FineItem> items;
-  for (const FineCandidate& c : candidates_of(plan)) {
-    FineItem item;
-    item.is_mark = c.mark != Mark::kNone;
-    if (item.is_mark) {
-      item.what = kMarks + c.visit;
-    } else {
-      item.transactions = transactions(plan.scene.job.layout.second_halves, c.slot, 1);
-      item.what = passes[c.slot] ? c.slot : 2 * kMarks;
-      item.passes = passes[c.slot] || load.rejects == Rejects::kReported;
-    }
-    items.push_back(item);
-  }
-  return items;
-}
-
-std::uint64_t what_of_splat(const SplatToken& t) {
-  if (t.mark == Mark::kRejected) return 2 * kMarks;
-  return t.mark == Mark::kNone ? t.splat.index : kMarks + t.visit;
+tb::HfuPlan plan_of(const FineWorkload& load, std::uint64_t seed) {
+  return fine_plan(shape_of(), load.hardware, load.visit, seed);
 }
 
 void run_fine(tb::Case& test, Takings& taken, const FineWorkload& load, std::uint64_t seed) {
-  const tb::HfuPlan plan = fine_plan(load, seed);
+  const tb::HfuPlan plan = plan_of(load, seed);
   tb::UnitBench bench(test, bench_of(plan, load.waits));
   bench.load(0, plan.scene.image.bytes);
   FinishedGroups finished("finished", bench.clock(), 1, 1);
-  auto& in = bench.add_fifo<FineCandidate>("candidates", 4, 1);
+  auto& in = bench.add_fifo<FineCandidate>("candidates", kCandidateEntries, 1);
   auto& out = bench.add_fifo<SplatToken>("splats", load.hardware.output_entries,
                                          plan.config.ffu_depth_cycles);
   FineFilter unit("fine", plan.config, plan.codebook, {0, load.rejects},
@@ -259,25 +163,25 @@ void run_fine(tb::Case& test, Takings& taken, const FineWorkload& load, std::uin
   unit.finished(finished);
   bench.add_unit(unit);
   std::size_t items = 0;
-  for (const FineItem& item : clocked_candidates(load, plan)) items += item.passes ? 1 : 0;
+  for (const FineItem& item : clocked_candidates(plan, load.rejects)) items += item.passes ? 1 : 0;
   add_source(bench, "before", candidates_of(plan), load.waits.in(seed), in);
   add_sink(bench, "behind", items, load.waits.out(seed), out, taken, what_of_splat);
   bench.run();
 }
 
 Takings clocked_fine(const FineWorkload& load, std::uint64_t seed) {
-  const tb::HfuPlan plan = fine_plan(load, seed);
+  const tb::HfuPlan plan = plan_of(load, seed);
   FineHardware hardware = load.hardware;
   hardware.memory_latency = load.waits.memory_latency;
   hardware.read_cycles = (plan.scene.job.layout.second_halves.record_bytes + 31) / 32;
   ClockedFineFilter unit(hardware);
-  ClockedFifo<FineItem> in(4);
-  ClockedSource<FineItem> source(clocked_candidates(load, plan), load.waits.in(seed));
+  ClockedFifo<FineItem> in(kCandidateEntries);
+  ClockedSource<FineItem> source(clocked_candidates(plan, load.rejects), load.waits.in(seed));
   ClockedSink<std::uint64_t> sink(load.waits.out(seed));
   const std::uint64_t last = kMarks + plan.shares.back().visit;
   for (std::uint64_t now = 0; sink.taken().empty() || sink.taken().back().what != last; ++now) {
     unit.step_results();
-    sink.step(unit.out, now);
+    sink.step(unit.out(), now);
     unit.step(in);
     source.step(in);
     in.step();

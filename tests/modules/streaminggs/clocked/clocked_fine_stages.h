@@ -1,0 +1,138 @@
+// The stages of a fine filter register by register: a fetch that gives each candidate a slot, with
+// the FIFO of those that are fetched, and the lanes of the FFU with a test in their turn, its
+// pipeline, and the FIFO behind it, in which whatever is under test has its place.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+
+namespace sgs::test {
+
+struct FineHardware {
+  std::uint32_t slots = 8;
+  std::uint32_t test_cycles = 24;  // that the lanes take for a test
+  std::uint32_t depth_cycles = 198;
+  std::uint32_t read_cycles = 7;  // of a record, out of its slot
+  std::uint32_t output_entries = 20;
+  std::uint32_t memory_latency = 20;
+};
+
+struct FineItem {
+  std::uint64_t what = 0;
+  bool is_mark = false;
+  bool passes = true;                // goes on; or nothing does
+  std::uint32_t transactions = 1;    // that fetch it
+  std::vector<std::uint32_t> banks;  // of the codebook buffer, of the lines of its entries
+};
+
+class ClockedFetch {
+ public:
+  explicit ClockedFetch(const FineHardware& hardware)
+      : hw_(hardware), free_slots_(hardware.slots) {}
+
+  bool can_take() const { return !fetched_.empty() && fetched_.front().seen_in == 0; }
+  const FineItem& front() const { return fetched_.front().item; }
+  bool data_is_in() const { return fetched_.front().data_in == 0; }
+  FineItem take() {
+    FineItem item = std::move(fetched_.front().item);
+    fetched_.pop_front();
+    return item;
+  }
+  void free_slot(std::uint32_t in_cycles) { freed_.push_back(in_cycles); }
+
+  // In every cycle step_slots() comes before those who take and free, step() behind them.
+  void step_slots() {
+    while (!freed_.empty() && freed_.front() == 0) {
+      ++free_slots_;
+      freed_.pop_front();
+    }
+  }
+  void step(ClockedFifo<FineItem>& candidates) {
+    fetch(candidates);
+    for (Fetched& entry : fetched_) {
+      entry.seen_in -= entry.seen_in > 0 ? 1 : 0;
+      entry.data_in -= entry.data_in > 0 ? 1 : 0;
+    }
+    for (std::uint32_t& left : freed_) --left;
+  }
+
+ private:
+  struct Fetched {
+    FineItem item;
+    std::uint32_t seen_in = 1, data_in = 0;
+  };
+
+  void fetch(ClockedFifo<FineItem>& candidates) {
+    if (asking_) {
+      std::uint32_t& left = asking_->transactions;
+      if (!asking_->is_mark && left > 0) --left;
+      if (!asking_->is_mark && left > 0) return;
+      if (fetched_.size() == hw_.slots + 1) return;
+      fetched_.push_back({*asking_, 1, asking_->is_mark ? 0 : hw_.memory_latency});
+      asking_.reset();
+    }
+    if (!fetching_) {
+      if (!candidates.can_take()) return;
+      fetching_ = candidates.take();
+    }
+    if (!fetching_->is_mark) {
+      if (free_slots_ == 0) return;
+      --free_slots_;
+    }
+    asking_ = fetching_;
+    fetching_.reset();
+  }
+
+  const FineHardware hw_;
+  std::optional<FineItem> fetching_, asking_;  // wants a slot; its transactions leave
+  std::deque<Fetched> fetched_;
+  std::uint32_t free_slots_;
+  std::deque<std::uint32_t> freed_;  // cycles until a slot is free
+};
+
+class ClockedFfu {
+ public:
+  ClockedFifo<std::uint64_t> out;
+
+  explicit ClockedFfu(const FineHardware& hardware)
+      : out(hardware.output_entries, 0), hw_(hardware) {}
+
+  // As ClockedCoarseFilter's.
+  void step_results() {
+    for (InTest& test : in_test_) --test.left;
+    while (!in_test_.empty() && in_test_.front().left == 0) {
+      if (in_test_.front().passes) out.put(in_test_.front().what);
+      in_test_.pop_front();
+    }
+  }
+  bool has_place() const { return in_test_.size() + out.fill() < hw_.output_entries; }
+  bool has_turn() const { return now_ % hw_.test_cycles == 0 && lanes_free_in_ == 0; }
+  // A mark passes beside what the lanes do. read_cycles: that an item is being read.
+  void begin(const FineItem& item, std::uint32_t read_cycles) {
+    if (!item.is_mark) {
+      lanes_free_in_ = hw_.test_cycles < read_cycles ? read_cycles : hw_.test_cycles;
+    }
+    in_test_.push_back({hw_.depth_cycles + 1, item.what, item.passes});
+  }
+  void step() {
+    lanes_free_in_ -= lanes_free_in_ > 0 ? 1 : 0;
+    ++now_;
+  }
+
+ private:
+  struct InTest {
+    std::uint64_t left, what;
+    bool passes;
+  };
+
+  const FineHardware hw_;
+  std::uint64_t now_ = 0;
+  std::uint32_t lanes_free_in_ = 0;
+  std::deque<InTest> in_test_;
+};
+
+}  // namespace sgs::test
