@@ -1,6 +1,7 @@
 // One channel's controller and its rank cycle by cycle: queues of reads and writes, and a command a
-// cycle, the first that is legal, columns before row commands, older requests before younger. Open
-// rows, no refresh, no aging. Rules of time by pairs of commands, as JESD209-3 names them.
+// cycle, the first that is legal, a refresh that is wanted before all, columns before row commands,
+// older requests before younger. Open rows, no aging. Rules of time by pairs of commands, as
+// JESD209-3 names them.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "modules/dram/channel_request.h"
 #include "modules/dram/command.h"
 #include "modules/dram/memspec.h"
+#include "tests/modules/dram/clocked_refresh.h"
 
 namespace sgs::test {
 
@@ -19,6 +21,7 @@ struct ChannelHardware {
   std::uint32_t front_end = 8;  // cycles from arrival to the first command
   std::size_t read_entries = 32, write_entries = 32, high_watermark = 24, low_watermark = 8;
   bool hits_first = true;  // of a bank's requests those of its open row go first
+  RefreshHardware refresh;
 };
 
 class ClockedChannel {
@@ -34,7 +37,8 @@ class ClockedChannel {
       : hw_(hardware),
         t_(memspec.timing_cycles),
         burst_(memspec.burst_cycles()),
-        banks_(memspec.organisation.banks) {}
+        banks_(memspec.organisation.banks),
+        refresh_(hardware.refresh, memspec) {}
 
   bool full(Direction d) const {
     return d == Direction::kRead ? reads_.size() == hw_.read_entries
@@ -46,10 +50,8 @@ class ClockedChannel {
   }
   // A cycle: at most one command.
   void step() {
-    std::optional<Choice> best;
-    const Direction wanted = wanted_direction();
-    for (std::uint32_t bank = 0; bank < banks_.size(); ++bank) consider(wanted, bank, best);
-    if (best) send(wanted, *best);
+    refresh_.begin_cycle(now_);
+    if (!refresh_.wanted(!empty()) || !send_refresh()) send_request();
     ++now_;
   }
   const std::vector<Sent>& sent() const { return sent_; }
@@ -62,7 +64,7 @@ class ClockedChannel {
   using Queue = std::vector<Entry>;  // by age
   struct Bank {
     std::uint32_t row = kNoRow;
-    std::optional<std::uint64_t> activated, precharged, read, written;  // last
+    std::optional<std::uint64_t> activated, precharged, read, written, refreshed;  // last
   };
   struct Choice {
     bool column;
@@ -70,6 +72,13 @@ class ClockedChannel {
     std::size_t at;  // in its queue
     Command command;
   };
+
+  void send_request() {
+    std::optional<Choice> best;
+    const Direction wanted = wanted_direction();
+    for (std::uint32_t bank = 0; bank < banks_.size(); ++bank) consider(wanted, bank, best);
+    if (best) send(wanted, *best);
+  }
 
   Queue& queue(Direction d) { return d == Direction::kRead ? reads_ : writes_; }
 
@@ -100,7 +109,9 @@ class ClockedChannel {
     } else if (b.row != kNoRow) {
       choice.command = Command::kPrecharge;
     }
-    if (now_ < entry.ready || !legal(choice.command, b)) return;
+    if (now_ < entry.ready || !legal(choice.command, b) || refresh_.holds(bank)) return;
+    // A row that a refresh closes again before its first column.
+    if (choice.command == Command::kActivate && refresh_.will_hold(bank, t_.rcd)) return;
     const bool better = !best || (choice.column && !best->column) ||
                         (choice.column == best->column && choice.order < best->order);
     if (better) best = choice;
@@ -113,8 +124,11 @@ class ClockedChannel {
     const std::uint64_t write_end = t_.write_latency_a + 1 + burst_;
     switch (command) {
       case Command::kActivate:
-        return since(b.precharged, t_.rp_bank) && since(b.activated, t_.rc) &&
-               since(activates_[3], t_.rrd) && since(activates_[0], t_.faw);
+        return closed_for_long(b) && since(b.refreshed, t_.rfc_bank) &&
+               since(refreshed_all_, t_.rfc_all) && since(activates_[3], t_.rrd) &&
+               since(activates_[0], t_.faw);
+      case Command::kRefreshBank:  // an activation, to the rank
+        return legal(Command::kActivate, b) && since(refreshed_bank_, t_.rfc_bank);
       case Command::kRead:
         return since(b.activated, t_.rcd) && since(read_, t_.ccd) &&
                since(written_, write_end + t_.wtr);
@@ -125,6 +139,53 @@ class ClockedChannel {
         return since(b.activated, t_.ras) && since(b.read, t_.rtp) &&
                since(b.written, write_end + t_.wr);
     }
+  }
+
+  bool closed_for_long(const Bank& b) const {
+    return since(b.precharged, t_.rp_bank) && since(precharged_all_, t_.rp_all) &&
+           since(b.activated, t_.rc);
+  }
+
+  // The next command on the way to the refresh, if it is legal in this cycle.
+  bool send_refresh() { return refresh_.all_banks() ? refresh_all() : refresh_bank(); }
+  bool refresh_all() {
+    const auto is_open = [](const Bank& b) { return b.row != kNoRow; };
+    if (std::any_of(banks_.begin(), banks_.end(), is_open)) {
+      for (const Bank& b : banks_) {
+        if (is_open(b) && !legal(Command::kPrecharge, b)) return false;
+      }
+      for (Bank& b : banks_) b.row = kNoRow;
+      precharged_all_ = now_;
+      sent_.push_back({now_, Command::kPrechargeAll, 0, 0, 0});
+      return true;
+    }
+    for (const Bank& b : banks_) {
+      if (!closed_for_long(b) || !since(refreshed_all_, t_.rfc_all)) return false;
+    }
+    refreshed_all_ = now_;
+    sent_.push_back({now_, Command::kRefreshAll, 0, 0, 0});
+    refresh_.refreshed();
+    return true;
+  }
+  bool refresh_bank() {
+    Bank& b = banks_[refresh_.bank()];
+    const Command command = b.row != kNoRow ? Command::kPrecharge : Command::kRefreshBank;
+    if (!legal(command, b)) return false;
+    sent_.push_back({now_, command, refresh_.bank(), 0, 0});
+    if (command == Command::kPrecharge) {
+      b.row = kNoRow;
+      b.precharged = now_;
+      return true;
+    }
+    b.refreshed = refreshed_bank_ = now_;
+    count_activate();
+    refresh_.refreshed();
+    return true;
+  }
+
+  void count_activate() {
+    std::rotate(activates_.begin(), activates_.begin() + 1, activates_.end());
+    activates_.back() = now_;
   }
 
   void send(Direction wanted, const Choice& choice) {
@@ -138,8 +199,7 @@ class ClockedChannel {
     if (choice.command == Command::kActivate) {
       b.row = request.row;
       b.activated = now_;
-      std::rotate(activates_.begin(), activates_.begin() + 1, activates_.end());
-      activates_.back() = now_;
+      count_activate();
     } else if (choice.command == Command::kPrecharge) {
       b.row = kNoRow;
       b.precharged = now_;
@@ -157,7 +217,9 @@ class ClockedChannel {
   const Memspec::Timing t_;
   const std::uint32_t burst_;
   std::vector<Bank> banks_;
-  std::optional<std::uint64_t> read_, written_;            // last of the rank
+  ClockedRefresh refresh_;
+  // The last of the rank.
+  std::optional<std::uint64_t> read_, written_, precharged_all_, refreshed_all_, refreshed_bank_;
   std::array<std::optional<std::uint64_t>, 4> activates_;  // the last four
   Queue reads_, writes_;
   Direction direction_ = Direction::kRead;  // of the last command

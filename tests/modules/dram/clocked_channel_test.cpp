@@ -26,7 +26,8 @@ struct DramWorkload {
 DramConfig config_of(const ChannelHardware& hw) {
   DramConfig c;
   c.channels = 1;
-  c.refresh = RefreshMode::kOff;
+  c.refresh = hw.refresh.mode;
+  c.refresh_postpone_max = hw.refresh.most_postponed;
   c.front_end_ns = 10;  // 8 cycles of 1.25 ns
   c.scheduler = hw.hits_first ? SchedulerKind::kFrFcfs : SchedulerKind::kFcfs;
   c.age_cap_cycles = 1000000;
@@ -117,6 +118,43 @@ TEST_CASE("clocked reference: DRAM commands") {
            DramWorkload{"one bank", 1, 4, 4, 50},
            DramWorkload{"first come, first served", 8, 64, 4, 30, 1, in_order},
            DramWorkload{"tiny queues", 8, 64, 4, 50, 1, tiny},
+       }) {
+    compare(load);
+  }
+}
+
+TEST_CASE("clocked reference: DRAM commands with refresh") {
+  const auto refreshed = [](RefreshMode mode, std::uint32_t most_postponed) {
+    ChannelHardware hardware;
+    hardware.refresh = {mode, most_postponed};
+    return hardware;
+  };
+  const ChannelHardware all = refreshed(RefreshMode::kAllBank, 0);
+  const ChannelHardware bank = refreshed(RefreshMode::kPerBank, 0);
+  const ChannelHardware all_late = refreshed(RefreshMode::kAllBank, 2);
+  const ChannelHardware bank_late = refreshed(RefreshMode::kPerBank, 8);
+  ChannelHardware in_order = bank, tiny = bank_late;
+  in_order.hits_first = false;
+  tiny.read_entries = tiny.write_entries = 2;
+  tiny.high_watermark = 2;
+  tiny.low_watermark = 0;
+  for (const DramWorkload& load : {
+           DramWorkload{"all banks, light", 8, 64, 4, 30, 200, all},
+           DramWorkload{"all banks, heavy: random rows", 8, 1000, 2, 30, 1, all},
+           DramWorkload{"all banks, heavy: few rows", 8, 2, 8, 30, 1, all},
+           DramWorkload{"all banks, one bank asked for", 1, 4, 4, 50, 1, all},
+           DramWorkload{"all banks, 2 late, light", 8, 64, 4, 30, 200, all_late},
+           DramWorkload{"all banks, 2 late, medium", 8, 64, 4, 30, 40, all_late},
+           DramWorkload{"all banks, 2 late, heavy", 8, 1000, 2, 30, 1, all_late},
+           DramWorkload{"a bank, light", 8, 64, 4, 30, 200, bank},
+           DramWorkload{"a bank, heavy: random rows", 8, 1000, 2, 30, 1, bank},
+           DramWorkload{"a bank, heavy: few rows", 8, 2, 8, 30, 1, bank},
+           DramWorkload{"a bank, writes only", 8, 8, 4, 100, 1, bank},
+           DramWorkload{"a bank, in order", 8, 64, 4, 30, 1, in_order},
+           DramWorkload{"a bank, 8 late, light", 8, 64, 4, 30, 200, bank_late},
+           DramWorkload{"a bank, 8 late, medium", 8, 64, 4, 30, 40, bank_late},
+           DramWorkload{"a bank, 8 late, heavy", 8, 1000, 2, 30, 1, bank_late},
+           DramWorkload{"a bank, 8 late, tiny queues", 8, 64, 4, 50, 1, tiny},
        }) {
     compare(load);
   }
