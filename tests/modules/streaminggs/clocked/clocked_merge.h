@@ -1,14 +1,16 @@
-// The merge unit register by register, where the keys of a group fit: a key at hand, the heap's
-// root with its pace, and a register ahead of the FIFOs of released keys. That a heap keeps that
-// pace is shown by one that is stepped itself (tests/algorithm/order/stepped_heap.h).
+// The merge unit register by register: a key at hand, the heap's root with its pace, the spilled
+// runs beside it, and a register ahead of the FIFOs of released keys. That a heap keeps that pace
+// is shown by one that is stepped itself (tests/algorithm/order/stepped_heap.h).
 #pragma once
 
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <vector>
 
 #include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+#include "tests/modules/streaminggs/clocked/clocked_spill.h"
 
 namespace sgs::test {
 
@@ -20,16 +22,24 @@ struct MergeItem {
 
 class ClockedMerge {
  public:
-  explicit ClockedMerge(std::uint32_t cycles_per_operation) : pace_(cycles_per_operation) {}
+  ClockedMerge(std::uint32_t cycles_per_operation, std::size_t entries, const SpillHardware& spill)
+      : pace_(cycles_per_operation), entries_(entries), spill_(spill) {}
 
   void step(std::vector<ClockedFifo<MergeItem>>& in, std::vector<ClockedFifo<MergeItem>>& out) {
     if (sent_ && out[sequence_ % out.size()].has_room()) {
       out[sequence_++ % out.size()].put(*sent_);
       sent_.reset();
+      if (sent_of_run_) spill_.take_nearest();
+      sent_of_run_ = false;
     }
-    if (!sent_ && releasing_) release();
-    if (!sent_ && !releasing_) take(in[visit_ % in.size()]);
+    spill_.step_port(now_);
+    if (spill_.at_work()) step_spill();
+    if (!spill_.at_work() && spill_.ready(now_)) {
+      if (!sent_ && releasing_) release();
+      if (!sent_ && !releasing_) take(in[visit_ % in.size()]);
+    }
     heap_busy_ -= heap_busy_ > 0 ? 1 : 0;
+    ++now_;
   }
 
  private:
@@ -47,14 +57,30 @@ class ClockedMerge {
       at_hand_.reset();
       releasing_ = true;  // from the next cycle on
       ++visit_;
+    } else if (heap_.size() == entries_) {
+      spill_.begin(heap_.size());
+      step_spill();
     } else if (begin_operation()) {
       heap_.insert(at_hand_->key);
       at_hand_.reset();
     }
   }
 
+  void step_spill() {
+    spill_.step(now_, [this]() -> std::optional<std::uint64_t> {
+      if (!begin_operation()) return {};
+      return heap_.extract(std::prev(heap_.end())).value();
+    });
+  }
+
   // What is final, then the mark of a group.
   void release() {
+    const std::optional<std::uint64_t> spilled = spill_.nearest();
+    if (spilled && (heap_.empty() || *spilled < *heap_.begin()) && *spilled < mark_.bound) {
+      sent_ = MergeItem{*spilled};
+      sent_of_run_ = true;
+      return;
+    }
     if (!heap_.empty() && *heap_.begin() < mark_.bound) {
       if (!begin_operation()) return;
       sent_ = MergeItem{*heap_.begin()};
@@ -63,16 +89,20 @@ class ClockedMerge {
     }
     releasing_ = false;
     if (!mark_.ends_group) return;
+    spill_.end_group();
     sent_ = mark_;
   }
 
   const std::uint32_t pace_;
+  const std::size_t entries_;
+  ClockedSpill spill_;
   std::multiset<std::uint64_t> heap_;
   std::uint32_t heap_busy_ = 0;  // cycles until it begins another operation
   std::optional<MergeItem> at_hand_, sent_;
   MergeItem mark_;
   bool releasing_ = false;
-  std::uint64_t visit_ = 0, sequence_ = 0;
+  bool sent_of_run_ = false;  // it stays in its block until it has gone
+  std::uint64_t visit_ = 0, sequence_ = 0, now_ = 0;
 };
 
 }  // namespace sgs::test

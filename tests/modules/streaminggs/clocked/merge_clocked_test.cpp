@@ -17,6 +17,8 @@ struct MergeWorkload {
   std::uint32_t cycles_per_operation = 2;
   std::uint32_t in_one_in = 1, in_longest = 1, out_one_in = 1, out_longest = 1;
   std::uint32_t in_entries = 16, out_entries = 4, sorters = 1, hfus = 4;
+  std::uint32_t entries = 512, spill_runs = 8, spill_block_entries = 8;
+  std::uint32_t read_latency = 20, write_latency = 150;
 };
 
 tb::MergePlan plan_of(const MergeWorkload& load, std::uint64_t seed) {
@@ -24,6 +26,9 @@ tb::MergePlan plan_of(const MergeWorkload& load, std::uint64_t seed) {
   tb::MergePlan plan;
   plan.slots = 400;
   plan.config.cycles_per_operation = load.cycles_per_operation;
+  plan.config.entries = load.entries;
+  plan.config.spill_runs = load.spill_runs;
+  plan.config.spill_block_entries = load.spill_block_entries;
   plan.sorters = load.sorters;
   plan.hfus = load.hfus;
   plan.input_entries = load.in_entries;
@@ -76,7 +81,10 @@ std::size_t released(const tb::MergePlan& plan) {
 // Takes from the FIFOs in turn, as rendering does behind them.
 void run(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_t seed) {
   const tb::MergePlan plan = plan_of(load, seed);
-  tb::MergeRun run(test, tb::still_bench(plan), plan);
+  tb::BenchConfig bench = tb::still_bench(plan);
+  bench.latency_cycles = load.read_latency;
+  bench.write_latency_cycles = load.write_latency;
+  tb::MergeRun run(test, bench, plan);
   const std::vector<std::vector<FineCandidate>> inputs = inputs_of(plan);
   for (std::uint32_t s = 0; s < plan.sorters; ++s) {
     add_source(run.bench, fmt::format("sorter{}", s), inputs[s],
@@ -95,7 +103,10 @@ void run(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_
 
 Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
   const tb::MergePlan plan = plan_of(load, seed);
-  ClockedMerge unit(load.cycles_per_operation);
+  const RegionSpan spill = tb::merge_job(plan).spill;
+  ClockedMerge unit(load.cycles_per_operation, load.entries,
+                    {load.spill_runs, load.spill_block_entries, load.read_latency,
+                     load.write_latency, spill.base, spill.bytes / 2});
   std::vector<ClockedFifo<MergeItem>> in, out;
   std::vector<ClockedSource<MergeItem>> sources;
   std::uint64_t number = 0;
@@ -122,6 +133,13 @@ Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
   return sink.taken();
 }
 
+void compare(Comparison& table, const MergeWorkload& load) {
+  table.workload(
+      load.name,
+      [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
+      [&](std::uint64_t seed) { return clocked(load, seed); });
+}
+
 TEST_CASE("clocked reference: merge unit") {
   Comparison table("merge unit");
   for (const MergeWorkload& load : {
@@ -134,10 +152,70 @@ TEST_CASE("clocked reference: merge unit") {
            MergeWorkload{"tiny buffers", 16, 1000, 2, 4, 20, 4, 20, 1, 1},
            MergeWorkload{"two sorting units, one HFU", 16, 1000, 2, 1, 1, 1, 1, 16, 4, 2, 1},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    compare(table, load);
+  }
+}
+
+TEST_CASE("clocked reference: merge unit that spills") {
+  Comparison table("merge, spilling");
+  MergeWorkload spilling{"64 keys wait"};
+  spilling.entries = 64;
+  const auto with = [&](const char* name, const auto& change) {
+    MergeWorkload load = spilling;
+    load.name = name;
+    change(load);
+    return load;
+  };
+  for (const MergeWorkload& load : {
+           spilling,
+           with("128 keys wait", [](MergeWorkload& l) { l.entries = 128; }),
+           with("10 keys wait", [](MergeWorkload& l) { l.entries = 10; }),
+           with("visits of up to 3", [](MergeWorkload& l) { l.chunk = 3; }),
+           with("few depths", [](MergeWorkload& l) { l.depths = 5; }),
+           with("an operation every 4 cycles",
+                [](MergeWorkload& l) { l.cycles_per_operation = 4; }),
+           with("2 runs", [](MergeWorkload& l) { l.spill_runs = 2; }),
+           with("2 runs, 10 keys wait",
+                [](MergeWorkload& l) {
+                  l.spill_runs = 2;
+                  l.entries = 10;
+                }),
+           with("blocks of a key", [](MergeWorkload& l) { l.spill_block_entries = 1; }),
+           with("blocks of 3 keys", [](MergeWorkload& l) { l.spill_block_entries = 3; }),
+           with("memory of 300 cycles", [](MergeWorkload& l) { l.read_latency = 300; }),
+           with("memory that answers at once",
+                [](MergeWorkload& l) { l.read_latency = l.write_latency = 1; }),
+           with("input stalled",
+                [](MergeWorkload& l) {
+                  l.in_one_in = 4;
+                  l.in_longest = 60;
+                }),
+           with("output stalled",
+                [](MergeWorkload& l) {
+                  l.out_one_in = 4;
+                  l.out_longest = 60;
+                }),
+           with("tiny buffers",
+                [](MergeWorkload& l) {
+                  l.in_entries = l.out_entries = 1;
+                  l.out_one_in = 4;
+                  l.out_longest = 20;
+                }),
+           with("tiny buffers, blocks of 2 keys",
+                [](MergeWorkload& l) {
+                  l.out_entries = l.hfus = 1;
+                  l.out_one_in = 4;
+                  l.out_longest = 60;
+                  l.spill_block_entries = 2;
+                  l.read_latency = 60;
+                }),
+           with("two sorting units, one HFU",
+                [](MergeWorkload& l) {
+                  l.sorters = 2;
+                  l.hfus = 1;
+                }),
+       }) {
+    compare(table, load);
   }
 }
 
