@@ -160,8 +160,7 @@ class Pipeline {
 
   // The decode stage; what it has in hand stays in the FIFO behind the fetches until it is done.
   void decode(const std::size_t* gaussian, Cycle data) {
-    decode_ = std::max({decode_, fetch_ + 1, data});
-    if (gaussian != nullptr) decode_ = std::max(decode_, before(decoded_taken_, kDecodedEntries));
+    decode_ = std::max({decode_, fetch_ + 1, data, before(decoded_taken_, kDecodedEntries)});
     if (gaussian != nullptr && !finished(decode_)) {
       read_lines(share_->lines[*gaussian]);
     } else {
@@ -170,15 +169,14 @@ class Pipeline {
     }
     if (gaussian != nullptr) slot_free_.push_back(decode_);
     fetched_taken_.push_back(decode_);
-    decode_ = std::max(decode_, before(decoded_taken_, kDecodedEntries));
     const Cycle there = decode_ + *decode_latency_;
-    const bool waited = there < fine_;
     fine_ = std::max(fine_, there);
     if (gaussian == nullptr) {
-      decoded_taken_.push_back(fine_ - (waited && lanes_work_ ? 1 : 0));
-      pass_mark(waited);
+      decoded_taken_.push_back(fine_);
+      pass_mark();
       return;
     }
+    fine_ = std::max(fine_, lanes_);
     const bool wanted = wait_for_turn();
     decoded_taken_.push_back(fine_);
     test(*gaussian, wanted);
@@ -186,26 +184,23 @@ class Pipeline {
 
   // The FFU itself, straight from the slots.
   void take(const std::size_t* gaussian, Cycle data) {
-    const bool waited = fetch_ + 1 < fine_;
     fine_ = std::max(fine_, fetch_ + 1);
     if (gaussian == nullptr) {
-      fetched_taken_.push_back(fine_ - (waited && lanes_work_ ? 1 : 0));
-      pass_mark(waited);
+      fetched_taken_.push_back(fine_);
+      pass_mark();
       return;
     }
-    fine_ = std::max(fine_, data);
+    fine_ = std::max({fine_, lanes_, data});
     const bool wanted = wait_for_turn();
     slot_free_.push_back(fine_ + read_cycles());
     fetched_taken_.push_back(fine_);
     test(*gaussian, wanted);
   }
 
-  // Beside what the lanes do, where it has waited for them.
-  void pass_mark(bool waited) {
-    const bool beside = waited && lanes_work_;
-    lanes_work_ = false;
-    fine_ += beside ? 0 : 1;
-    times_.fine_busy += beside ? 0 : 1;
+  // Beside what the lanes do.
+  void pass_mark() {
+    times_.fine_busy += fine_ < lanes_ ? 0 : 1;
+    ++fine_;
   }
 
   // A record, a word of the port's width a cycle.
@@ -232,7 +227,6 @@ class Pipeline {
   }
 
   void test(std::size_t gaussian, bool wanted) {
-    lanes_work_ = false;
     if (!wanted) {
       ++times_.dropped;
       ++fine_;
@@ -241,8 +235,8 @@ class Pipeline {
     }
     const Cycle of_test =
         std::max<Cycle>(config_.ffu_interval_cycles(), decode_latency_ ? 0 : read_cycles());
-    fine_ += of_test;
-    lanes_work_ = of_test > 1;
+    lanes_ = fine_ + of_test;
+    ++fine_;
     times_.fine_busy += of_test;
     times_.tested.back()[gaussian] = true;
     ++times_.fine_tests;
@@ -253,12 +247,12 @@ class Pipeline {
   const Cycle latency_;
   const std::optional<std::uint32_t> decode_latency_;
   const TimedShare* share_ = nullptr;
-  // When each thread is free.
+  // When each thread is free, the FFU's for a mark.
   Cycle loaded_ = 0, coarse_ = 0, fetch_ = 0, decode_ = 0, fine_ = 0;
   std::vector<Cycle> failed_leave_;  // what did not pass leaves the CFUs
   std::vector<Cycle> half_free_, slice_taken_, candidate_taken_, fetched_taken_, slot_free_,
       decoded_taken_;
-  bool lanes_work_ = false;  // up to fine_, and no mark has passed beside them
+  Cycle lanes_ = 0;  // when they are free
   HfuTimes times_;
 };
 

@@ -10,6 +10,16 @@
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
+namespace {
+
+// Until the oldest entry can be taken; at_most where it can, or there is none.
+template <class T>
+sc_core::sc_time until_ready(const TimedFifo<T>& from, const sc_core::sc_time& at_most) {
+  if (from.empty() || from.can_pop()) return at_most;
+  return std::min(at_most, from.ready_at() - sc_core::sc_time_stamp());
+}
+
+}  // namespace
 
 FineFilter::FineFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
                        const CodebookConfig& codebook, const FineFilterPlace& place,
@@ -45,8 +55,12 @@ void FineFilter::make_part(std::uint32_t index, const ClockDomain& clock,
   parts_.push_back(std::make_unique<Part>(index, number, clock, fetched_entries(config_)));
   Part& part = *parts_.back();
   sc_core::sc_spawn([this, &part] { run_filter(part); }, ("run_filter" + number).c_str());
-  if (!job_.layout.second_half.quantised()) return;
+  if (!job_.layout.second_half.quantised()) {
+    part.fetched.announce_to(part.arrived);
+    return;
+  }
   part.stage = std::make_unique<DecodeStage>(number, clock, codebook);
+  part.stage->decoded.announce_to(part.arrived);
   sc_core::sc_spawn([this, &part] { run_decode(part); }, ("run_decode" + number).c_str());
 }
 
@@ -127,13 +141,13 @@ void FineFilter::run_decode(Part& part) {
     next.candidate = part.fetched.front(decode);
     const FineCandidate& candidate = next.candidate;
     take_up(candidate, decode);
+    // Where lines of its entries go as they are read.
+    part.stage->decoded.wait_for_room(1, TimedFifo<Decoded>::kNever, decode);
     if (candidate.mark != Mark::kNone) {
       decode.work(1);
     } else {
       await(memory, decode, candidate.ticket);
       ++counters_.taken;
-      // Where the entries' lines go as they are read.
-      part.stage->decoded.wait_for_room(1, TimedFifo<Decoded>::kNever, decode);
       if (finished[static_cast<int>(part.index)]->finished(candidate.group)) {
         decode.work(1);
       } else {
@@ -155,12 +169,14 @@ void FineFilter::run_decode(Part& part) {
 void FineFilter::run_filter(Part& part) {
   part.places.assign(static_cast<std::size_t>(splats.size()) / parts_.size(),
                      PlacesUnderTest(config_.ffu_depth_cycles));
-  while (true) {
-    if (part.stage) {
-      filter_decoded(part);
-    } else {
-      filter_fetched(part);
-    }
+  while (true) filter_next(part);
+}
+
+void FineFilter::filter_next(Part& part) {
+  if (part.stage) {
+    filter_decoded(part);
+  } else {
+    filter_fetched(part);
   }
 }
 
@@ -236,26 +252,34 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
   part.filter.work(1);
   ++counters_.tests;
   hand_on(part, decoded, began);
-  const std::uint64_t last = began + test_cycles_ - 1;
-  const std::uint64_t now = part.filter.clock().now_cycles();
-  if (now > last) return;
-  part.filter.work(last - now);
-  if (!mark_is_next(part)) {
-    part.filter.work(1);
-  } else if (part.stage) {
-    filter_decoded(part);
-  } else {
-    filter_fetched(part);
+  const std::uint64_t end = began + test_cycles_;
+  while (part.filter.clock().now_cycles() < end) {
+    if (mark_is_next(part)) {
+      filter_next(part);
+    } else {
+      work_lanes(part, end);
+    }
   }
 }
 
-// It passes in the last of the cycles that the lanes take, beside them.
+// It passes beside what the lanes do.
 bool FineFilter::mark_is_next(Part& part) {
   if (part.stage) {
     auto& from = part.stage->decoded;
     return from.can_pop() && from.front(part.filter).candidate.mark != Mark::kNone;
   }
   return part.fetched.can_pop() && part.fetched.front(part.filter).mark != Mark::kNone;
+}
+
+// Up to cycle `end`, or until there may be a mark that passes beside it.
+void FineFilter::work_lanes(Part& part, std::uint64_t end) {
+  const ClockDomain& clock = part.filter.clock();
+  const sc_core::sc_time left = static_cast<double>(end - clock.now_cycles()) * clock.period();
+  part.filter.works();
+  sc_core::wait(
+      part.stage ? until_ready(part.stage->decoded, left) : until_ready(part.fetched, left),
+      part.arrived);
+  clock.jitter();
 }
 
 // What becomes of a test, from its first cycle on on the way through the pipeline.

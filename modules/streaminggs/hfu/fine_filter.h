@@ -114,6 +114,7 @@ class FineFilter : public sc_core::sc_module {
     TimedFifo<FineCandidate> fetched;
     std::unique_ptr<DecodeStage> stage;   // null where second halves are not quantised
     std::vector<PlacesUnderTest> places;  // in each FIFO of its splats
+    sc_core::sc_event arrived;            // something that its FFU takes
     // What takes second halves out of their slots.
     Activity& taker() { return stage ? stage->decode : filter; }
     Part(std::uint32_t at, const std::string& number, const ClockDomain& clock,
@@ -131,12 +132,14 @@ class FineFilter : public sc_core::sc_module {
   DecodedGaussian read_slot(const Part& part, const FineCandidate& candidate) const;
   void free_slot(std::uint32_t slot, Activity& activity);
   void name_holder_of_slots();
+  void filter_next(Part& part);
   void filter_fetched(Part& part);
   void filter_decoded(Part& part);
   bool is_wanted(const Part& part, const FineCandidate& candidate) const;
   void drop(Part& part, const FineCandidate& candidate);
   void pass_mark(Part& part, const FineCandidate& candidate);
   bool mark_is_next(Part& part);
+  void work_lanes(Part& part, std::uint64_t end);
   void wait_for_place(Part& part, std::uint32_t visit);
   void test(Part& part, const Decoded& decoded);
   void hand_on(Part& part, const Decoded& decoded, std::uint64_t began);

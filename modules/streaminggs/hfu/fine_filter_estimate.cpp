@@ -1,8 +1,6 @@
 // Second halves on their way, and through each part's FFU.
 #include "modules/streaminggs/hfu/fine_filter_estimate.h"
 
-#include <utility>
-
 namespace sgs {
 
 FineFilterEstimate::FineFilterEstimate(const HfuConfig& config, const FineFilter& unit,
@@ -60,10 +58,10 @@ FineFilterEstimate::Fetched FineFilterEstimate::fetch(const Candidate& candidate
 
 void FineFilterEstimate::decode(Part& part, bool there, std::uint64_t finished_from,
                                 std::uint64_t answered) {
-  part.decode = part.fetched.front(part.decode);
+  part.decode = part.decoded.room(part.fetched.front(part.decode));
   std::uint64_t began = part.decode;
   if (there) {
-    began = part.decode = part.decoded.room(std::max(part.decode, answered));
+    began = part.decode = std::max(part.decode, answered);
     ++work_.counters.taken;
     if (finished_from > part.decode) {
       began = part.decode = std::max(part.decode, codebooks_->loaded_at());
@@ -80,13 +78,11 @@ void FineFilterEstimate::decode(Part& part, bool there, std::uint64_t finished_f
   part.decode = part.decoded.push(part.decode);
 }
 
-// One that is there by then passes in the last of the cycles that the lanes take, beside them.
+// Beside what the lanes do.
 std::uint64_t FineFilterEstimate::pass_mark(Part& part, FifoTimes& from, FifoTimes& splats) {
-  const bool beside_lanes = std::exchange(part.lanes_last, false) && from.front(0) < part.filter;
-  if (beside_lanes) --part.filter;
   part.filter = splats.room(from.front(part.filter));
+  part.filter_cycles += part.filter < part.lanes ? 0 : 1;
   from.remove(part.filter++);
-  part.filter_cycles += beside_lanes ? 0 : 1;
   return part.filter;
 }
 
@@ -98,7 +94,7 @@ FineFilterEstimate::Filtered FineFilterEstimate::filter(std::uint32_t p, const C
   if (codebooks_ != nullptr) decode(part, there, finished_from, fetched.answered);
   FifoTimes& from = codebooks_ != nullptr ? part.decoded : part.fetched;
   if (!there) return {false, false, pass_mark(part, from, splats)};
-  part.filter = from.front(part.filter);
+  part.filter = from.front(std::max(part.filter, part.lanes));
   if (codebooks_ == nullptr) {
     part.filter = std::max(part.filter, fetched.answered);
     ++work_.counters.taken;
@@ -110,10 +106,9 @@ FineFilterEstimate::Filtered FineFilterEstimate::filter(std::uint32_t p, const C
   if (tested) part.filter = next_turn(part.filter, interval_);
   if (codebooks_ == nullptr) free_slot(part.filter);
   from.remove(part.filter);
-  const std::uint64_t leaves = part.filter + 1;
-  part.filter += tested ? test_cycles_ : 1;
-  part.filter_cycles += part.filter - began;
-  part.lanes_last = tested && test_cycles_ > 1;
+  part.lanes = part.filter + (tested ? test_cycles_ : 1);
+  part.filter_cycles += part.lanes - began;
+  const std::uint64_t leaves = ++part.filter;
   work_.counters.tests += tested ? 1 : 0;
   work_.counters.splats += splat ? 1 : 0;
   work_.counters.dropped_saturated += tested ? 0 : 1;

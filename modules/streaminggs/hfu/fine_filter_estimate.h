@@ -67,8 +67,8 @@ class FineFilterEstimate {
   };
   struct Part {
     FifoTimes fetched, decoded;
-    bool lanes_last = false;               // it did a test last, of more than a cycle
-    std::uint64_t decode = 0, filter = 0;  // until when they work
+    std::uint64_t decode = 0, filter = 0;  // until when they work, the FFU but for its lanes
+    std::uint64_t lanes = 0;               // until when these do
     std::uint64_t decode_cycles = 0, filter_cycles = 0;
   };
   Fetched fetch(const Candidate& candidate, FifoTimes& candidates);
