@@ -26,11 +26,15 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
                            {config.spill_block_entries, "keys"},
                            {kKeyBytes, "B"}},
                           {8 * kKeyBytes}, kOneOfEach));
-  // Depth and slot of the first key of each, which are compared all at once.
+  // The first key of each has left it: depth and slot, which are compared all at once, and the rest.
   constexpr std::uint32_t kFrontBytes = 4 * kKeyWords;
   uses.push_back(sram_use(
       "fronts of runs", kSharedSram, {{config.spill_runs, "runs"}, {kFrontBytes, "B"}},
       {8 * kFrontBytes, SramPorts::kReadAndWrite, config.spill_runs}, {config.spill_runs, 1}));
+  constexpr std::uint32_t kRestBytes = kKeyBytes - kFrontBytes;
+  uses.push_back(sram_use("rest of fronts", kSharedSram,
+                          {{config.spill_runs, "runs"}, {kRestBytes, "B"}}, {8 * kRestBytes},
+                          kOneOfEach));
   uses.push_back(block);
   uses.push_back(unanswered_writes("spill writes", kSharedSram, built_for.memory_port, bytes));
   return uses;
@@ -54,6 +58,7 @@ void MergeUnit::publish_ledger(DataSheet& sheet) {
                    comparators * static_cast<double>(counters_.keys_spilled));
   sheet.accesses("fronts of runs", config_.spill_runs * counters_.keys_spilled,
                  counters_.keys_spilled);
+  sheet.accesses("rest of fronts", counters_.keys_spilled, counters_.keys_spilled);
   sheet.accesses("spilled runs", counters_.keys_spilled, counters_.keys_spilled);
   sheet.accesses("spill blocks", counters_.keys_spilled, counters_.keys_spilled);
   sheet.port(memory, "spill writes");
