@@ -1,7 +1,7 @@
 // Sorting unit, paper order: puts the splats of one visit in order, front to back, equal depths by
-// index. Timing: one entry a cycle in and out, sorting_cost.h between, as many times longer as
-// there are lists that the network serves in turn. A visit with more splats than the buffer holds
-// spills sorted runs to DRAM and merges them back, in several passes if need be.
+// index. Timing: one entry a cycle in and out, sorting_cost.h between, where the lists that share
+// the network have turns. A visit with more splats than the buffer holds spills sorted runs to DRAM
+// and merges them back, in several passes if need be.
 #pragma once
 
 #include <cstdint>

@@ -30,18 +30,37 @@ constexpr std::uint32_t merge_levels(std::uint64_t runs) {
   return levels;
 }
 
-// Cycles in which kMergeWidth entries pass all levels. `lists` take turns in the network. The
-// farther half of what a merge gives goes into the next merge of the same pair of runs, so that a
-// pair has one every kMergeStages cycles; pairs and lists go side by side.
+// Turns of the network from a merge to the next of the same pair of runs, into which the farther
+// half of what it gives goes. turn: cycles.
+constexpr std::uint64_t turns_to_next_merge(std::uint64_t turn) {
+  return (kMergeStages + turn - 1) / turn;
+}
+
+// Cycles in which kMergeWidth entries pass all levels, of long runs. `lists` take turns in the
+// network; pairs of runs go side by side.
 constexpr std::uint64_t merge_tree_cycles(const SortingNetworkConfig& config, std::uint64_t runs,
                                           std::uint32_t lists = 1) {
+  const std::uint64_t turn = std::uint64_t{lists} * config.merge_interval_cycles;
+  const std::uint64_t of_a_pair = turns_to_next_merge(turn);
   std::uint64_t cycles = 0;
   for (; runs > 1; runs = (runs + 1) / 2) {
     const std::uint64_t pairs = runs / 2;
-    cycles += std::max<std::uint64_t>(std::uint64_t{lists} * config.merge_interval_cycles,
-                                      (kMergeStages + pairs - 1) / pairs);
+    cycles += turn * ((of_a_pair + pairs - 1) / pairs);
   }
   return cycles;
+}
+
+// Turns from the first merge of a level to its last, both counted: n entries in runs of `run`, the
+// last one shorter. Either every turn is taken, or what takes longest are the merges of the longest
+// pairs, one behind the other. A run without another goes into the other list in any turn.
+constexpr std::uint64_t merge_level_turns(std::uint64_t n, std::uint64_t run, std::uint64_t turn) {
+  const auto merges = [](std::uint64_t entries) {
+    return (entries + kMergeWidth - 1) / kMergeWidth;
+  };
+  const std::uint64_t whole = n / (2 * run), rest = n % (2 * run);
+  const std::uint64_t longest = merges(whole > 0 ? 2 * run : rest);
+  const std::uint64_t as_long = whole + (rest > run && merges(rest) == longest ? 1 : 0);
+  return std::max(merges(n), (longest - 1) * turns_to_next_merge(turn) + as_long);
 }
 
 // Comparators that stand there: those of all stages where a block starts every cycle, folded where
@@ -61,18 +80,22 @@ struct SortingCost {
   std::uint64_t moves = 0;  // of entries through the network: keys read, places written
 };
 
-// Sorting n entries on chip, in turns with other lists. A list of 1 is in order already and need
-// not pass; of 0 there is none.
+// Sorting n entries on chip; each of the other lists that share the network has a turn before every
+// turn of this one. A list of 1 is in order already and need not pass; of 0 there is none.
 constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_t n,
                                 std::uint32_t lists = 1) {
   if (n == 0 || (n == 1 && config.skip_trivial)) return {};
   const std::uint64_t blocks = (n + kNetworkWidth - 1) / kNetworkWidth;
-  const std::uint64_t of_a_level = (n + kMergeWidth - 1) / kMergeWidth;
-  const std::uint64_t levels = merge_levels(blocks);
-  const std::uint64_t merges = levels * of_a_level;
-  return {lists * (config.sort_latency_cycles + (blocks - 1) * config.sort_interval_cycles) +
-              (of_a_level - 1) * merge_tree_cycles(config, blocks, lists) + levels * kMergeLatency,
-          (blocks * kSortStages + merges * kMergeStages) * kMergeWidth,
+  const std::uint64_t turn = std::uint64_t{lists} * config.merge_interval_cycles;
+  std::uint64_t cycles =
+      (lists * blocks - 1) * config.sort_interval_cycles + config.sort_latency_cycles;
+  std::uint64_t merges = 0;
+  for (std::uint64_t run = kNetworkWidth; run < n; run *= 2) {
+    cycles += (lists * merge_level_turns(n, run, turn) - 1) * config.merge_interval_cycles +
+              kMergeLatency;
+    merges += (n + kMergeWidth - 1) / kMergeWidth;
+  }
+  return {cycles, (blocks * kSortStages + merges * kMergeStages) * kMergeWidth,
           blocks * kNetworkWidth + merges * kMergeWidth};
 }
 

@@ -75,10 +75,11 @@ TEST_CASE("sorting cost: by hand, with the defaults") {
   // Two blocks, one level of three merges of eight; the last takes 6 cycles until it is written.
   CHECK(cycles(17) == 12 + 1 + 2 * 4 + 6);
   CHECK(cycles(32) == 12 + 1 + 3 * 4 + 6);
-  CHECK(cycles(33) == 12 + 2 + 2 * (4 * 4 + 6));  // three blocks, two levels of one pair
+  // Three blocks, two levels of one pair: 4 merges, beside them the third block; then 5.
+  CHECK(cycles(33) == 12 + 2 + (3 * 4 + 6) + (4 * 4 + 6));
   CHECK(cycles(64) == 12 + 3 + (7 * 2 + 6) + (7 * 4 + 6));
-  // Another list between.
-  CHECK(sort_cost(config, 64, 2).cycles == 2 * (12 + 3) + 2 * (7 * 4 + 6));
+  // Another list before each turn.
+  CHECK(sort_cost(config, 64, 2).cycles == 12 + 7 + 2 * (15 * 2 + 6));
   CHECK(sort_cost(config, 16).compare_exchanges == 80);
   CHECK(sort_cost(config, 32).compare_exchanges == 2 * 80 + 4 * 32);
 }
@@ -91,7 +92,7 @@ TEST_CASE("sorting cost: a trivial list costs only when nothing is skipped") {
   CHECK(sort_cost(config, 1).compare_exchanges == 80);
 }
 
-// Merges of one pair of runs, each begun when the network takes one and what the last one of the
+// Merges of one pair of runs, each begun in a turn of the network when what the last one of the
 // pair gave back is there.
 TEST_CASE("sorting cost: no merge begins before the one that it waits for has ended") {
   for (const std::uint32_t interval : {1U, 2U, 3U, 5U}) {
@@ -102,7 +103,8 @@ TEST_CASE("sorting cost: no merge begins before the one that it waits for has en
       std::vector<std::uint64_t> done(pairs, 0);
       std::uint64_t network = 0;
       for (std::uint64_t merge = 0; merge < kRounds * pairs; ++merge) {
-        const std::uint64_t begin = std::max(network, done[merge % pairs]);
+        std::uint64_t begin = network;
+        while (begin < done[merge % pairs]) begin += interval;
         network = begin + interval;
         done[merge % pairs] = begin + kMergeStages;
       }
