@@ -34,7 +34,7 @@ class RayTimingModel {
     rays_ = &rays;
     table_ = &table;
     begun_ = 0;
-    step_free_ = begin_free_ = table_free_ = end_ = 0;
+    step_free_ = begin_free_ = tree_free_ = table_free_ = end_ = 0;
     places_.assign(config_.rays_in_flight, Place());
     for (std::size_t k = 0; k < places_.size(); ++k) begin(k, 0);
     Times times;
@@ -164,19 +164,24 @@ class RayTimingModel {
     }
     if (first->ray == nullptr || !first->ended) return false;
     ++first->round;
-    begin(static_cast<std::size_t>(first - places_.begin()), now);
+    if (begun_ < rays_->size()) tree_free_ = found(now);
+    begin(static_cast<std::size_t>(first - places_.begin()), std::max(now, tree_free_));
     return true;
   }
 
-  // A voxel once the first of all rounds is found and the table has taken the one before.
+  // The first of all rounds, of 8 in a cycle, of 64 in two, of 512 in three; not before what was
+  // found last has gone.
+  std::uint64_t found(std::uint64_t now) const {
+    const std::uint64_t rays = config_.rays_in_flight;
+    return std::max(tree_free_, now) + (rays <= 8 ? 1 : rays <= 64 ? 2 : rays <= 512 ? 3 : 4);
+  }
+
+  // A voxel once it is found and the table has taken the one before.
   std::uint64_t enter(Place& place, std::uint64_t now) {
     const std::uint64_t before = table_->accesses().cycles;
     table_->add(place.chain, place.met.front().voxel);
-    // The first of 8 rounds is found in a cycle, of 64 in two, of 512 in three.
-    const std::uint64_t rays = config_.rays_in_flight;
-    const std::uint64_t first = rays <= 8 ? 1 : rays <= 64 ? 2 : rays <= 512 ? 3 : 4;
-    const std::uint64_t cycles = std::max(first, table_->accesses().cycles - before);
-    table_free_ = std::max(table_free_, now) + cycles;
+    tree_free_ = std::max(table_free_, found(now));
+    table_free_ = tree_free_ + table_->accesses().cycles - before;
     end_ = std::max(end_, table_free_);
     return table_free_;
   }
@@ -236,7 +241,7 @@ class RayTimingModel {
   std::deque<LookUp> look_ups_;    // likewise
   std::deque<Fetch> fetches_;
   std::map<std::uint64_t, std::deque<std::uint64_t>> sets_;  // lines, most recently used first
-  std::uint64_t step_free_ = 0, begin_free_ = 0, table_free_ = 0, end_ = 0;
+  std::uint64_t step_free_ = 0, begin_free_ = 0, tree_free_ = 0, table_free_ = 0, end_ = 0;
 };
 
 }  // namespace sgs::tb

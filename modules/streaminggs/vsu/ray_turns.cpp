@@ -35,7 +35,7 @@ RayTurns::RayTurns(const PaperVsuConfig& c, const OperationLatencies& latencies)
       steps_(ray_step_pipeline(c, latencies)) {}
 
 void RayTurns::free_from(std::uint64_t cycle) {
-  pass_from_ = begins_free_ = steps_free_ = look_ups_free_ = table_free_ = cycle;
+  pass_from_ = begins_free_ = steps_free_ = look_ups_free_ = tree_free_ = table_free_ = cycle;
 }
 
 void RayTurns::hold_look_ups(std::uint64_t cycle) {
@@ -66,11 +66,18 @@ std::uint64_t RayTurns::cycles_since(const OrderingAccesses& all) {
   return all.cycles - std::exchange(work_.accesses, all).cycles;
 }
 
+std::uint64_t RayTurns::found(std::uint64_t cycle) {
+  ++work_.found;
+  return std::max(tree_free_, cycle) + first_of_rounds_cycles(config.rays_in_flight);
+}
+
+std::uint64_t RayTurns::give_context(std::uint64_t cycle) { return tree_free_ = found(cycle); }
+
 std::uint64_t RayTurns::enter(const OrderingTable& table, std::uint64_t cycle) {
   ++work_.entered;
-  const std::uint64_t cycles = std::max<std::uint64_t>(
-      first_of_rounds_cycles(config.rays_in_flight), cycles_since(table.accesses()));
-  return turn(table_free_, cycle, cycles) + cycles;
+  const std::uint64_t cycles = cycles_since(table.accesses());
+  tree_free_ = turn(table_free_, found(cycle), cycles);
+  return table_free_;
 }
 
 std::uint64_t RayTurns::order_cycles(const OrderingTable& table) {

@@ -18,9 +18,9 @@ class RayTurns {
   static constexpr std::uint64_t kLookUpCycles = 3, kMaskCycles = 1;
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
-  // The round of each ray that has something to enter is compared with the others', in a tree,
-  // before the next can be: from one voxel that is entered to the next, at least. Three levels of
-  // comparators a cycle.
+  // The round of each ray is compared with the others', in a tree, before a voxel is entered or the
+  // context of a ray that has ended is given to another; what is found first changes its round, so
+  // that the next comparison begins then. Three levels of comparators a cycle.
   static constexpr std::uint32_t first_of_rounds_cycles(std::uint32_t rays) {
     constexpr std::uint32_t kLevelsOfCycle = 3;
     std::uint32_t levels = 1;
@@ -39,13 +39,17 @@ class RayTurns {
   std::uint64_t look_up(std::uint64_t cycle);
   std::uint64_t look_up_again(std::uint64_t cycle) { return look_up(cycle) + kLookUpCycles; }
 
-  // A voxel was added to the table: when it is done.
+  // The ray that is the first of all rounds from this cycle on has ended: when its context is given
+  // to another.
+  std::uint64_t give_context(std::uint64_t cycle);
+  // Its voxel was added to the table: when it is done.
   std::uint64_t enter(const OrderingTable& table, std::uint64_t cycle);
   void met_voxel() { ++work_.met; }
 
   // All that the data sheet says of a frame.
   struct Work {
     std::uint64_t rays = 0, steps = 0, met = 0, entered = 0;
+    std::uint64_t found = 0;                             // first of all rounds
     OrderingAccesses accesses;                           // of the table so far
     std::uint64_t names_cleared = 0, ready_cleared = 0;  // words
   };
@@ -69,10 +73,13 @@ class RayTurns {
  private:
   std::uint64_t turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle);
   std::uint64_t cycles_since(const OrderingAccesses& all);
+  // From this cycle on a ray is the first: when the tree has found it.
+  std::uint64_t found(std::uint64_t cycle);
 
   const Datapath begins_, steps_;
   std::uint64_t pass_from_ = 0;
-  std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, table_free_ = 0;
+  std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, tree_free_ = 0,
+                table_free_ = 0;
   Work work_;
 };
 

@@ -136,7 +136,7 @@ void RayUnit::publish(DataSheet& sheet) const {
   const std::uint64_t lookups = nodes.lookups();
   sheet.accesses("ray directions", of.steps, of.rays);
   sheet.accesses("ray positions", of.steps + lookups, of.rays + of.steps + lookups);
-  sheet.accesses("rounds of rays", of.entered * config.rays_in_flight,
+  sheet.accesses("rounds of rays", of.found * config.rays_in_flight,
                  of.rays + of.steps + of.entered);
   sheet.accesses("ray nodes", of.steps, lookups);
   sheet.accesses("ray chains", of.entered, of.entered);
@@ -147,13 +147,13 @@ void RayUnit::publish(DataSheet& sheet) const {
   sheet.accesses("ready voxels", of.accesses.ready_read,
                  of.accesses.ready_written + of.ready_cleared);
   // What is read of the table is compared with the voxel; a voxel that is met with the bounds of
-  // the window, one that is entered with the nearest and the farthest, and its round with those of
-  // the other rays; a miss with all lines on their way; a look-up with the tags of a set.
+  // the window, one that is entered with the nearest and the farthest; the round of the first ray
+  // with those of the others; a miss with all lines on their way; a look-up with the tags of a set.
   sheet.part("vsu", "comparator",
              config.table_banks + 4.0 + 2.0 * config.rays_in_flight + kCacheWays, 1);
   sheet.operations("vsu", "comparator",
                    static_cast<double>(of.accesses.reads + 2 * of.met + 2 * of.entered +
-                                       (nodes.misses() + of.entered) * config.rays_in_flight +
+                                       (nodes.misses() + of.found) * config.rays_in_flight +
                                        kCacheWays * lookups));
 }
 

@@ -234,7 +234,7 @@ class RaysInFlight {
         }
       } else if (context.state == State::kEnded) {
         ++context.round;
-        begin_ray(first, cycle);
+        begin_ray(first, pass_->pixels.done() ? cycle : unit_.give_context(cycle));
       } else {
         return;
       }

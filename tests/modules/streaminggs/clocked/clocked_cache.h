@@ -1,0 +1,98 @@
+// A small cache, four ways a set, least recently used first to go, by tags alone; and one whose
+// port many share, a look-up a cycle, with lines on their way from memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace sgs::test {
+
+class ClockedCache {
+ public:
+  static constexpr std::uint32_t kLineBytes = 32, kWays = 4;
+
+  explicit ClockedCache(std::uint32_t bytes)
+      : sets_(std::max(1U, bytes / (kLineBytes * kWays)), std::vector<Way>(kWays)) {}
+
+  bool hits(std::uint64_t line) {
+    for (Way& way : set_of(line)) {
+      if (way.line != line) continue;
+      way.used = ++uses_;
+      return true;
+    }
+    return false;
+  }
+  void fill(std::uint64_t line) {
+    std::vector<Way>& set = set_of(line);
+    *std::min_element(set.begin(), set.end(),
+                      [](const Way& a, const Way& b) { return a.used < b.used; }) = {line, ++uses_};
+  }
+
+ private:
+  struct Way {
+    std::uint64_t line = ~std::uint64_t{0}, used = 0;
+  };
+  std::vector<Way>& set_of(std::uint64_t line) { return sets_[line % sets_.size()]; }
+
+  std::vector<std::vector<Way>> sets_;
+  std::uint64_t uses_ = 0;
+};
+
+class ClockedSharedCache {
+ public:
+  ClockedSharedCache(std::uint32_t bytes, std::uint32_t memory_latency)
+      : latency_(memory_latency), cache_(bytes) {}
+
+  // From this cycle on somebody waits for a turn to look up a line.
+  void ask(std::size_t who, std::uint64_t line) { look_ups_.push_back({who, line, false}); }
+  bool idle() const { return look_ups_.empty() && fetches_.empty(); }
+
+  // Lines that have come; who waits for one reads it when it has a turn.
+  void lines_come() {
+    for (Fetch& fetch : fetches_) --fetch.left;
+    for (; !fetches_.empty() && fetches_.front().left == 0; fetches_.pop_front()) {
+      cache_.fill(fetches_.front().line);
+      for (const std::size_t who : fetches_.front().waiting) {
+        look_ups_.push_back({who, fetches_.front().line, true});
+      }
+    }
+  }
+  // A turn: who has its line, if any. One that waits already is not asked for again.
+  std::optional<std::size_t> look_up() {
+    if (look_ups_.empty()) return {};
+    const LookUp at = look_ups_.front();
+    look_ups_.pop_front();
+    if (at.has_come || cache_.hits(at.line)) return at.who;
+    auto fetch = std::find_if(fetches_.begin(), fetches_.end(),
+                              [&](const Fetch& f) { return f.line == at.line; });
+    if (fetch == fetches_.end()) {
+      // Taken in the cycle behind that in which memory answers.
+      fetch = fetches_.insert(fetch, {at.line, latency_ + 1, {}});
+    }
+    fetch->waiting.push_back(at.who);
+    return {};
+  }
+
+ private:
+  struct LookUp {
+    std::size_t who;
+    std::uint64_t line;
+    bool has_come;
+  };
+  struct Fetch {
+    std::uint64_t line;
+    std::uint32_t left;  // cycles until it can be taken
+    std::vector<std::size_t> waiting;
+  };
+
+  const std::uint32_t latency_;
+  ClockedCache cache_;
+  std::deque<LookUp> look_ups_;
+  std::deque<Fetch> fetches_;
+};
+
+}  // namespace sgs::test

@@ -1,0 +1,229 @@
+// VSU of paper order register by register: the rays of a group, the ordering table with its slots
+// that are cleared beside, lists of ordered voxels, and what hands them out: a piece on top of
+// those that are open, which is cut or visited in a cycle, and a register of shares for the
+// fetches.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "algorithm/memory/scene_layout.h"
+#include "algorithm/voxel/voxel_cuts.h"
+#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+#include "tests/modules/streaminggs/clocked/clocked_rays.h"
+
+namespace sgs::test {
+
+struct PaperVsuHardware {
+  RaysHardware rays;
+  std::uint32_t table_bytes = 4096, table_banks = 2;
+  std::uint32_t cleared_slots = 4;  // a cycle
+  std::uint32_t lists = 1;          // that wait
+  std::uint32_t record_cache_bytes = 1024, cut_cache_bytes = 256;
+  std::uint32_t visit_gaussians = 256, min_share = 16;
+};
+
+class ClockedPaperVsu {
+ public:
+  // All of these outlive it.
+  ClockedPaperVsu(const PaperVsuHardware& hardware, const View<float>& view, const VoxelGrid& grid,
+                  const VoxelTableLayout& layout, const std::vector<PixelRect>& groups)
+      : hw_(hardware),
+        eye_(view.position),
+        grid_(grid),
+        layout_(layout),
+        groups_(groups),
+        rays_(hw_.rays, view, grid, layout.nodes),
+        table_(grid.voxels.size(), hw_.table_bytes, hw_.table_banks),
+        ordered_(hw_.lists),
+        records_(hw_.record_cache_bytes),
+        cuts_(hw_.cut_cache_bytes) {}
+
+  static std::uint64_t what(std::uint32_t first, std::uint32_t count) {
+    return std::uint64_t{first} << 32U | count;
+  }
+  static constexpr std::uint64_t kEndOfGroup = std::numeric_limits<std::uint64_t>::max();
+
+  // shares: one FIFO a fetch. finished: of a group, whether the news has come.
+  template <class Finished>
+  void step(std::vector<ClockedFifo<std::uint64_t>>& shares, const Finished& finished) {
+    emit(shares, finished);
+    traverse();
+    ordered_.step();
+  }
+
+ private:
+  struct List {
+    std::uint32_t group;
+    std::vector<std::uint32_t> voxels;
+  };
+  struct Piece {
+    VoxelRecord record;
+    int axis;
+  };
+  enum class Rays { kBegin, kFollow, kOrder };
+  enum class Emit { kIdle, kVoxel, kRecord, kPiece, kCut, kPlane, kVisit, kShares, kEnd };
+
+  void traverse() {
+    if (doing_ == Rays::kOrder) {
+      if (ordering_ > 0) --ordering_;
+      if (ordering_ > 0 || !ordered_.has_room()) return;
+      ordered_.put(std::move(list_));
+      ++group_;
+      doing_ = Rays::kBegin;
+    }
+    if (group_ == groups_.size()) return;
+    if (doing_ == Rays::kBegin) {
+      list_ = {static_cast<std::uint32_t>(group_), {}};
+      table_.clear();
+      rays_.begin(groups_[group_]);
+      doing_ = Rays::kFollow;
+    }
+    rays_.step(table_);
+    if (!rays_.done()) return;
+    const std::uint64_t before = table_.accesses().cycles;
+    list_.voxels = table_.order();
+    const std::uint64_t clearing =
+        Renaming::slots_for(OrderingTable::most_voxels(hw_.table_bytes)) / hw_.cleared_slots;
+    ordering_ = std::max(table_.accesses().cycles - before, clearing);
+    doing_ = Rays::kOrder;
+  }
+
+  // Until something takes time.
+  template <class Finished>
+  void emit(std::vector<ClockedFifo<std::uint64_t>>& shares, const Finished& finished) {
+    if (wait_ > 0 && --wait_ > 0) return;
+    while (wait_ == 0) {
+      switch (emitting_) {
+        case Emit::kIdle:
+          if (!ordered_.can_take()) return;
+          handed_out_ = ordered_.take();
+          next_ = 0;
+          emitting_ = Emit::kVoxel;
+          break;
+        case Emit::kVoxel:
+          if (next_ == handed_out_.voxels.size() || finished(handed_out_.group)) {
+            go_on(Emit::kEnd, 1);
+          } else {
+            look_up(records_, layout_.voxels, handed_out_.voxels[next_], Emit::kRecord);
+          }
+          break;
+        case Emit::kRecord:
+          open_ = {{grid_.voxels[handed_out_.voxels[next_++]], 0}};
+          emitting_ = Emit::kPiece;
+          break;
+        case Emit::kPiece:
+          next_piece();
+          break;
+        case Emit::kCut:
+          look_up(cuts_, layout_.cuts, cut_index(cut_slot(open_.back().record)), Emit::kPlane);
+          break;
+        case Emit::kPlane:
+          cut();
+          break;
+        case Emit::kVisit:
+          fill_shares(shares.size());
+          open_.pop_back();
+          emitting_ = Emit::kShares;
+          break;
+        case Emit::kShares:
+          if (!hand_out(shares)) return;
+          emitting_ = finished(handed_out_.group) ? Emit::kVoxel : Emit::kPiece;
+          break;
+        case Emit::kEnd:
+          if (sent_ == 0) share_of_.assign(shares.size(), kEndOfGroup), first_fetch_ = 0;
+          if (!hand_out(shares)) return;
+          emitting_ = Emit::kIdle;
+          break;
+      }
+    }
+  }
+  void go_on(Emit what, std::uint32_t cycles) {
+    emitting_ = what;
+    wait_ = cycles;
+  }
+  // What has come from memory is used in the cycle in which it is there.
+  void look_up(ClockedCache& cache, const RecordArray& table, std::uint32_t index, Emit then) {
+    const std::uint64_t line = table.address(index) / ClockedCache::kLineBytes;
+    const bool hit = cache.hits(line);
+    if (!hit) cache.fill(line);
+    go_on(then, hit ? 0 : hw_.rays.memory_latency);
+  }
+  void next_piece() {
+    if (open_.empty()) {
+      emitting_ = Emit::kVoxel;
+      return;
+    }
+    const std::uint32_t count = open_.back().record.count;
+    const bool whole =
+        hw_.visit_gaussians == 0 || count <= std::max(hw_.visit_gaussians, kLeastCut);
+    go_on(whole ? Emit::kVisit : Emit::kCut, 1);
+  }
+  void cut() {
+    const Piece piece = open_.back();
+    open_.pop_back();
+    const std::uint32_t slot = cut_slot(piece.record), left = slot - piece.record.first;
+    const int next = (piece.axis + 1) % 3;
+    const Piece low{{piece.record.first, left}, next};
+    const Piece high{{slot, piece.record.count - left}, next};
+    const bool low_first = eye_[piece.axis] < grid_.cuts[cut_index(slot)];
+    open_.push_back(low_first ? high : low);
+    open_.push_back(low_first ? low : high);
+    emitting_ = Emit::kPiece;
+  }
+
+  // Even shares, of whole units.
+  void fill_shares(std::size_t fetches) {
+    const auto ceil_div = [](std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; };
+    const VoxelRecord& record = open_.back().record;
+    const std::uint32_t unit = std::max(2U, hw_.min_share);
+    const auto most =
+        static_cast<std::uint32_t>(ceil_div(ceil_div(record.count, fetches), unit)) * unit;
+    share_of_.clear();
+    for (std::uint32_t at = 0, k = 0; k < fetches; ++k) {
+      const std::uint32_t count = std::min(most, record.count - at);
+      share_of_.push_back(what(record.first + at, count));
+      at += count;
+    }
+    first_fetch_ = visit_;
+  }
+  // Into each FIFO in turn, as far as they have room.
+  bool hand_out(std::vector<ClockedFifo<std::uint64_t>>& shares) {
+    for (; sent_ < shares.size(); ++sent_) {
+      ClockedFifo<std::uint64_t>& to = shares[(first_fetch_ + sent_) % shares.size()];
+      if (!to.has_room()) return false;
+      to.put(share_of_[sent_]);
+    }
+    sent_ = 0;
+    ++visit_;
+    return true;
+  }
+
+  const PaperVsuHardware hw_;
+  const glm::vec3 eye_;
+  const VoxelGrid& grid_;
+  const VoxelTableLayout& layout_;
+  const std::vector<PixelRect>& groups_;
+  ClockedRays rays_;
+  OrderingTable table_;
+  Rays doing_ = Rays::kBegin;
+  std::size_t group_ = 0;
+  std::uint64_t ordering_ = 0;
+  List list_;
+  ClockedFifo<List> ordered_;
+  Emit emitting_ = Emit::kIdle;
+  std::uint32_t wait_ = 0;
+  List handed_out_;
+  std::size_t next_ = 0;  // of its voxels
+  std::vector<Piece> open_;
+  ClockedCache records_, cuts_;
+  std::vector<std::uint64_t> share_of_;  // the register ahead of the FIFOs
+  std::size_t first_fetch_ = 0, sent_ = 0, visit_ = 0;
+};
+
+}  // namespace sgs::test

@@ -1,0 +1,221 @@
+// The rays of a group in VSU of paper order register by register: contexts that wait in queues for
+// lanes and nodes; what is in their pipelines; and the tree that compares rounds, whose answer
+// waits for the ordering table. How a ray goes through the voxel tree is its own
+// (algorithm/voxel/ray_path.h); no group has more voxels than the table holds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "algorithm/order/group_visits.h"
+#include "algorithm/voxel/ray_path.h"
+#include "tests/modules/streaminggs/clocked/clocked_cache.h"
+
+namespace sgs::test {
+
+struct RaysHardware {
+  std::uint32_t rays = 80, chain_entries = 3, ray_step_px = 2;
+  std::uint32_t step_turn = 1, begin_turn = 8;  // cycles from one to the next on the lanes
+  std::uint32_t block_cycles = 46, cell_cycles = 13, begin_cycles = 100;
+  std::uint32_t compare_cycles = 3;  // of the rounds of all
+  std::uint32_t node_cache_bytes = 2112;
+  std::uint32_t memory_latency = 20;
+};
+
+class ClockedRays {
+ public:
+  ClockedRays(const RaysHardware& hw, const View<float>& view, const VoxelGrid& grid,
+              const RecordArray& nodes)
+      : hw_(hw),
+        view_(view),
+        grid_(grid),
+        table_of_nodes_(nodes),
+        contexts_(hw.rays, Context{RayPath<float>(grid.frame)}),
+        nodes_(hw.node_cache_bytes, hw.memory_latency) {}
+
+  // All is free and the table empty; the first step is of this cycle.
+  void begin(const PixelRect& group) {
+    pixels_.emplace(group, hw_.ray_step_px);
+    since_ = 0;
+    for (std::size_t c = 0; c < contexts_.size(); ++c) {
+      contexts_[c].round = 0;
+      give_ray(c);
+    }
+  }
+  bool done() const {
+    if (!nodes_.idle() || entering_) return false;
+    for (const Context& context : contexts_) {
+      if (context.state != State::kFree || context.waiting() > 0) return false;
+    }
+    return true;
+  }
+
+  void step(OrderingTable& table) {
+    nodes_.lines_come();
+    leave_table();
+    decide(table);
+    for (std::size_t c = 0; c < contexts_.size(); ++c) act(c);
+    if (pixels_->done()) free_ended();
+    if (compare_left_ == 0 && !found_) compare();
+    begin_turns();
+    ++since_;
+  }
+
+ private:
+  enum class State : std::uint8_t { kFree, kWaits, kDue, kWithoutRoom, kEnded };
+  struct Met {
+    std::uint64_t round;
+    std::uint32_t voxel;
+  };
+  struct Context {
+    explicit Context(const RayPath<float>& p) : path(p) {}
+    RayPath<float> path;
+    State state = State::kFree;
+    std::uint32_t left = 0;  // cycles until it is due
+    std::uint64_t round = 0;
+    RayEventOf event;  // that it waits with
+    std::deque<Met> met;
+    std::uint32_t entering = 0;  // entries of the chain that the table has not taken yet
+    OrderingTable::Chain chain;
+    std::size_t waiting() const { return met.size() + entering; }
+  };
+  struct Entering {
+    std::size_t context;
+    std::uint64_t left;
+  };
+  static constexpr std::uint32_t kLookUpCycles = 3;  // tags, line, masks
+  static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+  void give_ray(std::size_t c) {
+    Context& context = contexts_[c];
+    context.state = State::kFree;
+    if (pixels_->done()) return;
+    context.path.begin(pixel_ray(view_, pixels_->x(), pixels_->y()));
+    context.chain = {};
+    pixels_->next();
+    context.state = State::kWaits;
+    begins_.push_back(c);
+  }
+
+  void due_in(std::size_t c, std::uint32_t cycles) {
+    contexts_[c].state = State::kDue;
+    contexts_[c].left = cycles;
+  }
+
+  void leave_table() {
+    if (!entering_ || --entering_->left > 0) return;
+    Context& context = contexts_[entering_->context];
+    --context.entering;
+    if (context.state == State::kWithoutRoom) due_in(entering_->context, 1);
+    entering_.reset();
+  }
+
+  // What the tree has found: a voxel that the table takes as soon as it is free, or a ray that has
+  // ended, whose context the next one gets.
+  void decide(OrderingTable& table) {
+    if (compare_left_ > 0 && --compare_left_ > 0) return;
+    if (!found_) return;
+    Context& context = contexts_[*found_];
+    if (context.met.empty()) {
+      ++context.round;
+      give_ray(*found_);
+    } else {
+      if (entering_) return;
+      const std::uint64_t before = table.accesses().cycles;
+      table.add(context.chain, context.met.front().voxel);
+      context.met.pop_front();
+      ++context.entering;
+      entering_ = {*found_, table.accesses().cycles - before};
+    }
+    found_.reset();
+  }
+
+  // The tree begins where its answer will be one: the first of all rounds does not wait for a ray.
+  void compare() {
+    std::size_t first = 0;
+    for (std::size_t c = 1; c < contexts_.size(); ++c) {
+      if (earliest(contexts_[c]) < earliest(contexts_[first])) first = c;
+    }
+    const Context& context = contexts_[first];
+    if (context.met.empty() && context.state != State::kEnded) return;
+    found_ = first;
+    compare_left_ = hw_.compare_cycles;
+  }
+  static std::uint64_t earliest(const Context& context) {
+    if (!context.met.empty()) return context.met.front().round;
+    return context.state == State::kFree ? kNever : context.round;
+  }
+  // No other ray comes.
+  void free_ended() {
+    for (Context& context : contexts_) {
+      if (context.state == State::kEnded && context.met.empty()) context.state = State::kFree;
+    }
+  }
+
+  // A ray that is due goes on until it wants lanes, a node or room.
+  void act(std::size_t c) {
+    Context& context = contexts_[c];
+    if (context.state != State::kDue || --context.left > 0) return;
+    while (true) {
+      if (context.event.what != RayEvent::kVoxel) context.event = context.path.next();
+      switch (context.event.what) {
+        case RayEvent::kLookUp:
+          context.state = State::kWaits;
+          nodes_.ask(c, table_of_nodes_.address(context.event.index) / ClockedCache::kLineBytes);
+          return;
+        case RayEvent::kStep:
+          context.state = State::kWaits;
+          ++context.round;
+          steps_.push_back(c);
+          return;
+        case RayEvent::kVoxel:
+          if (context.waiting() == hw_.chain_entries) {
+            context.state = State::kWithoutRoom;
+            return;
+          }
+          context.met.push_back({context.round, context.event.index});
+          context.event = {};
+          break;
+        case RayEvent::kEnd:
+          context.state = State::kEnded;
+          return;
+      }
+    }
+  }
+
+  void begin_turns() {
+    if (!begins_.empty() && since_ % hw_.begin_turn == 0) {
+      due_in(begins_.front(), hw_.begin_cycles);
+      begins_.pop_front();
+    }
+    if (!steps_.empty() && since_ % hw_.step_turn == 0) {
+      const bool of_a_cell = contexts_[steps_.front()].event.index == 0;
+      due_in(steps_.front(), (of_a_cell ? hw_.cell_cycles : hw_.block_cycles) + 1);
+      steps_.pop_front();
+    }
+    if (const std::optional<std::size_t> c = nodes_.look_up()) {
+      contexts_[*c].path.give(grid_.nodes[contexts_[*c].event.index]);
+      due_in(*c, kLookUpCycles);
+    }
+  }
+
+  const RaysHardware hw_;
+  const View<float>& view_;
+  const VoxelGrid& grid_;
+  const RecordArray table_of_nodes_;
+  std::optional<RayPixels> pixels_;
+  std::uint64_t since_ = 0;  // the pass began
+  std::vector<Context> contexts_;
+  std::deque<std::size_t> begins_, steps_;
+  ClockedSharedCache nodes_;
+  std::uint32_t compare_left_ = 0;    // cycles of the tree
+  std::optional<std::size_t> found_;  // first of all rounds, when it has ended
+  std::optional<Entering> entering_;
+};
+
+}  // namespace sgs::test

@@ -1,0 +1,174 @@
+// VSU of paper order against its clocked reference.
+#include <catch2/catch.hpp>
+
+#include "modules/streaminggs/vsu/paper_vsu.h"
+#include "testbench/units/job_memory.h"
+#include "testbench/units/paper_vsu_plan.h"
+#include "tests/modules/streaminggs/clocked/clocked_paper_vsu.h"
+#include "tests/modules/streaminggs/clocked/comparison.h"
+
+namespace sgs::test {
+namespace {
+
+struct PaperVsuWorkload {
+  const char* name;
+  std::size_t gaussians = 1500;
+  std::uint32_t out_one_in = 1, out_longest = 1;
+  PaperVsuHardware hardware;
+  std::uint32_t entries = kVisitFifoEntries, hfus = 4;
+  float voxel_size = 1;
+  std::uint32_t finish_pitch =
+      0;  // cycles from a group's end to the next one's; 0: none ends early
+};
+
+tb::PaperVsuPlan plan_of(const PaperVsuWorkload& load, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  tb::SceneShape shape;
+  shape.gaussians = load.gaussians;
+  shape.voxel_size = load.voxel_size;
+  tb::PaperVsuPlan plan = tb::plan_of(tb::random_scene(random, shape));
+  const PaperVsuHardware& hw = load.hardware;
+  const auto lanes = [](std::uint64_t macs, std::uint32_t turn) {
+    return static_cast<std::uint32_t>(tb::ceil_div(macs, turn));
+  };
+  PaperVsuConfig& config = plan.config;
+  config.rays_in_flight = hw.rays.rays;
+  config.chain_entries = hw.rays.chain_entries;
+  config.ray_step_px = hw.rays.ray_step_px;
+  config.step_lanes = lanes(tb::macs_of_a_step(), hw.rays.step_turn);
+  config.ray_lanes = lanes(tb::macs_of_a_beginning(), hw.rays.begin_turn);
+  config.step_depth_cycles = hw.rays.block_cycles;
+  config.cell_step_depth_cycles = hw.rays.cell_cycles;
+  config.ray_depth_cycles = hw.rays.begin_cycles;
+  config.node_cache_bytes = hw.rays.node_cache_bytes;
+  config.table_bytes = hw.table_bytes;
+  config.table_banks = hw.table_banks;
+  config.groups_ahead = hw.lists;
+  config.record_cache_bytes = hw.record_cache_bytes;
+  config.cut_cache_bytes = hw.cut_cache_bytes;
+  config.visit_gaussians = hw.visit_gaussians;
+  config.min_share = hw.min_share;
+  return plan;
+}
+
+std::uint64_t what_of(const VisitShare& share) {
+  return share.mark == Mark::kEndOfGroup ? ClockedPaperVsu::kEndOfGroup
+                                         : ClockedPaperVsu::what(share.first, share.count);
+}
+
+Pace pace_of(const PaperVsuWorkload& load, std::uint64_t seed, std::uint32_t hfu) {
+  return {seed + 1000 + hfu, load.out_one_in, load.out_longest};
+}
+
+// Of one HFU behind the other.
+Takings joined(const std::vector<Takings>& of_hfus) {
+  Takings all;
+  for (const Takings& taken : of_hfus) all.insert(all.end(), taken.begin(), taken.end());
+  return all;
+}
+
+void run(tb::Case& test, Takings& taken, const PaperVsuWorkload& load, std::uint64_t seed) {
+  const tb::PaperVsuPlan plan = plan_of(load, seed);
+  const StreamingJob& job = plan.scene.job;
+  tb::BenchConfig config;
+  config.latency_cycles = load.hardware.rays.memory_latency;
+  config.memory_bytes = tb::memory_bytes(job);
+  tb::UnitBench bench(test, config);
+  bench.load(0, plan.scene.image.bytes);
+  FinishedGroups finished("finished", bench.clock(), job.groups.size(), 1);
+  const auto shares = bench.add_fifos<VisitShare>("to_hfu", load.hfus, load.entries, 1);
+  PaperVsu unit("vsu", plan.config, bench.context(job));
+  for (TimedFifo<VisitShare>* fifo : shares) unit.shares(*fifo);
+  unit.finished(finished);
+  bench.add_unit(unit);
+  std::vector<Takings> of_hfus(load.hfus);
+  for (std::uint32_t h = 0; h < load.hfus; ++h) {
+    bench.add_thread(fmt::format("hfu{}", h), [&, h](Activity& activity) {
+      const Pace pace = pace_of(load, seed, h);
+      for (std::size_t ends = 0; ends < job.groups.size();) {
+        bench.clock().wait_cycles(pace.gap(of_hfus[h].size()));
+        const std::uint64_t what = what_of(shares[h]->pop(activity));
+        of_hfus[h].push_back({bench.clock().now_cycles(), what});
+        ends += what == ClockedPaperVsu::kEndOfGroup ? 1 : 0;
+      }
+    });
+  }
+  bench.add_thread("rendering", [&](Activity&) {
+    for (std::uint32_t g = 0; load.finish_pitch > 0 && g < job.groups.size(); ++g) {
+      bench.clock().wait_cycles(load.finish_pitch);
+      finished.finish(g, 0);
+    }
+  });
+  bench.run();
+  taken = joined(of_hfus);
+}
+
+Takings clocked(const PaperVsuWorkload& load, std::uint64_t seed) {
+  const tb::PaperVsuPlan plan = plan_of(load, seed);
+  const StreamingJob& job = plan.scene.job;
+  ClockedPaperVsu unit(load.hardware, job.view, plan.scene.grid, job.layout.voxel_table(),
+                       job.groups);
+  std::vector<ClockedFifo<std::uint64_t>> shares(load.hfus,
+                                                 ClockedFifo<std::uint64_t>(load.entries));
+  std::vector<ClockedSink<std::uint64_t>> sinks;
+  for (std::uint32_t h = 0; h < load.hfus; ++h) sinks.emplace_back(pace_of(load, seed, h));
+  std::size_t ends = 0;
+  for (std::uint64_t now = 0; ends < load.hfus * job.groups.size(); ++now) {
+    for (std::uint32_t h = 0; h < load.hfus; ++h) {
+      sinks[h].step(shares[h], now, [&](std::uint64_t what) {
+        ends += what == ClockedPaperVsu::kEndOfGroup ? 1 : 0;
+        return what;
+      });
+    }
+    unit.step(shares, [&](std::uint32_t group) {
+      return load.finish_pitch > 0 && now > std::uint64_t{load.finish_pitch} * (group + 1);
+    });
+    for (ClockedFifo<std::uint64_t>& fifo : shares) fifo.step();
+  }
+  std::vector<Takings> of_hfus;
+  for (const ClockedSink<std::uint64_t>& sink : sinks) of_hfus.push_back(sink.taken());
+  return joined(of_hfus);
+}
+
+TEST_CASE("clocked reference: VSU of paper order, no table too small") {
+  Comparison table("VSU, paper order");
+  PaperVsuHardware paper;
+  paper.table_bytes = 1U << 14U;
+  PaperVsuHardware far = paper;
+  far.rays.memory_latency = 300;
+  PaperVsuHardware tiny = paper;
+  tiny.rays.rays = 4;
+  tiny.rays.compare_cycles = 1;
+  tiny.rays.chain_entries = 1;
+  tiny.rays.node_cache_bytes = tiny.record_cache_bytes = tiny.cut_cache_bytes = 128;
+  PaperVsuHardware narrow = paper;
+  narrow.rays.step_turn = 3;
+  narrow.rays.begin_turn = 16;
+  narrow.table_banks = 1;
+  PaperVsuHardware wide = paper;
+  wide.rays.begin_turn = 1;
+  wide.rays.ray_step_px = 1;
+  wide.lists = 2;
+  PaperVsuHardware cut = paper;
+  cut.visit_gaussians = 64;
+  cut.min_share = 2;
+  for (const PaperVsuWorkload& load : {
+           PaperVsuWorkload{"light: 100 Gaussians", 100, 1, 1, paper},
+           PaperVsuWorkload{"heavy: 3000 Gaussians", 3000, 1, 1, paper},
+           PaperVsuWorkload{"output stalled", 1500, 4, 300, paper},
+           PaperVsuWorkload{"memory of 300 cycles", 1500, 1, 1, far},
+           PaperVsuWorkload{"tiny buffers", 1500, 1, 1, tiny, 1, 1},
+           PaperVsuWorkload{"a step in 3, a ray in 16, a bank", 1500, 1, 1, narrow},
+           PaperVsuWorkload{"a ray a cycle, of every pixel", 1500, 1, 1, wide},
+           PaperVsuWorkload{"voxels cut", 5000, 1, 1, cut, 4, 4, 2},
+           PaperVsuWorkload{"groups that finish", 1500, 4, 60, paper, 4, 4, 1, 3600},
+       }) {
+    table.workload(
+        load.name,
+        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
+        [&](std::uint64_t seed) { return clocked(load, seed); });
+  }
+}
+
+}  // namespace
+}  // namespace sgs::test
