@@ -50,13 +50,16 @@ class RaysInFlight {
       begin_ray(c, unit_.now());
       compare(c);
     }
-    while (pass.fits && !(events_.empty() && unit_.fetches.empty())) {
-      if (!wait_for_event()) continue;
+    while (!(events_.empty() && unit_.fetches.empty())) {
+      // Rays go on until the table has said that a voxel does not fit.
+      const std::uint64_t until = pass.fits ? kNever : end_;
+      if (!wait_for_event(until)) continue;
+      if (events_.empty() || events_.top().cycle >= until) break;
       const Event event = events_.top();
       events_.pop();
       go_on(event.context, event.cycle);
       compare(event.context);
-      enter_in_turn(event.cycle);
+      if (pass.fits) enter_in_turn(event.cycle);
     }
     unit_.advance_to(end_);
     if (!pass.fits) {
@@ -122,10 +125,10 @@ class RaysInFlight {
     at(unit_.begin_ray(cycle), c);
   }
 
-  // Until the next event is due and no node that could come before it is on its way; false where
-  // nodes have come first, and may have made others.
-  bool wait_for_event() {
-    const std::uint64_t next = events_.empty() ? kNever : events_.top().cycle;
+  // Until the next event is due, at most until this cycle, and no node that could come before is on
+  // its way; false where nodes have come first, and may have made other events.
+  bool wait_for_event(std::uint64_t until) {
+    const std::uint64_t next = std::min(events_.empty() ? kNever : events_.top().cycle, until);
     if (unit_.fetches.empty()) return true;
     if (unit_.fetches.any_come()) {
       if (unit_.fetches.ready_cycle() > next) return true;

@@ -51,6 +51,11 @@ class ClockedSharedCache {
   void ask(std::size_t who, std::uint64_t line) { look_ups_.push_back({who, line, false}); }
   bool idle() const { return look_ups_.empty() && fetches_.empty(); }
 
+  void forget_who_waits() {
+    look_ups_.clear();
+    for (Fetch& fetch : fetches_) fetch.waiting.clear();
+  }
+
   // Lines that have come; who waits for one reads it when it has a turn.
   void lines_come() {
     for (Fetch& fetch : fetches_) --fetch.left;

@@ -60,38 +60,54 @@ class ClockedPaperVsu {
  private:
   struct List {
     std::uint32_t group;
+    bool last;  // of its group
     std::vector<std::uint32_t> voxels;
   };
   struct Piece {
     VoxelRecord record;
     int axis;
   };
-  enum class Rays { kBegin, kFollow, kOrder };
+  enum class Rays { kBegin, kFollow, kGiveUp, kOrder };
   enum class Emit { kIdle, kVoxel, kRecord, kPiece, kCut, kPlane, kVisit, kShares, kEnd };
 
   void traverse() {
+    if (busy_ > 0 && --busy_ > 0) return;
     if (doing_ == Rays::kOrder) {
-      if (ordering_ > 0) --ordering_;
-      if (ordering_ > 0 || !ordered_.has_room()) return;
+      if (!ordered_.has_room()) return;
       ordered_.put(std::move(list_));
-      ++group_;
+      group_ += window_.last() ? 1 : 0;
+      window_ = window_.last() ? VisitWindow() : window_.rest();
       doing_ = Rays::kBegin;
     }
     if (group_ == groups_.size()) return;
     if (doing_ == Rays::kBegin) {
-      list_ = {static_cast<std::uint32_t>(group_), {}};
       table_.clear();
-      rays_.begin(groups_[group_]);
+      rays_.begin(groups_[group_], window_);
       doing_ = Rays::kFollow;
     }
-    rays_.step(table_);
-    if (!rays_.done()) return;
+    if (doing_ == Rays::kFollow) {
+      rays_.step(table_);
+      if (!rays_.gives_up() && !rays_.done()) return;
+      doing_ = rays_.gives_up() ? Rays::kGiveUp : Rays::kOrder;
+    } else {
+      rays_.wait_for_lines();
+    }
+    if (doing_ == Rays::kOrder) {
+      order();
+    } else if (!rays_.waits_for_lines()) {
+      window_ = rays_.window().nearer_half();
+      busy_ = std::max(clearing_cycles(), ReadyVoxels::all_words_for(most_voxels()));
+      doing_ = Rays::kBegin;
+    }
+  }
+  std::uint64_t most_voxels() const { return OrderingTable::most_voxels(hw_.table_bytes); }
+  std::uint64_t clearing_cycles() const {
+    return Renaming::slots_for(most_voxels()) / hw_.cleared_slots;
+  }
+  void order() {
     const std::uint64_t before = table_.accesses().cycles;
-    list_.voxels = table_.order();
-    const std::uint64_t clearing =
-        Renaming::slots_for(OrderingTable::most_voxels(hw_.table_bytes)) / hw_.cleared_slots;
-    ordering_ = std::max(table_.accesses().cycles - before, clearing);
-    doing_ = Rays::kOrder;
+    list_ = {static_cast<std::uint32_t>(group_), window_.last(), table_.order()};
+    busy_ = std::max(table_.accesses().cycles - before, clearing_cycles());
   }
 
   // Until something takes time.
@@ -108,7 +124,7 @@ class ClockedPaperVsu {
           break;
         case Emit::kVoxel:
           if (next_ == handed_out_.voxels.size() || finished(handed_out_.group)) {
-            go_on(Emit::kEnd, 1);
+            go_on(handed_out_.last ? Emit::kEnd : Emit::kIdle, handed_out_.last ? 1 : 0);
           } else {
             look_up(records_, layout_.voxels, handed_out_.voxels[next_], Emit::kRecord);
           }
@@ -213,7 +229,8 @@ class ClockedPaperVsu {
   OrderingTable table_;
   Rays doing_ = Rays::kBegin;
   std::size_t group_ = 0;
-  std::uint64_t ordering_ = 0;
+  VisitWindow window_;  // of the pass
+  std::uint64_t busy_ = 0;
   List list_;
   ClockedFifo<List> ordered_;
   Emit emitting_ = Emit::kIdle;

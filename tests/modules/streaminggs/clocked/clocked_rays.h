@@ -1,7 +1,7 @@
 // The rays of a group in VSU of paper order register by register: contexts that wait in queues for
 // lanes and nodes; what is in their pipelines; and the tree that compares rounds, whose answer
 // waits for the ordering table. How a ray goes through the voxel tree is its own
-// (algorithm/voxel/ray_path.h); no group has more voxels than the table holds.
+// (algorithm/voxel/ray_path.h).
 #pragma once
 
 #include <cstddef>
@@ -38,26 +38,39 @@ class ClockedRays {
         contexts_(hw.rays, Context{RayPath<float>(grid.frame)}),
         nodes_(hw.node_cache_bytes, hw.memory_latency) {}
 
-  // All is free and the table empty; the first step is of this cycle.
-  void begin(const PixelRect& group) {
+  // All is free and the table empty; the first step is of this cycle. window: of what is entered.
+  void begin(const PixelRect& group, const VisitWindow& window) {
     pixels_.emplace(group, hw_.ray_step_px);
+    window_ = window;
     since_ = 0;
+    overflows_ = false;
     for (std::size_t c = 0; c < contexts_.size(); ++c) {
       contexts_[c].round = 0;
       give_ray(c);
     }
   }
   bool done() const {
-    if (!nodes_.idle() || entering_) return false;
+    if (!nodes_.idle() || table_left_ > 0) return false;
     for (const Context& context : contexts_) {
       if (context.state != State::kFree || context.waiting() > 0) return false;
     }
     return true;
   }
 
+  // Of what was entered.
+  const VisitWindow& window() const { return window_; }
+  // The table had no room: all is given up, but for lines on their way.
+  bool gives_up() const { return overflows_ && table_left_ == 0; }
+  bool waits_for_lines() const { return !nodes_.idle(); }
+  void wait_for_lines() { nodes_.lines_come(); }
+
   void step(OrderingTable& table) {
     nodes_.lines_come();
     leave_table();
+    if (gives_up()) {
+      give_up();
+      return;
+    }
     decide(table);
     for (std::size_t c = 0; c < contexts_.size(); ++c) act(c);
     if (pixels_->done()) free_ended();
@@ -69,8 +82,7 @@ class ClockedRays {
  private:
   enum class State : std::uint8_t { kFree, kWaits, kDue, kWithoutRoom, kEnded };
   struct Met {
-    std::uint64_t round;
-    std::uint32_t voxel;
+    std::uint64_t round, place;
   };
   struct Context {
     explicit Context(const RayPath<float>& p) : path(p) {}
@@ -83,10 +95,6 @@ class ClockedRays {
     std::uint32_t entering = 0;  // entries of the chain that the table has not taken yet
     OrderingTable::Chain chain;
     std::size_t waiting() const { return met.size() + entering; }
-  };
-  struct Entering {
-    std::size_t context;
-    std::uint64_t left;
   };
   static constexpr std::uint32_t kLookUpCycles = 3;  // tags, line, masks
   static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
@@ -108,11 +116,9 @@ class ClockedRays {
   }
 
   void leave_table() {
-    if (!entering_ || --entering_->left > 0) return;
-    Context& context = contexts_[entering_->context];
-    --context.entering;
-    if (context.state == State::kWithoutRoom) due_in(entering_->context, 1);
-    entering_.reset();
+    if (table_left_ == 0 || --table_left_ > 0) return;
+    --contexts_[entering_].entering;
+    if (contexts_[entering_].state == State::kWithoutRoom) due_in(entering_, 1);
   }
 
   // What the tree has found: a voxel that the table takes as soon as it is free, or a ray that has
@@ -125,12 +131,14 @@ class ClockedRays {
       ++context.round;
       give_ray(*found_);
     } else {
-      if (entering_) return;
+      if (table_left_ > 0) return;
       const std::uint64_t before = table.accesses().cycles;
-      table.add(context.chain, context.met.front().voxel);
+      window_.meet(context.met.front().place);
+      overflows_ = !table.add(context.chain, VisitWindow::voxel(context.met.front().place));
       context.met.pop_front();
       ++context.entering;
-      entering_ = {*found_, table.accesses().cycles - before};
+      entering_ = *found_;
+      table_left_ = table.accesses().cycles - before;
     }
     found_.reset();
   }
@@ -157,6 +165,15 @@ class ClockedRays {
     }
   }
 
+  void give_up() {
+    for (Context& context : contexts_) context = Context(RayPath<float>(grid_.frame));
+    begins_.clear();
+    steps_.clear();
+    nodes_.forget_who_waits();
+    found_.reset();
+    compare_left_ = 0;
+  }
+
   // A ray that is due goes on until it wants lanes, a node or room.
   void act(std::size_t c) {
     Context& context = contexts_[c];
@@ -173,14 +190,23 @@ class ClockedRays {
           ++context.round;
           steps_.push_back(c);
           return;
-        case RayEvent::kVoxel:
-          if (context.waiting() == hw_.chain_entries) {
-            context.state = State::kWithoutRoom;
+        case RayEvent::kVoxel: {
+          const auto place = VisitWindow::place(context.event.index, context.event.cells);
+          if (window_.behind(place)) {
+            context.state = State::kEnded;
+            context.event = {};
             return;
           }
-          context.met.push_back({context.round, context.event.index});
+          if (!window_.before(place)) {
+            if (context.waiting() == hw_.chain_entries) {
+              context.state = State::kWithoutRoom;
+              return;
+            }
+            context.met.push_back({context.round, place});
+          }
           context.event = {};
           break;
+        }
         case RayEvent::kEnd:
           context.state = State::kEnded;
           return;
@@ -209,13 +235,16 @@ class ClockedRays {
   const VoxelGrid& grid_;
   const RecordArray table_of_nodes_;
   std::optional<RayPixels> pixels_;
+  VisitWindow window_;
+  bool overflows_ = false;
   std::uint64_t since_ = 0;  // the pass began
   std::vector<Context> contexts_;
   std::deque<std::size_t> begins_, steps_;
   ClockedSharedCache nodes_;
   std::uint32_t compare_left_ = 0;    // cycles of the tree
   std::optional<std::size_t> found_;  // first of all rounds, when it has ended
-  std::optional<Entering> entering_;
+  std::size_t entering_ = 0;          // context whose voxel the table takes
+  std::uint64_t table_left_ = 0;      // cycles until it has
 };
 
 }  // namespace sgs::test

@@ -130,7 +130,7 @@ Takings clocked(const PaperVsuWorkload& load, std::uint64_t seed) {
   return joined(of_hfus);
 }
 
-TEST_CASE("clocked reference: VSU of paper order, no table too small") {
+TEST_CASE("clocked reference: VSU of paper order") {
   Comparison table("VSU, paper order");
   PaperVsuHardware paper;
   paper.table_bytes = 1U << 14U;
@@ -152,15 +152,22 @@ TEST_CASE("clocked reference: VSU of paper order, no table too small") {
   PaperVsuHardware cut = paper;
   cut.visit_gaussians = 64;
   cut.min_share = 2;
+  PaperVsuHardware full = paper;
+  full.table_bytes = 400;
+  PaperVsuHardware full_and_far = full;
+  full_and_far.rays.node_cache_bytes = 128;
+  full_and_far.rays.memory_latency = 100;
   for (const PaperVsuWorkload& load : {
            PaperVsuWorkload{"light: 100 Gaussians", 100, 1, 1, paper},
            PaperVsuWorkload{"heavy: 3000 Gaussians", 3000, 1, 1, paper},
            PaperVsuWorkload{"output stalled", 1500, 4, 300, paper},
-           PaperVsuWorkload{"memory of 300 cycles", 1500, 1, 1, far},
-           PaperVsuWorkload{"tiny buffers", 1500, 1, 1, tiny, 1, 1},
+           PaperVsuWorkload{"memory of 300 cycles, small voxels", 3000, 1, 1, far, 4, 4, 0.2F},
+           PaperVsuWorkload{"tiny buffers", 1500, 1, 1, tiny, 1, 1, 0.5F},
            PaperVsuWorkload{"a step in 3, a ray in 16, a bank", 1500, 1, 1, narrow},
            PaperVsuWorkload{"a ray a cycle, of every pixel", 1500, 1, 1, wide},
            PaperVsuWorkload{"voxels cut", 5000, 1, 1, cut, 4, 4, 2},
+           PaperVsuWorkload{"passes: a table of 400 B", 1500, 1, 1, full},
+           PaperVsuWorkload{"passes, small voxels", 4000, 1, 1, full_and_far, 4, 4, 0.3F},
            PaperVsuWorkload{"groups that finish", 1500, 4, 60, paper, 4, 4, 1, 3600},
        }) {
     table.workload(
