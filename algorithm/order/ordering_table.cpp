@@ -32,7 +32,7 @@ void OrderingTable::clear() {
   edges_offered_ = 0;
 }
 
-std::uint32_t OrderingTable::rename(std::uint32_t voxel) {
+std::uint32_t OrderingTable::rename(std::uint32_t voxel, bool first) {
   std::uint64_t slots = 0;
   const auto is_of = [&](std::uint32_t number) {
     ++accesses_.reads;
@@ -47,14 +47,13 @@ std::uint32_t OrderingTable::rename(std::uint32_t voxel) {
   names_.take(slot, number);
   ++accesses_.names_written;
   write(bank_of_voxel(number));
-  const std::uint32_t words = ready_.set(number);
-  accesses_.ready_read += words;
-  accesses_.ready_written += words;
+  if (first) count_ready(ready_.set(number));
   return number;
 }
 
-// The head of the list stands in the voxel's record; who is new goes in front.
-void OrderingTable::add_edge(std::uint32_t from, std::uint32_t to) {
+// The head of the list stands in the voxel's record; who is new goes in front. A voxel that comes
+// with its first edge was never ready, and its in-degree is written with the rest of its record.
+void OrderingTable::add_edge(std::uint32_t from, std::uint32_t to, bool is_new) {
   ++accesses_.reads;
   for (std::uint32_t at = voxels_[from].first_edge; at != kNone; at = edges_[at].next) {
     ++accesses_.reads;
@@ -63,27 +62,23 @@ void OrderingTable::add_edge(std::uint32_t from, std::uint32_t to) {
   edges_.push_back({to, voxels_[from].first_edge});
   voxels_[from].first_edge = edge_count() - 1;
   write(bank_of_edge(edge_count() - 1));
-  write(bank_of_voxel(from));  // the list's head
-  write(bank_of_voxel(to));    // the in-degree
-  if (voxels_[to].in_degree++ > 0) return;
-  const std::uint32_t words = ready_.clear(to);
-  accesses_.ready_read += words;
-  accesses_.ready_written += words;
+  write(bank_of_voxel(from));             // the list's head
+  if (!is_new) write(bank_of_voxel(to));  // the in-degree
+  if (voxels_[to].in_degree++ == 0 && !is_new) count_ready(ready_.clear(to));
 }
 
 bool OrderingTable::add(Chain& chain, std::uint32_t voxel) {
-  const OrderingAccesses before = accesses_;
+  const std::uint64_t reads = accesses_.reads;
+  const std::uint32_t voxels = voxel_count();
   std::fill(written_.begin(), written_.end(), 0);
+  ready_written_ = 0;
   const bool first = chain.before == kNone;
   if (!first) ++edges_offered_;
-  const std::uint32_t number = rename(voxel);
-  if (number != kNone && !first) add_edge(chain.before, number);
+  const std::uint32_t number = rename(voxel, first);
+  if (number != kNone && !first) add_edge(chain.before, number, number == voxels);
   chain.before = number;
-  // The slot, and beside it the first record, if any; a word of each level of ready voxels a cycle.
-  const std::uint64_t chained =
-      1 + accesses_.reads - before.reads - (number == kNone || first ? 0 : 1);
-  accesses_.cycles += std::max({chained, *std::max_element(written_.begin(), written_.end()),
-                                accesses_.ready_read - before.ready_read});
+  // The slot, and beside it the first record, if any.
+  accesses_.cycles += 1 + accesses_.reads - reads - (number == kNone || first ? 0 : 1);
   return number != kNone && fits();
 }
 
@@ -107,9 +102,7 @@ std::vector<std::uint32_t> OrderingTable::order() {
       accesses_.reads += 2;
       ++accesses_.writes;
       if (--next.in_degree > 0) continue;
-      const std::uint32_t words = ready_.set(edges_[at].successor);
-      accesses_.ready_read += words;
-      accesses_.ready_written += words;
+      count_ready(ready_.set(edges_[at].successor));
     }
     accesses_.cycles += named != kNone ? 1 : 0;  // the last of them
   }

@@ -3,6 +3,7 @@
 // 1962) visits every voxel after all that hide it on some ray.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -26,9 +27,10 @@ struct OrderingAccesses {
   std::uint64_t ready_read = 0, ready_written = 0;  // of the words of ready voxels
   // That all this takes. What is read names what is read next, so that it comes a cycle each, one
   // behind the other: the hash's slot (beside it the record of the voxel before), the record that
-  // it names, the edges of the voxel before. Writes go to their banks beside the next reads. In
-  // ordering a level of ready voxels is read a cycle, then the voxel's record, then its edges; the
-  // record that an edge names is read beside the next edge, unless both lie in one bank.
+  // it names, the edges of the voxel before. Writes go to their banks beside the reads for the next
+  // voxel, which see what is still to be written (write_cycles). In ordering a level of ready
+  // voxels is read a cycle, then the voxel's record, then its edges; the record that an edge names
+  // is read beside the next edge, unless both lie in one bank.
   std::uint64_t cycles = 0;
 };
 
@@ -78,6 +80,10 @@ class OrderingTable {
            std::uint64_t{edge_count()} * kOrderingBytesPerEdge;
   }
   const OrderingAccesses& accesses() const { return accesses_; }
+  // Of what was found of the voxel added last, beside the reads for the next.
+  std::uint64_t write_cycles() const {
+    return std::max(ready_written_, *std::max_element(written_.begin(), written_.end()));
+  }
   // Of words, that finding the first of the ready voxels passes.
   std::uint32_t ready_levels() const { return ready_.levels(); }
 
@@ -89,8 +95,8 @@ class OrderingTable {
     std::uint32_t successor, next;
   };
 
-  std::uint32_t rename(std::uint32_t voxel);
-  void add_edge(std::uint32_t from, std::uint32_t to);
+  std::uint32_t rename(std::uint32_t voxel, bool first);  // of its ray
+  void add_edge(std::uint32_t from, std::uint32_t to, bool is_new);
   bool fits() const { return sram_bytes() <= capacity_bytes_; }
 
   std::uint32_t bank_of_voxel(std::uint32_t number) const { return number % banks(); }
@@ -100,9 +106,15 @@ class OrderingTable {
     ++accesses_.writes;
     ++written_[bank];
   }
+  void count_ready(std::uint32_t words) {
+    accesses_.ready_read += words;
+    accesses_.ready_written += words;
+    ready_written_ += words;
+  }
 
   const std::uint64_t capacity_bytes_;
-  std::vector<std::uint64_t> written_;  // [bank] by the voxel that is being added
+  std::vector<std::uint64_t> written_;  // [bank] of the voxel added last
+  std::uint64_t ready_written_ = 0;     // words, likewise
   Renaming names_;
   ReadyVoxels ready_;
   std::vector<Voxel> voxels_;  // [renamed id]

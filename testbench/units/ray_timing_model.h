@@ -34,7 +34,7 @@ class RayTimingModel {
     rays_ = &rays;
     table_ = &table;
     begun_ = 0;
-    step_free_ = begin_free_ = tree_free_ = table_free_ = end_ = 0;
+    step_free_ = begin_free_ = tree_free_ = table_free_ = written_ = end_ = 0;
     places_.assign(config_.rays_in_flight, Place());
     for (std::size_t k = 0; k < places_.size(); ++k) begin(k, 0);
     Times times;
@@ -181,7 +181,8 @@ class RayTimingModel {
     const std::uint64_t before = table_->accesses().cycles;
     table_->add(place.chain, place.met.front().voxel);
     tree_free_ = std::max(table_free_, found(now));
-    table_free_ = tree_free_ + table_->accesses().cycles - before;
+    table_free_ = std::max(tree_free_ + table_->accesses().cycles - before, written_);
+    written_ = table_free_ + table_->write_cycles();
     end_ = std::max(end_, table_free_);
     return table_free_;
   }
@@ -241,7 +242,8 @@ class RayTimingModel {
   std::deque<LookUp> look_ups_;    // likewise
   std::deque<Fetch> fetches_;
   std::map<std::uint64_t, std::deque<std::uint64_t>> sets_;  // lines, most recently used first
-  std::uint64_t step_free_ = 0, begin_free_ = 0, tree_free_ = 0, table_free_ = 0, end_ = 0;
+  std::uint64_t step_free_ = 0, begin_free_ = 0, tree_free_ = 0, table_free_ = 0, written_ = 0,
+                end_ = 0;
 };
 
 }  // namespace sgs::tb

@@ -35,7 +35,8 @@ RayTurns::RayTurns(const PaperVsuConfig& c, const OperationLatencies& latencies)
       steps_(ray_step_pipeline(c, latencies)) {}
 
 void RayTurns::free_from(std::uint64_t cycle) {
-  pass_from_ = begins_free_ = steps_free_ = look_ups_free_ = tree_free_ = table_free_ = cycle;
+  pass_from_ = begins_free_ = steps_free_ = look_ups_free_ = tree_free_ = table_free_ = written_ =
+      cycle;
 }
 
 void RayTurns::hold_look_ups(std::uint64_t cycle) {
@@ -75,8 +76,9 @@ std::uint64_t RayTurns::give_context(std::uint64_t cycle) { return tree_free_ = 
 
 std::uint64_t RayTurns::enter(const OrderingTable& table, std::uint64_t cycle) {
   ++work_.entered;
-  const std::uint64_t cycles = cycles_since(table.accesses());
-  tree_free_ = turn(table_free_, found(cycle), cycles);
+  tree_free_ = turn(table_free_, found(cycle), cycles_since(table.accesses()));
+  table_free_ = std::max(table_free_, written_);
+  written_ = table_free_ + table.write_cycles();
   return table_free_;
 }
 

@@ -80,6 +80,7 @@ class RayTurns {
   std::uint64_t pass_from_ = 0;
   std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, tree_free_ = 0,
                 table_free_ = 0;
+  std::uint64_t written_ = 0;  // until when the table writes what it found last
   Work work_;
 };
 

@@ -71,9 +71,11 @@ class ClockedPaperVsu {
   enum class Emit { kIdle, kVoxel, kRecord, kPiece, kCut, kPlane, kVisit, kShares, kEnd };
 
   void traverse() {
+    if (doing_ == Rays::kOrder && !table_.idle()) table_.step();
     if (busy_ > 0 && --busy_ > 0) return;
     if (doing_ == Rays::kOrder) {
-      if (!ordered_.has_room()) return;
+      if (!table_.idle() || !ordered_.has_room()) return;
+      list_.voxels = table_.ordered();
       ordered_.put(std::move(list_));
       group_ += window_.last() ? 1 : 0;
       window_ = window_.last() ? VisitWindow() : window_.rest();
@@ -105,9 +107,9 @@ class ClockedPaperVsu {
     return Renaming::slots_for(most_voxels()) / hw_.cleared_slots;
   }
   void order() {
-    const std::uint64_t before = table_.accesses().cycles;
-    list_ = {static_cast<std::uint32_t>(group_), window_.last(), table_.order()};
-    busy_ = std::max(table_.accesses().cycles - before, clearing_cycles());
+    table_.begin_order();
+    list_ = {static_cast<std::uint32_t>(group_), window_.last(), {}};
+    busy_ = clearing_cycles();
   }
 
   // Until something takes time.
@@ -226,7 +228,7 @@ class ClockedPaperVsu {
   const VoxelTableLayout& layout_;
   const std::vector<PixelRect>& groups_;
   ClockedRays rays_;
-  OrderingTable table_;
+  ClockedOrderingTable table_;
   Rays doing_ = Rays::kBegin;
   std::size_t group_ = 0;
   VisitWindow window_;  // of the pass

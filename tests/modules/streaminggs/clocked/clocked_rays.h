@@ -15,6 +15,7 @@
 #include "algorithm/order/group_visits.h"
 #include "algorithm/voxel/ray_path.h"
 #include "tests/modules/streaminggs/clocked/clocked_cache.h"
+#include "tests/modules/streaminggs/clocked/clocked_ordering_table.h"
 
 namespace sgs::test {
 
@@ -50,7 +51,7 @@ class ClockedRays {
     }
   }
   bool done() const {
-    if (!nodes_.idle() || table_left_ > 0) return false;
+    if (!nodes_.idle() || adding_) return false;
     for (const Context& context : contexts_) {
       if (context.state != State::kFree || context.waiting() > 0) return false;
     }
@@ -60,17 +61,14 @@ class ClockedRays {
   // Of what was entered.
   const VisitWindow& window() const { return window_; }
   // The table had no room: all is given up, but for lines on their way.
-  bool gives_up() const { return overflows_ && table_left_ == 0; }
+  bool gives_up() const { return overflows_; }
   bool waits_for_lines() const { return !nodes_.idle(); }
   void wait_for_lines() { nodes_.lines_come(); }
 
-  void step(OrderingTable& table) {
+  void step(ClockedOrderingTable& table) {
     nodes_.lines_come();
-    leave_table();
-    if (gives_up()) {
-      give_up();
-      return;
-    }
+    leave_table(table);
+    if (overflows_) return give_up();
     decide(table);
     for (std::size_t c = 0; c < contexts_.size(); ++c) act(c);
     if (pixels_->done()) free_ended();
@@ -93,7 +91,7 @@ class ClockedRays {
     RayEventOf event;  // that it waits with
     std::deque<Met> met;
     std::uint32_t entering = 0;  // entries of the chain that the table has not taken yet
-    OrderingTable::Chain chain;
+    ClockedOrderingTable::Chain chain = ClockedOrderingTable::kNone;
     std::size_t waiting() const { return met.size() + entering; }
   };
   static constexpr std::uint32_t kLookUpCycles = 3;  // tags, line, masks
@@ -104,7 +102,7 @@ class ClockedRays {
     context.state = State::kFree;
     if (pixels_->done()) return;
     context.path.begin(pixel_ray(view_, pixels_->x(), pixels_->y()));
-    context.chain = {};
+    context.chain = ClockedOrderingTable::kNone;
     pixels_->next();
     context.state = State::kWaits;
     begins_.push_back(c);
@@ -115,15 +113,18 @@ class ClockedRays {
     contexts_[c].left = cycles;
   }
 
-  void leave_table() {
-    if (table_left_ == 0 || --table_left_ > 0) return;
+  void leave_table(ClockedOrderingTable& table) {
+    table.step();
+    if (!adding_ || !table.idle()) return;
+    adding_ = false;
+    overflows_ = !table.fits();
     --contexts_[entering_].entering;
     if (contexts_[entering_].state == State::kWithoutRoom) due_in(entering_, 1);
   }
 
   // What the tree has found: a voxel that the table takes as soon as it is free, or a ray that has
   // ended, whose context the next one gets.
-  void decide(OrderingTable& table) {
+  void decide(ClockedOrderingTable& table) {
     if (compare_left_ > 0 && --compare_left_ > 0) return;
     if (!found_) return;
     Context& context = contexts_[*found_];
@@ -131,14 +132,13 @@ class ClockedRays {
       ++context.round;
       give_ray(*found_);
     } else {
-      if (table_left_ > 0) return;
-      const std::uint64_t before = table.accesses().cycles;
+      if (adding_) return;
       window_.meet(context.met.front().place);
-      overflows_ = !table.add(context.chain, VisitWindow::voxel(context.met.front().place));
+      table.begin_add(context.chain, VisitWindow::voxel(context.met.front().place));
       context.met.pop_front();
       ++context.entering;
       entering_ = *found_;
-      table_left_ = table.accesses().cycles - before;
+      adding_ = true;
     }
     found_.reset();
   }
@@ -244,7 +244,7 @@ class ClockedRays {
   std::uint32_t compare_left_ = 0;    // cycles of the tree
   std::optional<std::size_t> found_;  // first of all rounds, when it has ended
   std::size_t entering_ = 0;          // context whose voxel the table takes
-  std::uint64_t table_left_ = 0;      // cycles until it has
+  bool adding_ = false;               // still
 };
 
 }  // namespace sgs::test
