@@ -132,8 +132,7 @@ Takings clocked(const PaperVsuWorkload& load, std::uint64_t seed) {
 
 TEST_CASE("clocked reference: VSU of paper order") {
   Comparison table("VSU, paper order");
-  PaperVsuHardware paper;
-  paper.table_bytes = 1U << 14U;
+  const PaperVsuHardware paper;
   PaperVsuHardware far = paper;
   far.rays.memory_latency = 300;
   PaperVsuHardware tiny = paper;
