@@ -67,7 +67,7 @@ ExpectedShare expect(const HfuPlan& plan, const VisitShare& share) {
   return out;
 }
 
-HfuPlan plan_of(TestScene scene) {
+HfuPlan hfu_plan_of(TestScene scene) {
   HfuPlan plan;
   plan.scene = std::move(scene);
   return plan;

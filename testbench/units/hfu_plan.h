@@ -43,7 +43,7 @@ struct ExpectedShare {
 // By the filters' functions, on what the bytes in memory decode to.
 ExpectedShare expect(const HfuPlan& plan, const VisitShare& share);
 
-HfuPlan plan_of(TestScene scene);
+HfuPlan hfu_plan_of(TestScene scene);
 
 // `visits` shares of random slots for each group, then the group's end.
 void add_shares(std::mt19937_64& random, HfuPlan& plan, std::size_t visits, std::uint32_t most);

@@ -57,7 +57,7 @@ std::uint64_t ordering_cycles(const PaperVsuPlan& plan, OrderingTable& table) {
 
 }  // namespace
 
-PaperVsuPlan plan_of(TestScene scene) {
+PaperVsuPlan paper_vsu_plan_of(TestScene scene) {
   PaperVsuPlan plan;
   plan.scene = std::move(scene);
   plan.config.table_bytes = 1U << 20U;

@@ -21,7 +21,7 @@ struct PaperVsuPlan {
 };
 
 // A table that holds every group, voxels whole.
-PaperVsuPlan plan_of(TestScene scene);
+PaperVsuPlan paper_vsu_plan_of(TestScene scene);
 
 constexpr std::uint64_t kLineBytes = 32;  // of VSU's caches
 

@@ -18,7 +18,7 @@ BenchConfig still_bench(const HfuPlan& plan, std::uint32_t latency_cycles = 20) 
 
 void directed(Case& test, const SceneShape& shape, const HfuConfig& config, std::size_t visits,
               std::uint32_t most) {
-  HfuPlan plan = plan_of(random_scene(test.random, shape));
+  HfuPlan plan = hfu_plan_of(random_scene(test.random, shape));
   plan.config = resolved(config);
   add_shares(test.random, plan, visits, most);
   run_hfu(test, still_bench(plan), plan);
@@ -29,7 +29,7 @@ void directed(Case& test, const SceneShape& shape, const HfuConfig& config, std:
 // first 4 of each 14 cycles, depth of the CFU, two FIFOs.
 void exact_coarse_time(Case& test, std::uint32_t n) {
   SceneShape shape;
-  HfuPlan plan = plan_of(random_scene(test.random, shape));
+  HfuPlan plan = hfu_plan_of(random_scene(test.random, shape));
   for (Gaussian<float>& g : plan.scene.cloud.gaussians) {
     const auto& view = plan.scene.job.view;
     for (int axis = 0; axis < 3; ++axis) {
@@ -90,7 +90,7 @@ void shared_fetch(Case& test, SecondHalfEncoding encoding, std::uint32_t slots) 
   constexpr std::uint32_t kParts = 4;
   SceneShape shape;
   shape.encoding = encoding;
-  HfuPlan plan = plan_of(random_scene(test.random, shape));
+  HfuPlan plan = hfu_plan_of(random_scene(test.random, shape));
   plan.config.second_half_slots = slots;
   plan.sorting_units = 1;
   add_shares(test.random, plan, 3, 150);
@@ -194,7 +194,7 @@ void random_case(Case& test) {
   SceneShape shape = random_shape(random);
   shape.encoding = static_cast<SecondHalfEncoding>(random() % 4);
   shape.order = random() % 2 == 0 ? StorageOrder::kChunks : StorageOrder::kVoxels;
-  HfuPlan plan = plan_of(random_scene(random, shape));
+  HfuPlan plan = hfu_plan_of(random_scene(random, shape));
   HfuConfig& config = plan.config;
   plan.codebook.banks = 1 + static_cast<std::uint32_t>(random() % 16);
   plan.codebook.line_bytes = 4U << random() % 5;
@@ -262,7 +262,7 @@ int sc_main(int argc, char* argv[]) {
     SceneShape encoded = shape;
     encoded.encoding = SecondHalfEncoding::kVqPacked;
     encoded.sh_degree = 3;
-    HfuPlan plan = plan_of(random_scene(test.random, encoded));
+    HfuPlan plan = hfu_plan_of(random_scene(test.random, encoded));
     plan.config.ffu_lanes = 10000;
     plan.codebook.line_bytes = 4;
     add_shares(test.random, plan, 2, 200);
@@ -285,13 +285,13 @@ int sc_main(int argc, char* argv[]) {
     directed(test, pixel, {}, 2, 100);
   });
   runner.add_directed("groups finished before they begin", [=](Case& test) {
-    HfuPlan plan = plan_of(random_scene(test.random, shape));
+    HfuPlan plan = hfu_plan_of(random_scene(test.random, shape));
     plan.finish_cycles.assign(plan.scene.job.groups.size(), 0);
     add_shares(test.random, plan, 4, 200);
     run_hfu(test, still_bench(plan), plan);
   });
   runner.add_directed("groups that are finished at once", [=](Case& test) {
-    HfuPlan plan = plan_of(random_scene(test.random, shape));
+    HfuPlan plan = hfu_plan_of(random_scene(test.random, shape));
     plan.saturate_one_in = 1;
     add_shares(test.random, plan, 4, 200);
     run_hfu(test, still_bench(plan), plan);
@@ -301,7 +301,7 @@ int sc_main(int argc, char* argv[]) {
                         [=](Case& test) {
                           SceneShape encoded = shape;
                           encoded.encoding = SecondHalfEncoding::kVq;
-                          HfuPlan plan = plan_of(random_scene(test.random, encoded));
+                          HfuPlan plan = hfu_plan_of(random_scene(test.random, encoded));
                           plan.feedback_cycles = 3;
                           plan.finish_cycles.assign(plan.scene.job.groups.size(), cycle);
                           add_shares(test.random, plan, 2, 200);

@@ -200,13 +200,13 @@ BenchConfig still_bench(const PaperVsuPlan& plan) {
 }
 
 void directed(Case& test, const SceneShape& shape) {
-  const PaperVsuPlan plan = plan_of(random_scene(test.random, shape));
+  const PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, shape));
   run_plan(test, still_bench(plan), plan);
 }
 
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
-  PaperVsuPlan plan = plan_of(random_scene(random, random_shape(random)));
+  PaperVsuPlan plan = paper_vsu_plan_of(random_scene(random, random_shape(random)));
   plan.hfus = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.fifo_entries = 1 + static_cast<std::uint32_t>(random() % 6);
   plan.config.step_lanes = 1 + static_cast<std::uint32_t>(random() % 200);
@@ -260,7 +260,7 @@ int sc_main(int argc, char* argv[]) {
   many.gaussians = 5000;
   for (const std::uint32_t most : {1U, 64U, 100U, 1000U}) {
     runner.add_directed(fmt::format("voxels cut into pieces of {}", most), [=](Case& test) {
-      PaperVsuPlan plan = plan_of(random_scene(test.random, many));
+      PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, many));
       plan.config.visit_gaussians = most;
       run_plan(test, still_bench(plan), plan);
     });
@@ -275,20 +275,20 @@ int sc_main(int argc, char* argv[]) {
   whole.group = square_of(64);
   runner.add_directed("group larger than the frame", [=](Case& test) { directed(test, whole); });
   runner.add_directed("a group that is finished at once", [=](Case& test) {
-    PaperVsuPlan plan = plan_of(random_scene(test.random, whole));
+    PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, whole));
     plan.saturate_one_in = 1;
     plan.fifo_entries = 1;
     run_plan(test, still_bench(plan), plan);
   });
   runner.add_directed("groups finished before they begin", [=](Case& test) {
-    PaperVsuPlan plan = plan_of(random_scene(test.random, shape));
+    PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, shape));
     plan.finished_before = true;
     run_plan(test, still_bench(plan), plan);
   });
   // 8 bytes are a voxel a pass.
   for (const std::uint32_t bytes : {8U, 12U, 20U, 64U, 300U}) {
     runner.add_directed(fmt::format("ordering table of {} bytes", bytes), [=](Case& test) {
-      PaperVsuPlan plan = plan_of(random_scene(test.random, shape));
+      PaperVsuPlan plan = paper_vsu_plan_of(random_scene(test.random, shape));
       plan.config.table_bytes = bytes;
       run_plan(test, still_bench(plan), plan);
     });

@@ -22,7 +22,7 @@ struct CoarseWorkload {
 
 tb::HfuPlan coarse_plan(const CoarseWorkload& load, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  tb::HfuPlan plan = tb::plan_of(tb::random_scene(random, shape_of()));
+  tb::HfuPlan plan = tb::hfu_plan_of(tb::random_scene(random, shape_of()));
   plan.config.cfus = load.hardware.cfus;
   plan.config.cfu_macs = 2 * load.hardware.test_cycles;
   plan.config.cfu_lanes = 2;

@@ -26,7 +26,7 @@ tb::PaperVsuPlan plan_of(const PaperVsuWorkload& load, std::uint64_t seed) {
   tb::SceneShape shape;
   shape.gaussians = load.gaussians;
   shape.voxel_size = load.voxel_size;
-  tb::PaperVsuPlan plan = tb::plan_of(tb::random_scene(random, shape));
+  tb::PaperVsuPlan plan = tb::paper_vsu_plan_of(tb::random_scene(random, shape));
   const PaperVsuHardware& hw = load.hardware;
   const auto lanes = [](std::uint64_t macs, std::uint32_t turn) {
     return static_cast<std::uint32_t>(tb::ceil_div(macs, turn));
