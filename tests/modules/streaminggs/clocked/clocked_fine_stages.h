@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_fifo.h"
 
 namespace sgs::test {
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_fifo.h"
 #include "tests/modules/streaminggs/clocked/clocked_spill.h"
 
 namespace sgs::test {

@@ -14,7 +14,7 @@
 
 #include "algorithm/memory/scene_layout.h"
 #include "algorithm/voxel/voxel_cuts.h"
-#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_fifo.h"
 #include "tests/modules/streaminggs/clocked/clocked_rays.h"
 
 namespace sgs::test {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "algorithm/order/chunk_walk.h"
-#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_fifo.h"
 
 namespace sgs::test {
 

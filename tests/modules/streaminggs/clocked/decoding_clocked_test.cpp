@@ -6,8 +6,8 @@
 
 #include "modules/streaminggs/hfu/codebook_buffer.h"
 #include "modules/streaminggs/hfu/fine_filter.h"
+#include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_decoding_filter.h"
-#include "tests/modules/streaminggs/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/hfu_workloads.h"
 
 namespace sgs::test {

@@ -4,9 +4,9 @@
 #include "algorithm/memory/first_half_test.h"
 #include "modules/streaminggs/hfu/coarse_filter.h"
 #include "modules/streaminggs/hfu/fine_filter.h"
+#include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_coarse_filter.h"
 #include "tests/modules/streaminggs/clocked/clocked_fine_filter.h"
-#include "tests/modules/streaminggs/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/hfu_workloads.h"
 
 namespace sgs::test {

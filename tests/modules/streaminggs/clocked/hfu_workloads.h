@@ -8,8 +8,8 @@
 #include "modules/streaminggs/hfu/fine_filter.h"
 #include "testbench/units/hfu_plan.h"
 #include "testbench/units/unit_bench.h"
+#include "tests/modules/clocked/surroundings.h"
 #include "tests/modules/streaminggs/clocked/clocked_fine_stages.h"
-#include "tests/modules/streaminggs/clocked/surroundings.h"
 
 namespace sgs::test {
 

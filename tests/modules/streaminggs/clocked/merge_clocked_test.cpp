@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "testbench/units/merge_run.h"
+#include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_merge.h"
-#include "tests/modules/streaminggs/clocked/comparison.h"
 
 namespace sgs::test {
 namespace {

@@ -4,8 +4,8 @@
 #include "modules/streaminggs/vsu/paper_vsu.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/paper_vsu_plan.h"
+#include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_paper_vsu.h"
-#include "tests/modules/streaminggs/clocked/comparison.h"
 
 namespace sgs::test {
 namespace {

@@ -5,8 +5,8 @@
 #include "modules/streaminggs/rendering/rendering_unit.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/random_splats.h"
+#include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_rendering.h"
-#include "tests/modules/streaminggs/clocked/comparison.h"
 
 namespace sgs::test {
 namespace {

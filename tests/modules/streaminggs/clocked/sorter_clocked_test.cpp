@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "modules/streaminggs/sorting/exact_sorter.h"
+#include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_sorter.h"
-#include "tests/modules/streaminggs/clocked/comparison.h"
 
 namespace sgs::test {
 namespace {

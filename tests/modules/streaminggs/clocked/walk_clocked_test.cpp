@@ -4,8 +4,8 @@
 #include "testbench/units/exact_vsu_plan.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/reported_groups.h"
+#include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_walk.h"
-#include "tests/modules/streaminggs/clocked/comparison.h"
 
 namespace sgs::test {
 namespace {

@@ -1,5 +1,5 @@
 // Processes, per cents and the table.
-#include "tests/modules/streaminggs/clocked/comparison.h"
+#include "tests/modules/clocked/comparison.h"
 
 #include <fmt/format.h>
 

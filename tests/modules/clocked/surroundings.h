@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "testbench/units/unit_bench.h"
-#include "tests/modules/streaminggs/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_fifo.h"
 
 namespace sgs::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "testbench/units/case_runner.h"
-#include "tests/modules/streaminggs/clocked/surroundings.h"
+#include "tests/modules/clocked/surroundings.h"
 
 namespace sgs::test {
 
