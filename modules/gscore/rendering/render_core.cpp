@@ -29,12 +29,20 @@ std::uint32_t parts_of(const GscoreConfig& config) {
   return static_cast<std::uint32_t>(config.tiles.subtiles_across * config.tiles.subtiles_across);
 }
 
-// The sub-tiles of 4 px of a part.
-GroupReach reach_of(int part, const TileRules& rules) {
+GroupReach reach_of(std::size_t block) {
+  const auto x = static_cast<std::uint8_t>(block % kSubtilesPerTile);
+  const auto y = static_cast<std::uint8_t>(block / kSubtilesPerTile);
+  return {x, y, x, y};
+}
+
+// The blocks of 16 px of a part, row by row.
+template <class Visit>
+void for_each_block(int part, const TileRules& rules, const Visit& visit) {
   const int side = kSubtilesPerTile / rules.subtiles_across;
-  const auto at = [](int index) { return static_cast<std::uint8_t>(index); };
   const int x = part % rules.subtiles_across * side, y = part / rules.subtiles_across * side;
-  return {at(x), at(y), at(x + side - 1), at(y + side - 1)};
+  for (int b = 0; b < side * side; ++b) {
+    visit(static_cast<std::size_t>((y + b / side) * kSubtilesPerTile + x + b % side));
+  }
 }
 
 }  // namespace
@@ -62,7 +70,7 @@ RenderCore::RenderCore(const sc_core::sc_module_name& name, const UnitContext& c
                        static_cast<std::uint32_t>(depth_cycles()) + drain_path_.depth_cycles),
       free_pixels_("free_pixels", context.clock, config_.rendering.pixel_buffers, 0),
       free_from_(kBlocks),
-      finished_from_(parts_of(config_)) {
+      finished_from_(kBlocks) {
   for (Activity* a : {&fetch_, &blend_, &drain_}) context.phases.drawing.add(*a);
   SC_THREAD(run_fetch);
   SC_THREAD(run_blend);
@@ -101,14 +109,15 @@ void RenderCore::run_fetch() {
   fetch_.idles();
 }
 
+// A mark goes through the pipeline as a block does, in its cycle.
 void RenderCore::run_blend() {
   for (EntryMark mark = EntryMark::kEntry; mark != EntryMark::kEndOfFrame;) {
     const Fetched next = fetched_.front(blend_);
     mark = next.entry.mark;
     if (mark == EntryMark::kEndOfPass || mark == EntryMark::kEndOfFrame) {
       fetched_.remove_front();
-      blend_.work(1);
       finished_states_.push({mark, nullptr, 0}, blend_);
+      blend_.work(1);
       continue;
     }
     if (!in_tile_) begin_tile(next.entry.tile);
@@ -121,13 +130,13 @@ void RenderCore::run_blend() {
     counters_.tiles_finished += state_->saturated() ? 1 : 0;
     counters_.contributors += state_->contributors();
     in_tile_ = false;
-    blend_.work(1);
     finished_states_.push({mark, std::move(state_), next.entry.tile}, blend_);
+    blend_.work(1);
   }
   blend_.idles();
 }
 
-// Parts outside the frame are finished from the start.
+// Blocks outside the frame are finished from the start.
 void RenderCore::begin_tile(std::uint32_t tile) {
   blend_.takes_up_tile(tile);
   free_pixels_.pop(blend_, WaitFor::kRoom);
@@ -138,11 +147,8 @@ void RenderCore::begin_tile(std::uint32_t tile) {
   state_ = std::make_shared<GroupState>(pixels, job_.view.width, job_.view.height,
                                         config_.rendering.precision, SubtileTest::kBox);
   std::fill(free_from_.begin(), free_from_.end(), 0);
-  const int across = config_.tiles.subtiles_across, side = kTilePx / across;
-  for (int part = 0; part < across * across; ++part) {
-    const bool outside =
-        part % across * side >= pixels.width() || part / across * side >= pixels.height();
-    finished_from_[static_cast<std::size_t>(part)] = outside ? 0 : kNever;
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    finished_from_[block] = state_->any_unfinished(reach_of(block)) ? kNever : 0;
   }
 }
 
@@ -169,39 +175,44 @@ void RenderCore::blend(const SortedEntry& entry, const AnySplat& splat) {
   const std::uint64_t now = blend_.clock().now_cycles();
   ++counters_.splats;
   const TileRules rules = config_.tiles.rules();
-  const int side = kSubtilesPerTile / rules.subtiles_across;
   const std::uint64_t interval = blend_path_.interval_cycles();
   const std::uint64_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
   const std::uint64_t depth = depth_cycles();
   std::uint64_t begin = now;
   for_each_part(rules, job_.tile_x(entry.tile), job_.tile_y(entry.tile), entry.bitmap, splat,
                 [&](const AnySplat& in_part, int part) {
-                  std::uint64_t& known = finished_from_[static_cast<std::size_t>(part)];
+                  const std::uint64_t known = finished_from(part);
                   if (known <= now && (config_.rendering.skip_finished || known == 0)) {
                     ++counters_.parts_finished;
                     return;
                   }
                   ++counters_.parts;
-                  const int first_x = part % rules.subtiles_across * side;
-                  const int first_y = part / rules.subtiles_across * side;
-                  for (int block = 0; block < side * side; ++block) {
-                    const auto at = static_cast<std::size_t>(
-                        (first_y + block / side) * kSubtilesPerTile + first_x + block % side);
+                  for_each_block(part, rules, [&](std::size_t at) {
                     const std::uint64_t free = next_turn(std::max(begin, free_from_[at]), interval);
                     counters_.hazard_cycles += free - begin;
                     free_from_[at] = free + loop;
                     begin = free + interval;
                     ++counters_.blocks;
-                  }
+                  });
                   state_->blend(in_part);
-                  if (known == kNever && !state_->any_unfinished(reach_of(part, rules)))
-                    known = begin + depth;
+                  for_each_block(part, rules, [&](std::size_t at) {
+                    if (finished_from_[at] == kNever && !state_->any_unfinished(reach_of(at)))
+                      finished_from_[at] = free_from_[at] - loop + depth;
+                  });
                 });
   if (state_->saturated() && !told_) {
     told_ = true;
-    finished_.finish(entry.tile, begin - now + depth);
+    const std::uint64_t known = *std::max_element(finished_from_.begin(), finished_from_.end());
+    finished_.finish(entry.tile, known - now);
   }
   blend_.work(std::max<std::uint64_t>(begin - now, 1));
+}
+
+std::uint64_t RenderCore::finished_from(int part) const {
+  std::uint64_t last = 0;
+  for_each_block(part, config_.tiles.rules(),
+                 [&](std::size_t at) { last = std::max(last, finished_from_[at]); });
+  return last;
 }
 
 void RenderCore::run_drain() {

@@ -57,6 +57,8 @@ class RenderCore : public sc_core::sc_module {
   void take(const Fetched& next);
   template <class AnySplat>
   void blend(const SortedEntry& entry, const AnySplat& splat);
+  // The cycle from which it is known that all blocks of a part are finished.
+  std::uint64_t finished_from(int part) const;
   // From a splat's turn to the pixels behind its first block.
   std::uint64_t depth_cycles() const;
   void write_tile(const GroupState& state);
@@ -78,7 +80,7 @@ class RenderCore : public sc_core::sc_module {
   bool in_tile_ = false;
   bool told_ = false;                         // that it is finished
   std::vector<std::uint64_t> free_from_;      // [16 px] cycle
-  std::vector<std::uint64_t> finished_from_;  // [part] cycle
+  std::vector<std::uint64_t> finished_from_;  // [16 px] cycle
   std::uint32_t tile_ = 0;                    // for the waveform too
 
   struct Counters {

@@ -1,0 +1,81 @@
+// The drain of a rendering core register by register: marks behind the blocks of their tile, and
+// the row of pixels that stands in its register until it has left.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "tests/modules/gscore/clocked/clocked_port.h"
+
+namespace sgs::test {
+
+struct CoreTile {
+  std::uint32_t outside = 0;                    // blocks beside the frame, a bit each
+  std::uint32_t row_cycles = 0;                 // of a row of pixels
+  std::vector<std::uint32_t> row_transactions;  // [row]
+};
+
+class ClockedDrain {
+ public:
+  ClockedDrain(std::uint32_t write_latency, std::size_t writes) : port_(write_latency, writes) {}
+
+  struct Mark {
+    std::uint64_t leaves;  // the pipeline, in this cycle
+    bool of_tile;          // or of the frame
+    std::uint32_t tile;
+  };
+  void mark(const Mark& mark) { marks_.push_back(mark); }
+
+  // Whether a transaction of pixels has left.
+  bool step(std::uint64_t now, const std::vector<CoreTile>& tiles) {
+    port_.begin_cycle();
+    frees_pixels_ = false;
+    if (frame_ends_) {
+      ended_ = true;
+      frame_ends_ = false;
+      return false;
+    }
+    const bool sends = drains_ && now >= row_full_ && port_.can_send();
+    if (sends) send(now, tiles[*drains_]);
+    if (!drains_) take_mark(now, tiles);
+    return sends;
+  }
+  bool frees_pixels() const { return frees_pixels_; }  // of a tile, in this cycle
+  bool done() const { return ended_; }                 // the end of the frame has been put out
+
+ private:
+  void send(std::uint64_t now, const CoreTile& tile) {
+    port_.send();
+    if (++left_of_row_ < tile.row_transactions[row_]) return;
+    left_of_row_ = 0;
+    row_full_ = now + tile.row_cycles;
+    if (++row_ < tile.row_transactions.size()) return;
+    drains_.reset();
+    frees_pixels_ = true;
+  }
+  void take_mark(std::uint64_t now, const std::vector<CoreTile>& tiles) {
+    if (marks_.empty() || now < marks_.front().leaves) return;
+    if (marks_.front().of_tile) {
+      drains_ = marks_.front().tile;
+      row_ = 0;
+      row_full_ = now + tiles[*drains_].row_cycles;
+    } else {
+      if (!port_.idle()) return;
+      frame_ends_ = true;
+    }
+    marks_.pop_front();
+  }
+
+  ClockedPort port_;
+  std::deque<Mark> marks_;
+  std::optional<std::uint32_t> drains_;  // tile
+  std::size_t row_ = 0;
+  std::uint32_t left_of_row_ = 0;  // transactions that have left
+  std::uint64_t row_full_ = 0;     // from this cycle on
+  bool frees_pixels_ = false, frame_ends_ = false, ended_ = false;
+};
+
+}  // namespace sgs::test

@@ -1,0 +1,42 @@
+// A port to a memory that takes a transaction a cycle and answers each after the same time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+
+namespace sgs::test {
+
+class ClockedPort {
+ public:
+  // most: transactions that are unanswered at once.
+  ClockedPort(std::uint32_t latency, std::size_t most) : latency_(latency), most_(most) {}
+
+  // Before whoever asks is stepped: answers come first, and make room.
+  void begin_cycle() {
+    sends_ = false;
+    for (std::uint32_t& left : unanswered_) --left;
+    while (!unanswered_.empty() && unanswered_.front() == 0) {
+      unanswered_.pop_front();
+      ++answered_;
+    }
+  }
+  bool can_send() const { return !sends_ && unanswered_.size() < most_; }
+  // The transaction's number.
+  std::uint64_t send() {
+    sends_ = true;
+    unanswered_.push_back(latency_);
+    return sent_++;
+  }
+  bool answered(std::uint64_t number) const { return number < answered_; }
+  bool idle() const { return unanswered_.empty(); }
+
+ private:
+  const std::uint32_t latency_;
+  const std::size_t most_;
+  bool sends_ = false;                    // in this cycle
+  std::deque<std::uint32_t> unanswered_;  // cycles left
+  std::uint64_t sent_ = 0, answered_ = 0;
+};
+
+}  // namespace sgs::test
