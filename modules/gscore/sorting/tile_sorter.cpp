@@ -35,6 +35,9 @@ std::uint32_t subset_in_memory_bytes(const GscoreConfig& config) {
          list_end_bytes(config.blocks(), stack_blocks(config));
 }
 
+// One for the place of an entry that does not lie where it comes out, one for the entry.
+constexpr std::uint32_t kReadsByPlace = 2;
+
 // What a compare-exchange compares and moves: key and place.
 std::uint32_t compared_bits(const GscoreConfig& config) {
   return 8 * (config.entries().key_bytes() + kPlaceBytes);
@@ -90,7 +93,7 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
   }
   if (keys.single()) {
     counters_.in_order += entries.size();
-    emit(tile, entries);
+    emit(tile, entries, level == 0 ? 1 : kReadsByPlace);
     return;
   }
   if (entries.size() <= config_.sorting.chunk_entries) {
@@ -114,7 +117,8 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
   (level == 0 ? counters_.list_reads : counters_.places_read) += 2 * entries.size();
   counters_.places_written += entries.size();
   counters_.subset_accesses += 2 * entries.size() + 2 * kSubsets;
-  sort_.work(kPivotCycles + entries.size() + kSubsetPlaceCycles + entries.size());
+  sort_.work(kPivotCycles + entries.size() + kSubsetRowCycles + kSubsetPlaceCycles +
+             entries.size() + kSubsetWriteCycles);
   for (std::size_t s = 0; s < kSubsets; ++s) {
     if (!subsets[s].empty()) sort(tile, std::move(subsets[s]), level + 1, ranges[s]);
   }
@@ -133,11 +137,14 @@ void TileSorter::sort_chunk(std::uint32_t tile, std::vector<TileEntry>& entries,
   counters_.compare_exchanges += cost.compare_exchanges;
   counters_.merged += cost.merged;
   (level == 0 ? counters_.list_reads : counters_.places_read) += entries.size();
-  emit(tile, entries);
+  emit(tile, entries, kReadsByPlace);
   counters_.places_emitted += entries.size();
 }
 
-void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries) {
+// An entry comes out behind its reads, the others behind it cycle by cycle.
+void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries,
+                      std::uint32_t reads) {
+  sort_.work(reads - 1);
   for (const TileEntry& entry : entries) {
     sort_.work(1);
     sorted->push({EntryMark::kEntry, tile, entry.record, entry.bitmap, entry.opacity}, sort_);

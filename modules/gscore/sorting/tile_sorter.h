@@ -2,8 +2,9 @@
 // and sorts chunk by chunk, nearest first. What is left of a finished tile is dropped.
 // Timing: an entry a cycle through each QSU (the one where lists come in, which also splits lists
 // that are too long for the chip, and the one at the lists on chip), before it a cycle for each
-// pivot, on chip one for each subset's place; a chunk through the network as bitonic_cost() says;
-// an entry a cycle out. Blocks of a list are asked for one ahead.
+// pivot, on chip one for each subset's place, and what its pipeline takes to run empty (pivots.h);
+// a chunk through the network as bitonic_cost() says; an entry a cycle out, the first of a chunk
+// behind its place. Blocks of a list are asked for one ahead.
 #pragma once
 
 #include <cstddef>
@@ -78,7 +79,8 @@ class TileSorter : public sc_core::sc_module {
   void sort(std::uint32_t tile, std::vector<TileEntry> entries, std::uint32_t level,
             const KeyRange& keys);
   void sort_chunk(std::uint32_t tile, std::vector<TileEntry>& entries, std::uint32_t level);
-  void emit(std::uint32_t tile, const std::vector<TileEntry>& entries);
+  // reads: from one another, until an entry is there.
+  void emit(std::uint32_t tile, const std::vector<TileEntry>& entries, std::uint32_t reads);
 
   const GscoreConfig config_;
   const GscoreJob& job_;

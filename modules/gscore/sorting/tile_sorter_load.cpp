@@ -59,14 +59,20 @@ void TileSorter::load(std::uint32_t tile, const Chain& list, std::uint32_t level
     open = false;
   };
   read_chain(list, [&](std::vector<TileEntry>& entries) {
-    load_.work(entries.size());
-    for (const TileEntry& entry : entries) {
+    for (auto next = entries.begin(); next != entries.end();) {
       if (!open) {
         free_lists_.pop(load_, WaitFor::kRoom);
         open = true;
       }
-      held.push_back(entry);
-      keys.take(entry.key);
+      const auto end =
+          next + std::min<std::ptrdiff_t>(
+                     entries.end() - next,
+                     config_.sorting.list_entries - static_cast<std::ptrdiff_t>(held.size()));
+      load_.work(static_cast<std::uint64_t>(end - next));
+      for (; next != end; ++next) {
+        held.push_back(*next);
+        keys.take(next->key);
+      }
       if (held.size() == config_.sorting.list_entries) hand_on();
     }
     counters_.entries_loaded += entries.size();
@@ -148,6 +154,7 @@ void TileSorter::split_in_memory(std::uint32_t tile, const Chain& list, std::uin
       counters_.pivots_sampled += kPivots;
     }
     chosen = true;
+    load_.work(kSubsetWriteCycles);
     for (const TileEntry& entry : entries) {
       const std::uint32_t s = subset_of(pivots, entry.key);
       subsets[s].keys.take(entry.key);
