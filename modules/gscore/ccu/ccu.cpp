@@ -52,9 +52,12 @@ Ccu::Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitCon
       slices_("slices", context.clock, config_.ccu.input_slots),
       free_input_("free_input", context.clock, config_.ccu.input_slots, 0),
       culled_("culled", context.clock, candidates_of(config_, cull_path_), cull_path_.depth_cycles),
+      culled_places_(cull_path_.depth_cycles),
       fetched_("fetched", context.clock, config_.ccu.second_half_slots + 1),
       free_second_("free_second", context.clock, config_.ccu.second_half_slots,
-                   words_of(second_bytes_)) {
+                   words_of(second_bytes_)),
+      converted_places_(convert_path_.depth_cycles) {
+  fetched_.announce_to(candidate_came_);
   for (Activity* a : {&load_, &cull_, &fetch_, &convert_}) context.phases.projecting.add(*a);
   SC_THREAD(run_load);
   SC_THREAD(run_cull);
@@ -101,8 +104,10 @@ void Ccu::run_cull() {
   for (Slice slice = slices_.pop(cull_); !slice.over; slice = slices_.pop(cull_)) {
     await(first_memory, cull_, slice.ticket);
     for (std::uint32_t i = 0; i < slice.count; ++i) {
+      culled_places_.wait_for_one(culled_, cull_);
       wait_for_turn(cull_, interval);
-      cull_.work(interval);
+      const std::uint64_t began = cull_.clock().now_cycles();
+      cull_.work(1);
       Candidate candidate;
       candidate.slot = slice.first + i;
       candidate.first = read_first_half(job_.layout.split, input(slice.slot, i));
@@ -110,9 +115,14 @@ void Ccu::run_cull() {
                                         candidate.first.extents.scale_max);
       candidate.last = i + 1 == slice.count;
       counters_.culled += candidate.there ? 0 : 1;
-      if (candidate.there || candidate.last) culled_.push(candidate, cull_);
+      if (candidate.there || candidate.last) {
+        culled_.push(candidate, cull_);
+      } else {
+        culled_places_.add(began);
+      }
+      if (candidate.last) free_input_.push(slice.slot, cull_);
+      cull_.work(interval - 1);
     }
-    free_input_.push(slice.slot, cull_);
   }
   Candidate over;
   over.over = true;
@@ -165,24 +175,31 @@ std::size_t Ccu::fetch_run(std::vector<Candidate>& slice, std::size_t first) {
 
 void Ccu::run_convert() {
   while (!fetched_.front(convert_).over) {
-    Converted out;
-    out.last = fetched_.front(convert_).last;
     if (fetched_.front(convert_).there) {
-      convert(out);
+      convert();
     } else {
-      fetched_.remove_front();
-      convert_.work(1);
+      converted_places_.wait_for_one(*converted[0], convert_);
+      pass_end();
     }
-    if (out.there || out.last) converted->push(out, convert_);
   }
   fetched_.remove_front();
   convert_.idles();
 }
 
+// Of a slice whose last Gaussian was dropped; there is a place for it.
+void Ccu::pass_end() {
+  fetched_.remove_front();
+  convert_.work(1);
+  Converted end;
+  end.last = true;
+  converted->push(end, convert_);
+}
+
 // What waits for its turn stays where it is until then. A record leaves its buffer a word a cycle.
-void Ccu::convert(Converted& out) {
+void Ccu::convert() {
   const Candidate candidate = fetched_.front(convert_);
   await(second_memory, convert_, candidate.ticket);
+  converted_places_.wait_for_one(*converted[0], convert_);
   const std::uint64_t interval = convert_path_.interval_cycles();
   wait_for_turn(convert_, interval);
   const std::byte* record = second_halves_.data() + std::size_t{candidate.buffer} * second_bytes_;
@@ -192,14 +209,51 @@ void Ccu::convert(Converted& out) {
   fetched_.remove_front();
   free_second_.push(candidate.buffer, convert_);
   ++counters_.converted;
-  convert_.work(std::max<std::uint64_t>(interval, words_of(second_bytes_)));
+  const std::uint64_t began = convert_.clock().now_cycles();
+  convert_.work(1);
+  Converted out;
+  out.last = candidate.last;
   out.there =
       make_tile_geometry(job_.view, g.gaussian, config_.tiles.rules(), out.splat, out.boxes);
-  if (!out.there) {
+  if (out.there) {
+    add_colour(job_.view, job_.layout.sh_degree(), g.gaussian.mean, g.sh, out.splat);
+  } else {
     ++counters_.unseen;
-    return;
   }
-  add_colour(job_.view, job_.layout.sh_degree(), g.gaussian.mean, g.sh, out.splat);
+  if (out.there || out.last) {
+    converted->push(out, convert_);
+  } else {
+    converted_places_.add(began);
+  }
+  keep_lanes(began + std::max<std::uint64_t>(interval, words_of(second_bytes_)));
+}
+
+// Until a cycle in which they are free; ends of slices pass beside them.
+void Ccu::keep_lanes(std::uint64_t until) {
+  convert_.works();
+  while (comes_before(until)) {
+    const Candidate& next = fetched_.front(convert_);
+    if (next.there || next.over) break;
+    if (!converted_places_.wait_for_one(*converted[0], convert_, until)) break;
+    pass_end();
+  }
+  const std::uint64_t now = convert_.clock().now_cycles();
+  if (now < until) convert_.work(until - now);
+}
+
+// Whether a candidate can be taken before that cycle; waits for it or the cycle.
+bool Ccu::comes_before(std::uint64_t cycle) {
+  const ClockDomain& clock = convert_.clock();
+  while (clock.now_cycles() < cycle) {
+    if (fetched_.can_pop()) return true;
+    const sc_core::sc_time left = static_cast<double>(cycle - clock.now_cycles()) * clock.period();
+    if (fetched_.empty()) {
+      sc_core::wait(left, candidate_came_);
+    } else {
+      sc_core::wait(std::min(left, fetched_.ready_at() - sc_core::sc_time_stamp()));
+    }
+  }
+  return false;
 }
 
 SramUses Ccu::sram_uses(const GscoreConfig& config) {

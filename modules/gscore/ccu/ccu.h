@@ -1,7 +1,8 @@
 // Culling and conversion unit: fetches the first halves of its share of the scene, drops what
 // cannot touch the frame, fetches the second halves of what is left, projects and colours it, with
 // the boxes that say which tiles it may touch.
-// Timing: both datapaths begin an item in their turns; slices in turn over the CCUs.
+// Timing: both datapaths begin an item in their turns, where it has a place behind their pipelines;
+// ends of slices pass beside the lanes; slices in turn over the CCUs.
 // Function: may_touch_frame(), make_tile_geometry().
 #pragma once
 
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "algorithm/splat/frame_sides.h"
+#include "modules/datapath/places_under_test.h"
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/messages.h"
 #include "tlm/data_sheet.h"
@@ -56,7 +58,10 @@ class Ccu : public sc_core::sc_module {
   // Asks for the second halves of neighbours at once, from the candidate `first` of a slice on;
   // returns where the next ones begin.
   std::size_t fetch_run(std::vector<Candidate>& slice, std::size_t first);
-  void convert(Converted& out);
+  void convert();
+  void pass_end();
+  void keep_lanes(std::uint64_t until);
+  bool comes_before(std::uint64_t cycle);
   std::byte* input(std::uint32_t slot, std::uint32_t at);
 
   const std::uint32_t index_;
@@ -69,8 +74,12 @@ class Ccu : public sc_core::sc_module {
   std::vector<std::byte> input_, second_halves_;
   TimedFifo<Slice> slices_;
   TimedFifo<std::uint32_t> free_input_;
-  TimedFifo<Candidate> culled_, fetched_;
+  TimedFifo<Candidate> culled_;
+  PlacesUnderTest culled_places_;
+  TimedFifo<Candidate> fetched_;
+  sc_core::sc_event candidate_came_;
   TimedFifo<std::uint32_t> free_second_;
+  PlacesUnderTest converted_places_;
   Counters counters_;
 };
 

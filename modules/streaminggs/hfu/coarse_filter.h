@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "algorithm/memory/first_half_test.h"
+#include "modules/datapath/places_under_test.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
-#include "modules/streaminggs/hfu/places_under_test.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
 #include "tlm/data_sheet.h"

@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "algorithm/memory/record_split.h"
+#include "modules/datapath/places_under_test.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/codebook_config.h"
 #include "modules/streaminggs/hfu/codebook_if.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
-#include "modules/streaminggs/hfu/places_under_test.h"
 #include "modules/streaminggs/messages.h"
 #include "modules/streaminggs/unit_context.h"
 #include "tlm/data_sheet.h"

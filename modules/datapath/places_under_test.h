@@ -1,9 +1,10 @@
-// The places of what is under test in the FIFO behind a filter's pipeline. Whether it will pass
+// The places of what is under test in the FIFO behind a pipeline that drops some. Whether it will pass
 // nobody knows when it begins, so that it begins only where there is a place for it; what does not
 // pass gives it back when it leaves the pipeline. What passes is an entry of the FIFO from its
 // beginning on.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 
@@ -23,13 +24,17 @@ class PlacesUnderTest {
     while (!left_in_.empty() && left_in_.front() <= now) left_in_.pop_front();
     return static_cast<std::uint32_t>(left_in_.size());
   }
-  // Blocks until there is a place for one more in `to`.
+  // Blocks until there is a place for one more in `to`, or until a cycle: false.
   template <class T>
-  void wait_for_one(FifoWriteIf<T>& to, Activity& activity) {
+  bool wait_for_one(FifoWriteIf<T>& to, Activity& activity,
+                    std::uint64_t until = FifoWriteIf<T>::kNever) {
     for (;;) {
-      const std::uint32_t besides = taken(activity.clock().now_cycles());
-      if (to.room() > besides) return;
-      to.wait_for_room(besides + 1, besides > 0 ? left_in_.front() : to.kNever, activity);
+      const std::uint64_t now = activity.clock().now_cycles();
+      const std::uint32_t besides = taken(now);
+      if (to.room() > besides) return true;
+      if (now >= until) return false;
+      to.wait_for_room(besides + 1, besides > 0 ? std::min(left_in_.front(), until) : until,
+                       activity);
     }
   }
 
