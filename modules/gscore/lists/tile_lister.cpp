@@ -138,11 +138,11 @@ bool TileLister::project(const Pass& pass) {
   for (ListedTile next = listed_.pop(list_); !next.end; next = listed_.pop(list_)) {
     take(next, pass);
   }
-  // Every line is looked at, whether there is something new in it.
+  // Every line is looked at, whether there is something new in it, which leaves in that cycle.
   for (Line& line : lines_) {
     if (line.tile != 0 && line.buffer.holds_new()) flush_line(line);
+    list_.work(1);
   }
-  list_.work(lines_.size());
   counters_.line_looks += lines_.size();
   counters_.line_changes += lines_.size();
   flush_records();
