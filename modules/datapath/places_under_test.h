@@ -1,6 +1,6 @@
-// The places of what is under test in the FIFO behind a pipeline that drops some. Whether it will pass
-// nobody knows when it begins, so that it begins only where there is a place for it; what does not
-// pass gives it back when it leaves the pipeline. What passes is an entry of the FIFO from its
+// The places of what is under test in the FIFO behind a pipeline that drops some. Whether it will
+// pass nobody knows when it begins, so that it begins only where there is a place for it; what does
+// not pass gives it back when it leaves the pipeline. What passes is an entry of the FIFO from its
 // beginning on.
 #pragma once
 

@@ -185,15 +185,20 @@ TEST_CASE("clocked reference: tile lister") {
   Comparison table("tile lister");
   ListsConfig tiny = lists_config(4);
   tiny.tested_entries = 1;
-  for (const ListerWorkload& load : {
-           ListerWorkload{"light: 20 Gaussians", 20, lists_config(104)},
-           ListerWorkload{"heavy: 1500 Gaussians", 1500, lists_config(104)},
-           ListerWorkload{"tiles that share lines", 400, lists_config(7)},
-           ListerWorkload{"passes of 30 tiles", 300, lists_config(104, 30)},
-           ListerWorkload{"input stalled", 400, lists_config(104), 3, 60},
-           ListerWorkload{"cores stalled", 100, lists_config(104), 1, 1, 2, 200},
-           ListerWorkload{"fast memory", 400, lists_config(104), 1, 1, 1, 1, 5, 4, 4, 2, 16},
-           ListerWorkload{"tiny buffers", 200, tiny, 4, 20, 4, 20, 40, 1, 1, 2, 1},
+  struct Known {
+    ListerWorkload load;
+    std::size_t elsewhere = 0;  // what comes behind tests that bind
+  };
+  for (const auto& [load, elsewhere] : {
+           Known{ListerWorkload{"light: 20 Gaussians", 20, lists_config(104)}},
+           Known{ListerWorkload{"heavy: 1500 Gaussians", 1500, lists_config(104)}, 2078},
+           Known{ListerWorkload{"tiles that share lines", 400, lists_config(7)}},
+           Known{ListerWorkload{"passes of 30 tiles", 300, lists_config(104, 30)}, 1261},
+           Known{ListerWorkload{"input stalled", 400, lists_config(104), 3, 60}, 921},
+           Known{ListerWorkload{"cores stalled", 100, lists_config(104), 1, 1, 2, 200}, 746},
+           Known{ListerWorkload{"fast memory", 400, lists_config(104), 1, 1, 1, 1, 5, 4, 4, 2, 16},
+                 1551},
+           Known{ListerWorkload{"tiny buffers", 200, tiny, 4, 20, 4, 20, 40, 1, 1, 2, 1}},
        }) {
     table.workload(
         load.name,
@@ -202,7 +207,8 @@ TEST_CASE("clocked reference: tile lister") {
           Clocked clocked(load);
           clocked.run(seed);
           return clocked.taken;
-        });
+        },
+        elsewhere);
   }
 }
 
