@@ -2,6 +2,7 @@
 // which channel or port. All together they add up to the time since the start.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -91,12 +92,21 @@ class Activity : public sc_core::sc_object {
     enter(before);
   }
 
+  // Its lanes work until that cycle, whatever its thread waits for meanwhile.
+  void works_until(std::uint64_t cycle) {
+    close();
+    works_until_ = cycle;
+  }
+
   // Closes the open interval at the present time; the counters then cover [0, now).
   void close() {
     const std::uint64_t now = clock_.now_cycles();
     if (now > since_) {
       const std::size_t state = seen();
-      (state == kWorking ? busy_cycles_ : waits_[state].cycles) += now - since_;
+      const std::uint64_t worked_to =
+          state == kWorking ? now : std::clamp(works_until_, since_, now);
+      busy_cycles_ += worked_to - since_;
+      if (now > worked_to) waits_[state].cycles += now - worked_to;
     }
     since_ = now;
   }
@@ -165,6 +175,7 @@ class Activity : public sc_core::sc_object {
   std::vector<Wait> waits_{Wait{}};
   std::size_t now_ = kIdling;  // index in waits_, or kWorking
   std::uint64_t since_ = 0, busy_cycles_ = 0;
+  std::uint64_t works_until_ = 0;  // whatever it waits for
   Item item_;
   bool in_phase_ = true;
   bool busy_ = false;             // for the waveform

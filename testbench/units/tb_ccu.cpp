@@ -105,12 +105,14 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
           std::uint64_t{job.layout.second_halves.record_bytes} * bench.counter("second_halves"),
       "bytes read");
   if (config.ccus > 1) return;
-  // Each datapath begins an item in its turns. An end of a slice waits for its place beside lanes
-  // that work, so that not all of their cycles are of the activity's work.
-  const std::uint64_t cull = cull_pipeline(config).interval_cycles(),
-                      convert = convert_pipeline(config, job.layout.sh_degree()).interval_cycles();
-  checks.that(bench.busy_cycles("ccu cull") >= bench.counter("first_halves") * cull, "cull: bound");
-  checks.that(bench.clock().now_cycles() >= bench.counter("converted") * convert, "convert: bound");
+  // Each datapath begins an item in its turns.
+  const auto bound = [&](const char* resource, std::uint64_t items, const Datapath& path) {
+    checks.that(bench.busy_cycles(resource) >= items * path.interval_cycles(),
+                std::string(resource) + ": bound");
+  };
+  bound("ccu cull", bench.counter("first_halves"), cull_pipeline(config));
+  bound("ccu convert", bench.counter("converted"),
+        convert_pipeline(config, job.layout.sh_degree()));
 }
 
 void random_case(Case& test) {

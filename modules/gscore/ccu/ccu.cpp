@@ -210,6 +210,8 @@ void Ccu::convert() {
   free_second_.push(candidate.buffer, convert_);
   ++counters_.converted;
   const std::uint64_t began = convert_.clock().now_cycles();
+  const std::uint64_t until = began + std::max<std::uint64_t>(interval, words_of(second_bytes_));
+  convert_.works_until(until);
   convert_.work(1);
   Converted out;
   out.last = candidate.last;
@@ -225,12 +227,11 @@ void Ccu::convert() {
   } else {
     converted_places_.add(began);
   }
-  keep_lanes(began + std::max<std::uint64_t>(interval, words_of(second_bytes_)));
+  keep_lanes(until);
 }
 
 // Until a cycle in which they are free; ends of slices pass beside them.
 void Ccu::keep_lanes(std::uint64_t until) {
-  convert_.works();
   while (comes_before(until)) {
     const Candidate& next = fetched_.front(convert_);
     if (next.there || next.over) break;
