@@ -55,6 +55,7 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
     for (int x = tiles.x0; x < tiles.x1; x += at_once) {
       wait_for_turn(test_, tile_path_.interval_cycles());
       const std::uint64_t begun = test_.clock().now_cycles();
+      test_.works_until(begun + tile_path_.interval_cycles());
       ++counters_.tile_steps;
       for (int k = x; k < std::min(x + at_once, tiles.x1); ++k) {
         ++counters_.tile_tests;
