@@ -30,10 +30,10 @@ Takings takings_of_unit(std::uint64_t seed, const std::function<void(tb::Case&, 
   return taken;
 }
 
-void Comparison::workload(const std::string& name,
-                          const std::function<void(tb::Case&, Takings&, std::uint64_t)>& run,
-                          const std::function<Takings(std::uint64_t)>& reference,
-                          std::size_t most_elsewhere) {
+void Comparison::compare(const std::string& name,
+                         const std::function<void(tb::Case&, Takings&, std::uint64_t)>& run,
+                         const std::function<Takings(std::uint64_t)>& reference,
+                         std::size_t most_elsewhere) {
   double sum = 0, worst = 0;
   std::uint64_t cycles = 0, clocked = 0;
   std::size_t items = 0, elsewhere = 0;

@@ -17,6 +17,14 @@ constexpr double kMostDifferencePercent = 2;  // in cycles, of one run
 // check of its bench fails.
 Takings takings_of_unit(std::uint64_t seed, const std::function<void(tb::Case&, Takings&)>& run);
 
+// A configuration of which `change` has changed something.
+template <class Config, class Change>
+Config changed(const Change& change) {
+  Config config;
+  change(config);
+  return config;
+}
+
 // Prints a line for each workload, and checks: the same things in the same order, each in the
 // reference's cycle but for as many as a workload is known for, and the last of them within
 // kMostDifferencePercent of it.
@@ -27,13 +35,22 @@ class Comparison {
   Comparison(const Comparison&) = delete;
   Comparison& operator=(const Comparison&) = delete;
 
-  // run, reference: for a seed. most_elsewhere: that may come in another cycle, of all seeds.
-  void workload(const std::string& name,
-                const std::function<void(tb::Case&, Takings&, std::uint64_t)>& run,
-                const std::function<Takings(std::uint64_t)>& reference,
-                std::size_t most_elsewhere = 0);
+  // load: with a name. run(test, taken, load, seed), reference(load, seed): what is taken.
+  // most_elsewhere: that may come in another cycle, of all seeds.
+  template <class Load, class Run, class Reference>
+  void workload(const Load& load, const Run& run, const Reference& reference,
+                std::size_t most_elsewhere = 0) {
+    compare(
+        load.name,
+        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
+        [&](std::uint64_t seed) { return reference(load, seed); }, most_elsewhere);
+  }
 
  private:
+  void compare(const std::string& name,
+               const std::function<void(tb::Case&, Takings&, std::uint64_t)>& run,
+               const std::function<Takings(std::uint64_t)>& reference, std::size_t most_elsewhere);
+
   const std::string unit_;
   double sum_ = 0, worst_ = 0;  // per cent
   int runs_ = 0;

@@ -168,25 +168,20 @@ Takings clocked(const CcuWorkload& load, std::uint64_t seed) {
 TEST_CASE("clocked reference: culling and conversion unit") {
   Comparison table("CCU");
   const CcuConfig published;
-  const auto with = [](auto&& change) {
-    CcuConfig ccu;
-    change(ccu);
-    return ccu;
-  };
-  const CcuConfig tiny = with([](CcuConfig& c) {
+  const CcuConfig tiny = changed<CcuConfig>([](CcuConfig& c) {
     c.input_slots = c.candidates = c.output_entries = 1;
     c.second_half_slots = 2;
   });
-  const CcuConfig wide = with([](CcuConfig& c) {
+  const CcuConfig wide = changed<CcuConfig>([](CcuConfig& c) {
     c.cull_lanes = 24;
     c.convert_lanes = 1000;
   });
-  const CcuConfig narrow = with([](CcuConfig& c) {
+  const CcuConfig narrow = changed<CcuConfig>([](CcuConfig& c) {
     c.cull_lanes = 2;
     c.convert_lanes = 5;
   });
-  const CcuConfig long_slices = with([](CcuConfig& c) { c.slice_gaussians = 16; });
-  const CcuConfig single = with([](CcuConfig& c) { c.slice_gaussians = 1; });
+  const CcuConfig long_slices = changed<CcuConfig>([](CcuConfig& c) { c.slice_gaussians = 16; });
+  const CcuConfig single = changed<CcuConfig>([](CcuConfig& c) { c.slice_gaussians = 1; });
   for (const CcuWorkload& load : {
            CcuWorkload{"light: 40 Gaussians", 40, 4, published},
            CcuWorkload{"heavy: 1500, few culled", 1500, 1, published},
@@ -201,10 +196,7 @@ TEST_CASE("clocked reference: culling and conversion unit") {
            CcuWorkload{"slices of 1", 300, 4, single},
            CcuWorkload{"SH degree 3", 600, 4, published, 40, 16, 1, 1, 3},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    table.workload(load, run, clocked);
   }
 }
 

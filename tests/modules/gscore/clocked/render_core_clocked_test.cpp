@@ -97,22 +97,22 @@ Takings clocked(const CoreWorkload& load, std::uint64_t seed) {
 TEST_CASE("clocked reference: rendering core") {
   Comparison table("rendering core");
   const CoreHardware published;
-  const auto with = [](auto&& change) {
-    CoreHardware hardware;
-    change(hardware);
-    return hardware;
-  };
-  const CoreHardware tiny = with([](CoreHardware& h) { h.record_slots = h.pixel_buffers = 1; });
-  const CoreHardware slow_memory = with([](CoreHardware& h) { h.read_latency = 300; });
-  const CoreHardware slow_writes = with([](CoreHardware& h) {
+  const CoreHardware tiny =
+      changed<CoreHardware>([](CoreHardware& h) { h.record_slots = h.pixel_buffers = 1; });
+  const CoreHardware slow_memory =
+      changed<CoreHardware>([](CoreHardware& h) { h.read_latency = 300; });
+  const CoreHardware slow_writes = changed<CoreHardware>([](CoreHardware& h) {
     h.write_latency = 60;
     h.writes = 1;
   });
-  const CoreHardware few_lanes = with([](CoreHardware& h) { h.blend_interval = 3; });
-  const CoreHardware fine_parts = with([](CoreHardware& h) { h.parts_across = 4; });
-  const CoreHardware whole = with([](CoreHardware& h) { h.parts_across = 1; });
-  const CoreHardware all_blended = with([](CoreHardware& h) { h.skip_finished = false; });
-  const CoreHardware late_news = with([](CoreHardware& h) { h.feedback = 40; });
+  const CoreHardware few_lanes =
+      changed<CoreHardware>([](CoreHardware& h) { h.blend_interval = 3; });
+  const CoreHardware fine_parts =
+      changed<CoreHardware>([](CoreHardware& h) { h.parts_across = 4; });
+  const CoreHardware whole = changed<CoreHardware>([](CoreHardware& h) { h.parts_across = 1; });
+  const CoreHardware all_blended =
+      changed<CoreHardware>([](CoreHardware& h) { h.skip_finished = false; });
+  const CoreHardware late_news = changed<CoreHardware>([](CoreHardware& h) { h.feedback = 40; });
   for (const CoreWorkload& load : {
            CoreWorkload{"light: 4 entries a tile", 4, 0.3F, false, published},
            CoreWorkload{"heavy: 200 faint, whole tiles", 200, 0.05F, true, published},
@@ -129,10 +129,7 @@ TEST_CASE("clocked reference: rendering core") {
            CoreWorkload{"single precision, pixels in floats", 100, 1, false, published, 1, 1, 8,
                         BlendPrecision::kSingle, FrameFormat::kRgb32f},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    table.workload(load, run, clocked);
   }
 }
 

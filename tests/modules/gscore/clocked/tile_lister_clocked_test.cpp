@@ -201,10 +201,9 @@ TEST_CASE("clocked reference: tile lister") {
            Known{ListerWorkload{"tiny buffers", 200, tiny, 4, 20, 4, 20, 40, 1, 1, 2, 1}},
        }) {
     table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) {
-          Clocked clocked(load);
+        load, run,
+        [](const ListerWorkload& of, std::uint64_t seed) {
+          Clocked clocked(of);
           clocked.run(seed);
           return clocked.taken;
         },

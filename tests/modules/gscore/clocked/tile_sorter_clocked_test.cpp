@@ -188,24 +188,20 @@ Takings clocked(const SorterWorkload& load, std::uint64_t seed) {
 TEST_CASE("clocked reference: tile sorter") {
   Comparison table("tile sorter");
   const SorterHardware published;
-  const auto with = [](auto&& change) {
-    SorterHardware hardware;
-    change(hardware);
-    return hardware;
-  };
-  const SorterHardware short_lists = with([](SorterHardware& h) { h.list_entries = 512; });
-  const SorterHardware tiny = with([](SorterHardware& h) {
+  const SorterHardware short_lists =
+      changed<SorterHardware>([](SorterHardware& h) { h.list_entries = 512; });
+  const SorterHardware tiny = changed<SorterHardware>([](SorterHardware& h) {
     h.chunk_entries = 16;
     h.list_entries = 64;
     h.list_buffers = 1;
     h.writes = 1;
   });
-  const SorterHardware slow_memory = with([](SorterHardware& h) {
+  const SorterHardware slow_memory = changed<SorterHardware>([](SorterHardware& h) {
     h.list_entries = 512;
     h.latency = 300;
     h.transactions = 2;
   });
-  const SorterHardware wide_keys = with([](SorterHardware& h) {
+  const SorterHardware wide_keys = changed<SorterHardware>([](SorterHardware& h) {
     h.entry_bytes = 8;
     h.line_bytes = 64;
     h.block_lines = 8;
@@ -225,10 +221,7 @@ TEST_CASE("clocked reference: tile sorter") {
            SorterWorkload{"keys of 32 bits", 1500, 60000, wide_keys, 1, 1, 64, ~std::size_t{0},
                           NumberFormat::kSingle},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    table.workload(load, run, clocked);
   }
 }
 

@@ -179,10 +179,7 @@ TEST_CASE("clocked reference: fine filters that decode") {
            DecodingWorkload{
                "tiny buffers, output stalled", 4, full, 5, dropped, {1, 1, 4, 200}, tiny},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    table.workload(load, run, clocked);
   }
 }
 

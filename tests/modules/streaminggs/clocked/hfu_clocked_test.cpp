@@ -124,12 +124,7 @@ TEST_CASE("clocked reference: coarse filter") {
            CoarseWorkload{"as of paper, visits of up to 256", 256, {}, paper},
            CoarseWorkload{"as of paper, output stalled", 256, {1, 1, 4, 60}, paper},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) {
-          run_coarse(test, taken, load, seed);
-        },
-        [&](std::uint64_t seed) { return clocked_coarse(load, seed); });
+    table.workload(load, run_coarse, clocked_coarse);
   }
 }
 
@@ -206,12 +201,7 @@ TEST_CASE("clocked reference: fine filter") {
            FineWorkload{"as of paper, visits of 50", 50, dropped, {}, paper},
            FineWorkload{"as of paper, output stalled", 50, dropped, {1, 1, 4, 200}, paper},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) {
-          run_fine(test, taken, load, seed);
-        },
-        [&](std::uint64_t seed) { return clocked_fine(load, seed); });
+    table.workload(load, run_fine, clocked_fine);
   }
 }
 

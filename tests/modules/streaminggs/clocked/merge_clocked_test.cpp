@@ -133,12 +133,7 @@ Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
   return sink.taken();
 }
 
-void compare(Comparison& table, const MergeWorkload& load) {
-  table.workload(
-      load.name,
-      [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-      [&](std::uint64_t seed) { return clocked(load, seed); });
-}
+void compare(Comparison& table, const MergeWorkload& load) { table.workload(load, run, clocked); }
 
 TEST_CASE("clocked reference: merge unit") {
   Comparison table("merge unit");

@@ -157,10 +157,7 @@ TEST_CASE("clocked reference: sorting unit of paper order, nothing spilled") {
            PaperSorterWorkload{"network of 4 lists", 0, 256, 1, 1, 1, 1, 7, 4, 4, of_four},
            PaperSorterWorkload{"groups that finish", 0, 64, 1, 1, 1, 1, 7, 4, 4, alone, true, 600},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    table.workload(load, run, clocked);
   }
 }
 

@@ -169,10 +169,7 @@ TEST_CASE("clocked reference: VSU of paper order") {
            PaperVsuWorkload{"passes, small voxels", 4000, 1, 1, full_and_far, 4, 4, 0.3F},
            PaperVsuWorkload{"groups that finish", 1500, 4, 60, paper, 4, 4, 1, 3600},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    table.workload(load, run, clocked);
   }
 }
 

@@ -212,10 +212,7 @@ TEST_CASE("clocked reference: rendering unit") {
            RenderingWorkload{"tiny buffers", 150, 0.3F, 1, 1, 150, tiny, 1, 1},
            RenderingWorkload{"a sub-tile a cycle, two rows a cycle", 150, 0.3F, 1, 1, 150, wide},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    table.workload(load, run, clocked);
   }
 }
 

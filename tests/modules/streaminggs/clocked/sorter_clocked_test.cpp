@@ -89,10 +89,7 @@ TEST_CASE("clocked reference: sorting unit of exact order") {
            SorterWorkload{"lists of 17 to 64", 17, 64},
            SorterWorkload{"lists of 65 to 256", 65, 256},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    table.workload(load, run, clocked);
   }
 }
 

@@ -117,10 +117,7 @@ TEST_CASE("clocked reference: VSU of exact order") {
            WalkWorkload{"a child every 30 cycles", 1500, 1, 1, narrow},
            WalkWorkload{"a child a cycle, operations of 2", 1500, 1, 1, fast},
        }) {
-    table.workload(
-        load.name,
-        [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return clocked(load, seed); });
+    table.workload(load, run, clocked);
   }
 }
 
