@@ -225,9 +225,13 @@ def roofline(results: Results) -> Made:
     return figure, caption_of(results, what)
 
 
+PALE = {"idle": "#eef0f3", "unknown": "#e3e6ea"}
+
+
 def waits(results: Results) -> Made:
     runs = first_runs(results)
     spent = [report_time.by_kind(report_time.activities(run.views[0].report)) for run in runs]
+    met = {cause for of_run in spent for *_, of in of_run for cause, count in of.items() if count}
     across = min(2, len(runs))
     rows = max(map(len, spent))
     figure, all_axes = panels(len(runs), width=5.4, height=0.24 * rows + 0.9, across=across)
@@ -236,7 +240,9 @@ def waits(results: Results) -> Made:
         names = [name for name, _, _ in activities]
         for at, (cause, text) in enumerate(report_time.CAUSES):
             shares = [100 * of[cause] / (sum(of.values()) or 1) for _, _, of in activities]
-            style = bar_style(at) if cause != "idle" else {"color": "#eef0f3"}
+            if cause not in met:
+                continue
+            style = {"color": PALE[cause]} if cause in PALE else bar_style(at)
             axes.barh(names, shares, left=left, label=text, **style)
             left = [a + b for a, b in zip(left, shares)]
         axes.set_xlim(0, 100)

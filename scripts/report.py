@@ -214,6 +214,16 @@ def page(title: str, subtitle: str, panels: Sequence[Panel]) -> str:
     return before + whole + behind
 
 
+def check_page(out: pathlib.Path, results: pathlib.Path) -> None:
+    """Raises ValueError for a name that results could have."""
+    if out.is_dir():
+        raise ValueError(f"{out}: got a folder, expected a file to write the page to")
+    if out.suffix.lower() not in (".html", ".htm") or out.resolve() == results.resolve():
+        raise ValueError(
+            f"{out}: expected the name of a page, as in report.html: it would be written over"
+        )
+
+
 def main() -> int:
     parser = run_arguments.Parser(__doc__)
     parser.add_argument(
@@ -236,6 +246,7 @@ def main() -> int:
         else:
             raise ValueError(f"{results}: no folder, expected one with results or those of a sweep")
         out = arguments.out or out
+        check_page(out, results)
         tables.write_text(out, made)
         print(f"written to {out}")
 

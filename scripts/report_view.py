@@ -71,7 +71,10 @@ def fidelity(view: dict) -> str:
     """Of a simulation there is nothing to say."""
     if not is_estimate(view):
         return ""
-    text = "The machine was not simulated: cycles, bytes, energy and area are reckoned."
+    text = (
+        "The machine was not simulated: cycles, bytes, energy and area are reckoned, without "
+        "waiting. A simulation may name another thing to change."
+    )
     return f"<p class=note><b>An estimate.</b> {text}</p>"
 
 

@@ -1,10 +1,14 @@
 // Reading of report.json.
 #include "testbench/streaminggs/reported_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 
+#include "algorithm/input_error.h"
+#include "testbench/result/fidelity.h"
 #include "testbench/streaminggs/json_place.h"
 #include "testbench/streaminggs/report.h"
 
@@ -88,6 +92,11 @@ void add_costs(const JsonPlace& section, const std::string& suffix, ReportedQuan
   });
 }
 
+std::string fidelity_of(const JsonPlace& report) {
+  // Reports of earlier programs do not say.
+  return report.has("fidelity") ? report.at("fidelity").text() : name_of(Fidelity::kAccurate);
+}
+
 void add_facts(const JsonPlace& report, ReportedView& view) {
   const auto fact = [&](const char* kind, std::string what) {
     view.facts.emplace_back(kind, std::move(what));
@@ -99,8 +108,8 @@ void add_facts(const JsonPlace& report, ReportedView& view) {
                             plain(scene.at("gaussians")), plain(scene.at("sh_degree")),
                             plain(scene.at("dropped_invalid"))));
   fact("camera", fmt::format("{} ({})", plain(camera.at("id")), plain(camera.at("img_name"))));
+  fact("fidelity", fidelity_of(report));
   // Reports of earlier programs do not say what follows.
-  fact("fidelity", report.has("fidelity") ? plain(report.at("fidelity")) : "accurate");
   if (camera.has("position")) {
     fact("camera stands at", plain(camera.at("position")));
     fact("camera is turned", plain(camera.at("rotation")));
@@ -122,6 +131,7 @@ ReportedView read_view(const JsonPlace& report) {
   view.view = static_cast<int>(report.at("view").number());
   add_facts(report, view);
   view.cycles = report.at("frame").at("cycles").number();
+  view.waits_known = fidelity_of(report) == name_of(Fidelity::kAccurate);
   const JsonPlace psnr_db = report.at("image").at("psnr_db");
   view.psnr_db = psnr_db.json().is_null() ? "equal" : fmt::format("{:.2f}", psnr_db.number());
   view.model = report.at("image").at("equals_streaming_renderer").json() != false;
@@ -159,12 +169,22 @@ std::string without_numbers(const std::string& name) {
 ReportedRun read_reported_run(const std::string& path) {
   std::error_code unknown;
   ReportedRun run;
-  run.path = std::filesystem::is_directory(path, unknown)
-                 ? (std::filesystem::path(path) / "report.json").string()
-                 : path;
+  run.path = path;
+  if (std::filesystem::is_directory(path, unknown)) {
+    const std::filesystem::path folder(path), of_path = folder / "path.json";
+    run.path = (folder / "report.json").string();
+    if (!std::filesystem::exists(run.path, unknown) && std::filesystem::exists(of_path, unknown)) {
+      run.path = of_path.string();
+    }
+  }
   const Json json = read_json(run.path);
   const JsonPlace report(run.path, json);
   check_version(report);
+  if (report.has("summary")) {
+    throw InputError(fmt::format(
+        "{}: got frames of a camera path, expected the report of simulate without --path",
+        run.path));
+  }
   flatten(report.at("config"), "", run.config);
   JsonPlace first = report;
   if (report.has("views")) {

@@ -31,8 +31,8 @@ void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
 void print_table_head(Fidelity fidelity) {
   if (fidelity == Fidelity::kEstimate) {
     fmt::print(
-        "fidelity: estimate: reckoned without simulation; the pictures are the streaming "
-        "renderer's\n");
+        "fidelity: estimate: reckoned without simulation, so without waiting: a simulation may "
+        "name another thing to change; the pictures are the streaming renderer's\n");
   }
   fmt::print("{:>4} {:>8} {:>8} {:>7} {:>13} {:>7} {:>8} {:>6} {:>8} {:>7} {:>10} {:>5} {:>7}\n",
              "view", "PSNR dB", "SSIM", "= model", "cycles", "fps", "DRAM MB", "x once", "mJ", "W",

@@ -178,10 +178,19 @@ class Page(WithFrames):
         whole = json.loads(report_file.read_text())
         view = whole["views"][0]
         view["fidelity"], view["image"]["equals_streaming_renderer"] = "estimate", None
+        for unit in view["units"].values():
+            for spent in unit["activities"].values():
+                spent["waits"] = []
+                spent["waited_cycles"] = dict.fromkeys(spent["waited_cycles"], 0)
+        busy = view["units"]["hfu0.fine"]["activities"]["filter"]["busy_cycles"]
+        share = report_charts.percent(busy / view["frame"]["cycles"])
         report_file.write_text(json.dumps(whole))
         page = self.page(self.folder / "both" / "exact")
         for text in ("<p>estimate · ", "<b>An estimate.</b>", "; the model&#x27;s own picture"):
             self.assertHolds(page, text)
+        # What works is against the frame, and nothing is said of what waits.
+        self.assertHolds(page, f'<td class=n>{share}</td><td class=n>not known</td>')
+        self.assertNotIn("where it waits", page)
         page = self.page(self.folder / "both")
         for text in ("<td>estimate</td>", "<td>accurate</td>"):
             self.assertHolds(page, text)
@@ -274,8 +283,19 @@ class Page(WithFrames):
         (folder / "view_0" / "frame.png").write_bytes(b"no picture")
         self.assertRefused(folder, "got no PNG")
 
-    def assertRefused(self, folder: pathlib.Path, said: str):
-        status, line, made = self.ended(report, str(folder))
+    def test_results_are_not_written_over(self):
+        folder = self.simulated("exact", "kept")
+        kept = folder / "report.json"
+        whole = kept.read_bytes()
+        for out, said in ((kept, "expected the name of a page"), (folder, "got a folder")):
+            with self.subTest(out=out):
+                self.assertRefused(folder, said, "--out", str(out))
+        self.assertEqual(kept.read_bytes(), whole)
+        with self.assertRaisesRegex(ValueError, "written over"):
+            report.check_page(self.folder / "sweep.html", self.folder / "sweep.html")
+
+    def assertRefused(self, folder: pathlib.Path, said: str, *words: str):
+        status, line, made = self.ended(report, str(folder), *words)
         self.assertRegex(line, said)
         self.assertEqual((status, made), (2, ""))
         self.assertFalse((folder / "report.html").exists())

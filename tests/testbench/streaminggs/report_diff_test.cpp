@@ -87,6 +87,29 @@ TEST_CASE("diff: a report and itself, of all views, of one, by its folder") {
   }
 }
 
+TEST_CASE("diff: of an estimate nothing is said of waiting") {
+  const ScratchFolder scratch;
+  json estimate = view_of(0);
+  estimate["fidelity"] = "estimate";
+  const ReportedRun a = read(scratch, "a.json", view_of(0));
+  const ReportedRun b = read(scratch, "b.json", estimate);
+  for (const ReportDiff& diff : {diff_runs(a, b), diff_runs(b, a), diff_runs(b, b)}) {
+    CHECK_FALSE(diff.waits_known);
+    CHECK(diff.quantities.size() == kQuantities - 1);
+    for (const QuantityChange& q : diff.quantities) CHECK(q.quantity != Quantity::kWaits);
+  }
+  CHECK(diff_runs(a, a).waits_known);
+}
+
+TEST_CASE("diff: the folder of a camera path is told to be one") {
+  const ScratchFolder scratch;
+  json path = view_of(0);
+  path["summary"] = {{"frames", 2}};
+  scratch.write("path.json", path.dump());
+  CHECK(input_error_of([&] { read_reported_run(scratch.path(".")); }).find("path.json: got frames") !=
+        std::string::npos);
+}
+
 TEST_CASE("diff: one value changed, by table") {
   struct Row {
     const char* pointer;
@@ -233,6 +256,7 @@ TEST_CASE("diff: no report, by table") {
            {"/schema_version", nothing, {"schema_version: got nothing"}},
            {"/views", 3, {"views: got 3, expected a list"}},
            {"/views", json::array(), {"views: got [], expected a finished view or more"}},
+           {"/summary", json::object(), {"got frames of a camera path, expected the report of"}},
            {"/config", "x", {"config: got \"x\", expected an object"}},
            {"/views/0/frame/cycles",
             "many",
