@@ -6,60 +6,12 @@
 
 #include "algorithm/scene/cameras.h"
 #include "algorithm/scene/ply_writer.h"
+#include "tests/system/extreme_scenes.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
 namespace sgs::test {
 namespace {
-
-constexpr float kUnitScale = -3;  // logarithm of a scale of 0.05
-
-void add(GaussianCloud& cloud, const glm::vec3& mean, float log_scale, float opacity_logit,
-         const glm::vec3& colour) {
-  cloud.means.push_back(mean);
-  cloud.log_scales.emplace_back(log_scale);
-  cloud.quats.push_back({1, 0, 0, 0});
-  cloud.opacity_logits.push_back(opacity_logit);
-  cloud.sh_coeffs.push_back(colour);
-}
-
-// Looks along z from `position`.
-Camera camera_at(const glm::dvec3& position, int width = 65, int height = 49) {
-  Camera camera;
-  camera.name = "test";
-  camera.width = width;
-  camera.height = height;
-  camera.focal_x = camera.focal_y = 60;
-  camera.position = position;
-  return camera;
-}
-
-// Simulates all views and checks them.
-std::vector<nlohmann::json> check_machine(const char* machine, const GaussianCloud& cloud,
-                                          const std::vector<Camera>& cameras,
-                                          const Arguments& options = {}) {
-  const ScratchFolder scratch;
-  write_ply(scratch.path("scene.ply"), cloud);
-  write_cameras(scratch.path("cameras.json"), cameras);
-  INFO(machine);
-  const Simulation simulation(
-      joined({scratch.path("scene.ply"), "--cameras", scratch.path("cameras.json"), "--view", "all",
-              "--config", machine},
-             options));
-  simulation.check();
-  return simulation.views();
-}
-
-// In both orders; voxels: options of paper order.
-std::vector<nlohmann::json> check_scene(const GaussianCloud& cloud,
-                                        const std::vector<Camera>& cameras,
-                                        const Arguments& voxels = {}) {
-  std::vector<nlohmann::json> views = check_machine("paper", cloud, cameras, voxels);
-  for (nlohmann::json& view : check_machine("exact", cloud, cameras)) {
-    views.push_back(std::move(view));
-  }
-  return views;
-}
 
 TEST_CASE("extreme input: a scene of nothing") {
   for (const auto& view : check_scene({}, {camera_at({0, 0, -5})})) {

@@ -7,17 +7,12 @@
 #include "tests/support/shared_inputs.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
-#include "tests/system/tile_frame_checks.h"
 
 namespace sgs::test {
 namespace {
 
 using Catch::Matchers::Contains;
 using Json = nlohmann::json;
-
-void check_gscore(const Simulation& simulation) {
-  for (const Json& view : simulation.views()) check_tile_machine(view);
-}
 
 struct Variant {
   const char* name;
@@ -65,9 +60,9 @@ TEST_CASE("gscore: every variant, with stalls and in every order of processes") 
   for (const Variant& variant : variants()) {
     INFO(variant.name);
     const Simulation plain(run_of(variant));
-    check_gscore(plain);
+    plain.check();
     const Simulation stalled(joined(run_of(variant), {"--stalls", "0.2", "--seed", "3"}));
-    check_gscore(stalled);
+    stalled.check();
     CHECK(stalled.frame(0) == plain.frame(0));
     changed += frame_cycles(stalled.views()[0]) != frame_cycles(plain.views()[0]) ? 1 : 0;
     for (const char* order : {"1", "2"}) {
@@ -107,7 +102,7 @@ TEST_CASE("gscore: the lossless preset gives the reference picture") {
     INFO(scene);
     const Simulation simulation(
         {scene, "--view", "all", "--size", "96x54", "--config", "gscore_lossless"});
-    check_gscore(simulation);
+    simulation.check();
     for (const Json& view : simulation.views()) CHECK(view["image"]["max_abs_error"] == 0.0);
   }
 }
@@ -115,11 +110,11 @@ TEST_CASE("gscore: the lossless preset gives the reference picture") {
 TEST_CASE("gscore: frames and scenes of every size") {
   for (const char* size : {"1x1", "200x1", "1x200", "3x5", "320x180"}) {
     INFO(size);
-    check_gscore(Simulation({"builtin:object?n=2000", "--size", size, "--config", "gscore"}));
+    Simulation({"builtin:object?n=2000", "--size", size, "--config", "gscore"}).check();
   }
   for (const char* scene : {"builtin:object?n=1", "builtin:object?n=30"}) {
     INFO(scene);
-    check_gscore(Simulation({scene, "--size", "64x48", "--config", "gscore"}));
+    Simulation({scene, "--size", "64x48", "--config", "gscore"}).check();
   }
 }
 
@@ -132,7 +127,7 @@ TEST_CASE("gscore: a real scene") {
                            "--config",
                            "gscore"};
   const Simulation plain(truck);
-  check_gscore(plain);
+  plain.check();
   CHECK(plain.views()[0]["image"]["psnr_db"] > 35.0);
 }
 

@@ -3,8 +3,6 @@
 #include <catch2/catch.hpp>
 #include <utility>
 
-#include "tests/system/tile_frame_checks.h"
-
 namespace sgs::test {
 namespace {
 
@@ -30,17 +28,12 @@ Counted known(std::uint64_t count) {
   return [count](const Json&, const Json&) { return count; };
 }
 
-void check_frames(const Simulation& of) {
-  if (of.views()[0]["config"]["machine"] != "gscore") return of.check();
-  for (const Json& view : of.views()) check_tile_machine(view);
-}
-
 void check(const std::string& label, const Arguments& saving, const Arguments& off,
            const std::vector<Saving>& rows) {
   INFO(label);
   const Simulation with(saving), without(off);
-  check_frames(with);
-  check_frames(without);
+  with.check();
+  without.check();
   CHECK(with.frame(0) == without.frame(0));
   const Json &view = with.views()[0], &plain = without.views()[0];
   CHECK(view["image"]["empty"] == false);

@@ -31,7 +31,6 @@ Value of_scene(const char* key);
 Value bytes();  // of DRAM
 Counted known(std::uint64_t count);
 
-void check_frames(const Simulation& of);
 // The same picture with the savings and without, what is left out counted, and more work without.
 void check(const std::string& label, const Arguments& saving, const Arguments& off,
            const std::vector<Saving>& rows);

@@ -102,7 +102,7 @@ TEST_CASE("left out: what a tile-centric machine spares") {
           },
           sum("blocks")}});
   const Simulation run(layered.arguments("gscore", {}));
-  check_frames(run);
+  run.check();
   const Json& view = run.views()[0];
   const std::uint64_t pairs = total(view, "pairs"), sorted = total(view, "entries_sorted");
   struct Counts {

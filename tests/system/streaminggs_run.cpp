@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "tests/system/frame_checks.h"
+#include "tests/system/tile_frame_checks.h"
 
 namespace sgs::test {
 namespace {
@@ -20,6 +21,10 @@ std::string quoted(const std::string& argument) {
 }
 
 }  // namespace
+
+void check_frame(const Json& view) {
+  view["config"]["machine"] == "gscore" ? check_tile_machine(view) : check_streaming_machine(view);
+}
 
 Arguments joined(Arguments first, const Arguments& second) {
   first.insert(first.end(), second.begin(), second.end());
@@ -79,7 +84,7 @@ std::string Simulation::frame(std::size_t view) const {
 }
 
 void Simulation::check() const {
-  for (const Json& view : views_) check_streaming_machine(view);
+  for (const Json& view : views_) check_frame(view);
 }
 
 }  // namespace sgs::test

@@ -26,6 +26,10 @@ Outcome run_streaminggs(const Arguments& arguments);
 // The views of a report.json, each with the configuration that they have in common.
 std::vector<nlohmann::json> views_of_report(const std::string& path);
 
+// Everything that holds for a frame of its machine (tests/system/frame_checks.h,
+// tile_frame_checks.h).
+void check_frame(const nlohmann::json& view);
+
 // One `streaminggs simulate` with `framebuffer: rgb32f`, so that frames can be compared to the bit.
 class Simulation {
  public:
@@ -37,7 +41,7 @@ class Simulation {
   std::string frame(std::size_t view) const;
   std::string folder() const { return out_.path(""); }
 
-  // Everything that holds for any frame (tests/system/frame_checks.h), of every view.
+  // check_frame of every view.
   void check() const;
 
  private:
