@@ -105,11 +105,12 @@ def write_parts(
 def runs_of(
     arguments: argparse.Namespace, cases: Sequence[Case]
 ) -> dict[tuple[Case, str, int], list[Run]]:
-    """Of each case, machine and number of channels: a run for every view."""
+    """Of each case of one scene, machine and number of channels: a run for every view."""
+    views = view_numbers(arguments.streaminggs, cases[0].scene, arguments.view)
     return {
         (case, machine, channels): [
             Run(case.scene, str(view), case.size, machine, (f"dram.channels={channels}",))
-            for view in view_numbers(arguments.streaminggs, case.scene, arguments.view)
+            for view in views
         ]
         for case in cases
         for machine in arguments.machines

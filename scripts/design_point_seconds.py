@@ -48,9 +48,10 @@ class Timed:
     simulating: float
 
     def row(self) -> tuple:
-        times = (self.seconds - self.simulating, self.simulating, self.seconds)
+        """In tenths of a second, which add up: the first is what the others leave."""
+        simulating, in_all = (round(seconds, 1) for seconds in (self.simulating, self.seconds))
         of = (*self.case.cells(), f"{self.peak_gb_s:.1f}", self.machine)
-        return (*of, *(f"{t:.1f}" for t in times))
+        return (*of, *(f"{t:.1f}" for t in (in_all - simulating, simulating, in_all)))
 
 
 def rows(points: Sequence[Timed]) -> list[tuple]:

@@ -28,8 +28,8 @@ import error_renderers
 import error_tuning
 import run_arguments
 from figures_beside import draw_beside
-from scenes import Scene, find_scenes
-from view_numbers import view_numbers
+from scenes import find_scenes
+from view_numbers import view_numbers_there
 
 DIAGRAMS = {
     "image": error_image.make,
@@ -40,20 +40,10 @@ DIAGRAMS = {
 FIGURES = {"image": ("error_image", "error_image_kinds")}
 
 
-def check_views(scene: Scene, arguments: argparse.Namespace) -> None:
-    """Raises ValueError for a view that the scene has not."""
-    there = len(view_numbers(arguments.streaminggs, scene, "all"))
-    for view in arguments.views:
-        if int(view) >= there:
-            raise ValueError(
-                f"--view: got '{view}', expected numbers of {scene.name}'s cameras, 0 to {there - 1}"
-            )
-
-
 def make_diagrams(arguments: argparse.Namespace) -> None:
     scenes = find_scenes(arguments.scenes)
     for scene in scenes:
-        check_views(scene, arguments)
+        view_numbers_there(arguments.streaminggs, scene, ",".join(arguments.views))
     for name in arguments.diagrams:
         DIAGRAMS[name](scenes, arguments)
         draw_beside(arguments.out, *FIGURES.get(name, (f"error_{name}",)))

@@ -9,11 +9,11 @@ one beats.
 --axis KEY=V1,V2,... spans a grid, of which every configuration is simulated; --points FILE takes a
 list instead, one configuration a line: KEY=VALUE KEY=VALUE ... With --search configurations are
 proposed by Optuna, between them those next to the best ones; --machine adds the axes of an order's
-machine (machine_axes.py). --config takes any machine, a tile-centric one (gscore) as well. Every
-configuration gets as much on-chip memory as it needs, but for codebooks, unless --set, --axis or
-the list say how much: memory is what it costs, not what stops it, and no other size follows from
-it. Tables show what was simulated: values as the resolved configuration has them, the size of the
-pixel group always among them: `group=SHAPE` stands for both of its sides.
+machine (machine_axes.py) and begins at its preset. --config takes any machine, a tile-centric one
+(gscore) as well. Every configuration gets as much on-chip memory as it needs, but for codebooks,
+unless --set, --axis or the list say how much: memory is what it costs, not what stops it, and no
+other size follows from it. Tables show what was simulated: values as the resolved configuration has
+them, the size of the pixel group always among them: `group=SHAPE` stands for both of its sides.
 
   MEASURE      a number of a view's report.json by its path, such as dram.row_conflicts: the sum
                over views, or the largest of what an accelerator has (config, sram, area_mm2); or
@@ -53,13 +53,13 @@ import argparse
 import concurrent.futures
 import contextlib
 import functools
-import math
 import os
 import pathlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import debian_python
+import explore_checks
 import run_arguments
 from exploration import Exploration, Work
 from figures_beside import draw_beside
@@ -69,10 +69,10 @@ from machine_areas import SMALL, SMALL_SIZE, start_of
 from machine_axes import ORDERS, Axis
 from measures import Objective, objective, requirement, shown
 from scenes import Scene, find_scenes
-from search_space import Space, parse_axes, parse_named, read_points
+from search_space import Space, parse_axes, read_points
 from simulations import Run, read_config, simulate, sram_as_needed
 from sweep_server import SweepServer
-from view_numbers import view_numbers
+from view_numbers import view_numbers_there
 
 RUNS_FILE = "explore_runs.jsonl"
 ESTIMATES_FILE = "explore_estimates.jsonl"
@@ -81,11 +81,13 @@ OBJECTIVES = "cycles,dram_bytes,sram_bytes,filter_lanes,mm2"
 
 
 def machine_axes(
-    arguments: argparse.Namespace, kept: SweepServer
+    arguments: argparse.Namespace, kept: SweepServer, config: dict
 ) -> tuple[tuple[Axis, ...], Assignments]:
-    """Of --machine, with what its order has set."""
+    """Of --machine, with what its order has set. Raises ValueError where what --config names is of
+    another machine."""
     if not arguments.machine:
         return (), ()
+    explore_checks.check_machine(ORDERS[arguments.machine], config, arguments.config)
     # Of a run of its own, since what is swept keeps no schedules.
     simulated = functools.partial(simulate, kept.binary)
     order = start_of(ORDERS[arguments.machine], simulated).order
@@ -98,12 +100,28 @@ def config_of(arguments: argparse.Namespace, kept: SweepServer) -> dict:
 
 
 def find_space(arguments: argparse.Namespace, axes: Sequence[Axis]) -> Space:
+    """Raises ValueError where there is nothing to choose from, or --set has no effect on it."""
     if arguments.points:
-        return Space(read_points(arguments.points))
-    space = Space(parse_axes(arguments.axis, axes))
+        space = Space(read_points(arguments.points))
+    else:
+        space = Space(parse_axes(arguments.axis, axes))
     if not space.axes:
         raise ValueError("expected --axis, --points or --machine: what to choose from")
+    explore_checks.check_set(arguments.set, space.axes)
     return space
+
+
+def check_keys(
+    arguments: argparse.Namespace, space: Space, beside: Iterable[Assignments], config: dict
+) -> None:
+    """Raises ValueError for what the machine that is explored has not."""
+    chosen = [s for axis in space.axes for setting in axis.settings for s in setting]
+    for place, settings in (
+        ("--set", expanded(arguments.set)),
+        ("--points" if arguments.points else "--axis", chosen),
+        ("--beside", [s for assignments in beside for s in assignments]),
+    ):
+        explore_checks.check_keys(place, settings, config, arguments.config)
 
 
 def objectives_of(text: str) -> tuple[Objective, ...]:
@@ -132,7 +150,7 @@ def find_task(
     views = [
         (scene, number)
         for scene in scenes
-        for number in view_numbers(arguments.streaminggs, scene, arguments.view)
+        for number in view_numbers_there(arguments.streaminggs, scene, arguments.view)
     ]
     return Task(
         views=tuple(views),
@@ -187,24 +205,8 @@ def is_studied(arguments: argparse.Namespace) -> bool:
     return bool(arguments.search or arguments.study)
 
 
-def check(arguments: argparse.Namespace) -> None:
-    """Raises ValueError for numbers that say nothing, and for what has no effect."""
-    if arguments.j < 1:
-        raise ValueError(f"-j: {arguments.j}, expected at least 1")
-    if arguments.trials is not None and arguments.trials < 1:
-        raise ValueError(f"--trials: {arguments.trials}, expected at least 1")
-    if not 0 <= arguments.minutes < math.inf:
-        raise ValueError(f"--minutes: {arguments.minutes:g}, expected 0 or more")
-    if arguments.minutes and not arguments.search:
-        raise ValueError("--minutes: has no effect without --search")
-    if arguments.trials is not None and not arguments.search:
-        raise ValueError("--trials: has no effect without --search")
-    if arguments.storage and not arguments.study:
-        raise ValueError("--storage: has no effect without --study NAME")
-
-
 def explore(arguments: argparse.Namespace) -> None:
-    check(arguments)
+    explore_checks.check_arguments(arguments)
     if is_studied(arguments):
         debian_python.need("optuna", "python3-optuna")
     scenes = find_scenes(arguments.scenes)
@@ -228,12 +230,13 @@ def explore_with(
     scenes: Sequence[Scene],
 ) -> None:
     """kept: what draws or reckons all there is; simulated: what draws the front."""
-    axes, fixed = machine_axes(arguments, kept)
+    config = config_of(arguments, simulated)
+    axes, fixed = machine_axes(arguments, kept, config)
     space = find_space(arguments, axes)
-    named = (parse_named(t, n, "--beside") for n, t in enumerate(arguments.beside, start=1))
-    beside = {assignments: name for name, assignments in named}
+    beside = explore_checks.parse_beside(arguments.beside)
+    check_keys(arguments, space, beside, config)
     keys = [*space.keys(), *Space((Axis("", tuple(beside)),)).keys()] if beside else space.keys()
-    task = find_task(arguments, scenes, keys, fixed, config_of(arguments, simulated))
+    task = find_task(arguments, scenes, keys, fixed, config)
     judge, drawing = Judge(task, kept.outcome), Judge(task, simulated.outcome)
     work = Work(arguments, space, judge, Exploration(task, beside))
     complete = False
@@ -286,7 +289,11 @@ def main() -> int:
     )
     parser.add_argument("--view", default="0", help="numbers of cameras, as in 0,2, or all")
     parser.add_argument("--size", default="", metavar="WxH", help="in px; default: the camera's")
-    parser.add_argument("--config", default="exact", help="preset or JSON file to start from")
+    parser.add_argument(
+        "--config",
+        default="",
+        help="preset or JSON file to start from; default: --machine's preset, else exact",
+    )
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE", help="for every configuration"
     )
@@ -306,7 +313,13 @@ def main() -> int:
         "--search", choices=SAMPLERS, help="Optuna's sampler; default: all there is"
     )
     parser.add_argument(
-        "--trials", type=int, metavar="N", help="of a search, at most; default: 200"
+        "--trials",
+        type=int,
+        metavar="N",
+        help="configurations that a search judges or that are refused, at most; default: 200. "
+        "Those of a --study's earlier runs and other workers count; without one each run counts "
+        "anew, also what is kept and not simulated again. What is --beside, skipped or proposed twice "
+        "does not count; each other worker of a study may add what it has under way",
     )
     parser.add_argument("--minutes", type=float, default=0, help="then it ends; 0: no limit")
     parser.add_argument("--seed", type=int, default=1, help="of the sampler")
@@ -321,7 +334,9 @@ def main() -> int:
         metavar="SECONDS",
         help="a worker of a study that was not heard of for so long counts as dead",
     )
-    return run_arguments.main_of_tables(explore, parser.parse_args())
+    arguments = parser.parse_args()
+    arguments.config = arguments.config or explore_checks.default_config(arguments.machine)
+    return run_arguments.main_of_tables(explore, arguments)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@ beside it."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import re
 
@@ -29,6 +30,7 @@ UNITS = {
     "fps": ("frames/s", 1),
 }
 MORE_IS_BETTER = ("fps", "psnr_db")
+EQUAL = "equal"
 REQUIRED = re.compile(r"(.+) (>=|<=) (\S+)")
 Made = tuple[Figure, str]  # with its caption
 Point = tuple[float, float]
@@ -53,12 +55,48 @@ def unit_of(column: str) -> tuple[str, float]:
 
 
 def point_of(row: dict[str, str], across: str, up: str) -> Point | None:
-    """In the units of UNITS. None where it was not drawn to its end, or is a picture without
-    error."""
+    """In the units of UNITS. None where it was not drawn to its end."""
     x, y = number(row[across]), number(row[up])
-    if x is None or y is None or not math.isfinite(y):
+    if x is None or y is None:
         return None
     return x / unit_of(across)[1], y / unit_of(up)[1]
+
+
+@dataclasses.dataclass(frozen=True)
+class Equal:
+    """Where pictures without error are drawn: above the highest of all others and of what is
+    required."""
+
+    highest: float
+    level: float
+
+    def put_into(self, data: Data, up: str) -> Data:
+        rows = [
+            {**row, up: f"{self.level}"} if number(row[up]) == math.inf else row
+            for row in data.rows
+        ]
+        return dataclasses.replace(data, rows=tuple(rows))
+
+    def draw(self, axes: Axes) -> None:
+        """A line with its name in place of a number, and no numbers above the others."""
+        low, high = axes.get_ylim()
+        ticks = [tick for tick in axes.get_yticks() if low <= tick <= self.highest]
+        axes.set_yticks([*ticks, self.level], [*(f"{tick:g}" for tick in ticks), EQUAL])
+        axes.set_ylim(low, high)
+        axes.axhline(self.level, color=INK, linewidth=0.6, linestyle=":", zorder=1)
+
+
+def equal_of(data: Data, up: str) -> Equal | None:
+    """None where there are no pictures without error."""
+    values = [value for row in data.rows if (value := number(row[up])) is not None]
+    if math.inf not in values:
+        return None
+    required = REQUIRED.fullmatch(up)
+    others = [value for value in values if math.isfinite(value)]
+    others += [float(required[3])] if required else []
+    if not others:
+        return Equal(-math.inf, 0)
+    return Equal(max(others), max(others) + max((max(others) - min(others)) / 4, 1))
 
 
 def is_estimate(row: dict[str, str]) -> bool:
@@ -141,11 +179,13 @@ def draw_beside(axes: Axes, data: Data, across: str, up: str) -> None:
 def exploration(results: Results) -> Made:
     """Of explore.csv: area against what was required, and against cycles or what else was asked
     for."""
-    data = results.table("explore", "explore.py", ("front", "binding"))
-    across, ups = axes_of(data)
+    everything = results.table("explore", "explore.py", ("front", "binding"))
+    across, ups = axes_of(everything)
     wide = len(ups) == 1
     figure, all_axes = panels(len(ups), width=6 if wide else 4.6, height=4 if wide else 3.6)
     for axes, up in zip(all_axes, ups):
+        equal = equal_of(everything, up)
+        data = equal.put_into(everything, up) if equal else everything
         draw_points(axes, data, across, up)
         axes.margins(0.08)
         required = REQUIRED.fullmatch(up)
@@ -156,18 +196,21 @@ def exploration(results: Results) -> Made:
         axes.set_xlabel(unit_of(across)[0])
         measured = required[1] if required else unit_of(up)[0]
         axes.set_title(f"{measured} against {unit_of(across)[0].partition(',')[0]}")
+        if equal:
+            equal.draw(axes)
         draw_beside(axes, data, across, up)
     legend_above(figure, all_axes[0], columns=3 if wide else 5)
     dashes = (
         "; dashed: reckoned (--estimate), not simulated"
-        if any(map(is_estimate, data.rows))
+        if any(map(is_estimate, everything.rows))
         else ""
     )
     held = "; hatched: what does not hold" if any(map(REQUIRED.fullmatch, ups)) else ""
-    rings = "; in rings: what was given beside" if any(r.get("beside") for r in data.rows) else ""
+    given = any(row.get("beside") for row in everything.rows)
+    rings = "; in rings: what was given beside" if given else ""
     return figure, (
         "What was explored: filled where no other point that holds is better in everything that "
-        f"was asked for{dashes}{held}{rings}. From {data.made}"
+        f"was asked for{dashes}{held}{rings}. From {everything.made}"
     )
 
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import itertools
-import re
 import subprocess
 from collections.abc import Sequence
 
 import run_arguments
-from scenes import Scene, find_scene, shared_names
+from scenes import Scene, find_scenes, shared_names
 from simulations import said
+from view_numbers import view_numbers_there
 
 OBJECTS = ("truck", "playbot", "builtin:object")  # whatever their parameters
 SIZES, OBJECT_SIZES = ("640x360", "980x545"), ("640x360", "800x800")
@@ -38,12 +38,13 @@ def sizes_of(name: str, arguments: argparse.Namespace) -> list[str]:
 
 
 def check_sizes(arguments: argparse.Namespace, scenes: Sequence[Scene]) -> None:
-    """Raises ValueError for what is no size, and where only the sizes of other scenes are given."""
+    """Raises ValueError for what is no size or there twice, and where only the sizes of other
+    scenes are given."""
     given = {"--sizes": arguments.sizes, "--object-sizes": arguments.object_sizes}
     for option, sizes in given.items():
+        run_arguments.check_once(option, sizes or ())
         for size in sizes or ():
-            if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", size):
-                raise ValueError(f"{option}: got {size}, expected WIDTHxHEIGHT in px")
+            run_arguments.check_size(option, size)
     asked = {option for option, sizes in given.items() if sizes}
     used = {"--object-sizes" if shows_object(scene.name) else "--sizes" for scene in scenes}
     if asked and not asked & used:
@@ -55,7 +56,10 @@ def check_sizes(arguments: argparse.Namespace, scenes: Sequence[Scene]) -> None:
 
 
 def check_machines(arguments: argparse.Namespace) -> None:
-    """Before hours of simulation. Raises ValueError for what the program refuses to be told of."""
+    """Before hours of simulation. Raises ValueError for what the program refuses to be told of, and
+    for what would count twice."""
+    run_arguments.check_once("--machines", arguments.machines)
+    run_arguments.check_once("--channels", arguments.channels)
     for machine, channels in itertools.product(arguments.machines, arguments.channels):
         asked = ("--config", machine, "--set", f"dram.channels={channels}")
         command = [str(arguments.streaminggs), "describe", *asked]
@@ -65,10 +69,12 @@ def check_machines(arguments: argparse.Namespace) -> None:
 
 
 def find_cases(arguments: argparse.Namespace) -> list[Case]:
-    """Raises ValueError for what is no scene, no size or no machine."""
-    scenes = [find_scene(text) for text in arguments.scenes or [*BUILT_IN, *shared_names()]]
+    """Raises ValueError for what is no scene, size, machine or view, or there twice."""
+    scenes = find_scenes(arguments.scenes or [*BUILT_IN, *shared_names()])
     check_sizes(arguments, scenes)
     check_machines(arguments)
+    for scene in scenes:
+        view_numbers_there(arguments.streaminggs, scene, arguments.view)
     return [Case(scene, size) for scene in scenes for size in sizes_of(scene.name, arguments)]
 
 

@@ -26,8 +26,9 @@ import run_arguments
 import tables
 from gpu_views import MODEL, model_gpu
 from kept_runs import KeptRuns
-from scenes import Scene, find_scene, shared_names
+from scenes import Scene, find_scene, find_scenes, shared_names
 from simulations import Outcome, Run, region_bytes
+from view_numbers import view_numbers_there
 
 RUNS_FILE, GPU_RUNS_FILE = "published_runs.jsonl", "published_gpu_runs.jsonl"
 BANDWIDTH = ("dram.channels=8",)  # 8 x LPDDR3-1600 x32 are the published 51.2 GB/s
@@ -219,13 +220,17 @@ def ablation_table(measuring: Measuring, cases: Sequence[tuple[Scene, str]]) -> 
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
+    """Raises ValueError before the first simulation for what is no scene or view."""
     here = [name for name in ("park",) if name in shared_names()]
-    scenes = [find_scene(text) for text in arguments.scenes or [*here, *RATE_SCENES]]
+    scenes = find_scenes(arguments.scenes or [*here, *RATE_SCENES])
     ablated = [
         (find_scene(name), size)
         for name, size in ABLATION_CASES
         if name.startswith("builtin:") or name in shared_names()
     ]
+    alike = [find_scene(name) for name in (ALIKE_IN_GAUSSIANS, ALIKE_IN_PAIRS)]
+    for scene in dict.fromkeys([*scenes, *alike, *(scene for scene, _ in ablated)]):
+        view_numbers_there(arguments.streaminggs, scene, arguments.view)
     measuring = Measuring(arguments)
     bytes_rows = bytes_table(measuring)
     rate_rows = rates_table(measuring, scenes)

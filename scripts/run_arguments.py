@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import os
 import pathlib
+import re
 import shlex
 import sys
 from collections.abc import Callable, Iterable
@@ -121,6 +122,21 @@ def how_made_at(commits: Iterable[str]) -> str:
     command = shlex.join([f"scripts/{pathlib.Path(sys.argv[0]).name}", *kept])
     commits = sorted(set(commits) - {""})
     return f"Made by `{command}`; commit {', '.join(commits) or 'unknown'}.\n\n"
+
+
+def check_size(option: str, text: str) -> None:
+    """Raises ValueError for what is no size of a picture."""
+    if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", text):
+        raise ValueError(f"{option}: got {text}, expected WIDTHxHEIGHT in px")
+
+
+def check_once(option: str, given: Iterable[object]) -> None:
+    """Raises ValueError for what would count twice."""
+    met: set[object] = set()
+    for value in given:
+        if value in met:
+            raise ValueError(f"{option}: got {value} twice, expected each once")
+        met.add(value)
 
 
 def make_folder(out: pathlib.Path) -> None:

@@ -80,8 +80,18 @@ def assignments(settings: Settings) -> tuple[str, ...]:
 
 
 def grid(axes: Mapping[str, Sequence[object]]) -> list[dict[str, object]]:
-    """Points for `sweep()`: every combination of the values of each key, the last one fastest."""
+    """Points for `sweep()`: every combination of the values of each key, the last one fastest.
+    Raises ValueError for values that are no list."""
+    for key, values in axes.items():
+        check_list(key, values)
     return [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
+
+
+def check_list(place: str, given: object) -> None:
+    """Raises ValueError for one of what there should be several of: a text would be taken letter by
+    letter, a dictionary key by key."""
+    if isinstance(given, (str, pathlib.Path, Mapping)):
+        raise ValueError(f"{place}: got {given!r}, expected a list")
 
 
 def sweep(
@@ -109,6 +119,8 @@ def sweep(
     """
     if jobs < 1:
         raise ValueError(f"jobs: {jobs}, expected at least 1")
+    check_list("points", points)
+    check_list("scenes", scenes)
     binary = pathlib.Path(program)
     found = [find_scene(str(scene)) for scene in scenes]
     cases = [
@@ -170,14 +182,17 @@ def numbers(view: dict) -> dict[str, float]:
 
 
 def table(views: Sequence[dict]):
-    """A pandas data frame: a line a view, a column for each leaf of its report. Raises ImportError
-    without pandas (Debian's python3-pandas)."""
+    """A pandas data frame: a line a view, a column for each leaf of its report. Raises ValueError
+    without pandas."""
     return frame([dict(leaves(view)) for view in views])
 
 
 def frame(rows: Sequence[dict]):
-    import pandas
-
+    """Raises ValueError without pandas."""
+    try:
+        import pandas
+    except ImportError as error:
+        raise ValueError("pandas: not there; apt-get install python3-pandas") from error
     return pandas.DataFrame(rows)
 
 

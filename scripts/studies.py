@@ -188,8 +188,8 @@ class Study:
         return judged.costs
 
     def work(self, before: Callable[[], bool], after: Callable[[], None]) -> None:
-        """One worker: until there is nothing left to take up, or before() says so. Whatever judging
-        raises ends it."""
+        """One worker: until there is nothing left to take up, or before() says so; after() behind
+        each that it took up. Whatever judging raises ends it."""
         idle = 0
         while not self.stopped.is_set() and before():
             if self.whole and not self.trials(States.WAITING):
@@ -207,7 +207,6 @@ class Study:
                 # Another worker was first to take up a lost trial (optuna#4862).
                 if "updat" not in str(error).lower():
                     raise
-                continue
             after()
 
     def judge_next(self) -> None:

@@ -136,6 +136,7 @@ def explore(work: Work, kept: SweepServer, drawing: Judge) -> None:
         alone=not storage or lock is not None,
     )
     study.join(list(work.space.all()) if study.whole else [searcher.start()])
+    under_way = 0  # of a search, in the threads of this script: they count as drawn
     of = work.space.size() if study.whole else min(arguments.trials or TRIALS, work.space.size())
 
     def take_in() -> int:
@@ -152,16 +153,18 @@ def explore(work: Work, kept: SweepServer, drawing: Judge) -> None:
     def before() -> bool:
         """Whether there is more to do; if so what is next may be in the queue, else the sampler
         proposes it."""
+        nonlocal under_way
         if not work.has_time():
             return False
         if study.whole:
             return True
-        trials = study.trials()
-        seen = {study.at_of(trial) for trial in trials}
-        drawn = sum(not is_skipped(trial) for trial in study.done().values())
-        if drawn >= of or len(seen) >= work.space.size() or len(trials) >= MOST_PROPOSED * of:
-            return False
         with work.reporting:
+            trials = study.trials()
+            seen = {study.at_of(trial) for trial in trials}
+            drawn = under_way + sum(not is_skipped(trial) for trial in study.done().values())
+            if drawn >= of or len(seen) >= work.space.size() or len(trials) >= MOST_PROPOSED * of:
+                return False
+            under_way += 1
             if len(trials) % SAMPLED_EVERY and (near := searcher.next_to_the_front(study)):
                 study.enqueue(near)
             elif is_repeated(trials) and (unseen := searcher.unseen(seen)):
@@ -169,7 +172,9 @@ def explore(work: Work, kept: SweepServer, drawing: Judge) -> None:
         return True
 
     def after() -> None:
+        nonlocal under_way
         with work.reporting:
+            under_way -= not study.whole
             before_that = len(work.made.told())
             done = take_in()
             if len(work.made.told()) > before_that:

@@ -15,7 +15,7 @@ import tables
 from scenes import find_scenes
 from simulations import Run, simulate_all
 
-HEAD = ("scene", "Gaussians", "preset", "simulation s", "whole command s", "peak MB")
+HEAD = ("scene", "size", "Gaussians", "preset", "simulation s", "whole command s", "peak MB")
 
 
 def median(views: Sequence[dict], key: str) -> str:
@@ -35,6 +35,7 @@ def make_table(arguments: argparse.Namespace) -> None:
             rows.append(
                 (
                     scene.name,
+                    "{width_px}x{height_px}".format_map(views[0]["frame"]),
                     views[0]["scene"]["gaussians"],
                     config,
                     median(views, "simulation_wall_s"),

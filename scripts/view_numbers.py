@@ -20,13 +20,32 @@ def view_numbers(binary: pathlib.Path, scene: Scene, text: str) -> list[int]:
         if len(set(numbers)) < len(numbers):
             raise ValueError(f"--view: '{text}', expected each number once")
         return numbers
+    return list(range(camera_count(binary, scene)))
+
+
+def view_numbers_there(binary: pathlib.Path, scene: Scene, text: str) -> list[int]:
+    """The same before hours of simulation. Raises ValueError also for a view that the scene has
+    not, and for a built-in scene that is none."""
+    there = camera_count(binary, scene)
+    numbers = list(range(there)) if text == "all" else view_numbers(binary, scene, text)
+    for number in numbers:
+        if number >= there:
+            raise ValueError(
+                f"--view: got '{number}', expected numbers of {scene.name}'s cameras, "
+                f"0 to {there - 1}"
+            )
+    return numbers
+
+
+def camera_count(binary: pathlib.Path, scene: Scene) -> int:
+    """Raises ValueError."""
     if scene.cameras:
-        return list(range(len(cameras_of(pathlib.Path(scene.cameras)))))
+        return len(cameras_of(pathlib.Path(scene.cameras)))
     done = call(binary, [scene.spec], "info")
     if done.returncode != 0:
         raise ValueError(f"{scene.name}: {said(done)}")
     (count,) = (line.split()[1] for line in done.stdout.splitlines() if line.startswith("cameras "))
-    return list(range(int(count)))
+    return int(count)
 
 
 def cameras_of(path: pathlib.Path) -> list:

@@ -118,8 +118,9 @@ int run(const GpuArguments& arguments) {
   const ActivatedCloud cloud = activate(scene.cloud);
   Json views = Json::array();
   std::vector<GpuFrame> frames;
+  const auto cameras = arguments.cameras(scene.cameras);
   print_head(config);
-  for (const auto& [number, camera] : arguments.cameras(scene.cameras)) {
+  for (const auto& [number, camera] : cameras) {
     const RasterWork work = count_raster_work(make_view<float>(camera), cloud);
     const GpuFrame frame = model_gpu(work, config);
     print_view(number, work, frame);

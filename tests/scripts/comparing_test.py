@@ -7,6 +7,7 @@ import unittest
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
 import compare_machines
+import design_point_seconds
 import machine_cases
 import machine_measures
 import machine_ratios
@@ -222,6 +223,17 @@ class Machines(unittest.TestCase):
         self.assertEqual(machine_measures.busiest_of_kernels(gpu), 5)
         m = dataclasses.replace(measured(1, 3), busiest_seconds=(0.5, 1.5))
         self.assertEqual((m.frames_a_second(), m.most_frames_a_second()), (0.5, 1))
+
+    def test_seconds_add_up_as_they_are_printed(self):
+        case = machine_cases.Case(Scene("s", "a"), "4x2")
+        for seconds, simulating, printed in (
+            (1.86, 1.02, ("0.9", "1.0", "1.9")),
+            (0.34, 0.26, ("0.0", "0.3", "0.3")),
+            (12.94, 8.66, ("4.2", "8.7", "12.9")),
+        ):
+            with self.subTest(seconds):
+                timed = design_point_seconds.Timed(case, "exact", 25.6, seconds, simulating)
+                self.assertEqual(timed.row()[-3:], printed)
 
     def test_parts_are_means_over_the_scenes(self):
         a, b = Scene("a", "a"), Scene("b", "b")

@@ -9,13 +9,16 @@ from unittest import mock
 from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import binding_check
 import boundary_study
+import compare_machines
 import compare_variants
+import design_point_seconds
 import energy_tables
 import error_against_time
 import explore
 import fair_fight
 import fill_readme
 import half_by_stage
+import published_figures
 import quality_table
 import simulations
 import smallest_machine
@@ -135,11 +138,24 @@ class Ends(InFolder):
             ),
             (training_curves, (), ".*truck.ply: no data set; expected a folder or one of:"),
             (training_curves, ("--minutes", "-1"), "--minutes, --same-bits: expected 0 or more$"),
+            *(
+                (script, arguments, f"{line}$")
+                for script in (compare_machines, design_point_seconds)
+                for arguments, line in (
+                    ((str(self.scene),), "truck: got it twice, expected each scene once"),
+                    (("--object-sizes", "4x4", "8x4", "4x4"), "--object-sizes: got 4x4 twice, .*"),
+                    (("--machines", "exact", "exact"), "--machines: got exact twice, .* each once"),
+                    (("--channels", "4", "8", "4"), "--channels: got 4 twice, expected each once"),
+                    (("--view", "9"), "--view: got '9', expected .* truck's cameras, 0 to 0"),
+                )
+            ),
+            (published_figures, (str(self.scene),), "truck: got it twice, expected each scene"),
+            (published_figures, ("--view", "x"), "--view: 'x', expected numbers"),
             (timing, ("--repeats", "0"), "--repeats: 0, expected at least 1$"),
         ):
             with self.subTest(script.__name__, arguments=arguments):
                 program = ("--streaminggs", str(good), "--out", str(self.folder / "out"))
-                self.check(script, (*program, *arguments), 2, line)
+                self.check(script, (*arguments, *program), 2, line)
 
     def test_arguments_that_are_none(self):
         """Of every script there is, also of one that is yet to be written."""

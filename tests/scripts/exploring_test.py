@@ -2,6 +2,7 @@
 command."""
 
 import csv
+import json
 import os
 import signal
 import subprocess
@@ -114,6 +115,8 @@ class Exploring(Explorations):
             (HERE / f"drawn {SET['hfus']} {sys.argv[sys.argv.index('--view') + 1]}").touch()
             finish()
             """
+        cameras = self.scene.with_suffix(".json")
+        cameras.write_text(json.dumps(2 * json.loads(cameras.read_text())))
         words = ("--axis", "hfus=1,2,4,8", "--require", "min(fps) >= 3", "--objectives", "mm2")
         done = self.explore(body, *words, "--view", "0,1", "--show", "cycles,area_mm2.total")
         self.assertEqual(done.returncode, 0)
@@ -186,6 +189,46 @@ class Exploring(Explorations):
                 done = self.explore("finish()", "--axis", "hfus=2,4", "--beside", text)
                 self.assertEqual(done.returncode, 2)
                 self.assertRegex(done.stderr, "^.*explore.py: --beside: .*, expected KEY=VALUE\n$")
+
+    def test_what_every_configuration_would_be_refused_for_is_said_first(self):
+        points = self.folder / "points"
+        points.write_text("hfus=2\nhfus=4 nope=1\n")
+        axis = ("--axis", "hfus=2,4")
+        beside = (*axis, "--beside", "by hand: hfus=8 hfu.cfus=2", "--beside")
+        for words, said in (
+            (("--axis", "hfux=2,4"), "--axis: got hfux, expected a key of --config exact"),
+            (("--points", str(points)), "--points: got nope, expected a key of --config exact"),
+            ((*axis, "--set", "nope=1"), "--set: got nope, expected a key of --config exact"),
+            ((*axis, "--beside", "nope=1"), "--beside: got nope, expected a key of --config exact"),
+            ((*axis, "--view", "0,9"), "--view: got '9', expected .* truck's cameras, 0 to 0"),
+            ((*axis, "--size", "64"), "--size: got 64, expected WIDTHxHEIGHT in px"),
+            ((*axis, "--set", "hfus=2"), "--set: got hfus, expected a key that not every .*"),
+            (
+                ("--axis", "group=64,32", "--set", "group_width_px=64"),
+                "--set: got group_width_px, expected a key that not every .*",
+            ),
+            (
+                ("--machine", "paper", "--config", "exact"),
+                "--machine paper: got --config exact, which has no storage.encoding; "
+                "expected paper_no_vq or .*",
+            ),
+            (
+                (*beside, "by hand: hfus=4"),
+                "--beside: got the name by hand twice, expected each once",
+            ),
+            (
+                (*beside, "hfu.cfus=2 hfus=8"),
+                "--beside: got beside 2 with the settings of by hand, expected others",
+            ),
+        ):
+            with self.subTest(words):
+                done = self.explore('(HERE / "drawn").touch(); finish()', *words)
+                self.assertRegex(done.stderr, rf"\A.*explore.py: {said}\n\Z")
+                self.assertEqual((done.returncode, (self.folder / "drawn").exists()), (2, False))
+        # Of a list some may say it themselves.
+        points.write_text("hfus=2\nhfu.cfus=2\n")
+        done = self.explore("finish()", "--points", str(points), "--set", "hfus=4")
+        self.assertEqual([row[0] for row in self.rows("explore.csv")[1:]], ["2", "4"], done.stderr)
 
     def test_what_was_simulated_is_not_simulated_again(self):
         body = """

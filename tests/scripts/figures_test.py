@@ -336,6 +336,20 @@ class Drawn(Figures):
         view = json.loads((self.folder / "exact" / "report.json").read_text())["views"][0]
         self.assertIn(view["provenance"]["commit"], self.svg_text("waits"))
 
+    def test_a_picture_without_error_is_drawn_above_all_others(self):
+        head = ("mm2", "psnr_db", "binding", "front", "beside")
+        for others in ((("4", "38.5", "dram", "", ""), ("5", "44", "dram", "yes", "")), ()):
+            with self.subTest(others):
+                equal = ("6", "inf", "dram", "yes", "by hand")
+                csv = tables.csv_text(head, [*others, equal])
+                tables.write_text(self.folder / "explore.csv", csv)
+                status, _, errors = self.made("exploration")
+                self.assertEqual((status, errors), (0, ""))
+                text = self.svg_text("exploration")
+                # The name stands beside its point.
+                self.assertIn("by hand", text)
+                self.assertIn(" 44 equal " if others else " equal ", text)
+
     def test_the_same_numbers_give_the_same_file(self):
         self.write("variants")
         svg = self.folder / "figures" / "variants.svg"

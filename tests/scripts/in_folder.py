@@ -77,8 +77,8 @@ class InFolder(unittest.TestCase):
     def stand_in(self, body: str) -> pathlib.Path:
         """A program in the command's place. It has SET, the values of --set, SCRIPT, the process
         that asked, and `finish()`, which writes the report of a view that took 8 cycles over the
-        number of HFUs, and has one more mm2 than those. It has a configuration to print. As
-        `sweep` it does for each point what it does for one."""
+        number of HFUs, and has one more mm2 than those. It has a configuration to print, and
+        describes any. As `sweep` it does for each point what it does for one."""
         program = self.folder / "streaminggs"
         prelude = f"""\
             #!{sys.executable} -IS
@@ -88,7 +88,11 @@ class InFolder(unittest.TestCase):
             SCRIPT = int(os.environ.get("SCRIPT", os.getppid()))
             if "--print-config" in sys.argv:
                 memories = {{"input_bytes": 0, "codebook_bytes": 0, "shared_bytes": 0}}
-                print(json.dumps({{"group_width_px": 112, "hfu": {{}}, "sram": memories}}))
+                sides = {{"group_width_px": 112, "group_height_px": 80}}
+                filters = {{"cfus": 4, "ffu_lanes": 16}}
+                print(json.dumps({{"hfus": 1, **sides, "hfu": filters, "sram": memories}}))
+                sys.exit()
+            if "describe" in sys.argv:
                 sys.exit()
             def finish():
                 hfus = int(SET.get("hfus", 1))

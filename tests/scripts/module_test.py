@@ -2,6 +2,7 @@
 
 import importlib.util
 import pathlib
+import sys
 import unittest
 from unittest import mock
 
@@ -37,6 +38,25 @@ class Reports(unittest.TestCase):
         for folder, said in ((here, "no report.json"), ("nope", "nope: no folder")):
             with self.subTest(said), self.assertRaisesRegex(ValueError, said):
                 streaminggs.load(folder)
+
+
+    def test_one_is_no_list(self):
+        for points, scenes, said in (
+            ([{"hfus": 2}], "builtin:object", "scenes: got 'builtin:object', expected a list"),
+            ([{"hfus": 2}], pathlib.Path("a.ply"), "scenes: got .*a.ply.*, expected a list"),
+            ({"hfus": 2}, ["builtin:object"], "points: got {'hfus': 2}, expected a list"),
+            ("hfus=2", ["builtin:object"], "points: got 'hfus=2', expected a list"),
+        ):
+            with self.subTest(said), self.assertRaisesRegex(ValueError, f"^{said}$"):
+                streaminggs.sweep(points, scenes)
+        with self.assertRaisesRegex(ValueError, "^hfus: got '24', expected a list$"):
+            streaminggs.grid({"hfus": "24"})
+
+    def test_without_pandas_a_line_says_what_has_it(self):
+        said = "^pandas: not there; apt-get install python3-pandas$"
+        with mock.patch.dict(sys.modules, {"pandas": None}):
+            with self.assertRaisesRegex(ValueError, said):
+                streaminggs.table([{"frame": {"cycles": 7}}])
 
 
 @unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")

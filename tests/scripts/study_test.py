@@ -14,7 +14,7 @@ import time
 import unittest
 from collections.abc import Iterator
 
-from in_folder import REPOSITORY, InFolder
+from in_folder import COMMAND, REPOSITORY, InFolder
 
 PYTHON = "/usr/bin/python3"
 SERVER = sorted(pathlib.Path("/usr/lib/postgresql").glob("*/bin/pg_ctl"))
@@ -161,6 +161,7 @@ class Studies(InFolder):
         """Also where each is reckoned twice as fast as it is: nothing is left out for one that does
         not hold when it is simulated."""
         body = """
+            SET.setdefault("hfus", "2")  # where it begins
             finish()
             if "--estimate" in sys.argv:
                 path = pathlib.Path(sys.argv[sys.argv.index("--out") + 1]) / "report.json"
@@ -173,11 +174,41 @@ class Studies(InFolder):
                 self.stand_in(body)
                 words = self.words(out, "--search", "tpe", "--require", "min(fps) >= 3", *more)
                 words[words.index("cycles,mm2")] = "mm2"
-                words += ["--trials", "8", "--set", "hfus=2"]  # where it begins
+                words += ["--trials", "8"]
                 done = subprocess.run(words, capture_output=True, text=True, check=False)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 front = [row for row in self.rows(out)[1:] if row[-1]]
                 self.assertEqual([row[0] for row in front], ["3"])
+
+    def test_trials_are_what_is_judged(self):
+        """Of two threads as of one; not what is beside; of a study what earlier runs judged."""
+        self.stand_in("time.sleep(0.2); finish()")
+        words = ("-j", "2", "--search", "random", "--beside", "by hand: hfus=8 hfu.cfus=2")
+        for more, trials, drawn in (
+            (("--study", "a"), 3, 1 + 3),
+            (("--study", "a"), 3, 1 + 3),
+            (("--study", "a"), 5, 1 + 5),
+            # In the same folder: what is kept counts, but for what no study has.
+            ((), 5, 1 + 5),
+        ):
+            with self.subTest(more, trials=trials):
+                told = ("--trials", str(trials), *more)
+                done = subprocess.run(
+                    self.words("out", *words, *told), capture_output=True, text=True, check=False
+                )
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(len(self.rows("out")) - 1, drawn, done.stderr)
+
+    @unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
+    def test_the_axes_of_a_machine_begin_at_its_preset(self):
+        for machine in ("exact", "paper"):
+            with self.subTest(machine):
+                words = self.words(machine, "--machine", machine, "--search", "random")
+                words[words.index("--streaminggs") + 1] = COMMAND
+                words += ["--trials", "2", "--size", "64x36"]
+                done = subprocess.run(words, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(" on the front", done.stderr)
 
     def test_a_search_of_estimates_simulates_its_front(self):
         self.stand_in("finish()")
@@ -218,7 +249,7 @@ class Studies(InFolder):
         db = f"sqlite:///{self.folder}/study.db"
         subprocess.run(self.words("out", "--study", "a", "--storage", db), capture_output=True)
         for more, line in (
-            (("--study", "a", "--storage", db, "--axis", "x=1,2"), "--study a: there is one of"),
+            (("--study", "a", "--storage", db, "--axis", "hfu.cfus=1,2"), "--study a: there is one of"),
             (("--study", "a", "--storage", db, "--size", "64x36"), "--study a: there is one of"),
             (("--study", "b", "--storage", "nowhere:///x"), "--storage: nowhere:///x: "),
             (("--study", "b", "--storage", "sqlite:////no/x"), "--storage: sqlite:////no/x: can"),
