@@ -83,6 +83,9 @@ def exact_points() -> Iterator[Point]:
     half = (blended("fp16"), "storage.encoding=half")
     yield Point(EXACT, "combined", "fp16, half", half)
     yield Point(EXACT, "combined", "fp16, half, rgb8", (*half, "framebuffer=rgb8"))
+    yield Point(
+        EXACT, "combined", "fixed16, half", (blended("fixed16"), "storage.encoding=half")
+    )
     early = ("merge.entries=512", "merge.on_overflow=blend_early")
     yield Point(EXACT, "combined", "fp16, half, early", (*half, *early))
     yield Point(EXACT, "combined", "fp16, vq", (blended("fp16"), *VQ))

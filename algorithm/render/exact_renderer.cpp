@@ -223,7 +223,7 @@ struct CountedGroup {
 
 void render_group(const View<float>& view, const ActivatedCloud& cloud, const ChunkTree& tree,
                   const std::vector<VisibleExtents>& known, const PixelRect& pixels,
-                  const ExactOrderConfig& config, Flags& contributing, Flags& visited,
+                  const ExactOrderConfig& config, Flags& contributing, Flags& reached,
                   StreamingStats& stats, CountedGroup& counted, RenderResult& frame) {
   stats.groups = 1;
   TreeInMemory source{tree, {}};
@@ -234,10 +234,10 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
   CountedWalk chunks(walk, tree, counted.work);
   std::optional<WalkEntry> chunk = chunks.next();
   while (chunk && !stream.saturated()) {
+    reached.set(chunk->at);
     // With blend_early what waits decides what is forced out: no key may be missing.
     if (config.on_overflow == OnOverflow::kBlendEarly || stream.any_unfinished(chunk->reach)) {
       stream.visit(*chunk);
-      visited.set(chunk->at);
     } else if (counted.work != nullptr) {
       stream.count_unneeded(*chunk);
     }
@@ -246,15 +246,19 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
   }
   stats.nodes_read = walk.counters().nodes;
   stream.finish(frame);
-  if (counted.work == nullptr) return;
-  for (std::uint32_t behind = 0; chunk && behind < config.visits_behind; ++behind) {
-    stream.count_unneeded(*chunk);
-    chunk = chunks.next();
+  if (counted.work != nullptr) {
+    for (std::uint32_t behind = 0; chunk && behind < config.visits_behind; ++behind) {
+      stream.count_unneeded(*chunk);
+      reached.set(chunk->at);
+      chunk = chunks.next();
+    }
+    counted.node_queue = walk.node_queue().work();
+    counted.chunk_queue = walk.chunk_queue().work();
+    counted.node_queue_max = walk.node_queue().most();
+    counted.chunk_queue_max = walk.chunk_queue().most();
   }
-  counted.node_queue = walk.node_queue().work();
-  counted.chunk_queue = walk.chunk_queue().work();
-  counted.node_queue_max = walk.node_queue().most();
-  counted.chunk_queue_max = walk.chunk_queue().most();
+  // What is left is behind finished pixels, not out of reach.
+  for (; chunk; chunk = walk.next()) reached.set(chunk->at);
 }
 
 // work: null: it is not counted.
@@ -270,15 +274,15 @@ StreamingResult render(const View<float>& view, const ActivatedCloud& cloud, con
   std::vector<CountedGroup> counted(groups.size());
   if (work != nullptr) work->groups.resize(groups.size());
   const std::vector<VisibleExtents> known = stored_extents(cloud);
-  Flags contributing(cloud.size()), visited(cloud.size());
+  Flags contributing(cloud.size()), reached(cloud.size());
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
     if (work != nullptr) counted[g].work = &work->groups[g];
-    render_group(view, cloud, tree, known, groups[g], config, contributing, visited, stats[g],
+    render_group(view, cloud, tree, known, groups[g], config, contributing, reached, stats[g],
                  counted[g], out.frame);
   });
   for (const StreamingStats& s : stats) out.stats += s;
   out.stats.contributing = contributing.count();
-  out.stats.blocks_visited = visited.count();
+  out.stats.blocks_reached = reached.count();
   if (work != nullptr) {
     for (const CountedGroup& group : counted) {
       work->node_queue += group.node_queue;

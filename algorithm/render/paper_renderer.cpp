@@ -152,8 +152,8 @@ void blend_run(Part& part, StreamingStats& stats, const Seen& seen, BlendRecord*
 // One group's visits, in their order. work: null: they are not counted.
 void render_group(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
                   const PaperOrderConfig& config, const std::vector<std::uint32_t>& voxels,
-                  std::vector<Part>& parts, Flags& contributing, Flags& visited,
-                  StreamingStats& stats, PaperGroupWork* work) {
+                  std::vector<Part>& parts, Flags& contributing, StreamingStats& stats,
+                  PaperGroupWork* work) {
   std::uint32_t behind = work == nullptr ? 0 : config.visits_behind;
   StreamingStats of_behind;
   if (work != nullptr) work->blends.resize(parts.size());
@@ -161,8 +161,6 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Vo
     if (all_saturated(parts)) {
       ++stats.visits_saturated;
       if (behind == 0) continue;
-    } else {
-      visited.set(voxel);
     }
     const auto plane = [&](std::uint32_t at) { return grid.cuts[at]; };
     const auto visit = [&](const VoxelRecord& piece) {
@@ -228,7 +226,7 @@ StreamingResult render(const View<float>& view, const ActivatedCloud& cloud, con
   std::vector<StreamingStats> stats(groups.size());
   out.group_voxels.resize(groups.size());
   if (work != nullptr) work->groups.resize(groups.size());
-  Flags contributing(cloud.size()), visited(grid.voxels.size());
+  Flags contributing(cloud.size()), reached(grid.voxels.size());
   tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(), config.table_bytes);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t index) {
     const PixelRect& group = groups[index];
@@ -238,11 +236,12 @@ StreamingResult render(const View<float>& view, const ActivatedCloud& cloud, con
     s.ray_steps = visits.steps;
     s.edges_offered = visits.edges_offered;
     s.table_bytes_max = visits.table_bytes;
+    for (const std::uint32_t voxel : visits.voxels) reached.set(voxel);
     s.missed = missed.count(index, visits.voxels);
 
     std::vector<Part> parts;
     for (const auto& part : parts_of_groups) parts.emplace_back(part[index], view, config);
-    render_group(view, cloud, grid, config, visits.voxels, parts, contributing, visited, s,
+    render_group(view, cloud, grid, config, visits.voxels, parts, contributing, s,
                  work == nullptr ? nullptr : &work->groups[index]);
     for (const Part& part : parts) {
       s.misordered += part.watch.misordered();
@@ -253,7 +252,7 @@ StreamingResult render(const View<float>& view, const ActivatedCloud& cloud, con
   });
   for (const StreamingStats& s : stats) out.stats += s;
   out.stats.contributing = contributing.count();
-  out.stats.blocks_visited = visited.count();
+  out.stats.blocks_reached = reached.count();
   out.of_groups = std::move(stats);
   return out;
 }

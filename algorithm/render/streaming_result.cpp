@@ -9,7 +9,7 @@ StreamingStats& StreamingStats::operator+=(const StreamingStats& other) {
   using Count = std::uint64_t StreamingStats::*;
   for (const Count count :
        {&StreamingStats::groups, &StreamingStats::visits, &StreamingStats::visits_saturated,
-        &StreamingStats::blocks_visited, &StreamingStats::first_halves,
+        &StreamingStats::blocks_reached, &StreamingStats::first_halves,
         &StreamingStats::coarse_passed, &StreamingStats::second_halves, &StreamingStats::fine_tests,
         &StreamingStats::splats, &StreamingStats::subtile_blends, &StreamingStats::contributors,
         &StreamingStats::contributing, &StreamingStats::misordered, &StreamingStats::missed,

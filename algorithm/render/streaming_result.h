@@ -13,7 +13,7 @@ struct StreamingStats {
   std::uint64_t groups = 0;
   std::uint64_t visits = 0;            // (group, block) pairs streamed
   std::uint64_t visits_saturated = 0;  // left out because the group was finished (paper order)
-  std::uint64_t blocks_visited = 0;    // by at least one group
+  std::uint64_t blocks_reached = 0;    // by at least one group, finished or not
   std::uint64_t first_halves = 0;      // Gaussians seen by the coarse filter
   std::uint64_t coarse_passed = 0;     // of these
   std::uint64_t second_halves = 0;     // fetched

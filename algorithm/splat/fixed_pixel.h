@@ -1,7 +1,7 @@
 // Pixels in 16-bit fixed point: light and alpha in units of 2^-16, colours in units of 2^-14, below
 // 4, where they stay. Products are of 32 bits and rounded once, half a unit up; what a splat takes
 // of the light is what it is missing by afterwards, so none is lost. A half has as many bits and
-// fewer digits wherever a number is above 2^-5.
+// fewer digits wherever light is above 2^-5, a colour above 2^-3.
 #pragma once
 
 #include <algorithm>

@@ -110,7 +110,7 @@ void ExactDesign::publish_left_out(const StoredScene& scene, const StreamingStat
                                    DataSheet& sheet) const {
   sgs::publish_left_out(config_, scene, sheet);
   sheet.left_out("chunks_not_needed", "they cannot touch any group",
-                 scene.image.layout.chunk_table().chunk_count - stats.blocks_visited,
+                 scene.image.layout.chunk_table().chunk_count - stats.blocks_reached,
                  "their Gaussians are never fetched");
 }
 

@@ -113,7 +113,7 @@ std::string PaperDesign::work_key() const {
 
 GoldenFrame PaperDesign::golden_of(StreamingResult result, const StoredScene& scene,
                                    const FrameJob& job, DataSheet& sheet) const {
-  publish_left_out(scene, result.stats.blocks_visited, sheet);
+  publish_left_out(scene, result.stats.blocks_reached, sheet);
   std::vector<std::vector<std::uint32_t>> visited = std::move(result.group_voxels);
   GoldenFrame golden = golden_frame(std::move(result), streaming_job(config_, job).groups);
   golden.in_order = [&scene, view = job.view, background = job.background, group = config_.group(),
@@ -131,12 +131,12 @@ GoldenFrame PaperDesign::golden_of(StreamingResult result, const StoredScene& sc
   return golden;
 }
 
-void PaperDesign::publish_left_out(const StoredScene& scene, std::uint64_t voxels_visited,
+void PaperDesign::publish_left_out(const StoredScene& scene, std::uint64_t voxels_met,
                                    DataSheet& sheet) const {
   sgs::publish_left_out(config_, scene, sheet);
   const VoxelTableLayout& table = scene.image.layout.voxel_table();
   sheet.left_out("voxels_not_needed", "no ray of any group crosses them",
-                 table.voxels.count - voxels_visited, "their Gaussians are never fetched");
+                 table.voxels.count - voxels_met, "their Gaussians are never fetched");
   const double side = table.frame.side_cells();
   const double cells = side * side * side;
   sheet.left_out("empty_cells", "only occupied cells exist in the voxel tree",

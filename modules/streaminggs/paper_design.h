@@ -34,7 +34,7 @@ class PaperDesign : public MachineDesign {
  private:
   GoldenFrame golden_of(StreamingResult result, const StoredScene& scene, const FrameJob& job,
                         DataSheet& sheet) const;
-  void publish_left_out(const StoredScene& scene, std::uint64_t voxels_visited,
+  void publish_left_out(const StoredScene& scene, std::uint64_t voxels_met,
                         DataSheet& sheet) const;
 
   PaperConfig config_;

@@ -95,7 +95,7 @@ TEST_CASE("left out: what a tile-centric machine spares") {
   // matter of time.
   check("gscore", layered.arguments("gscore", {}),
         layered.arguments("gscore", {"tiles.subtiles_across=1", "rendering.skip_finished=false"}),
-        {{"parts_not_touched",
+        {{"blocks_not_touched",
           [](const Json& v, const Json&) {
             return 16 * counter_of_all(v, "rendering", "splats") -
                    counter_of_all(v, "rendering", "blocks");

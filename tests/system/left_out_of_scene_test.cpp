@@ -153,6 +153,13 @@ TEST_CASE("left out: chunks that no group needs, groups that see none") {
   check("exact", scene.arguments("exact", {}), needed.arguments("exact", {}),
         {{"chunks_not_needed", known(3), sum("visits")},
          {"empty_groups", known(16 - 2), sum("visits"), 16 - 5}});
+  // What lies behind finished pixels is not out of reach, told of or not.
+  const MadeScene hidden(layers());
+  for (const char* told : {"true", "false"}) {
+    const std::string feedback = std::string("rendering.saturation_feedback=") + told;
+    const Simulation run(hidden.arguments("exact", {"storage.chunk_gaussians=1", feedback}));
+    CHECK(left_out(run.views()[0], "chunks_not_needed") == 0);
+  }
 }
 
 TEST_CASE("left out: empty cells, voxels that no ray meets, groups that see none") {

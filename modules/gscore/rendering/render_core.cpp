@@ -316,7 +316,7 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.queue(finished_states_, kPixels);
   sheet.port(record_memory);
   sheet.port(pixel_memory, kPixelWrites);
-  sheet.left_out("parts_not_touched", "bits of parts of tiles, or the part was finished",
+  sheet.left_out("blocks_not_touched", "bits of parts of tiles, or the block was finished",
                  kBlocks * n.splats - n.blocks, "16 fragments each");
   sheet.left_out("records_of_finished_tiles", "their tile finished before they were fetched",
                  n.dropped, "their records");

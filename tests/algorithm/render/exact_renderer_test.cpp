@@ -230,7 +230,7 @@ TEST_CASE("exact order: counts add up, the same with one thread and with many") 
   CHECK(s.second_halves <= s.coarse_passed);
   CHECK(s.splats <= s.second_halves);
   CHECK(s.contributing <= cloud.size());
-  CHECK(s.blocks_visited <= tree.chunk_count);
+  CHECK(s.blocks_reached <= tree.chunk_count);
   CHECK(s.misordered == 0);
   std::uint64_t contributors = 0;
   for (const std::uint32_t count : many.frame.contributors) contributors += count;
