@@ -271,8 +271,8 @@ void TileSorter::publish(DataSheet& sheet) {
   sheet.port(memory, kSubsetWrites);
   sheet.left_out("entries_of_finished_tiles", "their tile finished before their chunk was sorted",
                  n.dropped_unread + n.dropped_loaded, "sorting, records, blending");
-  sheet.left_out("reads_of_finished_tiles", "of these, subsets still in memory",
-                 n.dropped_unread, "reading them back");
+  sheet.left_out("reads_of_finished_tiles", "of these, subsets still in memory", n.dropped_unread,
+                 "reading them back");
   sheet.remedy(sort_, "cores");
   sheet.remedy(load_, "cores");
   sheet.remedy(memory, WaitFor::kReads, "lists.block_lines");
