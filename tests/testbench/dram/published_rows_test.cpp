@@ -40,6 +40,18 @@ TEST_CASE("published rows: four channels by interleave") {
   check_rows(rows);
 }
 
+TEST_CASE("published rows: as many requests as a row wants, and no more than asked for") {
+  for (const char* section : {"one_channel", "four_channels"}) {
+    const auto whole = published_rows(kRows, section, 1'000'000'000);
+    const auto few = published_rows(kRows, section, 300);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      INFO(section << " " << whole[i].name);
+      CHECK((whole[i].bench.requests > 300 && whole[i].bench.requests <= 1'000'000));
+      CHECK(few[i].bench.requests == 300);
+    }
+  }
+}
+
 TEST_CASE("published rows: an unexplained difference is seen") {
   MeasuredRow row;
   row.published.dramsim3_gb_per_s = 10.0;
