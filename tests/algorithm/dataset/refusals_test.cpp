@@ -156,6 +156,12 @@ TEST_CASE("dataset refuses: cameras that see nothing, poses that are none") {
       {write_nsvf_focal,
        replace("intrinsics.txt", "48 64", "48 0"),
        {"a height of 48 and a width of 0"}},
+      {write_nsvf_focal,
+       replace("intrinsics.txt", "48 64", "0 64"),
+       {"a height of 0 and a width of 64"}},
+      {write_nsvf_focal,  // a pixel is a size
+       replace("intrinsics.txt", "48 64", "1 1"),
+       {"is 64x48 px, expected 1x1"}},
       {write_nsvf_matrix, with("bbox.txt", "1 1 1 0 0 0"), {"bbox.txt: got 6 numbers"}},
   });
 }
