@@ -108,6 +108,8 @@ def summary_row(case: Case, fitted: Fitted) -> tuple:
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
+    run_arguments.check_once("--voxels", arguments.voxels)
+    run_arguments.check_once("--betas", arguments.betas)
     kept = KeptFittings(arguments.streaminggs, arguments.out / "fittings", arguments.side_by_side)
     sources = subjects.find_sources(arguments.scenes or subjects.DEFAULT_SUBJECTS)
     calls = tunings.tunings_of(arguments)

@@ -127,6 +127,7 @@ class Measuring:
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
+    run_arguments.check_once("--groups", arguments.groups)
     groups = {shape: assignments(shape) for shape in arguments.groups}
     scenes = find_scenes(arguments.scenes or shared_names())
     measuring = Measuring(arguments, scenes)

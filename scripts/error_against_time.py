@@ -40,7 +40,17 @@ DIAGRAMS = {
 FIGURES = {"image": ("error_image", "error_image_kinds")}
 
 
+def check(arguments: argparse.Namespace) -> None:
+    """Before hours of frames are drawn. Raises ValueError for what is there twice or not at all."""
+    run_arguments.check_at_least("--configurations", arguments.configurations, 1)
+    for option in ("diagrams", "rates", "budgets", "threads"):
+        run_arguments.check_once(f"--{option}", getattr(arguments, option))
+    if "tuning" in arguments.diagrams:
+        error_tuning.dataset_folders(arguments)
+
+
 def make_diagrams(arguments: argparse.Namespace) -> None:
+    check(arguments)
     scenes = find_scenes(arguments.scenes)
     for scene in scenes:
         view_numbers_there(arguments.streaminggs, scene, ",".join(arguments.views))

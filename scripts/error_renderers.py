@@ -7,11 +7,13 @@ from __future__ import annotations
 import argparse
 import contextlib
 import csv
+import dataclasses
 import json
 import os
 import pathlib
 import subprocess
 import tempfile
+from collections.abc import Sequence
 
 import run_arguments
 import simulations
@@ -22,9 +24,22 @@ from simulations import REFUSED, Failure, program_version
 
 PROGRAM = simulations.BINARY.with_name("bench_renderers")
 HEAD = (
-    "scene", "renderer", "finished below", "threads", "ms", "cpu ms", "beside", "PSNR dB",
+    "scene", "view", "renderer", "finished below", "threads", "ms", "cpu ms", "beside", "PSNR dB",
     "largest", "blends",
 )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Timing:
+    """What is asked of the program at a time. size: WxH in px."""
+
+    scene: Scene
+    view: str
+    size: str
+    threads: int
+
+    def words(self) -> list[str]:
+        return ["--threads", str(self.threads), "--size", self.size, "--view", self.view]
 
 
 def laid_out(scene: Scene, folder: pathlib.Path) -> str:
@@ -37,14 +52,17 @@ def laid_out(scene: Scene, folder: pathlib.Path) -> str:
     return str(place)
 
 
-def timed(program: pathlib.Path, scene: Scene, threads: int) -> list[list[str]]:
+def timed(program: pathlib.Path, timing: Timing) -> list[list[str]]:
     """Lines of HEAD. Raises ValueError for what the program refuses, Failure."""
     with tempfile.TemporaryDirectory(prefix="streaminggs-") as folder:
-        return answered(program, laid_out(scene, pathlib.Path(folder)), threads)
+        spec = laid_out(timing.scene, pathlib.Path(folder))
+        rows = answered(program, [*timing.words(), spec])
+    # The program names scenes of one kind alike, whatever their parameters.
+    return [[timing.scene.name, *cells] for _, *cells in rows]
 
 
-def answered(program: pathlib.Path, spec: str, threads: int) -> list[list[str]]:
-    words = [str(program.absolute()), "--threads", str(threads), spec]
+def answered(program: pathlib.Path, arguments: Sequence[str]) -> list[list[str]]:
+    words = [str(program.absolute()), *arguments]
     try:
         done = subprocess.run(words, capture_output=True, text=True, check=False)
     except OSError as error:
@@ -60,7 +78,7 @@ def answered(program: pathlib.Path, spec: str, threads: int) -> list[list[str]]:
 
 
 class KeptTimes:
-    """Lines of a scene and a number of threads, from the file where it has them of this program."""
+    """Lines of what was asked, from the file where it has them of this program."""
 
     def __init__(self, program: pathlib.Path, path: pathlib.Path):
         """Raises ValueError when there is no such program."""
@@ -73,13 +91,14 @@ class KeptTimes:
                 entry = json.loads(line)
                 self.known[entry["of"]] = entry["rows"]
 
-    def rows(self, scene: Scene, threads: int) -> list[list[str]]:
+    def rows(self, timing: Timing) -> list[list[str]]:
         """Raises ValueError, Failure."""
+        scene = timing.scene
         paths = [self.program, *map(pathlib.Path, (scene.spec, scene.cameras))]
         digests = [content_digest(path) for path in paths if path.is_file()]
-        of = " ".join([scene.name, scene.spec, str(threads), *digests])
+        of = " ".join([scene.name, scene.spec, *timing.words(), *digests])
         if of not in self.known:
-            self.known[of] = timed(self.program, scene, threads)
+            self.known[of] = timed(self.program, timing)
             with self.path.open("a") as file:
                 file.write(json.dumps({"of": of, "rows": self.known[of]}) + "\n")
         return self.known[of]
@@ -92,7 +111,8 @@ def make(scenes: list[Scene], arguments: argparse.Namespace) -> None:
         row
         for threads in arguments.threads
         for scene in scenes
-        for row in kept.rows(scene, threads)
+        for view in arguments.views
+        for row in kept.rows(Timing(scene, view, arguments.size, threads))
     ]
     made = run_arguments.how_made_at([program_version(arguments.streaminggs)])
     tables.write(arguments.out, "error_renderers", made, HEAD, rows)

@@ -5,6 +5,7 @@ learning, data sets trained with several budgets of Gaussians. A step sees one p
 from __future__ import annotations
 
 import argparse
+import pathlib
 
 import run_arguments
 import subjects
@@ -33,8 +34,8 @@ def rows_of(what: str, of: str, knob: str, value: float, fitted: Fitted) -> list
     ]
 
 
-def make(scenes: list[Scene], arguments: argparse.Namespace) -> None:
-    """One fitting at a time, since their seconds count. Raises Failure, ValueError."""
+def dataset_folders(arguments: argparse.Namespace) -> list[pathlib.Path]:
+    """Raises ValueError for what is no data set or there twice, and for nothing to fit."""
     folders = []
     for name in arguments.datasets:
         folder = subjects.dataset_folder(name)
@@ -43,6 +44,13 @@ def make(scenes: list[Scene], arguments: argparse.Namespace) -> None:
         folders.append(folder)
     if not folders and not arguments.steps:
         raise ValueError("--steps: 0 and no --datasets: nothing to fit")
+    run_arguments.check_once("--datasets", [folder.resolve() for folder in folders])
+    return folders
+
+
+def make(scenes: list[Scene], arguments: argparse.Namespace) -> None:
+    """One fitting at a time, since their seconds count. Raises Failure, ValueError."""
+    folders = dataset_folders(arguments)
     kept = kept_fittings(arguments)
     asked = [
         (("tuning", scene.name, "rate", rate), tuning(scene, rate, arguments))

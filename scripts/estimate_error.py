@@ -183,6 +183,7 @@ def compared_frames(scenes: list[Scene], arguments: argparse.Namespace) -> tuple
 
 
 def make_table(arguments: argparse.Namespace) -> None:
+    run_arguments.check_at_least("--configurations", arguments.configurations, 1)
     scenes: list[Scene] = find_scenes(arguments.scenes)
     frames, refused = compared_frames(scenes, arguments)
     names = [scene.name for scene in scenes]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from collections.abc import Iterable, Sequence
 
 import run_arguments
@@ -22,12 +21,10 @@ def default_config(machine: str) -> str:
 
 def check_arguments(arguments: argparse.Namespace) -> None:
     """Raises ValueError for numbers that say nothing, and for what has no effect."""
-    if arguments.j < 1:
-        raise ValueError(f"-j: {arguments.j}, expected at least 1")
-    if arguments.trials is not None and arguments.trials < 1:
-        raise ValueError(f"--trials: {arguments.trials}, expected at least 1")
-    if not 0 <= arguments.minutes < math.inf:
-        raise ValueError(f"--minutes: {arguments.minutes:g}, expected 0 or more")
+    run_arguments.check_at_least("-j", arguments.j, 1)
+    if arguments.trials is not None:
+        run_arguments.check_at_least("--trials", arguments.trials, 1)
+    run_arguments.check_at_least("--minutes", arguments.minutes, 0)
     if arguments.minutes and not arguments.search:
         raise ValueError("--minutes: has no effect without --search")
     if arguments.trials is not None and not arguments.search:

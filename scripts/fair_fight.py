@@ -229,6 +229,8 @@ def fight(arguments: argparse.Namespace) -> None:
     ):
         if bad := [n for n in given if n <= 0]:
             raise ValueError(f"--{what}: {bad[0]:g}, expected more than 0")
+    for option in ("orders", "budgets", "objectives", "view_sizes"):
+        run_arguments.check_once(f"--{option.replace('_', '-')}", getattr(arguments, option))
     scenes = scenes_in_turn(arguments.scenes)
     kept = KeptRuns(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.side_by_side)
     made = Fight(arguments, kept, scenes)

@@ -7,6 +7,7 @@ import dataclasses
 import pathlib
 from collections.abc import Iterable
 
+from given_files import read_text
 from report_folder import Run, find_runs
 
 
@@ -48,7 +49,7 @@ class Results:
         path = self.folder / f"{name}.csv"
         if not path.exists():
             raise Missing(f"{path} is not there; scripts/{maker} makes it")
-        head, *rows = list(csv.reader(path.read_text().splitlines())) or [[]]
+        head, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
         for column in columns:
             if column not in head:
                 raise ValueError(f"{path}: columns {', '.join(head)}; expected {column}")

@@ -24,7 +24,7 @@ from figures_of_image_errors import SCRIPT, quality
 Made = tuple[Figure, str]  # with its caption
 MODEL_COLUMNS = ("cycles %", "bytes %", "energy %")
 SMALLEST_PER_CENT = 1e-3  # errors below are drawn here
-TIMED = ("scene", "renderer", "finished below", "threads", "ms", "PSNR dB")
+TIMED = ("scene", "view", "renderer", "finished below", "threads", "ms", "PSNR dB")
 DOUBLE = "double"
 
 
@@ -70,18 +70,18 @@ def error_tuning(results: Results) -> Made:
 
 
 def error_renderers(results: Results) -> Made:
-    """A row of diagrams for each scene: renderers, and thresholds of finishing."""
+    """A row of diagrams for each view: renderers, and thresholds of finishing."""
     data = results.table("error_renderers", SCRIPT, TIMED)
-    scenes = data.different("scene")
-    figure, flat = panels(2 * len(scenes), width=4.6, height=2.7)
-    for scene, of_renderers, of_thresholds in zip(scenes, flat[::2], flat[1::2]):
-        rows = data.where(scene=scene)
+    views = list(dict.fromkeys((row["scene"], row["view"]) for row in data.rows))
+    figure, flat = panels(2 * len(views), width=4.6, height=2.7)
+    for (scene, view), of_renderers, of_thresholds in zip(views, flat[::2], flat[1::2]):
+        rows = data.where(scene=scene, view=view)
         draw_renderers(of_renderers, rows)
         draw_thresholds(of_thresholds, [row for row in rows if row["renderer"] == DOUBLE])
         for axes, what in ((of_renderers, "renderers"), (of_thresholds, "finished below")):
             axes.set_xscale("log")
             plain_logarithmic(axes.xaxis)
-            axes.set_title(f"{scene}, {what}: PSNR, dB", fontsize=8.5)
+            axes.set_title(f"{scene} {view}, {what}: PSNR, dB", fontsize=8.5)
             axes.set_xlabel("ms of a frame, wall time")
     legend_above(figure, flat[0], columns=4)
     return figure, (

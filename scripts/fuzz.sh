@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# usage: fuzz.sh [READER...] [SECONDS]
+# usage: fuzz.sh [--help] [READER...] [SECONDS]
 # Builds the fuzzers (preset `fuzz`: clang, libFuzzer, AddressSanitizer, UBSan) and runs those of the
 # readers named, else of all, for so many seconds each (60): an input that takes 30 s or 2 GB, a
 # sanitizer's complaint, or anything thrown but InputError ends that reader's run and is kept in
@@ -8,14 +8,25 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+seeds=tests/fuzz/corpus
+refuse() { echo "fuzz.sh: $1" >&2; exit 2; }
+
 seconds=60
 readers=()
 for word in "$@"; do
   case "$word" in
-    -*) sed -n 's/^# usage: /usage: /p' "$0" >&2; exit 2 ;;
+    --help)
+      sed -n '2,/^[^#]/s/^# //p' scripts/fuzz.sh
+      echo "Readers: $(ls $seeds | xargs)"
+      exit 0 ;;
+    -*) sed -n 's/^# usage: /usage: /p' scripts/fuzz.sh >&2; exit 2 ;;
     *[!0-9]*) readers+=("$word") ;;
-    *) seconds=$word ;;
+    *[1-9]*) seconds=$word ;;
+    *) refuse "SECONDS: got '$word', expected 1 or more" ;;
   esac
+done
+for reader in "${readers[@]}"; do
+  ls $seeds | grep -Fxq -e "$reader" || refuse "$reader: no such reader, expected of: $(ls $seeds | xargs)"
 done
 
 . scripts/debian_packages.sh
@@ -31,7 +42,7 @@ for program in build/fuzz/bin/fuzz_*; do
   done
 done
 for reader in "${readers[@]}"; do
-  [ -n "${programs[$reader]:-}" ] || { echo "fuzz.sh: $reader: no such reader, expected of: ${names[*]}" >&2; exit 2; }
+  [ -n "${programs[$reader]:-}" ] || refuse "$reader: no such reader, expected of: ${names[*]}"
 done
 
 state=build/fuzz
@@ -45,7 +56,7 @@ fuzz() {
   mkdir -p "$corpus" "$scratch/$reader"
   "${programs[$reader]}" --reader="$reader" --folder="$scratch/$reader" -max_total_time="$seconds" \
     -timeout=30 -rss_limit_mb=2048 -print_funcs=0 -print_final_stats=1 \
-    -artifact_prefix="$state/findings/$reader-" "$corpus" "tests/fuzz/corpus/$reader" \
+    -artifact_prefix="$state/findings/$reader-" "$corpus" "$seeds/$reader" \
     >"$log" 2>&1 </dev/null || found=1
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   printf '%s\t%d\t%d\t%d\t%d\n' "$reader" $((SECONDS - began)) "${runs:-0}" \

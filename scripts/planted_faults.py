@@ -172,7 +172,17 @@ def summary(verdicts: list[Verdict]) -> str:
     )
 
 
+def check(arguments: argparse.Namespace) -> None:
+    """Before anything is built. Raises ValueError for numbers that say nothing."""
+    run_arguments.check_at_least("--faults", arguments.faults, 1)
+    run_arguments.check_at_least("--seed", arguments.seed, 0)
+    run_arguments.check_above_zero("--minutes-each", arguments.minutes_each)
+    run_arguments.check_above_zero("--patience", arguments.patience)
+    run_arguments.check_at_least("--side-by-side", arguments.side_by_side, 1)
+
+
 def make(arguments: argparse.Namespace) -> None:
+    check(arguments)
     kept = Kept(arguments.out / "planted_faults.jsonl")
     rows, verdicts = [], []
     of_tree = (arguments.project, arguments.work, arguments.side_by_side, arguments.patience)

@@ -6,6 +6,7 @@ import struct
 import zlib
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
+SMALLEST_BYTES = 8 + 25 + 12  # signature, IHDR, IEND
 CHANNELS = {0: 1, 2: 3, 6: 4}  # by colour type: grey, RGB, RGBA
 
 
@@ -31,6 +32,12 @@ def size_of(png: bytes) -> tuple[int, int]:
     if png[:8] != SIGNATURE or len(png) < 33:
         raise ValueError("got no PNG, expected one")
     return struct.unpack(">II", png[16:24])
+
+
+def is_whole(png: bytes) -> bool:
+    """Whether it is a PNG that has its end, and pixels; these are not looked at."""
+    has_ends = png[:8] == SIGNATURE and png[-8:-4] == b"IEND" and len(png) >= SMALLEST_BYTES
+    return has_ends and all(size_of(png))
 
 
 def read_png(png: bytes) -> tuple[int, int, list[bytearray]]:

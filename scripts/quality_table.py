@@ -173,6 +173,7 @@ def machine_row(subject: Subject, stage: Stage, views: Sequence[dict]) -> tuple:
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
+    run_arguments.check_once("--prices", arguments.prices)
     binary, calls = arguments.streaminggs, tunings.tunings_of(arguments, arguments.quantised_steps)
     kept = KeptFittings(binary, arguments.out / "fittings", arguments.side_by_side)
     sources = subjects.find_sources(arguments.scenes or subjects.DEFAULT_SUBJECTS)

@@ -23,7 +23,6 @@ import pathlib
 import sys
 from collections.abc import Sequence
 
-import png_pictures
 import report_overview
 import report_sweep
 import report_tables
@@ -85,12 +84,6 @@ def panels_of(runs: Sequence[Run], found: Sequence[Table]) -> list[Panel]:
     return panels
 
 
-def halved_as_often(png: bytes, times: int) -> bytes:
-    for _ in range(times):
-        png = png_pictures.halved(png)
-    return png
-
-
 def text_of(panel: Panel, at: int, uris: dict[str, str], remark: str) -> str:
     return panel.text or report_view.panel(panel.files, uris, f"v{at}", remark)
 
@@ -103,8 +96,8 @@ def fitted(panels: Sequence[Panel], room: int) -> list[str]:
     for times in range(MOST_HALVINGS + 1):
         uris = [
             {
-                what: data_uri(halved_as_often(png, times))
-                for what, png in panel.files.pictures.items()
+                what: data_uri(picture.halved(times))
+                for what, picture in panel.files.pictures.items()
             }
             if panel.files
             else {}
@@ -241,7 +234,7 @@ def main() -> int:
         results = arguments.results
         if results.is_dir():
             made, out = page_of_folder(results), results / "report.html"
-        elif results.is_file():
+        elif results.exists():
             made, out = page_of_sweep(results), results.with_suffix(".html")
         else:
             raise ValueError(f"{results}: no folder, expected one with results or those of a sweep")

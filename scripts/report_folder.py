@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import csv
 import dataclasses
-import json
 import pathlib
 from collections.abc import Iterator
+
+import png_pictures
+from given_files import read_bytes, read_json, read_text
 
 REPORT = "report.json"
 PATH = "path.json"
@@ -22,12 +24,31 @@ PICTURES = {
 
 
 @dataclasses.dataclass(frozen=True)
+class Picture:
+    """A PNG file."""
+
+    path: pathlib.Path
+    png: bytes
+
+    def halved(self, times: int) -> bytes:
+        """The file, its sides halved so often. Raises ValueError for what `simulate` does not
+        write."""
+        png = self.png
+        try:
+            for _ in range(times):
+                png = png_pictures.halved(png)
+        except ValueError as error:
+            raise ValueError(f"{self.path}: {error}") from error
+        return png
+
+
+@dataclasses.dataclass(frozen=True)
 class ViewFiles:
-    """A view's report and what lies beside it. pictures: bytes of PNG files, by what they show;
-    groups: columns of groups.csv, by name."""
+    """A view's report and what lies beside it. pictures: by what they show; groups: columns of
+    groups.csv, by name."""
 
     report: dict
-    pictures: dict[str, bytes]
+    pictures: dict[str, Picture]
     groups: dict[str, list[int]]
 
 
@@ -54,12 +75,9 @@ class Table:
     opens: bool = False
 
 
-def read_json(path: pathlib.Path) -> dict:
+def read_object(path: pathlib.Path) -> dict:
     """Raises ValueError where it is no object of JSON."""
-    try:
-        found = json.loads(path.read_text(encoding="utf-8", errors="replace"))
-    except json.JSONDecodeError as error:
-        raise ValueError(f"{path}:{error.lineno}: {error.msg}, expected JSON") from error
+    found = read_json(path)
     if not isinstance(found, dict):
         raise ValueError(f"{path}: {type(found).__name__}, expected an object")
     return found
@@ -83,11 +101,19 @@ def read_groups(path: pathlib.Path) -> dict[str, list[int]]:
     """Raises ValueError where a line is not whole numbers, as many as there are names."""
     if not path.exists():
         return {}
-    head, *rows = list(csv.reader(path.read_text().splitlines())) or [[]]
+    head, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
     for number, row in enumerate(rows, start=2):
         if len(row) != len(head) or not all(cell.isdecimal() for cell in row):
             raise ValueError(f"{path}:{number}: got {','.join(row)}, expected {len(head)} counts")
     return {name: [int(row[at]) for row in rows] for at, name in enumerate(head)}
+
+
+def read_picture(path: pathlib.Path) -> Picture:
+    """Raises ValueError where it is no whole PNG."""
+    png = read_bytes(path)
+    if not png_pictures.is_whole(png):
+        raise ValueError(f"{path}: got no whole PNG, expected one")
+    return Picture(path, png)
 
 
 def view_files(report: dict, folder: pathlib.Path) -> ViewFiles:
@@ -96,7 +122,7 @@ def view_files(report: dict, folder: pathlib.Path) -> ViewFiles:
         if key not in report:
             raise ValueError(f"{folder / REPORT}: no '{key}', expected the report of a view")
     found = {
-        what: (folder / name).read_bytes()
+        what: read_picture(folder / name)
         for name, what in PICTURES.items()
         if (folder / name).exists()
     }
@@ -105,7 +131,7 @@ def view_files(report: dict, folder: pathlib.Path) -> ViewFiles:
 
 def read_path(folder: pathlib.Path) -> dict:
     """What `simulate --path` says of all frames. Raises ValueError."""
-    report = read_json(folder / PATH)
+    report = read_object(folder / PATH)
     for key in ("summary", "path", "scene", "config", "provenance"):
         if key not in report:
             raise ValueError(f"{folder / PATH}: no '{key}', expected the report of a path")
@@ -114,7 +140,7 @@ def read_path(folder: pathlib.Path) -> dict:
 
 def read_run(folder: pathlib.Path, name: str) -> Run | None:
     """The run whose report.json the folder holds; None where it is of another kind."""
-    report = read_json(folder / REPORT)
+    report = read_object(folder / REPORT)
     if "views" not in report:
         if "frame" not in report:
             return None
@@ -137,13 +163,19 @@ def find_runs(folder: pathlib.Path, name: str = "", depth: int = 0) -> Iterator[
 
 
 def find_tables(folder: pathlib.Path) -> list[Table]:
-    """CSV files with a head and at least one row."""
-    tables = []
-    for path in sorted(folder.glob("*.csv")):
-        head, *rows = list(
-            csv.reader(path.read_text(encoding="utf-8", errors="replace").splitlines())
-        ) or [[]]
-        whole = [tuple(row) for row in rows if len(row) == len(head)]
-        if whole and path.name != "groups.csv":
-            tables.append(Table(path.stem, tuple(head), tuple(whole)))
-    return tables
+    """CSV files with a head and at least one row. Raises ValueError."""
+    paths = [path for path in sorted(folder.glob("*.csv")) if path.name != "groups.csv"]
+    return [table for table in map(read_table, paths) if table.rows]
+
+
+def read_table(path: pathlib.Path) -> Table:
+    """Raises ValueError for a row of more or fewer cells than the head. What a killed writer has
+    left of its last line does not count."""
+    text = read_text(path)
+    head, *rows = list(csv.reader(text.splitlines())) or [[]]
+    if rows and len(rows[-1]) != len(head) and not text.endswith("\n"):
+        rows.pop()
+    for number, row in enumerate(rows, start=2):
+        if len(row) != len(head):
+            raise ValueError(f"{path}:{number}: got {len(row)} cells, expected {len(head)}")
+    return Table(path.stem, tuple(head), tuple(map(tuple, rows)))

@@ -59,8 +59,13 @@ def alt_text(what: str) -> str:
 def tallness(files: ViewFiles, what: str) -> float:
     """Of a picture, in per cent of the frame's height: the legend of an error map stands beside it,
     and may be taller."""
-    (_, frame), (_, height) = (size_of(files.pictures[name]) for name in ("frame", what))
+    (_, frame), (_, height) = (size_of(files.pictures[name].png) for name in ("frame", what))
     return 100 * height / frame
+
+
+def share_text(share: float | None) -> str:
+    """None: the picture has no error to share."""
+    return "none" if share is None else percent(share)
 
 
 def error_parts(view: dict) -> str:
@@ -73,7 +78,7 @@ def error_parts(view: dict) -> str:
     if not parts:
         return ""
     shares = ", ".join(
-        f"{name.replace('_', ' ')} {percent(part['share'])}" for name, part in parts.items()
+        f"{name.replace('_', ' ')} {share_text(part['share'])}" for name, part in parts.items()
     )
     missed, misordered, blends = (
         number(view["image"][count]) for count in ("missed", "misordered", "blends")

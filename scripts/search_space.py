@@ -10,6 +10,7 @@ import pathlib
 import re
 from collections.abc import Iterator, Sequence
 
+from given_files import read_text
 from group_shapes import KEYS, NAME, expanded
 from machine_axes import Assignments, Axis
 
@@ -92,7 +93,7 @@ def parse_named(text: str, number: int, place: str) -> tuple[str, Assignments]:
 def read_points(path: pathlib.Path) -> tuple[Axis, ...]:
     """Configurations of a file, one a line; `#` begins a comment. Raises ValueError."""
     points: list[Assignments] = []
-    for number, line in enumerate(path.read_text(errors="replace").splitlines(), start=1):
+    for number, line in enumerate(read_text(path).splitlines(), start=1):
         if assignments := parse_point(line.partition("#")[0], f"{path}:{number}"):
             points.append(assignments)
     if not points:

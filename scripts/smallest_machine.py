@@ -18,7 +18,6 @@ from __future__ import annotations
 import argparse
 import concurrent.futures
 import json
-import math
 import sys
 from collections.abc import Sequence
 
@@ -88,8 +87,8 @@ def found(
 
 
 def make_tables(arguments: argparse.Namespace) -> None:
-    if not 0 < arguments.fps < math.inf:
-        raise ValueError(f"--fps: {arguments.fps:g}, expected a number above 0")
+    run_arguments.check_above_zero("--fps", arguments.fps)
+    run_arguments.check_once("--sizes", arguments.sizes)
     scenes = find_scenes(arguments.scenes or shared_names())
     kept = KeptRuns(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.side_by_side)
     # A descent looks at one view at a time; sizes know nothing of each other.

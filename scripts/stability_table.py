@@ -101,13 +101,18 @@ def csv_rows(study: dict) -> list[tuple]:
 
 
 def measured(program: pathlib.Path, samples: int, seed: int) -> dict:
-    """Raises ValueError when the program refuses, Failure when it fails."""
+    """Commit and studies. Raises ValueError when the program refuses or is another one, Failure
+    when it fails."""
     done = simulations.call(program, ["--seed", str(seed)], f"--samples={samples}")
     if done.returncode == REFUSED:
         raise ValueError(simulations.said(done))
     if done.returncode != 0:
         raise simulations.Failure(f"{program.name}: {simulations.said(done)}")
-    return json.loads(done.stdout)
+    try:
+        answer = json.loads(done.stdout)
+        return {"commit": answer["commit"], "studies": answer["studies"]}
+    except (ValueError, KeyError, TypeError) as error:
+        raise ValueError(f"{program}: got no studies, expected those of `stability`") from error
 
 
 def make_table(arguments: argparse.Namespace) -> None:

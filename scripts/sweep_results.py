@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import dataclasses
 import json
 import pathlib
 import shlex
 
+from given_files import read_text
 from measures import value_at
 from report_folder import flat
 
 DONE = "done"
+STATUSES = (DONE, "refused", "failed")
 ESTIMATE = "estimate"
 MEMORIES = ("input", "codebook", "shared", "buffer")
+BINDING = "binding.unit"  # of PATHS the one that is no number
 # Of a report, and columns of the table of the same names.
 PATHS = (
     "frame.cycles",
@@ -22,11 +26,12 @@ PATHS = (
     "area_mm2.total",
     "image.psnr_db",
     "dram.bytes",
-    "binding.unit",
+    BINDING,
     *(f"sram.{memory}_available_bytes" for memory in MEMORIES),
 )
 NEEDED = PATHS[:4]  # what every machine has
 OF_POINT = ("scene", "cameras", "view", "size", "config")
+NAMED = ("scene", "view", "config")  # of these, what every point has
 
 
 @dataclasses.dataclass(frozen=True)
@@ -73,39 +78,52 @@ def text_of(value: object) -> str:
     return value if isinstance(value, str) else json.dumps(value)
 
 
-def point_of_line(line: str) -> Point:
-    """Raises ValueError, KeyError or TypeError where it is no result."""
-    result = json.loads(line)
-    asked = result["point"]
-    report = result.get("report", {})
-    provenance = report.get("provenance", {})
-    if result["status"] == DONE and any(value_at(report, path) is None for path in NEEDED):
-        raise KeyError("report")
-    return Point(
-        {name: text_of(asked[name]) for name in OF_POINT if name in asked},
-        {key: text_of(value) for key, value in asked["set"].items()},
-        result["status"],
-        result.get("reason", ""),
-        {path: value for path in PATHS if (value := value_at(report, path)) is not None},
-        {key: text_of(value) for key, value in flat(report.get("config", {}))},
-        provenance.get("commit", ""),
-        report.get("fidelity", ""),
-        (provenance.get("technology", ""), provenance.get("technology_xxh64", "")),
+def no_result(place: str, text: str) -> ValueError:
+    return ValueError(f"{place}: got {text[:40]!r}, expected a result of `streaminggs sweep`")
+
+
+def is_result(point: Point) -> bool:
+    """Whether it says what was asked for and what came of it, in numbers where these are due."""
+    numbers = [value for path, value in point.told.items() if path != BINDING]
+    return (
+        point.status in STATUSES
+        and all(name in point.asked for name in NAMED)
+        and all(isinstance(n, (int, float)) and not isinstance(n, bool) for n in numbers)
+        and (point.status != DONE or all(path in point.told for path in NEEDED))
     )
 
 
+def point_of_line(line: str, place: str) -> Point:
+    """Raises ValueError where it is no result."""
+    try:
+        result = json.loads(line)
+        asked = result["point"]
+        report = result.get("report", {})
+        provenance = report.get("provenance", {})
+        point = Point(
+            {name: text_of(asked[name]) for name in OF_POINT if name in asked},
+            {key: text_of(value) for key, value in asked["set"].items()},
+            result["status"],
+            text_of(result.get("reason", "")),
+            {path: value for path in PATHS if (value := value_at(report, path)) is not None},
+            {key: text_of(value) for key, value in flat(report.get("config", {}))},
+            text_of(provenance.get("commit", "")),
+            text_of(report.get("fidelity", "")),
+            tuple(text_of(provenance.get(f"technology{of}", "")) for of in ("", "_xxh64")),
+        )
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        raise no_result(place, line) from error
+    if not is_result(point):
+        raise no_result(place, line)
+    return point
+
+
 def read_lines(path: pathlib.Path) -> list[Point]:
-    """Raises ValueError. What a killed sweep has left of a line does not count."""
-    text = path.read_text(encoding="utf-8", errors="replace")
-    whole, _, _ = text.rpartition("\n")
-    points = []
-    for number, line in enumerate(whole.splitlines(), start=1):
-        try:
-            points.append(point_of_line(line))
-        except (ValueError, KeyError, TypeError) as error:
-            raise ValueError(
-                f"{path}:{number}: got {line[:40]!r}, expected a result of `streaminggs sweep`"
-            ) from error
+    """Raises ValueError. What a killed sweep has left of its last line does not count."""
+    *whole, last = read_text(path).split("\n")
+    points = [point_of_line(line, f"{path}:{n}") for n, line in enumerate(whole, start=1)]
+    with contextlib.suppress(ValueError):
+        points.append(point_of_line(last, str(path)))
     return points
 
 
@@ -120,8 +138,8 @@ def number_in(text: str) -> object:
 def read_table(path: pathlib.Path) -> list[Point]:
     """Settings are those that the table shows, the model's choices among them. Raises
     ValueError."""
-    head, *rows = list(csv.reader(path.read_text(errors="replace").splitlines())) or [[]]
-    missing = [name for name in ("scene", "view", "config", "status", *NEEDED) if name not in head]
+    head, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
+    missing = [name for name in (*NAMED, "status", *NEEDED) if name not in head]
     if missing:
         raise ValueError(
             f"{path}: no column {', '.join(missing)}; expected a table of `streaminggs sweep --csv`"
@@ -133,16 +151,17 @@ def read_table(path: pathlib.Path) -> list[Point]:
             raise ValueError(f"{path}:{number}: got {len(row)} cells, expected {len(head)}")
         cells = {name: cell for name, cell in zip(head, row) if cell}
         settings = {key: cells[key] for key in keys if key in cells}
-        points.append(
-            Point(
-                {name: cells[name] for name in OF_POINT if name in cells},
-                settings,
-                cells["status"],
-                told={name: number_in(cells[name]) for name in PATHS if name in cells},
-                resolved=settings,
-                fidelity=cells.get("fidelity", ""),
-            )
+        point = Point(
+            {name: cells[name] for name in OF_POINT if name in cells},
+            settings,
+            cells.get("status", ""),
+            told={name: number_in(cells[name]) for name in PATHS if name in cells},
+            resolved=settings,
+            fidelity=cells.get("fidelity", ""),
         )
+        if not is_result(point):
+            raise no_result(f"{path}:{number}", ",".join(row))
+        points.append(point)
     return points
 
 

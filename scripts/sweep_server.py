@@ -67,21 +67,32 @@ class SweepServer:
         self.said.close()
 
     def read(self) -> None:
-        for line in self.process.stdout:
-            answer = json.loads(line)
-            with self.lock:
-                self.simulated += not answer["kept"]
-                asked = self.waiting.pop(answer["id"])
-            asked.set_result(answer)
-        status = self.process.wait()
-        self.said.seek(0)
-        ended = subprocess.CompletedProcess([], status, "", self.said.read())
+        try:
+            for line in self.process.stdout:
+                self.take(json.loads(line))
+            ended = self.how_it_ended()
+        except (ValueError, KeyError, TypeError):
+            self.process.terminate()
+            ended = ValueError(f"{self.binary}: got no answers, expected those of `sweep`")
         with self.lock:
-            kind = ValueError if status == REFUSED else Failure
-            self.ended = kind(f"sweep: {said(ended)}")
+            self.ended = ended
             for asked in self.waiting.values():
                 asked.set_exception(self.ended)
             self.waiting.clear()
+
+    def take(self, answer: Answer) -> None:
+        """Raises KeyError, TypeError for what is no answer of `sweep`."""
+        with self.lock:
+            self.simulated += not answer["kept"]
+            asked = self.waiting.pop(answer["id"])
+        asked.set_result(answer)
+
+    def how_it_ended(self) -> Failure | ValueError:
+        status = self.process.wait()
+        self.said.seek(0)
+        ended = subprocess.CompletedProcess([], status, "", self.said.read())
+        kind = ValueError if status == REFUSED else Failure
+        return kind(f"sweep: {said(ended)}")
 
     def outcome(self, run: Run) -> Outcome:
         """Of a run of one view. Raises Failure when the server has ended,

@@ -23,8 +23,8 @@ def median(views: Sequence[dict], key: str) -> str:
 
 
 def make_table(arguments: argparse.Namespace) -> None:
-    if arguments.repeats < 1:
-        raise ValueError(f"--repeats: {arguments.repeats}, expected at least 1")
+    run_arguments.check_at_least("--repeats", arguments.repeats, 1)
+    run_arguments.check_once("--configs", arguments.configs)
     rows, measured = [], []
     for scene in find_scenes(arguments.scenes):
         for config in arguments.configs:

@@ -89,6 +89,7 @@ def copies(fitting: Fitting) -> list[Fitting]:
 def make_tables(arguments: argparse.Namespace) -> None:
     if arguments.minutes < 0 or arguments.same_bits < 0:
         raise ValueError("--minutes, --same-bits: expected 0 or more")
+    run_arguments.check_once("--seeds", arguments.seeds)
     folders = {}
     for text in arguments.scenes or subjects.datasets_there():
         folder = subjects.dataset_folder(text)

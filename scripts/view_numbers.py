@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import pathlib
 import statistics
 from collections.abc import Callable, Iterable, Sequence
 
+from given_files import read_json
 from scenes import Scene
 from simulations import call, said
 
@@ -50,10 +50,7 @@ def camera_count(binary: pathlib.Path, scene: Scene) -> int:
 
 def cameras_of(path: pathlib.Path) -> list:
     """Raises ValueError."""
-    try:
-        cameras = json.loads(path.read_text())
-    except json.JSONDecodeError as error:
-        raise ValueError(f"{path}: {error}") from error
+    cameras = read_json(path)
     if not isinstance(cameras, list):
         raise ValueError(f"{path}: expected a list of cameras")
     return cameras

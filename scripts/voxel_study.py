@@ -57,6 +57,7 @@ def row(name: str, factor: float, state: str, views: Sequence[dict]) -> tuple:
 
 
 def make_table(arguments: argparse.Namespace) -> None:
+    run_arguments.check_once("--voxels", arguments.voxels)
     binary, calls = arguments.streaminggs, tunings.tunings_of(arguments)
     kept = KeptFittings(binary, arguments.out / "fittings", arguments.side_by_side)
     sources = subjects.find_sources(arguments.scenes or subjects.DEFAULT_SUBJECTS)

@@ -100,6 +100,7 @@ WORKS = {
     "info": Work((SG, "info", SCENE[0])),
     "report.py": Work((SCRIPTS, "report.py", "o"), (SIMULATE,)),
 }  # fmt: skip
+JOBS = ", ".join(f"'{name}'" for name in WORKS)
 
 
 def write_dataset(folder: pathlib.Path) -> None:
@@ -302,7 +303,7 @@ def chosen(count: int, most: int) -> list[int]:
 def tried(
     name: str, work: Work, programs: dict[str, Sequence[str]], most: int, say: Callable[[str], None]
 ) -> list[tuple]:
-    """Rows of the table."""
+    """Rows of the table. Raises Failure where no call was tampered with."""
     rows = []
 
     def series(fault: str, whose: str, numbers: list[int], wrong: Callable) -> None:
@@ -320,15 +321,18 @@ def tried(
             for whose, follow in WHOSE.items():
                 numbers = chosen(bench.most_calls(fault, follow), most)
                 series(fault.name, whose, numbers, functools.partial(bench.wrong_at, fault, follow))
+        if not rows:
+            raise simulations.Failure(f"{name}: no trial: strace saw no write")
         sizes = [number - 1 for number in chosen(bench.most_bytes, most or SIZES)]
         series(FULL, "all it starts", sizes, bench.wrong_in)
     return rows
 
 
 def make(arguments: argparse.Namespace) -> None:
+    run_arguments.check_at_least("--most", arguments.most, 0)
     unknown = [name for name in arguments.works if name not in WORKS]
     if unknown:
-        raise ValueError(f"{unknown[0]}: no such job, expected of: {', '.join(WORKS)}")
+        raise ValueError(f"'{unknown[0]}': no such job, expected of: {JOBS}")
     if shutil.which("strace") is None:
         raise ValueError("strace: not there, expected Debian's package of that name")
     programs = {SG: [str(arguments.streaminggs.resolve())]}
@@ -345,7 +349,7 @@ def make(arguments: argparse.Namespace) -> None:
 
 def main() -> int:
     parser = run_arguments.Parser(__doc__)
-    parser.add_argument("works", nargs="*", metavar="JOB", help=f"of: {', '.join(WORKS)}")
+    parser.add_argument("works", nargs="*", metavar="JOB", help=f"of: {JOBS}")
     parser.add_argument(
         "--most", type=int, default=0, help="trials of a fault; 0: one for every call"
     )

@@ -108,10 +108,10 @@ class WithTheCommand(InFolder):
             (
                 error_against_time,
                 ("--diagrams", "image", "model", "tuning", "renderers", *SMALL_ERRORS),
-                {"| truck | 0 | exact |": 28, "| truck | 0 | paper |": 20 + 2, "| tuning |": 2 + 3}
+                {"| truck | 0 | exact |": 29, "| truck | 0 | paper |": 20 + 2, "| tuning |": 2 + 3}
                 | {"| truck | 0 | tiles |": 4, "| truck | estimate | 2 |": 1}
-                | {"| tuning | truck | rate | 0.5 |": 3, "| truck | double |": 5 * 2}
-                | {"| truck | paper order in half |": 2},
+                | {"| tuning | truck | rate | 0.5 |": 3, "| truck | 0 | double |": 5 * 2}
+                | {"| truck | 0 | paper order in half |": 2},
             ),
             (
                 boundary_study,
@@ -293,6 +293,11 @@ class WithTheCommand(InFolder):
                 error_against_time,
                 ("--diagrams", "renderers", "--renderers", str(RENDERERS), "--threads", "0"),
                 "--threads: got '0', expected a number from 1 to 999",
+            ),
+            (
+                error_against_time,
+                ("--diagrams", "renderers", "--renderers", str(RENDERERS), "--size", "3"),
+                "--size: got '3', expected WIDTHxHEIGHT, each 1 to 65536",
             ),
             (boundary_study, ("--size", "3"), "truck boundary .*--size: got '3'"),
             (boundary_study, ("--betas", "-1"), "truck boundary .*--beta"),

@@ -3,6 +3,9 @@
 import contextlib
 import importlib
 import io
+import os
+import shutil
+import subprocess
 import unittest
 from unittest import mock
 
@@ -14,6 +17,8 @@ import compare_variants
 import design_point_seconds
 import energy_tables
 import error_against_time
+import error_renderers
+import estimate_error
 import explore
 import fair_fight
 import fill_readme
@@ -114,9 +119,14 @@ class Ends(InFolder):
 
     def test_of_one_script(self):
         good = self.stand_in("finish()")
+        fifo = self.folder / "fifo"
+        os.mkfifo(fifo)
         for script, arguments, line in (
             (explore, ("--points", "nowhere"), "nowhere: No such file or directory$"),
-            (explore, ("--points", str(self.folder)), ".*: Is a directory$"),
+            *(
+                (explore, ("--points", name), f"{name}: not a regular file, expected one$")
+                for name in (str(self.folder), str(fifo), "/dev/zero")
+            ),
             (explore, ("--axis", "hfus"), "--axis: 'hfus', expected KEY=VALUE"),
             (
                 explore,
@@ -126,9 +136,9 @@ class Ends(InFolder):
             (fair_fight, ("--budgets", "1", "0"), "--budgets: 0, expected more than 0$"),
             (fair_fight, ("--area", "-1"), "--area: -1, expected more than 0$"),
             (fair_fight, ("--most-runs", "0"), "--most-runs: 0, expected more than 0$"),
-            (smallest_machine, ("--fps", "0"), "--fps: 0, expected a number above 0$"),
-            (smallest_machine, ("--fps", "nan"), "--fps: nan, expected a number above 0$"),
-            (smallest_machine, ("--fps", "inf"), "--fps: inf, expected a number above 0$"),
+            (smallest_machine, ("--fps", "0"), "--fps: got 0.0, expected a number above 0$"),
+            (smallest_machine, ("--fps", "nan"), "--fps: got nan, expected a number above 0$"),
+            (smallest_machine, ("--fps", "inf"), "--fps: got inf, expected a number above 0$"),
             (explore, ("--axis", "hfus=2,4,2"), "--axis: 'hfus=2,4,2', expected different values"),
             (explore, ("--axis", "hfus=2", "--axis", "hfus=4"), "--axis: hfus: there are two$"),
             (
@@ -151,7 +161,38 @@ class Ends(InFolder):
             ),
             (published_figures, (str(self.scene),), "truck: got it twice, expected each scene"),
             (published_figures, ("--view", "x"), "--view: 'x', expected numbers"),
-            (timing, ("--repeats", "0"), "--repeats: 0, expected at least 1$"),
+            (timing, ("--repeats", "0"), "--repeats: got 0, expected a number of 1 or more$"),
+            *(
+                (script, ("--configurations", n), f"--configurations: got {n}, .* of 1 or more$")
+                for script in (error_against_time, estimate_error)
+                for n in ("0", "-3")
+            ),
+            *(
+                (script, (option, value, value), f"{option}: got {value} twice, .* each once$")
+                for script, option, value in (
+                    (error_against_time, "--diagrams", "model"),
+                    (error_against_time, "--rates", "2.0"),
+                    (error_against_time, "--budgets", "1000"),
+                    (error_against_time, "--threads", "1"),
+                    (boundary_study, "--voxels", "0.5"),
+                    (boundary_study, "--betas", "0.5"),
+                    (energy_tables, "--groups", "64"),
+                    (fair_fight, "--budgets", "1.5"),
+                    (fair_fight, "--objectives", "cycles"),
+                    (fair_fight, "--orders", "exact"),
+                    (fair_fight, "--view-sizes", "64x36"),
+                    (quality_table, "--prices", "0.5"),
+                    (smallest_machine, "--sizes", "64x36"),
+                    (timing, "--configs", "exact"),
+                    (training_curves, "--seeds", "1"),
+                    (voxel_study, "--voxels", "0.5"),
+                )
+            ),
+            (
+                error_against_time,
+                ("--datasets", str(self.folder), f"{self.folder}/."),
+                "--datasets: got .* twice, expected each once$",
+            ),
         ):
             with self.subTest(script.__name__, arguments=arguments):
                 program = ("--streaminggs", str(good), "--out", str(self.folder / "out"))
@@ -194,6 +235,7 @@ class Ends(InFolder):
             program.chmod(0o755)
         out = str(self.folder / "out")
         for program, status, said in (
+            ("/bin/echo", 2, "/bin/echo: got no studies, expected those of `stability`$"),
             ("no", 2, "no: not there; scripts/setup.sh builds it$"),
             (str(refusing), 2, "stability: --samples: got 0$"),
             (str(failing), 1, "failing: exit status 1$"),
@@ -204,12 +246,28 @@ class Ends(InFolder):
                 self.assertEqual(ended, status)
                 self.assertEqual(list(self.folder.glob("*/*.md")), [])
 
+    def test_of_a_program_that_is_another_one(self):
+        """Nothing waits for its answers."""
+        program = self.folder / "another"
+        axis = ("--axis", "hfus=1,2", "--streaminggs", str(program), "--out")
+        for body, said in (
+            ("echo nothing", "got no configuration in JSON, expected one$"),
+            ("""echo '{"hfus": 1, "sram": {}}'""", "got no answers, expected those of `sweep`$"),
+        ):
+            with self.subTest(body):
+                program.write_text(f"#!/bin/sh\n{body}\n")
+                program.chmod(0o755)
+                words = (*axis, str(self.folder / "out"))
+                ended, line, _ = self.ended(explore, str(self.scene), *words)
+                self.assertRegex(line, f"^explore.py: {program}: {said}")
+                self.assertEqual(ended, 2)
+
     def test_of_the_program_that_draws_and_times(self):
         out = str(self.folder / "out")
         for body, status, said in (
             ("echo 'bench_renderers: got no scene' >&2; exit 2", 2, "bench_renderers: got no"),
             ("exit 1", 1, "renderers: exit status 1$"),
-            ("echo scene,ms", 1, ".*renderers: columns scene, ms; expected scene, renderer"),
+            ("echo scene,ms", 1, ".*renderers: columns scene, ms; expected scene, view, renderer"),
         ):
             with self.subTest(body):
                 program = self.folder / "renderers"
@@ -220,6 +278,62 @@ class Ends(InFolder):
                 self.assertRegex(line, f"^error_against_time.py: {said}")
                 self.assertEqual(ended, status)
                 self.assertEqual(list(self.folder.glob("*/*.md")), [])
+
+    def test_what_is_drawn_and_timed(self):
+        """Each view of each scene at the size, once, under the scene's whole name."""
+        program = self.folder / "renderers"
+        head = ",".join(error_renderers.HEAD)
+        program.write_text(
+            f"""#!/bin/sh
+            echo "$@" >>{self.folder}/asked
+            echo "{head}"
+            echo "object,$6,double,1,$2,1,1,double,9,9,9"
+            """
+        )
+        program.chmod(0o755)
+        info = "print('cameras 9') if 'info' in sys.argv else print('1 (0123abc)')"
+        words = ("builtin:object?n=300", "--diagrams", "renderers", "--renderers", str(program))
+        words += ("--streaminggs", str(self.stand_in(info)), "--out", str(self.folder / "out"))
+        words += ("--threads", "1", "2", "--view", "0,3")
+        asked = []
+        for more, size in (((), "640x360"), (("--size", "8x4"), "8x4")):
+            for _ in range(2):
+                status, line, made = self.ended(error_against_time, "builtin:object", *words, *more)
+                self.assertEqual(status, 0, line)
+                for scene in ("builtin:object", "builtin:object?n=300"):
+                    for view in (0, 3):
+                        self.assertEqual(made.count(f"| {scene} | {view} | double |"), 2)
+            asked += [
+                f"--threads {threads} --size {size} --view {view} {scene}"
+                for threads in (1, 2)
+                for scene in ("builtin:object", "builtin:object?n=300")
+                for view in (0, 3)
+            ]
+        self.assertEqual((self.folder / "asked").read_text().splitlines(), asked)
+
+    def test_of_fuzzers(self):
+        """What they are told is looked at before anything is installed or built."""
+        scripts, seeds = self.folder / "scripts", self.folder / "tests" / "fuzz" / "corpus"
+        for folder in (scripts, seeds / "ply", seeds / "png"):
+            folder.mkdir(parents=True)
+        shutil.copy(REPOSITORY / "scripts" / "fuzz.sh", scripts)
+        (scripts / "debian_packages.sh").write_text("echo installing\nexit 9\n")
+        for words, status, out, said in (
+            (("--help",), 0, r"usage: fuzz.sh .*\nBuilds the (.|\n)*\nReaders: ply png\n", ""),
+            (("--nope",), 2, "", "usage: fuzz.sh .*\n"),
+            (("ply", "0"), 2, "", "fuzz.sh: SECONDS: got '0', expected 1 or more\n"),
+            (("ply", "-5"), 2, "", "usage: fuzz.sh .*\n"),
+            (("ply", "nope"), 2, "", "fuzz.sh: nope: no such reader, expected of: ply png\n"),
+            (("..",), 2, "", r"fuzz.sh: \.\.: no such reader, expected of: ply png\n"),
+            (("ply", "png", "10"), 9, "installing\n", ""),
+            ((), 9, "installing\n", ""),
+        ):
+            with self.subTest(words):
+                command = ["bash", str(scripts / "fuzz.sh"), *words]
+                done = subprocess.run(command, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, status, done.stderr)
+                self.assertRegex(done.stdout, rf"\A{out}\Z")
+                self.assertRegex(done.stderr, rf"\A{said}\Z")
 
     def test_unknown_scene_and_readme(self):
         for script in (explore, fill_readme):

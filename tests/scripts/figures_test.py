@@ -266,11 +266,13 @@ MADE_TOGETHER = {
         "error_renderers",
         error_renderers.HEAD,
         [
-            {"scene": "truck", "renderer": name, "finished below": below, "threads": threads}
+            {"scene": "truck", "view": view, "renderer": name, "finished below": below}
+            | {"threads": threads}
+            for view in (0, 3)
             for name, below in (("double", "0.01"), ("double", "0.0001"), ("reference", "0.0001"))
             for threads in (1, 2)
         ],
-        ("truck, renderers: PSNR", "reference", "2 threads", "0.01"),
+        ("truck 0, renderers: PSNR", "truck 3, renderers: PSNR", "reference", "2 threads", "0.01"),
     ),
 }
 TABLES |= MADE_TOGETHER | {

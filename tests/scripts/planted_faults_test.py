@@ -124,6 +124,26 @@ class Covering(unittest.TestCase):
         self.assertEqual(found["d.cpp"], {"d.cpp"})
 
 
+class Refused(InFolder):
+    def test_numbers_that_say_nothing(self):
+        for option, value, said in (
+            ("--faults", "-1", "got -1, expected a number of 1 or more"),
+            ("--faults", "0", "got 0, expected a number of 1 or more"),
+            ("--minutes-each", "nan", "got nan, expected a number above 0"),
+            ("--minutes-each", "0", "got 0.0, expected a number above 0"),
+            ("--patience", "0", "got 0.0, expected a number above 0"),
+            ("--patience", "inf", "got inf, expected a number above 0"),
+            ("--side-by-side", "0", "got 0, expected a number of 1 or more"),
+            ("--seed", "-1", "got -1, expected a number of 0 or more"),
+        ):
+            with self.subTest(option, value=value):
+                work, out = self.folder / "work", self.folder / "out"
+                words = (option, value, "--work", str(work), "--out", str(out))
+                status, line, made = self.ended(planted_faults, *words)
+                self.assertEqual(line, f"planted_faults.py: {option}: {said}")
+                self.assertEqual((status, made, work.exists()), (2, "", False))
+
+
 SOURCES = {
     "CMakePresets.json": """
         {"version": 6,

@@ -2,6 +2,7 @@
 with $STREAMINGGS; the browser is Debian's Chromium, its test is skipped where that is not there."""
 
 import json
+import os
 import pathlib
 import random
 import struct
@@ -10,9 +11,11 @@ import zlib
 from unittest import mock
 
 from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
+import given_files
 import png_pictures
 import report
 import report_charts
+import report_pictures
 import report_tables
 import report_time
 import report_view
@@ -74,6 +77,15 @@ class Parts(unittest.TestCase):
         ):
             with self.subTest(said), self.assertRaisesRegex(ValueError, said):
                 png_pictures.halved(png)
+
+    def test_a_share_of_no_error(self):
+        for share, text in ((None, "none"), (0, "0 %"), (0.5, "50 %"), (0.012, "1.2 %")):
+            self.assertEqual(report_pictures.share_text(share), text)
+
+    def test_levels_of_json(self):
+        deep = json.loads("[" * 300 + "]" * 300)
+        for found, count in ((1, 0), ({}, 1), ([1, {"a": [2]}], 3), (deep, 101)):
+            self.assertEqual(given_files.levels(found), count)
 
     def test_numbers(self):
         for value, text in (
@@ -171,6 +183,19 @@ class Page(WithFrames):
                 pictures = (folder / "view_0").glob("*.png")
                 self.assertEqual(page.count('src="data:image/png'), len(list(pictures)))
 
+    def test_a_picture_without_error_has_no_shares(self):
+        """By itself, and in a folder of runs."""
+        parts = ("encoding", "missed", "misordered", "arithmetic", "pixel_format")
+        for config in ("exact_fp16", "paper"):
+            report_file = self.simulated(config, f"both/{config}") / "report.json"
+            whole = json.loads(report_file.read_text())
+            none = dict.fromkeys(parts, {"share": None, "alone": None})
+            whole["views"][0]["image"]["error_parts"] = none
+            report_file.write_text(json.dumps(whole))
+        said = "Of the squared error: encoding none, missed none, misordered none"
+        self.assertHolds(self.page(self.folder / "both" / "paper"), said)
+        self.assertEqual(self.page(self.folder / "both").count(said), 2)
+
     def test_an_estimate_is_called_one(self):
         for config in ("exact", "paper"):
             self.simulated(config, f"both/{config}")
@@ -198,7 +223,8 @@ class Page(WithFrames):
     def test_several_runs_and_a_table_are_compared(self):
         for config in ("exact", "paper"):
             self.simulated(config, f"both/{config}")
-        (self.folder / "both" / "explore.csv").write_text("hfus,cycles\n2,1200\n4,1000\n")
+        # A killed writer's last line does not count.
+        (self.folder / "both" / "explore.csv").write_text("hfus,cycles\n2,1200\n4,1000\n8")
         page = self.page(self.folder / "both")
         for text in (
             "2 runs, 2 views",
@@ -280,8 +306,42 @@ class Page(WithFrames):
         broken(folder / "report.json", '{"views": [{"view": 0}]}', whole, "no 'frame', expected")
         broken(groups, counts + "1,2\n", counts, r"groups.csv:8: got 1,2, expected 10 counts")
         broken(groups, counts.replace(",0,", ",x,", 1), counts, "groups.csv:2: ")
-        (folder / "view_0" / "frame.png").write_bytes(b"no picture")
-        self.assertRefused(folder, "got no PNG")
+        table = folder / "l.csv"
+        broken(table, "a,b\n1,2\n3\n4,5\n", "a,b\n", "l.csv:3: got 1 cells, expected 2$")
+        broken(table, "a,b\n1,2\n3,4,5\n", "a,b\n", "l.csv:3: got 3 cells, expected 2$")
+        for text in ("[" * 100_000, '{"a":' * 500 + "1" + "}" * 500):
+            deep = "report.json: got JSON of more than 100 levels, expected fewer$"
+            broken(folder / "report.json", text, whole, deep)
+        frame = folder / "view_0" / "frame.png"
+        png = frame.read_bytes()
+        empty = png[:16] + bytes(8) + png[24:]
+        for content in (b"no picture", png[:20], png[:-1], png[:8] + png[-12:], empty):
+            frame.write_bytes(content)
+            self.assertRefused(folder, "view_0/frame.png: got no whole PNG, expected one$")
+        frame.write_bytes(png[:24] + b"\x10" + png[25:])
+        with mock.patch.object(report, "MOST_BYTES", 0):
+            self.assertRefused(folder, "view_0/frame.png: got another kind of PNG, expected 8 bits")
+
+    def test_what_has_no_end_is_not_read(self):
+        folder = self.simulated("exact", "endless")
+        view = folder / "view_0"
+        for path, of in (
+            (folder / "report.json", folder),
+            (view / "report.json", view),
+            (view / "groups.csv", folder),
+            (view / "frame.png", folder),
+            (view / "error.png", view),
+            (self.folder / "sweep.jsonl", self.folder / "sweep.jsonl"),
+            (self.folder / "sweep.csv", self.folder / "sweep.csv"),
+        ):
+            content = path.read_bytes() if path.exists() else b""
+            for make in (os.mkfifo, lambda path: path.symlink_to("/dev/zero")):
+                with self.subTest(path=path.name, of=of.name, make=make):
+                    path.unlink(missing_ok=True)
+                    make(path)
+                    self.assertRefused(of, f"{path.name}: not a regular file, expected one$")
+            path.unlink()
+            path.write_bytes(content)
 
     def test_results_are_not_written_over(self):
         folder = self.simulated("exact", "kept")

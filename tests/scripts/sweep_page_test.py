@@ -41,6 +41,9 @@ def line(
     return json.dumps(result) + "\n"
 
 
+HEAD_OF_TABLE = "scene,view,config,status,frame.cycles,frame.fps,energy.total_j,area_mm2.total\n"
+
+
 class Read(InFolder):
     def page(self, text: str, name: str = "sweep.jsonl") -> tuple[int, str]:
         """Exit status, and the page or what was said."""
@@ -90,6 +93,11 @@ class Read(InFolder):
         self.assertIn("<td class=n>222</td>", page)
         self.assertNotIn("<td class=n>111</td>", page)
 
+    def test_a_whole_last_line_counts_without_its_end(self):
+        status, page = self.page(line(222, 1, 1) + line(111, 1, 1).rstrip("\n"))
+        self.assertEqual(status, 0)
+        self.assertIn("<td class=n>111</td>", page)
+
     def test_what_is_not_to_be_compared_stands_apart(self):
         """Nothing is left out, and no estimate stands in the place of a simulation."""
         path = self.folder / "sweep.jsonl"
@@ -133,6 +141,16 @@ class Read(InFolder):
             ("d.jsonl", line(1, 1, 1).replace("total_j", "x"), "d.jsonl:1: got"),
             ("e.jsonl", line(0, 0, 0, "failed"), "no point was done: hfus: 0, expected <more>"),
             ("f.csv", "scene,mJ\na,1\n", "f.csv: no column view, config, status, frame.cycles"),
+            ("g.jsonl", 4 * line(1, 1, 1) + "x\n" + line(1, 1, 1), "g.jsonl:5: got 'x', exp"),
+            ("h.jsonl", line(1, 1, 1) + "\n", "h.jsonl:2: got ''"),
+            ("i.jsonl", line(1, 1, 1, "nonsense"), "i.jsonl:1: got .* expected a result of"),
+            ("j.jsonl", line(1, 1, 1).replace('"scene": "s", ', ""), "j.jsonl:1: got"),
+            ("k.jsonl", line(1, 1, 1).replace('"cycles": 1', '"cycles": "1"'), "k.jsonl:1: got"),
+            ("l.jsonl", line(1, 1, 1).replace('"bytes": 1000', '"bytes": [1]'), "l.jsonl:1: got"),
+            ("m.jsonl", "[" * 100_000 + "\n", "m.jsonl:1: got '\\[\\["),
+            ("n.csv", HEAD_OF_TABLE + "s,0,exact,done,1,1,1,1\ns,0", "n.csv:3: got 2 cells"),
+            ("o.csv", HEAD_OF_TABLE + "s,0,exact,done,x,1,1,1\n", "o.csv:2: got 's,0,exact,done,x"),
+            ("p.csv", HEAD_OF_TABLE + "s,0,exact,,,,,\n", "p.csv:2: got 's,0,exact,,"),
         ):
             with self.subTest(name):
                 status, told = self.page(text, name)

@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import sys
 import unittest
+from unittest import mock
 
 from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
 import write_faults
@@ -58,6 +59,25 @@ class Tampered(unittest.TestCase):
         for name, calls, expected in self.CALLS:
             with self.subTest(name):
                 self.assertEqual(write_faults.tampered(calls), [calls[i] for i in expected])
+
+
+class Refused(InFolder):
+    def test_what_is_refused(self):
+        for words, said in (
+            (("--most", "-1"), "--most: got -1, expected a number of 0 or more$"),
+            (("nope",), "'nope': no such job, expected of: 'simulate', 'simulate, a run is there', "),
+        ):
+            with self.subTest(words):
+                status, line, made = self.ended(write_faults, *words, "--out", str(self.folder))
+                self.assertRegex(line, f"^write_faults.py: {said}")
+                self.assertEqual((status, made), (2, ""))
+
+    def test_no_trial_is_no_success(self):
+        """Where strace may not look, no call is seen."""
+        work, words = Work(("w",)), ["sh", "-c", "echo a > a.bin"]
+        with mock.patch.object(write_faults.Bench, "most_calls", return_value=0):
+            with self.assertRaisesRegex(write_faults.simulations.Failure, "^job: no trial: strace"):
+                write_faults.tried("job", work, {"w": words}, 0, print)
 
 
 @unittest.skipUnless(shutil.which("strace"), "strace: not there, Debian's package of that name")

@@ -1,0 +1,47 @@
+"""Files that a user names, or that lie in a folder so named: lists, reports, tables, pictures."""
+
+from __future__ import annotations
+
+import json
+import pathlib
+
+MOST_LEVELS = 100  # of JSON: what walks through it later is not to run out of stack
+
+
+def read_bytes(path: pathlib.Path) -> bytes:
+    """Raises ValueError for a device, pipe or folder, which may have no end; OSError."""
+    if path.exists() and not path.is_file():
+        raise ValueError(f"{path}: not a regular file, expected one")
+    return path.read_bytes()
+
+
+def read_text(path: pathlib.Path) -> str:
+    """The same of a text; bytes that are none are replaced."""
+    return read_bytes(path).decode("utf-8", errors="replace")
+
+
+def read_json(path: pathlib.Path) -> object:
+    """Raises ValueError also where it is no JSON, or of more than MOST_LEVELS levels."""
+    too_deep = f"{path}: got JSON of more than {MOST_LEVELS} levels, expected fewer"
+    try:
+        found = json.loads(read_text(path))
+    except json.JSONDecodeError as error:
+        raise ValueError(f"{path}:{error.lineno}: {error.msg}, expected JSON") from error
+    except RecursionError as error:
+        raise ValueError(too_deep) from error
+    if levels(found) > MOST_LEVELS:
+        raise ValueError(too_deep)
+    return found
+
+
+def levels(found: object) -> int:
+    """Of lists and objects in each other, counted up to one more than MOST_LEVELS; 0 of a number
+    or text."""
+    count, level = 0, [found]
+    while count <= MOST_LEVELS:
+        within = [x for x in level if isinstance(x, (dict, list))]
+        if not within:
+            break
+        count += 1
+        level = [y for x in within for y in (x.values() if isinstance(x, dict) else x)]
+    return count
