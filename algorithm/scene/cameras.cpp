@@ -11,6 +11,7 @@
 #include "algorithm/input_error.h"
 #include "algorithm/input_json.h"
 #include "algorithm/output_file.h"
+#include "algorithm/scene/gaussian_limits.h"
 
 namespace sgs {
 namespace {
@@ -31,7 +32,7 @@ class EntryReader {
   }
 
   [[noreturn]] void fail(const std::string& key, const std::string& got,
-                         const char* expected) const {
+                         const std::string& expected) const {
     throw InputError(
         fmt::format("{}: camera {}: {}: got {}, expected {}", path_, index_, key, got, expected));
   }
@@ -62,7 +63,20 @@ class EntryReader {
   double focal(const char* key) const {
     const double focal_px = number(key, at(key, "a focal length in px above 0"));
     if (focal_px <= 0) fail(key, fmt::format("{}", focal_px), "a focal length in px above 0");
+    if (focal_px > kMaxFocalPx) {
+      fail(key, fmt::format("{}", focal_px), fmt::format("at most {} px", kMaxFocalPx));
+    }
     return focal_px;
+  }
+
+  glm::dvec3 position(const char* key) const {
+    const glm::dvec3 at = triple(key, this->at(key, "an array of 3 numbers"));
+    for (int i = 0; i < 3; ++i) {
+      if (std::abs(at[i]) <= kMaxCoordinate) continue;
+      fail(fmt::format("{}[{}]", key, i), fmt::format("{}", at[i]),
+           fmt::format("a magnitude of at most {}", kMaxCoordinate));
+    }
+    return at;
   }
 
   glm::dvec3 triple(const std::string& key, const Json& value) const {
@@ -110,7 +124,7 @@ Camera read_camera(const std::string& path, std::size_t index, const Json& entry
   camera.height = reader.integer("height", 1, "a whole number of px from 1");
   camera.focal_x = reader.focal("fx");
   camera.focal_y = reader.focal("fy");
-  camera.position = reader.triple("position", reader.at("position", "an array of 3 numbers"));
+  camera.position = reader.position("position");
   camera.world_from_camera = reader.rotation("rotation");
   return camera;
 }

@@ -13,8 +13,8 @@ namespace sgs {
 // ignored. `position` is the centre in the world; the columns of `rotation` (an array of rows) are
 // the camera's x right, y down, z forward axes in the world. Throws InputError that names file,
 // entry and key: a key missing or of the wrong type, a size or focal length that is not positive, a
-// number that is not finite, a rotation whose columns are not orthonormal within 1e-3 or which
-// mirrors.
+// number that is not finite or beyond gaussian_limits.h, a rotation whose columns are not
+// orthonormal within 1e-3 or which mirrors.
 std::vector<Camera> read_cameras(const std::string& path);
 
 // The same of an array that was read already. origin: the file, and what of it, for messages.

@@ -17,13 +17,13 @@ namespace sgs {
 
 template <class Archive>
 void serialize(Archive& archive, Checkpoint& checkpoint) {
-  archive(checkpoint.work, checkpoint.contents, checkpoint.log, checkpoint.seconds,
+  archive(checkpoint.work, checkpoint.pace, checkpoint.contents, checkpoint.log, checkpoint.seconds,
           checkpoint.state);
 }
 
 namespace {
 
-constexpr std::string_view kMagic = "\x89SGSTRAIN\r\n\x1a\n3";
+constexpr std::string_view kMagic = "\x89SGSTRAIN\r\n\x1a\n4";
 
 std::uint32_t crc_of(const std::string& text) {
   return static_cast<std::uint32_t>(
@@ -99,6 +99,7 @@ Checkpoint read_checkpoint(const std::string& path) {
   Checkpoint checkpoint;
   Body fields(path, body);
   checkpoint.work = fields.text();
+  checkpoint.pace = fields.text();
   checkpoint.contents = fields.text();
   checkpoint.log = fields.text();
   checkpoint.seconds = fields.number<double>();

@@ -31,7 +31,10 @@ void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>&
 }
 
 FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const {
-  return streaming_job(config_, scene, camera, exact_spill_bytes(scene.image.layout));
+  FrameJob job = scene_job(config_, scene, camera);
+  add_spill(job, exact_spill_bytes(scene.image.layout));  // by the scene alone
+  add_frame_buffer(job);
+  return job;
 }
 
 bool ExactDesign::draws_reference() const {

@@ -26,19 +26,17 @@ void check(const PaperConfig& c) {
         "sorting_units: got {} with fetch shared, expected a divisor or a multiple of hfus {}",
         c.sorting_units, c.hfus));
   }
-  if (c.sorting.buffer_entries < 4 * c.sorting.spill_block_entries) {
+  if (c.sorting.buffer_entries < c.sorting.least_of_runs()) {
     throw InputError(fmt::format(
         "sorting.buffer_entries: got {} splats, expected at least {}: two runs are merged with two "
         "blocks of {} each",
-        c.sorting.buffer_entries, 4 * c.sorting.spill_block_entries,
-        c.sorting.spill_block_entries));
+        c.sorting.buffer_entries, c.sorting.least_of_runs(), c.sorting.spill_block_entries));
   }
-  if (c.vsu.table_bytes < kTableWordBytes * c.vsu.table_banks) {
-    throw InputError(
-        fmt::format("vsu.table_bytes: got {}, expected at least {}: a word of {} B in "
-                    "each of vsu.table_banks {}",
-                    c.vsu.table_bytes, kTableWordBytes * c.vsu.table_banks, kTableWordBytes,
-                    c.vsu.table_banks));
+  if (c.vsu.table_bytes < c.vsu.least_table_bytes()) {
+    throw InputError(fmt::format(
+        "vsu.table_bytes: got {}, expected at least {}: a word of {} B in "
+        "each of vsu.table_banks {}",
+        c.vsu.table_bytes, c.vsu.least_table_bytes(), kTableWordBytes, c.vsu.table_banks));
   }
 }
 

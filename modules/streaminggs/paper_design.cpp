@@ -60,7 +60,10 @@ void PaperDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>&
 }
 
 FrameJob PaperDesign::job(const StoredScene& scene, const Camera& camera) const {
-  return streaming_job(config_, scene, camera, spill_bytes(config_, scene.grid()));
+  FrameJob job = scene_job(config_, scene, camera);
+  add_frame_buffer(job);
+  add_spill(job, spill_bytes(config_, scene.grid()));  // by the buffers
+  return job;
 }
 
 std::optional<PaperOrderConfig> PaperDesign::paper_order() const {

@@ -123,9 +123,8 @@ void PaperMachine::publish_units(DataSheet& sheet) {
   for (const auto& sorter : sorters_) sorter->publish(sheet);
   std::uint64_t longest = 0;
   for (const auto& sorter : sorters_) longest = std::max(longest, sorter->counters().list_max);
-  constexpr std::uint64_t kFewestEntries = 16;  // a block of the network
   publish_spare(sheet, "spare_sort_buffer_entries", "sorting.buffer_entries",
-                config_.sorting.buffer_entries, longest, kFewestEntries);
+                config_.sorting.buffer_entries, longest, config_.sorting.least_buffer_entries());
   for (const auto& rendering : rendering_) rendering->publish(sheet);
 }
 

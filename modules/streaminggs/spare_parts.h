@@ -13,7 +13,7 @@
 namespace sgs {
 
 // what: key of the saving; key: of the configuration; most: that the frame took; fewest: that the
-// key may be.
+// key may be beside the other keys.
 inline void publish_spare(DataSheet& sheet, const char* what, const char* key, std::uint64_t there,
                           std::uint64_t most, std::uint64_t fewest) {
   const std::uint64_t enough = std::max(most, fewest);

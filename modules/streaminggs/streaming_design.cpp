@@ -38,17 +38,21 @@ StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job) {
   return out;
 }
 
-StreamingJob streaming_job(const StreamingConfig& config, const StoredScene& scene,
-                           const Camera& camera, std::uint64_t spill_bytes) {
+FrameJob scene_job(const StreamingConfig& config, const StoredScene& scene, const Camera& camera) {
   FrameJob job;
   job.view = make_view<float>(camera);
   job.frame_format = config.framebuffer;
   job.layout = scene.image.layout;
-  job.spill = job.layout.regions.add("spill", spill_bytes);
-  job.frame_buffer =
-      job.layout.regions.add("frame_buffer", std::uint64_t{pixel_bytes(config.framebuffer)} *
-                                                 camera.width * camera.height);
-  return streaming_job(config, job);
+  return job;
+}
+
+void add_spill(FrameJob& job, std::uint64_t bytes) {
+  job.spill = job.layout.regions.add("spill", bytes);
+}
+
+void add_frame_buffer(FrameJob& job) {
+  const auto pixels = static_cast<std::uint64_t>(job.view.width) * job.view.height;
+  job.frame_buffer = job.layout.regions.add("frame_buffer", pixel_bytes(job.frame_format) * pixels);
 }
 
 GoldenFrame golden_frame(StreamingResult&& result, const std::vector<PixelRect>& groups) {

@@ -17,11 +17,15 @@ namespace sgs {
 void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& format,
            std::vector<AutoChoice>& chosen);
 
-// A frame of the scene, with the regions `spill` and `frame_buffer` behind the scene's own.
-StreamingJob streaming_job(const StreamingConfig& config, const StoredScene& scene,
-                           const Camera& camera, std::uint64_t spill_bytes);
+// A frame of the scene, without regions of the machine's own.
+FrameJob scene_job(const StreamingConfig& config, const StoredScene& scene, const Camera& camera);
 
-// As above, of a job that has passed as a FrameJob: groups and spill region again.
+// Regions behind those that the job has. What depends on the configuration belongs behind what does
+// not: a machine of other parameters then finds everything where it was.
+void add_spill(FrameJob& job, std::uint64_t bytes);
+void add_frame_buffer(FrameJob& job);
+
+// Of a job that has passed as a FrameJob: its groups.
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job);
 
 // What any machine tells of its golden picture, and nothing of streaming. groups: that it was

@@ -44,7 +44,9 @@ class FittingRun {
       // lost.
       const bool of_input = dynamic_cast<const InputError*>(&error) != nullptr;
       if (of_input && task_.fitting.next_step() == first) throw;
-      throw std::runtime_error(fmt::format("{}; {}", error.what(), kept()));
+      const bool too_fast = dynamic_cast<const NotFinite*>(&error) != nullptr;
+      throw std::runtime_error(
+          fmt::format("{}; {}{}", error.what(), kept(), too_fast ? slower() : ""));
     }
   }
 
@@ -67,7 +69,7 @@ class FittingRun {
   }
 
   void save() const {
-    write_checkpoint(arguments_.checkpoint(), {task_.work, task_.contents, log_.csv(),
+    write_checkpoint(arguments_.checkpoint(), {task_.work, task_.pace, task_.contents, log_.csv(),
                                                log_.seconds(), task_.fitting.saved()});
   }
 
@@ -79,6 +81,11 @@ class FittingRun {
       return fmt::format("nor is its state saved: {}", error.what());
     }
     return fmt::format("the last good state is in {}", arguments_.checkpoint());
+  }
+
+  // What may be done about steps that lead nowhere.
+  const char* slower() const {
+    return task_.pace.empty() ? "" : "; to go on: --resume it with a smaller --rate";
   }
 
   int stopped() {
@@ -148,6 +155,15 @@ std::optional<Checkpoint> FittingArguments::resumed(const std::string& work,
 
 int run_fitting(const FittingArguments& arguments, const FittingTask& task,
                 const std::optional<Checkpoint>& from, bool look_first) {
+  const int done = task.fitting.next_step();
+  if (done > task.fitting.steps()) {
+    throw InputError(fmt::format("{}: has done {} steps, expected up to {}", arguments.resume, done,
+                                 task.fitting.steps()));
+  }
+  if (from && from->pace != task.pace) {
+    fmt::print("{:<26}behind step {} with {}, until there with {}\n", "resumed", done, task.pace,
+               from->pace);
+  }
   return FittingRun(arguments, task, from).run(look_first);
 }
 

@@ -42,7 +42,7 @@ struct FittingArguments {
 };
 
 struct FittingTask {
-  std::string work, contents;  // as in Checkpoint
+  std::string work, pace, contents;  // as in Checkpoint
   Fitting& fitting;
   std::vector<LogColumn> more;  // that look() fills in
   std::function<Look()> look;
@@ -50,8 +50,9 @@ struct FittingTask {
 };
 
 // Looks at the test views as often as is asked for, behind the last step, and before the first one
-// where `look_first`. from: what it goes on from, if anything. Returns the exit status. Whatever
-// fails on the way is a std::runtime_error, with the last good state saved as a checkpoint.
+// where `look_first`. from: what it goes on from, if anything. Returns the exit status. Throws
+// InputError where that has done more steps than there are to do. Whatever fails on the way is a
+// std::runtime_error, with the last good state saved as a checkpoint.
 int run_fitting(const FittingArguments& arguments, const FittingTask& task,
                 const std::optional<Checkpoint>& from, bool look_first);
 

@@ -24,27 +24,46 @@ std::vector<SweepPoint> PointStream::receive() {
   }
   if (got == 0) {
     ended_ = true;
-    add(rest_, points);
+    end_line(points);
     return points;
   }
-  rest_.append(block.data(), static_cast<std::size_t>(got));
-  std::size_t begin = 0;
-  for (std::size_t end; (end = rest_.find('\n', begin)) != std::string::npos; begin = end + 1) {
-    add(rest_.substr(begin, end - begin), points);
+  std::string_view left(block.data(), static_cast<std::size_t>(got));
+  for (std::size_t end; (end = left.find('\n')) != std::string_view::npos;) {
+    take(left.substr(0, end), points);
+    end_line(points);
+    left.remove_prefix(end + 1);
   }
-  rest_.erase(0, begin);
+  take(left, points);
   return points;
 }
 
-void PointStream::add(const std::string& line, std::vector<SweepPoint>& points) {
-  ++lines_;
-  const std::string content = content_of(line);
-  if (content.empty()) return;
-  try {
-    points.push_back(parse_point(content, fmt::format("standard input, line {}", lines_)));
-  } catch (const InputError& error) {
-    points.emplace_back().refused = error.what();
+void PointStream::take(std::string_view piece, std::vector<SweepPoint>& points) {
+  if (too_long_) return;
+  if (line_.size() + piece.size() <= kLongestLineBytes) {
+    line_.append(piece);
+    return;
   }
+  too_long_ = true;
+  line_.clear();
+  points.emplace_back().refused =
+      fmt::format("{}: got more than {} B, expected KEY=VALUE ..., or a JSON object", place(),
+                  kLongestLineBytes);
 }
+
+void PointStream::end_line(std::vector<SweepPoint>& points) {
+  const std::string content = content_of(line_);
+  if (!content.empty()) {
+    try {
+      points.push_back(parse_point(content, place()));
+    } catch (const InputError& error) {
+      points.emplace_back().refused = error.what();
+    }
+  }
+  line_.clear();
+  too_long_ = false;
+  ++number_;
+}
+
+std::string PointStream::place() const { return fmt::format("standard input, line {}", number_); }
 
 }  // namespace sgs

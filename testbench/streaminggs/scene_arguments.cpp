@@ -12,6 +12,7 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/scene/cameras.h"
+#include "algorithm/splat/view.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/builtin/open_scene.h"
 #include "testbench/command_line/while_doing.h"
@@ -46,6 +47,14 @@ std::string stretch_of(const std::string& size, int view, const Camera& camera, 
       "--size {}: view {} has {}x{} px: its fields of view are kept, so the picture is stretched; "
       "{}x{} keeps its shape",
       size, view, camera.width, camera.height, frame.width, std::max(1L, std::lround(rows)));
+}
+
+void check_drawable(const Camera& camera, const std::string& origin) {
+  try {
+    sgs::check_drawable(camera);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", origin, error.what()));
+  }
 }
 
 // The numbers that `view` names out of 0 to count - 1, in its order.
@@ -170,10 +179,11 @@ ChosenCameras SceneArguments::chosen_cameras(const std::vector<Camera>& own) con
   for (const int number : chosen_numbers(view, static_cast<int>(all.size()))) {
     chosen.emplace_back(number, all[static_cast<std::size_t>(number)]);
   }
-  return in_size(std::move(chosen));
+  return in_size(std::move(chosen), origin_of_cameras());
 }
 
-ChosenCameras SceneArguments::in_size(std::vector<std::pair<int, Camera>> cameras) const {
+ChosenCameras SceneArguments::in_size(std::vector<std::pair<int, Camera>> cameras,
+                                      const std::string& origin) const {
   ChosenCameras chosen{std::move(cameras), ""};
   for (auto& [index, camera] : chosen.views) {
     if (!size.empty()) {
@@ -184,9 +194,11 @@ ChosenCameras SceneArguments::in_size(std::vector<std::pair<int, Camera>> camera
       camera = scaled_to(camera, width, height);
     }
     if (camera.width > kMaxSizePx || camera.height > kMaxSizePx) {
-      throw InputError(fmt::format("view {}: {}x{} px, at most {} a side", index, camera.width,
-                                   camera.height, kMaxSizePx));
+      throw InputError(
+          fmt::format("{}: view {}: got {}x{} px, expected at most {} a side, or --size", origin,
+                      index, camera.width, camera.height, kMaxSizePx));
     }
+    check_drawable(camera, origin);
   }
   return chosen;
 }
@@ -214,9 +226,9 @@ std::vector<PixelSize> SceneArguments::frame_sizes() const {
 
 std::vector<Camera> SceneArguments::weighing_cameras(const std::vector<Camera>& own,
                                                      SecondHalfEncoding encoding) const {
-  const std::vector<Camera> all = all_cameras(own);
-  if (weigh_by.empty()) return all;
-  if (!SecondHalfFormat{encoding, 0, {}}.quantised()) {
+  std::vector<Camera> all = all_cameras(own);
+  const bool quantised = SecondHalfFormat{encoding, 0, {}}.quantised();
+  if (!weigh_by.empty() && !quantised) {
     throw InputError(fmt::format(
         "--weigh-by: got it with storage.encoding {}, which has no codebooks, expected vq or "
         "vq_packed",
@@ -229,6 +241,10 @@ std::vector<Camera> SceneArguments::weighing_cameras(const std::vector<Camera>& 
                                    static_cast<int>(all.size()) - 1));
     }
     chosen.push_back(all[static_cast<std::size_t>(number)]);
+  }
+  if (weigh_by.empty()) chosen = std::move(all);
+  if (quantised) {
+    for (const Camera& camera : chosen) check_drawable(camera, origin_of_cameras());
   }
   return chosen;
 }

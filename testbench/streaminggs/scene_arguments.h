@@ -61,8 +61,9 @@ struct SceneArguments {
   ChosenCameras chosen_cameras(const std::vector<Camera>& own) const;
   // The same; the line, where there is one, goes to the terminal.
   std::vector<std::pair<int, Camera>> cameras(const std::vector<Camera>& own) const;
-  // These, scaled and checked in the same way.
-  ChosenCameras in_size(std::vector<std::pair<int, Camera>> cameras) const;
+  // These, scaled and checked in the same way. origin: where they come from, for messages.
+  ChosenCameras in_size(std::vector<std::pair<int, Camera>> cameras,
+                        const std::string& origin) const;
   // Sizes of their pictures, before the scene is loaded: none where nothing but the scene says
   // them. Throws InputError.
   std::vector<PixelSize> frame_sizes() const;
@@ -75,6 +76,9 @@ struct SceneArguments {
  private:
   // Those of the file, where one is given: InputError when it holds none.
   std::vector<Camera> all_cameras(const std::vector<Camera>& own) const;
+  const std::string& origin_of_cameras() const {
+    return cameras_path.empty() ? scene : cameras_path;
+  }
 };
 
 }  // namespace sgs

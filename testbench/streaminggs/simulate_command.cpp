@@ -135,7 +135,7 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
   keys = path.keys;
   NumberedCameras numbered;
   for (const Camera& key : keys) numbered.emplace_back(numbered.size(), key);
-  const ChosenCameras sized = arguments.in_size(std::move(numbered));
+  const ChosenCameras sized = arguments.in_size(std::move(numbered), path.name);
   if (!sized.stretch.empty()) fmt::print("{}\n", sized.stretch);
   for (const auto& [number, camera] : sized.views)
     path.keys[static_cast<std::size_t>(number)] = camera;

@@ -15,6 +15,9 @@ namespace sgs {
 namespace {
 
 constexpr int kLookAroundMs = 250;
+// Points are planned ahead of the simulations, since an answer may be known already; not more of
+// them than this, however fast they come.
+constexpr std::uint64_t kMostUnanswered = 1000;
 // A second failure is one of the point and not of the day.
 constexpr int kMostAttempts = 2;
 
@@ -58,15 +61,22 @@ bool Sweep::run(PointStream* stream,
                 const std::function<std::vector<SweepTask>(const SweepPoint&)>& plan) {
   while (true) {
     if (stop()) return false;
+    // One at a time: planning takes milliseconds, in which others end.
+    if (may_plan()) {
+      add(plan(arrived_.front()));
+      arrived_.pop_front();
+    }
     start_waiting();
     progress(counts_);
+    // What has arrived is planned before more is read: who sends too much has to wait.
     const bool more = stream != nullptr && !stream->ended();
-    if (running_.empty() && waiting_.empty() && !more) return true;
-    wait_for_something(more ? stream : nullptr);
-    if (!more) continue;
-    for (const SweepPoint& point : arrived_) add(plan(point));
-    arrived_.clear();
+    if (running_.empty() && waiting_.empty() && arrived_.empty() && !more) return true;
+    wait_for_something(more && arrived_.empty() ? stream : nullptr);
   }
+}
+
+bool Sweep::may_plan() const {
+  return !arrived_.empty() && counts_.asked - counts_.answered() < kMostUnanswered;
 }
 
 void Sweep::start_waiting() {
@@ -88,10 +98,12 @@ void Sweep::wait_for_something(PointStream* stream) {
     watched.push_back({running.child->descriptor(), POLLIN, 0});
   }
   if (stream != nullptr) watched.push_back({stream->descriptor(), POLLIN, 0});
-  const int ready = ::poll(watched.data(), watched.size(), kLookAroundMs);
+  const int ready = ::poll(watched.data(), watched.size(), may_plan() ? 0 : kLookAroundMs);
   if (ready < 0 && errno != EINTR) throw std::runtime_error("cannot wait for child processes");
   if (ready <= 0) return;
-  if (stream != nullptr && watched.back().revents != 0) arrived_ = stream->receive();
+  if (stream != nullptr && watched.back().revents != 0) {
+    for (SweepPoint& point : stream->receive()) arrived_.push_back(std::move(point));
+  }
   // From the last to the first: those that have ended go.
   for (std::size_t i = running_.size(); i-- > 0;) {
     if (watched[i].revents == 0 || !running_[i].child->receive()) continue;

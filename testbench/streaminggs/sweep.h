@@ -62,6 +62,7 @@ class Sweep {
     std::unique_ptr<ChildProcess> child;
   };
   bool has_result(const std::string& key) const;
+  bool may_plan() const;
   void start_waiting();
   void wait_for_something(PointStream* stream);
   void finish(Running& running);
@@ -78,7 +79,7 @@ class Sweep {
   std::vector<Running> running_;
   std::map<std::string, std::vector<SweepTask>> same_;  // as one that waits or runs, by key
   std::set<std::string> failed_now_;  // keys that are not tried again by this sweep
-  std::vector<SweepPoint> arrived_;   // out of the stream
+  std::deque<SweepPoint> arrived_;    // out of the stream, not planned yet
 };
 
 }  // namespace sgs

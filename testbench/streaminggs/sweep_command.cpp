@@ -29,7 +29,7 @@
 namespace sgs {
 namespace {
 
-struct Stopped {};  // thrown out of the making of codebooks
+struct Stopped {};  // thrown out of planning and the making of codebooks
 
 // Whatever has a result of what was asked for, in the order in which that was.
 class Asked {
@@ -50,15 +50,15 @@ class Asked {
   std::vector<std::pair<std::string, PointInWords>> asked_;
 };
 
-void print_end(const SweepCounts& counts, const std::string& first_refusal,
+void print_end(const SweepCounts& counts, Fidelity fidelity, const std::string& first_refusal,
                const std::string& out) {
   if (counts.refused > 0) {
     fmt::print("the first of {} refused: {}\n", grouped(counts.refused), first_refusal);
   }
-  fmt::print(
-      "{} of {} simulations: {} done, {} refused, {} failed; {} of them by an earlier sweep\n",
-      grouped(counts.answered()), grouped(counts.asked), grouped(counts.done),
-      grouped(counts.refused), grouped(counts.failed), grouped(counts.kept));
+  fmt::print("{} of {} {}: {} done, {} refused, {} failed; {} of them by an earlier sweep\n",
+             grouped(counts.answered()), grouped(counts.asked),
+             fidelity == Fidelity::kEstimate ? "estimates" : "simulations", grouped(counts.done),
+             grouped(counts.refused), grouped(counts.failed), grouped(counts.kept));
   fmt::print("results in {}\n", out);
 }
 
@@ -101,6 +101,7 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
   Asked asked;
   std::string first_refusal;
   const auto planned = [&](const SweepPoint& point) {
+    if (interrupt.wished()) throw Stopped();
     std::vector<SweepTask> tasks = plan.tasks_of(point);
     if (!arguments.csv.empty()) asked.add(tasks);
     return tasks;
@@ -134,10 +135,10 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
   if (!arguments.csv.empty()) asked.write_table(results, arguments.csv);
   if (arguments.streaming()) return complete ? kDone : kInterrupted;
   const SweepCounts& counts = sweep.counts();
-  if (counts.refused == counts.asked) {
+  if (complete && counts.refused == counts.asked) {
     throw InputError(fmt::format("all of {} refused; the first: {}", counts.asked, first_refusal));
   }
-  print_end(counts, first_refusal, arguments.out);
+  print_end(counts, plan.fidelity(), first_refusal, arguments.out);
   if (!complete) return kInterrupted;
   return counts.failed > 0 ? kFailed : kDone;
 }

@@ -104,7 +104,7 @@ int run(const TrainArguments& arguments) {
     return Look{mean_quality(qualities(trainer.activated(), test, background, seen)), {}};
   };
   const auto write = [&] { write_ply(arguments.out, trainer.cloud()); };
-  const FittingTask task{arguments.training(), contents, trainer, {}, look, write};
+  const FittingTask task{arguments.training(), "", contents, trainer, {}, look, write};
   return run_fitting(arguments, task, from, false);
 }
 

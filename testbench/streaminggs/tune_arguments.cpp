@@ -84,7 +84,7 @@ void TuneArguments::set(TuningConfig& tuning, int own_steps, double own_rate) co
   tuning.comparison.gradients = gradient_rule();
 }
 
-std::string TuneArguments::work(const TuningConfig& tuning) const {
+std::string TuneArguments::work() const {
   std::string line = fmt::format("tune {} --{} --config {}", scene, purpose(), config.config);
   for (const std::string& value : config.overrides) line += " --set " + value;
   if (data.folder.empty()) {
@@ -93,12 +93,15 @@ std::string TuneArguments::work(const TuningConfig& tuning) const {
   } else {
     line += " --data " + data.work();
   }
-  line += fmt::format(" --steps {} --seed {} --rate {} --gradients {}", tuning.steps, seed,
-                      tuning.rate, gradients);
+  line += fmt::format(" --seed {} --gradients {}", seed, gradients);
   if (quantise) return line + fmt::format(" --reassign-every {}", reassign_every);
   if (streaming) return line + fmt::format(" --price {}", price);
   return line + fmt::format(" --beta {} --misordered-in {} --penalty-mean {}", beta, misordered_in,
                             penalty_mean);
+}
+
+std::string TuneArguments::pace(const TuningConfig& tuning) const {
+  return fmt::format("--steps {} --rate {}", tuning.steps, tuning.rate);
 }
 
 }  // namespace sgs

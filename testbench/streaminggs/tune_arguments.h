@@ -37,8 +37,9 @@ struct TuneArguments : SceneArguments, FittingArguments {
   const char* purpose() const {
     return boundary ? "boundary" : quantise ? "quantise" : "streaming";
   }
-  // What a checkpoint must have been made with.
-  std::string work(const TuningConfig& config) const;
+  // What a checkpoint must have been made with, and what may be another from there on.
+  std::string work() const;
+  std::string pace(const TuningConfig& config) const;
   // What all tunings take of it; steps, rate: where the user says none.
   void set(TuningConfig& config, int own_steps, double own_rate) const;
 };

@@ -44,7 +44,7 @@ int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
   const BoundaryPenaltyConfig penalty = penalty_config(arguments);
   const PaperOrderConfig order = paper_order_of(arguments, job.config);
   const StorageConfig& storage = job.config.storage;
-  const std::string work = arguments.work(config);
+  const std::string work = arguments.work();
   const std::optional<Checkpoint> from = arguments.resumed(work, job.contents);
 
   const CloudInStorage given = given_in_storage(arguments, job);
@@ -65,6 +65,7 @@ int tune_for_boundaries(const TuneArguments& arguments, const TuningJob& job) {
                  quality.penalty}};
   };
   const FittingTask task{work,
+                         arguments.pace(config),
                          job.contents,
                          tuner,
                          {{"reference_psnr_db", "reference"},

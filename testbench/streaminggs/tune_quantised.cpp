@@ -103,7 +103,7 @@ int tune_for_codebooks(const TuneArguments& arguments, const TuningJob& job) {
   const StorageConfig& storage = job.config.storage;
   const QuantisedTuningConfig config = tuning_config(arguments, storage.encoding);
   const std::optional<PaperOrderConfig> order = tuned_order(arguments, job.config);
-  const std::string work = arguments.work(config);
+  const std::string work = arguments.work();
   const std::optional<Checkpoint> from = arguments.resumed(work, job.contents);
 
   const CloudInStorage given = given_in_storage(arguments, job);
@@ -123,10 +123,13 @@ int tune_for_codebooks(const TuneArguments& arguments, const TuningJob& job) {
         judge.of(stored.decoded, stored.table, arguments.pictures.behind(tuner.next_step()));
     return Look{verdict.shown, {verdict.reference.psnr_db, tuner.reassigned()}};
   };
-  const FittingTask task{work,  job.contents,
-                         tuner, {{"reference_psnr_db", "reference"}, {"reassigned", "reassigned"}},
-                         look,  [&] {
-        write_packed(arguments, job, tuner); }};
+  const FittingTask task{work,
+                         arguments.pace(config),
+                         job.contents,
+                         tuner,
+                         {{"reference_psnr_db", "reference"}, {"reassigned", "reassigned"}},
+                         look,
+                         [&] { write_packed(arguments, job, tuner); }};
   const int status = run_fitting(arguments, task, from, !from);
   if (plan) print_visits(*plan);
   return status;

@@ -47,7 +47,7 @@ int tune_for_streaming(const TuneArguments& arguments, const TuningJob& job) {
     throw InputError(
         fmt::format("--streaming: machine {} has no groups of pixels", job.config.machine()));
   }
-  const std::string work = arguments.work(config);
+  const std::string work = arguments.work();
   const std::optional<Checkpoint> from = arguments.resumed(work, job.contents);
   const CloudInStorage given = given_in_storage(arguments, job);
   SceneTuner tuner = begun_tuner(arguments, job, config, reference_order(),
@@ -61,10 +61,13 @@ int tune_for_streaming(const TuneArguments& arguments, const TuningJob& job) {
     return Look{mean_quality(qualities(cloud, job.views.test, glm::vec3(0), seen)),
                 {static_cast<double>(cloud.size()), fetches_of(cloud, job.views.test, group)}};
   };
-  const FittingTask task{work,  job.contents,
-                         tuner, {{"stored", "stored"}, {"fetches", "fetches"}},
-                         look,  [&] {
-                           write_ply(arguments.out, tuner.cloud()); }};
+  const FittingTask task{work,
+                         arguments.pace(config),
+                         job.contents,
+                         tuner,
+                         {{"stored", "stored"}, {"fetches", "fetches"}},
+                         look,
+                         [&] { write_ply(arguments.out, tuner.cloud()); }};
   return run_fitting(arguments, task, from, !from);
 }
 

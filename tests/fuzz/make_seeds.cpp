@@ -95,7 +95,8 @@ void make_scenes(const std::string& corpus) {
     }
   }
   fs::create_directories(corpus + "/checkpoint");
-  write_checkpoint(corpus + "/checkpoint/good_short", {"train", "digest", "{}\n", 2.5, "state"});
+  write_checkpoint(corpus + "/checkpoint/good_short",
+                   {"train", "--rate 1", "digest", "{}\n", 2.5, "state"});
 }
 
 void make_seeds(const std::string& corpus) {

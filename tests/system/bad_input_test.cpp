@@ -9,6 +9,43 @@
 namespace sgs::test {
 namespace {
 
+TEST_CASE("bad input: cameras that cannot be drawn are named with their file, before any heading") {
+  struct Row {
+    const char *width, *fx, *y;
+    const char* words;  // behind the file's name
+  };
+  const Row rows[] = {
+      {"16", "15", "1e30",
+       ": camera 1: position[1]: got 1e+30, expected a magnitude of at most 1e+18"},
+      {"16", "1e12", "0", ": camera 1: fx: got 1000000000000, expected at most 1000000000 px"},
+      {"65537", "15", "0", ": view 1: got 65537x9 px, expected at most 65536 a side, or --size"},
+      {"200000", "15", "0", ": view 1: got 200000x9 px, expected at most 65536 a side, or --size"}};
+  const auto camera = [](const Row& row) {
+    return std::string(R"({"id": 7, "img_name": "v", "height": 9, "fy": 15, )") +
+           R"("rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "width": )" + row.width +
+           ", \"fx\": " + row.fx + ", \"position\": [0, " + row.y + ", -5]}";
+  };
+  for (const Row& row : rows) {
+    const ScratchFolder scratch;
+    scratch.write("c.json", "[" + camera({"16", "15", "0", ""}) + ", " + camera(row) + "]");
+    REQUIRE(shell(scratch, "$SG pack $S --out s.sgs").status == 0);
+    for (const char* command :
+         {"simulate $S --view 1 --out o --cameras c.json",
+          "simulate $S --view 1 --estimate --out o --cameras c.json",
+          "simulate $S --config paper --view 0,1 --out o --cameras c.json",
+          "simulate $S --path c.json --out o", "simulate s.sgs --view 1 --out o --cameras c.json",
+          "render $S --view 1 --out o.png --cameras c.json", "gpu $S --view 1 --cameras c.json",
+          "sweep $S --view 1 --axis hfus=2 --out o.jsonl --cameras c.json",
+          "tune $S --boundary --out o.ply --cameras c.json"}) {
+      INFO(command);
+      const ShellOutcome outcome = shell(scratch, std::string("$SG ") + command);
+      CHECK(outcome.status == 2);
+      CHECK(outcome.err == std::string("streaminggs: c.json") + row.words + "\n");
+      CHECK(outcome.out.empty());
+    }
+  }
+}
+
 TEST_CASE("bad input: what would never end is refused at once") {
   for (const ErrorLine& row : std::vector<ErrorLine>{
            {"$SG simulate $B --out o --config pipe", 2, {"pipe", "regular"}, "mkfifo pipe"},

@@ -93,6 +93,74 @@ TEST_CASE("left out: what is never fed, and how much would do") {
   }
 }
 
+// The assignments that a report recommends.
+Arguments would_do(const Json& view) {
+  Arguments all;
+  for (const Json& entry : view["left_out"]) {
+    const auto saves = entry["saves"].get<std::string>();
+    const std::size_t end = saves.find(" would do");
+    if (end != std::string::npos) all.push_back(saves.substr(0, end));
+  }
+  return all;
+}
+
+TEST_CASE("left out: what would do is taken, also where next to nothing is fed") {
+  const MadeScene scenes[] = {MadeScene(GaussianCloud{}),
+                              MadeScene(cloud_of({{at_pixel(32, 32, 4)}}))};
+  struct Row {
+    const char* machine;
+    Arguments set;
+    Arguments recommended;  // among others
+  };
+  const Row rows[] = {
+      {"exact", {"hfus=4", "sorting_units=4"}, {"merge.entries=2", "hfus=1", "sorting_units=1"}},
+      {"exact_vq", {}, {"merge.entries=2"}},
+      {"paper", {}, {"vsu.table_bytes=16", "sorting.buffer_entries=16"}},
+      {"paper",
+       {"fetch=split", "vsu.table_banks=64", "sorting.spill_block_entries=32"},
+       {"vsu.table_bytes=512", "sorting.buffer_entries=128"}},
+      {"paper_no_vq",
+       {"fetch=split", "hfus=7", "sorting.spill_block_entries=5"},
+       {"vsu.table_bytes=16", "sorting.buffer_entries=20"}}};
+  for (const MadeScene& scene : scenes) {
+    for (const Row& row : rows) {
+      INFO(row.machine << (&scene == scenes ? ", empty" : ", tiny"));
+      const auto with = [&](const Arguments& set) {
+        return Simulation(scene.arguments(row.machine, plus(row.set, set)));
+      };
+      const Simulation ample = with({});
+      const Arguments all = would_do(ample.views()[0]);
+      for (const std::string& one : row.recommended) {
+        INFO(one);
+        CHECK((&scene != scenes || std::find(all.begin(), all.end(), one) != all.end()));
+      }
+      for (const std::string& one : all) {
+        INFO(one);
+        CHECK(with({one}).frame(0) == ample.frame(0));
+      }
+      CHECK(with(all).frame(0) == ample.frame(0));
+    }
+  }
+}
+
+// Where a list might become longer than the buffer there is a region to spill to, behind all
+// others.
+TEST_CASE("left out: a sort buffer that would do takes not a cycle more") {
+  const auto with = [](const Arguments& set) {
+    return Simulation(
+        with_settings({"builtin:object?n=2000", "--size", "96x64", "--config", "paper"}, set));
+  };
+  const Simulation ample = with({});
+  const Arguments all = would_do(ample.views()[0]);
+  const auto buffer = std::find_if(all.begin(), all.end(), [](const std::string& one) {
+    return one.rfind("sorting.buffer_entries=", 0) == 0;
+  });
+  REQUIRE(buffer != all.end());
+  const Simulation tight = with({*buffer});
+  CHECK(tight.frame(0) == ample.frame(0));
+  CHECK(frame_cycles(tight.views()[0]) == frame_cycles(ample.views()[0]));
+}
+
 TEST_CASE("left out: memory that no unit takes, activities without work") {
   const MadeScene scene(cloud_of(diagonal()));
   const Simulation fitted(scene.arguments("exact", {}));

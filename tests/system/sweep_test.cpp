@@ -278,6 +278,24 @@ TEST_CASE("sweep: points that come on standard input are answered one by one") {
   CHECK(answers[6] == 0);
 }
 
+TEST_CASE("sweep: points without end are answered as they come, and Ctrl-C ends it") {
+  // Who sends them, and what the first is answered.
+  const std::pair<const char*, const char*> rows[] = {
+      {"yes hfus=2", "\"status\":\"done\""},
+      {"yes hfus=none", "\"status\":\"refused\""},
+      {"cat /dev/zero", "standard input, line 1: got more than 1000000 B"}};
+  for (const auto& [sender, answer] : rows) {
+    INFO(sender);
+    const ScratchFolder scratch;
+    require_done(shell(scratch, "$SG sweep $B --points - --out r.jsonl < <(" + std::string(sender) +
+                                    ") >out & p=$!; until [ $(wc -l <out) -ge 1 ]; do sleep 0.02; "
+                                    "done; kill -INT $p; wait $p"),
+                 130);
+    const std::string out = bytes_of(scratch.path("out"));
+    CHECK(out.substr(0, out.find('\n')).find(answer) != std::string::npos);
+  }
+}
+
 TEST_CASE("sweep: what is in a file of another kind stays there") {
   for (const char* text : {"{\"a\": 1}\n", "notes", "{\"key\":\"a\",\"status\":3}\n", "\n"}) {
     const ScratchFolder scratch;
@@ -318,8 +336,13 @@ TEST_CASE("sweep: estimates are no simulations, and simulations no estimates") {
   const ScratchFolder scratch;
   const std::string line =
       "$SG sweep 'builtin:object?n=600' --size 64x48 --axis hfus=2,4 --out r.jsonl";
-  require_done(shell(scratch, line));
-  require_done(shell(scratch, line + " --estimate --csv t.csv"));
+  const std::string both = " 2 done, 0 refused, 0 failed; 0 of them by an earlier sweep";
+  const ShellOutcome simulated = shell(scratch, line);
+  require_done(simulated);
+  CHECK(simulated.out.find("2 of 2 simulations:" + both) != std::string::npos);
+  const ShellOutcome estimated = shell(scratch, line + " --estimate --csv t.csv");
+  require_done(estimated);
+  CHECK(estimated.out.find("2 of 2 estimates:" + both) != std::string::npos);
   std::map<std::string, int> of_fidelity;
   std::set<std::string> keys;
   for (const Json& result : results_in(scratch, "r.jsonl")) {

@@ -1,5 +1,6 @@
 // `streaminggs tune` on small scenes: files, checkpoints, what it refuses.
 #include <catch2/catch.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -124,6 +125,55 @@ TEST_CASE("tune: what is resumed ends as what was never stopped, bit for bit") {
   }
 }
 
+TEST_CASE("tune: a checkpoint goes on with other steps and another rate") {
+  const auto lines_of = [](const std::string& steps, const std::string& rate) {
+    return "--steps " + steps + " --rate " + rate;
+  };
+  for (const std::string tune :
+       {"$SG tune $B --boundary --out a.ply ", "$SG tune $B --quantise --out a.sgs ",
+        "$SG tune $B --streaming --config exact --out a.ply "}) {
+    const ScratchFolder scratch;
+    const std::string a = tune.find("a.sgs") == std::string::npos ? "a.ply" : "a.sgs";
+    const std::string first = tune + lines_of("30", "0.5") + " --checkpoint 20 >out && cp " + a +
+                              ".checkpoint mid && cp " + a + " whole && ";
+    // Longer, slower, and as it was: another scene but for the last.
+    const ShellOutcome made = shell(
+        scratch, first + "for p in '" + lines_of("31", "0.5") + "' '" + lines_of("30", "0.25") +
+                     "' '" + lines_of("30", "0.5") + "'; do " + tune +
+                     "$p --resume mid || exit 1; cmp -s " + a + " whole; echo cmp $?; done");
+    INFO(made.out << made.err);
+    CHECK(made.status == 0);
+    std::vector<std::string> told;
+    std::istringstream out(made.out);
+    for (std::string line; std::getline(out, line);) {
+      if (line.rfind("cmp ", 0) == 0 || line.rfind("resumed ", 0) == 0) told.push_back(line);
+    }
+    const std::string behind = "resumed                   behind step 20 with ";
+    const std::string until = ", until there with " + lines_of("30", "0.5");
+    CHECK((told == std::vector<std::string>{behind + lines_of("31", "0.5") + until, "cmp 1",
+                                            behind + lines_of("30", "0.25") + until, "cmp 1",
+                                            "cmp 0"}));
+  }
+}
+
+TEST_CASE("tune: what learned too fast goes on with a smaller rate") {
+  const ScratchFolder scratch;
+  const std::string tune =
+      "$SG tune 'builtin:object?n=500' --boundary --size 48x32 --between 4 --beta 1e9 --steps 60 "
+      "--out t.ply ";
+  const ShellOutcome made =
+      shell(scratch, tune + "--rate 1000; echo status $?; " + tune +
+                         "--rate 1 --resume t.ply.checkpoint && $SG info t.ply && " + tune +
+                         "--rate 1000 --resume t.ply.checkpoint; echo status $?");
+  INFO(made.out << made.err);
+  CHECK(made.out.find("status 1\n") != made.out.rfind("status 1\n"));
+  CHECK(made.out.find("gaussians                 500\n") != std::string::npos);
+  const std::string failed =
+      "than a scene may hold; the last good state is in t.ply.checkpoint; to go on: --resume it "
+      "with a smaller --rate\n";
+  CHECK(made.err.find(failed) != made.err.rfind(failed));
+}
+
 TEST_CASE("tune: what would leave the limits of scenes stops it, and what is left can be read") {
   const ScratchFolder scratch;
   const ShellOutcome made =
@@ -193,8 +243,10 @@ TEST_CASE("tune: refusals") {
                 "$SG tune a.ply --boundary --out t.ply --cameras c.json",
             {"a.ply: holds no Gaussian that a view could show"}},
            {"$SG tune $B --boundary --out t.ply --resume nofile", {"nofile: cannot be opened"}},
-           {checkpoint + "$SG tune $B --boundary --steps 31 --out t.ply --resume s.ply.checkpoint",
-            {"is of 'tune builtin:object?n=300", "--steps 30", "expected", "--steps 31"}},
+           {checkpoint + "$SG tune $B --boundary --seed 2 --out t.ply --resume s.ply.checkpoint",
+            {"is of 'tune builtin:object?n=300", "--seed 1", "expected", "--seed 2"}},
+           {checkpoint + "$SG tune $B --boundary --steps 19 --out t.ply --resume s.ply.checkpoint",
+            {"s.ply.checkpoint: has done 20 steps, expected up to 19"}},
            {"echo '{\"machine\":\"paper\"}' >m.json; " + std::string(kTune) +
                 "--config m.json --out s.ply --checkpoint 20 >t && echo "
                 "'{\"machine\":\"paper\",\"hfu\":{}}' >m.json; " +

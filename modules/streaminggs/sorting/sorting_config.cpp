@@ -12,7 +12,8 @@ void visit(ConfigVisitor& v, SortingNetworkConfig& c) {
 
 void visit(ConfigVisitor& v, PaperSorterConfig& c) {
   visit(v, static_cast<SortingNetworkConfig&>(c));
-  v("buffer_entries", c.buffer_entries, in_range(16, 1 << 20), "splats on chip in one unit");
+  v("buffer_entries", c.buffer_entries, in_range(kNetworkEntries, 1 << 20),
+    "splats on chip in one unit");
   v("input_fifo_entries", c.input_fifo_entries, in_range(1, 4096), "splats waiting from each HFU");
   v("spill_block_entries", c.spill_block_entries, in_range(1, 1024), "read and written at once");
 }

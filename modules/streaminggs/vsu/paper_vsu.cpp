@@ -213,9 +213,8 @@ void PaperVsu::publish(DataSheet& sheet) {
                  "no visit, no blending");
   sheet.left_out("saturated_visits", "every pixel of the group was finished",
                  counters_.visits_saturated, "their Gaussians are not streamed");
-  constexpr std::uint64_t kFewestTableBytes = 8;
   publish_spare(sheet, "spare_table_bytes", "vsu.table_bytes", config_.table_bytes,
-                counters_.table_bytes_max, kFewestTableBytes);
+                counters_.table_bytes_max, config_.least_table_bytes());
   sheet.port(node_memory);
   sheet.port(record_memory);
   // Where the table is full a group's rays are followed again.

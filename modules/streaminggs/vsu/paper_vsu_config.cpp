@@ -22,7 +22,7 @@ void visit(ConfigVisitor& v, PaperVsuConfig& c) {
   v("sample_step_voxels", c.sample_step_voxels, in_range(0, 10),
     "distance of samples on a ray; 0: every cell is visited");
   v("groups_ahead", c.groups_ahead, in_range(1, 64), "ordered groups waiting for the HFUs");
-  v("table_bytes", c.table_bytes, in_range(8, 1 << 30),
+  v("table_bytes", c.table_bytes, in_range(kTableWordBytes, 1 << 30),
     "ordering table of one group; one that needs more is ordered in passes");
   v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");
   v("record_cache_bytes", c.record_cache_bytes, in_range(64, 1 << 30), "cache of voxel records");

@@ -34,6 +34,8 @@ struct PaperVsuConfig {
   std::uint32_t step_cycles(std::uint32_t log2_block) const {
     return log2_block == 0 ? cell_step_depth_cycles : step_depth_cycles;
   }
+  // A word in each bank.
+  std::uint32_t least_table_bytes() const { return kTableWordBytes * table_banks; }
   RayPattern rays() const {
     return {ray_step_px, static_cast<float>(sample_step_voxels), rays_in_flight};
   }

@@ -105,6 +105,11 @@ TEST_CASE("cameras: wrong types and impossible values are named") {
   CHECK_THAT(refusal_of("fx", 0), Contains("fx: got 0, expected a focal length"));
   CHECK_THAT(refusal_of("fy", -3.5), Contains("fy: got -3.5"));
   CHECK_THAT(refusal_of("fy", "wide"), Contains("fy: got \"wide\", expected a finite number"));
+  CHECK_THAT(
+      refusal_of("fx", 1e12),
+      Contains("cams.json: camera 1: fx: got 1000000000000, expected at most 1000000000 px"));
+  CHECK_THAT(refusal_of("position", {0, -1e30, 0}),
+             Contains("position[1]: got -1e+30, expected a magnitude of at most 1e+18"));
   CHECK_THAT(refusal_of("position", {1, 2}),
              Contains("position: got [1,2], expected an array of 3"));
   CHECK_THAT(refusal_of("position", {1, "a", 2}), Contains("position[1]: got \"a\""));

@@ -24,7 +24,8 @@ std::string with_checksum(std::string bytes) {
 
 struct Written {
   ScratchFolder scratch;
-  Checkpoint checkpoint{"train d", "digest", "step,loss\n1,2\n", 2.5, std::string("a\0b", 3)};
+  Checkpoint checkpoint{"train d",          "--rate 1", "digest",
+                        "step,loss\n1,2\n", 2.5,        std::string("a\0b", 3)};
   std::string bytes;
 
   Written() {
@@ -38,6 +39,7 @@ TEST_CASE("checkpoint: what was written comes back") {
   REQUIRE(with_checksum(written.bytes) == written.bytes);
   const Checkpoint back = read_checkpoint(written.scratch.path("c"));
   CHECK(back.work == written.checkpoint.work);
+  CHECK(back.pace == written.checkpoint.pace);
   CHECK(back.contents == written.checkpoint.contents);
   CHECK(back.log == written.checkpoint.log);
   CHECK(back.seconds == written.checkpoint.seconds);

@@ -1,10 +1,12 @@
 // sweep_points.h: grids, lists, JSON lines; and lines that come in pieces.
 #include "testbench/streaminggs/sweep_points.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "testbench/streaminggs/point_stream.h"
@@ -84,6 +86,35 @@ TEST_CASE("sweep points: lines of a stream are points when they are complete") {
   CHECK((overrides_of(stream.receive()) == std::vector<Words>{{"c=3"}}));
   CHECK(stream.ended());
   ::close(ends[0]);
+}
+
+TEST_CASE("sweep points: a line without end is refused once, and the next one taken") {
+  // How many bytes come before the newline, and whether that many are a line.
+  const std::pair<std::size_t, bool> rows[] = {
+      {kLongestLineBytes, true}, {kLongestLineBytes + 1, false}, {3 * kLongestLineBytes, false}};
+  for (const auto& [bytes, taken] : rows) {
+    INFO(bytes);
+    const test::ScratchFolder scratch;
+    const std::string path =
+        scratch.write("points", "a=1\nb=" + std::string(bytes - 2, '2') + "\nx\nc=3\n");
+    const int file = ::open(path.c_str(), O_RDONLY);
+    REQUIRE(file >= 0);
+    PointStream stream(file);
+    std::vector<SweepPoint> points;
+    while (!stream.ended()) {
+      for (SweepPoint& point : stream.receive()) points.push_back(std::move(point));
+    }
+    ::close(file);
+    REQUIRE(points.size() == 4);
+    CHECK(points[0].overrides == Words{"a=1"});
+    CHECK(points[1].overrides.size() == (taken ? 1 : 0));
+    CHECK(points[1].refused ==
+          (taken ? ""
+                 : "standard input, line 2: got more than 1000000 B, expected KEY=VALUE ..., or a "
+                   "JSON object"));
+    CHECK(points[2].refused.rfind("standard input, line 3: got 'x'", 0) == 0);
+    CHECK(points[3].overrides == Words{"c=3"});
+  }
 }
 
 }  // namespace
