@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/algorithm/dataset/made_datasets.h"
@@ -42,6 +43,18 @@ TEST_CASE("tune: a scene whose centres rest, a log that begins with the scene as
       INFO(word);
       CHECK(made.out.find(word) != std::string::npos);
     }
+  }
+}
+
+TEST_CASE("tune: visits are told of in paper order, where there are some") {
+  for (const auto& [config, has_visits] :
+       {std::pair{"paper", true}, std::pair{"exact_vq", false}}) {
+    const ScratchFolder scratch;
+    const ShellOutcome made = shell(
+        scratch, std::string("$SG tune $B --quantise --steps 2 --out t.sgs --config ") + config);
+    INFO(config << '\n' << made.out << made.err);
+    CHECK(made.status == 0);
+    CHECK((made.out.find("MB kept\n") != std::string::npos) == has_visits);
   }
 }
 
