@@ -81,9 +81,10 @@ def time_bars(spent: Sequence[Spent], caption: str) -> str:
             (cause for cause, _ in CAUSES[1:] if cause not in NO_CAUSE),
             key=lambda cause: cycles[cause],
         )
-        waits = f"{longest} {percent(cycles[longest] / whole)}" if cycles[longest] else ""
         if cycles["unknown"]:
             waits = "not known"
+        else:
+            waits = f"{longest} {percent(cycles[longest] / whole)}" if cycles[longest] else ""
         rows.append((label, charts.bar(parts), (percent(cycles["busy"] / whole), waits)))
     return charts.bars(("activity", "works", "waits most"), rows, caption)
 
