@@ -41,12 +41,10 @@ FIGURES = {"image": ("error_image", "error_image_kinds")}
 
 
 def check(arguments: argparse.Namespace) -> None:
-    """Before hours of frames are drawn. Raises ValueError for what is there twice or not at all."""
+    """Before hours of frames are drawn. Raises ValueError for numbers that say nothing, and what is there twice."""
     run_arguments.check_at_least("--configurations", arguments.configurations, 1)
     for option in ("diagrams", "rates", "budgets", "threads"):
         run_arguments.check_once(f"--{option}", getattr(arguments, option))
-    if "tuning" in arguments.diagrams:
-        error_tuning.dataset_folders(arguments)
 
 
 def make_diagrams(arguments: argparse.Namespace) -> None:
@@ -54,6 +52,8 @@ def make_diagrams(arguments: argparse.Namespace) -> None:
     scenes = find_scenes(arguments.scenes)
     for scene in scenes:
         view_numbers_there(arguments.streaminggs, scene, ",".join(arguments.views))
+    if "tuning" in arguments.diagrams:
+        error_tuning.dataset_folders(arguments)
     for name in arguments.diagrams:
         DIAGRAMS[name](scenes, arguments)
         draw_beside(arguments.out, *FIGURES.get(name, (f"error_{name}",)))
