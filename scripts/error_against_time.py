@@ -41,7 +41,7 @@ FIGURES = {"image": ("error_image", "error_image_kinds")}
 
 
 def check(arguments: argparse.Namespace) -> None:
-    """Before hours of frames are drawn. Raises ValueError for numbers that say nothing, and what is there twice."""
+    """Before hours of frames. Raises ValueError for numbers that say nothing, and what is twice."""
     run_arguments.check_at_least("--configurations", arguments.configurations, 1)
     for option in ("diagrams", "rates", "budgets", "threads"):
         run_arguments.check_once(f"--{option}", getattr(arguments, option))
