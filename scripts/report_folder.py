@@ -8,6 +8,7 @@ import pathlib
 from collections.abc import Iterator
 
 import png_pictures
+import report_shape
 from given_files import read_bytes, read_json, read_text
 
 REPORT = "report.json"
@@ -118,9 +119,6 @@ def read_picture(path: pathlib.Path) -> Picture:
 
 def view_files(report: dict, folder: pathlib.Path) -> ViewFiles:
     """Raises ValueError."""
-    for key in ("frame", "units", "dram", "energy", "area_mm2", "config"):
-        if key not in report:
-            raise ValueError(f"{folder / REPORT}: no '{key}', expected the report of a view")
     found = {
         what: read_picture(folder / name)
         for name, what in PICTURES.items()
@@ -132,19 +130,20 @@ def view_files(report: dict, folder: pathlib.Path) -> ViewFiles:
 def read_path(folder: pathlib.Path) -> dict:
     """What `simulate --path` says of all frames. Raises ValueError."""
     report = read_object(folder / PATH)
-    for key in ("summary", "path", "scene", "config", "provenance"):
-        if key not in report:
-            raise ValueError(f"{folder / PATH}: no '{key}', expected the report of a path")
+    report_shape.check(folder / PATH, report, report_shape.PATH)
     return report
 
 
 def read_run(folder: pathlib.Path, name: str) -> Run | None:
     """The run whose report.json the folder holds; None where it is of another kind."""
-    report = read_object(folder / REPORT)
+    file = folder / REPORT
+    report = read_object(file)
     if "views" not in report:
         if "frame" not in report:
             return None
+        report_shape.check(file, report, report_shape.VIEW)
         return Run(name, (view_files(report, folder),))
+    report_shape.check(file, report, report_shape.SEVERAL_VIEWS)
     views = tuple(view_files(view, folder / f"view_{view['view']}") for view in report["views"])
     return Run(name, views, tuple(report.get("failed", ())))
 

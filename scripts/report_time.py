@@ -125,7 +125,7 @@ def waits(view: dict) -> str:
             wait.get("on", ""),
             wait.get("other_end", ""),
             percent(count / cycles),
-            f"{wait['key']} {wait['turn']}" if "key" in wait else "",
+            " ".join(wait[end] for end in ("key", "turn") if end in wait),
         )
         for count, who, wait in places[:MOST_WAITS]
     ]

@@ -236,6 +236,8 @@ int sc_main(int argc, char* argv[]) {
     test.checks.equal(run.unit.counters().keys_spilled, std::uint64_t{8}, "keys spilled");
     test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * kBytesOfKey}, "bytes written");
     test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kBytesOfKey}, "bytes read");
+    // Of each key that comes back, the fronts of all runs are looked at.
+    run.bench.check_accesses("fronts of runs", plan.config.spill_runs * 8, 8);
   });
   for (const std::uint32_t n : {0U, 1U, 2U, 16U, 100U}) {
     for (const std::uint32_t cycles : {2U, 3U, 4U}) {

@@ -187,7 +187,13 @@ class Page(WithFrames):
         self.assertRefused(self.folder / "nowhere", "nowhere: no folder, expected one")
         broken(folder / "report.json", whole[:-20], whole, r"report.json:\d+: .*expected JSON")
         broken(folder / "report.json", "[]", whole, "list, expected an object")
-        broken(folder / "report.json", '{"views": [{"view": 0}]}', whole, "no 'frame', expected")
+        for text, said in (
+            ('{"views": [{"view": 0}]}', "no 'views\\[0\\].scene', expected"),
+            ('{"views": [1]}', "views\\[0\\]: got a number, expected an object$"),
+            (whole.replace('"psnr_db": ', '"psnr_db": true, "was": ', 1), "psnr_db: got true or"),
+            (whole.replace('"units": ', '"units": [], "were": ', 1), "units: got a list, expected"),
+        ):
+            broken(folder / "report.json", text, whole, said)
         broken(groups, counts + "1,2\n", counts, r"groups.csv:8: got 1,2, expected 10 counts")
         broken(groups, counts.replace(",0,", ",x,", 1), counts, "groups.csv:2: ")
         table = folder / "l.csv"

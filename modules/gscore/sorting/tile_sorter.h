@@ -95,7 +95,7 @@ class TileSorter : public sc_core::sc_module {
 
   struct Counters {
     std::uint64_t tiles = 0, entries_read = 0, entries_loaded = 0, entries_split = 0;
-    std::uint64_t lists_split = 0, subset_lines = 0;
+    std::uint64_t lists_split = 0;
     std::uint64_t splits = 0, split_entries = 0;
     std::uint64_t chunks = 0, chunk_entries = 0, in_order = 0;
     std::uint64_t dropped_unread = 0, dropped_loaded = 0;

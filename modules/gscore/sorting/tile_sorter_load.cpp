@@ -194,7 +194,6 @@ void TileSorter::flush(LineBuffer& line) {
   const std::uint64_t at = line.address(blocks_.line_bytes);
   counters_.line_reads +=
       line_words(static_cast<std::uint32_t>(at % blocks_.line_bytes), line.new_byte_count());
-  ++counters_.subset_lines;
   start_write(memory, load_, stack_.base + at, line.new_bytes(), line.new_byte_count(),
               stack_.region);
   line.written();
