@@ -111,6 +111,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
 
   // Of the pass: records in the order of the scene, each list in the order of its records.
   std::vector<bool> seen(job.tile_count);
+  std::uint64_t longest = 0, empty = 0;
   const auto check_tile = [&](const TileJob& tile) {
     checks.that(!seen[tile.tile], "a tile once");
     seen[tile.tile] = true;
@@ -139,6 +140,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
       checks.that(decode_projected(config.tiles.features, at.data(), 0).x == g.splat.x, "a record");
     }
     checks.equal(tile.entries, entry, "entries of a list");
+    longest = std::max<std::uint64_t>(longest, tile.entries);
+    if (tile.entries == 0) ++empty;
   };
   for (std::uint32_t c = 0; c < config.cores; ++c) {
     bench.add_thread(fmt::format("core{}", c), [&, c](Activity& activity) {
@@ -163,6 +166,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   const std::uint64_t made = bench.counter("passes");
   bench.check_counter("gaussians", there);
   bench.check_counter("ends_alone", alone);
+  if (bench.counter("passes") == 1) {  // else of each of them
+    bench.check_counter("tiles_empty", empty);
+    bench.check_counter("list_entries_max", longest);
+  }
   // A step of neighbours takes a turn of its lanes, or one of the parts' lanes for each that is
   // touched.
   const std::uint64_t tile = tile_test_pipeline(config).interval_cycles();
