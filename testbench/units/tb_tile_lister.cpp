@@ -189,6 +189,11 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
                pairs + job.tile_count + good * config.cores + made * config.lists.lines + table,
                "cycles of listing");
   if (made == 1) {
+    const std::uint64_t records = bench.counter("records");
+    const std::uint64_t tested = there - bench.counter("gaussians_off_pass");
+    checks.equal(bench.accesses("ends of lists").first, pairs + job.tile_count, "ends read");
+    bench.check_accesses("records to write", records, records);
+    bench.check_accesses("records under test", records, tested);
     checks.equal(bench.counter("records") * kRecordPlaceBytes <= bench.bytes_written(), true,
                  "records written");
   }
