@@ -6,8 +6,11 @@ import pathlib
 from collections.abc import Mapping
 
 NUMBER, TEXT, FLAG = (int, float), (str,), (bool,)
-NAMES = {NUMBER: "a number", TEXT: "a text", FLAG: "true or false", (dict,): "an object"}
-NAMES[(list,)] = "a list"
+OBJECT, LIST = (dict,), (list,)
+NAMES = {
+    **{NUMBER: "a number", TEXT: "a text", FLAG: "true or false"},
+    **{OBJECT: "an object", LIST: "a list", (type(None),): "null"},
+}
 
 
 class Each:
@@ -40,12 +43,11 @@ ACTIVITY = {
 }
 BANDS = {"bands": Each(numbers("low", "high"))}
 CONFIG = {"machine": TEXT, "clock_mhz": NUMBER, "rendering?": {"precision?": TEXT}}
-PARTS = numbers("width_px", "height_px", "cycles", "fps")
 VIEW = {
     "view": NUMBER,
     "fidelity?": TEXT,
     "scene": {"name": TEXT, **numbers("gaussians", "sh_degree")},
-    "frame": PARTS,
+    "frame": numbers("width_px", "height_px", "cycles", "fps"),
     "image": {"psnr_db": Or(NUMBER), "ssim": NUMBER, "equals_streaming_renderer": Or(FLAG)},
     "limit": numbers("ratio"),
     "binding": {"unit": TEXT, "utilisation": NUMBER, "explanation": TEXT},
@@ -82,7 +84,7 @@ PATH = {
 def kinds_of(shape: object) -> tuple:
     if isinstance(shape, tuple):
         return shape
-    return (list,) if isinstance(shape, list) else (dict,)
+    return LIST if isinstance(shape, list) else OBJECT
 
 
 def check(file: pathlib.Path, found: object, shape: object, place: str = "") -> None:
@@ -94,7 +96,7 @@ def check(file: pathlib.Path, found: object, shape: object, place: str = "") -> 
     kinds = kinds_of(shape)
     # To Python true is a number.
     if not isinstance(found, kinds) or isinstance(found, bool) != (shape == FLAG):
-        got = "null" if found is None else NAMES.get(kinds_of_value(found), "true or false")
+        got = NAMES[kinds_of_value(found)]
         raise ValueError(f"{file}: {place or 'all of it'}: got {got}, expected {NAMES[kinds]}")
     if isinstance(shape, list):
         for at, element in enumerate(found):
