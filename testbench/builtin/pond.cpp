@@ -48,8 +48,8 @@ Surfel reed(const PartSample& sample, Random& random) {
   const double away = kPondRadius * (1.02 + 0.07 * random.normal());
   const double x = kPondX + away * std::cos(turn), z = kPondZ + away * std::sin(turn);
   const double tall = random.uniform(0.3, 0.75);
-  const glm::dvec3 along =
-      glm::normalize(kUp + 0.22 * glm::dvec3(random.normal(), 0.0, random.normal()));
+  const double lean_z = random.normal(), lean_x = random.normal();
+  const glm::dvec3 along = glm::normalize(kUp + 0.22 * glm::dvec3(lean_x, 0.0, lean_z));
   const glm::dvec3 across = glm::normalize(glm::cross(along, random.direction()));
   const glm::dvec3 root = at_height(x, std::max(ground_height(x, z), kWaterHeight), z);
   Surfel surfel;

@@ -75,11 +75,13 @@ std::vector<ScenePart> sky_parts(const glm::dvec3& to_sun, double share) {
 std::vector<ScenePart> artefact_parts(double share) {
   const auto floater = [](const PartSample& sample, Random& random) {
     Surfel surfel;
-    surfel.position = at_height(9.0 * random.normal(), 0.6 + 3.0 * random.uniform(),
-                                -4.0 + 9.0 * random.normal());
+    const double z = -4.0 + 9.0 * random.normal();
+    const double y = 0.6 + 3.0 * random.uniform();
+    const double x = 9.0 * random.normal();
+    surfel.position = at_height(x, y, z);
     surfel.axes = frame_about(random.direction(), random);
-    surfel.sigmas = glm::dvec3(1.0, random.uniform(0.2, 1.0), 0.15) *
-                    (random.uniform(0.03, 0.3) * thinning(sample, 1600));
+    const double size = random.uniform(0.03, 0.3) * thinning(sample, 1600);
+    surfel.sigmas = glm::dvec3(1.0, random.uniform(0.2, 1.0), 0.15) * size;
     surfel.opacity = random.uniform(0.01, 0.07);
     surfel.material.emission = glm::dvec3(0.62, 0.66, 0.68) * random.uniform(0.4, 1.1);
     return surfel;

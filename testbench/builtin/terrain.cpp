@@ -64,7 +64,8 @@ Surfel grass_blade(const PartSample& sample, Random& random) {
   const double tall = random.uniform(0.05, 0.16);
   const glm::dvec3 root = ground_point(x, z);
   const bool bare = distance_from_path(x, z) < 0.8 || -root.y < kWaterHeight + 0.08;
-  const glm::dvec3 lean(random.uniform(-0.4, 0.4), -1.0, random.uniform(-0.4, 0.4));
+  const double lean_z = random.uniform(-0.4, 0.4), lean_x = random.uniform(-0.4, 0.4);
+  const glm::dvec3 lean(lean_x, -1.0, lean_z);
   const glm::dvec3 along = glm::normalize(lean);
   const glm::dvec3 across = glm::normalize(glm::cross(along, random.direction()));
   surfel.axes = glm::dmat3(along, across, glm::cross(along, across));

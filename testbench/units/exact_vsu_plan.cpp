@@ -71,6 +71,8 @@ ExactVsuPlan plan_of(const TestScene& scene, std::uint32_t chunk) {
 
 std::uint64_t macs_of_a_test() { return folded_macs(chunk_work(longest_chunk_case())); }
 
+std::uint64_t comparisons_of_a_test() { return comparisons(chunk_work(longest_chunk_case())); }
+
 ExpectedWalk expect(const ExactVsuPlan& plan) {
   ExpectedWalk out;
   const std::uint64_t a_operation = plan.config.cycles_per_queue_operation;

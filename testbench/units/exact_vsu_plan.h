@@ -30,6 +30,7 @@ struct ExactVsuPlan {
 ExactVsuPlan plan_of(const TestScene& scene, std::uint32_t chunk);
 
 std::uint64_t macs_of_a_test();
+std::uint64_t comparisons_of_a_test();
 
 struct ExpectedWalk {
   std::vector<std::vector<WalkEntry>> groups;  // chunks in order

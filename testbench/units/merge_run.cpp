@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "testbench/units/job_memory.h"
 
@@ -29,6 +30,32 @@ std::uint64_t tied_keys(const MergePlan& plan, const MergeGroup& group) {
   std::uint64_t tied = 0;
   for (std::size_t k = 1; k < keys.size(); ++k) tied += keys[k].depth == keys[k - 1].depth ? 1 : 0;
   return tied;
+}
+
+// blend_early: keys that go after a visit although a later one might have sent a nearer key.
+std::uint64_t forced_keys(const MergePlan& plan, const MergeGroup& group) {
+  std::uint64_t forced = 0;
+  std::multiset<float> waiting;
+  for (const MergeVisit& visit : group.visits) {
+    for (const MergeKey& key : visit.keys) waiting.insert(key.depth);
+    waiting.erase(waiting.begin(), waiting.lower_bound(visit.release_below));
+    for (; waiting.size() > plan.config.entries; ++forced) waiting.erase(waiting.begin());
+  }
+  return forced;
+}
+
+// By the bytes that went out and came back. A key passes a block on its way out; back, the blocks
+// of its run, then it is the front of that run, which is looked at whenever any front leaves.
+void check_spill_memories(MergeRun& run, const MergePlan& plan, bool saturating) {
+  if (plan.config.on_overflow != OnOverflow::kSpill) return;
+  const std::uint64_t out = run.bench.bytes_written() / kBytesOfKey;
+  run.bench.check_accesses("spill blocks", out, out);
+  // Of a finished group some never come back.
+  if (saturating) return;
+  const std::uint64_t back = run.bench.bytes_read() / kBytesOfKey;
+  run.bench.check_accesses("spilled runs", back, back);
+  run.bench.check_accesses("fronts of runs", plan.config.spill_runs * back, back);
+  run.bench.check_accesses("rest of fronts", back, back);
 }
 
 void check_counters(MergeRun& run, const MergePlan& plan) {
@@ -74,6 +101,9 @@ void check_counters(MergeRun& run, const MergePlan& plan) {
     run.bench.check_counter("forced_early", 0);
   } else {
     run.bench.check_counter("runs_spilled", 0);
+    std::uint64_t forced = 0;
+    for (const MergeGroup& group : plan.groups) forced += forced_keys(plan, group);
+    if (!saturating) run.bench.check_counter("forced_early", forced);
   }
   // A word a node, the root's in each operation; a level passes no more nodes than operations.
   run.bench.check_accesses("waiting keys 0", heap.operations(), heap.operations());
@@ -97,6 +127,7 @@ void check_counters(MergeRun& run, const MergePlan& plan) {
     comparisons += 2 * (plan.config.spill_runs - 1) * run.bench.counter("keys_spilled");
   }
   run.bench.check_operations("merge", "comparator", comparisons);
+  check_spill_memories(run, plan, saturating);
   // Nothing went past the spill area.
   const RegionSpan& spill = run.job.spill;
   const std::vector<std::byte> behind =

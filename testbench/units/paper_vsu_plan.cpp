@@ -55,6 +55,15 @@ std::uint64_t ordering_cycles(const PaperVsuPlan& plan, OrderingTable& table) {
   return std::max(clearing, table.accesses().cycles - before);
 }
 
+void add_difference(const OrderingAccesses& before, const OrderingAccesses& after,
+                    OrderingAccesses& sum) {
+  for (const auto count : {&OrderingAccesses::reads, &OrderingAccesses::writes,
+                           &OrderingAccesses::names_read, &OrderingAccesses::names_written,
+                           &OrderingAccesses::ready_read, &OrderingAccesses::ready_written}) {
+    sum.*count += after.*count - before.*count;
+  }
+}
+
 }  // namespace
 
 PaperVsuPlan paper_vsu_plan_of(TestScene scene) {
@@ -71,6 +80,9 @@ PaperVsuPlan paper_vsu_plan_of(TestScene scene) {
 std::uint64_t macs_of_a_step() { return folded_macs(ray_step_work(longest_step_case())); }
 std::uint64_t macs_of_a_beginning() { return folded_macs(pixel_ray_work()); }
 
+std::uint64_t comparisons_of_a_step() { return comparisons(ray_step_work(longest_step_case())); }
+std::uint64_t comparisons_of_a_beginning() { return comparisons(pixel_ray_work()); }
+
 ExpectedVisits expect(const PaperVsuPlan& plan, std::uint64_t latency) {
   ExpectedVisits out;
   const VoxelGrid& grid = plan.scene.grid;
@@ -86,8 +98,11 @@ ExpectedVisits expect(const PaperVsuPlan& plan, std::uint64_t latency) {
       out.met += count_of(events, RayEvent::kVoxel);
       table.clear();
       if (visits.overflows == 0) {
+        const OrderingAccesses before = table.accesses();
         const RayTimingModel::Times times = model.pass(events, table);
         const std::uint64_t ordering = ordering_cycles(plan, table);
+        add_difference(before, table.accesses(), out.table);
+        ++out.orderings;
         out.traverse_cycles += times.all - times.waits + ordering;
         if (out.groups.empty()) out.first_group_cycles = times.all + ordering;
       }
@@ -105,9 +120,11 @@ ExpectedVisits expect(const PaperVsuPlan& plan, std::uint64_t latency) {
       visit_pieces(grid.voxels[voxel], plan.scene.job.view.position, plan.config.visit_gaussians,
                    plane, visit);
     }
+    out.voxels += visits.voxels.size();
     out.visits += pieces.size();
     out.empty += visits.voxels.empty() ? 1 : 0;
     out.rays += visits.rays;
+    out.rays_of.push_back(visits.rays);
     out.steps += visits.steps;
     out.edges += visits.edges_offered;
     out.table_bytes_max = std::max(out.table_bytes_max, visits.table_bytes);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithm/order/ordering_table.h"
 #include "algorithm/voxel/voxel_grid.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"
 #include "testbench/units/random_scene.h"
@@ -30,6 +31,9 @@ inline std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b 
 // Multiply-accumulates.
 std::uint64_t macs_of_a_step();
 std::uint64_t macs_of_a_beginning();
+// Beside them.
+std::uint64_t comparisons_of_a_step();
+std::uint64_t comparisons_of_a_beginning();
 
 struct ExpectedVisits {
   std::vector<std::vector<VoxelRecord>> groups;  // pieces of voxels in visiting order
@@ -39,6 +43,10 @@ struct ExpectedVisits {
   std::uint64_t lookups = 0, met = 0;
   std::uint64_t visits = 0, empty = 0, rays = 0, steps = 0, edges = 0, table_bytes_max = 0;
   std::uint64_t passes = 0, overflows = 0;
+  std::vector<std::uint64_t> rays_of;  // [group]
+  std::uint64_t voxels = 0;            // whole
+  std::uint64_t orderings = 0;         // of a table that had been filled
+  OrderingAccesses table;              // of passes without an overflow
 };
 
 // From the grid itself; latency: of memory, cycles.

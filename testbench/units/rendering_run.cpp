@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "algorithm/memory/splat_record.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/rendering_work.h"
@@ -33,19 +34,21 @@ struct Expected {
 };
 
 // Blends a splat and says what of the group it reaches.
-RenderingToken blended(const Splat& splat, GroupState& state, Expected& out) {
+RenderingToken blended(const Splat& splat, bool ellipse_test, GroupState& state, Expected& out) {
   RenderingToken token;
   token.is_splat = true;
   const BlendWork work = state.blend_scheduled(
       splat, [&](const SubtileReach& subtile) { token.reaches.push_back(subtile); });
   token.rows = work.rows;
-  token.spans = work.spans;
   const SubtileRect box = state.box_of(splat).subtiles;
   for (std::size_t y = box.y0; y < box.y1; ++y) {
     for (std::size_t x = box.x0; x < box.x1; ++x) {
       token.footprint.push_back(y * state.subtile_columns() + x);
     }
   }
+  // A footprint of at most four sub-tiles is blended as it is; of a larger one each row has a span.
+  constexpr std::size_t kUntested = 4;
+  if (ellipse_test && token.footprint.size() > kUntested) token.spans = box.y1 - box.y0;
   out.functional_blends += work.blended;
   out.counters.splats += work.blended > 0 ? 1 : 0;
   return token;
@@ -63,7 +66,9 @@ Expected expect(const RenderingPlan& plan) {
                      plan.config.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox);
     std::vector<RenderingToken> tokens;
     for (const auto& visit : plan.groups[g]) {
-      for (const Splat& splat : visit) tokens.push_back(blended(splat, state, out));
+      for (const Splat& splat : visit) {
+        tokens.push_back(blended(splat, plan.config.ellipse_test, state, out));
+      }
       tokens.emplace_back();  // a rejected key, or the end of a visit
     }
     tokens.emplace_back();  // the end of the group
@@ -212,6 +217,13 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   checks.that(unit.schedule_counters().blends - unit.schedule_counters().late_blends ==
                   expected.functional_blends,
               "blends that change pixels");
+  std::uint64_t pushed = 0;
+  for (const auto& group : plan.groups) {
+    for (const auto& visit : group) pushed += visit.size();
+  }
+  checks.equal(bench.counter("splats_taken") + bench.counter("splats_hidden") +
+                   bench.counter("splats_saturated"),
+               pushed, "splats sent on or dropped");
   std::uint64_t blend = 0, drain = 0, finishes = 0;
   RenderingTimes sum;
   for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
@@ -243,6 +255,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   if (!bench_config.still()) return;
   bench.check_counter("splats_saturated", sum.splats_dropped);
   bench.check_counter("splats_hidden", sum.splats_hidden);
+  const std::uint64_t dropped = sum.splats_hidden + sum.splats_dropped, taken = pushed - dropped;
+  bench.check_counter("splats_taken", taken);
+  bench.check_counter("splats_spanned", sum.splats_spanned);
+  bench.check_counter("spans", sum.spans);
   bench.check_counter("rows", sum.rows);
   bench.check_counter("subtile_blends", sum.blends);
   bench.check_counter("subtile_blends_late", sum.late_blends);
@@ -255,24 +271,22 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
     pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
   }
   const OperationCounts drained = pixel_work(plan.job.frame_format);
-  const std::uint64_t span_macs =
-      pixels * folded_macs(drained) + bench.counter("splats_taken") * folded_macs(work.conic) +
-      sum.spans * folded_macs(work.span) + sum.splats_spanned * folded_macs(work.spans_begin);
+  const std::uint64_t span_macs = pixels * folded_macs(drained) + taken * folded_macs(work.conic) +
+                                  sum.spans * folded_macs(work.span) +
+                                  sum.splats_spanned * folded_macs(work.spans_begin);
   // The mask is asked of every row for a splat, and of the row that is held for each cluster.
   const auto rows = static_cast<std::uint64_t>(plan.group.height / 4);
   const auto words = ceil_div(static_cast<std::uint64_t>(plan.group.width / 4), 32);
-  const std::uint64_t dropped = sum.splats_hidden + sum.splats_dropped;
   const std::uint64_t looks = sum.blends + sum.hazard_cycles;
   const std::uint64_t in_loop =
       ceil_div(plan.config.state_loop_cycles, plan.config.cluster_interval_cycles());
-  const std::uint64_t dispatched = (bench.counter("splats_taken") + dropped) * rows * words +
-                                   sum.row_cycles * plan.config.clusters * words + looks * in_loop;
-  bench.check_operations("rendering", "comparator",
-                         dispatched + pixels * comparisons(drained) +
-                             bench.counter("splats_taken") * comparisons(work.conic) +
-                             sum.blends * comparisons(work.subtile_blend) +
-                             sum.spans * comparisons(work.span) +
-                             sum.splats_spanned * comparisons(work.spans_begin));
+  const std::uint64_t dispatched =
+      pushed * rows * words + sum.row_cycles * plan.config.clusters * words + looks * in_loop;
+  bench.check_operations(
+      "rendering", "comparator",
+      dispatched + pixels * comparisons(drained) + taken * comparisons(work.conic) +
+          sum.blends * comparisons(work.subtile_blend) + sum.spans * comparisons(work.span) +
+          sum.splats_spanned * comparisons(work.spans_begin));
   const bool in_half = in_16_bits(plan.config.precision);
   bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", sum.blends * 16);
   bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));
@@ -286,15 +300,15 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   }
   bench.check_accesses("pixel state", reads, writes);
   const std::uint64_t bits = 8 * mask_use(plan.group).total_bytes();
-  bench.check_accesses("finished sub-tiles",
-                       bits * (dropped + bench.counter("splats_taken") + sum.row_cycles),
+  bench.check_accesses("finished sub-tiles", bits * (pushed + sum.row_cycles),
                        finishes + bits * plan.groups.size());
   bench.check_accesses("sub-tiles in the loop", looks, sum.blends);
   bench.check_accesses("cluster queues", sum.blends, sum.blends);
   bench.check_accesses("begun spans", sum.begun_span_reads, sum.splats_spanned);
-  bench.check_accesses("spans", bench.counter("spans"), bench.counter("spans"));
-  bench.check_accesses("splats under way", bench.counter("splats_taken"),
-                       bench.counter("splats_taken"));
+  bench.check_accesses("spans", sum.spans, sum.spans);
+  bench.check_accesses("splats under way", taken, taken);
+  // The splat whose rows go out stands in registers.
+  bench.check_operations("rendering", "register_bit", 8 * kSplatEntryBytes * taken);
   checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");
 }
 

@@ -19,6 +19,44 @@ struct Plan {
   std::uint32_t passes = 1;
 };
 
+// By what the first half holds, which in few bits is not less than the largest scale.
+bool may_touch(const TestScene& scene, const GscoreJob& job, std::size_t i) {
+  const SplitFirstHalf first = read_first_half(
+      job.layout.split, scene.image.bytes.data() + job.layout.first_halves.address(i));
+  return may_touch_frame(job.view, frame_sides(job.view), first.mean, first.extents.scale_max);
+}
+
+// What passes the culling of all units, counted beside it.
+struct Candidates {
+  std::uint64_t there = 0, ends_alone = 0;
+  std::uint64_t reads = 0;  // of second halves
+};
+
+// Neighbours in memory are read at once if they are of a slice and neighbours in the ring of slots.
+Candidates candidates_of(const TestScene& scene, const GscoreJob& job, const Plan& plan) {
+  Candidates out;
+  const CcuConfig& ccu = plan.config.ccu;
+  const std::size_t size = ccu.slice_gaussians, count = scene.cloud.size();
+  std::vector<std::uint64_t> taken(plan.config.ccus);  // slots of each unit's ring
+  for (std::uint32_t p = 0; p < plan.passes; ++p) {
+    for (std::size_t s = 0; s * size < count; ++s) {
+      std::uint64_t& slot = taken[s % plan.config.ccus];
+      bool neighbour = false;
+      for (std::size_t i = s * size; i < std::min(count, (s + 1) * size); ++i) {
+        const bool there = may_touch(scene, job, i);
+        if (there) {
+          ++out.there;
+          out.reads += neighbour && slot % ccu.second_half_slots != 0 ? 0 : 1;
+          ++slot;
+        }
+        neighbour = there;
+      }
+      out.ends_alone += neighbour ? 0 : 1;
+    }
+  }
+  return out;
+}
+
 // What must come out of one slice.
 std::vector<Converted> expected_of(const TestScene& scene, const GscoreJob& job,
                                    const GscoreConfig& config, std::size_t first, std::size_t end) {
@@ -104,7 +142,21 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
       std::uint64_t{job.layout.first_halves.record_bytes} * count * plan.passes +
           std::uint64_t{job.layout.second_halves.record_bytes} * bench.counter("second_halves"),
       "bytes read");
+  const Candidates candidates = candidates_of(scene, job, plan);
+  bench.check_counter("second_halves", candidates.there);
+  bench.check_counter("runs", candidates.reads);
+  bench.check_accesses("first halves", count * plan.passes, count * plan.passes);
+  const std::uint64_t words =
+      candidates.there * cycles_for(job.layout.second_halves.record_bytes, kPortBytes);
+  bench.check_accesses("second halves", words, words);
+  // The end of a slice passes by itself if its last Gaussian does not; one of the scene, each unit.
+  const std::uint64_t gathered = candidates.there + candidates.ends_alone + config.ccus;
+  bench.check_accesses("candidates of a slice", gathered, gathered);
   if (config.ccus > 1) return;
+  const std::uint64_t slices = cycles_for(count, config.ccu.slice_gaussians) * plan.passes;
+  checks.equal(bench.busy_cycles("ccu load"), slices, "cycles of loading");
+  // A cycle to gather and one to hand on.
+  checks.equal(bench.busy_cycles("ccu fetch"), 2 * gathered, "cycles of fetching");
   // Each datapath begins an item in its turns.
   const auto bound = [&](const char* resource, std::uint64_t items, const Datapath& path) {
     checks.that(bench.busy_cycles(resource) >= items * path.interval_cycles(),

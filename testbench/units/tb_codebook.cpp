@@ -47,19 +47,38 @@ struct Request {
   std::uint32_t reader = 0;
 };
 
-// Lines of the record's entries, codebook after codebook.
-std::vector<std::uint32_t> lines_of(const Plan& plan, const CodebookIndices& indices) {
+// Lines of one codebook's entry; none of a codebook that the scene has not.
+std::vector<std::uint32_t> lines_of(const Plan& plan, const CodebookIndices& indices,
+                                    std::size_t id) {
   std::vector<std::uint32_t> lines;
   const SecondHalfFormat& format = plan.job.layout.second_half;
-  for (std::size_t id = 0; id < kCodebookCount; ++id) {
-    if (format.entries[id] == 0) continue;
-    const EntryRange range = format.entry(static_cast<Codebook>(id), indices[id]);
-    for (std::uint32_t byte = range.begin; byte < range.begin + range.bytes; ++byte) {
-      const std::uint32_t line = byte / plan.config.line_bytes;
-      if (byte == range.begin || line != lines.back()) lines.push_back(line);
-    }
+  if (format.entries[id] == 0) return lines;
+  const EntryRange range = format.entry(static_cast<Codebook>(id), indices[id]);
+  for (std::uint32_t byte = range.begin; byte < range.begin + range.bytes; ++byte) {
+    const std::uint32_t line = byte / plan.config.line_bytes;
+    if (lines.empty() || line != lines.back()) lines.push_back(line);
   }
   return lines;
+}
+
+// Of all of the record's entries, codebook after codebook.
+std::vector<std::uint32_t> lines_of(const Plan& plan, const CodebookIndices& indices) {
+  std::vector<std::uint32_t> lines;
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    const std::vector<std::uint32_t> of_entry = lines_of(plan, indices, id);
+    lines.insert(lines.end(), of_entry.begin(), of_entry.end());
+  }
+  return lines;
+}
+
+// A line that is read is an access to the codebook that it is of.
+void check_lines(UnitBench& bench, const Plan& plan, const std::vector<Request>& requests) {
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    std::uint64_t lines = 0;
+    for (const Request& request : requests) lines += lines_of(plan, request.indices, id).size();
+    bench.checks().equal(bench.accesses(kCodebookNames[id]).first, lines,
+                         fmt::format("lines read of codebook {}", kCodebookNames[id]));
+  }
 }
 
 // When each request is done. In every cycle the requests that are under way each take the bank of
@@ -101,6 +120,7 @@ void check_requests(UnitBench& bench, const Plan& plan, const std::vector<Reques
   bench.check_counter("lines_read", lines);
   bench.check_counter("bank_conflict_cycles", waited);
   bench.check_operations("codebooks", "comparator", lines);
+  check_lines(bench, plan, requests);
 }
 
 // `requests` made at their times by a reader each, of a buffer that is full from the start.
@@ -137,6 +157,7 @@ void directed_readers(Case& test, const CodebookConfig& config, const SecondHalf
   bench.check_counter("bank_conflict_cycles", took - least - lines);
   bench.check_counter("lines_read", lines);
   bench.check_counter("records_decoded", requests.size());
+  check_lines(bench, plan, requests);
   bench.checks().equal(bench.bytes_read(), 0U, "bytes read for a buffer that was full");
   bench.checks().that(
       std::memcmp(buffer.bytes(), plan.codebooks.data(), plan.codebooks.size()) == 0,

@@ -92,6 +92,7 @@ void run_plan(Case& test, const BenchConfig& config, const Plan& plan) {
   bench.check_counter("visits_trivial", trivial);
   bench.check_counter("keys", keys);
   bench.check_counter("compare_exchanges", exchanges);
+  bench.check_counter("moves", moves);
   bench.check_operations("sorting", "comparator", kSortKeyComparators * exchanges);
   bench.check_operations("sorting", "exchange_bit",
                          exchanged_bits(bench.context(job).built_for.chunk_gaussians) * exchanges);

@@ -55,6 +55,25 @@ void check_left_out(Checks& checks, const ReportedGroups& groups, std::uint32_t 
               fmt::format("group {}: the rest is left out too soon", group));
 }
 
+// Rows of the mask for an entry that is looked up, depth and number of each open node for the
+// nearest chunk, and what a test compares; beside these the queues, two keys a level at most, and
+// where no queue holds more than one entry nothing.
+void check_comparators(UnitBench& bench, const ExactVsuPlan& plan, std::uint64_t operations,
+                       std::uint64_t open_keys) {
+  constexpr std::uint64_t kRows = 4, kWords = 2, kOfLevel = 2;  // groups of 16 x 16 px
+  const std::uint64_t least = kRows * bench.counter("looked_up") + kWords * open_keys +
+                              bench.counter("tests") * comparisons_of_a_test();
+  const std::uint64_t levels =
+      heap_levels(std::max(plan.config.queue_entries, plan.config.node_queue_entries));
+  const double done = bench.operations("vsu", "comparator");
+  if (bench.counter("chunk_queue_max") <= 1 && bench.counter("node_queue_max") <= 1) {
+    bench.check_operations("vsu", "comparator", least);
+  }
+  bench.checks().that(done >= static_cast<double>(least), "comparators: too few operations");
+  bench.checks().that(done <= static_cast<double>(least + kWords * kOfLevel * levels * operations),
+                      "comparators: too many operations");
+}
+
 void check_counters(UnitBench& bench, const ExactVsuPlan& plan, const ExpectedWalk& expected,
                     bool any_finished) {
   Checks& checks = bench.checks();
@@ -87,6 +106,7 @@ void check_counters(UnitBench& bench, const ExactVsuPlan& plan, const ExpectedWa
   bench.check_accesses(
       "keys of open nodes", keys * operations,
       bench.counter("upper_nodes_opened") + bench.counter("nodes_read") + put_aside);
+  check_comparators(bench, plan, operations, keys * operations);
   checks.equal(bench.busy_cycles("visits"),
                bench.counter("visits") + bench.counter("visits_dropped") + plan.job.groups.size(),
                "cycles of handing out or dropping visits, and of ends of groups");
@@ -96,6 +116,7 @@ void check_counters(UnitBench& bench, const ExactVsuPlan& plan, const ExpectedWa
   bench.check_counter("upper_nodes_opened", expected.upper);
   bench.check_counter("nodes_dropped", 0);
   bench.check_counter("tests", expected.tests);
+  bench.check_counter("looked_up", expected.nodes + expected.visits);
   // In as it was read, out as entries of the queues.
   bench.check_accesses("nodes in test", 2 * 4 * expected.nodes, 2 * 4 * expected.nodes);
   bench.check_counter("groups_empty", expected.empty);
@@ -190,9 +211,9 @@ void run_plan(Case& test, const BenchConfig& bench_config, const ExactVsuPlan& p
   // Of a group that is walked ahead nodes are not looked up: of more than one group they may be
   // opened, and what is below them is hidden.
   if (plan.finished_columns == 0 || plan.job.groups.size() == 1) {
-    bench.checks().that((plan.finished_columns > 0) ==
-                            (expected.nodes_hidden != expected.chunks_hidden),
-                        "a case that tells hidden nodes from hidden chunks");
+    bench.checks().that(
+        (plan.finished_columns > 0) == (expected.nodes_hidden != expected.chunks_hidden),
+        "a case that tells hidden nodes from hidden chunks");
     bench.check_counter("nodes_hidden", expected.nodes_hidden);
     bench.check_counter("chunks_hidden", expected.chunks_hidden);
   } else {

@@ -1,6 +1,8 @@
 // Merge unit alone: sorted keys of the visits of several groups in, keys in final order out.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "testbench/units/merge_run.h"
 
 namespace sgs::tb {
@@ -158,7 +160,10 @@ void one_group(Case& test, std::uint32_t n, std::uint32_t entries, bool tied,
   plan.config.entries = entries;
   plan.config.spill_runs = 3;
   plan.groups.push_back(one_visit(n, tied));
-  also(test.checks, run_plan(test, still_bench(plan), plan));
+  const MergeUnit::Counters counters = run_plan(test, still_bench(plan), plan);
+  // All of it waits before the first is final, as far as there is room.
+  test.checks.equal(counters.pending_max, std::uint64_t{std::min(n, entries)}, "keys that wait");
+  also(test.checks, counters);
 }
 
 }  // namespace
@@ -234,10 +239,14 @@ int sc_main(int argc, char* argv[]) {
     run.bench.run();
     // 64 wait: an eighth goes, 8 keys, and the other 6 fit.
     test.checks.equal(run.unit.counters().keys_spilled, std::uint64_t{8}, "keys spilled");
+    run.bench.check_counter("runs_spilled", 1);
     test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * kBytesOfKey}, "bytes written");
     test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kBytesOfKey}, "bytes read");
     // Of each key that comes back, the fronts of all runs are looked at.
     run.bench.check_accesses("fronts of runs", plan.config.spill_runs * 8, 8);
+    for (const char* use : {"rest of fronts", "spilled runs", "spill blocks"}) {
+      run.bench.check_accesses(use, 8, 8);
+    }
   });
   for (const std::uint32_t n : {0U, 1U, 2U, 16U, 100U}) {
     for (const std::uint32_t cycles : {2U, 3U, 4U}) {

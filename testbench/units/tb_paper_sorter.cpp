@@ -34,6 +34,7 @@ struct Plan {
 // merged fan_in at a time.
 struct Work {
   std::uint64_t busy_cycles = 0, entries_spilled = 0, runs = 0;
+  std::uint64_t compare_exchanges = 0, moves = 0;
 };
 
 Work expected_work(const PaperSorterConfig& config, std::uint64_t n) {
@@ -41,7 +42,10 @@ Work expected_work(const PaperSorterConfig& config, std::uint64_t n) {
   std::vector<std::uint64_t> runs;
   for (std::uint64_t left = n; left > 0; left -= runs.back()) {
     runs.push_back(std::min<std::uint64_t>(left, config.buffer_entries));
-    work.busy_cycles += sort_cost(config, runs.back()).cycles;
+    const SortingCost cost = sort_cost(config, runs.back());
+    work.busy_cycles += cost.cycles;
+    work.compare_exchanges += cost.compare_exchanges;
+    work.moves += cost.moves;
   }
   work.busy_cycles += 2 * n;  // one cycle in, one cycle out
   if (runs.size() < 2) return work;
@@ -49,8 +53,14 @@ Work expected_work(const PaperSorterConfig& config, std::uint64_t n) {
   work.busy_cycles += n;  // the first time into DRAM
   work.entries_spilled = n;
   const std::size_t fan_in = std::max(2U, config.buffer_entries / (2 * config.spill_block_entries));
-  const auto merge_cycles = [&](std::uint64_t entries, std::size_t count) {
-    return entries * merge_tree_cycles(config, count) / kMergeWidth;
+  // An entry goes through the network once a level of the tree; of the 16 that a merge compares in
+  // each of its 4 stages by 8 comparators, 8 are given.
+  const auto merge = [&](std::uint64_t entries, std::size_t count) {
+    std::uint64_t levels = 0;
+    for (std::size_t runs_left = count; runs_left > 1; runs_left = (runs_left + 1) / 2) ++levels;
+    work.busy_cycles += entries * merge_tree_cycles(config, count) / kMergeWidth;
+    work.moves += entries * levels;
+    work.compare_exchanges += entries * levels * 4;
   };
   while (runs.size() > fan_in) {
     std::vector<std::uint64_t> longer;
@@ -58,13 +68,13 @@ Work expected_work(const PaperSorterConfig& config, std::uint64_t n) {
       const std::size_t count = std::min(fan_in, runs.size() - at);
       std::uint64_t entries = 0;
       for (std::size_t k = 0; k < count; ++k) entries += runs[at + k];
-      work.busy_cycles += merge_cycles(entries, count);
+      merge(entries, count);
       work.entries_spilled += entries;
       longer.push_back(entries);
     }
     runs = longer;
   }
-  work.busy_cycles += merge_cycles(n, runs.size());
+  merge(n, runs.size());
   return work;
 }
 
@@ -73,6 +83,19 @@ std::vector<Splat> sorted(const Visit& visit) {
   for (const auto& part : visit.from_hfu) all.insert(all.end(), part.begin(), part.end());
   std::sort(all.begin(), all.end(), in_front);
   return all;
+}
+
+// A key is written as its entry comes, read for each pass and as the entry goes; its place
+// likewise, but for the first, which is known. Each key of a pass comes from one of 16 banks.
+void check_network(UnitBench& bench, const Plan& plan, const Work& work, std::uint64_t held) {
+  bench.check_counter("compare_exchanges", work.compare_exchanges);
+  bench.check_counter("moves", work.moves);
+  bench.check_accesses(kComparedKeys, held + work.moves, held);
+  bench.check_accesses(kSortedPlaces, held + work.moves, work.moves);
+  if (plan.config.buffer_entries <= kNetworkWidth) return;  // whole blocks only
+  constexpr std::uint64_t kHalvings = 4;                    // of 16 banks
+  bench.check_operations("sorting", "select_bit",
+                         kHalvings * exchanged_bits(plan.config.buffer_entries) * work.moves);
 }
 
 struct Outcome {
@@ -163,6 +186,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
     work.busy_cycles += of_visit.busy_cycles + plan.hfus + 1;  // marks in, mark out
     work.entries_spilled += of_visit.entries_spilled;
     work.runs += of_visit.runs;
+    work.compare_exchanges += of_visit.compare_exchanges;
+    work.moves += of_visit.moves;
   }
   Checks& checks = bench.checks();
   bench.check_counter("visits", plan.visits.size());
@@ -178,6 +203,12 @@ void run_plan(Case& test, const BenchConfig& bench_config, const Plan& plan) {
   checks.equal(bench.busy_cycles("sorting"), work.busy_cycles, "busy cycles");
   bench.check_counter("entries_spilled", work.entries_spilled);
   bench.check_counter("runs_spilled", work.runs);
+  // What is spilled passes a block on its way out. It came into the buffer and left it before, and
+  // does so again when it is read back.
+  const std::uint64_t held = outcome.received + work.entries_spilled;
+  bench.check_accesses("spill blocks", work.entries_spilled, work.entries_spilled);
+  bench.check_accesses("sort buffers", held, held);
+  check_network(bench, plan, work, held);
   checks.equal(bench.bytes_written(), work.entries_spilled * kSplatEntryBytes, "bytes written");
   checks.equal(bench.bytes_read(), work.entries_spilled * kSplatEntryBytes, "bytes read");
 }

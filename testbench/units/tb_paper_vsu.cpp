@@ -80,10 +80,37 @@ void check_stream(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisi
   checks.equal(bench.counter("visits") + left_out, expected.visits, "visits accounted for");
 }
 
+// Memories of the caches and of the ordering table, which are cleared after each group, and what is
+// compared: what is read of the table with the voxel; a voxel that is met with the two ends of the
+// window, and with the two ends of what is in it when it is entered; rounds, and lines that are
+// missed, with those of all contexts; a look-up with the tags of a set. handed: contexts that went
+// from ray to ray.
+void check_tables(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisits& expected,
+                  std::uint64_t handed, std::uint64_t node_misses) {
+  constexpr std::uint64_t kWays = 4, kNamesAtOnce = 4;
+  const OrderingAccesses& table = expected.table;
+  const std::uint64_t clearing =
+      Renaming::slots_for(OrderingTable::most_voxels(plan.config.table_bytes)) / kNamesAtOnce;
+  bench.check_accesses("ordering table", table.reads, table.writes);
+  bench.check_accesses("renamed voxels", table.names_read,
+                       table.names_written + expected.orderings * clearing);
+  bench.check_accesses("ready voxels", table.ready_read, table.ready_written);
+  // A word of 32 B holds what is looked up, and a line.
+  bench.check_accesses("node cache", expected.lookups, node_misses);
+  const std::uint64_t contexts = plan.config.rays_in_flight;
+  const std::uint64_t ordered = bench.counter("voxels") + bench.counter("cuts");
+  bench.check_operations("vsu", "comparator",
+                         expected.rays * comparisons_of_a_beginning() +
+                             (expected.steps - expected.rays) * comparisons_of_a_step() +
+                             table.reads + 2 * expected.met + 2 * expected.met +
+                             (expected.met + handed + node_misses) * contexts +
+                             kWays * (expected.lookups + ordered) + bench.counter("cuts"));
+}
+
 // Its cycles are those of the model where times can be computed, and never fewer than each thing
 // that the rays share takes.
 void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const PaperVsuPlan& plan,
-                     const ExpectedVisits& expected) {
+                     const ExpectedVisits& expected, std::uint64_t node_misses) {
   Checks& checks = bench.checks();
   const std::uint64_t busy = bench.busy_cycles("vsu");
   if (expected.overflows == 0) {
@@ -102,6 +129,24 @@ void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const Pa
                 "more rays side by side than there are contexts");
     bench.check_accesses("ray chains", expected.met, expected.met);
     bench.check_accesses("ray directions", steps, rays);
+    // A node that is looked up is put on its ray's stack; the step behind it reads where it stands.
+    bench.check_accesses("ray nodes", steps, expected.lookups);
+    // A ray's beginning leaves its place there; a step and a look-up read it and leave the next.
+    bench.check_accesses("ray positions", steps + expected.lookups,
+                         rays + steps + expected.lookups);
+    // The round of a ray changes as it begins, steps, and enters what it met. The first of all is
+    // found for each voxel that is entered, and for each ray that is begun in another's context.
+    const std::uint64_t contexts = plan.config.rays_in_flight;
+    std::uint64_t handed = 0;
+    for (const std::uint64_t of_group : expected.rays_of) {
+      handed += of_group - std::min(of_group, contexts);
+    }
+    bench.check_accesses("rounds of rays", (expected.met + handed) * contexts,
+                         rays + steps + expected.met);
+    // A line that is missed is looked for among all that are on their way, and joins them.
+    bench.check_accesses("node fetches", node_misses * contexts, node_misses);
+    bench.check_accesses("node cache tags", expected.lookups, expected.lookups);
+    check_tables(bench, plan, expected, handed, node_misses);
   }
 }
 
@@ -160,6 +205,14 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
   if (visits == expected.visits) {
     checks.equal(pieces, visits + bench.counter("cuts"), "pieces opened and taken");
   }
+  // Each is read once, to be visited or left out.
+  bench.check_accesses("ordered voxels", expected.voxels, expected.voxels);
+  // A voxel's record is looked up as it is visited, a plane as it is cut.
+  bench.check_accesses("record cache tags", bench.counter("voxels"), bench.counter("voxels"));
+  bench.check_accesses("cut cache tags", bench.counter("cuts"), bench.counter("cuts"));
+  bench.check_accesses("record cache", bench.counter("voxels"),
+                       bench.counter("record_cache_misses"));
+  bench.check_accesses("cut cache", bench.counter("cuts"), bench.counter("cut_cache_misses"));
   bench.check_counter("groups_empty", expected.empty);
   bench.check_counter("ordering_table_bytes_max", expected.table_bytes_max);
   checks.that(expected.table_bytes_max <= plan.config.table_bytes, "ordering table over its bytes");
@@ -167,7 +220,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
   bench.check_counter("overflows", expected.overflows);
   checks.equal(expected.overflows > 0, expected.passes > plan.scene.job.groups.size(),
                "a table that overflows is ordered in passes");
-  check_traversal(bench, bench_config, plan, expected);
+  check_traversal(bench, bench_config, plan, expected, unit.node_memory.transactions());
   checks.equal(bench.busy_cycles("visits"), visits + bench.counter("cuts") + expected.groups.size(),
                "busy cycles of handing out");
   // A line a miss.

@@ -1,7 +1,10 @@
 // Rendering core of the tile-centric machine alone: sorted entries in, records and a frame buffer
 // in memory. Checked against GroupState; busy cycles against closed forms, to the cycle where no
 // splat waits for another.
+#include <algorithm>
+
 #include "algorithm/render/tile_blend.h"
+#include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 #include "modules/gscore/rendering/render_core.h"
 #include "testbench/units/gscore_bench.h"
@@ -79,6 +82,38 @@ Expected expect(const Plan& plan, const GscoreJob& job) {
   return out;
 }
 
+// Bits of parts that entries bring, and of these of parts without a pixel of the frame.
+struct Bits {
+  std::uint64_t all = 0, outside = 0;
+};
+
+Bits bits_of(const Plan& plan, const GscoreJob& job) {
+  Bits out;
+  const int across = plan.config.tiles.subtiles_across, side = kTilePx / across;
+  for (std::uint32_t t = 0; t < plan.tiles.size(); ++t) {
+    for (const SortedEntry& entry : plan.tiles[t]) {
+      for (int part = 0; part < across * across; ++part) {
+        if ((entry.bitmap >> part & 1) == 0) continue;
+        ++out.all;
+        const int x = job.tile_x(t) * kTilePx + part % across * side;
+        const int y = job.tile_y(t) * kTilePx + part / across * side;
+        out.outside += x >= plan.width_px || y >= plan.height_px ? 1 : 0;
+      }
+    }
+  }
+  return out;
+}
+
+// Each row of a tile by itself.
+std::uint64_t drain_cycles(const Plan& plan) {
+  std::uint64_t cycles_of_row = 0;
+  for (int x = 0; x < plan.width_px; x += kTilePx) {
+    const auto width = static_cast<std::uint64_t>(std::min(kTilePx, plan.width_px - x));
+    cycles_of_row += cycles_for(width, plan.config.rendering.drain_pixels_per_cycle);
+  }
+  return cycles_of_row * static_cast<std::uint64_t>(plan.height_px);
+}
+
 void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_hazards = false) {
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
@@ -130,6 +165,32 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
   const std::uint64_t blocks = bench.counter("blocks");
   const std::uint64_t interval = blend_pipeline(plan.config).interval_cycles();
   checks.that(bench.busy_cycles("rendering") >= blocks * interval, "rendering's bound");
+  const Bits bits = bits_of(plan, job);
+  const std::uint64_t dropped = bench.counter("dropped"), late = bench.counter("dropped_fetched"),
+                      skipped = bench.counter("parts_finished");
+  if (dropped + late == 0) {
+    checks.equal(bench.counter("parts") + skipped, bits.all, "parts with a bit");
+    checks.that(skipped >= bits.outside, "parts outside the frame");
+    if (!plan.config.rendering.skip_finished) {
+      checks.equal(skipped, bits.outside, "parts_finished");
+    }
+  }
+  const std::uint64_t splats = bench.counter("splats"), fetched = bench.counter("records"),
+                      pixels = std::uint64_t(plan.width_px) * std::uint64_t(plan.height_px);
+  bench.check_counter("pixels", pixels);
+  bench.check_accesses("records", fetched, fetched);
+  bench.check_accesses("finished parts", splats, splats);
+  bench.check_accesses("pixel state", 16 * blocks + pixels, 16 * blocks + pixels);
+  // A cycle for what is fetched or dropped, each tile's end and the frame's.
+  checks.equal(bench.busy_cycles("record fetch"), entries + plan.tiles.size() + 1,
+               "cycles of fetching");
+  const std::uint64_t blending =
+      blocks * interval + bench.counter("hazard_cycles") + late + plan.tiles.size() + 1;
+  checks.that(bench.busy_cycles("rendering") >= blending, "cycles of rendering at least");
+  // One more for a splat of finished parts; behind any splat, until the lanes' next turn.
+  checks.that(bench.busy_cycles("rendering") <= blending + skipped + (interval - 1) * splats,
+              "cycles of rendering at most");
+  checks.equal(bench.busy_cycles("drain"), drain_cycles(plan) + 1, "cycles of draining");
   const std::uint64_t parts =
       std::uint64_t(plan.config.tiles.subtiles_across) * plan.config.tiles.subtiles_across;
   checks.equal(blocks * parts, 16 * bench.counter("parts"), "blocks of 16 px");
@@ -142,6 +203,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
   GscoreConfig config = random_gscore(random);
+  config.rendering.drain_pixels_per_cycle = 1 + static_cast<std::uint32_t>(random() % 5);
   if (random() % 2 == 0)
     config.rendering.core_lanes = 40 + static_cast<std::uint32_t>(random() % 200);
   constexpr float kOpacities[] = {0.02F, 0.5F, 1.0F};

@@ -62,6 +62,156 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> tiles_of(const Converted& g
   return out;
 }
 
+// What the tests of a pass are asked, by boxes; counted beside the unit.
+struct Tests {
+  std::uint64_t steps = 0, tiles = 0, touched = 0, off_pass = 0, records = 0;
+};
+
+void add_tests(const Converted& g, const GscoreConfig& config, const GscoreJob& job,
+               const Pass& pass, Tests& tests) {
+  if (!g.there) return;
+  tests.records += tiles_of(g, config, job, pass).empty() ? 0 : 1;
+  const PixelRect& box = g.boxes.tiles;
+  const auto columns = static_cast<int>(job.columns);
+  std::uint64_t rows = 0;
+  for (int y = box.y0; y < box.y1; ++y) {
+    // Rows of which the pass has a tile.
+    const auto row = static_cast<std::uint32_t>(y * columns);
+    if (row + job.columns <= pass.first || row >= pass.end) continue;
+    ++rows;
+    for (int x = box.x0; x < box.x1; ++x) {
+      const std::uint32_t tile = row + static_cast<std::uint32_t>(x);
+      if (tile < pass.first || tile >= pass.end) continue;
+      tests.touched += touches_tile(g.boxes, x, y) ? 1 : 0;
+    }
+  }
+  const auto width = static_cast<std::uint64_t>(box.x1 - box.x0);
+  tests.steps += rows * cycles_for(width, config.lists.tiles_at_once);
+  tests.tiles += rows * width;
+  tests.off_pass += rows == 0 ? 1 : 0;
+}
+
+// Lists as they grow line by line, each tile's in the line that it shares with others; where the
+// pool suffices.
+struct Lists {
+  std::uint64_t blocks = 0, full = 0, displaced = 0;
+  std::uint64_t words_read = 0, words_written = 0, bytes = 0;
+};
+
+// Words of 8 B of a block that its bytes [begin, end) lie in.
+std::uint64_t words_of(std::uint32_t begin, std::uint32_t end) {
+  return begin == end ? 0 : (end - 1) / 8 - begin / 8 + 1;
+}
+
+Lists lists_of(const Plan& plan, const GscoreConfig& config, const GscoreJob& job) {
+  struct Line {
+    std::uint32_t tile = 0, begin = 0, end = 0;  // bytes of its block that are not in memory yet
+  };
+  Lists out;
+  const BlockFormat blocks = config.blocks();
+  const auto write = [&](Line& line) {
+    out.words_read += words_of(line.begin, line.end);
+    out.bytes += line.end - line.begin;
+    line.begin = line.end;
+  };
+  for (std::uint32_t first = 0; first < job.tile_count; first += config.lists.tiles) {
+    const Pass pass{first, std::min(first + config.lists.tiles, job.tile_count), false};
+    std::vector<std::uint32_t> entries(job.tile_count);
+    std::vector<Line> lines(config.lists.lines);
+    for (const Converted& g : plan.gaussians) {
+      for (const auto& [tile, bits] : tiles_of(g, config, job, pass)) {
+        const std::uint32_t entry = entries[tile]++ % blocks.block_entries();
+        const std::uint32_t end = blocks.offset(entry) + blocks.entry.bytes();
+        // The first of a block brings its link.
+        const std::uint32_t begin = entry == 0 ? 0 : blocks.offset(entry);
+        out.blocks += entry == 0 ? 1 : 0;
+        Line& line = lines[(tile - first) % lines.size()];
+        if (line.begin < line.end && line.tile != tile) {
+          ++out.displaced;
+          write(line);
+        }
+        if (line.begin == line.end) line = {tile, begin, end};
+        line.end = end;
+        out.words_written += words_of(begin, end);
+        const std::uint32_t end_of_line = (begin / blocks.line_bytes + 1) * blocks.line_bytes;
+        if (end + blocks.entry.bytes() <= end_of_line) continue;
+        ++out.full;
+        write(line);
+      }
+    }
+    for (Line& line : lines) write(line);
+  }
+  return out;
+}
+
+// The pool has the first block of each tile's list, and those behind that are taken ahead of need;
+// where it is too small the pass is made again with half of its tiles.
+struct Passes {
+  std::uint64_t made = 0, overflowed = 0;
+};
+
+Passes passes_of(const Plan& plan, const GscoreConfig& config, const GscoreJob& job) {
+  Passes out;
+  std::uint32_t most = config.lists.tiles;
+  for (std::uint32_t first = 0; first < job.tile_count;) {
+    const Pass pass{first, std::min(first + most, job.tile_count), false};
+    std::vector<std::uint64_t> entries(job.tile_count);
+    for (const Converted& g : plan.gaussians) {
+      for (const auto& [tile, bits] : tiles_of(g, config, job, pass)) ++entries[tile];
+    }
+    const std::uint32_t tiles = pass.end - first;
+    std::uint64_t blocks = tiles;
+    for (const std::uint64_t n : entries) blocks += cycles_for(n, config.blocks().block_entries());
+    ++out.made;
+    if (blocks > config.pool_blocks()) {
+      ++out.overflowed;
+      most = (tiles + 1) / 2;
+    } else {
+      first = pass.end;
+    }
+  }
+  return out;
+}
+
+void check_tests(UnitBench& bench, const GscoreConfig& config, const Tests& tests,
+                 std::uint64_t gaussians, std::uint64_t pairs) {
+  bench.check_counter("gaussians_off_pass", tests.off_pass);
+  bench.check_counter("tile_steps", tests.steps);
+  bench.check_counter("tile_tests", tests.tiles);
+  bench.check_counter("part_tests", tests.touched);
+  bench.check_counter("records", tests.records);
+  const std::uint64_t kept = gaussians - tests.off_pass;
+  bench.check_accesses("records to write", tests.records, tests.records);
+  bench.check_accesses("records under test", tests.records, kept);
+  bench.check_accesses("keys under test", pairs, kept);
+  if (config.tiles.subtiles_across > 1) {
+    bench.check_accesses("boxes under test", tests.touched, kept);
+  }
+}
+
+void check_lists(UnitBench& bench, const Plan& plan, const GscoreJob& job, std::uint64_t records,
+                 std::uint64_t pairs) {
+  const GscoreConfig& config = plan.config;
+  const Passes passes = passes_of(plan, config, job);
+  bench.check_counter("passes", passes.made);
+  bench.check_counter("passes_overflowed", passes.overflowed);
+  // Whose line it is is asked for each entry, and of each line at a pass's end.
+  const std::uint64_t looks = pairs + passes.made * config.lists.lines;
+  bench.checks().equal(bench.accesses("tiles of lines").first, looks, "tiles of lines: reads");
+  bench.checks().equal(bench.accesses("ends of lists").first, pairs + job.tile_count,
+                       "ends of lists: reads");
+  if (passes.overflowed > 0) return;
+  bench.check_accesses("tiles of lines", looks, looks);
+  bench.check_accesses("ends of lists", pairs + job.tile_count, pairs + job.tile_count);
+  const Lists lists = lists_of(plan, config, job);
+  bench.check_counter("blocks", lists.blocks);
+  bench.check_counter("lines_full", lists.full);
+  bench.check_counter("lines_displaced", lists.displaced);
+  bench.check_accesses("lines of lists", lists.words_read, lists.words_written);
+  bench.checks().equal(bench.bytes_written(), records * kRecordPlaceBytes + lists.bytes,
+                       "bytes written");
+}
+
 void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
@@ -88,6 +238,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   bench.add_unit(unit);
 
   std::uint64_t pairs = 0, there = 0, alone = 0;
+  Tests tests;
   std::optional<Pass> current;
   for (std::uint32_t c = 0; c < config.ccus; ++c) {
     bench.add_thread(fmt::format("ccu{}", c), [&, c](Activity& activity) {
@@ -98,6 +249,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
              first += config.ccus * size) {
           for (std::size_t i = first; i < std::min(first + size, plan.gaussians.size()); ++i) {
             pairs += tiles_of(plan.gaussians[i], config, job, pass).size();
+            add_tests(plan.gaussians[i], config, job, pass, tests);
             Converted next = plan.gaussians[i];
             next.last = i + 1 == std::min(first + size, plan.gaussians.size());
             if (next.there || next.last) converted[c]->push(next, activity);
@@ -166,6 +318,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   const std::uint64_t made = bench.counter("passes");
   bench.check_counter("gaussians", there);
   bench.check_counter("ends_alone", alone);
+  check_tests(bench, config, tests, there, pairs);
+  check_lists(bench, plan, job, tests.records, pairs);
   // A step of neighbours takes a turn of its lanes, or one of the parts' lanes for each that is
   // touched.
   const std::uint64_t tile = tile_test_pipeline(config).interval_cycles();
@@ -187,12 +341,6 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   if (made == 1) {
     bench.check_counter("tiles_empty", empty);
     bench.check_counter("list_entries_max", longest);
-    const std::uint64_t records = bench.counter("records");
-    const std::uint64_t tested = there - bench.counter("gaussians_off_pass");
-    checks.equal(bench.accesses("ends of lists").first, pairs + job.tile_count, "ends read");
-    bench.check_accesses("records to write", records, records);
-    bench.check_accesses("records under test", records, tested);
-    checks.equal(records * kRecordPlaceBytes <= bench.bytes_written(), true, "records written");
   }
 }
 

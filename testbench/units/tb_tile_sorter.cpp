@@ -2,6 +2,7 @@
 // in order out. Checked against std::stable_sort; busy cycles against closed forms, in one chunk to
 // the cycle.
 #include <algorithm>
+#include <array>
 
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/sorting/bitonic_cost.h"
@@ -23,16 +24,155 @@ std::vector<TileEntry> in_order(std::vector<TileEntry> list) {
   return list;
 }
 
+bool one_key(const std::vector<TileEntry>& list) {
+  return std::all_of(list.begin(), list.end(),
+                     [&](const TileEntry& e) { return e.key == list[0].key; });
+}
+
 // Lists of one chunk, one key or none take no splitting: the whole time can be told.
 std::uint64_t sort_cycles(const Plan& plan) {
   std::uint64_t cycles = 1;  // the end of the frame
   for (const auto& list : plan.lists) {
     cycles += 1 + list.size();
-    const auto differs = [&](const TileEntry& e) { return e.key != list[0].key; };
-    if (!std::any_of(list.begin(), list.end(), differs)) continue;
+    if (one_key(list)) continue;
     cycles += bitonic_cost(list.size()).cycles + 1;  // the first entry's place
   }
   return cycles;
+}
+
+// What lists take that nobody finishes, counted beside the unit.
+struct Work {
+  std::uint64_t lists_split = 0, entries_split = 0, loaded = 0, in_order = 0;
+  std::uint64_t splits = 0, split_entries = 0;
+  std::uint64_t chunks = 0, chunk_entries = 0, exchanges = 0, merged = 0;
+  std::uint64_t list_reads = 0, key_reads = 0;  // on chip
+  std::uint64_t bursts = 0, bytes_read = 0, sampled = 0;
+  std::uint64_t bytes_written = 0, words_written = 0, words_flushed = 0;
+};
+
+using Subsets = std::array<std::vector<TileEntry>, kSubsets>;
+
+Subsets subsets_of(const std::vector<TileEntry>& list, const Pivots& pivots) {
+  Subsets out;
+  for (const TileEntry& entry : list) out[subset_of(pivots, entry.key)].push_back(entry);
+  return out;
+}
+
+Pivots pivots_of_range(const std::vector<TileEntry>& list) {
+  KeyRange keys;
+  for (const TileEntry& entry : list) keys.take(entry.key);
+  return ranged_pivots(keys);
+}
+
+// A list on chip, or a subset of one, whose keys lie beside it.
+void sort_on_chip(const GscoreConfig& config, const std::vector<TileEntry>& list, bool subset,
+                  Work& work) {
+  if (list.empty()) return;
+  work.list_reads += list.size();  // as they come out
+  std::uint64_t& key_reads = subset ? work.key_reads : work.list_reads;
+  if (one_key(list)) {
+    work.in_order += list.size();
+    if (subset) key_reads += list.size();  // a key lies beside the place of its entry
+    return;
+  }
+  if (list.size() <= config.sorting.chunk_entries) {
+    const BitonicCost cost = bitonic_cost(list.size());
+    ++work.chunks;
+    work.chunk_entries += list.size();
+    work.exchanges += cost.compare_exchanges;
+    work.merged += cost.merged;
+    key_reads += list.size();
+    return;
+  }
+  ++work.splits;
+  work.split_entries += list.size();
+  key_reads += 2 * list.size() + (subset ? 0 : kPivots);
+  work.list_reads -= list.size();  // they come out of the subsets
+  const Pivots pivots = subset ? pivots_of_range(list) : sampled_pivots(list, list.size());
+  for (const auto& one : subsets_of(list, pivots)) sort_on_chip(config, one, true, work);
+}
+
+// Words of 8 B that bytes [begin, end) lie in.
+std::uint64_t words_of(std::uint32_t begin, std::uint32_t end) {
+  return (end - 1) / 8 - begin / 8 + 1;
+}
+
+// A subset as it is written: each block with its link, each line when it is full or the list ends.
+void write_chain(const BlockFormat& blocks, std::size_t entries, Work& work) {
+  for (std::size_t e = 0; e < entries; ++e) {
+    const std::uint32_t begin = e % blocks.block_entries() == 0 ? 0 : blocks.offset(e);
+    const std::uint32_t end = blocks.offset(e) + blocks.entry.bytes();
+    work.bytes_written += end - begin;
+    work.words_written += words_of(begin, end);
+    const std::uint32_t line = begin / blocks.line_bytes * blocks.line_bytes;
+    const bool last = e + 1 == entries || end + blocks.entry.bytes() > line + blocks.line_bytes;
+    if (last) work.words_flushed += words_of(line, end);
+  }
+}
+
+// A list in memory, or a subset of one.
+void load(const GscoreConfig& config, const std::vector<TileEntry>& list, bool subset, Work& work) {
+  const BlockFormat blocks = config.blocks();
+  const auto piece = [&](std::size_t at, std::size_t most) {
+    const auto end = list.begin() + static_cast<std::ptrdiff_t>(std::min(list.size(), at + most));
+    return std::vector<TileEntry>(list.begin() + static_cast<std::ptrdiff_t>(at), end);
+  };
+  for (std::size_t at = 0; at < list.size(); at += blocks.block_entries()) {
+    const auto entries = static_cast<std::uint32_t>(piece(at, blocks.block_entries()).size());
+    work.bytes_read += blocks.used_bytes(entries);
+    work.bursts += cycles_for(blocks.used_bytes(entries), kPortBytes);
+  }
+  // What has one key is in order, however long; of a tile's list that is not known ahead.
+  const std::size_t most = config.sorting.list_entries;
+  if (list.size() <= most || (subset && one_key(list))) {
+    for (std::size_t at = 0; at < list.size(); at += most) {
+      ++work.loaded;
+      sort_on_chip(config, piece(at, most), false, work);
+    }
+    return;
+  }
+  ++work.lists_split;
+  work.entries_split += list.size();
+  const std::vector<TileEntry> first = piece(0, blocks.block_entries());
+  const Pivots pivots = subset ? pivots_of_range(list) : sampled_pivots(first, first.size());
+  work.sampled += subset ? 0 : kPivots;
+  for (const auto& one : subsets_of(list, pivots)) {
+    write_chain(blocks, one.size(), work);
+    load(config, one, true, work);
+  }
+}
+
+void check_work(UnitBench& bench, const Plan& plan, std::uint64_t all) {
+  Work work;
+  for (const auto& list : plan.lists) load(plan.config, list, false, work);
+  bench.check_counter("tiles", plan.lists.size());
+  bench.check_counter("lists_split", work.lists_split);
+  bench.check_counter("entries_split", work.entries_split);
+  bench.check_counter("entries_loaded", all);
+  bench.check_counter("entries_in_order", work.in_order);
+  bench.check_counter("splits", work.splits);
+  bench.check_counter("split_entries", work.split_entries);
+  bench.check_counter("chunks", work.chunks);
+  bench.check_counter("chunk_entries", work.chunk_entries);
+  bench.check_counter("compare_exchanges", work.exchanges);
+  bench.check_counter("merged", work.merged);
+  bench.check_accesses("list blocks", work.bursts + work.sampled, work.bursts);
+  bench.check_accesses("lists on chip", work.list_reads, all);
+  bench.check_accesses("keys of subsets", work.key_reads, work.split_entries);
+  bench.check_accesses("lines of subsets", work.words_flushed, work.words_written);
+  // A subset's row is read and written for each entry, once more each subset when all are in.
+  const std::uint64_t in_memory = work.entries_split + kSubsets * work.lists_split;
+  bench.check_accesses("subsets in memory", in_memory, in_memory);
+  // On chip in both passes.
+  const std::uint64_t on_chip = 2 * (work.split_entries + kSubsets * work.splits);
+  bench.check_accesses("subsets on chip", on_chip, on_chip);
+  const std::uint64_t in_network = work.chunk_entries + work.merged;
+  bench.check_accesses("chunk", in_network, in_network);
+  // Lists, and a mark behind each tile and the frame.
+  const std::uint64_t marks = plan.lists.size() + 1;
+  bench.check_accesses("loaded lists", work.loaded + marks, work.loaded + marks);
+  bench.checks().equal(bench.bytes_read(), work.bytes_read, "bytes read");
+  bench.checks().equal(bench.bytes_written(), work.bytes_written, "bytes written");
 }
 
 void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
@@ -113,7 +253,16 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
   checks.equal(bench.counter("entries_sorted"), taken, "entries_sorted");
   checks.equal(taken + bench.counter("dropped_unread") + bench.counter("dropped_loaded"), all,
                "entries sorted and dropped");
-  if (plan.finish_after < 0) bench.check_counter("dropped_loaded", 0);
+  if (plan.finish_after < 0) {
+    bench.check_counter("dropped_loaded", 0);
+    check_work(bench, plan, all);
+  }
+  checks.equal(bench.counter("entries_loaded") + bench.counter("entries_split"),
+               bench.counter("entries_read"), "entries loaded and split");
+  checks.equal(bench.counter("chunk_entries") + bench.counter("entries_in_order"), taken,
+               "entries of chunks and in order");
+  checks.equal(taken + bench.counter("dropped_loaded"), bench.counter("entries_loaded"),
+               "entries sorted and dropped on chip");
   if (plan.finish_after < 0) checks.that(bench.counter("lists_split") >= split, "lists_split");
   // An entry a cycle through the QSU where lists come in, and out.
   checks.that(bench.busy_cycles("list loading") >= bench.counter("entries_read"),

@@ -111,6 +111,9 @@ class UnitBench {
   }
   std::uint64_t counter(const std::string& name) const;  // as published now
   void check_counter(const std::string& name, std::uint64_t expected);
+  double operations(const std::string& component, const std::string& kind) const {
+    return publish().operations(component, kind);
+  }
   void check_operations(const std::string& component, const std::string& kind,
                         std::uint64_t expected);
   // Reads and writes of one of the unit's uses of on-chip memory.

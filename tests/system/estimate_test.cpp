@@ -73,6 +73,29 @@ void check_counters(const Both& frame) {
   }
 }
 
+// Cycles of work. Where an item has its own cycles whenever it comes, they are equal: a cycle for a
+// slice or a second half that is asked for, and for a visit that is given on; lists that are sorted
+// have their lengths, the pixels their number. Others hold their lanes while they wait for room,
+// and share a beginning with what came just before; how much, depends on when it came.
+void check_work(const Both& frame) {
+  const std::set<std::string> equal = {"load", "fetch", "hand_out", "emit", "sort", "drain"};
+  const std::set<std::string> of_rays_and_nodes = {"walk", "test", "traverse"};
+  for (const auto& [unit, simulated] : frame.simulated["units"].items()) {
+    for (const auto& [activity, of] : simulated["activities"].items()) {
+      INFO(unit << ' ' << activity);
+      const std::string kind = activity.substr(0, activity.find_last_not_of("0123456789") + 1);
+      const std::uint64_t wanted = of["busy_cycles"], got = cycles(frame.estimated, unit, activity);
+      CHECK(wanted > 0);
+      if (equal.count(kind) != 0) {
+        CHECK(got == wanted);
+      } else {
+        const double near = of_rays_and_nodes.count(kind) != 0 ? 0.02 : 0.12;
+        CHECK(static_cast<double>(got) == Approx(static_cast<double>(wanted)).epsilon(near));
+      }
+    }
+  }
+}
+
 TEST_CASE("estimate: bytes are the simulation's where nothing depends on when it happens") {
   for (const Arguments& scene : {kObject, kOutdoor}) {
     INFO(scene[0]);
@@ -86,6 +109,7 @@ TEST_CASE("estimate: bytes are the simulation's where nothing depends on when it
       CHECK(frame.estimated["datapath"][path] == frame.simulated["datapath"][path]);
     }
     check_counters(frame);
+    check_work(frame);
   }
 }
 
@@ -107,7 +131,53 @@ TEST_CASE("estimate: bytes of paper order are the simulation's where nothing is 
         CHECK(frame.estimated["datapath"][path] == frame.simulated["datapath"][path]);
       }
       check_counters(frame);
+      check_work(frame);
     }
+  }
+}
+
+TEST_CASE("estimate: what lists spill is what the simulation's spill, pass by pass") {
+  const Both frame(joined(with_settings(kOutdoor, {"rendering.saturation_feedback=false",
+                                                   "sram.shared_bytes=0", "sram.input_bytes=0",
+                                                   "vsu.visit_gaussians=0", "storage.voxel_size=8",
+                                                   "sorting.buffer_entries=16", "sorting_units=1"}),
+                          {"--config", "paper_no_vq"}));
+  // More than one entry for each splat: runs of runs.
+  CHECK(total(frame.simulated, "entries_spilled") > counter(frame.simulated, "sorting0", "splats"));
+  CHECK(frame.estimated["dram"]["bytes_by_region"]["spill"] ==
+        frame.simulated["dram"]["bytes_by_region"]["spill"]);
+  check_counters(frame);
+  check_work(frame);
+}
+
+TEST_CASE("estimate: codebooks are read as in the simulation, but for busy banks") {
+  for (const char* preset : {"exact_vq", "paper"}) {
+    INFO(preset);
+    const Both frame(joined(
+        with_settings(kObject, {"rendering.saturation_feedback=false", "storage.vq.iterations=2",
+                                "sram.shared_bytes=0", "sram.input_bytes=0"}),
+        {"--config", preset}));
+    const auto both = [&](const char* name, double simulated, double estimated, double near) {
+      INFO(name);
+      CHECK(simulated > 0);
+      CHECK(estimated == Approx(simulated).epsilon(near));
+    };
+    for (const char* name :
+         {"records_decoded", "bytes_loaded", "second_halves_taken", "fine_tests"}) {
+      CAPTURE(name);
+      CHECK(total(frame.simulated, name) > 0);
+      CHECK(total(frame.estimated, name) == total(frame.simulated, name));
+    }
+    // The estimate takes the mean record's lines for each.
+    const auto lines = [](const Json& view) {
+      return static_cast<double>(total(view, "lines_read"));
+    };
+    both("lines", lines(frame.simulated), lines(frame.estimated), 0.01);
+    const auto conflicts = static_cast<double>(total(frame.simulated, "bank_conflict_cycles"));
+    const auto decode = [](const Json& view) {
+      return static_cast<double>(total_busy(view, "decode"));
+    };
+    both("decode", decode(frame.simulated) - conflicts, decode(frame.estimated), 0.01);
   }
 }
 
@@ -115,6 +185,10 @@ TEST_CASE("estimate: close to the simulation, and never below what one resource 
   struct Case {
     Arguments scene, options;
   };
+  const Arguments kObjectAtoms = {"builtin:object?n=1500", "--size", "64x64"};
+  const Arguments of_atoms = {"group_width_px=16",         "group_height_px=16",
+                              "storage.chunk_gaussians=1", "vsu.upper_nodes=0",
+                              "vsu.nodes_in_flight=4",     "sram.shared_bytes=0"};
   const std::vector<Case> cases = {
       {kObject, {}},
       {kOutdoor, {}},
@@ -128,6 +202,9 @@ TEST_CASE("estimate: close to the simulation, and never below what one resource 
       {kOutdoor, settings({"hfus=1", "sorting_units=2", "dram.channels=1"})},
       {kObject,
        settings({"hfus=8", "rendering.clusters=1", "sram.shared_bytes=0", "sram.input_bytes=0"})},
+      // Walks over nodes of few children, which wait for the memory, and for room before the nodes.
+      {kObjectAtoms, settings(of_atoms)},
+      {kObjectAtoms, settings(joined(of_atoms, {"vsu.node_queue_entries=64"}))},
       {kObject, {"--config", "paper"}},
       {kOutdoor, {"--config", "paper_no_cgf"}},
       {kOutdoor, {"--config", "paper_no_vq_cgf"}},

@@ -1,7 +1,8 @@
-// Bytes, flow, bounds and rates of a view of the tile-centric machine.
+// Bytes, flow, accesses, bounds and rates of a view of the tile-centric machine.
 #include "tests/system/tile_frame_checks.h"
 
 #include <catch2/catch.hpp>
+#include <ostream>
 #include <string>
 
 #include "tests/system/frame_checks.h"
@@ -73,11 +74,143 @@ void check_flow(const Json& view) {
         counter_of_all(view, "rendering", "splats") +
             counter_of_all(view, "rendering", "dropped_fetched"));
   CHECK(counter_of_all(view, "rendering", "contributors") == count(view["image"]["blends"]));
+  const auto sorted = [&](const char* name) { return counter_of_all(view, "sorter", name); };
+  CHECK(sorted("entries_read") == sorted("entries_loaded") + sorted("entries_split"));
+  CHECK(sorted("entries_sorted") == sorted("chunk_entries") + sorted("entries_in_order"));
+  CHECK(sorted("entries_loaded") == sorted("entries_sorted") + sorted("dropped_loaded"));
+  // A read is of one second half at least, and of no more than the ring of slots has.
+  CHECK(total(view, "runs") <= total(view, "second_halves"));
+  CHECK(total(view, "runs") * count(view["config"]["ccu"]["second_half_slots"]) >=
+        total(view, "second_halves"));
+  CHECK(total(view, "unseen") <= total(view, "converted"));
   if (counter(view, "lister", "passes_overflowed") == 0) {
     CHECK(counter(view, "lister", "pairs") == counter_of_all(view, "sorter", "entries_sorted") +
                                                   counter_of_all(view, "sorter", "dropped_unread") +
                                                   counter_of_all(view, "sorter", "dropped_loaded"));
   }
+}
+
+// Reads and writes of one use of on-chip memory, of all units that have it.
+struct Accesses {
+  std::uint64_t reads = 0, writes = 0;
+};
+bool operator==(const Accesses& a, const Accesses& b) {
+  return a.reads == b.reads && a.writes == b.writes;
+}
+std::ostream& operator<<(std::ostream& out, const Accesses& a) {
+  return out << a.reads << " reads, " << a.writes << " writes";
+}
+Accesses accesses(const Json& view, const std::string& use) {
+  for (const Json& u : view["sram"]["uses"]) {
+    if (u["name"] == use) return {count(u["reads"]), count(u["writes"])};
+  }
+  FAIL_CHECK("no use " << use);
+  return {};
+}
+// What is put in is taken out.
+Accesses both(std::uint64_t accesses) { return {accesses, accesses}; }
+
+// Of projection. A Gaussian whose tiles are tested is kept until the last of them is listed.
+void check_projection_accesses(const Json& view) {
+  const auto of = [&](const char* name) { return counter(view, "lister", name); };
+  const std::uint64_t words = (count(view["scene"]["second_half_bytes"]) + 31) / 32;
+  CHECK(accesses(view, "first halves") == both(total(view, "first_halves")));
+  CHECK(accesses(view, "second halves") == both(total(view, "second_halves") * words));
+  // A slice is gathered of what leaves the queue, and goes on from there.
+  CHECK(accesses(view, "candidates of a slice") == accesses(view, "candidates"));
+  CHECK(accesses(view, "fetched candidates") == accesses(view, "candidates"));
+  const std::uint64_t kept = of("gaussians") - of("gaussians_off_pass");
+  CHECK(accesses(view, "records under test") == Accesses{of("records"), kept});
+  CHECK(accesses(view, "keys under test") == Accesses{of("pairs"), kept});
+  if (view["datapath"].contains("part_test")) {
+    CHECK(accesses(view, "boxes under test") == Accesses{of("part_tests"), kept});
+  }
+  CHECK(accesses(view, "listed tiles") == both(of("pairs") + of("passes")));
+  CHECK(accesses(view, "records to write") == both(of("records")));
+  // Each entry asks whose line it is; behind the last of a pass every line is looked at.
+  const std::uint64_t looks = of("pairs") + of("passes") * count(view["config"]["lists"]["lines"]);
+  CHECK(accesses(view, "tiles of lines").reads == looks);
+  CHECK(accesses(view, "ends of lists").reads == of("pairs") + of("tiles"));
+  if (of("passes_overflowed") > 0) return;
+  CHECK(accesses(view, "tiles of lines").writes == looks);
+  CHECK(accesses(view, "ends of lists").writes == of("pairs") + of("tiles"));
+  // Words of 8 B; an entry lies in three of them at most, and none leaves that was not written.
+  const auto [reads, writes] = accesses(view, "lines of lists");
+  CHECK(8 * reads >= region_bytes(view, "tile_lists", "write"));
+  CHECK(reads <= writes);
+  CHECK(writes >= of("pairs"));
+  CHECK(writes <= 3 * of("pairs"));
+}
+
+// Those that were drawn.
+std::uint64_t good_passes(const Json& view) {
+  return counter(view, "lister", "passes") - counter(view, "lister", "passes_overflowed");
+}
+
+constexpr std::uint64_t kPivots = 7, kSubsets = 8;
+
+// That many pivots were read one by one, of no more lists than were split.
+bool pivots_of(std::uint64_t reads, std::uint64_t lists) {
+  return reads % kPivots == 0 && reads / kPivots <= lists && (reads > 0 || lists == 0);
+}
+
+// Of sorting. A split reads its list twice, for sizes and for places; its subsets' rows are read
+// and written for each entry, then for each subset.
+void check_sorting_accesses(const Json& view) {
+  const auto of = [&](const char* name) { return counter_of_all(view, "sorter", name); };
+  const Accesses blocks = accesses(view, "list blocks"), lists = accesses(view, "lists on chip"),
+                 keys = accesses(view, "keys of subsets"),
+                 lines = accesses(view, "lines of subsets");
+  CHECK(32 * blocks.writes >=
+        region_bytes(view, "tile_lists", "read") + region_bytes(view, "subsets", "read"));
+  CHECK(pivots_of(blocks.reads - blocks.writes, of("lists_split")));
+  CHECK(lists.writes == of("entries_loaded"));
+  CHECK(keys.writes == of("split_entries"));
+  // A list's keys, or those of its subsets, go to the splits and to the network; what comes out is
+  // read from the list, and where it is in order as a subset, by its place.
+  const std::uint64_t besides = lists.reads + keys.reads - 2 * of("split_entries") -
+                                of("chunk_entries") - of("entries_sorted");
+  const std::uint64_t in_order = of("splits") > 0 ? of("entries_in_order") : 0;
+  CHECK(besides <= kPivots * of("splits") + in_order);
+  if (in_order == 0) CHECK(pivots_of(besides, of("splits")));
+  CHECK(8 * lines.reads >= region_bytes(view, "subsets", "write"));
+  CHECK(lines.reads <= lines.writes);
+  CHECK(lines.writes >= of("entries_split"));
+  CHECK(lines.writes <= 3 * of("entries_split"));
+  CHECK(accesses(view, "subsets in memory") ==
+        both(of("entries_split") + kSubsets * of("lists_split")));
+  CHECK(accesses(view, "subsets on chip") ==
+        both(2 * (of("split_entries") + kSubsets * of("splits"))));
+  CHECK(accesses(view, "chunk") == both(of("chunk_entries") + of("merged")));
+  // Lists, and a mark behind each tile and each pass.
+  const Accesses loaded = accesses(view, "loaded lists");
+  CHECK(loaded.reads == loaded.writes);
+  CHECK(loaded.writes >= of("tiles") + good_passes(view) * count(view["config"]["cores"]));
+}
+
+// Of rendering: 16 pixels a block; each pixel is cleared as it is drained.
+void check_rendering_accesses(const Json& view) {
+  const auto of = [&](const char* name) { return counter_of_all(view, "rendering", name); };
+  CHECK(accesses(view, "records") == both(of("records")));
+  CHECK(accesses(view, "finished parts") == both(of("splats")));
+  CHECK(accesses(view, "pixel state") == both(16 * of("blocks") + of("pixels")));
+}
+
+// Savings that more than one unit may know of, and those that are differences.
+void check_left_out(const Json& view) {
+  const auto sorted = [&](const char* name) { return counter_of_all(view, "sorter", name); };
+  const auto drawn = [&](const char* name) { return counter_of_all(view, "rendering", name); };
+  CHECK(left_out(view, "gaussians_off_frame") == total(view, "culled"));
+  CHECK(left_out(view, "entries_of_finished_tiles") ==
+        sorted("dropped_unread") + sorted("dropped_loaded"));
+  CHECK(left_out(view, "reads_of_finished_tiles") == sorted("dropped_unread"));
+  CHECK(left_out(view, "records_of_finished_tiles") == drawn("dropped"));
+  // Where no row of tiles is tested for two passes.
+  if (counter(view, "lister", "passes") == 1) {
+    CHECK(left_out(view, "tiles_not_touched") ==
+          counter(view, "lister", "tile_tests") - counter(view, "lister", "pairs"));
+  }
+  CHECK(left_out(view, "blocks_not_touched") == 16 * drawn("splats") - drawn("blocks"));
 }
 
 // Closed forms that no frame is faster than.
@@ -143,7 +276,14 @@ void check_rates(const Json& view) {
         2 * of_sorters("split_entries") + of_sorters("chunk_entries") / 16 +
             of_sorters("merged") / 8 + of_sorters("entries_sorted"));
   CHECK(busy(view, "rendering", "fetch") >= of_cores("records") + of_cores("dropped"));
-  CHECK(busy(view, "rendering", "blend") >= of_cores("blocks") * turn("blend"));
+  // A cycle for each tile's end, the pass's in each core, and what is dropped; at most for a splat
+  // too, of which no part is left, and before any splat until the lanes' next turn.
+  const std::uint64_t blending = of_cores("blocks") * turn("blend") + of_cores("hazard_cycles") +
+                                 of_cores("tiles") + of_cores("dropped_fetched") +
+                                 good_passes(view) * count(config["cores"]);
+  CHECK(busy(view, "rendering", "blend") >= blending);
+  CHECK(busy(view, "rendering", "blend") <=
+        blending + of_cores("parts_finished") + (turn("blend") - 1) * of_cores("splats"));
   CHECK(busy(view, "rendering", "blend") >= of_cores("splats"));
   CHECK(busy(view, "rendering", "drain") * count(config["rendering"]["drain_pixels_per_cycle"]) >=
         of_cores("pixels"));
@@ -156,6 +296,10 @@ void check_tile_machine(const Json& view) {
   check_halves(view);
   check_bytes(view);
   check_flow(view);
+  check_projection_accesses(view);
+  check_sorting_accesses(view);
+  check_rendering_accesses(view);
+  check_left_out(view);
   check_phases(view);
   check_bounds(view);
   check_rates(view);

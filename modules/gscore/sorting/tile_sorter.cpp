@@ -93,6 +93,7 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
   }
   if (keys.single()) {
     counters_.in_order += entries.size();
+    if (level > 0) counters_.places_read += entries.size();
     emit(tile, entries, level == 0 ? 1 : kReadsByPlace);
     return;
   }

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace sgs::test {
 namespace {
@@ -43,6 +45,46 @@ TEST_CASE("schedule: degrees, growth and rates") {
 
   CHECK(config.rates_at(0, 2).mean == Approx(2 * 1.6e-4));
   CHECK(config.rates_at(10'000, 2).mean == Approx(2 * 1.6e-6));
+}
+
+// 3D Gaussian Splatting as MCMC (Kheradmand et al. 2024) and its code: 5 % more each 100 steps,
+// noise_lr, opacity_reg, scale_reg.
+TEST_CASE("schedule: defaults of MCMC") {
+  const TrainingConfig config;
+  CHECK(config.growth == Growth::kMcmc);
+  CHECK(config.growth_factor == 1.05);
+  CHECK(config.grow_every == 100);
+  CHECK(config.noise == 5e5);
+  CHECK(config.opacity_share == 0.01);
+  CHECK(config.scale_share == 0.01);
+}
+
+// Arguments of the original's released code (Kerbl et al. 2023): opacity_reset_interval,
+// densify_grad_threshold, percent_dense, scaling_lr, rotation_lr, opacity_lr of the first release,
+// feature_lr and a 20th of it, position_lr_init, _final and _max_steps.
+TEST_CASE("schedule: defaults of the original") {
+  const TrainingConfig config;
+  CHECK(config.reset_every == 3000);
+  CHECK(config.densification.pull == 2e-4);
+  CHECK(config.densification.clone_share == 0.01);
+  CHECK(config.densification.least_opacity == 0.005);
+  CHECK(config.densification.most_scale_share == 0.1);
+  CHECK(config.densification.most_radius_px == 20);
+  CHECK(config.densification.reset_opacity == 0.01);
+
+  // Positions by the extent, halfway by the geometric mean; the rest does not change.
+  const LearningSchedule schedule;
+  for (const auto& [step, mean] :
+       {std::pair{0, 1.6e-4}, {15'000, 1.6e-5}, {30'000, 1.6e-6}, {40'000, 1.6e-6}}) {
+    CAPTURE(step);
+    const LearningRates rates = schedule.at(step, 3);
+    CHECK(rates.mean == Approx(3 * mean));
+    CHECK(rates.log_scale == 5e-3);
+    CHECK(rates.quat == 1e-3);
+    CHECK(rates.opacity_logit == 0.05);
+    CHECK(rates.sh_dc == 2.5e-3);
+    CHECK(rates.sh_rest == 2.5e-3 / 20);
+  }
 }
 
 }  // namespace

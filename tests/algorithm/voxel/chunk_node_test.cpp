@@ -2,6 +2,7 @@
 #include "algorithm/voxel/chunk_node.h"
 
 #include <catch2/catch.hpp>
+#include <cfenv>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -128,6 +129,29 @@ TEST_CASE("equal boxes, boxes of floats that are neighbours, the whole range of 
   check_never_inward({box(0, denormal, denormal), box(-denormal, 0, 0)});
   check_never_inward({box(-most, most, most), box(0, 1, 1), box(-most, -most, 0)});
   check_never_inward({box(0, most, 0), box(most, most, 1e38F)});
+}
+
+TEST_CASE("a node without width is its origin, and nothing undefined is computed") {
+  ChunkBound point;
+  point.low = point.high = {3.7F, 0, -1e6F};
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const ChunkNode node = quantised({point, point});
+  CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO) == 0);  // as the logarithm of 0 would be
+  for (int k = 0; k < 3; ++k) {
+    CHECK(node.origin[k] == point.low[k]);
+    CHECK(node.step_exponent[k] == -126);
+  }
+  // No extent either: the least exponent, and the step that stands for none.
+  CHECK(node.extent_exponent == -100);
+  for (int c = 0; c < 2; ++c) {
+    for (int k = 0; k < 3; ++k) {
+      CHECK(node.low[c][k] == 0);
+      CHECK(node.high[c][k] == 0);
+      CHECK(node.extent[c][k] == 0);
+    }
+    CHECK(child_bound(node, c).low == point.low);
+    CHECK(child_bound(node, c).high == point.high);
+  }
 }
 
 TEST_CASE("an infinite extent comes back infinite, and so do its neighbours") {

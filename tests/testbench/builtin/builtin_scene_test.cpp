@@ -8,6 +8,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <iomanip>
 
 #include "algorithm/scene/describe.h"
 #include "tests/support/scratch_folder.h"
@@ -55,7 +56,74 @@ void check_usable(const BuiltinScene& scene, std::size_t count) {
   }
 }
 
+// Of values in their order, each with a weight of its own. Logarithmic, so that what lies far away
+// does not hide the rest.
+class Fingerprint {
+ public:
+  void add(double value) {
+    constexpr double kGoldenRatio = 0.6180339887498949;
+    const double turns = static_cast<double>(++count_) * kGoldenRatio;
+    const double term = (1 + turns - std::floor(turns)) * std::asinh(value);
+    sum_ += term;
+    scale_ += std::abs(term);
+  }
+  void add(const glm::dvec3& v) {
+    for (int axis = 0; axis < 3; ++axis) add(v[axis]);
+  }
+  void add(const Camera& camera) {
+    add(camera.focal_x);
+    add(camera.focal_y);
+    add(camera.position);
+    for (int axis = 0; axis < 3; ++axis) add(camera.world_from_camera[axis]);
+  }
+  double sum() const { return sum_; }
+  double scale() const { return scale_; }
+
+ private:
+  std::uint64_t count_ = 0;
+  double sum_ = 0, scale_ = 0;
+};
+
 }  // namespace
+
+// The scenes are test data: measurements quote them by name, and a scene that has changed is
+// another one. So these numbers are the program's own; who means to change a scene changes them,
+// and measures again. A last bit that another compiler or library rounds otherwise is 1e-7 of one
+// value.
+TEST_CASE("built-in scenes: they are the ones that measurements were made with") {
+  struct Row {
+    const char* spec;
+    double means, log_scales, quats, opacities, colours, cameras, path;
+  };
+  for (const Row& row : {Row{"builtin:object?n=20000", -18000.7857, -189141.3029, 20749.5507,
+                             36594.6909, -30234.4444, 107.18005882, 758.58498},
+                         Row{"builtin:outdoor?n=20000", -36023.5788, -73104.8493, 21869.0594,
+                             30450.7138, -52603.3623, 110.49658125, 518.13965}}) {
+    INFO(row.spec);
+    const BuiltinScene scene = make_builtin_scene(row.spec);
+    Fingerprint means, log_scales, quats, opacities, colours, cameras, path;
+    for (const glm::vec3& v : scene.cloud.means) means.add(glm::dvec3(v));
+    for (const glm::vec3& v : scene.cloud.log_scales) log_scales.add(glm::dvec3(v));
+    for (const auto& quat : scene.cloud.quats) {
+      for (const float q : quat) quats.add(q);
+    }
+    for (const float logit : scene.cloud.opacity_logits) opacities.add(logit);
+    for (const glm::vec3& v : scene.cloud.sh_coeffs) colours.add(glm::dvec3(v));
+    for (const Camera& camera : scene.cameras) cameras.add(camera);
+    for (const Camera& camera : builtin_path(row.spec).keys) path.add(camera);
+    const auto check = [](const char* what, const Fingerprint& got, double wanted) {
+      INFO(what << std::setprecision(12) << ": got " << got.sum() << ", expected " << wanted);
+      CHECK(std::abs(got.sum() - wanted) <= 1e-6 * got.scale());
+    };
+    check("means", means, row.means);
+    check("log scales", log_scales, row.log_scales);
+    check("quaternions", quats, row.quats);
+    check("opacities", opacities, row.opacities);
+    check("colours", colours, row.colours);
+    check("cameras", cameras, row.cameras);
+    check("path", path, row.path);
+  }
+}
 
 TEST_CASE("built-in scenes: any count from one on is usable") {
   for (const char* name : {"object", "outdoor"}) {

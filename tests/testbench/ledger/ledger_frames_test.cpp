@@ -1,4 +1,4 @@
-// The ledger of whole frames, of both machines: what is charged is what the golden renderers count,
+// The ledger of whole frames, of all machines: what is charged is what the golden renderers count,
 // every line is missed when it is not there, and no part or port does more than the frame has time
 // for, whatever the configuration.
 #include <fmt/format.h>
@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,72 +15,12 @@
 #include "algorithm/render/exact_renderer.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/paper_renderer.h"
-#include "modules/machines.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
-#include "testbench/builtin/open_scene.h"
 #include "testbench/result/ledger.h"
-#include "testbench/streaminggs/frame_run.h"
-#include "testbench/streaminggs/prepared_scene.h"
+#include "tests/testbench/ledger/simulated_frame.h"
 
 namespace sgs::test {
 namespace {
-
-using Settings = std::vector<std::string>;
-
-// A frame of a machine, and the scene that it was given.
-struct Frame {
-  RunConfig config;
-  std::optional<PreparedScene> scene;
-  FrameJob job;
-  FrameResult result;
-};
-
-Frame simulated(const std::string& preset, const Settings& settings, const std::string& source) {
-  ConfigDocument document;
-  document.add_file(std::string(SGS_SOURCE_DIR) + "/testbench/configs/" + preset + ".json");
-  for (const std::string& setting : settings) document.add_override(setting);
-  Frame frame;
-  frame.config = read_run_config(document, machine_kinds());
-  frame.config.storage.vq.iterations = 1;
-  resolve(frame.config);
-  Scene scene = open_scene(source);
-  const Camera camera = scaled_to(scene.cameras.front(), 72, 48);
-  frame.scene.emplace(prepare(std::move(scene), frame.config, {camera}));
-  frame.job = frame.config.design->job(frame.scene->stored, camera);
-  frame.result =
-      run_frame(*frame.config.design, frame.job, frame.scene->stored.image, frame.config.dram, {});
-  return frame;
-}
-
-void check_paid(const Frame& frame) {
-  for (const std::string& fault : ledger_faults(frame.result.machine, frame.result.cycles)) {
-    FAIL_CHECK(fault);
-  }
-}
-
-std::uint64_t items(const Frame& frame, const std::string& datapath) {
-  for (const auto& [d, count, busiest] : frame.result.machine.datapaths) {
-    if (d.name == datapath) return count;
-  }
-  FAIL("no datapath " << datapath);
-  return 0;
-}
-
-SramAccesses accesses(const Frame& frame, const std::string& use) {
-  for (const SramAccesses& a : frame.result.machine.sram_accesses) {
-    if (a.use == use) return a;
-  }
-  FAIL("no accesses of " << use);
-  return {};
-}
-
-std::uint64_t counter(const Frame& frame, const std::string& name) {
-  std::uint64_t sum = 0;
-  for (const UnitResult& unit : frame.result.machine.units) {
-    for (const CounterResult& c : unit.counters) sum += c.name == name ? c.value : 0;
-  }
-  return sum;
-}
 
 constexpr PixelSize kGroup = {72, 24};
 const Settings kPlain = {"storage.encoding=raw", fmt::format("group_width_px={}", kGroup.width),
@@ -175,9 +114,11 @@ TEST_CASE("ledger: paper order is charged with what the golden renderer counts")
 }
 
 TEST_CASE("ledger: of a real frame, no line can be left out unseen") {
-  for (const char* preset : {"exact_vq", "paper"}) {
+  const Settings groups = {"group_width_px=24", "group_height_px=24"};
+  for (const auto& [preset, settings] :
+       std::map<std::string, Settings>{{"exact_vq", groups}, {"paper", groups}, {"gscore", {}}}) {
     INFO(preset);
-    const Frame frame = simulated(preset, {"group_width_px=24", "group_height_px=24"}, kSparse);
+    const Frame frame = simulated(preset, settings, kSparse);
     check_paid(frame);
     const MachineResult& machine = frame.result.machine;
     for (std::size_t i = 0; i < machine.sram_accesses.size(); ++i) {
@@ -281,12 +222,13 @@ TEST_CASE("ledger: no part and no port does more than a frame has time for") {
 }
 
 TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are folded") {
-  for (const char* preset : {"exact", "paper_no_vq"}) {
+  for (const char* preset : {"exact", "paper_no_vq", "gscore"}) {
     for (const bool folded : {false, true}) {
       INFO(preset << (folded ? ", folded" : ""));
-      const bool exact = std::string(preset) == "exact";
+      const bool exact = std::string(preset) == "exact", tiles = std::string(preset) == "gscore";
       Settings settings = {exact ? "rendering.cluster_lanes=190" : "rendering.cluster_lanes=182"};
       if (folded) settings = {"rendering.cluster_lanes=64", "hfu.cfu_lanes=2"};
+      if (tiles) settings = {folded ? "rendering.core_lanes=64" : "rendering.core_lanes=180"};
       const MachineResult machine =
           simulated(preset, settings, "builtin:object?n=64").result.machine;
       std::map<std::string, double> stand;
@@ -295,15 +237,26 @@ TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are fol
         const BetweenLanes& between = d.datapath.between;
         CHECK(between.registers > 0);
         CHECK(between.written > 0);
-        const bool of_blend = d.datapath.name == "subtile_blend";
+        const bool of_blend = d.datapath.name == (tiles ? "blend" : "subtile_blend");
         if (of_blend) CHECK((between.multiplexers > 0) == folded);
         if (d.datapath.name == "coarse") CHECK(between.multiplexers > between.registers);
         stand[d.datapath.component + " register_bit"] +=
             d.datapath.copies * between.registers + d.datapath.set_bits;
         stand[d.datapath.component + " select_bit"] += d.datapath.copies * between.multiplexers;
       }
-      // The splat whose rows the dispatcher gives out.
-      stand["rendering register_bit"] += 8 * 48;
+      if (tiles) {
+        // The Gaussian whose tiles are tested, of 108 B, from one of four CCUs, and the end of the
+        // list that was written last.
+        constexpr double kGaussian = 8 * 108;
+        stand["lists register_bit"] += kGaussian + 64;
+        stand["lists select_bit"] += 3 * kGaussian;
+        // In each core for each block of 16 px a counter of 7 cycles, of 9 where lanes are folded,
+        // and whether it is finished; which of 16 parts and blocks is next; 16 pixels of 24 bits.
+        stand["rendering register_bit"] += 4 * (16 * ((folded ? 4 : 3) + 1) + 16 + 5 + 16 * 24);
+      } else {
+        // The splat whose rows the dispatcher gives out.
+        stand["rendering register_bit"] += 8 * 48;
+      }
       if (exact) {
         // Of the queues, which have no lanes: in 9 and 8 levels a key of 128 and 96 bits, a node
         // and its counts; multiplexers of seven keys, and of three nodes below the root, two where

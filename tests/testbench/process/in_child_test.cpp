@@ -2,6 +2,7 @@
 // thread.
 #include "testbench/process/in_child.h"
 
+#include <sys/time.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
@@ -81,6 +82,25 @@ TEST_CASE("child process: several work at a time, and one that is not wanted is 
     CHECK(long_answer.result().size() == 3'000'000);
   }
   CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(30));
+}
+
+TEST_CASE("child process: an answer that is written piece by piece comes whole") {
+  // Signals end a write() in the middle wherever the pipe is full, which it is all the time.
+  std::string answer(1'000'000, '\0');
+  std::uint32_t state = 1;
+  for (char& byte : answer) byte = static_cast<char>((state = state * 1664525 + 1013904223) >> 24);
+  ChildProcess child([&] {
+    struct sigaction on_alarm = {};  // no SA_RESTART
+    on_alarm.sa_handler = [](int) {};
+    ::sigaction(SIGALRM, &on_alarm, nullptr);
+    const itimerval every_ms = {{0, 1000}, {0, 1000}};
+    ::setitimer(ITIMER_REAL, &every_ms, nullptr);
+    return answer;
+  });
+  do {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  } while (!child.receive());
+  CHECK((child.result() == answer));
 }
 
 TEST_CASE("child process: it ends with the one that started it") {

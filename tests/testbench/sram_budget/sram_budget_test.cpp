@@ -10,6 +10,7 @@
 
 #include "algorithm/input_error.h"
 #include "modules/machines.h"
+#include "modules/streaminggs/exact_machine.h"
 #include "testbench/builtin/open_scene.h"
 #include "testbench/process/in_child.h"
 #include "testbench/result/collect.h"
@@ -23,8 +24,12 @@ namespace {
 using Catch::Matchers::Contains;
 using Settings = std::vector<std::string>;
 
-// The data sheets of a machine, as it is built for a scene; budget checked.
-MachineResult sheets_of(const std::string& preset, const Settings& settings) {
+// A machine, and what it is told of a scene.
+struct Prepared {
+  RunConfig config;
+  FrameJob job;
+};
+Prepared prepared(const std::string& preset, const Settings& settings) {
   ConfigDocument document;
   document.add_file(std::string(SGS_SOURCE_DIR) + "/testbench/configs/" + preset + ".json");
   for (const std::string& setting : settings) document.add_override(setting);
@@ -33,11 +38,18 @@ MachineResult sheets_of(const std::string& preset, const Settings& settings) {
   resolve(config);
   Scene scene = open_scene("builtin:object?n=64");
   const Camera camera = scaled_to(scene.cameras.front(), 40, 24);
-  const PreparedScene prepared = prepare(std::move(scene), config, {camera});
-  const FrameJob job = config.design->job(prepared.stored, camera);
+  const PreparedScene stored = prepare(std::move(scene), config, {camera});
+  FrameJob job = config.design->job(stored.stored, camera);
+  return {std::move(config), std::move(job)};
+}
+
+// The data sheets of a machine, as it is built for a scene; budget checked.
+MachineResult sheets_of(const std::string& preset, const Settings& settings) {
+  const Prepared machine_and_job = prepared(preset, settings);
   return from_wire(in_child([&] {
            use_femtosecond_resolution();
-           const auto machine = config.design->build("accelerator", job, {});
+           const auto machine =
+               machine_and_job.config.design->build("accelerator", machine_and_job.job, {});
            check_sram_budget(*machine);
            FrameResult result;
            result.machine = collect(*machine);
@@ -224,6 +236,18 @@ TEST_CASE("sram budget: what no unit takes is not built, and said so") {
   REQUIRE(result.left_out.size() == 1);
   CHECK(result.left_out[0].what == "unused_sram_scratch");
   CHECK(result.left_out[0].count == 2072);
+}
+
+// Beside the on-chip memories: what they may put aside of has its place in DRAM.
+TEST_CASE("sram budget: the spill region holds two runs of all keys, and every node and chunk") {
+  // A key has 32 B, an entry of VSU's queues 16.
+  CHECK(exact_spill_bytes(lay_out_chunks({}, 1000, 5, 40)) == 45 * 16 + 2 * 1000 * 32);
+  CHECK(exact_spill_bytes(lay_out_chunks({}, 1, 1, 1)) == 2 * 16 + 2 * 32);
+  const FrameJob job = prepared("exact", {}).job;
+  const ChunkTableLayout& table = job.layout.chunk_table();
+  CHECK(job.layout.gaussian_count() == 64);
+  CHECK(table.chunk_count >= 1);
+  CHECK(job.spill.bytes == (table.chunk_count + table.nodes.count) * 16 + 2 * 64 * 32);
 }
 
 }  // namespace
