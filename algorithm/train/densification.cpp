@@ -15,10 +15,9 @@ namespace {
 
 constexpr double kSplitShrinks = 1.6;
 
-// The conic's powers are of 2.
+// Three deviations along the longer axis.
 double radius_px(const Splat& splat) {
-  constexpr double kLog2e = 1.4426950408889634;
-  const double a = splat.conic_a / kLog2e, b = splat.conic_b / kLog2e, c = splat.conic_c / kLog2e;
+  const double a = splat.conic_a, b = splat.conic_b, c = splat.conic_c;
   const double middle = (a + c) / 2;
   // The smaller eigenvalue, as det over the larger: a difference would have no digits of needles.
   const double larger = middle + std::sqrt((a - c) * (a - c) / 4 + b * b);
