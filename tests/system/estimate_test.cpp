@@ -177,6 +177,9 @@ TEST_CASE("estimate: codebooks are read as in the simulation, but for busy banks
     const auto decode = [](const Json& view) {
       return static_cast<double>(total_busy(view, "decode"));
     };
+    // Filling the buffer is waiting for memory.
+    CHECK(cycles(frame.simulated, "codebooks", "load") == 0);
+    CHECK(cycles(frame.estimated, "codebooks", "load") == 0);
     both("decode", decode(frame.simulated) - conflicts, decode(frame.estimated), 0.01);
   }
 }

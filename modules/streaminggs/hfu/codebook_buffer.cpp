@@ -100,7 +100,6 @@ std::uint64_t CodebookBuffer::take_lines(std::size_t codebook, const EntryRange&
 
 void CodebookBuffer::assume(const Work& work) {
   counters_ = work.counters;
-  load_.assume(work.load_cycles);
   memory.assume(work.traffic);
 }
 

@@ -55,7 +55,6 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
   // All that the data sheet says of a frame.
   struct Work {
     Counters counters;
-    std::uint64_t load_cycles = 0;
     PortTraffic traffic;
   };
   // As if it had done this. For an estimate, in place of a run.

@@ -20,7 +20,6 @@ CodebookEstimate::CodebookEstimate(const CodebookConfig& config, const SecondHal
   const PortEstimate::Access load = port.read(0, codebooks.base, bytes, codebooks.region);
   work_.counters.bytes_loaded = bytes;
   work_.counters.loaded_at_cycle = load.answered;
-  work_.load_cycles = load.sent;
   work_.traffic = port.traffic();
 }
 
