@@ -1,6 +1,7 @@
 // Wiring of exact order.
 #include "modules/streaminggs/exact_machine.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "modules/streaminggs/exact_estimate.h"
@@ -123,8 +124,11 @@ std::uint64_t ExactMachine::estimate(const FrameWork& work, MemoryEstimate& dram
   ExactVsu::Work of_vsu = units.vsu.work();
   of_vsu.walked.node_queue = of.node_queue;
   of_vsu.walked.chunk_queue = of.chunk_queue;
-  of_vsu.walked.node_queue_max = of.node_queue_max;
-  of_vsu.walked.chunk_queue_max = of.chunk_queue_max;
+  // The golden walk's queues have no end.
+  of_vsu.walked.node_queue_max =
+      std::min<std::size_t>(of.node_queue_max, config_.vsu.node_queue_entries);
+  of_vsu.walked.chunk_queue_max =
+      std::min<std::size_t>(of.chunk_queue_max, config_.vsu.queue_entries);
   vsu_->assume(of_vsu);
   if (codebooks_) codebooks_->assume(codebooks->work());
   for (std::size_t h = 0; h < hfus_.size(); ++h) {

@@ -102,9 +102,7 @@ ScenePart patch_part(double share, SurfaceMap map, MaterialMap material, PatchLo
             fit_ellipse(frame, 1.0 / static_cast<double>(sample.count), surfel);
             surfel.sigmas *= look.overlap * random.uniform(0.85, 1.2);
             surfel.sigmas.z = look.flatness * std::sqrt(surfel.sigmas.x * surfel.sigmas.y);
-            if (look.edge_contrast < kNoEdges) {
-              avoid_edges(point, frame, material, look.edge_contrast, surfel);
-            }
+            avoid_edges(point, frame, material, look.edge_contrast, surfel);
             return surfel;
           }};
 }

@@ -184,6 +184,16 @@ TEST_CASE("estimate: codebooks are read as in the simulation, but for busy banks
   }
 }
 
+TEST_CASE("estimate: queues hold at most their entries") {
+  const Both frame(with_settings(kObject, {"storage.chunk_gaussians=1", "vsu.node_queue_entries=10",
+                                           "vsu.queue_entries=12", "sram.shared_bytes=0"}));
+  CHECK(counter(frame.simulated, "vsu", "queue_entries_put_aside") > 0);
+  for (const Json* view : {&frame.simulated, &frame.estimated}) {
+    CHECK(counter(*view, "vsu", "node_queue_max") == 10);
+    CHECK(counter(*view, "vsu", "chunk_queue_max") == 12);
+  }
+}
+
 TEST_CASE("estimate: close to the simulation, and never below what one resource takes") {
   struct Case {
     Arguments scene, options;
@@ -207,6 +217,7 @@ TEST_CASE("estimate: close to the simulation, and never below what one resource 
        settings({"hfus=8", "rendering.clusters=1", "sram.shared_bytes=0", "sram.input_bytes=0"})},
       // Walks over nodes of few children, which wait for the memory, and for room before the nodes.
       {kObjectAtoms, settings(of_atoms)},
+      {kObjectAtoms, settings(joined(of_atoms, {"vsu.node_queue_entries=4096"}))},
       {kObjectAtoms, settings(joined(of_atoms, {"vsu.node_queue_entries=64"}))},
       {kObject, {"--config", "paper"}},
       {kOutdoor, {"--config", "paper_no_cgf"}},
