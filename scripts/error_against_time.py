@@ -43,6 +43,16 @@ FIGURES = {"image": ("error_image", "error_image_kinds")}
 def check(arguments: argparse.Namespace) -> None:
     """Before hours of frames. Raises ValueError for numbers that say nothing, and what is twice."""
     run_arguments.check_at_least("--configurations", arguments.configurations, 1)
+    run_arguments.check_at_least("--steps", arguments.steps, 0)
+    run_arguments.check_at_least("--between", arguments.between, 0)
+    run_arguments.check_at_least("--train-steps", arguments.train_steps, 1)
+    for budget in arguments.budgets:
+        run_arguments.check_at_least("--budgets", budget, 1)
+    for rate in arguments.rates:
+        run_arguments.check_above_zero("--rates", rate)
+    run_arguments.check_above_zero("--downscale", arguments.downscale)
+    for option in ("size", "tuning_size"):
+        run_arguments.check_size(f"--{option.replace('_', '-')}", getattr(arguments, option))
     for option in ("diagrams", "rates", "budgets", "threads"):
         run_arguments.check_once(f"--{option}", getattr(arguments, option))
 

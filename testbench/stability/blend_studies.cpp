@@ -160,8 +160,8 @@ std::vector<Study> blend_studies() {
   using F = BoundedFloat;
   using H = BoundedHalf;
   const std::vector<double> opacities{1.0, 0.99, 0.9, 0.5, 0.1, 0.01, 1.001 / 255};
-  const std::vector<double> layers{1, 10, 100, 300, 1000, 2348, 10'000, 22'000, 100'000};
-  const std::vector<double> until_finished{1, 10, 100, 200, 300, 500, 1000, 2348, 100'000};
+  const std::vector<double> layers{1, 10, 100, 300, 1000, 2345, 10'000, 22'000, 100'000};
+  const std::vector<double> until_finished{1, 10, 100, 200, 300, 500, 1000, 2345, 100'000};
   const std::vector<double> rests{0.9, 0.5, 0.1, 0.05, 0.02, 0.01};
   std::vector<Study> out;
 
@@ -185,7 +185,7 @@ std::vector<Study> blend_studies() {
   s.law = [](double place) { return place <= 10'000 ? 1.1 * u * place : INFINITY; };
   s.law_text = "u layers";
   s.why =
-      "Right until float ends at 22,000 layers; the pixel was finished at 2,348 (T < 10^-4). "
+      "Right until float ends at 22,000 layers; the pixel was finished at 2,345 (T < 10^-4). "
       "The product alpha T is needed for the colour.";
   s.operations = counted([](auto alpha, auto t) { return take_light(alpha, t).after; }, 0.3F, 0.7F);
   out.push_back(s);
@@ -222,7 +222,7 @@ std::vector<Study> blend_studies() {
   s.why =
       "Each layer takes some 4 last places of T, rounded: percents of T from 1,000 layers on, "
       "where T "
-      "is 0.02. The pixel is finished at 2,356; below 6 10^-5, which no pixel sees, T stands "
+      "is 0.02. The pixel is finished at 2,359; below 6 10^-5, which no pixel sees, T stands "
       "still.";
   out.push_back(s);
 
@@ -245,7 +245,7 @@ std::vector<Study> blend_studies() {
   set_sample(s, white<F>);
   s.law = [](double place) { return 2 * u * std::min(place, 2400.0); };
   s.law_text = "2 u layers";
-  s.why = "Does not break: after 2,348 layers nothing is added.";
+  s.why = "Does not break: after 2,345 layers nothing is added.";
   out.push_back(s);
   s.arithmetic = "half";
   set_sample(s, white<H>);
@@ -258,7 +258,7 @@ std::vector<Study> blend_studies() {
   out.push_back(s);
 
   s = study("dL/dalpha", "back to front: T (g c) - behind / (1 - alpha)", false, "layers",
-            "of sum |g c| alpha T", {1, 10, 100, 1000, 2348, 10'000});
+            "of sum |g c| alpha T", {1, 10, 100, 1000, 2345, 10'000});
   s.sample = first_of;
   s.law = [](double place) { return 8 * u + 4 * u * place; };
   s.law_text = "8 u + 4 u layers";
