@@ -273,7 +273,7 @@ class WithTheCommand(InFolder):
             (work_precision, ("--view", "7"), "--view: got '7'"),
             (work_precision, ("--set", "nope=1"), "streaminggs: .*nope"),
             (error_against_time, ("--view", "7"), "--view: got '7'"),
-            (error_against_time, ("--diagrams", "model", "--size", "3"), "--size: got '3'"),
+            (error_against_time, ("--diagrams", "model", "--size", "3"), "--size: got 3, expected WIDTHxHEIGHT"),
             (
                 error_against_time,
                 ("--diagrams", "tuning", "--datasets", "nope"),
@@ -297,7 +297,7 @@ class WithTheCommand(InFolder):
             (
                 error_against_time,
                 ("--diagrams", "renderers", "--renderers", str(RENDERERS), "--size", "3"),
-                "--size: got '3', expected WIDTHxHEIGHT, each 1 to 65536",
+                "--size: got 3, expected WIDTHxHEIGHT in px",
             ),
             (boundary_study, ("--size", "3"), "truck boundary .*--size: got '3'"),
             (boundary_study, ("--betas", "-1"), "truck boundary .*--beta"),
