@@ -84,8 +84,10 @@ DramController::Transaction& DramController::new_transaction(int initiator,
   t.initiator = initiator;
   t.direction = payload.is_read() ? Direction::kRead : Direction::kWrite;
   t.region = memory ? memory->region : std::uint8_t{0};
-  t.next = payload.get_address() & ~std::uint64_t{mapping_.burst_bytes() - 1};
-  t.end = payload.get_address() + payload.get_data_length();
+  t.masked = payload.get_byte_enable_ptr() != nullptr;
+  t.begin = payload.get_address();
+  t.next = t.begin & ~std::uint64_t{mapping_.burst_bytes() - 1};
+  t.end = t.begin + payload.get_data_length();
   t.arrival = cycle_of(arrival);
   if (request_trace_ != nullptr)
     request_trace_->add({payload.get_address(), payload.is_write(),
@@ -109,6 +111,7 @@ ChannelRequest DramController::next_request(Transaction& t, std::uint32_t& chann
   request.row = place.row;
   request.burst = place.burst;
   request.bursts = static_cast<std::uint32_t>((stop - t.next + burst - 1) / burst);
+  request.masked = t.masked || t.next < t.begin || stop % burst != 0;
   request.owner = &t;
   t.next = stop;
   return request;

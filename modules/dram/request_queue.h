@@ -49,7 +49,7 @@ class RequestQueue {
   void remove(std::int32_t index, std::uint32_t bank);
   void on_row(std::uint32_t bank, std::uint32_t open_row);  // a row was opened, or kNoRow: closed
 
-  // Whether one waiting request of the bank covers all of `wanted`.
+  // Whether one waiting write of the bank holds every byte of `wanted`.
   bool covers(const ChannelRequest& wanted, std::uint32_t bank) const;
 
  private:
@@ -120,7 +120,7 @@ inline std::uint64_t RequestQueue::oldest_order() const {
 inline bool RequestQueue::covers(const ChannelRequest& wanted, std::uint32_t bank) const {
   for (std::int32_t i = banks_[bank].head; i != kNone; i = entry(i).next) {
     const ChannelRequest& r = entry(i).request;
-    if (r.row == wanted.row && r.burst <= wanted.burst &&
+    if (!r.masked && r.row == wanted.row && r.burst <= wanted.burst &&
         wanted.burst + wanted.bursts <= r.burst + r.bursts)
       return true;
   }
