@@ -27,8 +27,9 @@ struct WalkCounters {
 };
 
 // Source: `void put_aside(const WalkEntry&)` keeps what does not fit a queue (in VSU: in DRAM)
-// until `std::vector<WalkEntry> take_back()` or, where nothing of it is wanted any more,
-// `void forget_aside()`. For next() also `ChunkNode node(std::uint32_t)`.
+// until `void take_back(To)`, which gives each to `To(const WalkEntry&)`, which may put some aside
+// again; or, where nothing of it is wanted any more, `void forget_aside()`. For next() also
+// `ChunkNode node(std::uint32_t)`.
 template <class Source>
 class ChunkWalk {
  public:
@@ -217,10 +218,10 @@ class ChunkWalk {
   // All of it: what does not fit goes aside again.
   void bring_back() {
     aside_.reset();
-    for (const WalkEntry& entry : source_.take_back()) {
+    source_.take_back([&](const WalkEntry& entry) {
       // Of a walk that has ended there may be some.
       if (!has_ended(entry)) push(entry);
-    }
+    });
   }
 
   const View<float>& view_;

@@ -16,7 +16,10 @@ struct TreeInMemory {
 
   const ChunkNode& node(std::uint32_t index) const { return tree.nodes[index]; }
   void put_aside(const WalkEntry& entry) { aside.push_back(entry); }
-  std::vector<WalkEntry> take_back() { return std::exchange(aside, {}); }
+  template <class To>
+  void take_back(const To& to) {
+    for (const WalkEntry& entry : std::exchange(aside, {})) to(entry);
+  }
   void forget_aside() { aside.clear(); }
 };
 

@@ -41,6 +41,7 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
   uses.push_back(mask_use(built_for.group));
   uses.push_back(fifo_use<VisitShare>("final visits", kSharedSram, kReadyVisits, "visits"));
   uses.push_back(outstanding_table(kSharedSram, built_for.memory_port));
+  uses.push_back(WalkAside::sram_use_of_block());
   uses.push_back(
       unanswered_writes("entries put aside", kSharedSram, built_for.memory_port, kWalkEntryBytes));
   return uses;
@@ -112,6 +113,7 @@ void ExactVsu::publish(DataSheet& sheet) {
   kNodeQueue.publish(sheet, config_.node_queue_entries, config_.cycles_per_queue_operation,
                      done.node_queue);
   sheet.port(memory, "entries put aside");
+  aside_.publish(sheet);
   sheet.queue(ready_, "final visits");
   if (config_.cycles_per_queue_operation > kFewestHeapCycles) {
     sheet.remedy(walk_, {"vsu.cycles_per_queue_operation", Turn::kDown});

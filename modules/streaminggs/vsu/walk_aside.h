@@ -2,12 +2,15 @@
 // (algorithm/order/chunk_walk.h) calls its source.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <vector>
+#include <utility>
 
 #include "algorithm/memory/regions.h"
 #include "algorithm/order/walk_queue.h"
+#include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
+#include "tlm/data_sheet.h"
 #include "tlm/memory_access.h"
 
 namespace sgs {
@@ -25,14 +28,21 @@ class WalkAside {
     ++count_;
   }
 
-  std::vector<WalkEntry> take_back() {
-    std::vector<WalkEntry> entries(count_);
+  // By blocks. What is put aside meanwhile takes the place of entries that have come back.
+  template <class To>
+  void take_back(const To& to) {
     await_all(port_, walk_);  // they have been written
-    await(port_, walk_,
-          start_read(port_, walk_, span_.base, entries.data(), count_ * kWalkEntryBytes,
-                     span_.region));
-    count_ = 0;
-    return entries;
+    const std::uint32_t count = std::exchange(count_, 0);
+    for (std::uint32_t first = 0; first < count; first += kBlockEntries) {
+      WalkEntry block[kBlockEntries];
+      const std::uint32_t entries = std::min(kBlockEntries, count - first);
+      await(port_, walk_,
+            start_read(port_, walk_, span_.base + std::uint64_t{first} * kWalkEntryBytes, block,
+                       entries * kWalkEntryBytes, span_.region));
+      words_come_ += sram_words(std::uint64_t{entries} * kWalkEntryBytes, {8 * kPortBytes});
+      std::for_each(block, block + entries, to);
+    }
+    taken_back_ += count;
   }
 
   void forget_aside() {
@@ -40,11 +50,21 @@ class WalkAside {
     count_ = 0;
   }
 
+  static SramUse sram_use_of_block() {
+    return sram_use(kComeBack, kSharedSram, {{kBlockEntries, "entries"}, {kWalkEntryBytes, "B"}},
+                    {8 * kPortBytes}, kOneOfEach);
+  }
+  void publish(DataSheet& sheet) const { sheet.accesses(kComeBack, taken_back_, words_come_); }
+
  private:
+  static constexpr std::uint32_t kBlockEntries = 16;
+  static constexpr const char* kComeBack = "entries that come back";
+
   MemoryPort& port_;
   Activity& walk_;
   const RegionSpan span_;
   std::uint32_t count_ = 0;
+  std::uint64_t taken_back_ = 0, words_come_ = 0;
 };
 
 }  // namespace sgs

@@ -66,7 +66,10 @@ class ClockedWalk {
   struct Aside {
     std::vector<WalkEntry> entries;
     void put_aside(const WalkEntry& entry) { entries.push_back(entry); }
-    std::vector<WalkEntry> take_back() { return std::exchange(entries, {}); }
+    template <class To>
+    void take_back(const To& to) {
+      for (const WalkEntry& entry : std::exchange(entries, {})) to(entry);
+    }
     void forget_aside() { entries.clear(); }
   };
   struct InFlight {
