@@ -9,6 +9,7 @@
 #include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/rendering_work.h"
 #include "testbench/units/job_memory.h"
+#include "testbench/units/multiplexers.h"
 #include "testbench/units/rendering_timing_model.h"
 
 namespace sgs::tb {
@@ -307,8 +308,19 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   bench.check_accesses("begun spans", sum.begun_span_reads, sum.splats_spanned);
   bench.check_accesses("spans", sum.spans, sum.spans);
   bench.check_accesses("splats under way", taken, taken);
-  // The splat whose rows go out stands in registers.
-  bench.check_operations("rendering", "register_bit", 8 * kSplatEntryBytes * taken);
+  // The splat whose rows go out stands in registers, and the row of pixels that is written next; a
+  // pixel that is drained comes from its place's share of all memories of pixels.
+  bench.check_operations(
+      "rendering", "register_bit",
+      8 * kSplatEntryBytes * taken + 8 * pixel_bytes(plan.job.frame_format) * pixels);
+  const auto subtiles = rows * static_cast<std::uint64_t>(plan.group.width / 4);
+  const std::uint64_t memories =
+      16 * std::min<std::uint64_t>(subtiles, plan.config.clusters) * plan.config.pixel_buffers;
+  const std::uint64_t of_place = memories / plan.config.drain_pixels_per_cycle;
+  if (of_place > 1) {
+    bench.check_operations("rendering", "select_bit",
+                           8 * plan.config.pixel_state_bytes() * levels(of_place) * pixels);
+  }
   checks.equal(bench.busy_cycles("rendering"), blend, "busy cycles of blending");
 }
 

@@ -6,6 +6,7 @@
 #include "modules/streaminggs/hfu/codebook_buffer.h"
 #include "testbench/units/case_runner.h"
 #include "testbench/units/job_memory.h"
+#include "testbench/units/multiplexers.h"
 #include "testbench/units/unit_bench.h"
 
 namespace sgs::tb {
@@ -105,7 +106,21 @@ std::vector<std::uint64_t> arbitrate(const Plan& plan, const std::vector<Request
   return done;
 }
 
-// Counters, and each request's time against the arbiter's.
+// A codebook lies in all banks, one of fewer lines in so many.
+std::uint64_t memories(const Plan& plan) {
+  const SecondHalfFormat& format = plan.job.layout.second_half;
+  std::uint64_t sum = 0;
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    const std::uint64_t bytes =
+        std::uint64_t{format.entries[id]} * format.entry_bytes(static_cast<Codebook>(id));
+    if (bytes == 0) continue;
+    sum += std::clamp<std::uint64_t>(bytes / plan.config.line_bytes, 1, plan.config.banks);
+  }
+  return sum;
+}
+
+// Counters, and each request's time against the arbiter's. A line comes from one of all memories,
+// and each of its words goes to any place among them.
 void check_requests(UnitBench& bench, const Plan& plan, const std::vector<Request>& requests) {
   const std::vector<std::uint64_t> expected = arbitrate(plan, requests);
   std::uint64_t lines = 0, waited = 0;
@@ -120,6 +135,9 @@ void check_requests(UnitBench& bench, const Plan& plan, const std::vector<Reques
   bench.check_counter("lines_read", lines);
   bench.check_counter("bank_conflict_cycles", waited);
   bench.check_operations("codebooks", "comparator", lines);
+  bench.check_operations("codebooks", "select_bit",
+                         8 * plan.config.line_bytes * lines *
+                             (levels(memories(plan)) + levels(plan.config.line_bytes / 4)));
   check_lines(bench, plan, requests);
 }
 

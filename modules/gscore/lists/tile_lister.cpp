@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "modules/datapath/counter_bits.h"
+#include "modules/datapath/selection.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 
@@ -325,10 +325,8 @@ void TileLister::publish(DataSheet& sheet) {
                    kTestedBits * static_cast<double>(counters_.gaussians) +
                        end_bits * static_cast<double>(counters_.pairs));
   // Whose Gaussian it is, one of the CCUs' in turn: multiplexers of two.
-  sheet.part("lists", "select_bit", kTestedBits * (config_.ccus - 1), 1);
-  sheet.operations(
-      "lists", "select_bit",
-      kTestedBits * counter_bits(config_.ccus - 1) * static_cast<double>(counters_.gaussians));
+  publish_selection(sheet, "lists", {config_.ccus, kTestedBits},
+                    static_cast<double>(counters_.gaussians));
   sheet.datapath(tile_path_, counters_.tile_steps);
   if (part_path_) sheet.datapath(*part_path_, counters_.part_tests);
   sheet.queue(test_passes_, kTestPasses);

@@ -6,6 +6,7 @@
 
 #include "algorithm/render/tile_blend.h"
 #include "modules/datapath/counter_bits.h"
+#include "modules/datapath/selection.h"
 #include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
@@ -23,6 +24,11 @@ constexpr std::uint32_t kTilePixels = kTilePx * kTilePx;
 // R, G, B and transmittance.
 std::uint32_t state_bytes(const GscoreConfig& config) {
   return in_16_bits(config.rendering.precision) ? 8 : 16;
+}
+
+// A memory for each place of a pixel among 16, in each buffer: a blend reads and writes 16 at once.
+std::uint32_t pixel_banks(const GscoreConfig& config) {
+  return kSubtilePixels * config.rendering.pixel_buffers;
 }
 
 std::uint32_t parts_of(const GscoreConfig& config) {
@@ -251,9 +257,8 @@ void RenderCore::write_tile(const GroupState& state) {
   }
 }
 
-// A memory for each place of a pixel among 16, in each buffer: a blend reads and writes 16 at once.
 SramUses RenderCore::sram_uses(const GscoreConfig& c) {
-  const std::uint32_t banks = kSubtilePixels * c.rendering.pixel_buffers;
+  const std::uint32_t banks = pixel_banks(c);
   SramUses uses = {
       sram_use(kRecordSlots, kBuffer,
                {{c.rendering.record_slots, "slots"}, {record_bytes(c.tiles.features), "B"}},
@@ -308,6 +313,11 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.part("rendering", "register_bit", double{kBlocks} * (flight_bits + 1) + next_bits, 1);
   sheet.operations("rendering", "register_bit",
                    static_cast<double>(n.blocks) * static_cast<double>(loop + 1 + next_bits));
+  // What the drain converts at once comes from all memories of pixels, each place from its share.
+  const std::uint32_t at_once = config_.rendering.drain_pixels_per_cycle;
+  publish_selection(sheet, "rendering",
+                    {pixel_banks(config_) / at_once, 8.0 * state_bytes(config_), double(at_once)},
+                    static_cast<double>(n.pixels));
   // The row of pixels that the drain fills while those before it are unanswered.
   const double bits_of_pixel = 8.0 * pixel_bytes(config_.framebuffer);
   sheet.part("rendering", "register_bit", kTilePx * bits_of_pixel, 1);

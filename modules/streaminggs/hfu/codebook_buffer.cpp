@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "modules/datapath/selection.h"
+
 namespace sgs {
 
 CodebookBuffer::CodebookBuffer(const sc_core::sc_module_name& name, const CodebookConfig& config,
@@ -121,6 +123,18 @@ SramUses CodebookBuffer::sram_uses(const CodebookConfig& config, const SecondHal
   return uses;
 }
 
+// Each reader takes a line from any bank of any codebook, and puts its words where they belong in
+// the decoded Gaussian: an entry begins with any word.
+void CodebookBuffer::publish_readers(DataSheet& sheet, const SramUses& uses) const {
+  std::uint64_t banks = 0;
+  for (const SramUse& use : uses) banks += use.shape.banks;
+  const double bits = 8.0 * config_.line_bytes;
+  const auto readers = static_cast<double>(requests_.size());
+  const auto lines = static_cast<double>(counters_.lines);
+  publish_selection(sheet, "codebooks", {banks, bits, readers}, lines);
+  publish_selection(sheet, "codebooks", {config_.line_bytes / sizeof(float), bits, readers}, lines);
+}
+
 void CodebookBuffer::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(load_, "codebook_load", "fills the buffer");
@@ -137,6 +151,7 @@ void CodebookBuffer::publish(DataSheet& sheet) {
   const SecondHalfFormat& format = job_.layout.second_half;
   const SramUses uses = sram_uses(config_, format);
   sheet.sram(uses);
+  publish_readers(sheet, uses);
   for (const SramUse& use : uses) {
     const auto id = static_cast<std::size_t>(
         std::find(std::begin(kCodebookNames), std::end(kCodebookNames), use.name) -

@@ -74,6 +74,7 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
   void start_of_simulation() override;
   void run_load();  // thread: the codebooks into the buffer
   void decide() override;
+  void publish_readers(DataSheet& sheet, const SramUses& uses) const;
   std::uint64_t take_record(const CodebookIndices& indices, std::uint64_t cycle);
   std::uint64_t take_lines(std::size_t codebook, const EntryRange& entry, std::uint64_t cycle);
 

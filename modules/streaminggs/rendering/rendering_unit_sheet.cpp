@@ -3,6 +3,7 @@
 
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/rendering_work.h"
+#include "modules/datapath/selection.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 
@@ -34,51 +35,53 @@ std::uint32_t row_comparators(const PixelSize& group, std::uint32_t clusters) {
   return clusters * static_cast<std::uint32_t>(cycles_for(columns, kComparatorBits));
 }
 
+// A memory for each place of a pixel in a sub-tile, in each cluster: a blend reads and writes all
+// 16 of a sub-tile at once, each its pixel. A group that drains and one that is blended have
+// memories of their own. A cluster without a sub-tile of any group has none.
+std::uint32_t pixel_banks(const RenderingConfig& config, const PixelSize& group) {
+  const auto subtiles =
+      static_cast<std::uint32_t>(cycles_for(static_cast<std::uint64_t>(group.width), kSubtilePx) *
+                                 cycles_for(static_cast<std::uint64_t>(group.height), kSubtilePx));
+  return kSubtilePixels * std::clamp(subtiles, 1U, config.clusters) * config.pixel_buffers;
+}
+
 }  // namespace
 
-// A memory for each place of a pixel in a sub-tile, in each cluster: a blend reads and writes all
-// 16 of a sub-tile at once, each its pixel. Whether a pixel is finished is known when it has been
-// read, so all of them are. A row is converted as it leaves: until a write of it is made its pixels
-// are in their buffer.
+// Whether a pixel is finished is known when it has been read, so all of a sub-tile are.
 SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor& built_for) {
   const auto width = static_cast<std::uint32_t>(built_for.group.width);
   const auto height = static_cast<std::uint32_t>(built_for.group.height);
-  // A group that drains and one that is blended have memories of their own. A cluster without a
-  // sub-tile of any group has none.
-  const auto subtiles =
-      static_cast<std::uint32_t>(cycles_for(width, kSubtilePx) * cycles_for(height, kSubtilePx));
-  const std::uint32_t with_pixels = std::clamp(subtiles, 1U, config.clusters);
-  const std::uint32_t pixel_banks = kSubtilePixels * with_pixels * config.pixel_buffers;
+  const std::uint32_t banks = pixel_banks(config, built_for.group);
   const SramPeak of_clusters{config.clusters, config.clusters};
-  return {sram_use("pixel state", kSharedSram,
-                   {{config.pixel_buffers, "groups"},
-                    {width, "px"},
-                    {height, "px"},
-                    {config.pixel_state_bytes(), "B"}},
-                   {8 * config.pixel_state_bytes(), SramPorts::kReadAndWrite, pixel_banks},
-                   {pixel_banks, pixel_banks}),
-          sram_use("splats under way", kSharedSram,
-                   {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
-                   kOneOfEach),
-          sram_use(kBegunSpans, kSharedSram, {{config.span_slots, "slots"}, {kBegunSpanBytes, "B"}},
-                   {8 * kBegunSpanBytes}, kOneOfEach),
-          spans_use(config, built_for.group),
-          sram_use("cluster queues", kSharedSram,
-                   {{config.clusters, "clusters"},
-                    {config.cluster_queue_entries, "splats"},
-                    {kSplatEntryBytes, "B"}},
-                   {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}, of_clusters),
-          mask_use(built_for.group),
-          outstanding_table(kSharedSram, built_for.memory_port),
-          sram_use("sub-tiles in the loop", kSharedSram,
-                   {{config.clusters, "clusters"},
-                    {config.subtiles_in_loop(), "sub-tiles"},
-                    {kSubtileNumberBytes, "B"}},
-                   {8 * kSubtileNumberBytes * config.subtiles_in_loop(), SramPorts::kReadAndWrite,
-                    config.clusters},
-                   of_clusters),
-          unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
-                            width * pixel_bytes(built_for.frame_format))};
+  return {
+      sram_use("pixel state", kSharedSram,
+               {{config.pixel_buffers, "groups"},
+                {width, "px"},
+                {height, "px"},
+                {config.pixel_state_bytes(), "B"}},
+               {8 * config.pixel_state_bytes(), SramPorts::kReadAndWrite, banks}, {banks, banks}),
+      sram_use("splats under way", kSharedSram,
+               {{config.span_slots, "slots"}, {kSplatEntryBytes, "B"}}, {8 * kSplatEntryBytes},
+               kOneOfEach),
+      sram_use(kBegunSpans, kSharedSram, {{config.span_slots, "slots"}, {kBegunSpanBytes, "B"}},
+               {8 * kBegunSpanBytes}, kOneOfEach),
+      spans_use(config, built_for.group),
+      sram_use("cluster queues", kSharedSram,
+               {{config.clusters, "clusters"},
+                {config.cluster_queue_entries, "splats"},
+                {kSplatEntryBytes, "B"}},
+               {8 * kSplatEntryBytes, SramPorts::kReadAndWrite, config.clusters}, of_clusters),
+      mask_use(built_for.group),
+      outstanding_table(kSharedSram, built_for.memory_port),
+      sram_use("sub-tiles in the loop", kSharedSram,
+               {{config.clusters, "clusters"},
+                {config.subtiles_in_loop(), "sub-tiles"},
+                {kSubtileNumberBytes, "B"}},
+               {8 * kSubtileNumberBytes * config.subtiles_in_loop(), SramPorts::kReadAndWrite,
+                config.clusters},
+               of_clusters),
+      unanswered_writes("pixel writes", kSharedSram, built_for.memory_port,
+                        width * pixel_bytes(built_for.frame_format))};
 }
 
 void RenderingUnit::publish_ledger(DataSheet& sheet) {
@@ -136,6 +139,17 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
     pixels += width * height;
   }
   const std::uint64_t blends = schedule_.counters().blends;
+  const auto passed = static_cast<double>(pixels);
+  // What is converted at once comes from all memories of pixels, each place from its share.
+  const std::uint32_t at_once = config_.drain_pixels_per_cycle;
+  publish_selection(sheet, "rendering",
+                    {pixel_banks(config_, built_for_.group) / at_once,
+                     8.0 * config_.pixel_state_bytes(), double(at_once)},
+                    passed);
+  // The row of converted pixels that is written next.
+  const double bits_of_pixel = 8.0 * pixel_bytes(job_.frame_format);
+  sheet.part("rendering", "register_bit", built_for_.group.width * bits_of_pixel, 1);
+  sheet.operations("rendering", "register_bit", bits_of_pixel * passed);
   sheet.datapath(drain_pipeline(config_, job_.frame_format, built_for_.single), pixels);
   // A blend reads and writes all places of a sub-tile, draining those of a row, clearing all again.
   sheet.accesses("pixel state", kSubtilePixels * blends + kSubtilePx * drained,

@@ -136,7 +136,7 @@ std::vector<Row> rows_of(const Frame& frame, const Build& b) {
   const double exchanges = sorted("compare_exchanges");
   const double all_splits = sorted("splits") + sorted("lists_split");
   const double blocks = of(frame, "rendering", "blocks");
-  const double w = b.compared_bits;
+  const double w = b.compared_bits, state_bits = b.pixel_bits == 24 ? 4 * 16 : 4 * 32;
   constexpr double kGaussian = 8 * 108;
   // Of the network's 10 stages of 8 compare-exchanges.
   constexpr double kExchanges = 80;
@@ -170,6 +170,9 @@ std::vector<Row> rows_of(const Frame& frame, const Build& b) {
        b.cores * (2 * (pivot_bits + b.mark_bits) + b.row_bits + b.row_in_memory_bits),
        (pivot_bits + b.mark_bits) * all_splits + 2 * b.row_bits * sorted("split_entries") +
            b.row_in_memory_bits * sorted("entries_split")},
+      // A pixel that drains comes from any of 16 memories of one of two tiles.
+      {"rendering", "select_bit", b.cores * 31 * state_bits,
+       5 * state_bits * of(frame, "rendering", "pixels")},
       // Of each block until when it is in the loop, counted down, and that it is finished; a row of
       // 16 pixels that drains.
       {"rendering", "register_bit",

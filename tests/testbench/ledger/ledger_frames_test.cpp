@@ -253,9 +253,13 @@ TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are fol
         // In each core for each block of 16 px a counter of 7 cycles, of 9 where lanes are folded,
         // and whether it is finished; which of 16 parts and blocks is next; 16 pixels of 24 bits.
         stand["rendering register_bit"] += 4 * (16 * ((folded ? 4 : 3) + 1) + 16 + 5 + 16 * 24);
+        // A pixel of half floats from one of 32 memories.
+        stand["rendering select_bit"] += 4 * 31 * 64;
       } else {
-        // The splat whose rows the dispatcher gives out.
-        stand["rendering register_bit"] += 8 * 48;
+        // The splat whose rows the dispatcher gives out; a row of pixels of 24 bits.
+        stand["rendering register_bit"] += 8 * 48 + (exact ? 96 : 64) * 24;
+        // Eight pixels, each from one of eight memories of a group: 16 in each of four clusters.
+        stand["rendering select_bit"] += 8 * 7 * (exact ? 128 : 64);
       }
       if (exact) {
         // Of the queues, which have no lanes: in 9 and 8 levels a key of 128 and 96 bits, a node

@@ -1,0 +1,26 @@
+// Multiplexers by which a word comes from one of several memories or registers.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/datapath/counter_bits.h"
+#include "tlm/data_sheet.h"
+
+namespace sgs {
+
+struct Selection {
+  std::uint64_t sources = 1;  // of which one is taken
+  double bits = 0;            // of a word
+  double at_once = 1;         // words in a cycle
+};
+
+// Multiplexers of two, a tree of them for each bit. words: taken so far, each by a path through it.
+inline void publish_selection(DataSheet& sheet, const char* component, const Selection& of,
+                              double words) {
+  if (of.sources < 2) return;
+  sheet.part(component, "select_bit", of.bits * static_cast<double>(of.sources - 1) * of.at_once,
+             1);
+  sheet.operations(component, "select_bit", of.bits * counter_bits(of.sources - 1) * words);
+}
+
+}  // namespace sgs
