@@ -131,6 +131,7 @@ ExpectedVisits expect(const PaperVsuPlan& plan, std::uint64_t latency) {
     out.overflows += visits.overflows;
     out.groups.push_back(std::move(pieces));
   }
+  out.lookups_again = model.look_ups_again();
   return out;
 }
 

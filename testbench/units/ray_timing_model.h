@@ -29,6 +29,8 @@ class RayTimingModel {
     std::uint64_t all = 0, waits = 0;  // cycles; of these, those in which all wait for nodes
   };
 
+  std::uint64_t look_ups_again() const { return look_ups_again_; }
+
   // One pass without an overflow: rays in turn, into a table that is empty.
   Times pass(const std::vector<RayEvents>& rays, OrderingTable& table) {
     rays_ = &rays;
@@ -71,6 +73,7 @@ class RayTimingModel {
     std::deque<std::uint64_t> entering;  // when each is in the table
     OrderingTable::Chain chain;
     bool without_room = false, ended = false;
+    bool called = false;  // a place is kept for its line
   };
   struct LookUp {
     std::size_t place;
@@ -112,7 +115,17 @@ class RayTimingModel {
       if (set.size() > kCacheWays) set.pop_back();
       for (const std::size_t place : fetches_.front().places) look_ups_.push_back({place, true});
       fetches_.pop_front();
+      call(now);
     }
+  }
+
+  // The first that found no place for its line.
+  void call(std::uint64_t now) {
+    if (without_place_.empty()) return;
+    places_[without_place_.front()].due = now;
+    places_[without_place_.front()].called = true;
+    without_place_.pop_front();
+    ++called_;
   }
 
   void act(std::size_t k, std::uint64_t now) {
@@ -202,19 +215,25 @@ class RayTimingModel {
     const auto [k, has_come] = look_ups_.front();
     look_ups_.pop_front();
     Place& place = places_[k];
+    const bool called = std::exchange(place.called, false);
+    called_ -= called ? 1 : 0;
+    look_ups_again_ += called ? 1 : 0;
     const std::uint64_t line = nodes_.address(event(place).index) / kLineBytes;
-    if (!has_come && !hits(line)) {
-      for (Fetch& fetch : fetches_) {
-        if (fetch.line == line) {
-          fetch.places.push_back(k);
-          return;
-        }
-      }
+    const auto fetch = std::find_if(fetches_.begin(), fetches_.end(),
+                                    [&](const Fetch& f) { return f.line == line; });
+    if (has_come || hits(line)) {
+      place.due = now + 3;  // tags, line, masks
+      ++place.next;
+    } else if (fetch != fetches_.end()) {
+      fetch->places.push_back(k);
+    } else if (fetches_.size() + called_ < config_.node_fetches) {
       fetches_.push_back({line, now + latency_ + 1, {k}});
       return;
+    } else {
+      without_place_.push_back(k);
+      return;
     }
-    place.due = now + 3;  // tags, line, masks
-    ++place.next;
+    if (called) call(now + 1);
   }
 
   bool hits(std::uint64_t line) {
@@ -241,6 +260,9 @@ class RayTimingModel {
   std::deque<std::size_t> steps_;  // places that wait for their turn
   std::deque<LookUp> look_ups_;    // likewise
   std::deque<Fetch> fetches_;
+  std::deque<std::size_t> without_place_;
+  std::size_t called_ = 0;
+  std::uint64_t look_ups_again_ = 0;                         // of all passes
   std::map<std::uint64_t, std::deque<std::uint64_t>> sets_;  // lines, most recently used first
   std::uint64_t step_free_ = 0, begin_free_ = 0, tree_free_ = 0, table_free_ = 0, written_ = 0,
                 end_ = 0;

@@ -82,11 +82,12 @@ void check_stream(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisi
 
 // Memories of the caches and of the ordering table, which are cleared after each group, and what is
 // compared: what is read of the table with the voxel; a voxel that is met with the two ends of the
-// window, and with the two ends of what is in it when it is entered; rounds, and lines that are
-// missed, with those of all contexts; a look-up with the tags of a set. handed: contexts that went
-// from ray to ray.
+// window, and with the two ends of what is in it when it is entered; rounds, and lines that have
+// come, with those of all contexts; a miss with the lines on their way; a look-up with the tags of
+// a set. handed: contexts that went from ray to ray; again: look-ups for which there was no place
+// before.
 void check_tables(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisits& expected,
-                  std::uint64_t handed, std::uint64_t node_misses) {
+                  std::uint64_t handed, std::uint64_t again, std::uint64_t node_misses) {
   constexpr std::uint64_t kWays = 4, kNamesAtOnce = 4;
   const OrderingAccesses& table = expected.table;
   const std::uint64_t clearing =
@@ -96,7 +97,7 @@ void check_tables(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisi
                        table.names_written + expected.orderings * clearing);
   bench.check_accesses("ready voxels", table.ready_read, table.ready_written);
   // A word of 32 B holds what is looked up, and a line.
-  bench.check_accesses("node cache", expected.lookups, node_misses);
+  bench.check_accesses("node cache", expected.lookups + again, node_misses);
   const std::uint64_t contexts = plan.config.rays_in_flight;
   const std::uint64_t ordered = bench.counter("voxels") + bench.counter("cuts");
   bench.check_operations("vsu", "comparator",
@@ -104,7 +105,8 @@ void check_tables(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisi
                              (expected.steps - expected.rays) * comparisons_of_a_step() +
                              table.reads + 2 * expected.met + 2 * expected.met +
                              (expected.met + handed + node_misses) * contexts +
-                             kWays * (expected.lookups + ordered) + bench.counter("cuts"));
+                             node_misses * plan.config.node_fetches +
+                             kWays * (expected.lookups + again + ordered) + bench.counter("cuts"));
 }
 
 // Its cycles are those of the model where times can be computed, and never fewer than each thing
@@ -143,10 +145,19 @@ void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const Pa
     }
     bench.check_accesses("rounds of rays", (expected.met + handed) * contexts,
                          rays + steps + expected.met);
-    // A line that is missed is looked for among all that are on their way, and joins them.
-    bench.check_accesses("node fetches", node_misses * contexts, node_misses);
-    bench.check_accesses("node cache tags", expected.lookups, expected.lookups);
-    check_tables(bench, plan, expected, handed, node_misses);
+    // A line that is missed is looked for among all that are on their way, and joins them; as one
+    // comes, so are the rays that wait for it. A word of 32 B holds it.
+    bench.check_accesses("tags of node fetches", node_misses * plan.config.node_fetches,
+                         node_misses);
+    bench.check_accesses("node fetches", node_misses, node_misses);
+    bench.check_accesses("rays that wait for nodes", node_misses * contexts, node_misses);
+    const std::uint64_t again = bench.accesses("node cache").first - expected.lookups;
+    if (bench_config.still()) {
+      checks.equal(again, expected.lookups_again, "look-ups for which there was no place before");
+    }
+    checks.that(again == 0 || plan.config.node_fetches < contexts, "a ray without its own place");
+    bench.check_accesses("node cache tags", expected.lookups + again, expected.lookups + again);
+    check_tables(bench, plan, expected, handed, again, node_misses);
   }
 }
 
@@ -206,7 +217,8 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
     checks.equal(pieces, visits + bench.counter("cuts"), "pieces opened and taken");
   }
   // Each is read once, to be visited or left out.
-  bench.check_accesses("ordered voxels", expected.voxels, expected.voxels);
+  bench.check_accesses("ordered voxels", expected.voxels - bench.counter("visits_saturated"),
+                       expected.voxels);
   // A voxel's record is looked up as it is visited, a plane as it is cut.
   bench.check_accesses("record cache tags", bench.counter("voxels"), bench.counter("voxels"));
   bench.check_accesses("cut cache tags", bench.counter("cuts"), bench.counter("cuts"));
@@ -277,6 +289,7 @@ void random_case(Case& test) {
   plan.config.table_banks = 1 + static_cast<std::uint32_t>(random() % 2);
   plan.config.groups_ahead = 1 + static_cast<std::uint32_t>(random() % 3);
   plan.config.node_cache_bytes = 256U << (random() % 5);
+  plan.config.node_fetches = 1 + static_cast<std::uint32_t>(random() % 12);
   plan.config.record_cache_bytes = 256U << (random() % 3);
   plan.config.min_share = 2 + static_cast<std::uint32_t>(random() % 40);
   plan.config.sample_step_voxels = random() % 4 == 0 ? 0.5 : 0;

@@ -188,6 +188,7 @@ const std::vector<Limits>& limits() {
        "1024",
        {"vsu.rays_in_flight", "vsu.chain_entries", "vsu.ray_step_px",
         "sorting.spill_block_entries"}},
+      {"p", "1", "1024", {"vsu.node_fetches"}},
       {"p", "1", "4096", {"sorting.input_fifo_entries"}},
       {"p", "1", "10000", {"vsu.step_lanes", "vsu.ray_lanes"}},
       {"p", "2", "1048576", {"vsu.min_share"}},

@@ -2,6 +2,7 @@
 // order in which they were asked for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <systemc>
@@ -28,6 +29,7 @@ class NodeFetches {
   };
 
   bool empty() const { return fetches_.empty(); }
+  std::size_t size() const { return fetches_.size(); }
 
   // The rays that wait for a line that has been asked for; null where it has not.
   std::vector<Waiting>* waiting_for(std::uint64_t tag) {

@@ -28,10 +28,12 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
       job_(context.job),
       traverse_("traverse", context.clock),
       emit_("emit", context.clock),
-      rays_(
-          config, context.built_for.single, context.clock, traverse_, node_memory,
-          job_.layout.voxel_table().nodes,
-          [this](const std::vector<std::uint32_t>& voxels, bool last) { hand_over(voxels, last); }),
+      rays_(config, context.built_for.single, context.clock, traverse_, node_memory,
+            job_.layout.voxel_table().nodes,
+            {[this] { ordered_.wait_for_room(1, TimedFifo<OrderedPass>::kNever, traverse_); },
+             [this](const std::vector<std::uint32_t>& voxels, bool last) {
+               hand_over(voxels, last);
+             }}),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
       table_(job_.layout.voxel_table().voxels.count, config.table_bytes, config.table_banks),
@@ -79,23 +81,25 @@ void PaperVsu::run_arrivals() { rays_.fetches.run_arrivals(node_memory, traverse
 
 void PaperVsu::hand_over(const std::vector<std::uint32_t>& voxels, bool last) {
   ++counters_.passes;
-  ordered_.push(std::make_shared<OrderedPass>(OrderedPass{current_group_, last, voxels}),
-                traverse_);
+  ordered_.push({current_group_, last, voxels}, traverse_);
 }
 
 void PaperVsu::run_emit() {
   for (std::size_t done = 0; done < job_.groups.size();) {
-    const std::shared_ptr<OrderedPass> ordered = ordered_.pop(emit_);
-    take_up_group(emit_, record_memory, ordered->group);
-    for (const std::uint32_t voxel : ordered->voxels) {
-      if (all_finished(finished, ordered->group)) {
-        ++counters_.visits_saturated;
+    const OrderedPass& ordered = ordered_.front(emit_);
+    const std::uint32_t group = ordered.group;
+    const bool last = ordered.last;
+    take_up_group(emit_, record_memory, group);
+    for (const std::uint32_t voxel : ordered.voxels) {
+      if (all_finished(finished, group)) {
+        ++counters_.visits_saturated;  // the rest of the list is forgotten at once
         continue;
       }
-      visit_voxel(ordered->group, voxel);
+      visit_voxel(group, voxel);
     }
-    if (!ordered->last) continue;
-    mark_end(ordered->group);
+    ordered_.remove_front();
+    if (!last) continue;
+    mark_end(group);
     ++done;
   }
   emit_.idles();
@@ -207,8 +211,7 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.operations(
       "vsu", "comparator",
       static_cast<double>(counters_.cuts + kCacheWays * (records_.lookups() + cuts_.lookups())));
-  const std::uint64_t ordered = counters_.voxels + counters_.visits_saturated;
-  sheet.accesses("ordered voxels", ordered, ordered);
+  sheet.accesses("ordered voxels", counters_.voxels, counters_.voxels + counters_.visits_saturated);
   sheet.left_out("empty_groups", "no block of Gaussians can touch them", counters_.groups_empty,
                  "no visit, no blending");
   sheet.left_out("saturated_visits", "every pixel of the group was finished",
@@ -220,8 +223,8 @@ void PaperVsu::publish(DataSheet& sheet) {
   // Where the table is full a group's rays are followed again.
   sheet.remedy(traverse_, cycles_of_full_tables_ > cycles_of_others_ ? Remedy("vsu.table_bytes")
                                                                      : rays_.remedy());
-  for (const char* key :
-       {"vsu.rays_in_flight", "vsu.step_lanes", "vsu.ray_lanes", "vsu.table_bytes"}) {
+  for (const char* key : {"vsu.rays_in_flight", "vsu.node_fetches", "vsu.step_lanes",
+                          "vsu.ray_lanes", "vsu.table_bytes"}) {
     sheet.may_help(key);
   }
   sheet.remedy(node_memory, WaitFor::kReads, "vsu.node_cache_bytes");

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <systemc>
 #include <vector>
 
@@ -88,7 +87,7 @@ class PaperVsu : public sc_core::sc_module {
   TableCache<VoxelRecord> records_;
   TableCache<float> cuts_;
   OrderingTable table_;
-  TimedFifo<std::shared_ptr<OrderedPass>> ordered_;
+  TimedFifo<OrderedPass> ordered_;
   Counters counters_;
   std::uint64_t cycles_of_full_tables_ = 0, cycles_of_others_ = 0;  // of groups
   std::uint32_t next_visit_ = 0;

@@ -25,6 +25,8 @@ void visit(ConfigVisitor& v, PaperVsuConfig& c) {
   v("table_bytes", c.table_bytes, in_range(kTableWordBytes, 1 << 30),
     "ordering table of one group; one that needs more is ordered in passes");
   v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");
+  v("node_fetches", c.node_fetches, in_range(1, 1024),
+    "lines of tree nodes on their way from DRAM");
   v("record_cache_bytes", c.record_cache_bytes, in_range(64, 1 << 30), "cache of voxel records");
   v("cut_cache_bytes", c.cut_cache_bytes, in_range(64, 1 << 30), "cache of cut voxels' planes");
   v("visit_gaussians", c.visit_gaussians, in_range(0, 1 << 30),

@@ -24,7 +24,8 @@ struct PaperVsuConfig {
   double sample_step_voxels = 0;            // 0: every cell of the ray; else distance of samples
   std::uint32_t groups_ahead = 1;           // ordered groups that wait for the HFUs
   std::uint32_t table_bytes = 4096;         // ordering table of one group; fuller ones take passes
-  std::uint32_t node_cache_bytes = 2112;    // in front of the tree in DRAM
+  std::uint32_t node_cache_bytes = 2048;    // in front of the tree in DRAM
+  std::uint32_t node_fetches = 7;           // lines of it on their way to that cache
   std::uint32_t record_cache_bytes = 1024;  // in front of the voxel records
   std::uint32_t cut_cache_bytes = 256;      // in front of the planes of cut voxels
   std::uint32_t visit_gaussians = 256;      // voxels with more are cut; 0: never

@@ -18,9 +18,11 @@ PaperVsuEstimate::PaperVsuEstimate(const PaperVsuConfig& config,
       layout_(layout),
       grid_(grid),
       view_(view),
-      rays_(
-          config, latencies, layout.nodes, grid.nodes, ports.nodes,
-          [this](const std::vector<std::uint32_t>& voxels, bool last) { hand_over(voxels, last); }),
+      rays_(config, latencies, layout.nodes, grid.nodes, ports.nodes,
+            {[this] { rays_.go_on(ordered_.room(rays_.now())); },
+             [this](const std::vector<std::uint32_t>& voxels, bool last) {
+               hand_over(voxels, last);
+             }}),
       record_port_(ports.records),
       records_(config.record_cache_bytes, layout.voxels),
       cuts_(config.cut_cache_bytes, layout.cuts),
@@ -54,7 +56,7 @@ void PaperVsuEstimate::order(const Group& group) {
 void PaperVsuEstimate::hand_over(const std::vector<std::uint32_t>& voxels, bool last) {
   ++work_.counters.passes;
   rays_.go_on(ordered_.push(rays_.now()));
-  emit_ = ordered_.pop(emit_);
+  emit_ = ordered_.front(emit_);
   record_port_.charge_to(group_->number);
   for (const std::uint32_t voxel : voxels) {
     if (group_->finished(emit_)) {
@@ -63,6 +65,7 @@ void PaperVsuEstimate::hand_over(const std::vector<std::uint32_t>& voxels, bool 
       visit_voxel(voxel);
     }
   }
+  ordered_.remove(emit_);
   if (!last) return;
   ++work_.emit_cycles;
   emit_ = group_->end(emit_ + 1);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 #include "algorithm/order/ordering_table.h"
 #include "algorithm/splat/longest_path.h"
@@ -10,6 +12,12 @@
 #include "tlm/datapath.h"
 
 namespace sgs {
+
+// Where lists of ordered voxels go: until one can be written, and one that has been.
+struct ListsOut {
+  std::function<void()> wait_for_room;
+  std::function<void(const std::vector<std::uint32_t>& voxels, bool last)> hand_over;
+};
 
 class RayTurns {
  public:
@@ -33,10 +41,15 @@ class RayTurns {
   const PaperVsuConfig config;
 
   // Each takes the cycle from which on a ray wants something, and returns when it has it: its
-  // beginning, a step, the turn of a look-up, the result of one whose node has come only now.
+  // beginning, a step, the turn of a look-up, that of one whose line found no place, the result of
+  // one whose node has come only now.
   std::uint64_t begin_ray(std::uint64_t cycle);
   std::uint64_t step(std::uint64_t cycle, std::uint32_t log2_block);
   std::uint64_t look_up(std::uint64_t cycle);
+  std::uint64_t look_up_called(std::uint64_t cycle) {
+    ++work_.called;
+    return look_up(cycle);
+  }
   std::uint64_t look_up_again(std::uint64_t cycle) { return look_up(cycle) + kLookUpCycles; }
 
   // The ray that is the first of all rounds from this cycle on has ended: when its context is given
@@ -49,6 +62,7 @@ class RayTurns {
   // All that the data sheet says of a frame.
   struct Work {
     std::uint64_t rays = 0, steps = 0, met = 0, entered = 0;
+    std::uint64_t called = 0;                            // look-ups for which there was no place
     std::uint64_t found = 0;                             // first of all rounds
     OrderingAccesses accesses;                           // of the table so far
     std::uint64_t names_cleared = 0, ready_cleared = 0;  // words

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "algorithm/voxel/ray_path.h"
+#include "modules/datapath/counter_bits.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
@@ -22,14 +23,20 @@ constexpr std::uint32_t kRayBanks = 4;  // of what steps and look-ups share: by 
 constexpr std::uint32_t kTagBytes = 4;  // of a line on its way
 constexpr std::uint32_t kReadyWord = 4;
 
+// Of a ray that waits: its line, or its place among those that found none for theirs.
+std::uint32_t waiting_bytes(const PaperVsuConfig& config) {
+  const std::uint32_t places = std::max(config.node_fetches, config.rays_in_flight);
+  return (1 + counter_bits(places - 1) + 7) / 8;
+}
+
 }  // namespace
 
 RayUnit::RayUnit(const PaperVsuConfig& c, const OperationLatencies& latencies,
                  const ClockDomain& clock, Activity& activity, MemoryPort& port,
-                 const RecordArray& table, HandOver to)
+                 const RecordArray& table, ListsOut to)
     : RayTurns(c, latencies),
       nodes(c.node_cache_bytes, table),
-      hand_over(std::move(to)),
+      lists(std::move(to)),
       clock_(clock),
       activity_(activity),
       port_(port) {}
@@ -43,8 +50,7 @@ void RayUnit::begin_pass() {
   free_from(now());
 }
 
-std::vector<NodeFetches::Waiting>& RayUnit::waiting_for(std::uint64_t tag, std::uint64_t cycle) {
-  if (auto* const others = fetches.waiting_for(tag)) return *others;
+std::vector<NodeFetches::Waiting>& RayUnit::ask(std::uint64_t tag, std::uint64_t cycle) {
   advance_to(cycle);
   auto& waiting = fetches.ask(tag, nodes, port_, activity_);
   hold_look_ups(now());
@@ -90,11 +96,18 @@ SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
   of_rays("ray nodes", {{kNodesOfRay, "nodes"}, {kNodeBytes, "B"}}, {8 * kNodeBytes}, kOneOfEach);
   of_rays("ray chains", {{config.chain_entries, "voxels"}, {kMetBytes, "B"}},
           {8 * kMetBytes, SramPorts::kReadAndWrite, banks}, {1, std::min(banks, 3U)});
-  // In registers: the first of all is found at once, a line that is missed looked for among all.
+  // In registers: the first of all is found at once, and who waits for a line that has come.
   of_rays("rounds of rays", {{kRoundBytes, "B"}}, {8 * kRoundBytes, SramPorts::kReadAndWrite, rays},
           {rays, rays});
-  of_rays("node fetches", {{kTagBytes, "B"}}, {8 * kTagBytes, SramPorts::kReadAndWrite, rays},
-          {rays, 1});
+  of_rays("rays that wait for nodes", {{waiting_bytes(config), "B"}},
+          {8 * waiting_bytes(config), SramPorts::kReadAndWrite, rays}, {rays, 1});
+  // A line that is missed is looked for among all of them.
+  const std::uint32_t lines = config.node_fetches;
+  uses.push_back(sram_use("tags of node fetches", kSharedSram, {{lines, "lines"}, {kTagBytes, "B"}},
+                          {8 * kTagBytes, SramPorts::kReadAndWrite, lines}, {lines, 1}));
+  uses.push_back(sram_use("node fetches", kSharedSram,
+                          {{lines, "lines"}, {TableCache<VoxelNode>::kCacheLineBytes, "B"}},
+                          {8 * kPortBytes}, kOneOfEach));
   // In order() an edge is read beside the record that the one before it names.
   uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
                           {8 * kTableWordBytes, SramPorts::kReadAndWrite, config.table_banks},
@@ -133,14 +146,18 @@ void RayUnit::publish(DataSheet& sheet) const {
   sheet.datapath(begins(), of.rays);
   sheet.datapath(steps(), of.steps);
   nodes.publish_accesses(sheet, "node cache", "node cache tags");
-  const std::uint64_t lookups = nodes.lookups();
+  const std::uint64_t lookups = nodes.lookups(), results = lookups - of.called;
   sheet.accesses("ray directions", of.steps, of.rays);
-  sheet.accesses("ray positions", of.steps + lookups, of.rays + of.steps + lookups);
+  sheet.accesses("ray positions", of.steps + results, of.rays + of.steps + results);
   sheet.accesses("rounds of rays", of.found * config.rays_in_flight,
                  of.rays + of.steps + of.entered);
-  sheet.accesses("ray nodes", of.steps, lookups);
+  sheet.accesses("ray nodes", of.steps, results);
   sheet.accesses("ray chains", of.entered, of.entered);
-  sheet.accesses("node fetches", nodes.misses() * config.rays_in_flight, nodes.misses());
+  const std::uint64_t misses = nodes.misses();
+  const std::uint64_t line = sram_words(TableCache<VoxelNode>::kCacheLineBytes, {8 * kPortBytes});
+  sheet.accesses("rays that wait for nodes", misses * config.rays_in_flight, misses);
+  sheet.accesses("tags of node fetches", misses * config.node_fetches, misses);
+  sheet.accesses("node fetches", misses * line, misses * line);
   sheet.accesses("ordering table", of.accesses.reads, of.accesses.writes);
   sheet.accesses("renamed voxels", of.accesses.names_read,
                  of.accesses.names_written + of.names_cleared);
@@ -148,13 +165,15 @@ void RayUnit::publish(DataSheet& sheet) const {
                  of.accesses.ready_written + of.ready_cleared);
   // What is read of the table is compared with the voxel; a voxel that is met with the bounds of
   // the window, one that is entered with the nearest and the farthest; the round of the first ray
-  // with those of the others; a miss with all lines on their way; a look-up with the tags of a set.
-  sheet.part("vsu", "comparator",
-             config.table_banks + 4.0 + 2.0 * config.rays_in_flight + kCacheWays, 1);
+  // with those of the others; a miss with all lines on their way; a line that has come with what
+  // the rays wait for; a look-up with the tags of a set.
+  sheet.part(
+      "vsu", "comparator",
+      config.table_banks + 4.0 + 2.0 * config.rays_in_flight + config.node_fetches + kCacheWays, 1);
   sheet.operations("vsu", "comparator",
                    static_cast<double>(of.accesses.reads + 2 * of.met + 2 * of.entered +
-                                       (nodes.misses() + of.found) * config.rays_in_flight +
-                                       kCacheWays * lookups));
+                                       (misses + of.found) * config.rays_in_flight +
+                                       misses * config.node_fetches + kCacheWays * lookups));
 }
 
 }  // namespace sgs

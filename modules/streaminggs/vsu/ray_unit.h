@@ -15,16 +15,14 @@ namespace sgs {
 
 class RayUnit : public RayTurns {
  public:
-  using HandOver = std::function<void(const std::vector<std::uint32_t>& voxels, bool last)>;
-
   // clock, activity and port outlive it.
   RayUnit(const PaperVsuConfig& config, const OperationLatencies& latencies,
           const ClockDomain& clock, Activity& activity, MemoryPort& port, const RecordArray& nodes,
-          HandOver hand_over);
+          ListsOut lists);
 
   TableCache<VoxelNode> nodes;
   NodeFetches fetches;
-  const HandOver hand_over;
+  const ListsOut lists;
 
   std::uint64_t now() const { return clock_.now_cycles(); }
   void advance_to(std::uint64_t cycle);
@@ -32,9 +30,9 @@ class RayUnit : public RayTurns {
   // All is free.
   void begin_pass();
 
-  // Of a line that is not in the cache: asks for it in this cycle if nobody has. Whoever is added
+  // Asks in this cycle for a line that is neither in the cache nor on its way. Whoever is added
   // waits for it.
-  std::vector<NodeFetches::Waiting>& waiting_for(std::uint64_t tag, std::uint64_t cycle);
+  std::vector<NodeFetches::Waiting>& ask(std::uint64_t tag, std::uint64_t cycle);
   // Until the oldest line has come, at the latest until `cycle`; kNever: however long it takes.
   void wait_for_nodes(std::uint64_t cycle);
   // What is still on its way when a pass is given up.

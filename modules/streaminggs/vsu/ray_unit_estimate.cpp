@@ -27,16 +27,14 @@ NodeFetchTimes::Fetch NodeFetchTimes::take() {
 
 RayUnitEstimate::RayUnitEstimate(const PaperVsuConfig& c, const OperationLatencies& latencies,
                                  const RecordArray& table, const std::vector<VoxelNode>& tree,
-                                 const PortEstimate& port, HandOver to)
+                                 const PortEstimate& port, ListsOut to)
     : RayTurns(c, latencies),
       nodes(c.node_cache_bytes, table),
-      hand_over(std::move(to)),
+      lists(std::move(to)),
       tree_(tree),
       port_(port) {}
 
-std::vector<NodeFetches::Waiting>& RayUnitEstimate::waiting_for(std::uint64_t tag,
-                                                                std::uint64_t cycle) {
-  if (auto* const others = fetches.waiting_for(tag)) return *others;
+std::vector<NodeFetches::Waiting>& RayUnitEstimate::ask(std::uint64_t tag, std::uint64_t cycle) {
   advance_to(cycle);
   NodeFetches::Fetch& fetch = fetches.ask();
   const auto missing = nodes.miss(tag);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -26,6 +27,7 @@ class NodeFetchTimes {
   explicit NodeFetchTimes(const std::uint64_t& now) : now_(now) {}
 
   bool empty() const { return fetches_.empty(); }
+  std::size_t size() const { return fetches_.size(); }
   std::vector<Waiting>* waiting_for(std::uint64_t tag);
   Fetch& ask() { return fetches_.emplace_back(); }
   // Of the line that was asked for last; it is not there before those that were asked for before.
@@ -44,16 +46,14 @@ class NodeFetchTimes {
 
 class RayUnitEstimate : public RayTurns {
  public:
-  using HandOver = std::function<void(const std::vector<std::uint32_t>& voxels, bool last)>;
-
   // table: of these nodes, in the memory behind the port.
   RayUnitEstimate(const PaperVsuConfig& config, const OperationLatencies& latencies,
                   const RecordArray& table, const std::vector<VoxelNode>& nodes,
-                  const PortEstimate& port, HandOver hand_over);
+                  const PortEstimate& port, ListsOut lists);
 
   TableCache<VoxelNode> nodes;
   NodeFetchTimes fetches{now_};
-  const HandOver hand_over;
+  const ListsOut lists;
 
   std::uint64_t now() const { return now_; }
   void advance_to(std::uint64_t cycle) { works_until(std::max(now_, cycle)); }
@@ -63,7 +63,7 @@ class RayUnitEstimate : public RayTurns {
 
   // As those of RayUnit.
   void begin_pass() { free_from(now_); }
-  std::vector<NodeFetches::Waiting>& waiting_for(std::uint64_t tag, std::uint64_t cycle);
+  std::vector<NodeFetches::Waiting>& ask(std::uint64_t tag, std::uint64_t cycle);
   void wait_for_nodes(std::uint64_t cycle);
   void take_what_comes();
   void order(const OrderingTable& table) { works_until(now_ + order_cycles(table)); }

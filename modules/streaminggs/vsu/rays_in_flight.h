@@ -43,10 +43,13 @@ class RaysInFlight {
     unit_.begin_pass();
     end_ = unit_.now();
     events_ = {};
+    without_place_.clear();
+    called_ = 0;
     for (std::uint32_t c = 0; c < contexts_.size(); ++c) {
       contexts_[c].round = 0;
       contexts_[c].met.clear();
       contexts_[c].leaves.clear();
+      contexts_[c].called = false;
       begin_ray(c, unit_.now());
       compare(c);
     }
@@ -69,16 +72,18 @@ class RaysInFlight {
     return pass.fits;
   }
 
+  // Ordering writes the list: its place is free first.
   void ordered(const std::vector<std::uint32_t>& voxels, const OrderingTable& table, bool last) {
+    unit_.lists.wait_for_room();
     unit_.order(table);
-    unit_.hand_over(voxels, last);
+    unit_.lists.hand_over(voxels, last);
   }
 
  private:
   static constexpr std::uint64_t kNever = RayTurns::kNever;
   static constexpr std::uint32_t kNoNode = ~0U;
 
-  enum class State : std::uint8_t { kFlies, kWithoutRoom, kEnded, kFree };
+  enum class State : std::uint8_t { kFlies, kCalled, kWithoutRoom, kEnded, kFree };
   struct Met {
     std::uint64_t place, round;
   };
@@ -92,6 +97,7 @@ class RaysInFlight {
     OrderingTable::Chain chain;
     std::uint64_t without_room = kNever;  // place of the voxel for which there was none
     std::uint32_t wanted = kNoNode;       // node whose look-up has its turn
+    bool called = false;                  // a place is kept for its line
   };
   struct Event {
     std::uint64_t cycle;
@@ -148,11 +154,29 @@ class RaysInFlight {
       contexts_[waiting.ray].path.give(unit_.nodes.record_in(fetch.line, waiting.node));
       at(unit_.look_up_again(cycle), waiting.ray);
     }
+    call_next(cycle);
+  }
+
+  // A place for a line is free from this cycle on: the ray that waits for one longest looks up
+  // again.
+  void call_next(std::uint64_t cycle) {
+    if (without_place_.empty()) return;
+    const std::uint32_t c = without_place_.front();
+    without_place_.pop_front();
+    contexts_[c].state = State::kCalled;
+    contexts_[c].called = true;
+    ++called_;
+    at(cycle, c);
   }
 
   // A ray does what it can in this cycle.
   void go_on(std::uint32_t c, std::uint64_t cycle) {
     Context& context = contexts_[c];
+    if (context.state == State::kCalled) {
+      context.state = State::kFlies;
+      at(unit_.look_up_called(cycle), c);
+      return;
+    }
     if (context.wanted != kNoNode) {
       look_up(c, cycle);
       return;
@@ -187,14 +211,27 @@ class RaysInFlight {
     }
   }
 
+  // A line that is missed takes a place until it has come. A ray that finds none free waits; one
+  // that was called and does not need it leaves it to the next.
   void look_up(std::uint32_t c, std::uint64_t cycle) {
-    const std::uint32_t node = std::exchange(contexts_[c].wanted, kNoNode);
+    Context& context = contexts_[c];
+    const std::uint32_t node = std::exchange(context.wanted, kNoNode);
+    const bool called = std::exchange(context.called, false);
+    if (called) --called_;
     if (const auto* const line = unit_.nodes.find(node)) {
-      contexts_[c].path.give(unit_.nodes.record_in(*line, node));
+      context.path.give(unit_.nodes.record_in(*line, node));
       at(cycle + RayTurns::kLookUpCycles, c);
+    } else if (auto* const others = unit_.fetches.waiting_for(unit_.nodes.line_of(node))) {
+      others->push_back({c, node});
+    } else if (unit_.fetches.size() + called_ < unit_.config.node_fetches) {
+      unit_.ask(unit_.nodes.line_of(node), cycle).push_back({c, node});
+      return;
+    } else {
+      context.wanted = node;
+      without_place_.push_back(c);
       return;
     }
-    unit_.waiting_for(unit_.nodes.line_of(node), cycle).push_back({c, node});
+    if (called) call_next(cycle + 1);
   }
 
   // Whether there is room for a voxel; a ray that has none is called again when there is.
@@ -259,6 +296,8 @@ class RaysInFlight {
   std::vector<Context> contexts_;
   FirstOf first_;  // of the contexts, in what is earliest for them
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
+  std::deque<std::uint32_t> without_place_;  // contexts, for a line that they miss
+  std::uint32_t called_ = 0;                 // of them, that have not looked up yet
   Pass* pass_ = nullptr;
   std::uint64_t end_ = 0;  // of the pass, as far as it is known
 };

@@ -44,37 +44,62 @@ class ClockedCache {
 
 class ClockedSharedCache {
  public:
-  ClockedSharedCache(std::uint32_t bytes, std::uint32_t memory_latency)
-      : latency_(memory_latency), cache_(bytes) {}
+  // lines: at most so many on their way.
+  ClockedSharedCache(std::uint32_t bytes, std::uint32_t memory_latency, std::uint32_t lines)
+      : latency_(memory_latency), lines_(lines), cache_(bytes) {}
 
-  // From this cycle on somebody waits for a turn to look up a line.
-  void ask(std::size_t who, std::uint64_t line) { look_ups_.push_back({who, line, false}); }
+  // From this cycle on somebody waits for a turn to look up a line. called: it was, and a place is
+  // kept for it.
+  void ask(std::size_t who, std::uint64_t line, bool called = false) {
+    look_ups_.push_back({who, line, false, called});
+  }
+  // Who waits longest for a place that is free now: to ask again in the next cycle, or, where a
+  // line has come, in this one.
+  std::optional<std::size_t> call() {
+    if (!leaves_place_ || without_place_.empty()) return {};
+    leaves_place_ = false;
+    ++kept_;
+    const std::size_t who = without_place_.front();
+    without_place_.pop_front();
+    return who;
+  }
   bool idle() const { return look_ups_.empty() && fetches_.empty(); }
 
   void forget_who_waits() {
     look_ups_.clear();
+    without_place_.clear();
+    kept_ = 0;
     for (Fetch& fetch : fetches_) fetch.waiting.clear();
   }
 
-  // Lines that have come; who waits for one reads it when it has a turn.
+  // A line that has come, at most one a cycle; who waits for it reads it when it has a turn.
   void lines_come() {
+    leaves_place_ = false;
     for (Fetch& fetch : fetches_) --fetch.left;
-    for (; !fetches_.empty() && fetches_.front().left == 0; fetches_.pop_front()) {
-      cache_.fill(fetches_.front().line);
-      for (const std::size_t who : fetches_.front().waiting) {
-        look_ups_.push_back({who, fetches_.front().line, true});
-      }
+    if (fetches_.empty() || fetches_.front().left > 0) return;
+    cache_.fill(fetches_.front().line);
+    for (const std::size_t who : fetches_.front().waiting) {
+      look_ups_.push_back({who, fetches_.front().line, true, false});
     }
+    fetches_.pop_front();
+    leaves_place_ = true;
   }
   // A turn: who has its line, if any. One that waits already is not asked for again.
   std::optional<std::size_t> look_up() {
     if (look_ups_.empty()) return {};
     const LookUp at = look_ups_.front();
     look_ups_.pop_front();
+    kept_ -= at.called ? 1 : 0;
+    leaves_place_ = at.called;
     if (at.has_come || cache_.hits(at.line)) return at.who;
     auto fetch = std::find_if(fetches_.begin(), fetches_.end(),
                               [&](const Fetch& f) { return f.line == at.line; });
     if (fetch == fetches_.end()) {
+      leaves_place_ = false;
+      if (fetches_.size() + kept_ == lines_) {
+        without_place_.push_back(at.who);
+        return {};
+      }
       // Taken in the cycle behind that in which memory answers.
       fetch = fetches_.insert(fetch, {at.line, latency_ + 1, {}});
     }
@@ -86,7 +111,7 @@ class ClockedSharedCache {
   struct LookUp {
     std::size_t who;
     std::uint64_t line;
-    bool has_come;
+    bool has_come, called;
   };
   struct Fetch {
     std::uint64_t line;
@@ -94,8 +119,11 @@ class ClockedSharedCache {
     std::vector<std::size_t> waiting;
   };
 
-  const std::uint32_t latency_;
+  const std::uint32_t latency_, lines_;
   ClockedCache cache_;
+  std::deque<std::size_t> without_place_;
+  std::size_t kept_ = 0;       // places, for those that were called
+  bool leaves_place_ = false;  // that nobody is called for yet
   std::deque<LookUp> look_ups_;
   std::deque<Fetch> fetches_;
 };

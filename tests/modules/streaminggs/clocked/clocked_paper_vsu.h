@@ -67,14 +67,14 @@ class ClockedPaperVsu {
     VoxelRecord record;
     int axis;
   };
-  enum class Rays { kBegin, kFollow, kGiveUp, kOrder };
+  enum class Rays { kBegin, kFollow, kGiveUp, kWithoutPlace, kOrder };
   enum class Emit { kIdle, kVoxel, kRecord, kPiece, kCut, kPlane, kVisit, kShares, kEnd };
 
   void traverse() {
     if (doing_ == Rays::kOrder && !table_.idle()) table_.step();
     if (busy_ > 0 && --busy_ > 0) return;
     if (doing_ == Rays::kOrder) {
-      if (!table_.idle() || !ordered_.has_room()) return;
+      if (!table_.idle()) return;
       list_.voxels = table_.ordered();
       ordered_.put(std::move(list_));
       group_ += window_.last() ? 1 : 0;
@@ -90,12 +90,12 @@ class ClockedPaperVsu {
     if (doing_ == Rays::kFollow) {
       rays_.step(table_);
       if (!rays_.gives_up() && !rays_.done()) return;
-      doing_ = rays_.gives_up() ? Rays::kGiveUp : Rays::kOrder;
-    } else {
+      doing_ = rays_.gives_up() ? Rays::kGiveUp : Rays::kWithoutPlace;
+    } else if (doing_ == Rays::kGiveUp) {
       rays_.wait_for_lines();
     }
-    if (doing_ == Rays::kOrder) {
-      order();
+    if (doing_ == Rays::kWithoutPlace) {
+      if (ordered_.has_room()) order();  // where the list is written
     } else if (!rays_.waits_for_lines()) {
       window_ = rays_.window().nearer_half();
       busy_ = std::max(clearing_cycles(), ReadyVoxels::all_words_for(most_voxels()));
@@ -107,6 +107,7 @@ class ClockedPaperVsu {
     return Renaming::slots_for(most_voxels()) / hw_.cleared_slots;
   }
   void order() {
+    doing_ = Rays::kOrder;
     table_.begin_order();
     list_ = {static_cast<std::uint32_t>(group_), window_.last(), {}};
     busy_ = clearing_cycles();
@@ -120,19 +121,19 @@ class ClockedPaperVsu {
       switch (emitting_) {
         case Emit::kIdle:
           if (!ordered_.can_take()) return;
-          handed_out_ = ordered_.take();
           next_ = 0;
           emitting_ = Emit::kVoxel;
           break;
         case Emit::kVoxel:
-          if (next_ == handed_out_.voxels.size() || finished(handed_out_.group)) {
-            go_on(handed_out_.last ? Emit::kEnd : Emit::kIdle, handed_out_.last ? 1 : 0);
+          if (next_ == list().voxels.size() || finished(list().group)) {
+            const bool last = ordered_.take().last;
+            go_on(last ? Emit::kEnd : Emit::kIdle, last ? 1 : 0);
           } else {
-            look_up(records_, layout_.voxels, handed_out_.voxels[next_], Emit::kRecord);
+            look_up(records_, layout_.voxels, list().voxels[next_], Emit::kRecord);
           }
           break;
         case Emit::kRecord:
-          open_ = {{grid_.voxels[handed_out_.voxels[next_++]], 0}};
+          open_ = {{grid_.voxels[list().voxels[next_++]], 0}};
           emitting_ = Emit::kPiece;
           break;
         case Emit::kPiece:
@@ -151,7 +152,7 @@ class ClockedPaperVsu {
           break;
         case Emit::kShares:
           if (!hand_out(shares)) return;
-          emitting_ = finished(handed_out_.group) ? Emit::kVoxel : Emit::kPiece;
+          emitting_ = finished(list().group) ? Emit::kVoxel : Emit::kPiece;
           break;
         case Emit::kEnd:
           if (sent_ == 0) share_of_.assign(shares.size(), kEndOfGroup), first_fetch_ = 0;
@@ -161,6 +162,7 @@ class ClockedPaperVsu {
       }
     }
   }
+  const List& list() const { return ordered_.front(); }
   void go_on(Emit what, std::uint32_t cycles) {
     emitting_ = what;
     wait_ = cycles;
@@ -237,8 +239,7 @@ class ClockedPaperVsu {
   ClockedFifo<List> ordered_;
   Emit emitting_ = Emit::kIdle;
   std::uint32_t wait_ = 0;
-  List handed_out_;
-  std::size_t next_ = 0;  // of its voxels
+  std::size_t next_ = 0;  // voxel of the list that is handed out, which keeps its place until then
   std::vector<Piece> open_;
   ClockedCache records_, cuts_;
   std::vector<std::uint64_t> share_of_;  // the register ahead of the FIFOs

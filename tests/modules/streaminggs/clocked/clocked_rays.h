@@ -24,8 +24,9 @@ struct RaysHardware {
   std::uint32_t step_turn = 1, begin_turn = 8;  // cycles from one to the next on the lanes
   std::uint32_t block_cycles = 46, cell_cycles = 13, begin_cycles = 100;
   std::uint32_t compare_cycles = 3;  // of the rounds of all
-  std::uint32_t node_cache_bytes = 2112;
+  std::uint32_t node_cache_bytes = 2048;
   std::uint32_t memory_latency = 20;
+  std::uint32_t node_fetches = 7;  // lines on their way
 };
 
 class ClockedRays {
@@ -37,7 +38,7 @@ class ClockedRays {
         grid_(grid),
         table_of_nodes_(nodes),
         contexts_(hw.rays, Context{RayPath<float>(grid.frame)}),
-        nodes_(hw.node_cache_bytes, hw.memory_latency) {}
+        nodes_(hw.node_cache_bytes, hw.memory_latency, hw.node_fetches) {}
 
   // All is free and the table empty; the first step is of this cycle. window: of what is entered.
   void begin(const PixelRect& group, const VisitWindow& window) {
@@ -67,6 +68,7 @@ class ClockedRays {
 
   void step(ClockedOrderingTable& table) {
     nodes_.lines_come();
+    call();
     leave_table(table);
     if (overflows_) return give_up();
     decide(table);
@@ -78,7 +80,7 @@ class ClockedRays {
   }
 
  private:
-  enum class State : std::uint8_t { kFree, kWaits, kDue, kWithoutRoom, kEnded };
+  enum class State : std::uint8_t { kFree, kWaits, kDue, kCalled, kWithoutRoom, kEnded };
   struct Met {
     std::uint64_t round, place;
   };
@@ -174,16 +176,29 @@ class ClockedRays {
     compare_left_ = 0;
   }
 
+  // For a line's place that is free.
+  void call() {
+    if (const std::optional<std::size_t> c = nodes_.call()) contexts_[*c].state = State::kCalled;
+  }
+  std::uint64_t wanted_line(const Context& context) const {
+    return table_of_nodes_.address(context.event.index) / ClockedCache::kLineBytes;
+  }
+
   // A ray that is due goes on until it wants lanes, a node or room.
   void act(std::size_t c) {
     Context& context = contexts_[c];
+    if (context.state == State::kCalled) {
+      context.state = State::kWaits;
+      nodes_.ask(c, wanted_line(context), true);
+      return;
+    }
     if (context.state != State::kDue || --context.left > 0) return;
     while (true) {
       if (context.event.what != RayEvent::kVoxel) context.event = context.path.next();
       switch (context.event.what) {
         case RayEvent::kLookUp:
           context.state = State::kWaits;
-          nodes_.ask(c, table_of_nodes_.address(context.event.index) / ClockedCache::kLineBytes);
+          nodes_.ask(c, wanted_line(context));
           return;
         case RayEvent::kStep:
           context.state = State::kWaits;
@@ -228,6 +243,7 @@ class ClockedRays {
       contexts_[*c].path.give(grid_.nodes[contexts_[*c].event.index]);
       due_in(*c, kLookUpCycles);
     }
+    call();
   }
 
   const RaysHardware hw_;

@@ -41,6 +41,7 @@ tb::PaperVsuPlan plan_of(const PaperVsuWorkload& load, std::uint64_t seed) {
   config.cell_step_depth_cycles = hw.rays.cell_cycles;
   config.ray_depth_cycles = hw.rays.begin_cycles;
   config.node_cache_bytes = hw.rays.node_cache_bytes;
+  config.node_fetches = hw.rays.node_fetches;
   config.table_bytes = hw.table_bytes;
   config.table_banks = hw.table_banks;
   config.groups_ahead = hw.lists;
@@ -151,16 +152,21 @@ TEST_CASE("clocked reference: VSU of paper order") {
   PaperVsuHardware cut = paper;
   cut.visit_gaussians = 64;
   cut.min_share = 2;
+  PaperVsuHardware places = far;
+  places.rays.node_fetches = 2;
+  places.rays.node_cache_bytes = 512;
   PaperVsuHardware full = paper;
   full.table_bytes = 400;
   PaperVsuHardware full_and_far = full;
   full_and_far.rays.node_cache_bytes = 128;
   full_and_far.rays.memory_latency = 100;
+  full_and_far.rays.node_fetches = 3;
   for (const PaperVsuWorkload& load : {
            PaperVsuWorkload{"light: 100 Gaussians", 100, 1, 1, paper},
            PaperVsuWorkload{"heavy: 3000 Gaussians", 3000, 1, 1, paper},
            PaperVsuWorkload{"output stalled", 1500, 4, 300, paper},
            PaperVsuWorkload{"memory of 300 cycles, small voxels", 3000, 1, 1, far, 4, 4, 0.2F},
+           PaperVsuWorkload{"two lines on their way", 3000, 1, 1, places, 4, 4, 0.2F},
            PaperVsuWorkload{"tiny buffers", 1500, 1, 1, tiny, 1, 1, 0.5F},
            PaperVsuWorkload{"a step in 3, a ray in 16, a bank", 1500, 1, 1, narrow},
            PaperVsuWorkload{"a ray a cycle, of every pixel", 1500, 1, 1, wide},
