@@ -160,7 +160,7 @@ def compared_frames(scenes: list[Scene], arguments: argparse.Namespace) -> tuple
     order = ORDERS[arguments.machine]
     machines = draw_machines(order, arguments.configurations, arguments.seed)
     runs = [
-        Run(scene, arguments.view, arguments.size, order.preset, machine.overrides())
+        Run(scene, str(arguments.view), arguments.size, order.preset, machine.overrides())
         for machine in machines
         for scene in scenes
     ]
@@ -184,6 +184,7 @@ def compared_frames(scenes: list[Scene], arguments: argparse.Namespace) -> tuple
 
 def make_table(arguments: argparse.Namespace) -> None:
     run_arguments.check_at_least("--configurations", arguments.configurations, 1)
+    run_arguments.check_at_least("--view", arguments.view, 0)
     scenes: list[Scene] = find_scenes(arguments.scenes)
     frames, refused = compared_frames(scenes, arguments)
     names = [scene.name for scene in scenes]
@@ -210,7 +211,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1, help="that they are drawn by")
     parser.add_argument("--machine", choices=ORDERS_ESTIMATED, default="exact", help="order")
     parser.add_argument("--size", default="640x360", metavar="WxH", help="of the frames")
-    parser.add_argument("--view", default="0", help="one number")
+    parser.add_argument("--view", type=int, default=0, help="one number")
     parser.add_argument(
         "-j", "--jobs", type=int, default=os.cpu_count(), help="frames side by side"
     )

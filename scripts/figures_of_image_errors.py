@@ -7,12 +7,14 @@ from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.transforms import Bbox
 
 from figure_inputs import Data, Results, number
 from figure_style import COLOURS, INK, ON_PAPER, legend_above, panels, plain_logarithmic
 
 Made = tuple[Figure, str]  # with its caption
 EQUAL = "equal"
+NAME_OFFSETS = ((4, -9), (-1, 6), (-1, 15), (4, -18), (-1, 24), (4, -27), (-60, -9))  # points
 HIGHEST = 100  # dB; nearer pictures are drawn there, equal ones above
 NAMED_APART = 3  # dB better than the machine before
 COSTS = {"ms": "frame time, ms", "MB": "DRAM traffic, MB", "mJ": "energy, mJ"}
@@ -80,15 +82,27 @@ def name_of(row: dict[str, str]) -> str:
 
 
 def draw_front(axes: Axes, rows: Sequence[dict[str, str]], cost: str) -> None:
-    """A line along what no cheaper machine reaches, and the names of these."""
+    """A line along what no cheaper machine reaches, and the names of these. The limits of the axes
+    are set."""
     points = {(number(row[cost]), quality(row["PSNR dB"])): name_of(row) for row in rows}
     line = front(list(points))
     axes.step(*zip(*line), where="post", color="#626a78", linewidth=1, zorder=1)
     named = [p for at, p in enumerate(line) if not at or p[1] - line[at - 1][1] > NAMED_APART]
-    for at, point in enumerate(named):
-        offset = (4, -9) if point[1] > HIGHEST else (-1, 6 if at % 2 else -11)
-        axes.annotate(points[point], point, xytext=offset, textcoords="offset points", fontsize=6.5,
-                      bbox=ON_PAPER, zorder=2)  # fmt: skip
+    taken: list[Bbox] = []
+    for point in named:
+        name_beside(axes, points[point], point, taken)
+
+
+def name_beside(axes: Axes, name: str, point: tuple[float, float], taken: list[Bbox]) -> None:
+    """At the first place around the point where no other name stands."""
+    for offset in NAME_OFFSETS:
+        text = axes.annotate(name, point, xytext=offset, textcoords="offset points", fontsize=6.5,
+                             bbox=ON_PAPER, zorder=2)  # fmt: skip
+        box = text.get_window_extent()
+        if not any(box.overlaps(other) for other in taken) or offset == NAME_OFFSETS[-1]:
+            taken.append(box)
+            return
+        text.remove()
 
 
 def legend_of_machines(figure: Figure, axes: Axes) -> None:
@@ -116,6 +130,7 @@ def error_image(results: Results) -> Made:
     for at, axes in enumerate(flat):
         rows, cost = data.where(scene=scenes[at // 3]), list(COSTS)[at % 3]
         draw_machines(axes, rows, cost, lambda row: quality(row["PSNR dB"]))
+        axes.set(xlabel=COSTS[cost], ylim=(None, quality(EQUAL) + 8))
         draw_front(axes, rows, cost)
         axes.axhline(quality(EQUAL), color=INK, linewidth=0.6, linestyle=":")
         axes.annotate(
@@ -127,7 +142,6 @@ def error_image(results: Results) -> Made:
             fontsize=8,
             bbox=ON_PAPER,
         )
-        axes.set(xlabel=COSTS[cost], ylim=(None, quality(EQUAL) + 8))
         axes.set_title(f"{scenes[at // 3]}: PSNR, dB" if cost == "ms" else "")
     legend_of_machines(figure, flat[0])
     return figure, (

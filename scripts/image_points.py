@@ -116,6 +116,7 @@ def paper_points(voxel: float) -> Iterator[Point]:
 
 def tile_points() -> Iterator[Point]:
     yield Point(TILES, AS_PRESET, "", ())
+    yield Point(TILES, "precision", "fixed16", (blended("fixed16"),))
     yield Point(TILES, "precision", "fp32", (), "gscore_lossless")
     yield Point(TILES, "combined", "gscore", (), "gscore")
     yield Point(TILES, "pixels", "rgb8", ("framebuffer=rgb8",))
