@@ -121,6 +121,14 @@ TEST_CASE("ledger: of a real frame, no line can be left out unseen") {
     const Frame frame = simulated(preset, settings, kSparse);
     check_paid(frame);
     const MachineResult& machine = frame.result.machine;
+    // Of queues what comes in within a cycle is seen as what goes out is.
+    std::size_t queues = 0;
+    for (const SramAccesses& a : machine.sram_accesses) {
+      INFO(a.use);
+      CHECK((a.seen.writes > 0) == (a.seen.reads > 0));
+      queues += a.seen.reads > 0 ? 1 : 0;
+    }
+    CHECK(queues > 5);
     for (std::size_t i = 0; i < machine.sram_accesses.size(); ++i) {
       MachineResult without = machine;
       without.sram_accesses.erase(without.sram_accesses.begin() + static_cast<std::ptrdiff_t>(i));
