@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -146,6 +147,36 @@ TEST_CASE("ledger: of a real frame, no line can be left out unseen") {
                           without.parts.end());
       CHECK(ledger_faults(without, frame.result.cycles).size() == 1);
     }
+  }
+}
+
+TEST_CASE("ledger: an access takes an entry, or a burst of a longer one") {
+  // Several entries side by side, or parts of one.
+  const std::set<std::string> others = {"finished sub-tiles",
+                                        "spans",
+                                        "sub-tiles in the loop",
+                                        "ordered voxels",
+                                        "renamed voxels",
+                                        "node cache tags",
+                                        "scale",
+                                        "record cache tags",
+                                        "cut cache tags",
+                                        "rotation",
+                                        "dc",
+                                        "sh"};
+  constexpr std::uint32_t kBurstBits = 8 * 32;
+  for (const char* preset : {"exact_vq", "paper"}) {
+    std::size_t told = 0;
+    for (const SramUse& use : simulated(preset, {}, kSparse).result.machine.sram_uses) {
+      const std::size_t last = use.arithmetic.rfind(" x ");
+      if (last == std::string::npos || others.count(use.name) != 0) continue;
+      INFO(preset << " " << use.name << ": " << use.arithmetic);
+      const auto bits = static_cast<std::uint32_t>(8 * std::stoul(use.arithmetic.substr(last + 3)));
+      CHECK((use.shape.width_bits == bits ||
+             (bits > kBurstBits && use.shape.width_bits == kBurstBits)));
+      ++told;
+    }
+    CHECK(told > 20);
   }
 }
 
