@@ -45,6 +45,7 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $S --size 32x24 --out o | head -1",
             {"--size 32x24: view 0 has ", "the picture is stretched; 32x18 keeps its shape"}},
            {"$SG simulate $B --out o | tail -1", {"written to o\n"}},
+           {"$SG simulate $B --out o >t && ! grep 'ties of depth' t", {}},
            {"$SG simulate $B --out o --config gscore_lossless --set clock_mhz=500 && cat "
             "o/report.json",
             {"gscore_lossless + 1 setting: machine gscore, blends in fp32, second halves "
