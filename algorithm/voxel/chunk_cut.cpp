@@ -85,11 +85,14 @@ Cut better(Cut best, const std::array<Bin, kBins>& bins, int axis, std::uint32_t
 }
 
 Cut best_cut(const ChunkItem* items, std::uint32_t count, std::uint32_t chunk) {
+  // No two floats are nearer to each other. Where all are at one place they lie in one bin, which
+  // is not cut.
+  constexpr double kLeastLength = std::numeric_limits<float>::denorm_min();
   const Bin all = all_of(items, count);
   double scale[kAxes];
   for (int k = 0; k < kAxes; ++k) {
     const double length = static_cast<double>(all.high[k]) - all.low[k];
-    scale[k] = length > 0 ? kBins / length : 0;
+    scale[k] = kBins / std::max(length, kLeastLength);
   }
   std::array<std::array<Bin, kBins>, kAxes> bins;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -102,7 +105,7 @@ Cut best_cut(const ChunkItem* items, std::uint32_t count, std::uint32_t chunk) {
   }
   Cut best;
   for (int k = 0; k < kAxes; ++k) {
-    if (scale[k] > 0) best = better(best, bins[static_cast<std::size_t>(k)], k, chunk);
+    best = better(best, bins[static_cast<std::size_t>(k)], k, chunk);
   }
   return best;
 }

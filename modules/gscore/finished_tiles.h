@@ -22,10 +22,10 @@ class FinishedTiles : public sc_core::sc_object {
         latency_cycles_(latency_cycles),
         seen_from_(tiles, sc_core::sc_max_time()) {}
 
-  // known_in_cycles: from now on, until the speaker's own pipeline has the news.
-  void finish(std::uint32_t tile, std::uint64_t known_in_cycles) {
-    const auto cycles = static_cast<double>(known_in_cycles + latency_cycles_);
-    seen_from_[tile] = sc_core::sc_time_stamp() + cycles * period_;
+  // known_from: the cycle from which on the speaker's own pipeline has the news. It may be said
+  // again.
+  void finish(std::uint32_t tile, std::uint64_t known_from) {
+    seen_from_[tile] = static_cast<double>(known_from + latency_cycles_) * period_;
   }
   bool finished(std::uint32_t tile) const { return seen_from_[tile] <= sc_core::sc_time_stamp(); }
 

@@ -241,7 +241,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan) {
                         e.bitmap == expected[at].bitmap && e.opacity == expected[at].opacity,
                     fmt::format("entry {} of tile {}: record {}", at, t, e.record));
         if (t == 0 && plan.finish_after >= 0 && at == static_cast<std::size_t>(plan.finish_after)) {
-          finished.finish(0, 0);
+          finished.finish(0, bench.clock().now_cycles());
         }
       }
       if (plan.finish_after < 0 || t > 0) checks.equal(at, expected.size(), "entries of a tile");

@@ -344,5 +344,22 @@ class Ends(InFolder):
                 self.assertEqual(status, 2)
 
 
+class Starts(unittest.TestCase):
+    def test_what_names_an_interpreter_can_be_started_and_nothing_else(self):
+        asked = subprocess.run(
+            ["git", "-C", str(REPOSITORY), "ls-files", "--stage", "-z"], capture_output=True
+        )
+        if asked.returncode:
+            self.skipTest("not under git, which keeps what can be started")
+        entries = asked.stdout.decode().split("\0")[:-1]
+        modes = {name: entry[:6] for entry, _, name in (e.partition("\t") for e in entries)}
+        for name, mode in modes.items():
+            file = REPOSITORY / name
+            if file.is_file():  # not removed, which git has not been told yet
+                with self.subTest(name), file.open("rb") as content:
+                    self.assertEqual(mode == "100755", content.read(2) == b"#!", mode)
+        self.assertIn("scripts/planted_faults.py", modes)
+
+
 if __name__ == "__main__":
     unittest.main()

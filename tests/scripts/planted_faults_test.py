@@ -246,6 +246,26 @@ class Planting(InFolder):
         (self.project / "tests" / "small_test.cpp").write_text("int main() { return 1; }\n")
         self.assertNotIn("| found |", self.run_script("--faults", "100"))
 
+    def test_a_test_that_fails_now_and_then_finds_nothing(self):
+        test = self.project / "tests" / "small_test.cpp"
+        test.write_text(
+            test.read_text()
+            .replace("#include <c", "#include <cstdio>\n#include <c")
+            .replace(
+                " return ",
+                """
+              if (std::strcmp(argv[1], "always") == 0) {
+                if (std::remove("failed") == 0) return 0;
+                std::fclose(std::fopen("failed", "w"));
+                return 1;
+              }
+              return """,
+            )
+        )
+        table = self.run_script("--faults", "100")
+        self.assertIn("6 faults: 1 found, 5 survived", table)
+        self.assertNotIn("| found | always |", table)
+
     def test_two_do_not_plant_in_one_tree(self):
         with only_one(self.folder / "work"):
             with self.assertRaisesRegex(AssertionError, "another run plants faults there"):

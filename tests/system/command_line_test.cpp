@@ -45,6 +45,7 @@ TEST_CASE("command line: options and their values") {
            {"$SG simulate $S --size 32x24 --out o | head -1",
             {"--size 32x24: view 0 has ", "the picture is stretched; 32x18 keeps its shape"}},
            {"$SG simulate $B --out o | tail -1", {"written to o\n"}},
+           {"$SG simulate $B --out o >t && ! grep 'ties of depth' t", {}},
            {"$SG simulate $B --out o --config gscore_lossless --set clock_mhz=500 && cat "
             "o/report.json",
             {"gscore_lossless + 1 setting: machine gscore, blends in fp32, second halves "
@@ -58,6 +59,9 @@ TEST_CASE("command line: options and their values") {
              "  dram.channels  4 -> 8\n", "\ncycles   "}},
            {"$SG simulate $B --out o >t && $SG diff o/view_0 o --least 0",
             {"configuration: 0 of ", "equal"}},
+           {"$SG simulate $B --path builtin:path --frames 2 --out o >t && ! grep late t", {}},
+           {"$SG simulate $B --path builtin:path --frames 2 --frame-rate 1e6 --out o",
+            {"\n2 of 2 frames take longer than 1/1e+06 s: the next one begins late\n"}},
            {"$SG render $B --out new/folder/a.png && ls new/folder", {"a.png"}},
            {"$SG render --help", {"if not given, the one of the ordering's name"}},
            {"$SG simulate --help", {"--stalls FLOAT:in [0, 1]", "probability, as 0.1,"}},
@@ -210,7 +214,7 @@ TEST_CASE("command line: a process that is interrupted leaves nothing at all") {
   for (const auto& [signal, status] : {std::pair{"INT", "130"}, {"TERM", "143"}}) {
     check(
         {"set -m; $SG simulate 'builtin:object?n=60000' --vcd a.vcd --dram-trace t >/dev/null & "
-         "until [ $(ls | grep -c part) = 2 ]; do sleep 0.05; done; kill -" +
+         "AWAIT '[ $(ls | grep -c part) = 2 ]'; kill -" +
              std::string(signal) + " $!; wait $!; [ $? = " + status + " ] && [ -z \"$(ls)\" ]",
          {}});
   }
@@ -225,7 +229,7 @@ TEST_CASE("command line: a process that is killed leaves nothing under an output
   // The simulation alone: whoever waits for it removes what it has begun.
   check(
       {"$SG simulate 'builtin:object?n=60000' --out o --vcd a.vcd --dram-trace t >/dev/null & "
-       "until [ -n \"$(cat /proc/$!/task/$!/children)\" ]; do sleep 0.05; done; sleep 0.3; "
+       "AWAIT '[ -n \"$(cat /proc/$!/task/$!/children)\" ]'; sleep 0.3; "
        "kill -9 $(cat /proc/$!/task/$!/children); wait $!; [ $? = 1 ] && [ -z \"$(ls)\" ]",
        {}});
 }

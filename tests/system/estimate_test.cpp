@@ -194,6 +194,25 @@ TEST_CASE("estimate: queues hold at most their entries") {
   }
 }
 
+TEST_CASE("estimate: what finds its part of a group finished is counted as in the simulation") {
+  const Both frame(
+      joined(kOutdoor, paper({"fetch=shared", "group_width_px=16", "group_height_px=16"})));
+  const auto of = [](const Json& view, const char* name) {
+    return static_cast<double>(counter(view, "hfu0.fine", name));
+  };
+  for (const Json* view : {&frame.simulated, &frame.estimated}) {
+    const double fetched = of(*view, "dropped_fetched");
+    CHECK(fetched <= of(*view, "dropped_saturated"));
+    // Some before their second half came for other parts, some behind that.
+    CHECK(of(*view, "second_halves_taken") > of(*view, "fine_tests"));
+    CHECK(fetched > of(*view, "second_halves_taken") - of(*view, "fine_tests"));
+  }
+  for (const char* name : {"dropped_saturated", "dropped_fetched"}) {
+    INFO(name);
+    CHECK(of(frame.estimated, name) == Approx(of(frame.simulated, name)).epsilon(0.2));
+  }
+}
+
 TEST_CASE("estimate: close to the simulation, and never below what one resource takes") {
   struct Case {
     Arguments scene, options;

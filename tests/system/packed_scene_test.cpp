@@ -206,6 +206,11 @@ TEST_CASE("pack: a .ply in storage order, whose reference picture is the frame")
     const bool all = making.size() > 2;
     CHECK(sorted_values(read_ply(stored).cloud, true) == sorted_values(given, all));
   }
+  // Said of a single pixel too.
+  const Outcome pixel =
+      run_streaminggs({"simulate", scenes.ply(), "--cameras", scenes.cameras(), "--view", "2",
+                       "--size", "1x1", "--out", scenes.path("pixel")});
+  CHECK_THAT(pixel.out, Contains("\n  ties of depth in the file's order: 1 pixels of the"));
   // What an encoding that loses decodes to is not always what floats of a file lead to.
   const Arguments half = {"--config", "exact", "--set", "storage.encoding=half"};
   const Simulation encoded(joined(scenes.view(scenes.ply()), half));

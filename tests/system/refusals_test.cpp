@@ -100,6 +100,11 @@ TEST_CASE("refusals: keys, types, ranges and combinations") {
   check_set_refused("paper", {"group_width_px=big"}, {"group_width_px"});
   check_set_refused("paper", {"group_height_px=30", "fetch=split"},
                     {"group_height_px: got 30, expected a multiple of 4"});
+  check_set_refused(
+      "paper_no_vq", {"hfu.slice_gaussians=127"},
+      {"hfu.slice_gaussians: got 127, 16 B each, expected a whole number of 32 B bursts"});
+  check_set_refused("exact", {"hfu.slice_gaussians=6"},
+                    {"hfu.slice_gaussians: got 6, 24 B each, expected a whole number of 32 B"});
   // Of four HFUs each has a quarter of the group.
   check_set_refused("paper", {"group_width_px=60", "fetch=shared"},
                     {"group_width_px: got 60, expected a multiple of 8", "4 HFUs"});

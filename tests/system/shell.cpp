@@ -25,7 +25,10 @@ ShellOutcome shell(const ScratchFolder& scratch, const std::string& line) {
       outside.write("script", "cd '" + scratch.path("") +
                                   "'\nSG='" SGS_BIN "/streaminggs'\nTB='" SGS_BIN
                                   "/tb_dram'\nS='builtin:object?n=300'\nB=\"$S --size 32x18\"\n"
-                                  "FULL() { (ulimit -f 8; \"$@\"); }\n" +
+                                  "FULL() { (ulimit -f 8; \"$@\"); }\n"
+                                  "AWAIT() { for n in $(seq 600); do kill -0 $!; lives=$?; "
+                                  "eval \"$1\" && return; [ $lives = 0 ] || break; sleep 0.05; "
+                                  "done; echo \"in vain: $1\" >&2; kill -9 $!; exit 1; }\n" +
                                   line + "\n");
   const std::string command = "timeout -k 1 60 bash '" + script + "' >'" + outside.path("out") +
                               "' 2>'" + outside.path("err") + "' </dev/null";

@@ -144,8 +144,7 @@ const std::string kEndless =
     "$SG sweep 'builtin:object?n=60000' --size 640x360 --axis hfus=1,2,3,4,5,6,7,8 --axis "
     "hfu.ffu_lanes=4,8,16,32 --axis sorting_units=1,2 --set sram.input_bytes=0 --set "
     "sram.shared_bytes=0 ";
-const std::string kUntilTwo =
-    "until [ $(wc -l <r.jsonl 2>/dev/null || echo 0) -ge 2 ]; do sleep 0.02; done; ";
+const std::string kUntilTwo = "AWAIT '[ $(wc -l <r.jsonl 2>/dev/null || echo 0) -ge 2 ]'; ";
 
 // A child that has just written its result ends as done, whatever kills it then, and there may be
 // none between two.
@@ -293,8 +292,8 @@ TEST_CASE("sweep: points without end are answered as they come, and Ctrl-C ends 
     INFO(sender);
     const ScratchFolder scratch;
     require_done(shell(scratch, "$SG sweep $B --points - --out r.jsonl < <(" + std::string(sender) +
-                                    ") >out & p=$!; until [ $(wc -l <out) -ge 1 ]; do sleep 0.02; "
-                                    "done; kill -INT $p; wait $p"),
+                                    ") >out & p=$!; AWAIT '[ $(wc -l <out) -ge 1 ]'; "
+                                    "kill -INT $p; wait $p"),
                  130);
     const std::string out = bytes_of(scratch.path("out"));
     CHECK(out.substr(0, out.find('\n')).find(answer) != std::string::npos);

@@ -147,7 +147,6 @@ void RenderCore::begin_tile(std::uint32_t tile) {
   blend_.takes_up_tile(tile);
   free_pixels_.pop(blend_, WaitFor::kRoom);
   in_tile_ = true;
-  told_ = false;
   tile_ = tile;
   const PixelRect pixels = job_.pixels(tile);
   state_ = std::make_shared<GroupState>(pixels, job_.view.width, job_.view.height,
@@ -206,10 +205,8 @@ void RenderCore::blend(const SortedEntry& entry, const AnySplat& splat) {
                       finished_from_[at] = free_from_[at] - loop + depth;
                   });
                 });
-  if (state_->saturated() && !told_) {
-    told_ = true;
-    const std::uint64_t known = *std::max_element(finished_from_.begin(), finished_from_.end());
-    finished_.finish(entry.tile, known - now);
+  if (state_->saturated()) {
+    finished_.finish(entry.tile, *std::max_element(finished_from_.begin(), finished_from_.end()));
   }
   blend_.work(std::max<std::uint64_t>(begin - now, 1));
 }

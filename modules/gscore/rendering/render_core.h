@@ -78,7 +78,6 @@ class RenderCore : public sc_core::sc_module {
 
   std::shared_ptr<GroupState> state_;  // of the tile that is blended
   bool in_tile_ = false;
-  bool told_ = false;                         // that it is finished
   std::vector<std::uint64_t> free_from_;      // [16 px] cycle
   std::vector<std::uint64_t> finished_from_;  // [16 px] cycle
   std::uint32_t tile_ = 0;                    // for the waveform too

@@ -240,7 +240,8 @@ TEST_CASE("dataset: points of COLMAP, bounds of NSVF, names without extension") 
   CHECK(open_dataset(nerf.path("")).views[4].name == "train/shot_04");
 }
 
-TEST_CASE("dataset: two focal lengths; a principal point beside the middle comes there by a crop") {
+TEST_CASE(
+    "dataset: two focal lengths, and a principal point beside the middle comes there by a crop") {
   MadeScene scene = made_scene();
   scene.width = 70;
   scene.height = 53;

@@ -57,7 +57,7 @@ TEST_CASE("error parts: values by hand") {
   }
 }
 
-TEST_CASE("error parts: over all pixels; the shares add up to 1") {
+TEST_CASE("error parts: over all pixels, and the shares add up to 1") {
   // A step that moves 3 of 4 pixels by d and one that moves the fourth by 2 d: squares 3 to 4.
   Image first = flat_image(4, 1, glm::vec3(0.5F)), second = first;
   for (int x = 0; x < 3; ++x) second.at(x, 0).y += 0.125F;

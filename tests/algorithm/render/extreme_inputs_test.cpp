@@ -140,7 +140,7 @@ TEST_CASE("opacity 0 shows nothing, opacity 1 is capped at 0.99") {
   check_pixels(camera, cloud, 1e-6);
 }
 
-TEST_CASE("on the camera, on the near plane, behind: dropped; just in front: drawn") {
+TEST_CASE("on the camera, on the near plane, behind it: dropped, just in front: drawn") {
   const Camera camera = forward_camera(64, 64, 50);
   const auto at_depth = [](float z) {
     GaussianCloud cloud;

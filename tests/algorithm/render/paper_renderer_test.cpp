@@ -173,6 +173,7 @@ TEST_CASE("paper renderer: parts of a group change no pixel in single precision"
   config.group = {48, 96};  // sub-tiles that two, three and four parts divide
   const StreamingResult whole = render_paper_order(view, cloud, grid, config);
   CHECK(whole.stats.fine_tests == whole.stats.second_halves);
+  CHECK(whole.stats.coarse_passed == whole.stats.second_halves);
   for (const std::uint32_t parts : {4U, 9U, 16U}) {
     INFO(parts);
     config.parts = parts;
@@ -182,6 +183,7 @@ TEST_CASE("paper renderer: parts of a group change no pixel in single precision"
     CHECK(cut.stats.misordered == whole.stats.misordered);
     // A second half is fetched once for all parts that want it.
     CHECK(cut.stats.second_halves <= whole.stats.second_halves);
+    CHECK(cut.stats.coarse_passed == cut.stats.second_halves);
     CHECK(cut.stats.fine_tests > cut.stats.second_halves);
     CHECK(cut.stats.fine_tests < parts * cut.stats.second_halves);
   }

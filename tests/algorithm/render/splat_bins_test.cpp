@@ -10,6 +10,11 @@ TEST_CASE("cells by hand: 70x50 px in cells of 16 px, footprints in sub-tiles of
   const CellGrid grid = cell_grid(70, 50, square_of(16));
   CHECK(grid.columns == 5);
   CHECK(grid.rows == 4);
+  // The last row and column begin with a pixel.
+  for (const auto& [px, cells] : {std::pair{1, 1}, {63, 4}, {64, 4}, {65, 5}}) {
+    CHECK(cell_grid(px, 1, square_of(16)).columns == cells);
+    CHECK(cell_grid(1, px, square_of(16)).rows == cells);
+  }
   const CellRect one = cells_of(grid, {4, 0, 8, 4});
   CHECK(one.size() == 1);
   CHECK(one.x0 == 1);

@@ -95,6 +95,7 @@ TEST_CASE("command trace: bad files are refused with line, found and expected") 
   const std::string one = kHeader + "0 0 ACT 0 3 17\n";
   CHECK(File(one + "# commands 1\n").refusal() == "accepted");
   CHECK(File(kHeader + "# commands 0\n").refusal() == "accepted");
+  CHECK(File(kHeader + "0 255 ACT 255 255 4294967295\n# commands 1\n").refusal() == "accepted");
   struct Row {
     const char *end, *refusal;
   };
@@ -108,8 +109,9 @@ TEST_CASE("command trace: bad files are refused with line, found and expected") 
   CHECK(File("").refusal().find(": line 1: got ''") == 0);
   CHECK(File("hello\n").refusal().find(": line 1: got 'hello'") == 0);
   CHECK(File(kHeader.substr(0, 60)).refusal().find(": line 3: got ''") == 0);
-  for (const char* line : {"0 0 ACT 0 3", "0 0 ACT 0 3 17 9", "0 0 FLY 0 3 17", "-1 0 ACT 0 3 17",
-                           "x 0 ACT 0 3 17", "0 256 ACT 0 3 17", "0 0 ACT 0 3 4294967296", ""})
+  for (const char* line :
+       {"0 0 ACT 0 3", "0 0 ACT 0 3 17 9", "0 0 FLY 0 3 17", "-1 0 ACT 0 3 17", "x 0 ACT 0 3 17",
+        "0 256 ACT 0 3 17", "0 0 ACT 256 3 17", "0 0 ACT 0 256 17", "0 0 ACT 0 3 4294967296", ""})
     CHECK(File(one + line + "\n")
               .refusal()
               .find(": line 8: got '" + std::string(line) + "', expected cycle channel") == 0);

@@ -94,17 +94,26 @@ TEST_CASE("lighting: a ball keeps the sun from what is behind it") {
   CHECK(light.sun_visibility({0, -5, 0}) == 0.0);  // inside
 }
 
-TEST_CASE("lighting: a capsule shades like the swept ball") {
-  Lighting light;
-  light.sun_direction = {0, -1, 0};
-  light.shadow_softness = 0.0;
-  light.occluders = {{{-3, -5, 0}, {3, -5, 0}, 0.5}};
-  for (const double x : {-3.3, -2.0, 0.0, 3.3}) CHECK(light.sun_visibility({x, 0, 0}) == 0.0);
-  for (const double x : {-3.6, 3.6}) CHECK(light.sun_visibility({x, 0, 0}) == 1.0);
-  CHECK(light.sun_visibility({1, 0, 0.6}) == 1.0);
-  CHECK(light.sun_visibility({1, 0, 0.4}) == 0.0);
-  // The sun along the capsule's axis.
-  light.sun_direction = {1, 0, 0};
-  CHECK(light.sun_visibility({-9, -5, 0.3}) == 0.0);
-  CHECK(light.sun_visibility({-9, -5, 0.6}) == 1.0);
+TEST_CASE("lighting: a capsule shades like the swept ball, however large") {
+  for (const double scale : {1.0, 200.0}) {
+    CAPTURE(scale);
+    Lighting light;
+    light.sun_direction = {0, -1, 0};
+    light.shadow_softness = 0.0;
+    light.occluders = {{scale * glm::dvec3(-3, -5, 0), scale * glm::dvec3(3, -5, 0), 0.5 * scale}};
+    const auto visibility = [&](double x, double y, double z) {
+      return light.sun_visibility(scale * glm::dvec3(x, y, z));
+    };
+    for (const double x : {-3.3, -2.0, 0.0, 3.3}) CHECK(visibility(x, 0, 0) == 0.0);
+    for (const double x : {-3.6, 3.6}) CHECK(visibility(x, 0, 0) == 1.0);
+    CHECK(visibility(1, 0, 0.6) == 1.0);
+    CHECK(visibility(1, 0, 0.4) == 0.0);
+    // The edge is as wide as a fiftieth of the radius to each side: 9 tenths of it, by smoothstep.
+    CHECK(visibility(3.508, 0, 0) == Approx(0.972));
+    CHECK(visibility(1, 0, 0.508) == Approx(0.972));
+    // The sun along the capsule's axis.
+    light.sun_direction = {1, 0, 0};
+    CHECK(visibility(-9, -5, 0.3) == 0.0);
+    CHECK(visibility(-9, -5, 0.6) == 1.0);
+  }
 }

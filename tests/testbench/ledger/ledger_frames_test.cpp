@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -121,6 +122,14 @@ TEST_CASE("ledger: of a real frame, no line can be left out unseen") {
     const Frame frame = simulated(preset, settings, kSparse);
     check_paid(frame);
     const MachineResult& machine = frame.result.machine;
+    // Of queues what comes in within a cycle is seen as what goes out is.
+    std::size_t queues = 0;
+    for (const SramAccesses& a : machine.sram_accesses) {
+      INFO(a.use);
+      CHECK((a.seen.writes > 0) == (a.seen.reads > 0));
+      queues += a.seen.reads > 0 ? 1 : 0;
+    }
+    CHECK(queues > 5);
     for (std::size_t i = 0; i < machine.sram_accesses.size(); ++i) {
       MachineResult without = machine;
       without.sram_accesses.erase(without.sram_accesses.begin() + static_cast<std::ptrdiff_t>(i));
@@ -138,6 +147,36 @@ TEST_CASE("ledger: of a real frame, no line can be left out unseen") {
                           without.parts.end());
       CHECK(ledger_faults(without, frame.result.cycles).size() == 1);
     }
+  }
+}
+
+TEST_CASE("ledger: an access takes an entry, or a burst of a longer one") {
+  // Several entries side by side, or parts of one.
+  const std::set<std::string> others = {"finished sub-tiles",
+                                        "spans",
+                                        "sub-tiles in the loop",
+                                        "ordered voxels",
+                                        "renamed voxels",
+                                        "node cache tags",
+                                        "scale",
+                                        "record cache tags",
+                                        "cut cache tags",
+                                        "rotation",
+                                        "dc",
+                                        "sh"};
+  constexpr std::uint32_t kBurstBits = 8 * 32;
+  for (const char* preset : {"exact_vq", "paper"}) {
+    std::size_t told = 0;
+    for (const SramUse& use : simulated(preset, {}, kSparse).result.machine.sram_uses) {
+      const std::size_t last = use.arithmetic.rfind(" x ");
+      if (last == std::string::npos || others.count(use.name) != 0) continue;
+      INFO(preset << " " << use.name << ": " << use.arithmetic);
+      const auto bits = static_cast<std::uint32_t>(8 * std::stoul(use.arithmetic.substr(last + 3)));
+      CHECK((use.shape.width_bits == bits ||
+             (bits > kBurstBits && use.shape.width_bits == kBurstBits)));
+      ++told;
+    }
+    CHECK(told > 20);
   }
 }
 

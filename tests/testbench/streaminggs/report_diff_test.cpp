@@ -146,7 +146,7 @@ TEST_CASE("diff: one value changed, by table") {
   }
 }
 
-TEST_CASE("diff: by weight, quantities and parts; units that only one run has") {
+TEST_CASE("diff: by weight, quantities and parts, and units that only one run has") {
   const ScratchFolder scratch;
   json changed = view_of(0);
   changed["frame"]["cycles"] = 500;

@@ -134,8 +134,9 @@ void run(tb::Case& test, Takings& taken, const SorterWorkload& load, std::uint64
     while (taken.empty() || taken.back().what != kEndOfFrame) {
       bench.clock().wait_cycles(pace.gap(taken.size()));
       const std::uint64_t what = what_of(sorted.pop(activity));
-      if (finisher.finishes(what)) finished.finish(static_cast<std::uint32_t>(what >> 32U), 0);
-      taken.push_back({bench.clock().now_cycles(), what});
+      const std::uint64_t now = bench.clock().now_cycles();
+      if (finisher.finishes(what)) finished.finish(static_cast<std::uint32_t>(what >> 32U), now);
+      taken.push_back({now, what});
     }
   });
   bench.run();
