@@ -35,12 +35,18 @@ QueuedChannel::QueuedChannel(const DramConfig& config, const Memspec& memspec, s
 void QueuedChannel::push(const ChannelRequest& request, std::uint64_t cycle) {
   const std::uint32_t bank = request.rank * device_.banks() + request.bank;
   const std::uint64_t ready = cycle + path_.front_end;
-  if (request.direction == Direction::kRead && writes_.covers(request, bank)) {
+  RequestQueue::Met met;
+  if (request.direction == Direction::kRead) met = writes_.met_by(request, bank);
+  if (met.whole) {
     ++forwarded_reads_;
     forwarded_.push({ready + 1 + path_.back_end_read, request.owner});
     return;
   }
   arrived_ = cycle;
+  if (met.order_end > writes_due_) {
+    writes_due_ = met.order_end;
+    best_known_ = false;
+  }
   RequestQueue::Entry entry;
   entry.request = request;
   entry.arrival = cycle;
@@ -87,6 +93,7 @@ bool QueuedChannel::aged(const RequestQueue& queue) const {
 
 Direction QueuedChannel::wanted_direction() const {
   if (writes_.empty()) return Direction::kRead;
+  if (writes_due_ > 0) return Direction::kWrite;
   if (reads_.empty()) return Direction::kWrite;
   if (direction_ == Direction::kWrite)
     return writes_.size() > low_watermark_ || aged(writes_) ? Direction::kWrite : Direction::kRead;
@@ -235,6 +242,9 @@ void QueuedChannel::issue_column(const Candidate& c, std::int32_t index) {
   }
   const ChannelRequest request = entry.request;
   active.remove(index, flat_bank);
+  if (writes_due_ > 0 && (writes_.empty() || writes_.oldest_order() >= writes_due_)) {
+    writes_due_ = 0;
+  }
   if (--waiting_[c.rank] == 0) wanted_from_[c.rank] = kNever;
   const bool more_hits = reads_.oldest_hit(flat_bank) != RequestQueue::kNone ||
                          writes_.oldest_hit(flat_bank) != RequestQueue::kNone;

@@ -129,6 +129,8 @@ class QueuedChannel {
   RingQueue<Completion> write_completions_;
   RingQueue<Completion> forwarded_;
   std::uint64_t forwarded_reads_ = 0;
+  // Writes of an order below come before all reads: one that waits wants bytes of them. 0: none.
+  std::uint64_t writes_due_ = 0;
   RowCounts rows_;
 };
 

@@ -49,8 +49,13 @@ class RequestQueue {
   void remove(std::int32_t index, std::uint32_t bank);
   void on_row(std::uint32_t bank, std::uint32_t open_row);  // a row was opened, or kNoRow: closed
 
-  // Whether one waiting write of the bank holds every byte of `wanted`.
-  bool covers(const ChannelRequest& wanted, std::uint32_t bank) const;
+  // Of waiting writes, what a read meets: whether one of the bank holds every byte of it, and the
+  // order after the last that holds any; 0: none does.
+  struct Met {
+    bool whole = false;
+    std::uint64_t order_end = 0;
+  };
+  Met met_by(const ChannelRequest& read, std::uint32_t bank) const;
 
  private:
   struct Bank {
@@ -117,14 +122,18 @@ inline std::uint64_t RequestQueue::oldest_order() const {
   return oldest;
 }
 
-inline bool RequestQueue::covers(const ChannelRequest& wanted, std::uint32_t bank) const {
+inline RequestQueue::Met RequestQueue::met_by(const ChannelRequest& read,
+                                              std::uint32_t bank) const {
+  Met met;
   for (std::int32_t i = banks_[bank].head; i != kNone; i = entry(i).next) {
     const ChannelRequest& r = entry(i).request;
-    if (!r.masked && r.row == wanted.row && r.burst <= wanted.burst &&
-        wanted.burst + wanted.bursts <= r.burst + r.bursts)
-      return true;
+    const std::uint32_t end = r.burst + r.bursts, read_end = read.burst + read.bursts;
+    if (r.row != read.row || end <= read.burst || read_end <= r.burst) continue;
+    met.order_end = entry(i).order + 1;
+    // A later write to some of it is newer than what this one holds.
+    met.whole = !r.masked && r.burst <= read.burst && read_end <= end;
   }
-  return false;
+  return met;
 }
 
 }  // namespace sgs

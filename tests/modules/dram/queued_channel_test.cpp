@@ -2,6 +2,10 @@
 #include "modules/dram/queued_channel.h"
 
 #include <catch2/catch.hpp>
+#include <map>
+#include <random>
+#include <tuple>
+#include <vector>
 
 #include "tests/modules/dram/recording_sink.h"
 
@@ -207,6 +211,59 @@ TEST_CASE("scheduling: a read of bytes that wait to be written is answered from 
   CHECK(b.channel.forwarded_reads() == 1);
   b.push(11, Direction::kRead, 1, 5, 6, 4);  // partly covered: from the device
   CHECK(b.channel.forwarded_reads() == 1);
+}
+
+// Of one burst the k-th read comes behind all writes that were pushed before it, whole or masked;
+// but for reads that a waiting write answers.
+TEST_CASE("scheduling: no read goes before an older write to the same bytes") {
+  std::mt19937_64 random(5);
+  DramConfig config = quiet_config();
+  config.write_high_watermark = 12;
+  Bench b(config);
+  using Burst = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // bank, row, in the row
+  std::map<Burst, std::uint32_t> written;
+  std::map<Burst, std::vector<std::uint32_t>> read_behind;  // of each read, writes before it
+  std::uint64_t cycle = 0, forwarded = 0, behind = 0;
+  for (int k = 0; k < 20000; ++k) {
+    cycle += random() % 12;
+    b.channel.advance(cycle);
+    ChannelRequest r;
+    r.direction = random() % 2 == 0 ? Direction::kRead : Direction::kWrite;
+    r.bank = static_cast<std::uint32_t>(random() % 2);
+    r.row = static_cast<std::uint32_t>(random() % 2);
+    r.burst = static_cast<std::uint32_t>(random() % 6);
+    r.bursts = 1 + static_cast<std::uint32_t>(random() % 3);
+    r.masked = r.direction == Direction::kWrite && random() % 3 == 0;
+    if (b.channel.full(r.direction)) continue;
+    b.channel.push(r, cycle);
+    const bool answered = b.channel.forwarded_reads() > forwarded;
+    forwarded = b.channel.forwarded_reads();
+    for (std::uint32_t at = r.burst; at < r.burst + r.bursts && !answered; ++at) {
+      const Burst burst{r.bank, r.row, at};
+      if (r.direction == Direction::kWrite) {
+        ++written[burst];
+      } else {
+        read_behind[burst].push_back(written[burst]);
+      }
+    }
+  }
+  b.channel.advance(cycle + 1000000);
+  std::map<Burst, std::uint32_t> writes, reads;
+  std::uint32_t open_row[8] = {};
+  for (const CommandRecord& command : b.sink.records) {
+    if (command.command == Command::kActivate) open_row[command.bank] = command.row;
+    const Burst burst{command.bank, open_row[command.bank], command.burst};
+    if (is_write(command.command)) ++writes[burst];
+    if (!is_read(command.command)) continue;
+    const std::uint32_t at = reads[burst]++;
+    REQUIRE(at < read_behind[burst].size());
+    REQUIRE(writes[burst] >= read_behind[burst][at]);
+    behind += read_behind[burst][at] > 0 ? 1 : 0;
+  }
+  CHECK(writes == written);
+  for (const auto& [burst, of_burst] : read_behind) CHECK(reads[burst] == of_burst.size());
+  CHECK(forwarded > 100);
+  CHECK(behind > 1000);
 }
 
 TEST_CASE("page policy: closed closes with the last known hit, open keeps the row") {
