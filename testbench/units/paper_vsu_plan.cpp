@@ -132,6 +132,7 @@ ExpectedVisits expect(const PaperVsuPlan& plan, std::uint64_t latency) {
     out.groups.push_back(std::move(pieces));
   }
   out.lookups_again = model.look_ups_again();
+  out.lookups_missed = model.look_ups_missed();
   return out;
 }
 

@@ -41,7 +41,8 @@ struct ExpectedVisits {
   std::uint64_t traverse_cycles = 0;     // of passes without an overflow, waiting left out
   std::uint64_t first_group_cycles = 0;  // waiting included
   std::uint64_t lookups = 0, met = 0;
-  std::uint64_t lookups_again = 0;  // their lines found no place; of passes without an overflow
+  // Of passes without an overflow: their lines found no place; not in the cache.
+  std::uint64_t lookups_again = 0, lookups_missed = 0;
   std::uint64_t visits = 0, empty = 0, rays = 0, steps = 0, edges = 0, table_bytes_max = 0;
   std::uint64_t passes = 0, overflows = 0;
   std::vector<std::uint64_t> rays_of;  // [group]

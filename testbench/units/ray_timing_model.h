@@ -29,7 +29,9 @@ class RayTimingModel {
     std::uint64_t all = 0, waits = 0;  // cycles; of these, those in which all wait for nodes
   };
 
+  // Of all passes: look-ups for which there was no place before; those not found in the cache.
   std::uint64_t look_ups_again() const { return look_ups_again_; }
+  std::uint64_t look_ups_missed() const { return look_ups_missed_; }
 
   // One pass without an overflow: rays in turn, into a table that is empty.
   Times pass(const std::vector<RayEvents>& rays, OrderingTable& table) {
@@ -109,7 +111,7 @@ class RayTimingModel {
   }
 
   void nodes_come(std::uint64_t now) {
-    while (!fetches_.empty() && fetches_.front().ready == now) {
+    if (!fetches_.empty() && fetches_.front().ready == now) {
       auto& set = sets_[fetches_.front().line % set_count()];
       set.push_front(fetches_.front().line);
       if (set.size() > kCacheWays) set.pop_back();
@@ -221,7 +223,9 @@ class RayTimingModel {
     const std::uint64_t line = nodes_.address(event(place).index) / kLineBytes;
     const auto fetch = std::find_if(fetches_.begin(), fetches_.end(),
                                     [&](const Fetch& f) { return f.line == line; });
-    if (has_come || hits(line)) {
+    const bool there = has_come || hits(line);
+    look_ups_missed_ += there ? 0 : 1;
+    if (there) {
       place.due = now + 3;  // tags, line, masks
       ++place.next;
     } else if (fetch != fetches_.end()) {
@@ -262,7 +266,7 @@ class RayTimingModel {
   std::deque<Fetch> fetches_;
   std::deque<std::size_t> without_place_;
   std::size_t called_ = 0;
-  std::uint64_t look_ups_again_ = 0;                         // of all passes
+  std::uint64_t look_ups_again_ = 0, look_ups_missed_ = 0;   // of all passes
   std::map<std::uint64_t, std::deque<std::uint64_t>> sets_;  // lines, most recently used first
   std::uint64_t step_free_ = 0, begin_free_ = 0, tree_free_ = 0, table_free_ = 0, written_ = 0,
                 end_ = 0;

@@ -87,7 +87,8 @@ void check_stream(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisi
 // a set. handed: contexts that went from ray to ray; again: look-ups for which there was no place
 // before.
 void check_tables(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisits& expected,
-                  std::uint64_t handed, std::uint64_t again, std::uint64_t node_misses) {
+                  std::uint64_t handed, std::uint64_t again, std::uint64_t missed,
+                  std::uint64_t node_misses) {
   constexpr std::uint64_t kWays = 4, kNamesAtOnce = 4;
   const OrderingAccesses& table = expected.table;
   const std::uint64_t clearing =
@@ -104,8 +105,8 @@ void check_tables(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisi
                          expected.rays * comparisons_of_a_beginning() +
                              (expected.steps - expected.rays) * comparisons_of_a_step() +
                              table.reads + 2 * expected.met + 2 * expected.met +
-                             (expected.met + handed + node_misses) * contexts +
-                             node_misses * plan.config.node_fetches +
+                             (expected.met + handed + node_misses + again) * contexts +
+                             missed * plan.config.node_fetches +
                              kWays * (expected.lookups + again + ordered) + bench.counter("cuts"));
 }
 
@@ -134,7 +135,15 @@ void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const Pa
     // A node that is looked up is put on its ray's stack; the step behind it reads where it stands.
     bench.check_accesses("ray nodes", steps, expected.lookups);
     // A ray's beginning leaves its place there; a step and a look-up read it and leave the next.
-    bench.check_accesses("ray positions", steps + expected.lookups,
+    const std::uint64_t again = bench.accesses("node cache").first - expected.lookups;
+    const std::uint64_t missed =
+        bench.accesses("tags of node fetches").first / plan.config.node_fetches;
+    if (bench_config.still()) {
+      checks.equal(again, expected.lookups_again, "look-ups for which there was no place before");
+      checks.equal(missed, expected.lookups_missed, "look-ups not found in the cache");
+    }
+    checks.that(missed >= node_misses + again, "look-ups that missed");
+    bench.check_accesses("ray positions", steps + expected.lookups + again,
                          rays + steps + expected.lookups);
     // The round of a ray changes as it begins, steps, and enters what it met. The first of all is
     // found for each voxel that is entered, and for each ray that is begun in another's context.
@@ -145,19 +154,14 @@ void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const Pa
     }
     bench.check_accesses("rounds of rays", (expected.met + handed) * contexts,
                          rays + steps + expected.met);
-    // A line that is missed is looked for among all that are on their way, and joins them; as one
-    // comes, so are the rays that wait for it. A word of 32 B holds it.
-    bench.check_accesses("tags of node fetches", node_misses * plan.config.node_fetches,
-                         node_misses);
+    // A look-up that misses is looked for among the lines on their way, and its ray waits. Who
+    // waits is looked for as a line comes, and as a place is free. A word of 32 B holds a line.
+    bench.check_accesses("tags of node fetches", missed * plan.config.node_fetches, node_misses);
     bench.check_accesses("node fetches", node_misses, node_misses);
-    bench.check_accesses("rays that wait for nodes", node_misses * contexts, node_misses);
-    const std::uint64_t again = bench.accesses("node cache").first - expected.lookups;
-    if (bench_config.still()) {
-      checks.equal(again, expected.lookups_again, "look-ups for which there was no place before");
-    }
+    bench.check_accesses("rays that wait for nodes", (node_misses + again) * contexts, missed);
     checks.that(again == 0 || plan.config.node_fetches < contexts, "a ray without its own place");
     bench.check_accesses("node cache tags", expected.lookups + again, expected.lookups + again);
-    check_tables(bench, plan, expected, handed, again, node_misses);
+    check_tables(bench, plan, expected, handed, again, missed, node_misses);
   }
 }
 

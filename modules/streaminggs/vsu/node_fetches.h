@@ -2,6 +2,7 @@
 // order in which they were asked for.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -64,7 +65,8 @@ class NodeFetches {
       port.wait_for(asked_.front());
       asked_.pop_front();
       clock.align();
-      ready_.push_back(clock.now_cycles() + 1);
+      ready_from_ = std::max(ready_from_, clock.now_cycles()) + 1;
+      ready_.push_back(ready_from_);
       news_.notify(sc_core::SC_ZERO_TIME);
     }
   }
@@ -73,6 +75,7 @@ class NodeFetches {
   std::deque<Fetch> fetches_;  // the port writes into their lines
   std::deque<MemoryPort::Ticket> asked_;
   std::deque<std::uint64_t> ready_;
+  std::uint64_t ready_from_ = 0;  // of the line that has come last; one a cycle
   sc_core::sc_event asked_for_, news_;
 };
 

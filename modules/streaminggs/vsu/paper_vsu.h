@@ -55,7 +55,7 @@ class PaperVsu : public sc_core::sc_module {
     RayTurns::Work rays;
     Cached nodes, records, planes;
     std::uint64_t traverse_cycles = 0, emit_cycles = 0;
-    std::uint64_t ordered = 0;  // passes that waited for the HFUs
+    std::uint64_t ordered = 0;  // lists of voxels
     PortTraffic node_traffic, record_traffic;
   };
   // As if it had done this. For an estimate, in place of a run.
@@ -70,7 +70,7 @@ class PaperVsu : public sc_core::sc_module {
     bool last = true;  // of its group
     std::vector<std::uint32_t> voxels;
   };
-  void run_traverse();  // thread: rays to ordered voxels, some passes ahead
+  void run_traverse();  // thread: rays to lists of ordered voxels
   void run_arrivals();  // thread: waits for the tree's nodes
   void run_emit();      // thread: ordered voxels to visits
   GroupVisits order_group(const PixelRect& pixels);

@@ -21,7 +21,8 @@ void visit(ConfigVisitor& v, PaperVsuConfig& c) {
     "rays of every so-many-th pixel of a group are followed, and of its last row and column");
   v("sample_step_voxels", c.sample_step_voxels, in_range(0, 10),
     "distance of samples on a ray; 0: every cell is visited");
-  v("groups_ahead", c.groups_ahead, in_range(1, 64), "ordered groups waiting for the HFUs");
+  v("groups_ahead", c.groups_ahead, in_range(1, 64),
+    "lists of ordered voxels, in the making or being handed out");
   v("table_bytes", c.table_bytes, in_range(kTableWordBytes, 1 << 30),
     "ordering table of one group; one that needs more is ordered in passes");
   v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");

@@ -22,7 +22,7 @@ struct PaperVsuConfig {
   std::uint32_t table_banks = 2;            // of the ordering table: a record of each a cycle
   std::uint32_t ray_step_px = 2;            // rays of every so-many-th pixel, and of the last ones
   double sample_step_voxels = 0;            // 0: every cell of the ray; else distance of samples
-  std::uint32_t groups_ahead = 1;           // ordered groups that wait for the HFUs
+  std::uint32_t groups_ahead = 1;           // lists of ordered voxels
   std::uint32_t table_bytes = 4096;         // ordering table of one group; fuller ones take passes
   std::uint32_t node_cache_bytes = 2048;    // in front of the tree in DRAM
   std::uint32_t node_fetches = 7;           // lines of it on their way to that cache

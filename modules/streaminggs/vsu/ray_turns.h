@@ -58,10 +58,14 @@ class RayTurns {
   // Its voxel was added to the table: when it is done.
   std::uint64_t enter(const OrderingTable& table, std::uint64_t cycle);
   void met_voxel() { ++work_.met; }
+  // A look-up missed, and its line is on its way already, or finds no place.
+  void joined() { ++work_.joined; }
+  void found_no_place() { ++work_.without_place; }
 
   // All that the data sheet says of a frame.
   struct Work {
     std::uint64_t rays = 0, steps = 0, met = 0, entered = 0;
+    std::uint64_t joined = 0, without_place = 0;         // look-ups that missed
     std::uint64_t called = 0;                            // look-ups for which there was no place
     std::uint64_t found = 0;                             // first of all rounds
     OrderingAccesses accesses;                           // of the table so far

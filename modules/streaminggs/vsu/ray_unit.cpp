@@ -148,15 +148,18 @@ void RayUnit::publish(DataSheet& sheet) const {
   nodes.publish_accesses(sheet, "node cache", "node cache tags");
   const std::uint64_t lookups = nodes.lookups(), results = lookups - of.called;
   sheet.accesses("ray directions", of.steps, of.rays);
-  sheet.accesses("ray positions", of.steps + results, of.rays + of.steps + results);
+  sheet.accesses("ray positions", of.steps + lookups, of.rays + of.steps + results);
   sheet.accesses("rounds of rays", of.found * config.rays_in_flight,
                  of.rays + of.steps + of.entered);
   sheet.accesses("ray nodes", of.steps, results);
   sheet.accesses("ray chains", of.entered, of.entered);
   const std::uint64_t misses = nodes.misses();
   const std::uint64_t line = sram_words(TableCache<VoxelNode>::kCacheLineBytes, {8 * kPortBytes});
-  sheet.accesses("rays that wait for nodes", misses * config.rays_in_flight, misses);
-  sheet.accesses("tags of node fetches", misses * config.node_fetches, misses);
+  // A look-up that misses is looked for among the lines on their way, and its ray waits; who waits
+  // is looked for when a line comes, and when a place is free.
+  const std::uint64_t missed = misses + of.joined + of.without_place;
+  sheet.accesses("rays that wait for nodes", (misses + of.called) * config.rays_in_flight, missed);
+  sheet.accesses("tags of node fetches", missed * config.node_fetches, misses);
   sheet.accesses("node fetches", misses * line, misses * line);
   sheet.accesses("ordering table", of.accesses.reads, of.accesses.writes);
   sheet.accesses("renamed voxels", of.accesses.names_read,
@@ -172,8 +175,8 @@ void RayUnit::publish(DataSheet& sheet) const {
       config.table_banks + 4.0 + 2.0 * config.rays_in_flight + config.node_fetches + kCacheWays, 1);
   sheet.operations("vsu", "comparator",
                    static_cast<double>(of.accesses.reads + 2 * of.met + 2 * of.entered +
-                                       (misses + of.found) * config.rays_in_flight +
-                                       misses * config.node_fetches + kCacheWays * lookups));
+                                       (misses + of.called + of.found) * config.rays_in_flight +
+                                       missed * config.node_fetches + kCacheWays * lookups));
 }
 
 }  // namespace sgs

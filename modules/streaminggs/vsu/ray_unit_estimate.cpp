@@ -15,7 +15,8 @@ std::vector<NodeFetchTimes::Waiting>* NodeFetchTimes::waiting_for(std::uint64_t 
 }
 
 void NodeFetchTimes::answered(std::uint64_t cycle) {
-  ready_.push_back(std::max(cycle + 1, ready_.empty() ? 0 : ready_.back()));
+  ready_from_ = std::max(cycle, ready_from_) + 1;
+  ready_.push_back(ready_from_);
 }
 
 NodeFetchTimes::Fetch NodeFetchTimes::take() {

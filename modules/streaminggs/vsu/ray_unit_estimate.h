@@ -42,6 +42,7 @@ class NodeFetchTimes {
   const std::uint64_t& now_;
   std::deque<Fetch> fetches_;
   std::deque<std::uint64_t> ready_;
+  std::uint64_t ready_from_ = 0;  // of the line that comes last; one a cycle
 };
 
 class RayUnitEstimate : public RayTurns {

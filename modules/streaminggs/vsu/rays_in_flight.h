@@ -222,11 +222,13 @@ class RaysInFlight {
       context.path.give(unit_.nodes.record_in(*line, node));
       at(cycle + RayTurns::kLookUpCycles, c);
     } else if (auto* const others = unit_.fetches.waiting_for(unit_.nodes.line_of(node))) {
+      unit_.joined();
       others->push_back({c, node});
     } else if (unit_.fetches.size() + called_ < unit_.config.node_fetches) {
       unit_.ask(unit_.nodes.line_of(node), cycle).push_back({c, node});
       return;
     } else {
+      unit_.found_no_place();
       context.wanted = node;
       without_place_.push_back(c);
       return;
