@@ -81,8 +81,8 @@ void visit(ConfigVisitor& v, RenderingConfig& c) {
   v("sorted_entries", c.sorted_entries, in_range(1, 65536), "that wait for their records");
   v("record_slots", c.record_slots, in_range(1, 1024), "records on their way or waiting");
   v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "tiles whose pixels are in a core");
-  v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 64),
-    "finished pixels converted a cycle");
+  v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4),
+    "finished pixels converted a cycle; a row of a tile lies in four memories");
   v("skip_finished", c.skip_finished, "parts of a tile in which every pixel is finished");
   v("feedback_latency_cycles", c.feedback_latency_cycles, in_range(1, 1000),
     "until a sorter sees that a tile is finished");

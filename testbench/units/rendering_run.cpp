@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/group_state.h"
@@ -21,6 +23,23 @@ std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / 
 std::uint64_t row_cycles(const RenderingPlan& plan, std::uint64_t width) {
   return std::max(ceil_div(width, plan.config.drain_pixels_per_cycle),
                   ceil_div(ceil_div(width, 4), plan.config.clusters));
+}
+
+// Of draining: of each place among the pixels that are converted at once, how many memories it
+// meets over a group, at most. A memory is one of 16 pixels of a sub-tile, in a cluster and a
+// buffer.
+std::uint64_t memories_of_a_place(const RenderingPlan& plan) {
+  std::vector<std::set<std::uint64_t>> met(plan.config.drain_pixels_per_cycle);
+  for (int y = 0; y < plan.group.height; ++y) {
+    for (int x = 0; x < plan.group.width; ++x) {
+      const int cluster = (x / 4 + 2 * (y / 4)) % static_cast<int>(plan.config.clusters);
+      const int memory = 16 * cluster + 4 * (y % 4) + x % 4;
+      met[static_cast<std::size_t>(x) % met.size()].insert(static_cast<std::uint64_t>(memory));
+    }
+  }
+  std::size_t most = 0;
+  for (const auto& of_place : met) most = std::max(most, of_place.size());
+  return most * plan.config.pixel_buffers;
 }
 
 // What must come out: pixels and counts from the algorithm layer, times from the stepped model.
@@ -313,10 +332,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   bench.check_operations(
       "rendering", "register_bit",
       8 * kSplatEntryBytes * taken + 8 * pixel_bytes(plan.job.frame_format) * pixels);
-  const auto subtiles = rows * static_cast<std::uint64_t>(plan.group.width / 4);
-  const std::uint64_t memories =
-      16 * std::min<std::uint64_t>(subtiles, plan.config.clusters) * plan.config.pixel_buffers;
-  const std::uint64_t of_place = memories / plan.config.drain_pixels_per_cycle;
+  const std::uint64_t of_place = memories_of_a_place(plan);
   if (of_place > 1) {
     bench.check_operations("rendering", "select_bit",
                            8 * plan.config.pixel_state_bytes() * levels(of_place) * pixels);

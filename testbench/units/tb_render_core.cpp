@@ -203,7 +203,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, Plan plan, bool no_ha
 void random_case(Case& test) {
   std::mt19937_64& random = test.random;
   GscoreConfig config = random_gscore(random);
-  config.rendering.drain_pixels_per_cycle = 1 + static_cast<std::uint32_t>(random() % 5);
+  config.rendering.drain_pixels_per_cycle = 1 + static_cast<std::uint32_t>(random() % 4);
   if (random() % 2 == 0)
     config.rendering.core_lanes = 40 + static_cast<std::uint32_t>(random() % 200);
   constexpr float kOpacities[] = {0.02F, 0.5F, 1.0F};

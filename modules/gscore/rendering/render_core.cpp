@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "algorithm/render/tile_blend.h"
 #include "modules/datapath/counter_bits.h"
@@ -310,10 +311,13 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.part("rendering", "register_bit", double{kBlocks} * (flight_bits + 1) + next_bits, 1);
   sheet.operations("rendering", "register_bit",
                    static_cast<double>(n.blocks) * static_cast<double>(loop + 1 + next_bits));
-  // What the drain converts at once comes from all memories of pixels, each place from its share.
+  // A place of those that are converted at once meets so many of the four columns of a block, in
+  // any of its rows and in each buffer.
   const std::uint32_t at_once = config_.rendering.drain_pixels_per_cycle;
+  const std::uint32_t columns = kSubtilePx / std::gcd(kSubtilePx, at_once);
   publish_selection(sheet, "rendering",
-                    {pixel_banks(config_) / at_once, 8.0 * state_bytes(config_), double(at_once)},
+                    {columns * kSubtilePx * config_.rendering.pixel_buffers,
+                     8.0 * state_bytes(config_), static_cast<double>(at_once)},
                     static_cast<double>(n.pixels));
   // The row of pixels that the drain fills while those before it are unanswered.
   const double bits_of_pixel = 8.0 * pixel_bytes(config_.framebuffer);

@@ -29,6 +29,11 @@
 
 namespace sgs {
 
+// Which of so many clusters has the pixels of a sub-tile of a group.
+constexpr std::size_t cluster_at(int x, int y, std::size_t clusters) {
+  return static_cast<std::size_t>(x + 2 * y) % clusters;
+}
+
 class ClusterSchedule {
  public:
   struct Counters {
@@ -154,9 +159,7 @@ class ClusterSchedule {
     std::vector<std::uint64_t> taken;  // ring: when the last entries of its queue were taken
   };
 
-  Cluster& cluster_of(int x, int y) {
-    return clusters_[static_cast<std::size_t>(x + 2 * y) % clusters_.size()];
-  }
+  Cluster& cluster_of(int x, int y) { return clusters_[cluster_at(x, y, clusters_.size())]; }
 
   // The dispatcher holds the last of so many rows.
   void take_rows(std::uint32_t rows) {

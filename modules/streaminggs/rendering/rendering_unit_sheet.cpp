@@ -1,5 +1,7 @@
 // What the rendering unit says of itself: its on-chip memories, counters and costs.
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/rendering_work.h"
@@ -43,6 +45,23 @@ std::uint32_t pixel_banks(const RenderingConfig& config, const PixelSize& group)
       static_cast<std::uint32_t>(cycles_for(static_cast<std::uint64_t>(group.width), kSubtilePx) *
                                  cycles_for(static_cast<std::uint64_t>(group.height), kSubtilePx));
   return kSubtilePixels * std::clamp(subtiles, 1U, config.clusters) * config.pixel_buffers;
+}
+
+// Memories that one of the pixels which are converted at once may come from: those of the clusters
+// and columns that its place meets, any row of them, in each buffer.
+std::uint64_t drain_sources(const RenderingConfig& config, const PixelSize& group) {
+  const auto at_once = static_cast<int>(config.drain_pixels_per_cycle);
+  std::size_t most = 0;
+  for (int place = 0; place < std::min(at_once, group.width); ++place) {
+    std::set<std::pair<std::size_t, int>> met;
+    for (int x = place; x < group.width; x += at_once) {
+      for (int y = 0; y < group.height; y += kSubtilePx) {
+        met.insert({cluster_at(x / kSubtilePx, y / kSubtilePx, config.clusters), x % kSubtilePx});
+      }
+    }
+    most = std::max(most, met.size());
+  }
+  return most * kSubtilePx * config.pixel_buffers;
 }
 
 }  // namespace
@@ -140,11 +159,9 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
   }
   const std::uint64_t blends = schedule_.counters().blends;
   const auto passed = static_cast<double>(pixels);
-  // What is converted at once comes from all memories of pixels, each place from its share.
-  const std::uint32_t at_once = config_.drain_pixels_per_cycle;
   publish_selection(sheet, "rendering",
-                    {pixel_banks(config_, built_for_.group) / at_once,
-                     8.0 * config_.pixel_state_bytes(), double(at_once)},
+                    {drain_sources(config_, built_for_.group), 8.0 * config_.pixel_state_bytes(),
+                     static_cast<double>(config_.drain_pixels_per_cycle)},
                     passed);
   // The row of converted pixels that is written next.
   const double bits_of_pixel = 8.0 * pixel_bytes(job_.frame_format);

@@ -156,6 +156,7 @@ TEST_CASE("ledger: an access takes an entry, or a burst of a longer one") {
                                         "spans",
                                         "sub-tiles in the loop",
                                         "ordered voxels",
+                                        "entries that come back",
                                         "renamed voxels",
                                         "node cache tags",
                                         "scale",
@@ -261,10 +262,12 @@ TEST_CASE("ledger: no part and no port does more than a frame has time for") {
 }
 
 TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are folded") {
-  for (const char* preset : {"exact", "paper_no_vq", "gscore"}) {
+  for (const char* preset : {"exact", "exact_vq", "paper_no_vq", "gscore"}) {
     for (const bool folded : {false, true}) {
       INFO(preset << (folded ? ", folded" : ""));
-      const bool exact = std::string(preset) == "exact", tiles = std::string(preset) == "gscore";
+      const bool quantised = std::string(preset) == "exact_vq";
+      const bool exact = quantised || std::string(preset) == "exact";
+      const bool tiles = std::string(preset) == "gscore";
       Settings settings = {exact ? "rendering.cluster_lanes=190" : "rendering.cluster_lanes=182"};
       if (folded) settings = {"rendering.cluster_lanes=64", "hfu.cfu_lanes=2"};
       if (tiles) settings = {folded ? "rendering.core_lanes=64" : "rendering.core_lanes=180"};
@@ -299,6 +302,11 @@ TEST_CASE("ledger: registers of every pipeline, multiplexers where lanes are fol
         stand["rendering register_bit"] += 8 * 48 + (exact ? 96 : 64) * 24;
         // Eight pixels, each from one of eight memories of a group: 16 in each of four clusters.
         stand["rendering select_bit"] += 8 * 7 * (exact ? 128 : 64);
+      }
+      if (quantised) {
+        // Each of four HFUs takes a line of 16 B from one of 8 banks of each of four codebooks, and
+        // puts any of its words anywhere.
+        stand["codebooks select_bit"] += 4 * (31 + 3) * 128;
       }
       if (exact) {
         // Of the queues, which have no lanes: in 9 and 8 levels a key of 128 and 96 bits, a node
