@@ -109,7 +109,7 @@ class WithTheCommand(InFolder):
                 error_against_time,
                 ("--diagrams", "image", "model", "tuning", "renderers", *SMALL_ERRORS),
                 {"| truck | 0 | exact |": 29, "| truck | 0 | paper |": 20 + 2, "| tuning |": 2 + 3}
-                | {"| truck | 0 | tiles |": 4, "| truck | estimate | 2 |": 1}
+                | {"| truck | 0 | tiles |": 5, "| truck | estimate | 2 |": 1}
                 | {"| tuning | truck | rate | 0.5 |": 3, "| truck | 0 | double |": 5 * 2}
                 | {"| truck | 0 | paper order in half |": 2},
             ),
