@@ -260,8 +260,9 @@ bool Ccu::comes_before(std::uint64_t cycle) {
 SramUses Ccu::sram_uses(const GscoreConfig& config) {
   const CcuConfig& c = config.ccu;
   const Datapath cull = cull_pipeline(config);
-  // What comes from memory in a cycle: so many banks take it.
-  const auto come = static_cast<std::uint32_t>(cycles_for(kPortBytes, kFirstHalfBytes));
+  // What comes from memory in a cycle, of one read: so many banks take it.
+  const std::uint32_t come = std::min(
+      static_cast<std::uint32_t>(cycles_for(kPortBytes, kFirstHalfBytes)), c.slice_gaussians);
   SramUses uses = {
       sram_use(kInput, kBuffer,
                {{c.input_slots, "slots"}, {c.slice_gaussians, "Gaussians"}, {kFirstHalfBytes, "B"}},

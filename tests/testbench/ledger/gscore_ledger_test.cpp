@@ -200,6 +200,16 @@ TEST_CASE("ledger: gscore is charged for what its units are said to hold and do"
   }
 }
 
+TEST_CASE("ledger: gscore's smallest memories hold what an access of them takes") {
+  for (const char* preset : {"gscore", "gscore_lossless"}) {
+    INFO(preset);
+    check_paid(simulated(preset,
+                         {"ccu.slice_gaussians=1", "ccu.input_slots=1", "ccu.candidates=1",
+                          "ccu.second_half_slots=1", "ccu.output_entries=1"},
+                         "builtin:object?n=64"));
+  }
+}
+
 TEST_CASE("ledger: gscore's lanes have had what its units counted") {
   struct Path {
     const char *datapath, *units, *counter;
