@@ -6,7 +6,6 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
-#include <functional>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -14,7 +13,7 @@
 
 #include "modules/dram/dram_controller.h"
 #include "tests/tlm/scripted_ends.h"
-#include "tlm/memory_access.h"
+#include "tests/tlm/unit_with_port.h"
 #include "tlm/protocol_checker.h"
 #include "tlm/router.h"
 #include "tlm/time_resolution.h"
@@ -22,29 +21,7 @@
 namespace sgs {
 namespace {
 
-// A unit with one port, whose threads are given by the test.
-class Unit : public sc_core::sc_module {
- public:
-  SC_HAS_PROCESS(Unit);
-  Unit(const sc_core::sc_module_name& name, const MemoryPortConfig& config,
-       std::vector<std::function<void(MemoryPort&)>> threads, const sc_core::sc_time& cycle = {})
-      : sc_module(name), port("port", config, cycle), threads_(std::move(threads)) {
-    for (std::size_t i = 0; i < threads_.size(); ++i) SC_THREAD(run);
-  }
-
-  MemoryPort port;
-  std::uint32_t finished = 0;
-
- private:
-  void run() {
-    const std::size_t mine = started_++;
-    threads_[mine](port);
-    ++finished;
-  }
-
-  std::vector<std::function<void(MemoryPort&)>> threads_;
-  std::size_t started_ = 0;
-};
+using test::Unit;
 
 struct System {
   explicit System(std::uint32_t initiators, const DramConfig& config = {})
@@ -356,46 +333,6 @@ TEST_CASE(
     CHECK(runs[i]->done_ns == Approx(rows[i].done_ns));
     CHECK(runs[i]->unit.port.idle());
   }
-}
-
-TEST_CASE("memory access: whatever held an activity up, it goes on at an edge of its clock") {
-  // A request ends, and is answered, 30 ns after the one before: no multiple of the clock's 7 ns.
-  const ClockDomain clock(1000.0 / 7);
-  Activity activity("activity", clock);
-  std::vector<std::uint64_t> cycles;
-  std::uint8_t byte = 0;
-  const auto now = [&] {
-    const sc_core::sc_time stamp = sc_core::sc_time_stamp();
-    CHECK(stamp == static_cast<double>(clock.now_cycles()) * clock.period());
-    cycles.push_back(clock.now_cycles());
-  };
-  Unit unit("unit", MemoryPortConfig{}, {[&](MemoryPort& port) {
-              start_write(port, activity, 0, &byte, 1, 0);  // ends at 0
-              now();
-              start_write(port, activity, 0, &byte, 1, 0);  // at 30: in cycle 5
-              now();
-              start_read(port, activity, 0, &byte, 1, 0);  // at 35 or 60: in cycle 9
-              now();
-              const MemoryPort::Ticket ticket =
-                  start_read(port, activity, 0, &byte, 1, 0);  // at 90
-              now();
-              await(port, activity, ticket);  // answered at 120: in cycle 18
-              now();
-              start_read(port, activity, 0, &byte, 1, 0);
-              now();
-              await_all(port, activity);  // asked for in cycle 18, at 126: answered at 156
-              now();
-              clock.wait_cycles(2);
-              activity.close();
-            }});
-  test::ScriptedTarget target("target", test::Answers::kCompletedLater);
-  unit.port.socket.bind(target.socket);
-  sc_core::sc_start();
-  CHECK(unit.finished == 1);
-  CHECK(cycles == std::vector<std::uint64_t>{0, 5, 9, 13, 18, 18, 23});
-  CHECK(activity.waited_for(WaitFor::kPort) == 13);
-  CHECK(activity.waited_for(WaitFor::kReads) == 5 + 5);
-  CHECK(activity.busy_cycles() == 2);
 }
 
 TEST_CASE("memory port: an error response is reported with port and address") {
