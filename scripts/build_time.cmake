@@ -43,8 +43,9 @@ set(base_headers <algorithm> <array> <charconv> <cmath> <cstdint> <cstring> <fil
   <glm/vec3.hpp> <tbb/blocked_range.h> <tbb/parallel_for.h>)
 set(systemc_headers <systemc> <tlm> <tlm_utils/multi_passthrough_target_socket.h>
   <tlm_utils/passthrough_target_socket.h> <tlm_utils/peq_with_cb_and_phase.h>
-  <tlm_utils/simple_initiator_socket.h>)
+  <tlm_utils/simple_initiator_socket.h> <nlohmann/json.hpp>)
 set(base_libs fmt::fmt glm::glm TBB::tbb)
+set(systemc_libs ${base_libs} sgs_systemc nlohmann_json::nlohmann_json)
 
 # ccache takes no object that begins with a precompiled header, and is worth more.
 if(NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
@@ -56,13 +57,22 @@ if(NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
     FOLDERS ${base_folders})
   if(SYSTEMC_FOUND)
     sgs_precompile(sgs_systemc_headers HEADERS ${base_headers} ${systemc_headers}
-      LIBS ${base_libs} sgs_systemc
-      FOLDERS tlm modules/dram modules/streaminggs testbench/cost testbench/dram testbench/result
-        testbench/streaminggs testbench/units testbench/waveform)
+      LIBS ${systemc_libs}
+      FOLDERS tlm modules/dram modules/gscore modules/streaminggs testbench/cost testbench/dram
+        testbench/result testbench/streaminggs testbench/units testbench/waveform)
   endif()
   if(BUILD_TESTING)
-    sgs_precompile(sgs_test_headers HEADERS ${base_headers} <catch2/catch.hpp>
-      LIBS ${base_libs} Catch2::Catch2 FOLDERS tests)
+    set(test_folders tests/algorithm tests/fuzz tests/testbench)
+    if(SYSTEMC_FOUND)
+      # What is compiled behind SystemC's headers must be linked with it.
+      sgs_precompile(sgs_systemc_test_headers
+        HEADERS ${base_headers} ${systemc_headers} <catch2/catch.hpp>
+        LIBS ${systemc_libs} Catch2::Catch2
+        FOLDERS tests/modules/clocked tests/modules/dram tests/modules/gscore tests/modules/streaminggs tests/tlm)
+      list(APPEND test_folders tests/modules/config tests/system)
+    endif()
+    sgs_precompile(sgs_test_headers HEADERS ${base_headers} <catch2/catch.hpp> <nlohmann/json.hpp>
+      LIBS ${base_libs} nlohmann_json::nlohmann_json Catch2::Catch2 FOLDERS ${test_folders})
   endif()
 endif()
 
@@ -80,4 +90,18 @@ if(BUILD_TESTING)
 endif()
 foreach(target ${once})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endforeach()
+
+# UndefinedBehaviorSanitizer doubles what a file takes to compile. What is tested has it; what only
+# tests is left with AddressSanitizer.
+set(testing)
+if(SYSTEMC_FOUND)
+  sgs_targets_below(testing "STATIC|OBJECT|EXECUTABLE" testbench/stability testbench/units)
+endif()
+if(BUILD_TESTING)
+  sgs_targets_below(tests "STATIC|OBJECT|EXECUTABLE" tests)
+  list(APPEND testing ${tests})
+endif()
+foreach(target ${testing})
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Sanitize>:-fno-sanitize=undefined>)
 endforeach()

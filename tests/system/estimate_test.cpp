@@ -213,7 +213,7 @@ TEST_CASE("estimate: what finds its part of a group finished is counted as in th
   }
 }
 
-TEST_CASE("estimate: close to the simulation, and never below what one resource takes") {
+TEST_CASE("estimate: close to the simulation, and never below what one resource takes", "[long]") {
   struct Case {
     Arguments scene, options;
   };

@@ -111,14 +111,14 @@ Arguments scene(const char* machine) {
   return joined({"builtin:object?n=6000", "--config", machine}, kScene);
 }
 
-TEST_CASE("process order: exact order") {
+TEST_CASE("process order: exact order", "[long]") {
   for (const Arguments& variant : variants("exact")) {
     INFO((variant.empty() ? "plain" : variant.back()));
     check_orders_with_drops(joined(scene("exact"), variant));
   }
 }
 
-TEST_CASE("process order: paper order") {
+TEST_CASE("process order: paper order", "[long]") {
   const Arguments raw = joined(scene("paper"), settings({"storage.encoding=raw"}));
   for (const Arguments& variant : variants("paper")) {
     INFO((variant.empty() ? "plain" : variant.back()));
@@ -126,7 +126,7 @@ TEST_CASE("process order: paper order") {
   }
 }
 
-TEST_CASE("process order: FIFOs of one entry, and what does not fit goes to DRAM") {
+TEST_CASE("process order: FIFOs of one entry, and what does not fit goes to DRAM", "[long]") {
   const Arguments both = settings({"hfu.candidate_fifo_entries=1", "rendering.input_fifo_entries=1",
                                    "hfu.second_half_slots=1", "hfu.input_slots=2"});
   const Arguments exact =
@@ -141,7 +141,7 @@ TEST_CASE("process order: FIFOs of one entry, and what does not fit goes to DRAM
   }
 }
 
-TEST_CASE("process order: a real scene") {
+TEST_CASE("process order: a real scene", "[long]") {
   const Arguments truck = {shared_scene("truck"), "--cameras", shared_path("cameras/truck.json"),
                            "--size", "160x90"};
   check_orders(joined(truck, kStalls));

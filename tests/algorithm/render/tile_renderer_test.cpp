@@ -195,7 +195,7 @@ TEST_CASE("tile-centric equals the reference: random hard scenes") {
   CHECK(spared > 1000);
 }
 
-TEST_CASE("tile-centric equals the reference: needles across the frame") {
+TEST_CASE("tile-centric equals the reference: needles across the frame", "[long]") {
   for (unsigned seed = 0; seed < 40; ++seed) {
     GaussianCloud cloud = test::random_cloud(seed, 300, 0, {0, 0, 3}, 3, 0.1F, 1.0F);
     for (auto& scales : cloud.log_scales) {
@@ -236,7 +236,7 @@ TEST_CASE("tile-centric equals the reference: extreme clouds") {
   }
 }
 
-TEST_CASE("tile-centric: what each approximation costs by itself on built-in scenes") {
+TEST_CASE("tile-centric: what each approximation costs by itself on built-in scenes", "[long]") {
   struct Approximation {
     const char* name;
     std::function<void(TileOrderConfig&)> make;
