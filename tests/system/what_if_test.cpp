@@ -37,7 +37,8 @@ void check_rows(const std::string& preset) {
   CHECK(rows > 5);
 }
 
-TEST_CASE("what-if: a row is the frame of a machine with that much of it, depths and all", "[long]") {
+TEST_CASE("what-if: a row is the frame of a machine with that much of it, depths and all",
+          "[long]") {
   check_rows("exact");
   check_rows("paper_no_vq");
 }

@@ -153,7 +153,8 @@ TEST_CASE("whole frame: other numbers of units, ports and memory channels") {
   }
 }
 
-TEST_CASE("whole frame: groups that are ordered in passes, with and without stalls, paper order", "[long]") {
+TEST_CASE("whole frame: groups that are ordered in passes, with and without stalls, paper order",
+          "[long]") {
   const Arguments common = {
       "builtin:outdoor?n=3000", "--view", "all", "--size", "64x36", "--config", "paper", "--set",
       "vsu.table_bytes=128"};

@@ -23,8 +23,12 @@ TEST_CASE("paper order: every ray respected, object") {
 TEST_CASE("paper order: every ray respected, small voxels", "[long]") {
   check_order("builtin:object?n=1500", {}, 0.08F);
 }
-TEST_CASE("paper order: every ray respected, truck", "[long]") { test::check_order_of_shared("truck"); }
-TEST_CASE("paper order: every ray respected, playbot", "[long]") { test::check_order_of_shared("playbot"); }
+TEST_CASE("paper order: every ray respected, truck", "[long]") {
+  test::check_order_of_shared("truck");
+}
+TEST_CASE("paper order: every ray respected, playbot", "[long]") {
+  test::check_order_of_shared("playbot");
+}
 
 TEST_CASE("paper order: a camera that looks along an axis from a cell's corner") {
   const Scene scene = open_scene("builtin:object?n=5000");

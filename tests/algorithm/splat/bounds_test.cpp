@@ -180,7 +180,9 @@ void run(unsigned seed, double skew) {
 
 TEST_CASE("bounds hold on 40,000 random Gaussians", "[long]") { run(20, 0); }
 
-TEST_CASE("bounds hold for a camera whose rotation is one within 10^-3 only", "[long]") { run(21, 1e-3); }
+TEST_CASE("bounds hold for a camera whose rotation is one within 10^-3 only", "[long]") {
+  run(21, 1e-3);
+}
 
 TEST_CASE("the footprint holds the tips of needles to the last visible pixel") {
   // The pixel under test is the last of its sub-tile on the far side, so that a box short of it by
