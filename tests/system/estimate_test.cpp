@@ -206,6 +206,13 @@ TEST_CASE("estimate: what finds its part of a group finished is counted as in th
     // Some before their second half came for other parts, some behind that.
     CHECK(of(*view, "second_halves_taken") > of(*view, "fine_tests"));
     CHECK(fetched > of(*view, "second_halves_taken") - of(*view, "fine_tests"));
+    const std::uint64_t late = counter_of_all(*view, "sorting", "splats_saturated");
+    CHECK(late > 0);
+    std::uint64_t blended = 0;
+    for (const char* name : {"splats_taken", "splats_hidden", "splats_saturated"}) {
+      blended += counter_of_all(*view, "rendering", name);
+    }
+    CHECK(counter_of_all(*view, "sorting", "splats") - late == blended);
   }
   for (const char* name : {"dropped_saturated", "dropped_fetched"}) {
     INFO(name);
