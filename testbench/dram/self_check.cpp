@@ -189,7 +189,7 @@ bool run_self_check(const SelfCheck& check) {
   pass &= report("transactions begun = finished = counted", 1,
                  transactions == stats.traffic.total().transactions && dram.idle() ? 0 : 1);
   fmt::print("\n");
-  print_stats(stats);
+  fmt::print("{}", stats_table(stats));
   fmt::print("\n{}\n", pass ? "PASS" : "FAIL");
   return pass;
 }

@@ -1,10 +1,12 @@
 // A memory's counts as a table with units.
 #pragma once
 
+#include <string>
+
 #include "modules/dram/dram_stats.h"
 
 namespace sgs {
 
-void print_stats(const DramStats& stats);
+std::string stats_table(const DramStats& stats);
 
 }  // namespace sgs

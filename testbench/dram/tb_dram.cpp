@@ -148,7 +148,7 @@ int run_requests(const Arguments& a, const DramConfig& config) {
   use_femtosecond_resolution();
   double wall_s = 0;
   const DramStats stats = run_stream(bench, wall_s);
-  print_stats(stats);
+  fmt::print("{}", stats_table(stats));
   fmt::print("{:<24} {:>14.0f}  requests per wall second\n", "speed",
              static_cast<double>(bench.requests) / wall_s);
   outputs.files.commit();
