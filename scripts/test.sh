@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # usage: test.sh [release|asan|full]
 # Installs what is missing, builds, and runs the tests: `release` those of a normal build, `asan`
-# the same ones under AddressSanitizer and UBSan; first one, then the other if neither is named.
-# `full` also runs those on the big scenes and the long fuzzing. Stops at the first suite that fails.
+# most of them under AddressSanitizer and UBSan (tests/README.md); first one, then the other if
+# neither is named. `full` is release with those on the big scenes, the long fuzzing, and a build of
+# each source by itself. Stops at the first suite that fails.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 case "${1:-}" in

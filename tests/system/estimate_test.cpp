@@ -220,6 +220,45 @@ TEST_CASE("estimate: what finds its part of a group finished is counted as in th
   }
 }
 
+// What holds of any estimate: nothing unpaid, and no less time than one resource takes.
+void check_bounds(const Both& frame) {
+  const Json& view = frame.estimated;
+  CHECK(view["area_mm2"] == frame.simulated["area_mm2"]);
+  CHECK(view["ledger"]["faults"].empty());
+  const double cycles = view["frame"]["cycles"], seconds = view["frame"]["time_s"];
+  for (const Json& line : view["ledger"]["lines"]) {
+    INFO(line);
+    CHECK(line["utilisation"].get<double>() <= 1);
+  }
+  for (const auto& [name, unit] : view["units"].items()) {
+    for (const auto& [activity, of] : unit["activities"].items()) {
+      INFO(name << "." << activity);
+      CHECK(of["busy_cycles"].get<double>() <= cycles);
+    }
+  }
+  const double bus_gb = view["dram"]["bus_bytes"].get<double>() / 1e9;
+  CHECK(bus_gb / view["dram"]["peak_gb_s"].get<double>() <= seconds);
+}
+
+TEST_CASE("estimate: never below what one resource takes, small frames") {
+  const Arguments one_group = {"merge.entries=16", "group_width_px=64", "group_height_px=64",
+                               "sram.shared_bytes=0", "sram.input_bytes=0"};
+  const std::vector<Arguments> machines = {
+      settings(one_group),
+      settings(joined(one_group, {"merge.on_overflow=blend_early"})),
+      settings({"rendering.precision=fixed16", "storage.chunk_gaussians=1", "vsu.upper_nodes=0",
+                "sram.shared_bytes=0"}),
+      {"--config", "exact_fp16"},
+      joined({"--config", "paper_no_cgf"},
+             settings({"vsu.table_bytes=64", "storage.vq.iterations=1", "sram.shared_bytes=0"}))};
+  for (const Arguments& machine : machines) {
+    INFO(machine.back());
+    const Both frame(joined({"builtin:object?n=400", "--size", "64x64"}, machine));
+    check_bounds(frame);
+    CHECK(frame.error("dram", "bytes") < 0.05);
+  }
+}
+
 TEST_CASE("estimate: close to the simulation, and never below what one resource takes", "[long]") {
   struct Case {
     Arguments scene, options;
@@ -259,27 +298,11 @@ TEST_CASE("estimate: close to the simulation, and never below what one resource 
     for (const std::string& option : c.options) words += " " + option;
     INFO(words);
     const Both frame(joined(c.scene, c.options));
-    const Json& view = frame.estimated;
     // What README.md states for these.
     CHECK(frame.error("frame", "cycles") < 0.12);
     CHECK(frame.error("dram", "bytes") < 0.03);
     CHECK(frame.error("energy", "total_j") < 0.05);
-    CHECK(view["area_mm2"] == frame.simulated["area_mm2"]);
-
-    CHECK(view["ledger"]["faults"].empty());
-    const double cycles = view["frame"]["cycles"], seconds = view["frame"]["time_s"];
-    for (const Json& line : view["ledger"]["lines"]) {
-      INFO(line);
-      CHECK(line["utilisation"].get<double>() <= 1);
-    }
-    for (const auto& [name, unit] : view["units"].items()) {
-      for (const auto& [activity, of] : unit["activities"].items()) {
-        INFO(name << "." << activity);
-        CHECK(of["busy_cycles"].get<double>() <= cycles);
-      }
-    }
-    const double bus_gb = view["dram"]["bus_bytes"].get<double>() / 1e9;
-    CHECK(bus_gb / view["dram"]["peak_gb_s"].get<double>() <= seconds);
+    check_bounds(frame);
   }
 }
 

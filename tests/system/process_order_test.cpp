@@ -111,6 +111,13 @@ Arguments scene(const char* machine) {
   return joined({"builtin:object?n=6000", "--config", machine}, kScene);
 }
 
+TEST_CASE("process order: small frames") {
+  for (const char* machine : {"exact", "paper_no_vq", "gscore"}) {
+    INFO(machine);
+    check_orders(joined({"builtin:object?n=500", "--size", "48x32", "--config", machine}, kStalls));
+  }
+}
+
 TEST_CASE("process order: exact order", "[long]") {
   for (const Arguments& variant : variants("exact")) {
     INFO((variant.empty() ? "plain" : variant.back()));

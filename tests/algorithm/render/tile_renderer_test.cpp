@@ -236,6 +236,27 @@ TEST_CASE("tile-centric equals the reference: extreme clouds") {
   }
 }
 
+TEST_CASE("tile-centric: any format of features and pixels, few Gaussians") {
+  const BuiltinScene scene = make_builtin_scene("builtin:object?n=500");
+  const ActivatedCloud cloud = activate(scene.cloud);
+  const View<float> view = make_view<float>(scene.cameras[0]);
+  const Image reference = render_reference(view, cloud, glm::vec3(0)).image;
+  for (const NumberFormat features : {NumberFormat::kSingle, NumberFormat::kHalf}) {
+    for (const BlendPrecision precision :
+         {BlendPrecision::kSingle, BlendPrecision::kHalf, BlendPrecision::kFixed}) {
+      TileOrderConfig config = TileOrderConfig::lossless();
+      config.features = features;
+      config.precision = precision;
+      const double db = psnr_db(render_tiles(view, cloud, config).frame.image, reference);
+      const bool lossless =
+          features == NumberFormat::kSingle && precision == BlendPrecision::kSingle;
+      CAPTURE(static_cast<int>(features), static_cast<int>(precision), db);
+      CHECK(db > 55);
+      CHECK(std::isfinite(db) == !lossless);
+    }
+  }
+}
+
 TEST_CASE("tile-centric: what each approximation costs by itself on built-in scenes", "[long]") {
   struct Approximation {
     const char* name;
