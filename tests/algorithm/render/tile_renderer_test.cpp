@@ -237,9 +237,8 @@ TEST_CASE("tile-centric equals the reference: extreme clouds") {
 }
 
 TEST_CASE("tile-centric: any format of features and pixels, few Gaussians") {
-  const BuiltinScene scene = make_builtin_scene("builtin:object?n=500");
-  const ActivatedCloud cloud = activate(scene.cloud);
-  const View<float> view = make_view<float>(scene.cameras[0]);
+  const ActivatedCloud cloud = activate(test::random_cloud(15, 1000, 0, {0, 0, 4}, 3, 0.02F, 0.2F));
+  const View<float> view = make_view<float>(test::forward_camera(70, 50, 120));
   const Image reference = render_reference(view, cloud, glm::vec3(0)).image;
   for (const NumberFormat features : {NumberFormat::kSingle, NumberFormat::kHalf}) {
     for (const BlendPrecision precision :

@@ -298,6 +298,23 @@ TEST_CASE("page policy: adaptive turns to closing under conflicts and back under
   CHECK(b.sink.records.back().command == Command::kRead);
 }
 
+TEST_CASE("page policy: adaptive counts a hit once a request, however many its bursts") {
+  DramConfig config = quiet_config();
+  config.page_policy = PagePolicyKind::kAdaptive;
+  Bench b(config);
+  std::uint64_t cycle = 0;
+  for (std::uint32_t row = 0; row < 6; ++row) b.read(cycle += 1000, 0, row);
+  // The second finds the row open that the first had opened: enough to leave it so.
+  b.read(cycle += 1000, 0, 9);
+  b.push(cycle, Direction::kRead, 0, 9, 1, 4);
+  b.channel.advance(cycle += 1000);
+  CHECK(b.sink.records.back().command == Command::kRead);
+  // And no more than that: after a conflict rows are closed again.
+  b.read(cycle += 1000, 0, 10);
+  b.channel.advance(cycle += 1000);
+  CHECK(b.sink.records.back().command == Command::kReadAuto);
+}
+
 TEST_CASE("refresh: idle time is caught up with, one each tREFI") {
   DramConfig config = quiet_config();
   config.refresh = RefreshMode::kAllBank;
