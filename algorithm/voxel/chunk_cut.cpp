@@ -68,16 +68,17 @@ Cut better(Cut best, const std::array<Bin, kBins>& bins, int axis, std::uint32_t
     const std::uint64_t chunks = (std::uint64_t{part.count} + chunk - 1) / chunk;
     return static_cast<double>(chunks) * inflated_area(part.bound());
   };
+  constexpr double kNothingThere = std::numeric_limits<double>::infinity();
   std::array<double, kBins> right_cost{};
   Bin right;
   for (std::size_t k = kBins - 1; k > 0; --k) {
     if (bins[k].count > 0) right.add(bins[k]);
-    right_cost[k] = right.count == 0 ? -1 : cost_of(right);
+    right_cost[k] = right.count == 0 ? kNothingThere : cost_of(right);
   }
   Bin left;
   for (std::size_t k = 0; k + 1 < kBins; ++k) {
     if (bins[k].count > 0) left.add(bins[k]);
-    if (left.count == 0 || right_cost[k + 1] < 0) continue;
+    if (left.count == 0) continue;
     const double cost = cost_of(left) + right_cost[k + 1];
     if (cost < best.cost) best = {cost, axis, left.count};
   }
