@@ -290,5 +290,21 @@ TEST_CASE("costs: what was left out: empty groups are empty, saturated ones satu
   }
 }
 
+TEST_CASE("costs: a path to memory without stages has no registers") {
+  for (const int stages : {0, 1}) {
+    const Simulation simulation(
+        with_settings({"builtin:object?n=50", "--size", "32x18"},
+                      {"memory_port.path_cycles=" + std::to_string(stages)}));
+    std::set<std::string> path;
+    for (const Json& line : simulation.views()[0]["ledger"]["lines"]) {
+      const std::string what = line["what"];
+      if (what.rfind("memory_path", 0) == 0) path.insert(what);
+    }
+    std::set<std::string> wanted = {"memory_path: crossbar_bit"};
+    if (stages > 0) wanted.insert("memory_path: register_bit");
+    CHECK(path == wanted);
+  }
+}
+
 }  // namespace
 }  // namespace sgs::test
