@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -235,6 +236,29 @@ std::map<std::string, std::string> stated_limits(const std::string& preset) {
     if (std::regex_match(text, parts, line)) stated[parts[1]] = parts[2];
   }
   return stated;
+}
+
+// Units that are there several times have one row for each of their activities, of all of them.
+TEST_CASE(
+    "configuration: what describe lists of units are those of a frame, without their numbers") {
+  const std::regex number("[0-9]+"), row(R"(\| `(\S+)` \| `(\S+)` \| .*)");
+  for (const char* preset : {"exact", "paper_no_vq", "gscore"}) {
+    INFO(preset);
+    const Simulation simulation({"builtin:object?n=50", "--size", "16x16", "--config", preset});
+    std::set<std::pair<std::string, std::string>> wanted, listed;
+    for (const auto& [unit, of] : simulation.views()[0]["units"].items()) {
+      for (const auto& [activity, cycles] : of["activities"].items()) {
+        wanted.insert({std::regex_replace(unit, number, "N"), activity});
+      }
+    }
+    std::istringstream lines(run_streaminggs({"describe", "--config", preset}).out);
+    for (std::string line; std::getline(lines, line) && line.rfind("| unit | counter |", 0) != 0;) {
+      std::smatch parts;
+      if (!std::regex_match(line, parts, row)) continue;
+      CHECK(listed.insert({parts[1], parts[2]}).second);
+    }
+    CHECK(listed == wanted);
+  }
 }
 
 // Each is the promise of a key to who uses it: one that changes is meant to.
