@@ -7,59 +7,13 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/modules/dram/recording_sink.h"
+#include "tests/modules/dram/channel_bench.h"
 
 namespace sgs {
 namespace {
 
-// Refresh off unless a test is about it: its commands would lie between the others. The way to the
-// channel likewise.
-DramConfig quiet_config() {
-  DramConfig c;
-  c.front_end_ns = c.back_end_ns = 0;
-  c.channels = 1;
-  c.refresh = RefreshMode::kOff;
-  return c;
-}
-
-struct Bench {
-  explicit Bench(const DramConfig& config)
-      : memspec(load_memspec(config.memspec)), channel(config, memspec, 0, sink) {}
-
-  void push(std::uint64_t cycle, Direction direction, std::uint32_t bank, std::uint32_t row,
-            std::uint32_t burst = 0, std::uint32_t bursts = 1, std::uintptr_t owner = 0) {
-    ChannelRequest r;
-    r.direction = direction;
-    r.bank = bank;
-    r.row = row;
-    r.burst = burst;
-    r.bursts = bursts;
-    r.owner = reinterpret_cast<void*>(owner);
-    channel.advance(cycle);
-    channel.push(r, cycle);
-  }
-  void read(std::uint64_t cycle, std::uint32_t bank, std::uint32_t row, std::uintptr_t owner = 0) {
-    push(cycle, Direction::kRead, bank, row, 0, 1, owner);
-  }
-  std::uint64_t completion() {
-    QueuedChannel::Completion c{};
-    channel.advance(1000000);
-    return channel.take_completion(kNever, c) ? c.cycle : 0;
-  }
-  // Owners in the order of their completion.
-  std::vector<std::uintptr_t> order() {
-    std::vector<std::uintptr_t> owners;
-    QueuedChannel::Completion c{};
-    channel.advance(1000000);
-    while (channel.take_completion(kNever, c))
-      owners.push_back(reinterpret_cast<std::uintptr_t>(c.owner));
-    return owners;
-  }
-
-  test::RecordingSink sink;
-  Memspec memspec;
-  QueuedChannel channel;
-};
+using test::Bench;
+using test::quiet_config;
 
 constexpr std::uint64_t kData = 12 + 5 + 4;  // RL + tDQSCKmax + BL/2
 
@@ -264,55 +218,6 @@ TEST_CASE("scheduling: no read goes before an older write to the same bytes") {
   for (const auto& [burst, of_burst] : read_behind) CHECK(reads[burst] == of_burst.size());
   CHECK(forwarded > 100);
   CHECK(behind > 1000);
-}
-
-TEST_CASE("page policy: closed closes with the last known hit, open keeps the row") {
-  DramConfig config = quiet_config();
-  config.page_policy = PagePolicyKind::kClosed;
-  Bench b(config);
-  b.read(0, 0, 1);
-  b.read(0, 0, 1);
-  b.channel.advance(1000);
-  CHECK(b.sink.text() == "ACT@0 RD@15 RDA@19");
-  b.read(2000, 0, 2);
-  CHECK(b.completion() == 15 + kData);
-  CHECK(b.sink.records.back().cycle == 2015);  // no precharge in the way: as fast as a closed bank
-  config.page_policy = PagePolicyKind::kOpen;
-  Bench open(config);
-  open.read(0, 0, 1);
-  open.channel.advance(1000);
-  CHECK(open.sink.text() == "ACT@0 RD@15");
-}
-
-TEST_CASE("page policy: adaptive turns to closing under conflicts and back under hits") {
-  DramConfig config = quiet_config();
-  config.page_policy = PagePolicyKind::kAdaptive;
-  Bench b(config);
-  std::uint64_t cycle = 0;
-  for (std::uint32_t row = 0; row < 6; ++row) b.read(cycle += 1000, 0, row);
-  b.channel.advance(cycle += 1000);
-  CHECK(b.sink.count(Command::kReadAuto) >= 3);
-  CHECK(b.sink.records.back().command == Command::kReadAuto);
-  for (int i = 0; i < 6; ++i) b.read(cycle += 1000, 0, 5);
-  b.channel.advance(cycle += 1000);
-  CHECK(b.sink.records.back().command == Command::kRead);
-}
-
-TEST_CASE("page policy: adaptive counts a hit once a request, however many its bursts") {
-  DramConfig config = quiet_config();
-  config.page_policy = PagePolicyKind::kAdaptive;
-  Bench b(config);
-  std::uint64_t cycle = 0;
-  for (std::uint32_t row = 0; row < 6; ++row) b.read(cycle += 1000, 0, row);
-  // The second finds the row open that the first had opened: enough to leave it so.
-  b.read(cycle += 1000, 0, 9);
-  b.push(cycle, Direction::kRead, 0, 9, 1, 4);
-  b.channel.advance(cycle += 1000);
-  CHECK(b.sink.records.back().command == Command::kRead);
-  // And no more than that: after a conflict rows are closed again.
-  b.read(cycle += 1000, 0, 10);
-  b.channel.advance(cycle += 1000);
-  CHECK(b.sink.records.back().command == Command::kReadAuto);
 }
 
 TEST_CASE("refresh: idle time is caught up with, one each tREFI") {
