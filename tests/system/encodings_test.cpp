@@ -37,7 +37,7 @@ double encoding_psnr(const Simulation& simulation) {
   return psnr.is_null() ? std::numeric_limits<double>::infinity() : psnr.get<double>();
 }
 
-std::uint64_t cycles(const Simulation& simulation) { return frame_cycles(simulation.views()[0]); }
+std::uint64_t cycles_of(const Simulation& simulation) { return frame_cycles(simulation.views()[0]); }
 
 TEST_CASE("encodings: the same frame with and without stalls, in both orders") {
   for (const char* order : {"exact", "paper"}) {
@@ -49,7 +49,7 @@ TEST_CASE("encodings: the same frame with and without stalls, in both orders") {
       const Simulation stalled(joined(common, {"--stalls", "0.2", "--seed", "5"}));
       stalled.check();
       CHECK(stalled.frame(0) == plain.frame(0));
-      CHECK(cycles(stalled) > cycles(plain));
+      CHECK(cycles_of(stalled) > cycles_of(plain));
     }
   }
 }
@@ -115,7 +115,7 @@ TEST_CASE("encodings: codebooks that an earlier frame left cost no traffic and n
     first.check();
     next.check();
     CHECK(next.frame(0) == first.frame(0));
-    CHECK(cycles(next) < cycles(first));
+    CHECK(cycles_of(next) < cycles_of(first));
     // 64 x 12 + 100 x 16 + 200 x 12 + 512 x 180 B
     CHECK(region_bytes(first.views()[0], "codebooks", "read") == 96928);
     CHECK(first.views()[0]["sram"]["codebook_bytes"] == 96928);
@@ -132,7 +132,7 @@ TEST_CASE("encodings: fewer and narrower banks cost cycles, no pixel") {
     wide.check();
     narrow.check();
     CHECK(narrow.frame(0) == wide.frame(0));
-    CHECK(cycles(narrow) > cycles(wide));
+    CHECK(cycles_of(narrow) > cycles_of(wide));
     const Json &few = narrow.views()[0], &many = wide.views()[0];
     // 55 words a record.
     CHECK(total(few, "lines_read") == 55 * total(few, "records_decoded"));

@@ -6,10 +6,10 @@
 
 using namespace sgs::test;
 
-TEST_CASE("exact under pressure: truck") { check_exact_under_pressure("truck"); }
-TEST_CASE("exact under pressure: playbot") { check_exact_under_pressure("playbot"); }
-TEST_CASE("exact under pressure: platform") { check_exact_under_pressure("platform"); }
-TEST_CASE("exact under pressure: yard") { check_exact_under_pressure("yard"); }
-TEST_CASE("exact under pressure: garden") { check_exact_under_pressure("garden"); }
-TEST_CASE("exact under pressure: park") { check_exact_under_pressure("park"); }
-TEST_CASE("exact under pressure: many hard scenes") { fuzz_exact_frames(1000, 800); }
+TEST_CASE("exact under pressure: truck", "[nightly]") { check_exact_under_pressure("truck"); }
+TEST_CASE("exact under pressure: playbot", "[nightly]") { check_exact_under_pressure("playbot"); }
+TEST_CASE("exact under pressure: platform", "[nightly]") { check_exact_under_pressure("platform"); }
+TEST_CASE("exact under pressure: yard", "[nightly]") { check_exact_under_pressure("yard"); }
+TEST_CASE("exact under pressure: garden", "[nightly]") { check_exact_under_pressure("garden"); }
+TEST_CASE("exact under pressure: park", "[nightly]") { check_exact_under_pressure("park"); }
+TEST_CASE("exact under pressure: many hard scenes", "[nightly]") { fuzz_exact_frames(1000, 800); }

@@ -72,11 +72,11 @@ void check_everything(const GaussianCloud& cloud) {
   CHECK(read_ply(scratch.path("tuned.ply")).cloud.size() == cloud.size());  // and all is finite
 }
 
-TEST_CASE("largest extremes: a million at one point") {
+TEST_CASE("largest extremes: a million at one point", "[nightly]") {
   check_everything(a_million_at_one_point());
 }
-TEST_CASE("largest extremes: 10^5 layers of 1/255") { check_everything(layers_of_haze()); }
-TEST_CASE("largest extremes: details of 10^-3, extents of 10^5") {
+TEST_CASE("largest extremes: 10^5 layers of 1/255", "[nightly]") { check_everything(layers_of_haze()); }
+TEST_CASE("largest extremes: details of 10^-3, extents of 10^5", "[nightly]") {
   check_everything(near_and_far());
 }
 

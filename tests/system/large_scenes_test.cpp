@@ -9,40 +9,40 @@
 namespace sgs::test {
 namespace {
 
-TEST_CASE("shared scenes: truck, paper order, no stalls") {
+TEST_CASE("shared scenes: truck, paper order, no stalls", "[nightly]") {
   check_shared_scene("truck", "paper", {kPlain});
 }
-TEST_CASE("shared scenes: truck, exact order, no stalls") {
+TEST_CASE("shared scenes: truck, exact order, no stalls", "[nightly]") {
   check_shared_scene("truck", "exact", {kPlain});
 }
-TEST_CASE("shared scenes: playbot, paper order, no stalls") {
+TEST_CASE("shared scenes: playbot, paper order, no stalls", "[nightly]") {
   check_shared_scene("playbot", "paper", {kPlain});
 }
-TEST_CASE("shared scenes: playbot, exact order, no stalls") {
+TEST_CASE("shared scenes: playbot, exact order, no stalls", "[nightly]") {
   check_shared_scene("playbot", "exact", {kPlain});
 }
-TEST_CASE("shared scenes: platform, paper order") {
+TEST_CASE("shared scenes: platform, paper order", "[nightly]") {
   check_shared_scene("platform", "paper", {kPlain, kStalled});
 }
-TEST_CASE("shared scenes: platform, exact order") {
+TEST_CASE("shared scenes: platform, exact order", "[nightly]") {
   check_shared_scene("platform", "exact", {kPlain, kStalled});
 }
-TEST_CASE("shared scenes: yard, paper order") {
+TEST_CASE("shared scenes: yard, paper order", "[nightly]") {
   check_shared_scene("yard", "paper", {kPlain, kStalled});
 }
-TEST_CASE("shared scenes: yard, exact order") {
+TEST_CASE("shared scenes: yard, exact order", "[nightly]") {
   check_shared_scene("yard", "exact", {kPlain, kStalled});
 }
-TEST_CASE("shared scenes: garden, paper order") {
+TEST_CASE("shared scenes: garden, paper order", "[nightly]") {
   check_shared_scene("garden", "paper", {kPlain, kStalled});
 }
-TEST_CASE("shared scenes: garden, exact order") {
+TEST_CASE("shared scenes: garden, exact order", "[nightly]") {
   check_shared_scene("garden", "exact", {kPlain, kStalled});
 }
-TEST_CASE("shared scenes: park, paper order") {
+TEST_CASE("shared scenes: park, paper order", "[nightly]") {
   check_shared_scene("park", "paper", {kPlain, kStalled});
 }
-TEST_CASE("shared scenes: park, exact order") {
+TEST_CASE("shared scenes: park, exact order", "[nightly]") {
   check_shared_scene("park", "exact", {kPlain, kStalled});
 }
 
@@ -57,12 +57,12 @@ void check_encodings(const char* scene) {
     check_shared_scene(scene, order, variants);
   }
 }
-TEST_CASE("shared scenes: truck, every encoding") { check_encodings("truck"); }
-TEST_CASE("shared scenes: playbot, every encoding") { check_encodings("playbot"); }
-TEST_CASE("shared scenes: platform, every encoding") { check_encodings("platform"); }
-TEST_CASE("shared scenes: yard, every encoding") { check_encodings("yard"); }
-TEST_CASE("shared scenes: garden, every encoding") { check_encodings("garden"); }
-TEST_CASE("shared scenes: park, every encoding") { check_encodings("park"); }
+TEST_CASE("shared scenes: truck, every encoding", "[nightly]") { check_encodings("truck"); }
+TEST_CASE("shared scenes: playbot, every encoding", "[nightly]") { check_encodings("playbot"); }
+TEST_CASE("shared scenes: platform, every encoding", "[nightly]") { check_encodings("platform"); }
+TEST_CASE("shared scenes: yard, every encoding", "[nightly]") { check_encodings("yard"); }
+TEST_CASE("shared scenes: garden, every encoding", "[nightly]") { check_encodings("garden"); }
+TEST_CASE("shared scenes: park, every encoding", "[nightly]") { check_encodings("park"); }
 
 }  // namespace
 }  // namespace sgs::test

@@ -269,7 +269,7 @@ TEST_CASE("pack: info says what the file holds, as pack did") {
 }
 
 // Status 2 and one line on stderr that holds `words`.
-void check_refused(const Arguments& arguments, const std::vector<std::string>& words) {
+void check_packed_refused(const Arguments& arguments, const std::vector<std::string>& words) {
   const Outcome outcome = run_streaminggs(arguments);
   INFO(outcome.err);
   CHECK(outcome.status == 2);
@@ -284,19 +284,19 @@ TEST_CASE("pack: what a packed scene cannot be used for is refused") {
               .status == 0);
   const Arguments simulate = joined({"simulate"}, scenes.view(file));
   const Arguments out = {"--out", scenes.path("out")};
-  check_refused(joined(joined(simulate, out), {"--config", "paper"}),
+  check_packed_refused(joined(joined(simulate, out), {"--config", "paper"}),
                 {file, "stored by chunks", "machine paper reads", "--config exact"});
-  check_refused({"render", file, "--cameras", scenes.cameras(), "--ordering", "paper", "--out",
+  check_packed_refused({"render", file, "--cameras", scenes.cameras(), "--ordering", "paper", "--out",
                  scenes.path("out.png")},
                 {file, "stored by chunks", "machine paper reads"});
-  check_refused(joined(joined(simulate, out), {"--set", "sram.codebook_bytes=1000"}),
+  check_packed_refused(joined(joined(simulate, out), {"--set", "sram.codebook_bytes=1000"}),
                 {"sram.codebook_bytes: 1000 bytes are there", "30 entries"});
-  check_refused(joined(joined(simulate, out), {"--weigh-by", "0"}), {"--weigh-by", file});
-  check_refused(joined(joined(simulate, out), {"--drop-invalid"}), {"--drop-invalid", file});
-  check_refused(joined({"simulate", file}, out), {file, "--cameras FILE is needed"});
-  check_refused({"pack", file, "--out", scenes.path("b.sgs")}, {file, "expected a .ply"});
-  check_refused({"pack", scenes.ply(), "--out", scenes.path("b.bin")}, {"b.bin", ".sgs"});
-  check_refused({"pack", scenes.ply(), "--out", file + "/b.sgs"}, {file + "/b.sgs"});
+  check_packed_refused(joined(joined(simulate, out), {"--weigh-by", "0"}), {"--weigh-by", file});
+  check_packed_refused(joined(joined(simulate, out), {"--drop-invalid"}), {"--drop-invalid", file});
+  check_packed_refused(joined({"simulate", file}, out), {file, "--cameras FILE is needed"});
+  check_packed_refused({"pack", file, "--out", scenes.path("b.sgs")}, {file, "expected a .ply"});
+  check_packed_refused({"pack", scenes.ply(), "--out", scenes.path("b.bin")}, {"b.bin", ".sgs"});
+  check_packed_refused({"pack", scenes.ply(), "--out", file + "/b.sgs"}, {file + "/b.sgs"});
   CHECK_FALSE(std::filesystem::exists(scenes.path("out")));
 }
 
@@ -316,7 +316,7 @@ TEST_CASE("pack: what is said of storage is as the file has it, or a preset's") 
            {with("storage.store_invisible=true"), {"got true, expected false"}},
            {{configs.write("c.json", R"({"machine": "paper", "storage": {"encoding": "vq"}})")},
             {"c.json: storage.encoding: got vq, expected half"}}}) {
-    check_refused(joined(simulate, more), words);
+    check_packed_refused(joined(simulate, more), words);
     CHECK_FALSE(std::filesystem::exists(scenes.path("out")));
   }
   for (const auto& [more, word] : std::vector<std::pair<Arguments, std::string>>{
@@ -342,11 +342,11 @@ TEST_CASE("pack: a damaged file is refused by every command") {
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
   std::ofstream(scenes.packed(), std::ios::binary) << bytes;
   for (const char* command : {"simulate", "render"}) {
-    check_refused(
+    check_packed_refused(
         joined(joined({command}, scenes.view(scenes.packed())), {"--out", scenes.path("out.png")}),
         {scenes.packed(), "checksum"});
   }
-  check_refused({"info", scenes.packed()}, {scenes.packed(), "checksum"});
+  check_packed_refused({"info", scenes.packed()}, {scenes.packed(), "checksum"});
 }
 
 TEST_CASE("pack: a scene that no reader would take is refused and leaves nothing") {
@@ -354,7 +354,7 @@ TEST_CASE("pack: a scene that no reader would take is refused and leaves nothing
   scene.cloud.log_scales[7].y = 200;  // e^200 is beyond float
   const ScratchFolder scratch;
   write_ply(scratch.path("a.ply"), scene.cloud);
-  check_refused({"pack", scratch.path("a.ply"), "--out", scratch.path("a.sgs")},
+  check_packed_refused({"pack", scratch.path("a.ply"), "--out", scratch.path("a.sgs")},
                 {"a.ply: vertex 7, property scale_1: got 200, expected at most"});
   CHECK(scratch.file_count() == 1);
 }
@@ -368,7 +368,7 @@ TEST_CASE("pack: --print-config shows what the image decides") {
               .status == 0);
   const Arguments print = {"simulate", scenes.packed(), "--set", "hfu.cost=counted",
                            "--print-config"};
-  check_refused(print, {"sram.codebook_bytes: 0 bytes are there"});
+  check_packed_refused(print, {"sram.codebook_bytes: 0 bytes are there"});
   const Outcome shown = run_streaminggs(with_settings(print, {"sram.codebook_bytes=65536"}));
   INFO(shown.err);
   REQUIRE(shown.status == 0);

@@ -20,11 +20,11 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-const std::string kScene = "builtin:object?n=2000";
+const std::string kPathScene = "builtin:object?n=2000";
 
 json run_path(const ScratchFolder& scratch, const Arguments& arguments) {
   const Outcome done = run_streaminggs(
-      joined({"simulate", kScene, "--size", "96x54", "--out", scratch.path("out")}, arguments));
+      joined({"simulate", kPathScene, "--size", "96x54", "--out", scratch.path("out")}, arguments));
   INFO(done.out << done.err);
   REQUIRE(done.status == 0);
   return json::parse(bytes_of(scratch.path("out/path.json")));
@@ -32,13 +32,13 @@ json run_path(const ScratchFolder& scratch, const Arguments& arguments) {
 
 TEST_CASE("path: frames at its keys are the views, on every machine") {
   const ScratchFolder scratch;
-  const std::vector<Camera> cameras = make_builtin_scene(kScene).cameras;
+  const std::vector<Camera> cameras = make_builtin_scene(kPathScene).cameras;
   write_cameras(scratch.path("keys.json"), {cameras[0], cameras[2]});
   for (const char* preset : {"exact", "paper_no_vq", "gscore"}) {
     INFO(preset);
     const json path = run_path(scratch, {"--config", preset, "--path", scratch.path("keys.json"),
                                          "--frames", "3", "--set", "framebuffer=rgb32f"});
-    const Simulation views({kScene, "--size", "96x54", "--config", preset, "--view", "0,2"});
+    const Simulation views({kPathScene, "--size", "96x54", "--config", preset, "--view", "0,2"});
     REQUIRE(path["frames"].size() == 3);
     for (const int end : {0, 1}) {
       const json& frame = path["frames"][2 * end];
@@ -57,14 +57,14 @@ TEST_CASE("path: frames at its keys are the views, on every machine") {
 TEST_CASE("path: estimates of its frames are those of the views") {
   const ScratchFolder scratch;
   write_cameras(scratch.path("keys.json"),
-                {make_builtin_scene(kScene).cameras[0], make_builtin_scene(kScene).cameras[2]});
+                {make_builtin_scene(kPathScene).cameras[0], make_builtin_scene(kPathScene).cameras[2]});
   for (const char* preset : {"exact", "paper_no_vq"}) {
     INFO(preset);
     const Arguments estimate = {"--config", preset, "--estimate"};
     const json path =
         run_path(scratch, joined(estimate, {"--path", scratch.path("keys.json"), "--frames", "2"}));
     const Outcome done = run_streaminggs(joined(
-        {"simulate", kScene, "--size", "96x54", "--view", "0,2", "--out", scratch.path("views")},
+        {"simulate", kPathScene, "--size", "96x54", "--view", "0,2", "--out", scratch.path("views")},
         estimate));
     INFO(done.out << done.err);
     REQUIRE(done.status == 0);
@@ -86,10 +86,10 @@ TEST_CASE("path: codebooks are loaded once") {
                              "--set",    "sram.codebook_bytes=256000"};
   const json path = run_path(scratch, joined({"--path", "builtin:path", "--frames", "3"}, machine));
   // From where the path begins, in a machine that still has them.
-  const std::vector<Camera> keys = builtin_path(kScene).keys;
+  const std::vector<Camera> keys = builtin_path(kPathScene).keys;
   std::vector<Camera> at_start(5, keys[0]);
   write_cameras(scratch.path("start.json"), at_start);
-  write_cameras(scratch.path("weighing.json"), make_builtin_scene(kScene).cameras);
+  write_cameras(scratch.path("weighing.json"), make_builtin_scene(kPathScene).cameras);
   const json still = run_path(scratch, joined({"--path", scratch.path("start.json"), "--cameras",
                                                scratch.path("weighing.json"), "--frames", "3"},
                                               machine));
@@ -125,7 +125,7 @@ TEST_CASE("path: its files, and those of another run in the folder") {
   with_mine.insert("frames/mine.txt");
   CHECK(files() == with_mine);
   fs::remove(scratch.path("out/frames/mine.txt"));
-  const Arguments view = {"simulate", kScene, "--size", "96x54", "--out", scratch.path("out")};
+  const Arguments view = {"simulate", kPathScene, "--size", "96x54", "--out", scratch.path("out")};
   REQUIRE(run_streaminggs(view).status == 0);
   CHECK(files() == std::set<std::string>{"report.json", "view_0/report.json", "view_0/frame.png",
                                          "view_0/frame.exr", "view_0/reference.png",

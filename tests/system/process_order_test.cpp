@@ -104,11 +104,11 @@ std::vector<Arguments> variants(const std::string& machine) {
 }
 
 // Groups so small that some saturate.
-const Arguments kScene =
+const Arguments kOrderScene =
     with_settings({"--size", "97x61"}, {"group_width_px=8", "group_height_px=8"});
 
 Arguments scene(const char* machine) {
-  return joined({"builtin:object?n=6000", "--config", machine}, kScene);
+  return joined({"builtin:object?n=6000", "--config", machine}, kOrderScene);
 }
 
 TEST_CASE("process order: small frames") {

@@ -13,7 +13,7 @@ using Arguments = std::vector<std::string>;
 
 // Runs and expects status 2, one line on stderr that holds every one of `words`, and no output
 // folder.
-void check_refused(Arguments arguments, const std::vector<std::string>& words) {
+void check_not_started(Arguments arguments, const std::vector<std::string>& words) {
   const ScratchFolder scratch;
   arguments.insert(arguments.end(), {"--out", scratch.path("out")});
   const Outcome outcome = run_streaminggs(arguments);
@@ -31,7 +31,7 @@ void check_set_refused(const std::string& order, const Arguments& settings,
                        const std::vector<std::string>& words) {
   Arguments arguments = {"simulate", "builtin:object?n=100", "--size", "16x16", "--config", order};
   for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
-  check_refused(arguments, words);
+  check_not_started(arguments, words);
 }
 
 TEST_CASE("refusals: an SRAM budget that is broken, with the sum") {
@@ -150,28 +150,28 @@ TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
 }
 
 TEST_CASE("refusals: what every view refuses, in one line") {
-  check_refused({"simulate", "builtin:object?n=3000", "--size", "16x16", "--view", "all",
+  check_not_started({"simulate", "builtin:object?n=3000", "--size", "16x16", "--view", "all",
                  "--config", "gscore", "--set", "lists.pool_bytes=4096"},
                 {"view 0: --set lists.pool_bytes=4096: lists.pool_bytes: got 4096",
                  "none of 5 views can be drawn"});
 }
 
 TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
-  check_refused({"simulate", "/no/such/scene.ply", "--cameras", "/no/such/cameras.json"},
+  check_not_started({"simulate", "/no/such/scene.ply", "--cameras", "/no/such/cameras.json"},
                 {"/no/such/scene.ply"});
-  check_refused({"simulate", "builtin:castle"}, {"castle"});
-  check_refused({"simulate", "builtin:object?n=0"}, {"n="});
-  check_refused({"simulate", "builtin:object?n=100", "--cameras", "/no/such/cameras.json"},
+  check_not_started({"simulate", "builtin:castle"}, {"castle"});
+  check_not_started({"simulate", "builtin:object?n=0"}, {"n="});
+  check_not_started({"simulate", "builtin:object?n=100", "--cameras", "/no/such/cameras.json"},
                 {"/no/such/cameras.json"});
-  check_refused({"simulate", "builtin:object?n=100", "--view", "99"},
+  check_not_started({"simulate", "builtin:object?n=100", "--view", "99"},
                 {"--view: got '99', expected all"});
-  check_refused({"simulate", "builtin:object?n=100", "--view", "0,99"},
+  check_not_started({"simulate", "builtin:object?n=100", "--view", "0,99"},
                 {"--view 0,99: got '99', expected all"});
-  check_refused({"simulate", SGS_TECHNOLOGY},
+  check_not_started({"simulate", SGS_TECHNOLOGY},
                 {"got the extension \".json\", expected a .ply file, builtin:NAME?n=COUNT, or a "
                  ".sgs file made by pack"});
-  check_refused({"simulate", "builtin:object?n=100", "--size", "64"}, {"--size", "WIDTHxHEIGHT"});
-  check_refused({"simulate", "builtin:object?n=100", "--size", "0x64"}, {"--size"});
+  check_not_started({"simulate", "builtin:object?n=100", "--size", "64"}, {"--size", "WIDTHxHEIGHT"});
+  check_not_started({"simulate", "builtin:object?n=100", "--size", "0x64"}, {"--size"});
 }
 
 TEST_CASE("refusals: bad arguments exit with 2 and say which") {

@@ -36,12 +36,12 @@ struct Pair {
   Simulation with, without;
 };
 
-const Arguments kScene =
+const Arguments kSavingsScene =
     with_settings({"builtin:outdoor?n=4000", "--view", "all", "--size", "160x90"},
                   {"group_width_px=16", "group_height_px=16"});
 
 Arguments in_order(const char* order) {
-  Arguments all = kScene;
+  Arguments all = kSavingsScene;
   all.insert(all.end(), {"--config", order});
   return all;
 }

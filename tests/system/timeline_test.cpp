@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const Arguments kScene = {"builtin:object?n=2000", "--size", "96x54"};
+const Arguments kTimelineScene = {"builtin:object?n=2000", "--size", "96x54"};
 
 bool is_item(const TraceSlice& slice) {
   return slice.name.rfind("group ", 0) == 0 || slice.name.rfind("tile ", 0) == 0 ||
@@ -126,7 +126,7 @@ TEST_CASE("timeline: slices are the report's cycles, on every machine") {
     INFO(row.machine[1] << " " << row.machine.back());
     const ScratchFolder scratch;
     const std::string file = scratch.path("t.pftrace");
-    const Simulation run(joined(kScene, joined(row.machine, {"--timeline", file})));
+    const Simulation run(joined(kTimelineScene, joined(row.machine, {"--timeline", file})));
     const Json& view = run.views()[0];
     const DecodedTrace trace = decode_trace(bytes_of(file));
     std::size_t activities = 0;
@@ -155,7 +155,7 @@ TEST_CASE("timeline: slices are the report's cycles, on every machine") {
 TEST_CASE("timeline: visits and keys of exact order") {
   const ScratchFolder scratch;
   const std::string file = scratch.path("t.pftrace");
-  const Simulation run(joined(kScene, {"--config", "exact", "--timeline", file}));
+  const Simulation run(joined(kTimelineScene, {"--config", "exact", "--timeline", file}));
   const Json& view = run.views()[0];
   const DecodedTrace trace = decode_trace(bytes_of(file));
   // Of every visit each HFU's coarse filter has one slice or none.
@@ -182,9 +182,9 @@ TEST_CASE("timeline: bound to groups") {
   const std::string all = scratch.path("all"), some = scratch.path("some");
   const Arguments machine = {"--config",          "exact", "--set",
                              "group_width_px=32", "--set", "group_height_px=32"};
-  const Simulation of_all(joined(kScene, joined(machine, {"--timeline", all})));
+  const Simulation of_all(joined(kTimelineScene, joined(machine, {"--timeline", all})));
   const Simulation of_some(
-      joined(kScene, joined(machine, {"--timeline", some, "--timeline-groups", "2-3"})));
+      joined(kTimelineScene, joined(machine, {"--timeline", some, "--timeline-groups", "2-3"})));
   CHECK(std::filesystem::file_size(some) < std::filesystem::file_size(all) * 2 / 3);
   const DecodedTrace whole = decode_trace(bytes_of(all)), part = decode_trace(bytes_of(some));
   // What is shown of a group is what all of the frame shows of it.
@@ -215,7 +215,7 @@ TEST_CASE("timeline: bound to groups") {
 TEST_CASE("timeline: it changes nothing") {
   const ScratchFolder scratch;
   for (const char* machine : {"exact", "paper_no_vq", "gscore"}) {
-    const Arguments plain = joined(kScene, {"--config", machine});
+    const Arguments plain = joined(kTimelineScene, {"--config", machine});
     const Simulation a(plain);
     const Simulation b(
         joined(plain, {"--timeline", scratch.path("t"), "--vcd", scratch.path("v")}));

@@ -21,7 +21,7 @@ Camera turned(Camera camera, const glm::dvec3& signs) {
 }
 
 // The pixel that has `point`, where there is one.
-std::optional<glm::ivec2> pixel_of(const Camera& camera, const glm::dvec3& point) {
+std::optional<glm::ivec2> pixel_in_view(const Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 v = glm::transpose(camera.world_from_camera) * (point - camera.position);
   if (v.z <= 0) return {};
   const double x = camera.focal_x * v.x / v.z + 0.5 * camera.width;
@@ -42,7 +42,7 @@ double share_of_equal_colours(const Dataset& dataset, const std::vector<RgbaImag
   for (std::size_t i = 0; i < dataset.views.size(); ++i) {
     const Camera camera = turned(dataset.views[i].camera, signs);
     for (const SfmPoint& point : dataset.points) {
-      const auto at = pixel_of(camera, glm::dvec3(point.position));
+      const auto at = pixel_in_view(camera, glm::dvec3(point.position));
       equal += at && glm::length(glm::vec3(images[i].at(at->x, at->y)) - point.colour) < kNear;
     }
   }
@@ -66,7 +66,7 @@ std::vector<glm::dvec3> visual_hull(const Dataset& dataset, const std::vector<Rg
     const auto view = static_cast<std::size_t>(number);
     const Camera camera = turned(downscaled_camera(dataset.views[view], kShrink), signs);
     const auto outside = [&](const glm::dvec3& point) {
-      const auto at = pixel_of(camera, point);
+      const auto at = pixel_in_view(camera, point);
       return !at || images[view].at(at->x, at->y).w == 0;
     };
     hull.erase(std::remove_if(hull.begin(), hull.end(), outside), hull.end());
@@ -86,7 +86,7 @@ double overlap(const Dataset& dataset, const std::vector<RgbaImage>& images,
     const Camera camera = turned(downscaled_camera(dataset.views[view], kShrink), signs);
     std::vector<bool> seen(image.pixels.size());
     for (const glm::dvec3& point : hull) {
-      if (const auto at = pixel_of(camera, point)) {
+      if (const auto at = pixel_in_view(camera, point)) {
         seen[static_cast<std::size_t>(at->y) * image.width + at->x] = true;
       }
     }
@@ -101,7 +101,7 @@ double overlap(const Dataset& dataset, const std::vector<RgbaImage>& images,
 
 }  // namespace
 
-TEST_CASE("shared data sets: desk is what COLMAP says of it") {
+TEST_CASE("shared data sets: desk is what COLMAP says of it", "[shared]") {
   const Dataset desk = open_dataset(test::shared_path("data/desk"));
   CHECK(desk.layout == "COLMAP");
   CHECK(desk.views.size() == 29);
@@ -116,7 +116,7 @@ TEST_CASE("shared data sets: desk is what COLMAP says of it") {
   }
 }
 
-TEST_CASE("shared data sets: desk's points have the colours of the pixels where they are seen") {
+TEST_CASE("shared data sets: desk's points have the colours of the pixels where they are seen", "[shared]") {
   const Dataset desk = open_dataset(test::shared_path("data/desk"));
   std::vector<RgbaImage> images;
   for (const DatasetView& view : desk.views) images.push_back(load_view(view));
@@ -129,7 +129,7 @@ TEST_CASE("shared data sets: desk's points have the colours of the pixels where 
   }
 }
 
-TEST_CASE("shared data sets: what all of lego's training views hold fills its test views") {
+TEST_CASE("shared data sets: what all of lego's training views hold fills its test views", "[shared]") {
   const Dataset lego = open_dataset(test::shared_path("data/lego"));
   CHECK(lego.layout == "NeRF synthetic");
   CHECK(views_of(lego, Split::kTrain).size() == 100);
@@ -140,7 +140,7 @@ TEST_CASE("shared data sets: what all of lego's training views hold fills its te
     CHECK(view.file.has_alpha);
     images.push_back(load_view(view, kShrink));
     // The object stands at the origin.
-    const auto origin = pixel_of(view.camera, glm::dvec3(0));
+    const auto origin = pixel_in_view(view.camera, glm::dvec3(0));
     REQUIRE(origin.has_value());
     CHECK(glm::length(glm::dvec2(*origin) - glm::dvec2(200)) < 1.5);
   }

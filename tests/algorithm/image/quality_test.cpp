@@ -17,7 +17,7 @@ using test::noise_image;
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kInfiniteValue = std::numeric_limits<float>::infinity();
 
 // SSIM from its definition: at every pixel a double sum over the 11x11 window, zeros outside.
 double direct_ssim(const Image& a, const Image& b) {
@@ -146,9 +146,9 @@ TEST_CASE("max abs error: the largest channel difference, not clamped") {
   CHECK(max_abs_error(a, b) == std::numeric_limits<double>::infinity());
   a.at(1, 1).y = NAN;
   CHECK(max_abs_error(a, b) == 2.25);  // NaN in both is no difference
-  a.at(2, 2).x = b.at(2, 2).x = kInfinity;
+  a.at(2, 2).x = b.at(2, 2).x = kInfiniteValue;
   CHECK(max_abs_error(a, b) == 2.25);
-  b.at(2, 2).x = -kInfinity;
+  b.at(2, 2).x = -kInfiniteValue;
   CHECK(max_abs_error(a, b) == std::numeric_limits<double>::infinity());
 }
 

@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "algorithm/memory/splat_record.h"
+#include "tests/support/uniform.h"
 
 namespace sgs {
 namespace {
 
-float uniform(std::mt19937& random, float low, float high) {
-  return std::uniform_real_distribution<float>(low, high)(random);
-}
+using test::uniform;
 
 template <class T>
 bool same_bits(const T& a, const T& b) {

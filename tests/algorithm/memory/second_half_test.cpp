@@ -12,18 +12,16 @@
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "tests/algorithm/splat/random_gaussian.h"
+#include "tests/support/uniform.h"
 
 namespace sgs {
 namespace {
 
+using test::uniform;
 using Encoding = SecondHalfEncoding;
 
 constexpr std::array<std::uint32_t, kCodebookCount> kPaperEntries = {4096, 4096, 4096, 512};
 constexpr std::array<std::uint32_t, kCodebookCount> kPaperEntriesDegree0 = {4096, 4096, 4096, 0};
-
-float uniform(std::mt19937_64& random, float low, float high) {
-  return std::uniform_real_distribution<float>(low, high)(random);
-}
 
 TEST_CASE("second half: bytes of a record by encoding and degree") {
   const std::uint32_t raw[] = {40, 76, 136, 220};

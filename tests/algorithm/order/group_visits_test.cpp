@@ -23,10 +23,10 @@ TEST_CASE("paper order: every ray respected, object") {
 TEST_CASE("paper order: every ray respected, small voxels", "[long]") {
   check_order("builtin:object?n=1500", {}, 0.08F);
 }
-TEST_CASE("paper order: every ray respected, truck", "[long]") {
+TEST_CASE("paper order: every ray respected, truck", "[shared]") {
   test::check_order_of_shared("truck");
 }
-TEST_CASE("paper order: every ray respected, playbot", "[long]") {
+TEST_CASE("paper order: every ray respected, playbot", "[shared]") {
   test::check_order_of_shared("playbot");
 }
 

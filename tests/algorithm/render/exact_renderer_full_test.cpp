@@ -5,10 +5,10 @@
 
 using namespace sgs::test;
 
-TEST_CASE("exact order equals the reference: platform") { check_exact_on_shared("platform"); }
-TEST_CASE("exact order equals the reference: yard") { check_exact_on_shared("yard"); }
-TEST_CASE("exact order equals the reference: garden") { check_exact_on_shared("garden"); }
-TEST_CASE("exact order equals the reference: park") { check_exact_on_shared("park"); }
-TEST_CASE("exact order equals the reference: many hard scenes") {
+TEST_CASE("exact order equals the reference: platform", "[nightly]") { check_exact_on_shared("platform"); }
+TEST_CASE("exact order equals the reference: yard", "[nightly]") { check_exact_on_shared("yard"); }
+TEST_CASE("exact order equals the reference: garden", "[nightly]") { check_exact_on_shared("garden"); }
+TEST_CASE("exact order equals the reference: park", "[nightly]") { check_exact_on_shared("park"); }
+TEST_CASE("exact order equals the reference: many hard scenes", "[nightly]") {
   fuzz_exact_order(1'000'000, 20'000);
 }

@@ -13,15 +13,12 @@
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/render/against_double.h"
 #include "tests/algorithm/render/test_clouds.h"
+#include "tests/support/same_bytes.h"
 
 using namespace sgs;
+using sgs::test::same_bytes;
 
 namespace {
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
 
 bool same_bits(const RenderResult& a, const RenderResult& b) {
   return same_bytes(a.image.pixels, b.image.pixels) &&

@@ -169,7 +169,7 @@ TEST_CASE("cameras: resizing scales the focal lengths by width and by height") {
   CHECK_THROWS_AS(scaled_to(camera, 10, -1), InputError);
 }
 
-TEST_CASE("cameras: the real views are read") {
+TEST_CASE("cameras: the real views are read", "[shared]") {
   for (const char* name : {"truck", "playbot", "platform", "yard", "garden", "park"}) {
     const auto cameras = read_cameras(test::shared_path("cameras/" + std::string(name) + ".json"));
     CHECK(cameras.size() == 4);

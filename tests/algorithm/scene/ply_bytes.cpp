@@ -56,6 +56,13 @@ std::vector<std::vector<double>> counting_rows(std::size_t vertices, std::size_t
   return rows;
 }
 
+PlyTable counting_table(std::size_t vertices, int rest_count) {
+  PlyTable table;
+  table.columns = inria_columns(rest_count);
+  table.rows = counting_rows(vertices, table.columns.size());
+  return table;
+}
+
 std::string encoded(const std::string& format, const std::string& type, double value) {
   if (format == "ascii") return fmt::format("{} ", value);
   std::string bytes = little_endian(type, value);

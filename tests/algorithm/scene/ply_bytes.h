@@ -28,6 +28,9 @@ std::vector<PlyColumn> inria_columns(int rest_count);
 // 10, 11, 12 - 1000 * vertex.
 std::vector<std::vector<double>> counting_rows(std::size_t vertices, std::size_t columns);
 
+// Both together.
+PlyTable counting_table(std::size_t vertices, int rest_count = 0);
+
 // One value as text or in the byte order of `format`.
 std::string encoded(const std::string& format, const std::string& type, double value);
 

@@ -11,21 +11,15 @@
 
 using namespace sgs;
 using Catch::Matchers::Contains;
+using sgs::test::counting_table;
 using sgs::test::PlyTable;
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-PlyTable counting_table(std::size_t vertices, int rest_count = 0) {
-  PlyTable table;
-  table.columns = test::inria_columns(rest_count);
-  table.rows = test::counting_rows(vertices, table.columns.size());
-  return table;
-}
-
 // What reading these bytes says.
-std::string refusal(const std::string& bytes, const PlyReadOptions& options = {}) {
+std::string ply_refusal(const std::string& bytes, const PlyReadOptions& options = {}) {
   const test::ScratchFolder scratch;
   const std::string path = scratch.write("bad.ply", bytes);
   const std::string message = test::input_error_of([&] { read_ply(path, options); });
@@ -33,7 +27,7 @@ std::string refusal(const std::string& bytes, const PlyReadOptions& options = {}
   return message;
 }
 
-std::string refusal(const PlyTable& table) { return refusal(test::bytes_of(table)); }
+std::string ply_refusal(const PlyTable& table) { return ply_refusal(test::bytes_of(table)); }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -53,14 +47,14 @@ TEST_CASE("ply reader refuses: files that are missing, folders, devices") {
 
 TEST_CASE("ply reader refuses: what is not a PLY") {
   for (const char* bytes : {"", "p", "ply", "PLY\n", "plyformat\n", "\nply\n", "solid cube\n"}) {
-    CHECK_THAT(refusal(bytes), Contains("byte 0: not a PLY file"));
+    CHECK_THAT(ply_refusal(bytes), Contains("byte 0: not a PLY file"));
   }
 }
 
 TEST_CASE("ply reader refuses: header lines, by number") {
   const std::string good = test::bytes_of(counting_table(1));
   const auto with = [&good](const std::string& from, const std::string& to) {
-    return refusal(replaced(good, from, to));
+    return ply_refusal(replaced(good, from, to));
   };
   CHECK_THAT(with("binary_little_endian", "binary_middle_endian"),
              Contains("line 2: got \"format binary_middle_endian 1.0\""));
@@ -88,11 +82,11 @@ TEST_CASE("ply reader refuses: header lines, by number") {
 }
 
 TEST_CASE("ply reader refuses: a header without end") {
-  CHECK_THAT(refusal("ply\nformat ascii 1.0\n"),
+  CHECK_THAT(ply_refusal("ply\nformat ascii 1.0\n"),
              Contains("line 3: the header ends after 21 bytes"));
   std::string endless = "ply\nformat ascii 1.0\n";
   while (endless.size() < (2u << 20)) endless += "comment and so on\n";
-  CHECK_THAT(refusal(endless), Contains("end_header within 1 MiB"));
+  CHECK_THAT(ply_refusal(endless), Contains("end_header within 1 MiB"));
 }
 
 TEST_CASE("ply reader refuses: missing properties, each by name") {
@@ -103,21 +97,21 @@ TEST_CASE("ply reader refuses: missing properties, each by name") {
     for (auto& column : table.columns) {
       if (column.name == name) column.name = "other";
     }
-    CHECK_THAT(refusal(table), Contains(std::string("got no property ") + name + ","));
+    CHECK_THAT(ply_refusal(table), Contains(std::string("got no property ") + name + ","));
   }
 }
 
 TEST_CASE("ply reader refuses: counts of f_rest that no degree has, and gaps in them") {
   for (const int rest : {1, 3, 8, 10, 44, 46, 72}) {
-    CHECK_THAT(refusal(counting_table(1, rest)),
+    CHECK_THAT(ply_refusal(counting_table(1, rest)),
                Contains("got " + std::to_string(rest) + " properties f_rest_*"));
   }
-  CHECK_THAT(refusal(replaced(test::bytes_of(counting_table(1, 9)), "f_rest_4", "f_rest_9")),
+  CHECK_THAT(ply_refusal(replaced(test::bytes_of(counting_table(1, 9)), "f_rest_4", "f_rest_9")),
              Contains("got no property f_rest_4"));
 }
 
 TEST_CASE("ply reader refuses: lists among the vertex properties") {
-  CHECK_THAT(refusal(replaced(test::bytes_of(counting_table(1)), "property float nx",
+  CHECK_THAT(ply_refusal(replaced(test::bytes_of(counting_table(1)), "property float nx",
                               "property list uchar float nx")),
              Contains("property nx: got a list"));
 }
@@ -129,7 +123,7 @@ TEST_CASE("ply reader refuses: counts that the file cannot hold, before allocati
     const std::string good = test::bytes_of(table);
     for (const char* count : {"3", "1000000000000", "18446744073709551615"}) {
       const std::string bytes = replaced(good, "vertex 2", std::string("vertex ") + count);
-      const std::string message = refusal(bytes);
+      const std::string message = ply_refusal(bytes);
       // Two records of text leave room for more of the shortest kind.
       if (table.format != "ascii" || count[1] != '\0') {
         CHECK_THAT(message, Contains(std::string("expected ") + count + " records of"));
@@ -138,24 +132,24 @@ TEST_CASE("ply reader refuses: counts that the file cannot hold, before allocati
   }
   PlyTable table = counting_table(2);
   table.header_before = "element face 4000000000\nproperty list uint double corners\n";
-  CHECK_THAT(refusal(table), Contains("records of element face, expected 4000000000 records"));
+  CHECK_THAT(ply_refusal(table), Contains("records of element face, expected 4000000000 records"));
 }
 
 TEST_CASE("ply reader refuses: a list longer than the file, or of negative length") {
   PlyTable table = counting_table(2);
   table.header_before = "element face 1\nproperty list uint double corners\n";
   table.body_before = test::encoded(table.format, "uint", 4294967295.0);
-  CHECK_THAT(refusal(table), Contains("expected 4294967295 values of 8 bytes"));
+  CHECK_THAT(ply_refusal(table), Contains("expected 4294967295 values of 8 bytes"));
   table.header_before = "element face 1\nproperty list char double corners\n";
   table.body_before = test::encoded(table.format, "char", -1);
-  CHECK_THAT(refusal(table), Contains("list corners: got length -1"));
+  CHECK_THAT(ply_refusal(table), Contains("list corners: got length -1"));
 }
 
 TEST_CASE("ply reader refuses: truncated bodies, with the number of records that are there") {
   const PlyTable table = counting_table(3);
   const std::string bytes = test::bytes_of(table);
   // 17 floats are 68 bytes: of 3 records the last 10 bytes are gone.
-  const std::string message = refusal(bytes.substr(0, bytes.size() - 10));
+  const std::string message = ply_refusal(bytes.substr(0, bytes.size() - 10));
   CHECK_THAT(message, Contains("got 194 bytes, room for 2 records of element vertex"));
   CHECK_THAT(message, Contains("expected 3 records of 68 bytes"));
   CHECK_THAT(message, Contains("byte " + std::to_string(test::header_of(table).size()) + ":"));
@@ -178,7 +172,7 @@ TEST_CASE("ply reader refuses: bytes behind the last record") {
     table.format = row.format;
     table.header_after = row.header_after;
     table.body_after = row.body_after;
-    CHECK_THAT(refusal(table), Contains(row.message));
+    CHECK_THAT(ply_refusal(table), Contains(row.message));
   }
   PlyTable blank = counting_table(3);
   blank.format = "ascii";
@@ -221,18 +215,18 @@ TEST_CASE("ply reader refuses: values that are not finite, by vertex and propert
       table.format = format;
       table.rows[17][11] = value;  // scale_1
       table.rows[23][0] = value;
-      CHECK_THAT(refusal(table), Contains("vertex 17, property scale_1: got"));
-      CHECK_THAT(refusal(table), Contains("expected a finite number"));
+      CHECK_THAT(ply_refusal(table), Contains("vertex 17, property scale_1: got"));
+      CHECK_THAT(ply_refusal(table), Contains("expected a finite number"));
     }
   }
   PlyTable wide = counting_table(3, 45);
   wide.rows[2][9 + 30] = kInfinity;
-  CHECK_THAT(refusal(wide), Contains("vertex 2, property f_rest_30: got inf"));
+  CHECK_THAT(ply_refusal(wide), Contains("vertex 2, property f_rest_30: got inf"));
   // A double that no float can hold.
   PlyTable large = counting_table(3);
   large.columns[2].type = "double";
   large.rows[1][2] = 1e300;
-  CHECK_THAT(refusal(large), Contains("vertex 1, property z: got inf"));
+  CHECK_THAT(ply_refusal(large), Contains("vertex 1, property z: got inf"));
 }
 
 TEST_CASE("ply reader: values too large to be drawn are refused, or dropped and counted") {
@@ -263,7 +257,7 @@ TEST_CASE("ply reader: values too large to be drawn are refused, or dropped and 
       CHECK(read_ply(path).cloud.size() == 7);
       for (const double factor : {1.000001, 1e10, 3e38 / std::abs(c.limit)}) {
         table.rows[4][c.column] = c.limit * factor;
-        const std::string message = refusal(table);
+        const std::string message = ply_refusal(table);
         CHECK_THAT(message, Contains("vertex 4, property " + std::string(c.property) + ": got "));
         CHECK_THAT(message, Contains(c.expected));
         const PlyReadResult kept = read_ply(scratch.write("b.ply", test::bytes_of(table)), {true});
@@ -295,7 +289,7 @@ TEST_CASE("ply reader: values that are not finite do not matter in properties it
 TEST_CASE("ply reader refuses: quaternions of length zero") {
   PlyTable table = counting_table(5);
   for (int i = 0; i < 4; ++i) table.rows[3][13 + i] = i % 2 ? 0.0 : -0.0;
-  CHECK_THAT(refusal(table), Contains("vertex 3, properties rot_0..3: got the quaternion 0 0 0 0"));
+  CHECK_THAT(ply_refusal(table), Contains("vertex 3, properties rot_0..3: got the quaternion 0 0 0 0"));
   table.rows[3][15] = 1e-30;  // tiny is not zero
   const test::ScratchFolder scratch;
   CHECK(read_ply(scratch.write("a.ply", test::bytes_of(table))).cloud.quats[3][2] == 1e-30f);
@@ -338,12 +332,12 @@ TEST_CASE("ply reader refuses: text that is no number, by line") {
   };
   for (const char* word : {"1.0.0", "12abc", "--3", "1,5", "0x10", "one", "+", "1e", "+-1"}) {
     const std::string bytes = replaced(good, "-990 ", std::string(word) + " ");
-    CHECK_THAT(refusal(bytes), Contains(line_of(1) + " got \"" + word + "\" for scale_0"));
+    CHECK_THAT(ply_refusal(bytes), Contains(line_of(1) + " got \"" + word + "\" for scale_0"));
   }
-  CHECK_THAT(refusal(replaced(good, "-990 ", "")),
+  CHECK_THAT(ply_refusal(replaced(good, "-990 ", "")),
              Contains(line_of(1) + " got 16 values, expected 17"));
-  CHECK_THAT(refusal(replaced(good, "-990 ", "-990 1 ")), Contains("got 18 values, expected 17"));
-  CHECK_THAT(refusal(replaced(good, "-990 ", "1e99 ")),
+  CHECK_THAT(ply_refusal(replaced(good, "-990 ", "-990 1 ")), Contains("got 18 values, expected 17"));
+  CHECK_THAT(ply_refusal(replaced(good, "-990 ", "1e99 ")),
              Contains("vertex 1, property scale_0: got inf"));
 }
 

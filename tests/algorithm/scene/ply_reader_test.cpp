@@ -8,16 +8,10 @@
 #include "tests/support/scratch_folder.h"
 
 using namespace sgs;
+using sgs::test::counting_table;
 using sgs::test::PlyTable;
 
 namespace {
-
-PlyTable counting_table(std::size_t vertices, int rest_count) {
-  PlyTable table;
-  table.columns = test::inria_columns(rest_count);
-  table.rows = test::counting_rows(vertices, table.columns.size());
-  return table;
-}
 
 // The cloud of counting_table(vertices, 0), written down by hand.
 void check_counting_cloud(const GaussianCloud& cloud, std::size_t vertices) {

@@ -10,9 +10,11 @@
 #include "algorithm/scene/ply_reader.h"
 #include "testbench/builtin/random.h"
 #include "tests/algorithm/scene/ply_bytes.h"
+#include "tests/support/same_bytes.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace sgs;
+using sgs::test::same_bytes;
 
 namespace {
 
@@ -30,11 +32,6 @@ GaussianCloud random_cloud(std::size_t count, int degree) {
   return cloud;
 }
 
-template <typename T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
 }  // namespace
 
 TEST_CASE("ply writer: what is read back has the same bits, at every degree") {
@@ -46,11 +43,11 @@ TEST_CASE("ply writer: what is read back has the same bits, at every degree") {
     write_ply(scratch.path("a.ply"), cloud);
     const GaussianCloud back = read_ply(scratch.path("a.ply")).cloud;
     CHECK(back.sh_degree == degree);
-    CHECK(same_bits(back.means, cloud.means));
-    CHECK(same_bits(back.log_scales, cloud.log_scales));
-    CHECK(same_bits(back.quats, cloud.quats));
-    CHECK(same_bits(back.opacity_logits, cloud.opacity_logits));
-    CHECK(same_bits(back.sh_coeffs, cloud.sh_coeffs));
+    CHECK(same_bytes(back.means, cloud.means));
+    CHECK(same_bytes(back.log_scales, cloud.log_scales));
+    CHECK(same_bytes(back.quats, cloud.quats));
+    CHECK(same_bytes(back.opacity_logits, cloud.opacity_logits));
+    CHECK(same_bytes(back.sh_coeffs, cloud.sh_coeffs));
   }
   CHECK(scratch.file_count() == 1);  // no temporaries left
 }

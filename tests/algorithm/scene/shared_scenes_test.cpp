@@ -37,16 +37,16 @@ SceneSummary check_scene(const Expected& expected) {
 
 }  // namespace
 
-TEST_CASE("shared scenes: truck") { check_scene({"truck", 116'544, 0, 3}); }
+TEST_CASE("shared scenes: truck", "[shared]") { check_scene({"truck", 116'544, 0, 3}); }
 
-TEST_CASE("shared scenes: playbot") { check_scene({"playbot", 125'000, 2, 2}); }
+TEST_CASE("shared scenes: playbot", "[shared]") { check_scene({"playbot", 125'000, 2, 2}); }
 
-TEST_CASE("shared scenes: platform, with needles") {
+TEST_CASE("shared scenes: platform, with needles", "[shared]") {
   const SceneSummary summary = check_scene({"platform", 300'000, 0, 2000});
   CHECK(summary.max_scale_ratio > 1e9);
 }
 
-TEST_CASE("shared scenes: yard, there and back byte for byte") {
+TEST_CASE("shared scenes: yard, there and back byte for byte", "[shared][nightly]") {
   const SceneSummary summary = check_scene({"yard", 300'000, 3, 75});
   CHECK(summary.second_half_bytes == 300'000ull * 220);
   const test::ScratchFolder scratch;
@@ -55,6 +55,6 @@ TEST_CASE("shared scenes: yard, there and back byte for byte") {
   CHECK(test::bytes_of(scratch.path("yard.ply")) == test::bytes_of(path));
 }
 
-TEST_CASE("shared scenes: garden") { check_scene({"garden", 851'756, 0, 800}); }
+TEST_CASE("shared scenes: garden", "[shared][nightly]") { check_scene({"garden", 851'756, 0, 800}); }
 
-TEST_CASE("shared scenes: park") { check_scene({"park", 1'699'714, 0, 55}); }
+TEST_CASE("shared scenes: park", "[shared][nightly]") { check_scene({"park", 1'699'714, 0, 55}); }

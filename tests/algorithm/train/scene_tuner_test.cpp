@@ -22,13 +22,13 @@ namespace {
 constexpr float kVoxel = 0.4F;
 
 // A scene whose Gaussians span voxels, and its target.
-struct Case {
+struct BoundaryCase {
   GaussianCloud cloud;
   VoxelGrid grid;
   PaperOrderConfig order;
   Photographs pictures;
 
-  Case() : pictures(0, {}) {
+  BoundaryCase() : pictures(0, {}) {
     const GaussianCloud given = random_cloud(2, 500, 0, {0, 0, 3}, 1, 0.05F, 0.4F);
     auto [made, storage_order] = arrange_by_voxels(activate(given), kVoxel);
     grid = std::move(made);
@@ -56,7 +56,7 @@ Penalty boundary(double beta, MisorderedIn in) {
   return boundary_loss(beta, BlendPrecision::kHalf, {in, PenaltyMean::kRendered});
 }
 
-GaussianCloud tuned(const Case& scene, double beta) {
+GaussianCloud tuned(const BoundaryCase& scene, double beta) {
   VisitPlan plan(scene.grid, scene.order, 1U << 20U);
   SceneTuner tuner(short_tuning(), scene.pictures, paper_order(plan),
                    beta > 0 ? boundary(beta, MisorderedIn::kPixel) : Penalty(), scene.cloud);
@@ -65,7 +65,7 @@ GaussianCloud tuned(const Case& scene, double beta) {
 }
 
 TEST_CASE("boundary tuning: paper order comes nearer, and less of it is out of order") {
-  const Case scene;
+  const BoundaryCase scene;
   const PaperQuality before = scene.quality(scene.cloud);
   CHECK(before.reference.psnr_db > 80);
   REQUIRE(before.misordered_pixels > 0.02);
@@ -88,7 +88,7 @@ TEST_CASE("boundary tuning: paper order comes nearer, and less of it is out of o
 }
 
 TEST_CASE("boundary tuning: saved and resumed, on 1 and 3 threads, the same bits") {
-  const Case scene;
+  const BoundaryCase scene;
   const TuningConfig config = short_tuning();
   const Penalty penalty = boundary(0.05, MisorderedIn::kGroup);
   VisitPlan plan(scene.grid, scene.order, 1U << 20U);
@@ -108,7 +108,7 @@ TEST_CASE("boundary tuning: saved and resumed, on 1 and 3 threads, the same bits
 }
 
 TEST_CASE("boundary tuning: what is no number stops it, and the step has changed nothing") {
-  Case scene;
+  BoundaryCase scene;
   scene.order.precision = BlendPrecision::kSingle;  // a half's largest number is finite
   GaussianCloud cloud = scene.cloud;
   for (glm::vec3& coeff : cloud.sh_coeffs) coeff.x = 1e38F;
@@ -134,7 +134,7 @@ std::size_t fetches(const ActivatedCloud& cloud, const PixelSize& group) {
 }
 
 TEST_CASE("streaming tuning: fewer fetches the more they cost, for some quality") {
-  const Case scene;
+  const BoundaryCase scene;
   const PixelSize group = square_of(16);
   std::size_t before = fetches(activate(scene.cloud), group);
   for (const double weight : {0.005, 0.05}) {

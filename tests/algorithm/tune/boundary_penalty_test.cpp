@@ -96,7 +96,7 @@ PaperScene paper_scene(const GaussianCloud& scene, float voxel_size) {
   return out;
 }
 
-CloudGradient gradient_of(const PaperScene& scene, const View<float>& view,
+CloudGradient penalty_gradient(const PaperScene& scene, const View<float>& view,
                           const GroupSequences& sequences) {
   const RenderResult picture = draw(sequences);
   PixelGradient by_pixel{Image(view.width, view.height), {}};
@@ -136,7 +136,7 @@ TEST_CASE("L_CBP: its gradient is that of dual numbers, and adds to what is ther
           boundary_penalty(sequences, scene.cloud, BlendPrecision::kSingle, {in, mean});
       REQUIRE(penalty.misordered > 50);
       REQUIRE(penalty.misordered < penalty.rendered);
-      const CloudGradient before = gradient_of(scene, view, sequences);
+      const CloudGradient before = penalty_gradient(scene, view, sequences);
       CloudGradient with = before;
       const double beta = 0.5;
       add_boundary_gradient(penalty, beta, sequences, scene.cloud, with);

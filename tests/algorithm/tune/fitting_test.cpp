@@ -64,14 +64,14 @@ Fit fit(GaussianCloud cloud, const View<float>& view, const Image& target, const
   return out;
 }
 
-const LearningRates kRates{2e-4, 1e-2, 5e-3, 5e-2, 1e-2, 2e-3};
+const LearningRates kFittingRates{2e-4, 1e-2, 5e-3, 5e-2, 1e-2, 2e-3};
 
 TEST_CASE("a scene moved off its picture finds back by gradients of the reference order") {
   const Camera camera = forward_camera(100, 64, 80);
   const auto view = make_view<float>(camera);
   const GaussianCloud scene = random_cloud(1, 600, 1, {0, 0, 3}, 1, 0.02F, 0.3F);
   const Image target = draw(reference_sequences(view, activate(scene))).image;
-  const Fit fitted = fit(moved_off(scene, true), view, target, reference_sequences, kRates, 120);
+  const Fit fitted = fit(moved_off(scene, true), view, target, reference_sequences, kFittingRates, 120);
   CHECK(fitted.losses.back() < 0.2 * fitted.losses.front());
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("paper order comes nearer to the reference picture, the centres left w
   const Order visited = [&](const View<float>& v, const ActivatedCloud& c) {
     return visited_sequences(v, c, arranged.table, before.group_voxels, config.group);
   };
-  LearningRates rates = kRates;
+  LearningRates rates = kFittingRates;
   rates.mean = 0;
   const Fit fitted = fit(scene, view, target, visited, rates, 120);
   REQUIRE(fitted.cloud.means == scene.means);
@@ -110,7 +110,7 @@ TEST_CASE("a fit takes the same way, bit for bit, on 1, 2 and 3 threads") {
   std::vector<Fit> fits;
   for (const std::size_t threads : {1, 2, 3}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    fits.push_back(fit(moved_off(scene, true), view, target, reference_sequences, kRates, 6));
+    fits.push_back(fit(moved_off(scene, true), view, target, reference_sequences, kFittingRates, 6));
   }
   for (const std::size_t other : {1, 2}) {
     CHECK(fits[0].losses == fits[other].losses);

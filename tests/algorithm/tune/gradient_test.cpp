@@ -9,11 +9,11 @@
 namespace sgs::test {
 namespace {
 
-struct Order {
+struct NamedOrder {
   const char* name;
   Sequence sequence;
 };
-std::vector<Order> orders() { return {{"by depth", by_depth}, {"by visits", by_visits}}; }
+std::vector<NamedOrder> orders() { return {{"by depth", by_depth}, {"by visits", by_visits}}; }
 
 std::vector<double> parameters(SceneOf<double> scene, std::size_t i) {
   std::vector<double> out;
@@ -62,7 +62,7 @@ TEST_CASE("gradients are those that dual numbers carry, for every parameter") {
   const auto dual_view = make_view<Dual>(camera);
   std::size_t compared = 0;
   for (const HardScene& hard : hard_scenes()) {
-    for (const Order& order : orders()) {
+    for (const NamedOrder& order : orders()) {
       const auto gradient = gradient_of(view, hard.scene, hard.loss, order.sequence);
       double of_scene = 0;
       for (std::size_t i = 0; i < hard.scene.raw.size(); ++i) {
@@ -92,7 +92,7 @@ TEST_CASE("gradients are those of central differences, for every parameter", "[l
   std::size_t compared = 0, jumps = 0;
   for (const HardScene& hard : hard_scenes()) {
     if (hard.scene.sh_degree % 3 != 0) continue;
-    for (const Order& order : orders()) {
+    for (const NamedOrder& order : orders()) {
       const auto gradient = gradient_of(view, hard.scene, hard.loss, order.sequence);
       const auto here = loss_of(view, hard.scene, hard.loss, order.sequence);
       for (std::size_t i = 0; i < hard.scene.raw.size(); ++i) {

@@ -6,19 +6,14 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 
 #include "algorithm/render/reference_renderer.h"
 #include "tests/algorithm/tune/float_scenes.h"
 #include "tests/algorithm/tune/hard_gaussians.h"
+#include "tests/support/same_bytes.h"
 
 namespace sgs::test {
 namespace {
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
 
 bool same_bits(const CloudGradient& a, const CloudGradient& b) {
   const GaussianCloud &p = a.parameters, &q = b.parameters;

@@ -4,13 +4,13 @@
 #include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
-#include <cstring>
 
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/reorder.h"
 #include "tests/algorithm/tune/float_scenes.h"
 #include "tests/algorithm/tune/hard_gaussians.h"
+#include "tests/support/same_bytes.h"
 
 namespace sgs::test {
 namespace {
@@ -36,11 +36,6 @@ Stored stored(const GaussianCloud& scene, const Camera& camera, float voxel_size
   out.sequences = visited_sequences(view, out.cloud, out.grid, out.result.group_voxels,
                                     config.group, config.visit_gaussians);
   return out;
-}
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 TEST_CASE("the drawn picture is that of paper order, bit for bit") {

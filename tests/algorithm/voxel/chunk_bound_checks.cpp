@@ -136,6 +136,15 @@ class Checker {
 
 }  // namespace
 
+bool holds(const ChunkBound& outer, const ChunkBound& inner) {
+  bool all = outer.scale_max >= inner.scale_max;
+  for (int k = 0; k < 3; ++k) {
+    all = all && outer.low[k] <= inner.low[k] && outer.high[k] >= inner.high[k] &&
+          outer.extent[k] >= inner.extent[k];
+  }
+  return all;
+}
+
 void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, const PixelSize& group_size,
                         BoundTally& tally) {
   const auto [cloud, tree] = by_chunks(activate(scene.cloud), chunk, Stored::kAll);

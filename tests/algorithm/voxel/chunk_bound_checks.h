@@ -6,6 +6,7 @@
 #include <string>
 
 #include "algorithm/splat/rects.h"
+#include "algorithm/voxel/chunk_tree.h"
 #include "tests/algorithm/voxel/hard_scenes.h"
 
 namespace sgs::test {
@@ -15,6 +16,9 @@ struct BoundTally {
   std::uint64_t splats = 0;                             // (Gaussian, group) pairs that may blend
   std::string failure;                                  // empty: none
 };
+
+// Whether `outer` holds all that `inner` holds.
+bool holds(const ChunkBound& outer, const ChunkBound& inner);
 
 // All chunks and inner nodes of the scene's tree against all groups of its frame.
 void check_chunk_bounds(const HardScene& scene, std::uint32_t chunk, const PixelSize& group_size,

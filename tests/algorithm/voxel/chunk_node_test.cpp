@@ -7,7 +7,10 @@
 #include <random>
 #include <vector>
 
+#include "tests/algorithm/voxel/chunk_bound_checks.h"
+
 using namespace sgs;
+using sgs::test::holds;
 
 namespace {
 
@@ -18,15 +21,6 @@ ChunkNode quantised(const std::vector<ChunkBound>& bounds) {
   node.children = static_cast<std::uint8_t>(bounds.size());
   quantise(bounds.data(), node);
   return node;
-}
-
-bool holds(const ChunkBound& outer, const ChunkBound& inner) {
-  bool all = outer.scale_max >= inner.scale_max;
-  for (int k = 0; k < 3; ++k) {
-    all = all && outer.low[k] <= inner.low[k] && outer.high[k] >= inner.high[k] &&
-          outer.extent[k] >= inner.extent[k];
-  }
-  return all;
 }
 
 void check_never_inward(const std::vector<ChunkBound>& bounds) {

@@ -11,20 +11,13 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/footprint.h"
 #include "testbench/builtin/builtin_scene.h"
+#include "tests/algorithm/voxel/chunk_bound_checks.h"
 #include "tests/algorithm/voxel/hard_scenes.h"
 
 using namespace sgs;
+using sgs::test::holds;
 
 namespace {
-
-bool holds(const ChunkBound& outer, const ChunkBound& inner) {
-  bool all = outer.scale_max >= inner.scale_max;
-  for (int k = 0; k < 3; ++k) {
-    all = all && outer.low[k] <= inner.low[k] && outer.high[k] >= inner.high[k] &&
-          outer.extent[k] >= inner.extent[k];
-  }
-  return all;
-}
 
 struct Shape {
   std::uint32_t next_slot = 0, chunks = 0, depth = 0;

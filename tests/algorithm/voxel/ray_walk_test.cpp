@@ -9,11 +9,13 @@
 #include "algorithm/voxel/ray_sampling.h"
 #include "tests/algorithm/voxel/cell_stepper.h"
 #include "tests/algorithm/voxel/stored_clouds.h"
+#include "tests/support/uniform.h"
 
 namespace sgs {
 namespace {
 
 using test::OccupiedCells;
+using test::uniform;
 
 struct GridTable {
   const VoxelGrid& grid;
@@ -52,10 +54,6 @@ std::vector<std::uint32_t> traced(Tracer& tracer, const Ray& ray) {
     return true;
   });
   return met;
-}
-
-float uniform(std::mt19937& random, float low, float high) {
-  return std::uniform_real_distribution<float>(low, high)(random);
 }
 
 glm::vec3 in_cube(std::mt19937& random, float half_side) {

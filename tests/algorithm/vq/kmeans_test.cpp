@@ -10,15 +10,13 @@
 #include <random>
 
 #include "algorithm/vq/nearest.h"
+#include "tests/support/uniform.h"
 
 namespace sgs {
 namespace {
 
+using test::uniform;
 using Random = std::mt19937_64;
-
-float uniform(Random& random, float low, float high) {
-  return std::uniform_real_distribution<float>(low, high)(random);
-}
 
 // Points around `clusters` centres, weights over four decades, some 0.
 PointSet clustered(std::uint64_t seed, std::size_t count, int dims, std::size_t clusters) {

@@ -8,9 +8,12 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/uniform.h"
+
 namespace sgs {
 namespace {
 
+using test::uniform;
 using Random = std::mt19937_64;
 using Coordinate = std::function<float(Random&)>;
 
@@ -66,10 +69,6 @@ void check_sizes(const Coordinate& coordinate) {
       check_searches(random, entries, dims, coordinate);
     }
   }
-}
-
-float uniform(Random& random, float low, float high) {
-  return std::uniform_real_distribution<float>(low, high)(random);
 }
 
 TEST_CASE("nearest: random points") {

@@ -22,9 +22,9 @@ namespace {
 using sc_core::SC_NS;
 
 // A memory, its trace, and a thread that asks for some requests and then for the counts.
-class Bench {
+class TraceBench {
  public:
-  Bench(const DramConfig& config, bool blocking, std::uint32_t seed, std::string path)
+  TraceBench(const DramConfig& config, bool blocking, std::uint32_t seed, std::string path)
       : path_(std::move(path)),
         blocking_(blocking),
         random_(seed),
@@ -105,7 +105,7 @@ TEST_CASE("command trace: closed before or after the counts are asked for, it ho
                                  {10, 0, RefreshMode::kAllBank},
                                  {10, 500, RefreshMode::kAllBank},
                                  {10, 0, RefreshMode::kPerBank}};
-  std::vector<std::unique_ptr<Bench>> benches;
+  std::vector<std::unique_ptr<TraceBench>> benches;
   for (const Row& row : rows)
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
       DramConfig config;
@@ -113,7 +113,7 @@ TEST_CASE("command trace: closed before or after the counts are asked for, it ho
       config.self_refresh_idle_cycles = row.self_refresh_idle_cycles;
       config.refresh = row.refresh;
       const std::string path = scratch.path(std::to_string(benches.size()));
-      benches.push_back(std::make_unique<Bench>(config, seed % 4 == 0, seed, path));
+      benches.push_back(std::make_unique<TraceBench>(config, seed % 4 == 0, seed, path));
     }
   sc_core::sc_start();
   for (const auto& bench : benches) bench->check();

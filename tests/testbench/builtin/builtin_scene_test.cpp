@@ -11,22 +11,19 @@
 #include <iomanip>
 
 #include "algorithm/scene/describe.h"
+#include "tests/support/same_bytes.h"
 #include "tests/support/scratch_folder.h"
 
 using namespace sgs;
+using sgs::test::same_bytes;
 using Catch::Matchers::Contains;
 
 namespace {
 
-template <typename T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
 bool same_bits(const GaussianCloud& a, const GaussianCloud& b) {
-  return a.sh_degree == b.sh_degree && same_bits(a.means, b.means) &&
-         same_bits(a.log_scales, b.log_scales) && same_bits(a.quats, b.quats) &&
-         same_bits(a.opacity_logits, b.opacity_logits) && same_bits(a.sh_coeffs, b.sh_coeffs);
+  return a.sh_degree == b.sh_degree && same_bytes(a.means, b.means) &&
+         same_bytes(a.log_scales, b.log_scales) && same_bytes(a.quats, b.quats) &&
+         same_bytes(a.opacity_logits, b.opacity_logits) && same_bytes(a.sh_coeffs, b.sh_coeffs);
 }
 
 void check_usable(const BuiltinScene& scene, std::size_t count) {
