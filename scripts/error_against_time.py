@@ -6,7 +6,6 @@
 
 image      pictures against frame time, bytes and energy: order, group, voxel, chunk, merge buffer,
            encoding, precision, finishing, tuning
-model      cycles, bytes and energy that --estimate reckons, against wall time
 tuning     quality of test views against wall time: rates of tuning on the scenes, budgets of
            Gaussians in training on data sets
 renderers  pictures of the renderers in software, and of thresholds at which a pixel is finished,
@@ -23,7 +22,6 @@ import pathlib
 import sys
 
 import error_image
-import error_model
 import error_renderers
 import error_tuning
 import run_arguments
@@ -33,7 +31,6 @@ from view_numbers import view_numbers_there
 
 DIAGRAMS = {
     "image": error_image.make,
-    "model": error_model.make,
     "tuning": error_tuning.make,
     "renderers": error_renderers.make,
 }
@@ -42,7 +39,6 @@ FIGURES = {"image": ("error_image", "error_image_kinds")}
 
 def check(arguments: argparse.Namespace) -> None:
     """Before hours of frames. Raises ValueError for numbers that say nothing, and what is twice."""
-    run_arguments.check_at_least("--configurations", arguments.configurations, 1)
     run_arguments.check_at_least("--steps", arguments.steps, 0)
     run_arguments.check_at_least("--between", arguments.between, 0)
     run_arguments.check_at_least("--train-steps", arguments.train_steps, 1)
@@ -80,15 +76,11 @@ def main() -> int:
     parser = run_arguments.parser(__doc__)
     parser.add_argument(
         "--diagrams", nargs="+", choices=DIAGRAMS, default=list(DIAGRAMS), metavar="NAME",
-        help="which of the four",
+        help="which of the three",
     )  # fmt: skip
     parser.add_argument("--view", dest="views", type=views, default="0", help="as in 0,2")
     parser.add_argument("--size", default="640x360", metavar="WxH", help="px of a view")
     parser.add_argument("-j", "--jobs", type=int, default=1, help="frames side by side")
-    parser.add_argument(
-        "--configurations", type=int, default=12, help="machines that the model is judged by"
-    )
-    parser.add_argument("--seed", type=int, default=1, help="that they are drawn by")
     parser.add_argument("--steps", type=int, default=120, help="of tuning; 0: nothing is tuned")
     parser.add_argument("--tuning-size", default="160x90", metavar="WxH", help="px, for tuning")
     parser.add_argument(

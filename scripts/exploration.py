@@ -17,7 +17,6 @@ from measures import pareto_front
 from search_space import Space
 
 NOT_DRAWN = "not all views drawn"
-ESTIMATE = "estimate"  # fidelity of what was reckoned
 
 
 class Exploration:
@@ -30,11 +29,8 @@ class Exploration:
         self.judged: dict[Assignments, Judged] = {}
 
     def add(self, judged: Judged) -> None:
-        """What was simulated stays, whoever reckons it once more."""
         with self.lock:
-            there = self.judged.get(judged.assignments)
-            if there is None or judged.fidelity != ESTIMATE or there.fidelity == ESTIMATE:
-                self.judged[judged.assignments] = judged
+            self.judged[judged.assignments] = judged
 
     def add_last(self, judged: Judged) -> None:
         """Behind all others."""
@@ -59,15 +55,6 @@ class Exploration:
         best = pareto_front([judged.costs for judged in held])
         return sorted((j for j, kept in zip(held, best) if kept), key=lambda j: j.costs)
 
-    def reckoned(self) -> list[Judged]:
-        """What is to be simulated: estimates on the front, and of what was given by name."""
-        front = self.front()
-        return [
-            judged
-            for judged in self.told()
-            if judged.fidelity == ESTIMATE and (judged.assignments in self.names or judged in front)
-        ]
-
     def numbers(self, judged: Judged) -> list[object]:
         """Objectives, then what else is shown, then what is required; of what was not drawn to the
         end only the last, since the others are not what they are elsewhere."""
@@ -85,12 +72,8 @@ class Exploration:
         shown = (measure.text for measure in self.task.shown)
         required = (r.name for r in self.task.requirements)
         names = ("beside",) if self.names else ()
-        told = ("slowest view", "binding", *self.fidelity("fidelity"), *names, "holds", "front")
+        told = ("slowest view", "binding", *names, "holds", "front")
         return (*self.task.keys, *objectives, *shown, *required, *told)
-
-    def fidelity(self, cell: str) -> tuple[str, ...]:
-        """A column only where there are estimates."""
-        return (cell,) if self.task.estimated else ()
 
     def row(self, judged: Judged, front: Sequence[Judged]) -> tuple:
         holds = "yes" if judged.holds() else (judged.dropped and NOT_DRAWN) or "no"
@@ -99,7 +82,6 @@ class Exploration:
             *self.numbers(judged),
             judged.slowest,
             judged.binding,
-            *self.fidelity(judged.fidelity),
             *((self.names.get(judged.assignments, ""),) if self.names else ()),
             holds if self.task.requirements else "",
             "yes" if judged in front else "",
@@ -114,13 +96,6 @@ class Exploration:
         text += f"{len(self.told())} configurations"
         text += f", of which {held} hold {required}" if required else ""
         text += f"; {len(front)} of them no other one beats.\n\n"
-        if self.task.estimated:
-            reckoned = sum(judged.fidelity == ESTIMATE for judged in self.told())
-            left = sum(judged.fidelity == ESTIMATE for judged in front)
-            text += (
-                f"{len(self.told()) - reckoned} were simulated, the others reckoned (--estimate)"
-            )
-            text += f"; of the front {left or 'none'} was reckoned.\n\n"
         text += tables.markdown(self.head()[:-2], shown) if front else ""
         return text + "".join(f"\n{line}\n" for line in self.not_told())
 

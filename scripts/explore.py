@@ -29,14 +29,7 @@ Views that took long are drawn first: a configuration that has lost on one of th
 other. In a search whose objectives any frame tells (area), one that is no better than another that
 holds is not drawn at all.
 
-With --estimate configurations are reckoned in place of simulated (`streaminggs sweep --estimate`),
-and then what is on the front is simulated, until all of it is: what was reckoned too well gives way
-to others. A search that asks for area alone simulates a configuration before it leaves out others
-for it. The column `fidelity` says which is which. What misses a requirement by the estimate alone
-is not simulated. A search's --minutes are those before the front is simulated.
-
-Simulations are kept in explore_runs.jsonl, estimates in explore_estimates.jsonl: interrupted or
-started again it goes on where it ended.
+Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
 Writes explore.csv, a line for each configuration, explore.md, the front, and exploration.svg and
 .png, which show both beside what was required; filter_units.svg and .png where CFUs and FFU lanes
 are all that differs. Of what was interrupted or failed midway there are explore_partial.csv and
@@ -51,7 +44,6 @@ from __future__ import annotations
 
 import argparse
 import concurrent.futures
-import contextlib
 import functools
 import os
 import pathlib
@@ -75,7 +67,6 @@ from sweep_server import SweepServer
 from view_numbers import view_numbers_there
 
 RUNS_FILE = "explore_runs.jsonl"
-ESTIMATES_FILE = "explore_estimates.jsonl"
 SAMPLERS = ("tpe", "nsga2", "random")
 OBJECTIVES = "cycles,dram_bytes,sram_bytes,filter_lanes,mm2"
 
@@ -161,7 +152,6 @@ def find_task(
         objectives=objectives_of(arguments.objectives or default_objectives(config)),
         requirements=tuple(map(requirement, arguments.require)),
         shown=shown(arguments.show),
-        estimated=arguments.estimate,
     )
 
 
@@ -188,19 +178,6 @@ def explore_all(work: Work) -> None:
         work.made.add_last(work.made.judged[point])
 
 
-def simulate_front(work: Work, judge: Judge) -> None:
-    """Until nothing on the front, and nothing that was given by name, is reckoned."""
-    while reckoned := work.made.reckoned():
-        print(f"to be simulated of the front: {len(reckoned)}", file=sys.stderr, flush=True)
-        with concurrent.futures.ThreadPoolExecutor(work.arguments.j) as pool:
-            waiting = [pool.submit(judge.judged, each.assignments) for each in reckoned]
-            try:
-                for each in waiting:
-                    work.made.add(each.result())
-            finally:
-                pool.shutdown(cancel_futures=True)
-
-
 def is_studied(arguments: argparse.Namespace) -> bool:
     return bool(arguments.search or arguments.study)
 
@@ -210,48 +187,34 @@ def explore(arguments: argparse.Namespace) -> None:
     if is_studied(arguments):
         debian_python.need("optuna", "python3-optuna")
     scenes = find_scenes(arguments.scenes)
-    with contextlib.ExitStack() as servers:
-
-        def server(name: str, *options: str) -> SweepServer:
-            kept = arguments.out / name
-            return servers.enter_context(
-                SweepServer(arguments.streaminggs, kept, arguments.j, options)
-            )
-
-        simulated = server(RUNS_FILE)
-        kept = server(ESTIMATES_FILE, "--estimate") if arguments.estimate else simulated
-        explore_with(kept, simulated, arguments, scenes)
+    runs = arguments.out / RUNS_FILE
+    with SweepServer(arguments.streaminggs, runs, arguments.j) as kept:
+        explore_with(kept, arguments, scenes)
 
 
 def explore_with(
-    kept: SweepServer,
-    simulated: SweepServer,
-    arguments: argparse.Namespace,
-    scenes: Sequence[Scene],
+    kept: SweepServer, arguments: argparse.Namespace, scenes: Sequence[Scene]
 ) -> None:
-    """kept: what draws or reckons all there is; simulated: what draws the front."""
-    config = config_of(arguments, simulated)
+    config = config_of(arguments, kept)
     axes, fixed = machine_axes(arguments, kept, config)
     space = find_space(arguments, axes)
     beside = explore_checks.parse_beside(arguments.beside)
     check_keys(arguments, space, beside, config)
     keys = [*space.keys(), *Space((Axis("", tuple(beside)),)).keys()] if beside else space.keys()
     task = find_task(arguments, scenes, keys, fixed, config)
-    judge, drawing = Judge(task, kept.outcome), Judge(task, simulated.outcome)
+    judge = Judge(task, kept.outcome)
     work = Work(arguments, space, judge, Exploration(task, beside))
     complete = False
     try:
         for assignments in beside:
-            work.made.add(drawing.judged(assignments))
+            work.made.add(judge.judged(assignments))
         if is_studied(arguments):
             import study_work  # Optuna is not everybody's
 
-            study_work.explore(work, kept, drawing)
+            study_work.explore(work, kept)
         else:
             explore_all(work)
-        simulate_front(work, drawing)
         kept.end()
-        simulated.end()
         complete = True
     finally:
         if not complete and work.made.told():
@@ -268,9 +231,6 @@ def main() -> int:
     parser = run_arguments.parser(__doc__)
     parser.add_argument(
         "-j", type=int, default=os.cpu_count(), metavar="N", help="simulations at a time"
-    )
-    parser.add_argument(
-        "--estimate", action="store_true", help="reckon all, and simulate what is on the front"
     )
     parser.add_argument("--machine", choices=list(ORDERS), help="axes of an order's machine")
     which = parser.add_mutually_exclusive_group()

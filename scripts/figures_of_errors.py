@@ -1,4 +1,4 @@
-"""Error against wall time: of the model, of tuning and training, of renderers in software."""
+"""Error against wall time: of tuning and training, of renderers in software."""
 
 from __future__ import annotations
 
@@ -22,31 +22,8 @@ from figure_style import (
 from figures_of_image_errors import SCRIPT, quality
 
 Made = tuple[Figure, str]  # with its caption
-MODEL_COLUMNS = ("cycles %", "bytes %", "energy %")
-SMALLEST_PER_CENT = 1e-3  # errors below are drawn here
 TIMED = ("scene", "view", "renderer", "finished below", "threads", "ms", "PSNR dB")
 DOUBLE = "double"
-
-
-def error_model(results: Results) -> Made:
-    data = results.table("error_model", SCRIPT, ("scene", "fidelity", "seconds", *MODEL_COLUMNS))
-    figure, flat = panels(len(MODEL_COLUMNS), across=3, width=3.9)
-    for axes, column in zip(flat, MODEL_COLUMNS):
-        for at, scene in enumerate(data.different("scene")):
-            for fidelity in data.different("fidelity"):
-                rows = data.where(scene=scene, fidelity=fidelity)
-                style = {**line_style(at), "linestyle": "none", "label": f"{scene}, {fidelity}"}
-                if fidelity == "accurate":
-                    style["markerfacecolor"] = "white"
-                sizes = [max(SMALLEST_PER_CENT, abs(number(row[column]))) for row in rows]
-                axes.plot([number(row["seconds"]) for row in rows], sizes, **style)
-        axes.set(xscale="log", yscale="log", xlabel="seconds of a frame, the simulation alone")
-        axes.set_title(f"{column.removesuffix(' %')}, error in %")
-    legend_above(figure, flat[0])
-    return figure, (
-        "What the model reckons (full) and simulates (open, right by definition) against the time "
-        f"that it takes; errors below {SMALLEST_PER_CENT} % stand there. From {data.made}"
-    )
 
 
 def error_tuning(results: Results) -> Made:
@@ -129,7 +106,6 @@ def draw_thresholds(axes: Axes, rows: Sequence[dict[str, str]]) -> None:
 
 
 FIGURES = {
-    "error_model": error_model,
     "error_tuning": error_tuning,
     "error_renderers": error_renderers,
 }

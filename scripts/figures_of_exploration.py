@@ -99,40 +99,17 @@ def equal_of(data: Data, up: str) -> Equal | None:
     return Equal(max(others), max(others) + max((max(others) - min(others)) / 4, 1))
 
 
-def is_estimate(row: dict[str, str]) -> bool:
-    return row.get("fidelity") == "estimate"
-
-
-def draw_reckoned(axes: Axes, points: list[Point], style: dict, label: str | None) -> None:
-    """Hollow and dashed, which markers of a line cannot be."""
-    axes.scatter(
-        *zip(*points),
-        label=label,
-        marker=style["marker"],
-        facecolors="white",
-        edgecolors=style["color"],
-        linestyles=[(0, (1.5, 1))],
-        s=25,
-        zorder=2,
-    )
-
-
 def draw_points(axes: Axes, data: Data, across: str, up: str) -> None:
-    """A marker for each unit that binds, filled on the front; dashed where it was reckoned."""
+    """A marker for each unit that binds, filled on the front."""
     for at, binding in enumerate(data.different("binding")):
         style = line_style(at) | {"linestyle": "none"}
         label: str | None = f"{binding} binds"
-        simulated = [row for row in data.where(binding=binding) if not is_estimate(row)]
         for best, face in (("yes", style["color"]), ("", "white")):
-            rows = [row for row in simulated if row["front"] == best]
+            rows = data.where(binding=binding, front=best)
             points = [p for row in rows if (p := point_of(row, across, up))]
             if points:
                 axes.plot(*zip(*points), label=label, **style, markerfacecolor=face)
                 label = None
-        reckoned = [row for row in data.where(binding=binding) if is_estimate(row)]
-        points = [p for row in reckoned if (p := point_of(row, across, up))]
-        if points:
-            draw_reckoned(axes, points, style, label)
 
 
 def draw_required(axes: Axes, name: str) -> None:
@@ -200,38 +177,13 @@ def exploration(results: Results) -> Made:
             equal.draw(axes)
         draw_beside(axes, data, across, up)
     legend_above(figure, all_axes[0], columns=3 if wide else 5)
-    dashes = (
-        "; dashed: reckoned (--estimate), not simulated"
-        if any(map(is_estimate, everything.rows))
-        else ""
-    )
     held = "; hatched: what does not hold" if any(map(REQUIRED.fullmatch, ups)) else ""
     given = any(row.get("beside") for row in everything.rows)
     rings = "; in rings: what was given beside" if given else ""
     return figure, (
         "What was explored: filled where no other point that holds is better in everything that "
-        f"was asked for{dashes}{held}{rings}. From {everything.made}"
+        f"was asked for{held}{rings}. From {everything.made}"
     )
 
 
-def estimate_error(results: Results) -> Made:
-    measured = ("cycles", "cycles_estimated", "seconds", "seconds_estimated")
-    data = results.table("estimate_error", "estimate_error.py", ("scene", *measured))
-    figure, (errors, seconds) = panels(2)
-    for at, scene in enumerate(data.different("scene")):
-        rows = [[number(row[name]) for name in measured] for row in data.where(scene=scene)]
-        cycles, reckoned, simulated_s, reckoned_s = zip(*rows)
-        style = {**line_style(at), "linestyle": "none", "markersize": 4, "label": scene}
-        off = [100 * (r / c - 1) for c, r in zip(cycles, reckoned)]
-        errors.plot([c / 1e6 for c in cycles], off, **style)
-        seconds.plot(simulated_s, reckoned_s, **style)
-    errors.axhline(0, color=INK, linewidth=0.8)
-    errors.set(xscale="log", xlabel="simulated, M cycles")
-    errors.set_title("Cycles reckoned over cycles simulated, %")
-    seconds.set(xscale="log", yscale="log", xlabel="simulated, s", ylabel="reckoned, s")
-    seconds.set_title("Seconds a frame")
-    legend_above(figure, errors)
-    return figure, f"Estimates beside simulations of the same machines. From {data.made}"
-
-
-FIGURES = {"exploration": exploration, "estimate_error": estimate_error}
+FIGURES = {"exploration": exploration}

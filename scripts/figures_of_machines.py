@@ -225,9 +225,6 @@ def roofline(results: Results) -> Made:
     return figure, caption_of(results, what)
 
 
-PALE = {"idle": "#eef0f3", "unknown": "#e3e6ea"}
-
-
 def waits(results: Results) -> Made:
     runs = first_runs(results)
     spent = [report_time.by_kind(report_time.activities(run.views[0].report)) for run in runs]
@@ -242,7 +239,7 @@ def waits(results: Results) -> Made:
             shares = [100 * of[cause] / (sum(of.values()) or 1) for _, _, of in activities]
             if cause not in met:
                 continue
-            style = {"color": PALE[cause]} if cause in PALE else bar_style(at)
+            style = bar_style(at) if cause != "idle" else {"color": "#eef0f3"}
             axes.barh(names, shares, left=left, label=text, **style)
             left = [a + b for a, b in zip(left, shares)]
         axes.set_xlim(0, 100)

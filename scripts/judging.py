@@ -34,7 +34,6 @@ class Judged:
     shown: tuple[float, ...] = ()
     settings: dict[str, object] = dataclasses.field(default_factory=dict)
     drawn: int = 0
-    fidelity: str = ""  # of its views: "accurate", or "estimate" where they were reckoned
     slowest: str = ""  # view of those drawn
     binding: str = ""
     commit: str = ""
@@ -54,7 +53,7 @@ class Judged:
 @dataclasses.dataclass(frozen=True)
 class Task:
     """What a configuration is judged by. base: what all of them have set, which a configuration
-    may set anew. estimated: what is judged is reckoned first."""
+    may set anew."""
 
     views: tuple[tuple[Scene, int], ...]
     keys: tuple[str, ...]  # of the settings to be shown
@@ -64,7 +63,6 @@ class Task:
     objectives: tuple[Objective, ...]
     requirements: tuple[Requirement, ...]
     shown: tuple[Measure, ...] = ()  # that nothing is judged by
-    estimated: bool = False
 
     def run(self, scene: Scene, view: int, assignments: Assignments) -> Run:
         return Run(scene, str(view), self.size, self.config, (*self.base, *assignments))
@@ -126,7 +124,6 @@ class Judge:
             shown=tuple(measure.of(views) for measure in self.task.shown),
             settings={key: setting(views[0]["config"], key) for key in self.task.keys},
             drawn=len(views),
-            fidelity=views[0].get("fidelity", ""),
             slowest=f"{slowest['scene_name']} {slowest['view']}",
             binding="+".join(sorted({view["binding"]["unit"] for view in views})),
             commit=views[0]["provenance"].get("commit", ""),

@@ -37,7 +37,6 @@ from report_folder import (
     ViewFiles,
     find_runs,
     find_tables,
-    is_estimate,
     read_path,
 )
 from sweep_results import read_sweep
@@ -122,7 +121,6 @@ def heading_of_path(path: dict) -> tuple[str, str]:
     """Of the frames of `simulate --path`."""
     summary = path["summary"]
     words = (
-        *(("estimates",) if is_estimate(path) else ()),
         f"{summary['frames']} frames along {path['path']['name']}",
         f"frames a second: worst {summary['worst_fps']:.0f} (frame {summary['worst_frame']}), "
         f"p99 {summary['p99_fps']:.0f}, median {summary['median_fps']:.0f}",
@@ -147,7 +145,6 @@ def heading(runs: Sequence[Run], found: Sequence[Table], folder: pathlib.Path) -
     frames = [v["frame"] for v in views]
     sizes = dict.fromkeys(f"{f['width_px']} × {f['height_px']} px" for f in frames)
     words = (
-        *(("estimate",) if any(map(is_estimate, views)) else ()),
         f"{view['scene']['gaussians']:,} Gaussians",
         f"SH degree {view['scene']['sh_degree']}",
         ", ".join(sizes),

@@ -84,11 +84,6 @@ def read_object(path: pathlib.Path) -> dict:
     return found
 
 
-def is_estimate(view: dict) -> bool:
-    """Whether it was reckoned in place of simulated."""
-    return view.get("fidelity") == "estimate"
-
-
 def flat(config: dict, path: str = "") -> list[tuple[str, object]]:
     """(key.path, value) of every leaf."""
     found: list[tuple[str, object]] = []

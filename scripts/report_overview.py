@@ -8,7 +8,7 @@ import report_charts as charts
 import report_tables
 from report_charts import number
 from report_costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes
-from report_folder import Run, Table, ViewFiles, is_estimate
+from report_folder import Run, Table, ViewFiles
 from report_view import quality
 
 MOST_BARS = 40  # views whose energy and traffic are drawn
@@ -59,12 +59,10 @@ def traffic_of_views(runs: Sequence[Run]) -> str:
 
 
 def table_of_views(runs: Sequence[Run]) -> Table:
-    reckoned = any(is_estimate(files.report) for run in runs for files in run.views)
     head = (
         "run",
         "scene",
         "view",
-        *(("fidelity",) if reckoned else ()),
         "px",
         "fps",
         "cycles",
@@ -85,7 +83,6 @@ def table_of_views(runs: Sequence[Run]) -> Table:
                     run.name or view["config"]["machine"],
                     view["scene"]["name"],
                     str(view["view"]),
-                    *((view.get("fidelity", ""),) if reckoned else ()),
                     f"{frame['width_px']}x{frame['height_px']}",
                     number(frame["fps"]),
                     number(frame["cycles"]),

@@ -45,10 +45,9 @@ BANDS = {"bands": Each(numbers("low", "high"))}
 CONFIG = {"machine": TEXT, "clock_mhz": NUMBER, "rendering?": {"precision?": TEXT}}
 VIEW = {
     "view": NUMBER,
-    "fidelity?": TEXT,
     "scene": {"name": TEXT, **numbers("gaussians", "sh_degree")},
     "frame": numbers("width_px", "height_px", "cycles", "fps"),
-    "image": {"psnr_db": Or(NUMBER), "ssim": NUMBER, "equals_streaming_renderer": Or(FLAG)},
+    "image": {"psnr_db": Or(NUMBER), "ssim": NUMBER, "equals_streaming_renderer": FLAG},
     "limit": numbers("ratio"),
     "binding": {"unit": TEXT, "utilisation": NUMBER, "explanation": TEXT},
     "units": Each({"activities": Each(ACTIVITY), "counters": Each(NUMBER)}),
@@ -69,7 +68,6 @@ VIEW = {
 }
 SEVERAL_VIEWS = {"views": [VIEW], "failed?": [{"view": NUMBER, "why": TEXT}]}
 PATH = {
-    "fidelity?": TEXT,
     "summary": numbers(
         *("frames", "worst_fps", "worst_frame", "p99_fps", "median_fps"),
         *("late_frames", "frame_rate", "energy_a_second_j"),

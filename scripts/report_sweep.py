@@ -12,7 +12,7 @@ import report_tables
 from measures import pareto_front
 from report_charts import details, escaped
 from report_folder import Table
-from sweep_results import DONE, ESTIMATE, MEMORIES, Point
+from sweep_results import DONE, MEMORIES, Point
 
 Case = tuple[str, str, str, str]
 BY_SCENE = "differs by scene"
@@ -150,12 +150,11 @@ def name_of(case: Case, all_cases: Collection[Case]) -> str:
     return ", ".join([scene, f"view {view}", *filter(None, more)])
 
 
-def kind_in_words(point: Point, all_points: Sequence[Point]) -> str:
-    """Simulations need no word, and a technology only where there are several."""
-    technology = ""
-    if len({other.technology for other in all_points}) > 1:
-        technology = " ".join(filter(None, point.technology)) or "unknown technology"
-    return ", ".join(filter(None, ["estimates" if point.fidelity == ESTIMATE else "", technology]))
+def technology_in_words(point: Point, all_points: Sequence[Point]) -> str:
+    """Needs no word where there is but one."""
+    if len({other.technology for other in all_points}) == 1:
+        return ""
+    return " ".join(filter(None, point.technology)) or "unknown technology"
 
 
 def not_done(points: Sequence[Point]) -> str:
@@ -174,35 +173,37 @@ def not_done(points: Sequence[Point]) -> str:
 
 
 def panels(points: Sequence[Point]) -> list[tuple[str, str]]:
-    """(name, text) of each tab, simulations and estimates apart. Raises ValueError where no point
-    was done."""
+    """(name, text) of each tab; points of different technologies are not to be compared. Raises
+    ValueError where no point was done."""
     done = [point for point in points if point.status == DONE]
     if not done:
         raise ValueError(f"no point was done: {points[0].reason or points[0].status}")
-    kinds: dict[tuple, list[Point]] = {}
+    technologies: dict[tuple, list[Point]] = {}
     for point in done:
-        kinds.setdefault(point.kind(), []).append(point)
+        technologies.setdefault(point.technology, []).append(point)
     # The page has an end, however many views there are.
-    tabs = sum(len({point.case() for point in of}) + 1 for of in kinds.values())
+    tabs = sum(len({point.case() for point in of}) + 1 for of in technologies.values())
     most = report_tables.MOST_ROWS // tabs or 1
     made = [
         tab
-        for of in kinds.values()
-        for tab in panels_of_kind(of, kind_in_words(of[0], done), most)
+        for of in technologies.values()
+        for tab in panels_of_technology(of, technology_in_words(of[0], done), most)
     ]
     name, text = made[0]
     made[0] = (name, text + not_done(points))
     return [(name, f"<div class=grid>{text}</div>") for name, text in made]
 
 
-def panels_of_kind(points: Sequence[Point], kind: str, most: int) -> list[tuple[str, str]]:
+def panels_of_technology(
+    points: Sequence[Point], technology: str, most: int
+) -> list[tuple[str, str]]:
     """Where there are several cases, first those machines that were simulated on all."""
     cases: dict[Case, list[Machine]] = {}
     by_machine: dict[tuple, list[Point]] = {}
     for point in points:
         cases.setdefault(point.case(), []).append(Machine((point,)))
         by_machine.setdefault(point.machine(), []).append(point)
-    suffix = f", {kind}" if kind else ""
+    suffix = f", {technology}" if technology else ""
     made = []
     on_all = [Machine(tuple(of)) for of in by_machine.values() if len(of) == len(cases)]
     if len(cases) > 1 and on_all:
@@ -217,7 +218,5 @@ def subtitle(points: Sequence[Point]) -> str:
     for point in points:
         counts[point.status] = counts.get(point.status, 0) + 1
     words = [f"{len(points)} points", *(f"{count} {status}" for status, count in counts.items())]
-    reckoned = sum(point.fidelity == ESTIMATE for point in points)
-    words += [f"{reckoned} of them estimates"] if reckoned else []
     commits = sorted({point.commit for point in points} - {""})
     return " · ".join(words + ([f"commit {', '.join(commits)}"] if commits else []))

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import report_charts as charts
 from report_charts import percent
-from report_folder import is_estimate
 
 # Causes in the order in which they are drawn, each the name of its colour's class.
 CAUSES = (
@@ -20,9 +19,8 @@ CAUSES = (
     ("loading", "for an on-chip memory to be filled"),
     ("phase", "for its phase of the frame"),
     ("idle", "nothing to do"),
-    ("unknown", "not known: an estimate reckons work alone"),
 )
-NO_CAUSE = ("phase", "idle", "unknown")  # of the longest wait: nothing there keeps it waiting
+NO_CAUSE = ("phase", "idle")  # of the longest wait: nothing there keeps it waiting
 MOST_WAITS = 12  # places listed
 Spent = tuple[str, str, dict[str, int]]  # unit and activity, resource, cycles by cause
 
@@ -32,21 +30,12 @@ def kind_of(unit: str) -> str:
     return re.sub(r"^([a-z_]+?)\d+(?=\.|$)", r"\1*", unit)
 
 
-def not_known(view: dict, spent: dict) -> int:
-    """Cycles of the frame of which nothing is known: an estimate reckons work alone."""
-    return view["frame"]["cycles"] - spent["busy_cycles"] if is_estimate(view) else 0
-
-
 def activities(view: dict) -> list[Spent]:
     return [
         (
             f"{unit} {name}",
             spent["resource"],
-            {
-                "busy": spent["busy_cycles"],
-                **spent["waited_cycles"],
-                "unknown": not_known(view, spent),
-            },
+            {"busy": spent["busy_cycles"], **spent["waited_cycles"]},
         )
         for unit, of_unit in view["units"].items()
         for name, spent in of_unit["activities"].items()
@@ -81,30 +70,19 @@ def time_bars(spent: Sequence[Spent], caption: str) -> str:
             (cause for cause, _ in CAUSES[1:] if cause not in NO_CAUSE),
             key=lambda cause: cycles[cause],
         )
-        if cycles["unknown"]:
-            waits = "not known"
-        else:
-            waits = f"{longest} {percent(cycles[longest] / whole)}" if cycles[longest] else ""
+        waits = f"{longest} {percent(cycles[longest] / whole)}" if cycles[longest] else ""
         rows.append((label, charts.bar(parts), (percent(cycles["busy"] / whole), waits)))
     return charts.bars(("activity", "works", "waits most"), rows, caption)
-
-
-def causes_of(view: dict) -> Sequence[tuple[str, str]]:
-    """Those that a view can have."""
-    known = [cause for cause in CAUSES if cause[0] != "unknown"]
-    return (CAUSES[0], CAUSES[-1]) if is_estimate(view) else known
 
 
 def time(view: dict) -> str:
     spent = activities(view)
     merged = by_kind(spent)
-    text = charts.legend(causes_of(view)) + time_bars(merged, "Share of the frame's cycles")
+    text = charts.legend(CAUSES) + time_bars(merged, "Share of the frame's cycles")
     if len(merged) < len(spent):
         text += charts.details(
             "each unit by itself", time_bars(spent, "Share of the frame's cycles")
         )
-    if is_estimate(view):
-        return text
     return text + charts.details("where it waits, and what to change", waits(view))
 
 

@@ -7,7 +7,7 @@ import report_costs
 import report_pictures
 import report_time
 from report_charts import escaped, number, percent
-from report_folder import ViewFiles, flat, is_estimate
+from report_folder import ViewFiles, flat
 
 
 def quality(view: dict) -> str:
@@ -17,8 +17,6 @@ def quality(view: dict) -> str:
 
 def of_the_model(view: dict) -> str:
     """How the picture stands to the streaming renderer's."""
-    if is_estimate(view):
-        return "the model's own picture"
     return f"{'bit for bit' if view['image']['equals_streaming_renderer'] else 'NOT'} the model's"
 
 
@@ -65,17 +63,6 @@ def key_numbers(view: dict) -> str:
         )
         + "</dl>"
     )
-
-
-def fidelity(view: dict) -> str:
-    """Of a simulation there is nothing to say."""
-    if not is_estimate(view):
-        return ""
-    text = (
-        "The machine was not simulated: cycles, bytes, energy and area are reckoned, without "
-        "waiting. A simulation may name another thing to change."
-    )
-    return f"<p class=note><b>An estimate.</b> {text}</p>"
 
 
 def binding(view: dict) -> str:
@@ -140,4 +127,4 @@ def panel(files: ViewFiles, uris: dict[str, str], name: str, remark: str) -> str
         f'<section class="{size}"><h3>{escaped(title)}</h3>{text}</section>'
         for title, text, size in sections
     )
-    return key_numbers(view) + fidelity(view) + binding(view) + f"<div class=grid>{body}</div>"
+    return key_numbers(view) + binding(view) + f"<div class=grid>{body}</div>"

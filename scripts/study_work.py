@@ -5,12 +5,11 @@ from __future__ import annotations
 import concurrent.futures
 import json
 import random
-import threading
 import warnings
 
 import optuna
-from exploration import ESTIMATE, Work
-from judging import Judge, Judged
+from exploration import Work
+from judging import Judged
 from machine_axes import nearest
 from measures import dominates
 from run_digest import content_digest, named_files
@@ -26,16 +25,14 @@ TRIALS = 200
 
 
 class Searcher:
-    """What a search looks at next, and what it need not look at. drawing: simulates what the work's
-    own judge may reckon."""
+    """What a search looks at next, and what it need not look at."""
 
-    def __init__(self, work: Work, kept: SweepServer, drawing: Judge):
-        self.work, self.kept, self.drawing = work, kept, drawing
+    def __init__(self, work: Work, kept: SweepServer):
+        self.work, self.kept = work, kept
         self.judge, self.space = work.judge, work.space
         self.of_the_machine = work.judge.task.of_the_machine()
         self.random = random.Random(work.arguments.seed)
         self.known_costs: dict[At, tuple[float, ...] | None] = {}
-        self.proving = threading.Lock()
 
     def judged(self, at: At) -> Judged:
         return self.judge.judged(self.space.assignments(at))
@@ -46,29 +43,14 @@ class Searcher:
             self.known_costs[at] = self.judge.machine_costs(self.space.assignments(at))
         return self.known_costs[at]
 
-    def as_small(self, at: At) -> Judged | None:
-        """Of those that hold one which is no larger, where area is all that is asked for."""
+    def skips(self, at: At) -> str:
+        """Why a configuration need not be drawn; empty where it must be."""
         if not self.of_the_machine or (costs := self.costs(at)) is None:
-            return None  # judging tells why there is no such machine
+            return ""  # judging tells why there is no such machine
         for best in self.work.made.front():
             if best.costs == costs or dominates(best.costs, costs):
-                return best
-        return None
-
-    def skips(self, at: At) -> str:
-        """Why a configuration need not be drawn; empty where it must be. What is skipped is never
-        taken up again, so whatever it is skipped behind has to hold when it is simulated."""
-        while best := self.as_small(at):
-            if best.fidelity != ESTIMATE:
                 return "another one that holds is as small"
-            self.prove(best)
         return ""
-
-    def prove(self, reckoned: Judged) -> None:
-        """Simulates it, unless another worker has meanwhile."""
-        with self.proving:
-            if reckoned in self.work.made.reckoned():
-                self.work.made.add(self.drawing.judged(reckoned.assignments))
 
     def start(self) -> At:
         """The configuration that the preset is nearest to."""
@@ -105,13 +87,12 @@ class Searcher:
         ]
         if not self.of_the_machine:
             return near[0] if near else None
-        saving = [at for at in near if self.costs(at) and not self.as_small(at)]
+        saving = [at for at in near if self.costs(at) and not self.skips(at)]
         return min(saving, key=lambda at: self.costs(at), default=None)
 
 
-def explore(work: Work, kept: SweepServer, drawing: Judge) -> None:
-    """Into work.made. kept: what work.judge asks; drawing: simulates. Raises Failure,
-    ValueError."""
+def explore(work: Work, kept: SweepServer) -> None:
+    """Into work.made. Raises Failure, ValueError."""
     arguments, task = work.arguments, work.judge.task
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
@@ -119,7 +100,7 @@ def explore(work: Work, kept: SweepServer, drawing: Judge) -> None:
     if not arguments.study:
         storage = ""
     lock = locked(storage)
-    searcher = Searcher(work, kept, drawing)
+    searcher = Searcher(work, kept)
     study = Study(
         optuna.create_study(
             storage=open_storage(storage, arguments.lost_after) if storage else None,
@@ -222,7 +203,6 @@ def described(work: Work, kept: SweepServer) -> str:
         "configurations": "proposed" if work.arguments.search else "all",
         "views": [[scene.name, number] for scene, number in task.views],
         "size": task.size,
-        "estimated": task.estimated,
         "config": task.config,
         "base": list(task.base),
         "objectives": [o.name for o in task.objectives],

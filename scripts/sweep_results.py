@@ -15,7 +15,6 @@ from report_folder import flat
 
 DONE = "done"
 STATUSES = (DONE, "refused", "failed")
-ESTIMATE = "estimate"
 MEMORIES = ("input", "codebook", "shared", "buffer")
 BINDING = "binding.unit"  # of PATHS the one that is no number
 # Of a report, and columns of the table of the same names.
@@ -38,8 +37,7 @@ NAMED = ("scene", "view", "config")  # of these, what every point has
 class Point:
     """What was asked for, in its words, and what came of it. settings: over those of `config`;
     told: of PATHS, those that the report has; resolved: every key that is known of the
-    configuration. fidelity: "accurate", or "estimate" of what was reckoned; technology: the cost
-    table's name and digest, as far as they are known."""
+    configuration. technology: the cost table's name and digest, as far as they are known."""
 
     asked: dict[str, str]
     settings: dict[str, str]
@@ -48,7 +46,6 @@ class Point:
     told: dict[str, object] = dataclasses.field(default_factory=dict)
     resolved: dict[str, str] = dataclasses.field(default_factory=dict)
     commit: str = ""
-    fidelity: str = ""
     technology: tuple[str, str] = ("", "")
 
     def case(self) -> tuple[str, str, str, str]:
@@ -59,10 +56,6 @@ class Point:
         """Equal for points that have been asked for with the same configuration."""
         return self.asked["config"], *sorted(self.settings.items())
 
-    def kind(self) -> tuple[str, tuple[str, str]]:
-        """Points of different kinds are not to be compared."""
-        return self.fidelity, self.technology
-
     def command(self) -> str:
         words = ["streaminggs", "simulate", self.asked["scene"], "--config", self.asked["config"]]
         for name in ("cameras", "view", "size"):
@@ -70,7 +63,6 @@ class Point:
                 words += [f"--{name}", value]
         for key, value in self.settings.items():
             words += ["--set", f"{key}={value}"]
-        words += ["--estimate"] if self.fidelity == ESTIMATE else []
         return shlex.join(words)
 
 
@@ -108,7 +100,6 @@ def point_of_line(line: str, place: str) -> Point:
             {path: value for path in PATHS if (value := value_at(report, path)) is not None},
             {key: text_of(value) for key, value in flat(report.get("config", {}))},
             text_of(provenance.get("commit", "")),
-            text_of(report.get("fidelity", "")),
             tuple(text_of(provenance.get(f"technology{of}", "")) for of in ("", "_xxh64")),
         )
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
@@ -157,7 +148,6 @@ def read_table(path: pathlib.Path) -> list[Point]:
             cells.get("status", ""),
             told={name: number_in(cells[name]) for name in PATHS if name in cells},
             resolved=settings,
-            fidelity=cells.get("fidelity", ""),
         )
         if not is_result(point):
             raise no_result(f"{path}:{number}", ",".join(row))
@@ -166,7 +156,7 @@ def read_table(path: pathlib.Path) -> list[Point]:
 
 
 def read_sweep(path: pathlib.Path) -> list[Point]:
-    """Of each point what came last, of each kind. Raises ValueError where there is none."""
+    """Of each point what came last, of each technology. Raises ValueError where there is none."""
     points = read_table(path) if path.suffix == ".csv" else read_lines(path)
     if not points:
         raise ValueError(f"{path}: no results, expected those of `streaminggs sweep`")
@@ -175,5 +165,5 @@ def read_sweep(path: pathlib.Path) -> list[Point]:
         asked = (point.case(), point.machine())
         if point.status == DONE:
             last.pop((*asked, None), None)
-        last[(*asked, point.kind() if point.status == DONE else None)] = point
+        last[(*asked, point.technology if point.status == DONE else None)] = point
     return list(last.values())

@@ -11,7 +11,6 @@ import pathlib
 import subprocess
 import tempfile
 import threading
-from collections.abc import Sequence
 
 from run_digest import program_digest
 from simulations import REFUSED, Failure, Outcome, Run, said
@@ -20,12 +19,9 @@ Answer = dict
 
 
 class SweepServer:
-    """For any number of threads. jobs: simulations side by side; options: further ones of the
-    command. failures: what ended badly."""
+    """For any number of threads. jobs: simulations side by side. failures: what ended badly."""
 
-    def __init__(
-        self, binary: pathlib.Path, results: pathlib.Path, jobs: int, options: Sequence[str] = ()
-    ):
+    def __init__(self, binary: pathlib.Path, results: pathlib.Path, jobs: int):
         """Raises ValueError when there is no such program."""
         self.binary, self.program = binary, program_digest(binary)
         self.failures: list[Failure] = []
@@ -40,7 +36,7 @@ class SweepServer:
         words = [str(binary.absolute()), "sweep", "--points", "-", "--out", str(results)]
         try:
             self.process = subprocess.Popen(
-                [*words, "--jobs", str(jobs), *options],
+                [*words, "--jobs", str(jobs)],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=self.said,

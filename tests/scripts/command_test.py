@@ -30,7 +30,7 @@ from scenes import find_scene
 
 
 RENDERERS = pathlib.Path(COMMAND).with_name("bench_renderers") if COMMAND else ""
-SMALL_ERRORS = ("--size", "64x36", "--configurations", "2", "--renderers", str(RENDERERS))
+SMALL_ERRORS = ("--size", "64x36", "--renderers", str(RENDERERS))
 SMALL_ERRORS += (
     "--tuning-size",
     "64x36",
@@ -107,9 +107,9 @@ class WithTheCommand(InFolder):
             (work_precision, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
             (
                 error_against_time,
-                ("--diagrams", "image", "model", "tuning", "renderers", *SMALL_ERRORS),
+                ("--diagrams", "image", "tuning", "renderers", *SMALL_ERRORS),
                 {"| truck | 0 | exact |": 29, "| truck | 0 | paper |": 20 + 2, "| tuning |": 2 + 3}
-                | {"| truck | 0 | tiles |": 5, "| truck | estimate | 2 |": 1}
+                | {"| truck | 0 | tiles |": 5}
                 | {"| tuning | truck | rate | 0.5 |": 3, "| truck | 0 | double |": 5 * 2}
                 | {"| truck | 0 | paper order in half |": 2},
             ),
@@ -273,7 +273,6 @@ class WithTheCommand(InFolder):
             (work_precision, ("--view", "7"), "--view: got '7'"),
             (work_precision, ("--set", "nope=1"), "streaminggs: .*nope"),
             (error_against_time, ("--view", "7"), "--view: got '7'"),
-            (error_against_time, ("--diagrams", "model", "--size", "3"), "--size: got 3, expected WIDTHxHEIGHT"),
             (
                 error_against_time,
                 ("--diagrams", "tuning", "--datasets", "nope"),

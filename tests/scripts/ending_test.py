@@ -18,7 +18,6 @@ import design_point_seconds
 import energy_tables
 import error_against_time
 import error_renderers
-import estimate_error
 import explore
 import fair_fight
 import fill_readme
@@ -163,14 +162,9 @@ class Ends(InFolder):
             (published_figures, ("--view", "x"), "--view: 'x', expected numbers"),
             (timing, ("--repeats", "0"), "--repeats: got 0, expected a number of 1 or more$"),
             *(
-                (script, ("--configurations", n), f"--configurations: got {n}, .* of 1 or more$")
-                for script in (error_against_time, estimate_error)
-                for n in ("0", "-3")
-            ),
-            *(
                 (script, (option, value, value), f"{option}: got {value} twice, .* each once$")
                 for script, option, value in (
-                    (error_against_time, "--diagrams", "model"),
+                    (error_against_time, "--diagrams", "image"),
                     (error_against_time, "--rates", "2.0"),
                     (error_against_time, "--budgets", "1000"),
                     (error_against_time, "--threads", "1"),

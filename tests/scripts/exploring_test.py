@@ -137,41 +137,6 @@ class Exploring(Explorations):
         # A view that none was drawn on comes first.
         self.assertEqual(drawn, ["drawn 1 0", "drawn 2 1", *both])
 
-    def test_estimates_give_way_to_simulations_on_the_front(self):
-        """By HFUs: what is simulated of 2, 4 and 8, where one of them is reckoned with no cycles."""
-        body = """
-            finish()
-            if "--estimate" in sys.argv and SET["hfus"] == "%s":
-                path = pathlib.Path(sys.argv[sys.argv.index("--out") + 1]) / "report.json"
-                report = json.loads(path.read_text())
-                report["views"][0]["frame"]["cycles"] = %d
-                path.write_text(json.dumps(report))
-            """
-        for too_well, cycles, words, simulated in (
-            ("", 0, (), ["8"]),
-            ("4", 0, (), ["4", "8"]),
-            ("8", 100, (), ["4"]),  # too badly: it is not looked at again
-            ("", 0, ("--beside", "by hand: hfus=2"), ["2", "8"]),
-        ):
-            with self.subTest(too_well=too_well, cycles=cycles, words=words):
-                for name in ("runs", "estimates"):
-                    (self.folder / f"explore_{name}.jsonl").unlink(missing_ok=True)
-                done = self.explore(
-                    body % (too_well, cycles), "--axis", "hfus=2,4,8", "--estimate", *words
-                )
-                self.assertEqual(done.returncode, 0, done.stderr)
-                head, *rows = self.rows("explore.csv")
-                told = {row[0]: dict(zip(head, row)) for row in rows}
-                accurate = sorted(n for n, row in told.items() if row["fidelity"] == "accurate")
-                self.assertEqual((len(told), accurate), (3, simulated))
-                for hfus in accurate:
-                    self.assertEqual(told[hfus]["cycles"], str(8 // int(hfus)))
-                front = [row for row in told.values() if row["front"]]
-                self.assertEqual([row["fidelity"] for row in front], ["accurate"])
-                lines = (self.folder / "explore_runs.jsonl").read_text().splitlines()
-                self.assertEqual(len(lines), len(simulated))
-                self.assertIn(f"{len(simulated)} were simulated, the others reckoned", done.stdout)
-
     def test_what_is_beside_has_its_name(self):
         for text, name in (
             ("by hand: hfus=8", "by hand"),

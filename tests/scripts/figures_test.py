@@ -17,10 +17,8 @@ import compare_variants
 import debian_python
 import energy_tables
 import error_image
-import error_model
 import error_renderers
 import error_tuning
-import estimate_error
 import fair_fight_tables
 import machine_ratios
 import machine_tables
@@ -106,17 +104,6 @@ TABLES = {
         ],
         ("lego, seed 2", "minutes"),
     ),
-    "estimate_error": (
-        "estimate_error",
-        estimate_error.CSV_HEAD,
-        [
-            {"scene": scene, "cycles": cycles, "cycles_estimated": 0.99 * cycles}
-            | {"seconds": 2, "seconds_estimated": 0.5}
-            for scene in ("truck", "yard")
-            for cycles in (1_000_000, 2_000_000)
-        ],
-        ("truck", "yard", "simulated, M cycles"),
-    ),
     "variants": (
         "compare_variants",
         compare_variants.VARIANT_HEAD,
@@ -158,15 +145,12 @@ TABLES = {
     ),
     "exploration": (
         "explore",
-        (*EXPLORE_HEAD, "fidelity"),
+        EXPLORE_HEAD,
         [
-            {"binding": "dram", "front": "yes", "cycles": 100, "mm2": 5, "fidelity": "accurate"},
-            {"binding": "fine", "front": "", "cycles": 200, "mm2": 6, "fidelity": "estimate"},
+            {"binding": "dram", "front": "yes", "cycles": 100, "mm2": 5},
+            {"binding": "fine", "front": "", "cycles": 200, "mm2": 6},
         ],
-        (
-            *("dram binds", "fine binds", "area, mm²", "M cycles against area"),
-            "dashed: reckoned (--estimate), not simulated",
-        ),
+        ("dram binds", "fine binds", "area, mm²", "M cycles against area"),
     ),
     "fronts_of_orders": (
         "fair_fight_front",
@@ -245,12 +229,6 @@ MADE_TOGETHER = {
             )
         ],
         ("truck: PSNR", "tile-centric", "DRAM traffic, MB", "voxel x 2", "equal"),
-    ),
-    "error_model": (
-        "error_model",
-        error_model.CSV_HEAD,
-        grid("scene", ("truck", "yard"), "fidelity", ("accurate", "estimate")),
-        ("truck, accurate", "yard, estimate", "bytes, error in %"),
     ),
     "error_tuning": (
         "error_tuning",

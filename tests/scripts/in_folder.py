@@ -100,14 +100,12 @@ class InFolder(unittest.TestCase):
                 frame = {{"cycles": 8 // hfus, "time_s": 1e-9 * (8 // hfus), "fps": hfus}}
                 view = {{"view": number, "frame": frame, "binding": {{"unit": "dram"}},
                         "config": {{"hfus": hfus, "group_width_px": 112, "group_height_px": 80}},
-                        "area_mm2": {{"total": 1 + hfus}}, "provenance": {{}},
-                        "fidelity": "estimate" if "--estimate" in sys.argv else "accurate"}}
+                        "area_mm2": {{"total": 1 + hfus}}, "provenance": {{}}}}
                 out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
                 (out / "report.json").write_text(json.dumps({{"views": [view]}}))
             def swept(point):
                 with tempfile.TemporaryDirectory() as out:
                     words = [__file__, "simulate", "--view", str(point["view"]), "--out", out]
-                    words += ["--estimate"] * ("--estimate" in sys.argv)
                     for key, value in point["set"].items():
                         words += ["--set", f"{{key}}={{value}}"]
                     environment = {{**os.environ, "SCRIPT": str(os.getppid())}}

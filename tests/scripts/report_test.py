@@ -80,30 +80,6 @@ class Page(WithFrames):
         self.assertHolds(self.page(self.folder / "both" / "paper"), said)
         self.assertEqual(self.page(self.folder / "both").count(said), 2)
 
-    def test_an_estimate_is_called_one(self):
-        for config in ("exact", "paper"):
-            self.simulated(config, f"both/{config}")
-        report_file = self.folder / "both" / "exact" / "report.json"
-        whole = json.loads(report_file.read_text())
-        view = whole["views"][0]
-        view["fidelity"], view["image"]["equals_streaming_renderer"] = "estimate", None
-        for unit in view["units"].values():
-            for spent in unit["activities"].values():
-                spent["waits"] = []
-                spent["waited_cycles"] = dict.fromkeys(spent["waited_cycles"], 0)
-        busy = view["units"]["hfu0.fine"]["activities"]["filter"]["busy_cycles"]
-        share = report_charts.percent(busy / view["frame"]["cycles"])
-        report_file.write_text(json.dumps(whole))
-        page = self.page(self.folder / "both" / "exact")
-        for text in ("<p>estimate · ", "<b>An estimate.</b>", "; the model&#x27;s own picture"):
-            self.assertHolds(page, text)
-        # What works is against the frame, and nothing is said of what waits.
-        self.assertHolds(page, f'<td class=n>{share}</td><td class=n>not known</td>')
-        self.assertNotIn("where it waits", page)
-        page = self.page(self.folder / "both")
-        for text in ("<td>estimate</td>", "<td>accurate</td>"):
-            self.assertHolds(page, text)
-
     def test_several_runs_and_a_table_are_compared(self):
         for config in ("exact", "paper"):
             self.simulated(config, f"both/{config}")

@@ -18,9 +18,7 @@ from page_checks import NEEDS_BROWSER, PageChecks
 from sweep_results import read_sweep
 
 
-def line(
-    cycles, mm2, joules, status="done", fidelity="accurate", technology="32 nm", **more
-) -> str:
+def line(cycles, mm2, joules, status="done", technology="32 nm", **more) -> str:
     """A result as `sweep` writes it. more: of the point."""
     point = {"scene": "s", "view": 0, "config": "exact", "set": {"hfus": 2}, **more}
     result = {"key": "0", "status": status, "point": point}
@@ -34,7 +32,6 @@ def line(
             "binding": {"unit": "fine"},
             "config": {"machine": "exact", **{"a": {"b": True}}, **point["set"]},
             "provenance": {"commit": "0123abc", "technology": technology},
-            "fidelity": fidelity,
         }
     else:
         result["reason"] = "hfus: 0, expected <more>"
@@ -99,10 +96,9 @@ class Read(InFolder):
         self.assertIn("<td class=n>111</td>", page)
 
     def test_what_is_not_to_be_compared_stands_apart(self):
-        """Nothing is left out, and no estimate stands in the place of a simulation."""
+        """Nothing is left out."""
         path = self.folder / "sweep.jsonl"
         for what, more, tabs in (
-            ("fidelity", {"fidelity": "estimate"}, ["s, view 0", "s, view 0, estimates"]),
             ("table", {"technology": "22 nm"}, ["s, view 0, 32 nm", "s, view 0, 22 nm"]),
             ("cameras", {"cameras": "a.json"}, ["all", "s, view 0", "s, view 0, a.json"]),
         ):
@@ -113,10 +109,6 @@ class Read(InFolder):
                 for tab, cycles in zip(tabs[-2:], (111, 222)):
                     self.assertIn(f"<td class=n>{cycles}</td>", panels[tab])
                     self.assertEqual(len(re.findall("data-open=", panels[tab])), 1)
-        status, page = self.page(line(111, 1, 1) + line(222, 1, 1, fidelity="estimate"))
-        self.assertEqual(status, 0)
-        self.assertIn("2 points · 2 done · 1 of them estimates · commit", page)
-        self.assertIn("--estimate", page)
 
     def test_what_failed_and_was_done_later_is_done(self):
         status, page = self.page(line(0, 0, 0, "failed") + line(9, 1, 1))
