@@ -1,9 +1,7 @@
 // Every machine's way to the memory.
 #include "modules/machine.h"
 
-#include <algorithm>
 #include <limits>
-#include <stdexcept>
 
 namespace sgs {
 namespace {
@@ -27,15 +25,6 @@ std::string requester_name(const MemoryPort& port, const Machine& machine) {
 }
 
 }  // namespace
-
-std::uint64_t Machine::estimate(const FrameWork&, MemoryEstimate&) {
-  throw std::logic_error("this machine has no estimate");
-}
-
-PortEstimate Machine::estimate_of(const MemoryPort& port, MemoryEstimate& dram) const {
-  const auto at = std::find(requesters_.begin(), requesters_.end(), requester_name(port, *this));
-  return {port.config(), dram, static_cast<std::uint8_t>(at - requesters_.begin())};
-}
 
 void Machine::connect_memory() {
   Ports ports;

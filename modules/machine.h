@@ -8,11 +8,9 @@
 #include <tlm>
 #include <vector>
 
-#include "modules/frame_work.h"
 #include "tlm/clock_domain.h"
 #include "tlm/data_sheet.h"
 #include "tlm/instant_end.h"
-#include "tlm/port_estimate.h"
 #include "tlm/router.h"
 
 namespace sgs {
@@ -37,11 +35,6 @@ class Machine : public sc_core::sc_module {
   // Everything that its units say of themselves, in the order of the pipeline.
   virtual void publish(DataSheet& sheet) = 0;
 
-  // In place of a run: reckons the frame of this work, of the machine's job, against a memory; the
-  // units then say of themselves that they did it. The cycles that it takes. Only where its design
-  // can count such work (modules/machine_design.h).
-  virtual std::uint64_t estimate(const FrameWork& work, MemoryEstimate& dram);
-
  protected:
   explicit Machine(const sc_core::sc_module_name& name) : sc_module(name) {}
 
@@ -50,9 +43,6 @@ class Machine : public sc_core::sc_module {
   // Binds the memory port of every unit that publish() shows to a socket of the machine, in that
   // order. The last thing that the constructor of a machine does.
   void connect_memory();
-
-  // A unit's port, for an estimate.
-  PortEstimate estimate_of(const MemoryPort& port, MemoryEstimate& dram) const;
 
   // Where units that share something decide who gets it.
   InstantEnd& instant_end() { return instant_end_; }

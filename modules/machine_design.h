@@ -17,7 +17,6 @@
 #include "modules/auto_choice.h"
 #include "modules/config/config_visitor.h"
 #include "modules/frame_job.h"
-#include "modules/frame_work.h"
 #include "modules/golden_frame.h"
 #include "modules/machine.h"
 #include "tlm/data_sheet.h"
@@ -71,12 +70,6 @@ class MachineDesign {
   // All of the configuration that the frame of golden() follows from, as a text: designs of one
   // machine and one text draw the same, and count the same of it. Empty: that is not known.
   virtual std::string golden_key() const { return {}; }
-
-  // The same with what Machine::estimate() of machines of this design needs of it, and all of the
-  // configuration that this follows from, as golden_key(). Throw InputError where there is no
-  // estimate of the machine, or not of this design.
-  virtual CountedFrame count(const StoredScene& scene, const FrameJob& job, DataSheet& sheet) const;
-  virtual std::string work_key() const;
 
   // What scenes can be tuned for: how it renders, where that is in paper order; whether it draws
   // the reference picture of a scene as it is stored, bit for bit; the group of pixels that a

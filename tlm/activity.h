@@ -111,9 +111,6 @@ class Activity : public sc_core::sc_object {
     since_ = now;
   }
 
-  // As if it had worked for so many cycles; of its waiting nothing is said. For an estimate.
-  void assume(std::uint64_t busy_cycles) { busy_cycles_ = busy_cycles; }
-
   // What the counters below cover: [0, closed_at).
   std::uint64_t closed_at() const { return since_; }
   const Item& item() const { return item_; }

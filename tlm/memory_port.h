@@ -124,8 +124,6 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t bytes_written() const { return traffic_.bytes_written; }
   // Accesses of the buffer that keeps unanswered writes, kPortBytes each.
   std::uint64_t words_written() const { return traffic_.words_written; }
-  // As if it had been asked for this: what an estimate says of a port that did nothing.
-  void assume(const PortTraffic& traffic) { traffic_ = traffic; }
   const MemoryPortConfig& config() const { return config_; }
 
   // Those of its transactions; when it is idle, none is in use.

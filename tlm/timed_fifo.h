@@ -53,9 +53,6 @@ class FifoChannel : public sc_core::sc_prim_channel {
     reader_stalls_.emplace(stalls, std::string(name()) + ".reader");
   }
 
-  // As if so many entries had passed it. For an estimate.
-  void assume(std::uint64_t entries) { pushed_ = entries; }
-
   // Who puts entries in and who takes them out; null before the first did.
   const Activity* writer() const { return writer_; }
   const Activity* reader() const { return reader_; }

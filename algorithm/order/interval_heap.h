@@ -49,20 +49,6 @@ struct HeapWork {
   std::vector<HeapLevelWork> levels;
 
   std::uint64_t operations() const { return inserts + delete_mins + delete_maxs; }
-  // Both heaps' work; levels that one does not have are the other's.
-  HeapWork& operator+=(const HeapWork& other) {
-    inserts += other.inserts;
-    delete_mins += other.delete_mins;
-    delete_maxs += other.delete_maxs;
-    comparisons += other.comparisons;
-    levels.resize(std::max(levels.size(), other.levels.size()));
-    for (std::size_t level = 0; level < other.levels.size(); ++level) {
-      levels[level].nodes_read += other.levels[level].nodes_read;
-      levels[level].nodes_read_ahead += other.levels[level].nodes_read_ahead;
-      levels[level].nodes_written += other.levels[level].nodes_written;
-    }
-    return *this;
-  }
   HeapLevelWork all_levels() const {
     HeapLevelWork sum;
     for (const HeapLevelWork& level : levels) {

@@ -8,7 +8,7 @@
 
 #include "algorithm/order/chunk_walk.h"
 #include "algorithm/order/on_overflow.h"
-#include "algorithm/render/exact_work.h"
+#include "algorithm/render/group_state.h"
 #include "algorithm/render/streaming_result.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
@@ -25,10 +25,7 @@ struct ExactOrderConfig {
   OnOverflow on_overflow = OnOverflow::kSpill;
   WalkRoom walk_room{256, 384};                        // of the front-to-back walk
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
-  // What is counted beside the picture, and changes no pixel: sub-tiles of which splats; visits
-  // behind a finished group, as many as can be under way in a machine that does not know it yet.
   SubtileTest subtile_test = SubtileTest::kEllipse;
-  std::uint32_t visits_behind = 128;
   glm::vec3 background{0.0F};
 };
 
@@ -36,13 +33,5 @@ struct ExactOrderConfig {
 // bit for bit. Deterministic whatever the number of threads.
 StreamingResult render_exact_order(const View<float>& view, const ActivatedCloud& cloud,
                                    const ChunkTree& tree, const ExactOrderConfig& config);
-
-// The same, counted; `walk_room` is not looked at, the walk has room for everything.
-struct CountedExactFrame {
-  StreamingResult result;
-  ExactWork work;
-};
-CountedExactFrame count_exact_order(const View<float>& view, const ActivatedCloud& cloud,
-                                    const ChunkTree& tree, const ExactOrderConfig& config);
 
 }  // namespace sgs

@@ -89,20 +89,6 @@ class GroupState {
     };
     return for_reached(splat, into);
   }
-  // Observed and told.
-  template <class Observer, class Schedule>
-  BlendWork blend_scheduled(const Splat& splat, Observer&& observer, Schedule&& schedule) {
-    const auto into = [&](const auto& taken, std::size_t at, int x, int y, std::uint32_t row) {
-      const bool blends = finished_[at] == 0;
-      if (blends) {
-        const LaneShares shares = blend_and_tell(states_[at], x, y, taken);
-        observer(SubtileBlend{at, x, y, shares, states_[at]});
-      }
-      schedule(SubtileReach{at, x, y, blends, blends && finished(states_[at]), row});
-      return blends;
-    };
-    return for_reached(splat, into);
-  }
   SplatBox box_of(const Splat& splat) const {
     const SubtileRect reach = intersection(splat.footprint, subtiles_);
     if (reach.empty()) return {};

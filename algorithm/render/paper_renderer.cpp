@@ -42,55 +42,9 @@ bool all_saturated(const std::vector<Part>& parts) {
                      [](const Part& part) { return part.state.saturated(); });
 }
 
-// Counts what passes the filters of one visit. work: null: it is not counted.
-class CountedVisit {
- public:
-  CountedVisit(const VoxelRecord& piece, PaperGroupWork* work)
-      : piece_(piece), work_(work), begin_(work == nullptr ? 0 : work->candidates.size()) {}
-
-  void passes(std::uint32_t slot, std::size_t part) { add(slot, part, false); }
-  void splat(std::uint32_t slot, std::size_t part) { add(slot, part, true); }
-  // The runs of all parts are in order, and not blended yet.
-  void sorted(const std::vector<Part>& parts) {
-    if (work_ == nullptr) return;
-    std::vector<std::vector<std::uint32_t>> place(parts.size());
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      place[p].resize(piece_.count);
-      auto next = static_cast<std::uint32_t>(work_->blends[p].splats().size());
-      for (const Splat& splat : parts[p].run) place[p][splat.index - piece_.first] = next++;
-    }
-    for (std::size_t at = begin_; at < work_->candidates.size(); ++at) {
-      CandidateWork& candidate = work_->candidates[at];
-      candidate.first_splat = static_cast<std::uint32_t>(work_->splats.size());
-      for (std::size_t p = 0; p < parts.size(); ++p) {
-        if ((candidate.splats >> p & 1U) == 0) continue;
-        work_->splats.push_back(place[p][candidate.slot - piece_.first]);
-      }
-    }
-    work_->visits.push_back(
-        {piece_.first, piece_.count, static_cast<std::uint32_t>(work_->candidates.size())});
-  }
-
- private:
-  void add(std::uint32_t slot, std::size_t part, bool splat) {
-    if (work_ == nullptr) return;
-    std::vector<CandidateWork>& all = work_->candidates;
-    if (all.size() == begin_ || all.back().slot != slot) all.push_back({slot});
-    const auto bit = static_cast<std::uint16_t>(1U << part);
-    all.back().parts |= bit;
-    if (splat) all.back().splats |= bit;
-  }
-
-  const VoxelRecord& piece_;
-  PaperGroupWork* const work_;
-  const std::size_t begin_;
-};
-
 // Splats of one visit into the parts that they reach, front to back, equal depths by slot.
 void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const VoxelRecord& voxel,
-                     bool coarse_filter, std::vector<Part>& parts, StreamingStats& stats,
-                     PaperGroupWork* work) {
-  CountedVisit counted(voxel, work);
+                     bool coarse_filter, std::vector<Part>& parts, StreamingStats& stats) {
   for (Part& part : parts) part.run.clear();
   for (std::uint32_t slot = voxel.first; slot < voxel.first + voxel.count; ++slot) {
     const Gaussian<float>& g = cloud.gaussians[slot];
@@ -103,17 +57,14 @@ void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const
     std::uint32_t tests = 0;
     Splat splat;
     bool on_screen = false, coloured = false;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      Part& part = parts[p];
+    for (Part& part : parts) {
       if (!passes(part)) continue;
-      counted.passes(slot, p);
       if (tests++ == 0) on_screen = make_geometry(view, g, splat);
       if (!on_screen || !reaches_group(splat, part.pixels)) continue;
       if (!coloured) add_colour(view, cloud.sh_degree, g.mean, cloud.sh(slot), splat);
       coloured = true;
       splat.index = slot;
       part.run.push_back(splat);
-      counted.splat(slot, p);
     }
     stats.coarse_passed += tests > 0 ? 1 : 0;
     stats.second_halves += tests > 0 ? 1 : 0;
@@ -125,61 +76,40 @@ void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const
     stats.splats += part.run.size();
     stats.visit_splats_max = std::max<std::uint64_t>(stats.visit_splats_max, part.run.size());
   }
-  counted.sorted(parts);
 }
 
-// What is blended is seen: seen(slot). record: of all splats, in a finished part as well; null:
-// they are not counted.
+// What is blended is seen: seen(slot).
 template <class Seen>
-void blend_run(Part& part, StreamingStats& stats, const Seen& seen, BlendRecord* record) {
+void blend_run(Part& part, StreamingStats& stats, const Seen& seen) {
   for (const Splat& splat : part.run) {
+    if (part.state.saturated()) return;
     const auto observe = [&](const SubtileBlend& blend) {
       if (part.watch.see(blend, splat.depth)) seen(splat.index);
     };
-    if (record == nullptr) {
-      if (part.state.saturated()) return;
-      stats.subtile_blends += part.state.blend(splat, observe).blended;
-      continue;
-    }
-    record->begin(part.state.box_of(splat));
-    const BlendWork work = part.state.blend_scheduled(
-        splat, observe, [&](const SubtileReach& subtile) { record->reach(subtile); });
-    record->end(work);
-    stats.subtile_blends += work.blended;
+    stats.subtile_blends += part.state.blend(splat, observe).blended;
   }
 }
 
-// One group's visits, in their order. work: null: they are not counted.
+// One group's visits, in their order.
 void render_group(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
                   const PaperOrderConfig& config, const std::vector<std::uint32_t>& voxels,
-                  std::vector<Part>& parts, Flags& contributing, StreamingStats& stats,
-                  PaperGroupWork* work) {
-  std::uint32_t behind = work == nullptr ? 0 : config.visits_behind;
-  StreamingStats of_behind;
-  if (work != nullptr) work->blends.resize(parts.size());
+                  std::vector<Part>& parts, Flags& contributing, StreamingStats& stats) {
   for (const std::uint32_t voxel : voxels) {
     if (all_saturated(parts)) {
       ++stats.visits_saturated;
-      if (behind == 0) continue;
+      continue;
     }
     const auto plane = [&](std::uint32_t at) { return grid.cuts[at]; };
     const auto visit = [&](const VoxelRecord& piece) {
-      const bool of_picture = !all_saturated(parts);
-      behind -= of_picture ? 0 : 1;
-      StreamingStats& s = of_picture ? stats : of_behind;
-      ++s.visits;
-      filter_and_sort(view, cloud, piece, config.coarse_filter, parts, s, work);
-      for (std::size_t p = 0; p < parts.size(); ++p) {
-        blend_run(
-            parts[p], s, [&](std::uint32_t slot) { contributing.set(slot); },
-            work == nullptr ? nullptr : &work->blends[p]);
+      ++stats.visits;
+      filter_and_sort(view, cloud, piece, config.coarse_filter, parts, stats);
+      for (Part& part : parts) {
+        blend_run(part, stats, [&](std::uint32_t slot) { contributing.set(slot); });
       }
-      return behind > 0 || !all_saturated(parts);
+      return !all_saturated(parts);
     };
     visit_pieces(grid.voxels[voxel], view.position, config.visit_gaussians, plane, visit);
   }
-  if (work == nullptr) return;
-  for (const Part& part : parts) work->contributors.push_back(part.state.contributors());
 }
 
 }  // namespace
@@ -208,11 +138,8 @@ std::vector<std::vector<std::uint32_t>> visited_voxels(const View<float>& view,
   return out;
 }
 
-namespace {
-
-// work: null: it is not counted.
-StreamingResult render(const View<float>& view, const ActivatedCloud& cloud, const VoxelGrid& grid,
-                       const PaperOrderConfig& config, PaperWork* work) {
+StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud& cloud,
+                                   const VoxelGrid& grid, const PaperOrderConfig& config) {
   StreamingResult out;
   const auto pixels = static_cast<std::size_t>(view.width) * view.height;
   out.frame.image = Image(view.width, view.height);
@@ -225,7 +152,6 @@ StreamingResult render(const View<float>& view, const ActivatedCloud& cloud, con
   const MissedSplats missed(view, cloud, grid, config.group);
   std::vector<StreamingStats> stats(groups.size());
   out.group_voxels.resize(groups.size());
-  if (work != nullptr) work->groups.resize(groups.size());
   Flags contributing(cloud.size()), reached(grid.voxels.size());
   tbb::enumerable_thread_specific<OrderingTable> tables(grid.voxels.size(), config.table_bytes);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t index) {
@@ -241,8 +167,7 @@ StreamingResult render(const View<float>& view, const ActivatedCloud& cloud, con
 
     std::vector<Part> parts;
     for (const auto& part : parts_of_groups) parts.emplace_back(part[index], view, config);
-    render_group(view, cloud, grid, config, visits.voxels, parts, contributing, s,
-                 work == nullptr ? nullptr : &work->groups[index]);
+    render_group(view, cloud, grid, config, visits.voxels, parts, contributing, s);
     for (const Part& part : parts) {
       s.misordered += part.watch.misordered();
       s.contributors += part.state.contributors();
@@ -254,20 +179,6 @@ StreamingResult render(const View<float>& view, const ActivatedCloud& cloud, con
   out.stats.contributing = contributing.count();
   out.stats.blocks_reached = reached.count();
   out.of_groups = std::move(stats);
-  return out;
-}
-
-}  // namespace
-
-StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud& cloud,
-                                   const VoxelGrid& grid, const PaperOrderConfig& config) {
-  return render(view, cloud, grid, config, nullptr);
-}
-
-CountedPaperFrame count_paper_order(const View<float>& view, const ActivatedCloud& cloud,
-                                    const VoxelGrid& grid, const PaperOrderConfig& config) {
-  CountedPaperFrame out;
-  out.result = render(view, cloud, grid, config, &out.work);
   return out;
 }
 

@@ -8,7 +8,6 @@
 
 #include "algorithm/order/group_visits.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/render/paper_work.h"
 #include "algorithm/render/streaming_result.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
@@ -33,24 +32,13 @@ struct PaperOrderConfig {
   // dropped by that part's fine filter, where the filter of the whole group lets it through.
   std::uint32_t parts = 1;
   BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels
-  // What is counted beside the picture, and changes no pixel: sub-tiles of which splats; visits
-  // behind a finished group, as many as can be under way in a machine that does not know it yet.
   SubtileTest subtile_test = SubtileTest::kEllipse;
-  std::uint32_t visits_behind = 64;
   glm::vec3 background{0.0F};
 };
 
 // grid: of this cloud, which is in storage order. Deterministic whatever the number of threads.
 StreamingResult render_paper_order(const View<float>& view, const ActivatedCloud& cloud,
                                    const VoxelGrid& grid, const PaperOrderConfig& config);
-
-// The same, counted.
-struct CountedPaperFrame {
-  StreamingResult result;
-  PaperWork work;
-};
-CountedPaperFrame count_paper_order(const View<float>& view, const ActivatedCloud& cloud,
-                                    const VoxelGrid& grid, const PaperOrderConfig& config);
 
 // Visits of one group from a grid in memory, the same that VSU derives from its table in DRAM.
 GroupVisits paper_visits(const View<float>& view, const PixelRect& group, const VoxelGrid& grid,

@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "algorithm/voxel/chunk_work.h"
-#include "modules/streaminggs/exact_estimate.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
@@ -51,9 +48,6 @@ ExactOrderConfig ExactDesign::order() const {
   order.walk_room = config_.vsu.walk_room();
   order.precision = config_.rendering.precision;
   order.subtile_test = config_.rendering.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox;
-  if (!config_.rendering.saturation_feedback) {
-    order.visits_behind = std::numeric_limits<std::uint32_t>::max();
-  }
   return order;
 }
 
@@ -72,41 +66,13 @@ GoldenFrame ExactDesign::golden(const StoredScene& scene, const FrameJob& job,
   order.background = job.background;
   StreamingResult result = render_exact_order(job.view, scene.decoded, scene.tree(), order);
   publish_left_out(scene, result.stats, sheet);
-  return golden_of(std::move(result), scene, job);
-}
-
-GoldenFrame ExactDesign::golden_of(StreamingResult result, const StoredScene& scene,
-                                   const FrameJob& job) const {
   GoldenFrame golden = golden_frame(std::move(result), streaming_job(config_, job).groups);
   if (config_.rendering.precision == BlendPrecision::kSingle) return golden;
-  ExactOrderConfig exactly = order();
-  exactly.background = job.background;
-  exactly.precision = BlendPrecision::kSingle;
-  golden.computed_exactly = [&scene, view = job.view, exactly] {
+  order.precision = BlendPrecision::kSingle;
+  golden.computed_exactly = [&scene, view = job.view, exactly = order] {
     return render_exact_order(view, scene.decoded, scene.tree(), exactly).frame.image;
   };
   return golden;
-}
-
-CountedFrame ExactDesign::count(const StoredScene& scene, const FrameJob& job,
-                                DataSheet& sheet) const {
-  ExactOrderConfig order = this->order();
-  order.background = job.background;
-  CountedExactFrame counted = count_exact_order(job.view, scene.decoded, scene.tree(), order);
-  publish_left_out(scene, counted.result.stats, sheet);
-  auto work = std::make_shared<ExactFrameWork>();
-  work->of = std::move(counted.work);
-  return {golden_of(std::move(counted.result), scene, job), std::move(work)};
-}
-
-// What waits decides the picture with blend_early only; room in the walk's queues never does.
-std::string ExactDesign::work_key() const {
-  const ExactOrderConfig of = order();
-  const bool spills = of.on_overflow == OnOverflow::kSpill;
-  return fmt::format("{}x{} {} {} {} {} {}", of.group.width, of.group.height, of.coarse_filter,
-                     spills ? "spill" : fmt::format("early {}", of.merge_entries),
-                     static_cast<int>(of.precision), static_cast<int>(of.subtile_test),
-                     of.visits_behind);
 }
 
 void ExactDesign::publish_left_out(const StoredScene& scene, const StreamingStats& stats,

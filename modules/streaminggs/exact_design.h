@@ -22,9 +22,6 @@ class ExactDesign : public MachineDesign {
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                      DataSheet& sheet) const override;
   std::string golden_key() const override;
-  CountedFrame count(const StoredScene& scene, const FrameJob& job,
-                     DataSheet& sheet) const override;
-  std::string work_key() const override;
   bool draws_reference() const override;
   PixelSize group() const override { return config_.group(); }
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
@@ -32,8 +29,6 @@ class ExactDesign : public MachineDesign {
 
  private:
   ExactOrderConfig order() const;
-  GoldenFrame golden_of(StreamingResult result, const StoredScene& scene,
-                        const FrameJob& job) const;
   void publish_left_out(const StoredScene& scene, const StreamingStats& stats,
                         DataSheet& sheet) const;
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "modules/streaminggs/exact_estimate.h"
 #include "modules/streaminggs/spare_parts.h"
 
 namespace sgs {
@@ -90,63 +89,6 @@ void ExactMachine::bind() {
     sorters_[s]->sorted(*sorted_keys_[s]);
     merge_->sorted(*sorted_keys_[s]);
   }
-}
-
-std::uint64_t ExactMachine::estimate(const FrameWork& work, MemoryEstimate& dram) {
-  const ExactWork& of = dynamic_cast<const ExactFrameWork&>(work).of;
-  const SceneLayout& layout = job().layout;
-  const auto port = [&](const auto& unit) { return estimate_of(unit.memory, dram); };
-  RenderingEstimate rendering(config_.rendering, job(), port(*rendering_[0]));
-  const bool spills = config_.merge.on_overflow == OnOverflow::kSpill;
-  std::optional<CodebookEstimate> codebooks;
-  if (codebooks_) {
-    codebooks.emplace(config_.codebook, layout.second_half, layout.codebooks, port(*codebooks_));
-  }
-  const std::uint64_t aside = aside_bytes(layout.chunk_table());
-  ExactUnitEstimates units{
-      {config_.vsu, vsu_->test_lanes(), layout.chunk_table().nodes, of.groups, port(*vsu_),
-       [&](const GroupReach& reach, std::uint64_t cycle) {
-         return spills && rendering.finished(reach, cycle);
-       }},
-      {},
-      {},
-      std::vector<ExactSorterEstimate>(config_.sorting_units, ExactSorterEstimate(config_.sorting)),
-      {config_.merge, merge_->heap_entries(), job().spill.part(aside, job().spill.bytes - aside),
-       port(*merge_)}};
-  for (const auto& hfu : hfus_) {
-    units.coarse.emplace_back(config_.hfu, hfu->coarse, layout.first_halves, port(hfu->coarse));
-    units.fine.emplace_back(config_.hfu, hfu->fine, layout.second_halves, port(hfu->fine),
-                            codebooks ? &*codebooks : nullptr);
-  }
-  ExactEstimate frame(config_, of, units, rendering);
-  const std::uint64_t cycles = frame.draw();
-
-  ExactVsu::Work of_vsu = units.vsu.work();
-  of_vsu.walked.node_queue = of.node_queue;
-  of_vsu.walked.chunk_queue = of.chunk_queue;
-  // The golden walk's queues have no end.
-  of_vsu.walked.node_queue_max =
-      std::min<std::size_t>(of.node_queue_max, config_.vsu.node_queue_entries);
-  of_vsu.walked.chunk_queue_max =
-      std::min<std::size_t>(of.chunk_queue_max, config_.vsu.queue_entries);
-  vsu_->assume(of_vsu);
-  if (codebooks_) codebooks_->assume(codebooks->work());
-  for (std::size_t h = 0; h < hfus_.size(); ++h) {
-    hfus_[h]->coarse.assume(units.coarse[h].work());
-    hfus_[h]->fine.assume(units.fine[h].work());
-  }
-  for (std::size_t s = 0; s < sorters_.size(); ++s) sorters_[s]->assume(units.sorters[s].work());
-  merge_->assume(units.merge.work());
-  RenderingUnit::Work of_rendering = rendering.work();
-  of_rendering.counters.contributors = of.contributors;
-  rendering_[0]->assume(of_rendering);
-  (spills ? finished_subtiles_ : untold_).assume(of_rendering.news);
-  assume(visits_, frame.visits());
-  assume(keys_, frame.keys());
-  assume(sorted_keys_, frame.sorted());
-  assume(released_, frame.released());
-  assume(splats_, frame.splats());
-  return cycles;
 }
 
 void ExactMachine::publish_units(DataSheet& sheet) {

@@ -15,8 +15,6 @@ class ExactMachine : public StreamingMachine {
   ExactMachine(const sc_core::sc_module_name& name, const ExactConfig& config,
                const StreamingJob& job, const BuiltFor& built_for, const BuildOptions& options);
 
-  std::uint64_t estimate(const FrameWork& work, MemoryEstimate& dram) override;
-
  private:
   void add_fifos();
   void bind();

@@ -3,10 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "modules/streaminggs/built_for.h"
-#include "tlm/fifo_times.h"
 #include "tlm/timed_fifo.h"
 
 namespace sgs {
@@ -29,11 +27,5 @@ struct FifoKind {
     return use;
   }
 };
-
-// The same for an estimate.
-template <class T>
-std::vector<FifoTimes> times_of(const FifoKind<T>& kind) {
-  return {kind.count, FifoTimes(kind.entries, kind.latency_cycles)};
-}
 
 }  // namespace sgs

@@ -73,8 +73,6 @@ class FinishedSubtiles : public sc_core::sc_prim_channel,
     return false;
   }
   std::uint64_t news() const override { return news_; }
-  // As if the news of so many had been sent. For an estimate.
-  void assume(std::uint64_t news) { news_ = news; }
 
   const char* kind() const override { return "sgs::FinishedSubtiles"; }
 

@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/visited_in_order.h"
 #include "algorithm/voxel/ray_work.h"
 #include "algorithm/voxel/voxel_cuts.h"
-#include "modules/streaminggs/paper_estimate.h"
 #include "modules/streaminggs/paper_machine.h"
 #include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
@@ -76,9 +74,6 @@ std::optional<PaperOrderConfig> PaperDesign::paper_order() const {
   order.parts = config_.parts();
   order.precision = config_.rendering.precision;
   order.subtile_test = config_.rendering.ellipse_test ? SubtileTest::kEllipse : SubtileTest::kBox;
-  if (!config_.rendering.saturation_feedback) {
-    order.visits_behind = std::numeric_limits<std::uint32_t>::max();
-  }
   return order;
 }
 
@@ -94,40 +89,17 @@ GoldenFrame PaperDesign::golden(const StoredScene& scene, const FrameJob& job,
                                 DataSheet& sheet) const {
   PaperOrderConfig order = *paper_order();
   order.background = job.background;
-  return golden_of(render_paper_order(job.view, scene.decoded, scene.grid(), order), scene, job,
-                   sheet);
-}
-
-CountedFrame PaperDesign::count(const StoredScene& scene, const FrameJob& job,
-                                DataSheet& sheet) const {
-  PaperOrderConfig order = *paper_order();
-  order.background = job.background;
-  CountedPaperFrame counted = count_paper_order(job.view, scene.decoded, scene.grid(), order);
-  auto work = std::make_shared<PaperFrameWork>();
-  work->of = std::move(counted.work);
-  work->grid = scene.grid();
-  return {golden_of(std::move(counted.result), scene, job, sheet), std::move(work)};
-}
-
-std::string PaperDesign::work_key() const {
-  const PaperOrderConfig of = *paper_order();
-  return fmt::format("{} {} {}", golden_key(), static_cast<int>(of.subtile_test), of.visits_behind);
-}
-
-GoldenFrame PaperDesign::golden_of(StreamingResult result, const StoredScene& scene,
-                                   const FrameJob& job, DataSheet& sheet) const {
+  StreamingResult result = render_paper_order(job.view, scene.decoded, scene.grid(), order);
   publish_left_out(scene, result.stats.blocks_reached, sheet);
   std::vector<std::vector<std::uint32_t>> visited = std::move(result.group_voxels);
   GoldenFrame golden = golden_frame(std::move(result), streaming_job(config_, job).groups);
-  golden.in_order = [&scene, view = job.view, background = job.background, group = config_.group(),
+  golden.in_order = [&scene, view = job.view, background = job.background, group = order.group,
                      voxels = std::move(visited)] {
     return render_visited_in_order(view, scene.decoded, scene.grid(), group, voxels, background);
   };
   if (config_.rendering.precision != BlendPrecision::kSingle) {
-    PaperOrderConfig exactly = *paper_order();
-    exactly.background = job.background;
-    exactly.precision = BlendPrecision::kSingle;
-    golden.computed_exactly = [&scene, view = job.view, exactly] {
+    order.precision = BlendPrecision::kSingle;
+    golden.computed_exactly = [&scene, view = job.view, exactly = order] {
       return render_paper_order(view, scene.decoded, scene.grid(), exactly).frame.image;
     };
   }

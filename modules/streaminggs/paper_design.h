@@ -23,19 +23,13 @@ class PaperDesign : public MachineDesign {
   GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                      DataSheet& sheet) const override;
   std::string golden_key() const override;
-  CountedFrame count(const StoredScene& scene, const FrameJob& job,
-                     DataSheet& sheet) const override;
-  std::string work_key() const override;
   std::optional<PaperOrderConfig> paper_order() const override;
   PixelSize group() const override { return config_.group(); }
   std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                  const BuildOptions& options) const override;
 
  private:
-  GoldenFrame golden_of(StreamingResult result, const StoredScene& scene, const FrameJob& job,
-                        DataSheet& sheet) const;
-  void publish_left_out(const StoredScene& scene, std::uint64_t voxels_met,
-                        DataSheet& sheet) const;
+  void publish_left_out(const StoredScene& scene, std::uint64_t voxels_met, DataSheet& sheet) const;
 
   PaperConfig config_;
   std::vector<PixelSize> frames_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "modules/streaminggs/paper_estimate.h"
 #include "modules/streaminggs/spare_parts.h"
 
 namespace sgs {
@@ -65,55 +64,6 @@ void PaperMachine::bind() {
     sorters_[s]->sorted(*sorted_[s]);
     rendering_[part]->splats(*sorted_[s]);
   }
-}
-
-std::uint64_t PaperMachine::estimate(const FrameWork& work, MemoryEstimate& dram) {
-  const auto& of = dynamic_cast<const PaperFrameWork&>(work);
-  const SceneLayout& layout = job().layout;
-  const auto port = [&](const MemoryPort& of_unit) { return estimate_of(of_unit, dram); };
-  std::optional<CodebookEstimate> codebooks;
-  if (codebooks_) {
-    codebooks.emplace(config_.codebook, layout.second_half, layout.codebooks,
-                      port(codebooks_->memory));
-  }
-  PaperVsuEstimate vsu(config_.vsu, context().built_for.single, layout.voxel_table(), of.grid,
-                       job().view, {port(vsu_->node_memory), port(vsu_->record_memory)});
-  PaperUnitEstimates units{vsu, {}, {}, {}, {}};
-  for (const auto& hfu : hfus_) {
-    units.coarse.emplace_back(config_.hfu, hfu->coarse, layout.first_halves,
-                              port(hfu->coarse.memory));
-    units.fine.emplace_back(config_.hfu, hfu->fine, layout.second_halves, port(hfu->fine.memory),
-                            codebooks ? &*codebooks : nullptr);
-  }
-  for (const auto& sorter : sorters_) {
-    units.sorters.emplace_back(config_.sorting, sorter->place(), port(sorter->memory));
-  }
-  for (std::uint32_t p = 0; p < rendering_.size(); ++p) {
-    units.rendering.push_back(std::make_unique<RenderingEstimate>(
-        rendering_of_part(config_), part_context(p).job, port(rendering_[p]->memory)));
-  }
-  PaperEstimate frame(config_, job(), of.of, units);
-  const std::uint64_t cycles = frame.draw();
-
-  vsu_->assume(vsu.work());
-  if (codebooks_) codebooks_->assume(codebooks->work());
-  for (std::size_t f = 0; f < hfus_.size(); ++f) {
-    hfus_[f]->coarse.assume(units.coarse[f].work());
-    hfus_[f]->fine.assume(units.fine[f].work());
-  }
-  for (std::size_t s = 0; s < sorters_.size(); ++s) sorters_[s]->assume(units.sorters[s].work());
-  for (std::size_t p = 0; p < rendering_.size(); ++p) {
-    RenderingUnit::Work of_part = units.rendering[p]->work();
-    for (const PaperGroupWork& group : of.of.groups) {
-      of_part.counters.contributors += group.contributors[p];
-    }
-    rendering_[p]->assume(of_part);
-  }
-  assume(visits_, frame.visits());
-  assume(candidates_, frame.candidates());
-  assume(splats_, frame.splats());
-  assume(sorted_, frame.sorted());
-  return cycles;
 }
 
 void PaperMachine::publish_units(DataSheet& sheet) {

@@ -14,8 +14,6 @@ class PaperMachine : public StreamingMachine {
   PaperMachine(const sc_core::sc_module_name& name, const PaperConfig& config,
                const StreamingJob& job, const BuiltFor& built_for, const BuildOptions& options);
 
-  std::uint64_t estimate(const FrameWork& work, MemoryEstimate& dram) override;
-
  private:
   void add_fifos();
   void bind();

@@ -20,7 +20,6 @@
 #include "modules/streaminggs/rendering/rendering_unit.h"
 #include "modules/streaminggs/streaming_config.h"
 #include "modules/streaminggs/unit_context.h"
-#include "tlm/fifo_times.h"
 
 namespace sgs {
 
@@ -60,12 +59,6 @@ class StreamingMachine : public Machine {
         std::make_unique<TimedFifo<T>>(name.c_str(), clock_, kind.entries, kind.latency_cycles));
     if (options_.stalls.probability > 0) fifos.back()->inject(options_.stalls);
     queues_.push_back({fifos.back().get(), kind.each(), kind.key});
-  }
-
-  // As if so many entries had gone through each. For an estimate, in place of a run.
-  template <class T>
-  static void assume(const Fifos<T>& fifos, const std::vector<FifoTimes>& estimated) {
-    for (std::size_t i = 0; i < fifos.size(); ++i) fifos[i]->assume(estimated[i].pushed());
   }
 
   UnitContext context() const { return {clock_, job_, built_for_}; }

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "testbench/result/fidelity.h"
 #include "tlm/data_sheet.h"
 
 namespace sgs {
@@ -119,15 +118,13 @@ struct MemoryResult {
 };
 
 struct FrameResult {
-  Fidelity fidelity = Fidelity::kAccurate;
   std::uint64_t cycles = 0;
   double clock_mhz = 0;
   bool drained = false;  // FIFOs empty, nothing in flight
   MachineResult machine;
   MemoryResult memory;
-  // The frame buffer as read back from the memory; of an estimate as it would be.
-  std::vector<std::byte> frame;
-  double wall_s = 0;  // elaboration, loading of the memory, simulation
+  std::vector<std::byte> frame;  // the frame buffer as read back from the memory
+  double wall_s = 0;             // elaboration, loading of the memory, simulation
 
   double time_s() const { return static_cast<double>(cycles) / (clock_mhz * 1e6); }
 };

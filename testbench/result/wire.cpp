@@ -96,7 +96,7 @@ void serialize(Archive& a, MemoryResult& r) {
 }
 template <class Archive>
 void serialize(Archive& a, FrameResult& r) {
-  a(r.fidelity, r.cycles, r.clock_mhz, r.drained, r.machine, r.memory, r.frame, r.wall_s);
+  a(r.cycles, r.clock_mhz, r.drained, r.machine, r.memory, r.frame, r.wall_s);
 }
 
 std::string to_wire(const FrameResult& result) {

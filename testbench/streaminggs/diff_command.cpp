@@ -80,7 +80,6 @@ void print_wholes(const ReportDiff& diff) {
     fmt::print("{:<15} {:>15} {:>15} {:>10}\n", fmt::format("{} {}", words.name, words.unit),
                shown(q.a, q.quantity), shown(q.b, q.quantity), change(q.a, q.b));
   }
-  if (!diff.waits_known) fmt::print("waiting: not compared, an estimate does not know it\n");
 }
 
 // least: of the whole; what changes it by less is counted only.

@@ -13,7 +13,6 @@
 namespace sgs {
 
 struct RunOptions {
-  Fidelity fidelity = Fidelity::kAccurate;
   std::string vcd_path;         // empty: no waveform
   std::string timeline_path;    // empty: none
   GroupRange timeline_groups;   // that it is bound to

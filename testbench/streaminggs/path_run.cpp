@@ -138,7 +138,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
   ContactSheet sheet(job.frames.size());
   double energy_j = 0;
   bool equal = true;
-  print_table_head(setting.options.fidelity);
+  print_table_head();
   for (std::size_t i = 0; i < job.frames.size(); ++i) {
     const RunConfig& machine = i > 0 && later ? *later : config;
     ViewResult view;
@@ -152,7 +152,7 @@ int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out) {
     }
     const Json of_view = *reports.of_view(view, scene);
     if (i == 0) {
-      for (const char* key : {"schema_version", "fidelity", "scene", "config", "chosen", "provenance"}) {
+      for (const char* key : {"schema_version", "scene", "config", "chosen", "provenance"}) {
         report[key] = of_view[key];
       }
     }

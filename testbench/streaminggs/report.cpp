@@ -95,10 +95,7 @@ Json image_of(const ViewResult& view, bool original_known) {
     out["encoding_psnr_db"] = finite(psnr_db(view.decoded_reference, view.reference));
   }
   out["file_order"] = file_order_of(view.file_order);
-  // The picture of an estimate is that renderer's.
-  const bool read_back = view.run.fidelity == Fidelity::kAccurate;
-  out["frame_from"] = read_back ? "dram" : "streaming_renderer";
-  out["equals_streaming_renderer"] = read_back ? Json(view.equals_golden) : Json(nullptr);
+  out["equals_streaming_renderer"] = view.equals_golden;
   out["missed"] = golden.missed;
   out["misordered"] = golden.misordered;
   out["blends"] = golden.blends;
@@ -278,7 +275,6 @@ Json view_report(const ViewResult& view, const PreparedScene& scene) {
   const FrameResult& run = view.run;
   Json report;
   report["schema_version"] = kReportVersion;
-  report["fidelity"] = name_of(run.fidelity);
   report["scene"] = scene_of(scene);
   report["view"] = view.view;
   report["camera"] = camera_of(view.camera);

@@ -151,13 +151,8 @@ ReportDiff diff_runs(const ReportedRun& a, const ReportedRun& b) {
   }
   compare_facts(diff);
   compare_config(a, b, diff);
-  diff.waits_known = std::all_of(diff.views.begin(), diff.views.end(), [](const auto& pair) {
-    return pair.first->waits_known && pair.second->waits_known;
-  });
   for (std::size_t q = 0; q < kQuantities; ++q) {
-    const auto quantity = static_cast<Quantity>(q);
-    if (quantity == Quantity::kWaits && !diff.waits_known) continue;
-    diff.quantities.push_back(compare(diff, quantity));
+    diff.quantities.push_back(compare(diff, static_cast<Quantity>(q)));
   }
   std::stable_sort(diff.quantities.begin(), diff.quantities.end(),
                    [](const QuantityChange& x, const QuantityChange& y) {

@@ -40,7 +40,6 @@ struct ReportDiff {
   std::vector<ConfigChange> config;
   std::vector<std::string> keys_of_a, keys_of_b;  // that only one of them has: of other machines
   std::size_t equal_keys = 0;
-  bool waits_known = true;                 // where not, no quantity is about them
   std::vector<QuantityChange> quantities;  // what changes most comes first
 };
 

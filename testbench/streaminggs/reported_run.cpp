@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "algorithm/input_error.h"
-#include "testbench/result/fidelity.h"
 #include "testbench/streaminggs/json_place.h"
 #include "testbench/streaminggs/report.h"
 
@@ -92,11 +91,6 @@ void add_costs(const JsonPlace& section, const std::string& suffix, ReportedQuan
   });
 }
 
-std::string fidelity_of(const JsonPlace& report) {
-  // Reports of earlier programs do not say.
-  return report.has("fidelity") ? report.at("fidelity").text() : name_of(Fidelity::kAccurate);
-}
-
 void add_facts(const JsonPlace& report, ReportedView& view) {
   const auto fact = [&](const char* kind, std::string what) {
     view.facts.emplace_back(kind, std::move(what));
@@ -108,7 +102,6 @@ void add_facts(const JsonPlace& report, ReportedView& view) {
                             plain(scene.at("gaussians")), plain(scene.at("sh_degree")),
                             plain(scene.at("dropped_invalid"))));
   fact("camera", fmt::format("{} ({})", plain(camera.at("id")), plain(camera.at("img_name"))));
-  fact("fidelity", fidelity_of(report));
   // Reports of earlier programs do not say what follows.
   if (camera.has("position")) {
     fact("camera stands at", plain(camera.at("position")));
@@ -131,10 +124,9 @@ ReportedView read_view(const JsonPlace& report) {
   view.view = static_cast<int>(report.at("view").number());
   add_facts(report, view);
   view.cycles = report.at("frame").at("cycles").number();
-  view.waits_known = fidelity_of(report) == name_of(Fidelity::kAccurate);
   const JsonPlace psnr_db = report.at("image").at("psnr_db");
   view.psnr_db = psnr_db.json().is_null() ? "equal" : fmt::format("{:.2f}", psnr_db.number());
-  view.model = report.at("image").at("equals_streaming_renderer").json() != false;
+  view.model = report.at("image").at("equals_streaming_renderer").json() == true;
   view.holds = report.at("binding").at("holds").text();
   add_units(report.at("units"), view);
   view.of(Quantity::kBusy).whole = view.cycles;

@@ -33,7 +33,6 @@ struct ReportedView {
   // What it is of, beside the configuration: words for a kind of fact, and the fact.
   std::vector<std::pair<std::string, std::string>> facts;
   double cycles = 0;
-  bool waits_known = true;  // an estimate reckons work alone
   std::string psnr_db;  // "equal" where nothing differs from the reference picture
   bool model = true;    // the frame is the model's, to the byte
   std::string holds;    // binding.holds

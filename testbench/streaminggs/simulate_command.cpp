@@ -39,7 +39,6 @@ struct SimulateArguments : SceneArguments {
   std::string path;             // of the camera; empty: views
   std::uint32_t frames = 60;    // along it
   double frame_rate = 90;       // at which the energy a second is told
-  bool estimate = false;
   bool print_config = false;
   std::string command;  // the whole command line
 };
@@ -107,22 +106,6 @@ void check_single(const SimulateArguments& arguments) {
       "--vcd, --timeline, --dram-trace: one file holds one view; expected --view with one number");
 }
 
-// What only a simulation can give.
-void check_estimate(const SimulateArguments& arguments) {
-  if (!arguments.estimate) return;
-  const RunOptions& run = arguments.run;
-  const std::pair<const char*, bool> given[] = {{"--vcd", !run.vcd_path.empty()},
-                                                {"--timeline", !run.timeline_path.empty()},
-                                                {"--dram-trace", !run.dram_trace_path.empty()},
-                                                {"--stalls", run.build.stalls.probability > 0},
-                                                {"--process-order", run.build.process_order > 0}};
-  for (const auto& [name, is_given] : given) {
-    if (!is_given) continue;
-    throw InputError(fmt::format(
-        "--estimate: got it with {}, which needs a simulation, expected one of the two", name));
-  }
-}
-
 // keys: the path's, in their own size.
 PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) {
   if (arguments.view != "0") {
@@ -156,7 +139,6 @@ void print_what_runs(RunSetting& setting) {
 int run(const SimulateArguments& arguments, const Kinds& kinds) {
   RunSetting setting;
   setting.facts.began = std::chrono::steady_clock::now();
-  check_estimate(arguments);
   RunConfig& config = setting.config;
   config = read_run_config(arguments.config.document(), kinds);
   std::optional<PackedScene> packed = arguments.load_packed();
@@ -187,10 +169,8 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
   const ResultFolder out(arguments.out.empty() ? arguments.default_out(arguments.config.name())
                                                : arguments.out);
   check_single(arguments);
-  if (arguments.estimate) config.design->work_key();  // throws where there is no estimate
   setting.technology = load_technology(arguments.technology);
   setting.options = arguments.run;
-  if (arguments.estimate) setting.options.fidelity = Fidelity::kEstimate;
   setting.options.timeline_groups = range_of(arguments.timeline_groups);
   setting.facts.technology = setting.technology.name;
   setting.facts.technology_path = setting.technology.path;
@@ -232,9 +212,6 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   arguments->config.add_to(line);
   line.file("--out", arguments->out,
             "folder for pictures and reports; out/SCENE/CONFIG by their names if not given");
-  line.flag("--estimate", arguments->estimate,
-            "reckon cycles, bytes and energy from what the streaming renderer counts, without "
-            "simulation");
   line.file("--vcd", arguments->run.vcd_path, "write a waveform");
   line.file("--timeline", arguments->run.timeline_path, "write a trace for ui.perfetto.dev");
   line.text("--timeline-groups", arguments->timeline_groups,

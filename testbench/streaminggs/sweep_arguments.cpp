@@ -32,8 +32,6 @@ void SweepArguments::add_to(CommandLine& line) {
   all.add_choice_of_views_to(line);
   all.add_weighing_to(line);
   all.add_dropping_to(line);
-  line.flag("--estimate", estimate,
-            "reckon each point from what the streaming renderer counts, without simulation");
   line.file("--technology", technology, "table of energy and area");
 }
 

@@ -21,7 +21,6 @@ struct SweepArguments {
   std::vector<std::string> axes;
   std::string points, out, csv;
   std::string technology = data_file("technology_32nm.json");
-  bool estimate = false;
   std::uint32_t side_by_side = std::max(1U, std::thread::hardware_concurrency());
 
   void add_to(CommandLine& line);

@@ -50,28 +50,24 @@ class Asked {
   std::vector<std::pair<std::string, PointInWords>> asked_;
 };
 
-void print_end(const SweepCounts& counts, Fidelity fidelity, const std::string& first_refusal,
+void print_end(const SweepCounts& counts, const std::string& first_refusal,
                const std::string& out) {
   if (counts.refused > 0) {
     fmt::print("the first of {} refused: {}\n", grouped(counts.refused), first_refusal);
   }
-  fmt::print("{} of {} {}: {} done, {} refused, {} failed; {} of them by an earlier sweep\n",
-             grouped(counts.answered()), grouped(counts.asked),
-             fidelity == Fidelity::kEstimate ? "estimates" : "simulations", grouped(counts.done),
-             grouped(counts.refused), grouped(counts.failed), grouped(counts.kept));
+  fmt::print(
+      "{} of {} simulations: {} done, {} refused, {} failed; {} of them by an earlier sweep\n",
+      grouped(counts.answered()), grouped(counts.asked), grouped(counts.done),
+      grouped(counts.refused), grouped(counts.failed), grouped(counts.kept));
   fmt::print("results in {}\n", out);
 }
 
 int run(const SweepArguments& arguments, const Kinds& kinds) {
   const auto began = std::chrono::steady_clock::now();
   std::vector<SweepPoint> points = arguments.listed_points();
-  SweepDefaults defaults{arguments.all,
-                         arguments.each_scene(),
-                         arguments.all.view,
-                         arguments.all.size,
-                         arguments.config,
-                         xxh64_of_file(arguments.technology),
-                         arguments.estimate ? Fidelity::kEstimate : Fidelity::kAccurate};
+  SweepDefaults defaults{arguments.all,      arguments.each_scene(),
+                         arguments.all.view, arguments.all.size,
+                         arguments.config,   xxh64_of_file(arguments.technology)};
   if (defaults.scenes.empty() && !arguments.axes.empty()) {
     throw InputError(fmt::format("SCENE: got none, expected {}", kSceneForms));
   }
@@ -138,7 +134,7 @@ int run(const SweepArguments& arguments, const Kinds& kinds) {
   if (complete && counts.refused == counts.asked) {
     throw InputError(fmt::format("all of {} refused; the first: {}", counts.asked, first_refusal));
   }
-  print_end(counts, plan.fidelity(), first_refusal, arguments.out);
+  print_end(counts, first_refusal, arguments.out);
   if (!complete) return kInterrupted;
   return counts.failed > 0 ? kFailed : kDone;
 }

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "algorithm/memory/frame_buffer.h"
-#include "testbench/streaminggs/frame_estimate.h"
 
 namespace sgs {
 namespace {
@@ -21,38 +20,15 @@ std::uint64_t memory_bytes() {
 std::uint64_t bytes_of(const Image& image) { return image.pixels.size() * sizeof image.pixels[0]; }
 
 // What else a design's golden renderer knows is not asked for.
-ExpectedFrame expected_of(const MachineDesign& design, Fidelity fidelity,
-                          const PreparedScene& scene, const ViewJob& job,
-                          const ReferencePictures& pictures) {
+ExpectedFrame expected_of(const MachineDesign& design, const PreparedScene& scene,
+                          const ViewJob& job, const ReferencePictures& pictures) {
   DataSheet unread;
   ExpectedFrame out;
-  GoldenFrame& golden = out.counted.golden;
-  if (fidelity == Fidelity::kEstimate) {
-    out.counted = design.count(scene.stored, job.frame, unread);
-  } else {
-    golden = design.golden(scene.stored, job.frame, unread);
-  }
-  out.bytes = encode_frame(job.frame.frame_format, golden.image);
-  out.judged = judge_frame(scene, job, pictures, golden, out.bytes);
-  golden.in_order = {};  // may read the scene, which need not stay
+  out.golden = design.golden(scene.stored, job.frame, unread);
+  out.bytes = encode_frame(job.frame.frame_format, out.golden.image);
+  out.judged = judge_frame(scene, job, pictures, out.golden, out.bytes);
+  out.golden.in_order = {};  // may read the scene, which need not stay
   return out;
-}
-
-// In a child.
-FrameResult frame_of(const RunConfig& config, Fidelity fidelity, const PreparedScene& scene,
-                     const ViewJob& job, const ExpectedFrame& expected) {
-  if (fidelity == Fidelity::kEstimate) {
-    FrameResult frame =
-        estimate_frame(*config.design, job.frame, *expected.counted.work, config.dram);
-    frame.frame = expected.bytes;
-    return frame;
-  }
-  FrameResult frame =
-      simulate_frame(*config.design, job.frame, scene.stored.image, config.dram, {});
-  if (frame.frame != expected.bytes) {
-    throw std::runtime_error("the frame differs from the golden renderer's");
-  }
-  return frame;
 }
 
 }  // namespace
@@ -63,9 +39,7 @@ std::uint64_t size_bytes(const ReferencePictures& pictures) {
 
 // Golden and judged picture, and those of the loss.
 std::uint64_t size_bytes(const ExpectedFrame& expected) {
-  const FrameWork* const work = expected.counted.work.get();
-  return (expected.judged.order_loss ? 5 : 3) * bytes_of(expected.counted.golden.image) +
-         (work == nullptr ? 0 : work->size_bytes());
+  return (expected.judged.order_loss ? 5 : 3) * bytes_of(expected.golden.image);
 }
 
 SweepSimulations::SweepSimulations(const SweepPlan& plan, Technology technology, RunFacts facts,
@@ -92,13 +66,16 @@ std::unique_ptr<ChildProcess> SweepSimulations::start(const SweepTask& task) {
       references_.get(of_view, [&] { return reference_pictures(*scene, job.frame); });
   const std::string of_picture =
       fmt::format("{}\n{} {}", of_view, task.picture, static_cast<int>(job.frame.frame_format));
-  const Fidelity fidelity = plan_.fidelity();
   const auto expected = expected_.get(
-      of_picture, [&] { return expected_of(*config.design, fidelity, *scene, job, *references); });
+      of_picture, [&] { return expected_of(*config.design, *scene, job, *references); });
   return std::make_unique<ChildProcess>([&] {
-    ViewResult view =
-        view_result(*scene, job, *references, expected->counted.golden, expected->judged,
-                    frame_of(config, fidelity, *scene, job, *expected), technology_);
+    FrameResult frame =
+        simulate_frame(*config.design, job.frame, scene->stored.image, config.dram, {});
+    if (frame.frame != expected->bytes) {
+      throw std::runtime_error("the frame differs from the golden renderer's");
+    }
+    ViewResult view = view_result(*scene, job, *references, expected->golden, expected->judged,
+                                  std::move(frame), technology_);
     view.equals_golden = true;
     return line_of_done(task.key, task.words, *RunReport(config, facts_).of_view(view, *scene));
   });

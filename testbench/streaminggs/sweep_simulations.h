@@ -20,7 +20,7 @@ namespace sgs {
 
 // The frame that a machine must give, and what it is worth.
 struct ExpectedFrame {
-  CountedFrame counted;          // the work only where it is asked for
+  GoldenFrame golden;
   std::vector<std::byte> bytes;  // of the frame buffer
   JudgedFrame judged;
 };

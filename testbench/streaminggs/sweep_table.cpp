@@ -19,7 +19,6 @@ struct Column {
   const char* path;
 };
 constexpr Column kOfReport[] = {
-    {"fidelity", "fidelity"},
     {"frame.cycles", "frame.cycles"},
     {"frame.time_s", "frame.time_s"},
     {"frame.fps", "frame.fps"},

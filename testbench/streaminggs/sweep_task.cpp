@@ -74,15 +74,12 @@ RunConfig SweepPlan::resolved(const SweepTask& task) const {
 void SweepPlan::resolve_and_name(SweepTask& task) const {
   const SceneArguments& scene = task.scene->arguments();
   std::string all =
-      fmt::format("{} {:016x} {:016x} {:016x} {} {} {}\n", name_of(defaults_.fidelity),
-                  program_hash_, defaults_.technology_hash, task.scene->digest(),
-                  scene.drop_invalid, task.view, text_of(task.camera));
+      fmt::format("{:016x} {:016x} {:016x} {} {} {}\n", program_hash_, defaults_.technology_hash,
+                  task.scene->digest(), scene.drop_invalid, task.view, text_of(task.camera));
   try {
     RunConfig config = resolved(task);
     task.storage = task.scene->storage_key(config);
-    const bool estimate = defaults_.fidelity == Fidelity::kEstimate;
-    const std::string text = to_json(config);
-    const std::string golden = estimate ? config.design->work_key() : config.design->golden_key();
+    const std::string text = to_json(config), golden = config.design->golden_key();
     task.picture = golden.empty() ? text : fmt::format("{} {}", config.machine(), golden);
     all += fmt::format("{:016x} {}\n{}", xxh64_of_file(memspec_path(config.dram.memspec)),
                        task.storage, text);

@@ -10,7 +10,6 @@
 
 #include "algorithm/scene/camera.h"
 #include "testbench/command_line/config_source.h"
-#include "testbench/result/fidelity.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/run_config.h"
 #include "testbench/streaminggs/scene_arguments.h"
@@ -40,7 +39,6 @@ struct SweepDefaults {
   std::string view, size;
   ConfigSource config;
   std::uint64_t technology_hash = 0;  // of the table's file
-  Fidelity fidelity = Fidelity::kAccurate;
 };
 
 class SweepPlan {
@@ -55,8 +53,6 @@ class SweepPlan {
   // them, refused; so is a single one, without key, for a
   // point that has no scene or view.
   std::vector<SweepTask> tasks_of(const SweepPoint& point);
-
-  Fidelity fidelity() const { return defaults_.fidelity; }
 
   // The configuration of a task, as far as it does not follow from the scene's Gaussians. Throws
   // InputError.

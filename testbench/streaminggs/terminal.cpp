@@ -28,12 +28,7 @@ void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
 
 }  // namespace
 
-void print_table_head(Fidelity fidelity) {
-  if (fidelity == Fidelity::kEstimate) {
-    fmt::print(
-        "fidelity: estimate: reckoned without simulation, so without waiting: a simulation may "
-        "name another thing to change; the pictures are the streaming renderer's\n");
-  }
+void print_table_head() {
   fmt::print("{:>4} {:>8} {:>8} {:>7} {:>13} {:>7} {:>8} {:>6} {:>8} {:>7} {:>10} {:>5} {:>7}\n",
              "view", "PSNR dB", "SSIM", "= model", "cycles", "fps", "DRAM MB", "x once", "mJ", "W",
              "binding", "busy", "wall s");
@@ -45,10 +40,8 @@ void print_table_line(const ViewResult& v) {
       "{:>4.0f}% "
       "{:>7.2f}\n",
       v.view, std::isinf(v.psnr_db) ? "equal" : fmt::format("{:.2f}", v.psnr_db), v.ssim,
-      v.run.fidelity == Fidelity::kEstimate ? "is its"
-      : v.equals_golden                     ? "yes"
-                                            : "NO",
-      grouped(v.run.cycles), grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
+      v.equals_golden ? "yes" : "NO", grouped(v.run.cycles),
+      grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
       static_cast<double>(v.run.memory.bytes) / 1e6, v.once_ratio(), v.energy_j.total.middle * 1e3,
       v.mean_power_w(), v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
 }

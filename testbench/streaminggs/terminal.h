@@ -9,7 +9,7 @@
 
 namespace sgs {
 
-void print_table_head(Fidelity fidelity);
+void print_table_head();
 void print_table_line(const ViewResult& view);
 
 // Binding unit, bytes by region that are not 0, costs of tests.

@@ -13,7 +13,6 @@
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
 #include "testbench/result/collect.h"
-#include "testbench/streaminggs/frame_estimate.h"
 
 namespace sgs {
 namespace {
@@ -136,16 +135,8 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
   ReferencePictures pictures = reference_pictures(scene, job.frame);
   std::vector<LeftOut> entries;
   LeftOutCollector left_out(entries);
-  GoldenFrame golden;
-  FrameResult run;
-  if (options.fidelity == Fidelity::kEstimate) {
-    CountedFrame counted = config.design->count(scene.stored, job.frame, left_out);
-    run = run_estimate(*config.design, job.frame, counted, config.dram);
-    golden = std::move(counted.golden);
-  } else {
-    golden = config.design->golden(scene.stored, job.frame, left_out);
-    run = run_frame(*config.design, job.frame, scene.stored.image, config.dram, options);
-  }
+  GoldenFrame golden = config.design->golden(scene.stored, job.frame, left_out);
+  FrameResult run = run_frame(*config.design, job.frame, scene.stored.image, config.dram, options);
   list_left_out(scene.stored, run.machine, left_out);
   const bool equal = run.frame == encode_frame(job.frame.frame_format, golden.image);
   JudgedFrame judged = judge_frame(scene, job, pictures, golden, run.frame);

@@ -56,8 +56,7 @@ struct ViewResult : ReferencePictures, JudgedFrame {
   int view = 0;   // index of the camera
   Camera camera;  // as the frame has it: in its size
   GoldenFrame golden;
-  // Bytes of the frame buffer against the golden renderer's; of an estimate they are those.
-  bool equals_golden = false;
+  bool equals_golden = false;  // bytes of the frame buffer against the golden renderer's
   FrameResult run;
   std::vector<LeftOut> left_out;
   Binding binding;
@@ -76,9 +75,8 @@ ViewResult view_result(const PreparedScene& scene, const ViewJob& job, Reference
                        GoldenFrame golden, JudgedFrame judged, FrameResult run,
                        const Technology& technology);
 
-// Simulates one view, or reckons it, and judges it: golden picture, costs, binding unit. Throws
-// InputError when scene and frame do not fit the memory, or there is no estimate of the machine;
-// std::runtime_error when the simulation fails.
+// Simulates one view and judges it: golden picture, costs, binding unit. Throws InputError when
+// scene and frame do not fit the memory, std::runtime_error when the simulation fails.
 ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& camera,
                          const RunConfig& config, const Technology& technology,
                          const RunOptions& options);

@@ -66,7 +66,7 @@ int run_views(const NumberedCameras& views, RunSetting& setting, const ResultFol
   std::vector<ViewResult> results;
   bool equal = true, all_refused = true;
   std::size_t named = 0;  // of failed
-  print_table_head(setting.options.fidelity);
+  print_table_head();
   for (const auto& [number, camera] : views) {
     try {
       ViewResult view = simulate_view(setting.scene, number, camera, setting.config,

@@ -31,7 +31,6 @@ TEST_CASE("bad input: cameras that cannot be drawn are named with their file, be
     REQUIRE(shell(scratch, "$SG pack $S --out s.sgs").status == 0);
     for (const char* command :
          {"simulate $S --view 1 --out o --cameras c.json",
-          "simulate $S --view 1 --estimate --out o --cameras c.json",
           "simulate $S --config paper --view 0,1 --out o --cameras c.json",
           "simulate $S --path c.json --out o", "simulate s.sgs --view 1 --out o --cameras c.json",
           "render $S --view 1 --out o.png --cameras c.json", "gpu $S --view 1 --cameras c.json",
@@ -64,11 +63,6 @@ TEST_CASE("bad input: what would never end is refused at once") {
            {"$SG simulate $B --timeline-groups 2 --out o", 2, {"--timeline"}},
            {"$SG simulate $B --timeline t --view all --out o", 2, {"--timeline", "one view"}},
            {"$SG simulate $B --timeline o/report.json --out o", 2, {"o/report.json"}},
-           {"$SG simulate $B --estimate --vcd v --out o", 2, {"--estimate", "--vcd"}},
-           {"$SG simulate $B --estimate --timeline t --out o", 2, {"--estimate", "--timeline"}},
-           {"$SG simulate $B --estimate --dram-trace t --out o", 2, {"--estimate", "--dram-trace"}},
-           {"$SG simulate $B --estimate --stalls 0.1 --out o", 2, {"--estimate", "--stalls"}},
-           {"$SG simulate $B --estimate --config gscore --out o", 2, {"--estimate", "no estimate"}},
            {"$SG simulate $B --path pipe --out o", 2, {"pipe", "regular"}, "mkfifo pipe"},
            {"$SG simulate $B --path builtin:path --view 1 --out o", 2, {"--view", "--path"}},
            {"$SG simulate $B --path builtin:path --vcd v --out o", 2, {"--vcd", "--path"}},

@@ -54,31 +54,6 @@ TEST_CASE("path: frames at its keys are the views, on every machine") {
   }
 }
 
-TEST_CASE("path: estimates of its frames are those of the views") {
-  const ScratchFolder scratch;
-  write_cameras(scratch.path("keys.json"),
-                {make_builtin_scene(kPathScene).cameras[0], make_builtin_scene(kPathScene).cameras[2]});
-  for (const char* preset : {"exact", "paper_no_vq"}) {
-    INFO(preset);
-    const Arguments estimate = {"--config", preset, "--estimate"};
-    const json path =
-        run_path(scratch, joined(estimate, {"--path", scratch.path("keys.json"), "--frames", "2"}));
-    const Outcome done = run_streaminggs(joined(
-        {"simulate", kPathScene, "--size", "96x54", "--view", "0,2", "--out", scratch.path("views")},
-        estimate));
-    INFO(done.out << done.err);
-    REQUIRE(done.status == 0);
-    const std::vector<json> views = views_of_report(scratch.path("views/report.json"));
-    REQUIRE(path["frames"].size() == 2);
-    CHECK(path["fidelity"] == "estimate");
-    for (const std::size_t frame : {0U, 1U}) {
-      CHECK(path["frames"][frame]["cycles"] == views[frame]["frame"]["cycles"]);
-      CHECK(path["frames"][frame]["energy_j"] == views[frame]["energy"]["total_j"]);
-      CHECK(path["frames"][frame]["equals_streaming_renderer"].is_null());
-    }
-  }
-}
-
 TEST_CASE("path: codebooks are loaded once") {
   const ScratchFolder scratch;
   const Arguments machine = {"--config", "exact_vq",

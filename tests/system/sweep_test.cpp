@@ -336,36 +336,5 @@ TEST_CASE("sweep: what was simulated of another memspec of the same name counts 
   CHECK(results[0]["key"] != results[1]["key"]);
 }
 
-TEST_CASE("sweep: estimates are no simulations, and simulations no estimates") {
-  const ScratchFolder scratch;
-  const std::string line =
-      "$SG sweep 'builtin:object?n=600' --size 64x48 --axis hfus=2,4 --out r.jsonl";
-  const std::string both = " 2 done, 0 refused, 0 failed; 0 of them by an earlier sweep";
-  const ShellOutcome simulated = shell(scratch, line);
-  require_done(simulated);
-  CHECK(simulated.out.find("2 of 2 simulations:" + both) != std::string::npos);
-  const ShellOutcome estimated = shell(scratch, line + " --estimate --csv t.csv");
-  require_done(estimated);
-  CHECK(estimated.out.find("2 of 2 estimates:" + both) != std::string::npos);
-  std::map<std::string, int> of_fidelity;
-  std::set<std::string> keys;
-  for (const Json& result : results_in(scratch, "r.jsonl")) {
-    ++of_fidelity[result["report"]["fidelity"].get<std::string>()];
-    keys.insert(result["key"].get<std::string>());
-  }
-  CHECK(of_fidelity == std::map<std::string, int>{{"accurate", 2}, {"estimate", 2}});
-  CHECK(keys.size() == 4);
-  const std::string table = bytes_of(scratch.path("t.csv"));
-  CHECK(table.find("estimate") != std::string::npos);
-  CHECK(table.find("accurate") == std::string::npos);
-  // Of a machine without one nothing is simulated in its place.
-  const ShellOutcome refused =
-      shell(scratch,
-            "$SG sweep 'builtin:object?n=600' --size 64x48 --config gscore --axis "
-            "tiles.reach=visible --estimate --out g.jsonl");
-  CHECK(refused.status == 2);
-  CHECK(refused.err.find("no estimate") != std::string::npos);
-}
-
 }  // namespace
 }  // namespace sgs::test

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "modules/datapath/work_rates.h"
-#include "modules/streaminggs/hfu/cfu_turns.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
@@ -95,11 +94,15 @@ std::byte* CoarseFilter::first_half(std::uint32_t slot, std::uint32_t at) {
          (std::size_t{slot} * config_.slice_gaussians + at) * std::size_t{record_bytes_};
 }
 
-// A candidate a cycle goes on. Simulated time is only let pass where somebody could see it: before
-// a candidate is handed on, and at the end.
+// The CFUs take a Gaussian each in their turns, a cycle after each other as these come out of the
+// input buffer; so they are done a cycle apart, and a candidate a cycle goes on. Without CFUs a
+// Gaussian takes that cycle. Simulated time is only let pass where somebody could see it: before a
+// candidate is handed on, and at the end.
 void CoarseFilter::filter_slice(const Slice& slice) {
   const RecordSplit& split = job_.layout.split;
-  const CfuTurns turns(tests_, has_cfus_);
+  const std::uint64_t cfus = has_cfus_ ? tests_.copies : 1;
+  const std::uint64_t of_test = has_cfus_ ? tests_.interval_cycles() : 1;
+  const std::uint64_t interval = cycles_for(cfus, of_test) * of_test;
   FifoWriteIf<FineCandidate>& to = in_turn(survivors, slice.share.visit);
   PlacesUnderTest& places = places_of(slice.share.visit);
   const std::uint64_t began = filter_.clock().now_cycles();
@@ -118,7 +121,7 @@ void CoarseFilter::filter_slice(const Slice& slice) {
       places.wait_for_one(to, filter_);
       cycle = passed = filter_.clock().now_cycles();
     }
-    cycle = turns.next(cycle);
+    cycle = next_turn_of_one(cycle, interval, cfus) + 1;
     ++counters_.read;
     const SplitFirstHalf first = read_first_half(split, first_half(slice.slot, i));
     const FirstHalfBound bound = bound_first_half(split, first, job_.view);
@@ -170,14 +173,6 @@ GroupReach CoarseFilter::reach(const FirstHalfBound& bound, std::uint32_t group)
   const auto* by_extents = std::get_if<ExtentBound>(&bound);
   const bool known = by_extents != nullptr && by_extents->in_front && config_.coarse_filter;
   return known ? group_reach(*by_extents, job_.groups[group]) : GroupReach{};
-}
-
-void CoarseFilter::assume(const Work& work) {
-  counters_ = work.counters;
-  load_.assume(work.load_cycles);
-  filter_.assume(work.filter_cycles);
-  slices_.assume(work.slices);
-  memory.assume(work.traffic);
 }
 
 SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {

@@ -44,18 +44,6 @@ class CoarseFilter : public sc_core::sc_module {
     std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
   };
   const Counters& counters() const { return counters_; }
-  const Datapath& tests() const { return tests_; }
-  bool with_cfus() const { return has_cfus_; }
-  std::uint32_t parts() const { return part_count(); }
-
-  // All that the data sheet says of a frame.
-  struct Work {
-    Counters counters;
-    std::uint64_t load_cycles = 0, filter_cycles = 0, slices = 0;
-    PortTraffic traffic;
-  };
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work);
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 

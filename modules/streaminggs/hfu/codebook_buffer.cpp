@@ -89,8 +89,10 @@ std::uint64_t CodebookBuffer::take_record(const CodebookIndices& indices, std::u
 
 std::uint64_t CodebookBuffer::take_lines(std::size_t codebook, const EntryRange& entry,
                                          std::uint64_t cycle) {
-  const EntryLines lines = lines_of(entry, config_.line_bytes);
-  for (std::uint32_t line = lines.first; line < lines.first + lines.count; ++line) {
+  if (entry.bytes == 0) return cycle;
+  const std::uint32_t first = entry.begin / config_.line_bytes;
+  const std::uint32_t last = (entry.begin + entry.bytes - 1) / config_.line_bytes;
+  for (std::uint32_t line = first; line <= last; ++line) {
     const std::uint64_t taken = banks_.take(line % config_.banks, cycle);
     counters_.conflict_cycles += taken - cycle;
     ++counters_.lines;
@@ -98,11 +100,6 @@ std::uint64_t CodebookBuffer::take_lines(std::size_t codebook, const EntryRange&
     cycle = taken + 1;
   }
   return cycle;
-}
-
-void CodebookBuffer::assume(const Work& work) {
-  counters_ = work.counters;
-  memory.assume(work.traffic);
 }
 
 // Lines of every codebook lie in all banks.

@@ -19,16 +19,6 @@
 
 namespace sgs {
 
-// Lines of the buffer that an entry lies in.
-struct EntryLines {
-  std::uint32_t first = 0, count = 0;
-};
-inline EntryLines lines_of(const EntryRange& entry, std::uint32_t line_bytes) {
-  if (entry.bytes == 0) return {};
-  const std::uint32_t first = entry.begin / line_bytes;
-  return {first, (entry.begin + entry.bytes - 1) / line_bytes - first + 1};
-}
-
 class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private InstantEnd::Arbiter {
  public:
   MemoryPort memory;
@@ -51,14 +41,6 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
     std::uint64_t conflict_cycles = 0;  // a line waited because its bank was being read
   };
   const Counters& counters() const { return counters_; }
-
-  // All that the data sheet says of a frame.
-  struct Work {
-    Counters counters;
-    PortTraffic traffic;
-  };
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work);
   // Codebooks of one scene.
   static SramUses sram_uses(const CodebookConfig& config, const SecondHalfFormat& format);
   void publish(DataSheet& sheet);

@@ -317,19 +317,4 @@ FifoWriteIf<SplatToken>& FineFilter::to_sorting(const Part& part, std::uint32_t 
   return *splats[static_cast<int>(part.index * of_part + visit % of_part)];
 }
 
-void FineFilter::assume(const Work& work) {
-  counters_ = work.counters;
-  fetch_.assume(work.fetch_cycles);
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    Part& part = *parts_[p];
-    const Work::OfPart& of = work.parts[p];
-    part.filter.assume(of.filter_cycles);
-    part.fetched.assume(of.fetched);
-    if (!part.stage) continue;
-    part.stage->decode.assume(of.decode_cycles);
-    part.stage->decoded.assume(of.decoded);
-  }
-  memory.assume(work.traffic);
-}
-
 }  // namespace sgs

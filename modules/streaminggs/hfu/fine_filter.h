@@ -67,25 +67,6 @@ class FineFilter : public sc_core::sc_module {
     std::uint64_t dropped_fetched = 0;    // of these, with their second half
   };
   const Counters& counters() const { return counters_; }
-  const Datapath& tests() const { return tests_; }
-  std::uint64_t test_cycles() const { return test_cycles_; }
-
-  std::uint32_t parts() const { return static_cast<std::uint32_t>(parts_.size()); }
-  Rejects rejects() const { return place_.rejects; }
-
-  // All that the data sheet says of a frame.
-  struct Work {
-    struct OfPart {
-      std::uint64_t decode_cycles = 0, filter_cycles = 0;
-      std::uint64_t fetched = 0, decoded = 0;  // entries of the FIFOs
-    };
-    Counters counters;
-    std::uint64_t fetch_cycles = 0;
-    std::vector<OfPart> parts;
-    PortTraffic traffic;
-  };
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work);
   // Of a second half out of its slot: a word a cycle.
   static std::uint32_t read_cycles(std::uint32_t record_bytes);
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for,

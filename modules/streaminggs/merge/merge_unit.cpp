@@ -153,7 +153,8 @@ void MergeUnit::end_group(const FineCandidate& end) {
 // written from its back.
 void MergeUnit::spill_farthest() {
   if (runs_.size() == config_.spill_runs) merge_shortest_runs();
-  const std::uint64_t keys = keys_to_spill(config_, pending_.size(), spills_);
+  const std::uint32_t eighths = std::min(4U, 1 + spills_ / config_.spill_runs);
+  const std::uint64_t keys = std::max<std::uint64_t>(1, pending_.size() * eighths / 8);
   ++spills_;
   if (!fits_spill_area(keys)) merge_runs(runs_.end());
   const SpillPort to = spill_port();
@@ -241,13 +242,6 @@ void MergeUnit::drop_all() {
   runs_.clear();
   spill_used_ = 0;
   spills_ = 0;
-}
-
-void MergeUnit::assume(const Work& work) {
-  counters_ = work.counters;
-  assumed_heap_ = work.heap;
-  merge_.assume(work.merge_cycles);
-  memory.assume(work.traffic);
 }
 
 }  // namespace sgs

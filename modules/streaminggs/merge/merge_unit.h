@@ -7,10 +7,8 @@
 // every `cycles_per_operation` cycles: what is no operation passes beside it.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <list>
-#include <optional>
 #include <systemc>
 
 #include "algorithm/order/interval_heap.h"
@@ -31,14 +29,6 @@ struct NearerKey {
     return a.depth < b.depth || (a.depth == b.depth && a.slot < b.slot);
   }
 };
-
-// Keys of a full buffer that become a run: an eighth of it at first, since the excess is mostly
-// small, more when it turns out not to be. spills: before it, of its group.
-inline std::uint64_t keys_to_spill(const MergeConfig& config, std::uint64_t pending,
-                                   std::uint32_t spills) {
-  const std::uint32_t eighths = std::min(4U, 1 + spills / config.spill_runs);
-  return std::max<std::uint64_t>(1, pending * eighths / 8);
-}
 
 class MergeUnit : public sc_core::sc_module {
  public:
@@ -66,18 +56,7 @@ class MergeUnit : public sc_core::sc_module {
     std::uint64_t keys_spilled = 0;  // written to DRAM, over all passes
   };
   const Counters& counters() const { return counters_; }
-  const HeapWork& heap_work() const { return assumed_heap_ ? *assumed_heap_ : pending_.work(); }
-  std::uint32_t heap_entries() const { return static_cast<std::uint32_t>(pending_.capacity()); }
-
-  // All that the data sheet says of a frame.
-  struct Work {
-    Counters counters;
-    HeapWork heap;
-    std::uint64_t merge_cycles = 0;
-    PortTraffic traffic;
-  };
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work);
+  const HeapWork& heap_work() const { return pending_.work(); }
   static SramUses sram_uses(const MergeConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
@@ -132,7 +111,6 @@ class MergeUnit : public sc_core::sc_module {
   float last_depth_ = -1;                        // of the key released last in this group
   std::uint32_t group_ = 0, pending_count_ = 0;  // for the waveform
   Counters counters_;
-  std::optional<HeapWork> assumed_heap_;
 };
 
 }  // namespace sgs

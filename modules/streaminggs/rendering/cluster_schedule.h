@@ -146,8 +146,6 @@ class ClusterSchedule {
     return last == finished_from_.end() ? 0 : *last;
   }
   const Counters& counters() const { return counters_; }
-  // As if it had scheduled this. For an estimate.
-  void assume(const Counters& counters) { counters_ = counters; }
   // That the mean cluster blended, or waited for the splat ahead.
   std::uint64_t cluster_cycles() const {
     return (counters_.blends * cluster_interval_ + counters_.hazard_cycles) / config_.clusters;

@@ -4,6 +4,11 @@
 #include "modules/datapath/work_rates.h"
 
 namespace sgs {
+namespace {
+
+constexpr std::uint64_t kClearCycles = 1;  // of a group's last row of pixels, behind its draining
+
+}  // namespace
 
 RenderingUnit::RenderingUnit(const sc_core::sc_module_name& name, const RenderingConfig& config,
                              Arrival arrival, const UnitContext& context,
@@ -129,16 +134,6 @@ void RenderingUnit::write_group(const GroupState& state) {
   // A sub-tile is cleared in the cycle after its last row was read: all but the last while others
   // are drained.
   if (!pixels.empty()) drain_.work(kClearCycles);
-}
-
-void RenderingUnit::assume(const Work& work) {
-  counters_ = work.counters;
-  schedule_.assume(work.clusters);
-  blend_.assume(work.blend_cycles);
-  drain_.assume(work.drain_cycles);
-  cycles_of_groups_ = work.cycles_of_groups;
-  finished_.assume(work.counters.groups);
-  memory.assume(work.traffic);
 }
 
 }  // namespace sgs

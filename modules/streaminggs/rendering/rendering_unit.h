@@ -24,9 +24,6 @@
 
 namespace sgs {
 
-// Of a group's last row of pixels, behind its draining.
-constexpr std::uint64_t kClearCycles = 1;
-
 // How the splats of one group are spread over the FIFOs that rendering reads: whole visits in turn
 // (paper order), or each token in turn (exact order).
 enum class Arrival { kByVisit, kByToken };
@@ -57,18 +54,6 @@ class RenderingUnit : public sc_core::sc_module {
   };
   const Counters& counters() const { return counters_; }
   const ClusterSchedule::Counters& schedule_counters() const { return schedule_.counters(); }
-
-  // All that the data sheet says of a frame.
-  struct Work {
-    Counters counters;
-    ClusterSchedule::Counters clusters;
-    std::uint64_t blend_cycles = 0, drain_cycles = 0;
-    std::uint64_t news = 0;  // sub-tiles that others were told of
-    std::vector<std::uint64_t> cycles_of_groups;
-    PortTraffic traffic;
-  };
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work);
   static SramUses sram_uses(const RenderingConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 

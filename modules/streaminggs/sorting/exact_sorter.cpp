@@ -54,11 +54,6 @@ void ExactSorter::run() {
   }
 }
 
-void ExactSorter::assume(const Work& work) {
-  counters_ = work.counters;
-  sort_.assume(work.sort_cycles);
-}
-
 SramUses ExactSorter::sram_uses(const BuiltFor& built_for) {
   return sort_memories(kKeySorters, kSharedSram, built_for.chunk_gaussians, kKeyBytes);
 }

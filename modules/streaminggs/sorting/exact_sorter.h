@@ -31,14 +31,6 @@ class ExactSorter : public sc_core::sc_module {
     std::uint64_t moves = 0;  // of entries through the network
   };
   const Counters& counters() const { return counters_; }
-
-  // All that the data sheet says of a frame.
-  struct Work {
-    Counters counters;
-    std::uint64_t sort_cycles = 0;
-  };
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work);
   static SramUses sram_uses(const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 

@@ -205,12 +205,6 @@ SubtileRect PaperSorter::group_subtiles() const {
           subtile(pixels.y1 + kSubtilePx - 1)};
 }
 
-void PaperSorter::assume(const Work& work) {
-  counters_ = work.counters;
-  sort_.assume(work.sort_cycles);
-  memory.assume(work.traffic);
-}
-
 // Runs that are read back lie in the sort buffer, which is empty then.
 SramUses PaperSorter::sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for) {
   const SramUse block = sram_use("spill blocks", kSharedSram,

@@ -49,16 +49,6 @@ class PaperSorter : public sc_core::sc_module {
     std::uint64_t list_max = 0;         // longest list of one visit
   };
   const Counters& counters() const { return counters_; }
-  const PaperSorterPlace& place() const { return place_; }
-
-  // All that the data sheet says of a frame.
-  struct Work {
-    Counters counters;
-    std::uint64_t sort_cycles = 0;
-    PortTraffic traffic;
-  };
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work);
   static SramUses sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 

@@ -72,12 +72,6 @@ class ChunkTester {
   }
 
   void announce_to(sc_core::sc_event& news) { tested_.announce_to(news); }
-  // As if it had tested so many. For an estimate.
-  void assume(std::uint64_t nodes, std::uint64_t tests, std::uint64_t cycles) {
-    nodes_ = nodes;
-    tests_ = tests;
-    test_.assume(cycles);
-  }
   Activity& activity() { return test_; }
   std::uint64_t tests() const { return tests_; }
   std::uint64_t nodes() const { return nodes_; }

@@ -259,22 +259,4 @@ void ExactVsu::run_hand_out() {
   }
 }
 
-ExactVsu::Walked ExactVsu::walked() const {
-  if (assumed_) return *assumed_;
-  return {chunk_walk_.counters(), chunk_walk_.node_queue().work(), chunk_walk_.chunk_queue().work(),
-          chunk_walk_.node_queue().most(), chunk_walk_.chunk_queue().most()};
-}
-
-void ExactVsu::assume(const Work& work) {
-  counters_ = work.counters;
-  assumed_ = work.walked;
-  assumed_->node_queue.levels.resize(heap_levels(config_.node_queue_entries));
-  assumed_->chunk_queue.levels.resize(heap_levels(config_.queue_entries));
-  walk_.assume(work.walk_cycles);
-  hand_out_.assume(work.hand_out_cycles);
-  tester_.assume(work.walked.walk.nodes, work.walked.walk.tests, work.test_cycles);
-  ready_.assume(work.ready_entries);
-  memory.assume(work.traffic);
-}
-
 }  // namespace sgs

@@ -57,23 +57,6 @@ class ExactVsu : public sc_core::sc_module {
   };
   const Counters& counters() const { return counters_; }
   const WalkCounters& walk_counters() const { return chunk_walk_.counters(); }
-  const Datapath& test_lanes() const { return tester_.lanes(); }
-
-  // What the walk's queues did.
-  struct Walked {
-    WalkCounters walk;
-    HeapWork node_queue, chunk_queue;
-    std::size_t node_queue_max = 0, chunk_queue_max = 0;
-  };
-  // All that the data sheet says of a frame.
-  struct Work {
-    Counters counters;
-    Walked walked;
-    std::uint64_t walk_cycles = 0, test_cycles = 0, hand_out_cycles = 0, ready_entries = 0;
-    PortTraffic traffic;
-  };
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work);
   static SramUses sram_uses(const ExactVsuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
@@ -103,7 +86,6 @@ class ExactVsu : public sc_core::sc_module {
   void say_what_is_missing();
   void wait_for_news();
   bool work_on_queues(std::uint64_t other_cycles);
-  Walked walked() const;
 
   const ExactVsuConfig config_;
   const BuiltFor built_for_;
@@ -126,7 +108,6 @@ class ExactVsu : public sc_core::sc_module {
   std::uint64_t queue_operations_ = 0;  // that have taken their time
   std::vector<bool> saturated_;         // [group]
   Counters counters_;
-  std::optional<Walked> assumed_;
   std::uint32_t next_visit_ = 0;
   std::uint32_t current_chunk_ = 0;  // for the waveform
 };

@@ -48,8 +48,8 @@ SramUses ExactVsu::sram_uses(const ExactVsuConfig& config, const BuiltFor& built
 }
 
 void ExactVsu::publish(DataSheet& sheet) {
-  const Walked done = walked();
-  const WalkCounters& walk = done.walk;
+  const WalkCounters& walk = chunk_walk_.counters();
+  const WalkQueue &node_queue = chunk_walk_.node_queue(), &chunk_queue = chunk_walk_.chunk_queue();
   sheet.unit(*this);
   sheet.activity(walk_, "vsu", "walks the chunk tree, one group after the other");
   sheet.activity(tester_.activity(), "chunk_tests", "tests the children of nodes");
@@ -71,12 +71,12 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.counter("groups_saturated", "groups", "finished before their walk ended",
                 counters_.groups_saturated);
   sheet.counter("groups_empty", "groups", "that no chunk can touch", counters_.groups_empty);
-  sheet.counter("chunk_queue_max", "entries", "most in the queue of chunks", done.chunk_queue_max);
-  sheet.counter("node_queue_max", "entries", "most in the queue of nodes", done.node_queue_max);
+  sheet.counter("chunk_queue_max", "entries", "most in the queue of chunks", chunk_queue.most());
+  sheet.counter("node_queue_max", "entries", "most in the queue of nodes", node_queue.most());
   sheet.counter("chunk_queue_operations", "operations", "insertions and removals",
-                done.chunk_queue.operations());
+                chunk_queue.work().operations());
   sheet.counter("node_queue_operations", "operations", "insertions and removals",
-                done.node_queue.operations());
+                node_queue.work().operations());
   sheet.counter("queue_entries_put_aside", "entries", "that went to DRAM: the queue was full",
                 walk.put_aside);
   sheet.datapath(tester_.lanes(), tester_.tests());
@@ -92,7 +92,7 @@ void ExactVsu::publish(DataSheet& sheet) {
   const double of_mask = mask_comparators(built_for_.group);
   // Whenever one of the queues has changed the nearest chunk is compared with all open nodes.
   const double of_open = kOpenNodeWords * open_nodes(config_);
-  const std::uint64_t compared = done.chunk_queue.operations() + done.node_queue.operations();
+  const std::uint64_t compared = chunk_walk_.queue_operations();
   sheet.part("vsu", "comparator", of_mask + of_open, 1);
   sheet.operations(
       "vsu", "comparator",
@@ -109,9 +109,9 @@ void ExactVsu::publish(DataSheet& sheet) {
   const std::uint64_t in_test = 2 * kWords * tester_.nodes();
   sheet.accesses("nodes in test", in_test, in_test);
   kChunkQueue.publish(sheet, config_.queue_entries, config_.cycles_per_queue_operation,
-                      done.chunk_queue);
+                      chunk_queue.work());
   kNodeQueue.publish(sheet, config_.node_queue_entries, config_.cycles_per_queue_operation,
-                     done.node_queue);
+                     node_queue.work());
   sheet.port(memory, "entries put aside");
   aside_.publish(sheet);
   sheet.queue(ready_, "final visits");

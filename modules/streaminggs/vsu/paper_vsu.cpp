@@ -148,19 +148,6 @@ void PaperVsu::mark_end(std::uint32_t group) {
   ++next_visit_;
 }
 
-void PaperVsu::assume(const Work& work) {
-  counters_ = work.counters;
-  rays_.assume(work.rays);
-  rays_.nodes.assume(work.nodes.lookups, work.nodes.misses);
-  records_.assume(work.records.lookups, work.records.misses);
-  cuts_.assume(work.planes.lookups, work.planes.misses);
-  traverse_.assume(work.traverse_cycles);
-  emit_.assume(work.emit_cycles);
-  ordered_.assume(work.ordered);
-  node_memory.assume(work.node_traffic);
-  record_memory.assume(work.record_traffic);
-}
-
 SramUses PaperVsu::sram_uses(const PaperVsuConfig& config, const BuiltFor& built_for) {
   // A table of b bytes orders at most b / 8 voxels; each waits as a 4-byte id.
   SramUses uses = RayUnit::sram_uses(config);

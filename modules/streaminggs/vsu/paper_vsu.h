@@ -45,21 +45,6 @@ class PaperVsu : public sc_core::sc_module {
     std::uint64_t table_bytes_max = 0;   // ordering table of the worst group
   };
   const Counters& counters() const { return counters_; }
-
-  // All that the data sheet says of a frame.
-  struct Work {
-    struct Cached {
-      std::uint64_t lookups = 0, misses = 0;
-    };
-    Counters counters;
-    RayTurns::Work rays;
-    Cached nodes, records, planes;
-    std::uint64_t traverse_cycles = 0, emit_cycles = 0;
-    std::uint64_t ordered = 0;  // lists of voxels
-    PortTraffic node_traffic, record_traffic;
-  };
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work);
   static SramUses sram_uses(const PaperVsuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 

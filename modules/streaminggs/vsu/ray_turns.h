@@ -72,8 +72,6 @@ class RayTurns {
     std::uint64_t names_cleared = 0, ready_cleared = 0;  // words
   };
   const Work& work() const { return work_; }
-  // As if it had done this. For an estimate, in place of a run.
-  void assume(const Work& work) { work_ = work; }
 
   const Datapath& begins() const { return begins_; }
   const Datapath& steps() const { return steps_; }

@@ -14,7 +14,7 @@
 #include "algorithm/order/group_visits.h"
 #include "modules/streaminggs/vsu/first_of.h"
 #include "modules/streaminggs/vsu/node_fetches.h"
-#include "modules/streaminggs/vsu/ray_turns.h"
+#include "modules/streaminggs/vsu/ray_unit.h"
 
 namespace sgs {
 
@@ -25,13 +25,12 @@ namespace sgs {
 // waits itself.
 //
 // Events are taken in the order of their cycles, those of one cycle in the order of the contexts.
-// The unit's time, which is the kernel's or an estimate's, follows where it matters to somebody
-// else: when a node has to be fetched, when one is waited for, and at the end. Unit: RayUnit or
-// RayUnitEstimate.
-template <class Path, class Unit>
+// The kernel's time follows where it matters to somebody else: when a node has to be fetched, when
+// one is waited for, and at the end.
+template <class Path>
 class RaysInFlight {
  public:
-  RaysInFlight(const View<float>& view, const Path& path, Unit& unit)
+  RaysInFlight(const View<float>& view, const Path& path, RayUnit& unit)
       : view_(view),
         unit_(unit),
         contexts_(unit.config.rays_in_flight, Context(path)),
@@ -80,7 +79,7 @@ class RaysInFlight {
   }
 
  private:
-  static constexpr std::uint64_t kNever = RayTurns::kNever;
+  static constexpr std::uint64_t kNever = RayUnit::kNever;
   static constexpr std::uint32_t kNoNode = ~0U;
 
   enum class State : std::uint8_t { kFlies, kCalled, kWithoutRoom, kEnded, kFree };
@@ -220,7 +219,7 @@ class RaysInFlight {
     if (called) --called_;
     if (const auto* const line = unit_.nodes.find(node)) {
       context.path.give(unit_.nodes.record_in(*line, node));
-      at(cycle + RayTurns::kLookUpCycles, c);
+      at(cycle + RayUnit::kLookUpCycles, c);
     } else if (auto* const others = unit_.fetches.waiting_for(unit_.nodes.line_of(node))) {
       unit_.joined();
       others->push_back({c, node});
@@ -294,7 +293,7 @@ class RaysInFlight {
   }
 
   const View<float>& view_;
-  Unit& unit_;
+  RayUnit& unit_;
   std::vector<Context> contexts_;
   FirstOf first_;  // of the contexts, in what is earliest for them
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;

@@ -56,27 +56,15 @@ class TableCache {
     return &set.front();
   }
 
-  // Of a line that is not there: what is to be read of the memory for it, and where that lies in
-  // the line.
-  struct Missing {
-    std::uint64_t address;
-    std::uint32_t bytes, at;
-  };
-  Missing miss(std::uint64_t tag) {
+  // Starts to read a line that is not there; its bytes are in `into` when the ticket is done.
+  MemoryPort::Ticket fetch(std::uint64_t tag, Line& into, MemoryPort& port, Activity& activity) {
     ++misses_;
+    into.tag = tag;
     const std::uint64_t begin = tag * kCacheLineBytes;
     const std::uint64_t start = std::max(begin, table_.base);
     const std::uint64_t stop = std::min(begin + kCacheLineBytes, table_.end());
-    return {start, static_cast<std::uint32_t>(stop - start),
-            static_cast<std::uint32_t>(start - begin)};
-  }
-
-  // Starts to read a line that is not there; its bytes are in `into` when the ticket is done.
-  MemoryPort::Ticket fetch(std::uint64_t tag, Line& into, MemoryPort& port, Activity& activity) {
-    const Missing missing = miss(tag);
-    into.tag = tag;
-    return start_read(port, activity, missing.address, into.bytes + missing.at, missing.bytes,
-                      table_.region);
+    return start_read(port, activity, start, into.bytes + (start - begin),
+                      static_cast<std::uint32_t>(stop - start), table_.region);
   }
 
   // A line that has come takes the place of its set's least recently used.
@@ -97,12 +85,6 @@ class TableCache {
 
   std::uint64_t lookups() const { return lookups_; }
   std::uint64_t misses() const { return misses_; }
-  // As if it had been asked so often. For an estimate, in place of a run.
-  void assume(std::uint64_t lookups, std::uint64_t misses) {
-    lookups_ = lookups;
-    misses_ = misses;
-  }
-  const RecordArray& table() const { return table_; }
 
   // Its lines and their tags: the four ways of a set lie side by side, tags and age are read at
   // once.

@@ -87,20 +87,6 @@ TEST_CASE("diff: a report and itself, of all views, of one, by its folder") {
   }
 }
 
-TEST_CASE("diff: of an estimate nothing is said of waiting") {
-  const ScratchFolder scratch;
-  json estimate = view_of(0);
-  estimate["fidelity"] = "estimate";
-  const ReportedRun a = read(scratch, "a.json", view_of(0));
-  const ReportedRun b = read(scratch, "b.json", estimate);
-  for (const ReportDiff& diff : {diff_runs(a, b), diff_runs(b, a), diff_runs(b, b)}) {
-    CHECK_FALSE(diff.waits_known);
-    CHECK(diff.quantities.size() == kQuantities - 1);
-    for (const QuantityChange& q : diff.quantities) CHECK(q.quantity != Quantity::kWaits);
-  }
-  CHECK(diff_runs(a, a).waits_known);
-}
-
 TEST_CASE("diff: the folder of a camera path is told to be one") {
   const ScratchFolder scratch;
   json path = view_of(0);
@@ -194,7 +180,6 @@ TEST_CASE("diff: what is not of the same is said, by table") {
   };
   for (const Row& row : std::vector<Row>{
            {"/scene/gaussians", 6, "scene: s, 5 Gaussians, SH degree 3, 0 dropped | s, 6 Gaus"},
-           {"/fidelity", "estimate", "fidelity: accurate | estimate"},
            {"/camera/img_name", "side", "camera: 7 (front) | 7 (side)"},
            {"/frame/width_px", 65, "size, px: 64x36 | 65x36"},
            {"/provenance/technology", "22 nm", "technology: 32 nm | 22 nm"},
