@@ -56,13 +56,14 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, const MemoryPortConf
 
 MemoryPort::Ticket MemoryPort::read(std::uint64_t address, void* into, std::uint32_t bytes,
                                     std::uint8_t region) {
-  traffic_.read(bytes);
+  bytes_read_ += bytes;
   return start(tlm::TLM_READ_COMMAND, address, static_cast<std::uint8_t*>(into), bytes, region);
 }
 
 MemoryPort::Ticket MemoryPort::write(std::uint64_t address, const void* from, std::uint32_t bytes,
                                      std::uint8_t region) {
-  traffic_.write(bytes);
+  bytes_written_ += bytes;
+  words_written_ += (bytes + kPortBytes - 1) / kPortBytes;
   // start() only reads through this pointer when the command is a write.
   auto* data = static_cast<std::uint8_t*>(const_cast<void*>(from));
   return start(tlm::TLM_WRITE_COMMAND, address, data, bytes, region);
@@ -90,6 +91,7 @@ MemoryPort::Ticket MemoryPort::start(tlm::tlm_command command, std::uint64_t add
                                      std::uint8_t* data, std::uint32_t bytes, std::uint8_t region) {
   const std::uint64_t step = config_.max_transaction_bytes;
   const std::uint64_t end = address + bytes;
+  if (part_) bytes_of_parts_[*part_] += bytes;
   const std::uint64_t count = bytes == 0 ? 0 : (end - 1) / step - address / step + 1;
   const Ticket ticket = new_ticket(static_cast<std::uint32_t>(count));
   while (address < end) {
@@ -139,7 +141,7 @@ void MemoryPort::send(PooledPayload& payload) {
   next_leaves_ = sc_core::sc_time_stamp() + static_cast<double>(cycles) * cycle_;
   ++outstanding_;
   writes_outstanding_ += payload.is_write() ? 1 : 0;
-  ++traffic_.transactions;
+  ++transactions_;
   bytes_outstanding_ += payload.get_data_length();
   // The memory takes a write when it has its last word.
   const std::uint64_t way = config_.path_cycles + cycles - 1;

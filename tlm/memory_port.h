@@ -48,35 +48,6 @@ SramUse unanswered_writes(const char* name, const char* memory, const MemoryPort
 constexpr const char* kOutstandingTable = "outstanding transactions";
 SramUse outstanding_table(const char* memory, const MemoryPortConfig& config);
 
-// What a port was asked for.
-struct PortTraffic {
-  std::uint64_t transactions = 0, bytes_read = 0, bytes_written = 0;
-  // Accesses of the buffer that keeps unanswered writes, kPortBytes each.
-  std::uint64_t words_written = 0;
-  // [part] bytes asked for, read and written; as long as the highest part that any was for.
-  std::vector<std::uint64_t> bytes_of_parts;
-  std::optional<std::size_t> part;  // that what is asked for from now on is for
-
-  void charge_to(std::size_t to) {
-    if (bytes_of_parts.size() <= to) bytes_of_parts.resize(to + 1);
-    part = to;
-  }
-  void read(std::uint32_t bytes) {
-    bytes_read += bytes;
-    charge(bytes);
-  }
-  void write(std::uint32_t bytes) {
-    bytes_written += bytes;
-    words_written += (bytes + kPortBytes - 1) / kPortBytes;
-    charge(bytes);
-  }
-
- private:
-  void charge(std::uint32_t bytes) {
-    if (part) bytes_of_parts[*part] += bytes;
-  }
-};
-
 // One thread asks; any thread of its unit may wait for what was asked for. (Two that asked at the
 // same time would be served in the order in which the kernel runs them.)
 class MemoryPort : public sc_core::sc_module {
@@ -104,9 +75,12 @@ class MemoryPort : public sc_core::sc_module {
 
   // What is asked for from now on is for part `part` of the unit's work, numbered from 0; before
   // the first call it is for none. Who asks knows; no time depends on it.
-  void charge_to(std::size_t part) { traffic_.charge_to(part); }
+  void charge_to(std::size_t part) {
+    if (bytes_of_parts_.size() <= part) bytes_of_parts_.resize(part + 1);
+    part_ = part;
+  }
   // [part] bytes asked for, read and written; as long as the highest part that any was for.
-  const std::vector<std::uint64_t>& bytes_of_parts() const { return traffic_.bytes_of_parts; }
+  const std::vector<std::uint64_t>& bytes_of_parts() const { return bytes_of_parts_; }
 
   bool done(Ticket ticket) const;
 
@@ -119,11 +93,11 @@ class MemoryPort : public sc_core::sc_module {
   bool writing() const { return writes_outstanding_ > 0; }
   std::uint64_t bytes_outstanding() const { return bytes_outstanding_; }
 
-  std::uint64_t transactions() const { return traffic_.transactions; }
-  std::uint64_t bytes_read() const { return traffic_.bytes_read; }
-  std::uint64_t bytes_written() const { return traffic_.bytes_written; }
+  std::uint64_t transactions() const { return transactions_; }
+  std::uint64_t bytes_read() const { return bytes_read_; }
+  std::uint64_t bytes_written() const { return bytes_written_; }
   // Accesses of the buffer that keeps unanswered writes, kPortBytes each.
-  std::uint64_t words_written() const { return traffic_.words_written; }
+  std::uint64_t words_written() const { return words_written_; }
   const MemoryPortConfig& config() const { return config_; }
 
   // Those of its transactions; when it is idle, none is in use.
@@ -199,7 +173,9 @@ class MemoryPort : public sc_core::sc_module {
   sc_core::sc_event answered_;  // a ticket that someone waits for is done
   sc_core::sc_event drained_;
 
-  PortTraffic traffic_;
+  std::uint64_t transactions_ = 0, bytes_read_ = 0, bytes_written_ = 0, words_written_ = 0;
+  std::vector<std::uint64_t> bytes_of_parts_;
+  std::optional<std::size_t> part_;  // that what is asked for from now on is for
 };
 
 }  // namespace sgs

@@ -8,7 +8,13 @@
 namespace sgs {
 
 DramController::Commands::Commands(const Memspec& memspec, const DramConfig& config)
-    : counts(DramStats::of(memspec, config.channels)), activity(memspec, config) {}
+    : activity(memspec, config) {
+  counts.channels.resize(config.channels);
+  counts.clock_period_ns = memspec.clock_period_ns;
+  counts.peak_gb_per_s = memspec.peak_gb_per_s() * config.channels;
+  counts.burst_bytes = memspec.burst_bytes();
+  counts.burst_cycles = memspec.burst_cycles();
+}
 
 void DramController::Commands::on_command(const CommandRecord& record) {
   DramChannelStats& channel = counts.channels[record.channel];
@@ -61,7 +67,14 @@ DramStats DramController::stats() {
     stats.forwarded_reads += channels_[c].queued.forwarded_reads();
   }
   stats.ranks = commands_.activity.ranks(cycle);
-  add_energy(stats, memspec_, config_, commands_.activity.regions());
+  const std::string& chosen =
+      config_.current_set.empty() ? memspec_.default_currents : config_.current_set;
+  for (const auto& [name, currents] : memspec_.currents) {
+    const DramEnergy energy = dram_energy(memspec_, currents, stats.ranks,
+                                          commands_.activity.regions(), config_.io_pj_per_bit);
+    stats.energy_by_current_set_pj[name] = energy.total_pj();
+    if (name == chosen) stats.energy = energy;
+  }
   return stats;
 }
 

@@ -31,26 +31,4 @@ double DramStats::row_hit_rate() const {
   return ratio(static_cast<double>(rows.of(RowOutcome::kHit)), static_cast<double>(rows.total()));
 }
 
-DramStats DramStats::of(const Memspec& memspec, std::uint32_t channels) {
-  DramStats stats;
-  stats.channels.resize(channels);
-  stats.clock_period_ns = memspec.clock_period_ns;
-  stats.peak_gb_per_s = memspec.peak_gb_per_s() * channels;
-  stats.burst_bytes = memspec.burst_bytes();
-  stats.burst_cycles = memspec.burst_cycles();
-  return stats;
-}
-
-void add_energy(DramStats& stats, const Memspec& memspec, const DramConfig& config,
-                const std::array<RegionActivity, 256>& regions) {
-  const std::string& chosen =
-      config.current_set.empty() ? memspec.default_currents : config.current_set;
-  for (const auto& [name, currents] : memspec.currents) {
-    const DramEnergy energy =
-        dram_energy(memspec, currents, stats.ranks, regions, config.io_pj_per_bit);
-    stats.energy_by_current_set_pj[name] = energy.total_pj();
-    if (name == chosen) stats.energy = energy;
-  }
-}
-
 }  // namespace sgs

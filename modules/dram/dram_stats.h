@@ -51,9 +51,6 @@ struct DramStats {
   DramEnergy energy;                                       // by the configured set of currents
   std::map<std::string, double> energy_by_current_set_pj;  // the band between published sets
 
-  // Of a memory that did nothing yet.
-  static DramStats of(const Memspec& memspec, std::uint32_t channels);
-
   DramChannelStats all_channels() const;
   std::uint64_t bytes() const { return traffic.total().bytes; }
   std::uint64_t bus_bytes() const { return all_channels().bursts() * burst_bytes; }
@@ -65,9 +62,5 @@ struct DramStats {
   // Share of bursts that found their row open.
   double row_hit_rate() const;
 };
-
-// Of `ranks` and of these regions, by the configured set of currents and by each of them.
-void add_energy(DramStats& stats, const Memspec& memspec, const DramConfig& config,
-                const std::array<RegionActivity, 256>& regions);
 
 }  // namespace sgs

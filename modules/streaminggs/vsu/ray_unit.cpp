@@ -1,45 +1,45 @@
-// Nodes of the tree in the kernel's time, and what the rays' memories take.
+// Turns at what the rays share, and nodes of the tree in the kernel's time.
 #include "modules/streaminggs/vsu/ray_unit.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "algorithm/voxel/ray_path.h"
-#include "modules/datapath/counter_bits.h"
+#include "algorithm/order/ready_voxels.h"
+#include "algorithm/order/renaming.h"
 #include "modules/datapath/work_rates.h"
-#include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs {
 namespace {
 
-// Of a ray: direction and its reciprocals, which only steps read; its cell, its level and its
-// signs, its pixel, the ends of its chain; a node; a voxel that it met, with its distance and its
-// round.
-constexpr std::uint32_t kDirectionBytes = 24, kPositionBytes = 16;
-constexpr std::uint32_t kNodeBytes = 12, kMetBytes = 8;
-constexpr std::uint32_t kRoundBytes = 2;
-constexpr std::uint32_t kRayBanks = 4;  // of what steps and look-ups share: by the ray's number
-constexpr std::uint32_t kTagBytes = 4;  // of a line on its way
-constexpr std::uint32_t kReadyWord = 4;
-
-// Of a ray that waits: its line, or its place among those that found none for theirs.
-std::uint32_t waiting_bytes(const PaperVsuConfig& config) {
-  const std::uint32_t places = std::max(config.node_fetches, config.rays_in_flight);
-  return (1 + counter_bits(places - 1) + 7) / 8;
+// The first of two things that share something gets it first.
+std::uint64_t turn(std::uint64_t& free, std::uint64_t cycle, std::uint64_t cycles) {
+  const std::uint64_t start = std::max(free, cycle);
+  free = start + cycles;
+  return start;
 }
 
 }  // namespace
 
+std::uint64_t names_bytes(const PaperVsuConfig& config) {
+  return kNameBytes * Renaming::slots_for(OrderingTable::most_voxels(config.table_bytes));
+}
+
+std::uint64_t ready_words(const PaperVsuConfig& config) {
+  return ReadyVoxels::all_words_for(OrderingTable::most_voxels(config.table_bytes));
+}
+
 RayUnit::RayUnit(const PaperVsuConfig& c, const OperationLatencies& latencies,
                  const ClockDomain& clock, Activity& activity, MemoryPort& port,
                  const RecordArray& table, ListsOut to)
-    : RayTurns(c, latencies),
+    : config(c),
       nodes(c.node_cache_bytes, table),
       lists(std::move(to)),
       clock_(clock),
       activity_(activity),
-      port_(port) {}
+      port_(port),
+      begins_(pixel_ray_pipeline(c, latencies)),
+      steps_(ray_step_pipeline(c, latencies)) {}
 
 void RayUnit::advance_to(std::uint64_t cycle) {
   if (cycle > now()) clock_.wait_cycles(cycle - now());
@@ -47,13 +47,67 @@ void RayUnit::advance_to(std::uint64_t cycle) {
 
 void RayUnit::begin_pass() {
   activity_.works();
-  free_from(now());
+  pass_from_ = begins_free_ = steps_free_ = look_ups_free_ = tree_free_ = table_free_ = written_ =
+      now();
+}
+
+// Of lanes, the same in their turns. No ray is under way when a pass begins, so that they count
+// from there.
+std::uint64_t RayUnit::turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle) {
+  const std::uint64_t interval = lanes.interval_cycles();
+  const std::uint64_t of_pass = next_turn(std::max(free, cycle) - pass_from_, interval);
+  return turn(free, pass_from_ + of_pass, interval);
+}
+
+std::uint64_t RayUnit::begin_ray(std::uint64_t cycle) {
+  ++work_.rays;
+  return turn_of(begins_, begins_free_, cycle) + config.ray_depth_cycles;
+}
+
+std::uint64_t RayUnit::step(std::uint64_t cycle, std::uint32_t log2_block) {
+  ++work_.steps;
+  return turn_of(steps_, steps_free_, cycle) + config.step_cycles(log2_block) + kMaskCycles;
+}
+
+std::uint64_t RayUnit::look_up(std::uint64_t cycle) { return turn(look_ups_free_, cycle, 1); }
+
+std::uint64_t RayUnit::cycles_since(const OrderingAccesses& all) {
+  return all.cycles - std::exchange(work_.accesses, all).cycles;
+}
+
+std::uint64_t RayUnit::found(std::uint64_t cycle) {
+  ++work_.found;
+  return std::max(tree_free_, cycle) + first_of_rounds_cycles(config.rays_in_flight);
+}
+
+std::uint64_t RayUnit::give_context(std::uint64_t cycle) { return tree_free_ = found(cycle); }
+
+std::uint64_t RayUnit::enter(const OrderingTable& table, std::uint64_t cycle) {
+  ++work_.entered;
+  tree_free_ = turn(table_free_, found(cycle), cycles_since(table.accesses()));
+  table_free_ = std::max(table_free_, written_);
+  written_ = table_free_ + table.write_cycles();
+  return table_free_;
+}
+
+void RayUnit::order(const OrderingTable& table) {
+  const std::uint64_t clearing = names_bytes(config) / kNamesWord;
+  work_.names_cleared += clearing;
+  activity_.work(std::max(cycles_since(table.accesses()), clearing));
+}
+
+void RayUnit::clear(const OrderingTable& table) {
+  cycles_since(table.accesses());
+  const std::uint64_t names = names_bytes(config) / kNamesWord, ready = ready_words(config);
+  work_.names_cleared += names;
+  work_.ready_cleared += ready;
+  activity_.work(std::max(names, ready));
 }
 
 std::vector<NodeFetches::Waiting>& RayUnit::ask(std::uint64_t tag, std::uint64_t cycle) {
   advance_to(cycle);
   auto& waiting = fetches.ask(tag, nodes, port_, activity_);
-  hold_look_ups(now());
+  look_ups_free_ = std::max(look_ups_free_, now());
   return waiting;
 }
 
@@ -74,109 +128,6 @@ void RayUnit::take_what_comes() {
     advance_to(fetches.ready_cycle());
     nodes.fill(fetches.take().line);
   }
-}
-
-SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
-  SramUses uses = TableCache<VoxelNode>::sram_uses("node cache", "node cache tags", kSharedSram,
-                                                   config.node_cache_bytes);
-  const std::uint32_t rays = config.rays_in_flight;
-  const auto of_rays = [&](const char* name, const SramFactors& each, const SramShape& shape,
-                           const SramPeak& peak) {
-    SramFactors factors = {{rays, "rays"}};
-    factors.insert(factors.end(), each.begin(), each.end());
-    uses.push_back(sram_use(name, kSharedSram, factors, shape, peak));
-  };
-  of_rays("ray directions", {{kDirectionBytes, "B"}}, {8 * kDirectionBytes}, kOneOfEach);
-  // A step and a look-up begin in a cycle, and what began earlier ends: a step out of a block, one
-  // out of a cell, a look-up, a ray's beginning.
-  const std::uint32_t banks = std::min(rays, kRayBanks);
-  const std::uint32_t ends = std::min(banks, 4U);
-  of_rays("ray positions", {{kPositionBytes, "B"}},
-          {8 * kPositionBytes, SramPorts::kReadAndWrite, banks}, {std::min(banks, 2U), ends});
-  of_rays("ray nodes", {{kNodesOfRay, "nodes"}, {kNodeBytes, "B"}}, {8 * kNodeBytes}, kOneOfEach);
-  of_rays("ray chains", {{config.chain_entries, "voxels"}, {kMetBytes, "B"}},
-          {8 * kMetBytes, SramPorts::kReadAndWrite, banks}, {1, std::min(banks, 3U)});
-  // In registers: the first of all is found at once, and who waits for a line that has come.
-  of_rays("rounds of rays", {{kRoundBytes, "B"}}, {8 * kRoundBytes, SramPorts::kReadAndWrite, rays},
-          {rays, rays});
-  of_rays("rays that wait for nodes", {{waiting_bytes(config), "B"}},
-          {8 * waiting_bytes(config), SramPorts::kReadAndWrite, rays}, {rays, 1});
-  // A line that is missed is looked for among all of them.
-  const std::uint32_t lines = config.node_fetches;
-  uses.push_back(sram_use("tags of node fetches", kSharedSram, {{lines, "lines"}, {kTagBytes, "B"}},
-                          {8 * kTagBytes, SramPorts::kReadAndWrite, lines}, {lines, 1}));
-  uses.push_back(sram_use("node fetches", kSharedSram,
-                          {{lines, "lines"}, {TableCache<VoxelNode>::kCacheLineBytes, "B"}},
-                          {8 * kPortBytes}, kOneOfEach));
-  // In order() an edge is read beside the record that the one before it names.
-  uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
-                          {8 * kTableWordBytes, SramPorts::kReadAndWrite, config.table_banks},
-                          {std::min(config.table_banks, 2U), config.table_banks}));
-  const std::uint64_t names = names_bytes(config);
-  uses.push_back(sram_use(
-      "renamed voxels", kSharedSram, {{names / kNameBytes, "slots"}, {kNameBytes, "B"}},
-      {8 * static_cast<std::uint32_t>(std::min<std::uint64_t>(kNamesWord, names))}, kOneOfEach));
-  uses.push_back(sram_use("ready voxels", kSharedSram,
-                          {{ready_words(config), "words"}, {kReadyWord, "B"}}, {8 * kReadyWord},
-                          kOneOfEach));
-  return uses;
-}
-
-// More of it leaves one cycle each time.
-Remedy RayUnit::remedy() const {
-  struct Shared {
-    const char* key;
-    std::uint64_t times, cycles;
-  };
-  const Work& of = work();
-  const Shared all[] = {{"vsu.step_lanes", of.steps, of.steps * steps().interval_cycles()},
-                        {"vsu.ray_lanes", of.rays, of.rays * begins().interval_cycles()}};
-  const char* key = "vsu.rays_in_flight";
-  std::uint64_t most = activity_.busy_cycles() / 3;
-  for (const Shared& shared : all) {
-    if (shared.cycles - shared.times <= most) continue;
-    most = shared.cycles - shared.times;
-    key = shared.key;
-  }
-  return key;
-}
-
-void RayUnit::publish(DataSheet& sheet) const {
-  const Work& of = work();
-  sheet.datapath(begins(), of.rays);
-  sheet.datapath(steps(), of.steps);
-  nodes.publish_accesses(sheet, "node cache", "node cache tags");
-  const std::uint64_t lookups = nodes.lookups(), results = lookups - of.called;
-  sheet.accesses("ray directions", of.steps, of.rays);
-  sheet.accesses("ray positions", of.steps + lookups, of.rays + of.steps + results);
-  sheet.accesses("rounds of rays", of.found * config.rays_in_flight,
-                 of.rays + of.steps + of.entered);
-  sheet.accesses("ray nodes", of.steps, results);
-  sheet.accesses("ray chains", of.entered, of.entered);
-  const std::uint64_t misses = nodes.misses();
-  const std::uint64_t line = sram_words(TableCache<VoxelNode>::kCacheLineBytes, {8 * kPortBytes});
-  // A look-up that misses is looked for among the lines on their way, and its ray waits; who waits
-  // is looked for when a line comes, and when a place is free.
-  const std::uint64_t missed = misses + of.joined + of.without_place;
-  sheet.accesses("rays that wait for nodes", (misses + of.called) * config.rays_in_flight, missed);
-  sheet.accesses("tags of node fetches", missed * config.node_fetches, misses);
-  sheet.accesses("node fetches", misses * line, misses * line);
-  sheet.accesses("ordering table", of.accesses.reads, of.accesses.writes);
-  sheet.accesses("renamed voxels", of.accesses.names_read,
-                 of.accesses.names_written + of.names_cleared);
-  sheet.accesses("ready voxels", of.accesses.ready_read,
-                 of.accesses.ready_written + of.ready_cleared);
-  // What is read of the table is compared with the voxel; a voxel that is met with the bounds of
-  // the window, one that is entered with the nearest and the farthest; the round of the first ray
-  // with those of the others; a miss with all lines on their way; a line that has come with what
-  // the rays wait for; a look-up with the tags of a set.
-  sheet.part(
-      "vsu", "comparator",
-      config.table_banks + 4.0 + 2.0 * config.rays_in_flight + config.node_fetches + kCacheWays, 1);
-  sheet.operations("vsu", "comparator",
-                   static_cast<double>(of.accesses.reads + 2 * of.met + 2 * of.entered +
-                                       (misses + of.called + of.found) * config.rays_in_flight +
-                                       missed * config.node_fetches + kCacheWays * lookups));
 }
 
 }  // namespace sgs
