@@ -5,7 +5,7 @@ import subprocess
 import unittest
 from unittest import mock
 
-from in_folder import COMMAND, REPOSITORY, InFolder  # isort: skip (finds the scripts)
+from in_folder import COMMAND, REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
 import binding_check
 import boundary_study
 import compare_machines
@@ -55,6 +55,7 @@ class WithTheCommand(InFolder):
         self.assertEqual(status, 0, line)
         return tables_of_it
 
+    @nightly
     def test_every_script_makes_its_tables(self):
         for script, arguments, lines in (
             (binding_check, ("--size", "64x36"), {"| truck | 0 |": 1, "of 1 views": 1}),
@@ -135,6 +136,7 @@ class WithTheCommand(InFolder):
                 for text, count in lines.items():
                     self.assertEqual(made.count(text), count, f"{text} in\n{made}")
 
+    @nightly
     def test_figures_are_drawn_from_the_tables(self):
         small = ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4", "--view", "0")
         machines = ("--machines", "gscore", "exact_fp16")

@@ -9,7 +9,7 @@ import subprocess
 import unittest
 from unittest import mock
 
-from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
+from in_folder import REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
 import binding_check
 import boundary_study
 import compare_machines
@@ -273,6 +273,7 @@ class Ends(InFolder):
                 self.assertEqual(ended, status)
                 self.assertEqual(list(self.folder.glob("*/*.md")), [])
 
+    @nightly
     def test_what_is_drawn_and_timed(self):
         """Each view of each scene at the size, once, under the scene's whole name."""
         program = self.folder / "renderers"

@@ -10,7 +10,7 @@ import sys
 import unittest
 import xml.etree.ElementTree
 
-from in_folder import COMMAND, REPOSITORY, InFolder  # isort: skip (finds the scripts)
+from in_folder import COMMAND, REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
 import boundary_study
 import compare_machines
 import compare_variants
@@ -283,6 +283,7 @@ class Figures(InFolder):
 
 @unittest.skipUnless(any(map(has_matplotlib, PYTHONS)), "matplotlib is not installed")
 class Drawn(Figures):
+    @nightly
     def test_each_from_its_table(self):
         for name, (table, _, _, words) in TABLES.items():
             with self.subTest(name):
@@ -298,6 +299,7 @@ class Drawn(Figures):
         self.assertEqual(list((self.folder / "figures").glob("*.part")), [])
 
     @unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
+    @nightly
     def test_those_of_runs(self):
         for config in ("exact", "paper", "gscore"):
             run = simulations.Run(find_scene(str(self.scene)), "0", "64x36", config)

@@ -21,6 +21,9 @@ sys.path.insert(0, str(REPOSITORY / "scripts"))
 
 COMMAND = os.environ.get("STREAMINGGS", "")
 
+# Marks a test or a class that takes long. A shorter test enters the same code.
+nightly = unittest.skipUnless(os.environ.get("SGS_NIGHTLY"), "nightly: $SGS_NIGHTLY is not set")
+
 
 class InFolder(unittest.TestCase):
     """A folder of its own with a small trained scene, truck.ply, and its camera."""

@@ -8,7 +8,7 @@ import tempfile
 import textwrap
 import unittest
 
-from in_folder import InFolder  # isort: skip (finds the scripts)
+from in_folder import InFolder, nightly  # isort: skip (finds the scripts)
 import covering_tests
 import fault_kinds
 import planted_faults
@@ -185,6 +185,7 @@ SOURCES = {
 @unittest.skipUnless(
     all(map(shutil.which, ("cmake", "ninja", "c++", "git"))), "cmake, ninja, c++ or git is missing"
 )
+@nightly
 class Planting(InFolder):
     def setUp(self):
         super().setUp()

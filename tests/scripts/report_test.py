@@ -8,7 +8,7 @@ import random
 import unittest
 from unittest import mock
 
-from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
+from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import png_pictures
 import report
 import report_charts
@@ -228,6 +228,7 @@ class Page(WithFrames):
 
 
 @NEEDS_BROWSER
+@nightly
 class InTheBrowser(WithFrames, PageChecks):
     def setUp(self):
         super().setUp()

@@ -14,7 +14,7 @@ import time
 import unittest
 from collections.abc import Iterator
 
-from in_folder import COMMAND, REPOSITORY, InFolder
+from in_folder import COMMAND, REPOSITORY, InFolder, nightly
 
 PYTHON = "/usr/bin/python3"
 SERVER = sorted(pathlib.Path("/usr/lib/postgresql").glob("*/bin/pg_ctl"))
@@ -152,6 +152,7 @@ class Studies(InFolder):
         self.assertLessEqual(len(self.drawn()), 9)
 
     @unittest.skipUnless(SERVER and has("psycopg2"), "postgresql is not installed")
+    @nightly
     def test_a_server(self):
         with postgresql() as url:
             self.check_begun_at_once(url)

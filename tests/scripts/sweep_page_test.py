@@ -10,7 +10,7 @@ import subprocess
 import unittest
 from unittest import mock
 
-from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
+from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import report
 import report_sweep
 from chromium import Chromium
@@ -185,6 +185,7 @@ class OfTheCommand(WithSweep):
 
 
 @NEEDS_BROWSER
+@nightly
 class InTheBrowser(WithSweep, PageChecks):
     def test_it_works_by_keyboard_in_both_themes_and_widths(self):
         status, said, _ = self.ended(report, str(self.swept()))

@@ -7,7 +7,7 @@ import sys
 import unittest
 from unittest import mock
 
-from in_folder import COMMAND, InFolder  # isort: skip (finds the scripts)
+from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import write_faults
 from write_faults import Work
 
@@ -81,6 +81,7 @@ class Refused(InFolder):
 
 
 @unittest.skipUnless(shutil.which("strace"), "strace: not there, Debian's package of that name")
+@nightly
 class WriteFaults(InFolder):
     def found(self, work: Work, programs: dict, most: int) -> list[str]:
         said: list[str] = []
