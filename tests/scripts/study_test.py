@@ -168,6 +168,7 @@ class Studies(InFolder):
         front = [row for row in self.rows("out")[1:] if row[-1]]
         self.assertEqual([row[0] for row in front], ["3"])
 
+    @nightly
     def test_trials_are_what_is_judged(self):
         """Of two threads as of one; not what is beside; of a study what earlier runs judged."""
         self.stand_in("time.sleep(0.2); finish()")
@@ -188,6 +189,7 @@ class Studies(InFolder):
                 self.assertEqual(len(self.rows("out")) - 1, drawn, done.stderr)
 
     @unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
+    @nightly
     def test_the_axes_of_a_machine_begin_at_its_preset(self):
         for machine in ("exact", "paper"):
             with self.subTest(machine):
@@ -198,6 +200,7 @@ class Studies(InFolder):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertIn(" on the front", done.stderr)
 
+    @nightly
     def test_another_content_of_a_file_is_another_task(self):
         self.stand_in("finish()")
         config, memspec = self.folder / "mine.json", self.folder / "memspec.json"

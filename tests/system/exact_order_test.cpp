@@ -314,7 +314,7 @@ TEST_CASE("exact frames: what the report holds") {
         Approx(view["dram"]["bytes"].get<double>() / static_cast<double>(once)));
 }
 
-TEST_CASE("exact frames: truck and playbot", "[long]") {
+TEST_CASE("exact frames: truck and playbot") {
   for (const std::string name : {"truck", "playbot"}) {
     Simulation({shared_scene(name), "--cameras", shared_path("cameras/" + name + ".json"), "--view",
                 "all"})

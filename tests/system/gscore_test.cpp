@@ -55,7 +55,7 @@ Arguments run_of(const Variant& variant) {
 // Stalls may bring tiles to other cores and accesses into a better order: a frame may end earlier.
 // They may hide behind a memory that is asked for one thing at a time: it may end at the same
 // cycle.
-TEST_CASE("gscore: every variant, with stalls and in every order of processes", "[long]") {
+TEST_CASE("gscore: every variant, with stalls and in every order of processes", "[nightly]") {
   std::size_t changed = 0;
   for (const Variant& variant : variants()) {
     INFO(variant.name);

@@ -118,14 +118,14 @@ TEST_CASE("process order: small frames") {
   }
 }
 
-TEST_CASE("process order: exact order", "[long]") {
+TEST_CASE("process order: exact order", "[nightly]") {
   for (const Arguments& variant : variants("exact")) {
     INFO((variant.empty() ? "plain" : variant.back()));
     check_orders_with_drops(joined(scene("exact"), variant));
   }
 }
 
-TEST_CASE("process order: paper order", "[long]") {
+TEST_CASE("process order: paper order", "[nightly]") {
   const Arguments raw = joined(scene("paper"), settings({"storage.encoding=raw"}));
   for (const Arguments& variant : variants("paper")) {
     INFO((variant.empty() ? "plain" : variant.back()));
@@ -133,7 +133,7 @@ TEST_CASE("process order: paper order", "[long]") {
   }
 }
 
-TEST_CASE("process order: FIFOs of one entry, and what does not fit goes to DRAM", "[long]") {
+TEST_CASE("process order: FIFOs of one entry, and what does not fit goes to DRAM", "[nightly]") {
   const Arguments both = settings({"hfu.candidate_fifo_entries=1", "rendering.input_fifo_entries=1",
                                    "hfu.second_half_slots=1", "hfu.input_slots=2"});
   const Arguments exact =
@@ -148,7 +148,7 @@ TEST_CASE("process order: FIFOs of one entry, and what does not fit goes to DRAM
   }
 }
 
-TEST_CASE("process order: a real scene", "[long]") {
+TEST_CASE("process order: a real scene", "[nightly]") {
   const Arguments truck = {shared_scene("truck"), "--cameras", shared_path("cameras/truck.json"),
                            "--size", "160x90"};
   check_orders(joined(truck, kStalls));

@@ -68,7 +68,7 @@ TEST_CASE("savings: a list of one splat is not sent through the network") {
   pair.check_more([](const Json& v) { return total(v, "compare_exchanges"); });
 }
 
-TEST_CASE("savings: finished groups are reported back", "[long]") {
+TEST_CASE("savings: finished groups are reported back") {
   for (const char* order : {"paper", "exact"}) {
     const Pair pair({"builtin:object?n=30000", "--size", "160x90", "--set", "group_width_px=16",
                      "--set", "group_height_px=16", "--config", order},
@@ -78,7 +78,7 @@ TEST_CASE("savings: finished groups are reported back", "[long]") {
   }
 }
 
-TEST_CASE("savings: the coarse filter spares second halves", "[long]") {
+TEST_CASE("savings: the coarse filter spares second halves") {
   for (const char* order : {"paper", "exact"}) {
     const Pair pair(in_order(order), "hfu.coarse_filter=false");
     pair.check_more([](const Json& v) { return total(v, "second_halves"); });

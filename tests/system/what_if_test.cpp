@@ -42,7 +42,7 @@ TEST_CASE("what-if: a row is the frame of a machine with that much of it, few Ga
 }
 
 TEST_CASE("what-if: a row is the frame of a machine with that much of it, depths and all",
-          "[long]") {
+          "[nightly]") {
   for (const char* preset : {"exact", "paper_no_vq"}) {
     check_rows(preset, {"builtin:object?n=2000", "--size", "96x54"});
   }

@@ -154,7 +154,7 @@ TEST_CASE("whole frame: other numbers of units, ports and memory channels") {
 }
 
 TEST_CASE("whole frame: groups that are ordered in passes, with and without stalls, paper order",
-          "[long]") {
+          "[nightly]") {
   const Arguments common = {
       "builtin:outdoor?n=3000", "--view", "all", "--size", "64x36", "--config", "paper", "--set",
       "vsu.table_bytes=128"};

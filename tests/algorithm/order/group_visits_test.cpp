@@ -20,7 +20,7 @@ using test::check_order;
 TEST_CASE("paper order: every ray respected, object") {
   check_order("builtin:object?n=20000", {}, 0);
 }
-TEST_CASE("paper order: every ray respected, small voxels", "[long]") {
+TEST_CASE("paper order: every ray respected, small voxels") {
   check_order("builtin:object?n=1500", {}, 0.08F);
 }
 TEST_CASE("paper order: every ray respected, truck", "[shared]") {

@@ -244,9 +244,5 @@ TEST_CASE("exact order: counts add up, the same with one thread and with many") 
   CHECK(alone.stats.contributing == s.contributing);
 }
 
-TEST_CASE("exact order equals the reference: truck", "[long]") {
-  test::check_exact_on_shared("truck");
-}
-TEST_CASE("exact order equals the reference: playbot", "[long]") {
-  test::check_exact_on_shared("playbot");
-}
+TEST_CASE("exact order equals the reference: truck") { test::check_exact_on_shared("truck"); }
+TEST_CASE("exact order equals the reference: playbot") { test::check_exact_on_shared("playbot"); }

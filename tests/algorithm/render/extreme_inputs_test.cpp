@@ -70,7 +70,7 @@ TEST_CASE("one Gaussian") {
   check_pixels(forward_camera(70, 50, 60), cloud, 1e-6);
 }
 
-TEST_CASE("a million Gaussians at one point: the first ones finish the pixels", "[long]") {
+TEST_CASE("a million Gaussians at one point: the first ones finish the pixels") {
   GaussianCloud cloud;
   for (int i = 0; i < 1000000; ++i) {
     const float shade = i < 50 ? static_cast<float>(i) / 50 : 0;
@@ -242,7 +242,7 @@ TEST_CASE("equal depths blend in the order of the file") {
   CHECK(middle.y == Approx(0.1875).epsilon(1e-4));
 }
 
-TEST_CASE("10^5 layers of alpha 1/255 over the whole frame", "[long]") {
+TEST_CASE("10^5 layers of alpha 1/255 over the whole frame") {
   // T after n layers is (1 - alpha)^n: the last n that leaves 1e-4.
   const double alpha = 1.0 / 254.99;
   const auto expected = static_cast<std::uint32_t>(std::log(1e-4) / std::log1p(-alpha));

@@ -5,7 +5,7 @@
 
 using namespace sgs::test;
 
-TEST_CASE("truck: float against double", "[long]") { check_scene_against_double("truck"); }
+TEST_CASE("truck: float against double") { check_scene_against_double("truck"); }
 TEST_CASE("truck: golden pictures") { check_scene_against_golden("truck"); }
-TEST_CASE("playbot: float against double", "[long]") { check_scene_against_double("playbot"); }
+TEST_CASE("playbot: float against double") { check_scene_against_double("playbot"); }
 TEST_CASE("playbot: golden pictures") { check_scene_against_golden("playbot"); }

@@ -195,7 +195,7 @@ TEST_CASE("tile-centric equals the reference: random hard scenes") {
   CHECK(spared > 1000);
 }
 
-TEST_CASE("tile-centric equals the reference: needles across the frame", "[long]") {
+TEST_CASE("tile-centric equals the reference: needles across the frame", "[nightly]") {
   for (unsigned seed = 0; seed < 40; ++seed) {
     GaussianCloud cloud = test::random_cloud(seed, 300, 0, {0, 0, 3}, 3, 0.1F, 1.0F);
     for (auto& scales : cloud.log_scales) {
@@ -256,7 +256,7 @@ TEST_CASE("tile-centric: any format of features and pixels, few Gaussians") {
   }
 }
 
-TEST_CASE("tile-centric: what each approximation costs by itself on built-in scenes", "[long]") {
+TEST_CASE("tile-centric: what each approximation costs by itself on built-in scenes", "[nightly]") {
   struct Approximation {
     const char* name;
     std::function<void(TileOrderConfig&)> make;

@@ -87,7 +87,7 @@ TEST_CASE("gradients are those that dual numbers carry, for every parameter") {
 
 // Five points: off by h^4. Where what is blended, capped or clamped changes on the way the loss has
 // a jump or a bend, and there is nothing to compare.
-TEST_CASE("gradients are those of central differences, for every parameter", "[long]") {
+TEST_CASE("gradients are those of central differences, for every parameter") {
   const auto view = make_view<double>(small_camera());
   std::size_t compared = 0, jumps = 0;
   for (const HardScene& hard : hard_scenes()) {

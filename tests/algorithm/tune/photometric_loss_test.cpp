@@ -78,7 +78,7 @@ TEST_CASE("the loss is made of the SSIM of the measures and of the mean differen
   }
 }
 
-TEST_CASE("the gradient of the loss is that of central differences", "[long]") {
+TEST_CASE("the gradient of the loss is that of central differences") {
   constexpr double kStep = 1e-5;
   for (const Size& size : kSizes) {
     for (const bool similar : {false, true}) {

@@ -224,7 +224,7 @@ const Choices kSharedFetch = with(kPaper, {{"fetch", {"shared"}},
                                            {"sorting_units", {"1", "2", "4"}},
                                            {"rendering.clusters", {"4", "16"}}});
 
-TEST_CASE("ledger: no part and no port does more than a frame has time for", "[long]") {
+TEST_CASE("ledger: no part and no port does more than a frame has time for") {
   struct Machine {
     const char* preset;
     const Choices& choices;

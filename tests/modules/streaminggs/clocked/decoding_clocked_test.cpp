@@ -145,7 +145,7 @@ Takings clocked(const DecodingWorkload& load, std::uint64_t seed) {
   return together(takings);
 }
 
-TEST_CASE("clocked reference: fine filters that decode", "[long]") {
+TEST_CASE("clocked reference: fine filters that decode") {
   Comparison table("decoding");
   const FineHardware paper{6, 27, 176, 1, 7, 0};
   FineHardware fast = paper, tiny = paper;
