@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "modules/machine_design.h"
@@ -29,8 +31,13 @@ SubCommand add_gpu_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_info_command(CommandLine& line, const Kinds& kinds);
 SubCommand add_describe_command(CommandLine& line, const Kinds& kinds);
 
-// All of them: parses the arguments, runs the command, prints errors. Exit status: as above, 2 for
-// bad arguments or input.
-int run_command_line(int argc, char* argv[], const Kinds& kinds);
+// What adds a command, by the command's name.
+using Commands = std::map<std::string, SubCommand (*)(CommandLine& line, const Kinds& kinds)>;
+Commands all_commands();
+
+// The command line of `streaminggs` in a program that has these commands; streaminggs-commands, a
+// program beside it, takes the place of this one for any other. Parses the arguments, runs the
+// command, prints errors. Exit status: as above, 2 for bad arguments or input.
+int run_command_line(int argc, char* argv[], const Kinds& kinds, const Commands& commands);
 
 }  // namespace sgs

@@ -1,39 +1,79 @@
 // The command line of streaminggs, for whatever machines there are.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "algorithm/input_error.h"
 #include "testbench/command_line/program.h"
 #include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
 
 namespace sgs {
+namespace {
 
-int run_command_line(int argc, char* argv[], const Kinds& kinds) {
+struct Help {
+  const char* command;
+  const char* purpose;
+};
+
+constexpr Help kHelp[] = {
+    {"simulate", "send a scene through the accelerator"},
+    {"what-if", "double each resource in turn: what it gains and costs"},
+    {"sweep", "simulate many configurations, scenes and views side by side"},
+    {"diff", "what differs between two runs, and by how much"},
+    {"pack", "write the memory image of a scene into a file"},
+    {"train", "make a scene from photographs"},
+    {"tune", "fit a scene that stands to the order or the codebooks of a machine"},
+    {"render", "write one golden image"},
+    {"compare", "PSNR, SSIM and largest error of two images"},
+    {"photographs", "write the test views of a data set as files"},
+    {"gpu", "model the original rasteriser on a mobile GPU"},
+    {"info", "print what a scene holds"},
+    {"describe", "print the data sheets and the configuration of a machine"},
+};
+
+bool is_elsewhere(std::string_view word, const Commands& commands) {
+  for (const Help& help : kHelp) {
+    if (word == help.command) return commands.count(help.command) == 0;
+  }
+  return false;
+}
+
+// The process, its streams and its arguments become those of the other program. Throws where there
+// is none.
+int hand_over(int argc, char* argv[]) {
+  constexpr const char* kOther = "streaminggs-commands";
+  const auto other = std::filesystem::read_symlink("/proc/self/exe").parent_path() / kOther;
+  std::vector<char*> words(argv, argv + argc);
+  words.push_back(nullptr);
+  ::execv(other.c_str(), words.data());
+  throw InputError(fmt::format(
+      "{}: is done by {} ({}), expected it beside this program: scripts/setup.sh release {}",
+      argv[1], other.string(), std::strerror(errno), kOther));
+}
+
+}  // namespace
+
+int run_command_line(int argc, char* argv[], const Kinds& kinds, const Commands& commands) {
   CommandLine line("streaminggs",
                    "StreamingGS: a memory-centric 3D Gaussian Splatting accelerator in SystemC "
                    "TLM-2.0");
-  std::vector<std::pair<const CommandLine*, SubCommand>> commands;
-  const auto add = [&](const char* name, const char* what,
-                       SubCommand (*make)(CommandLine&, const Kinds&)) {
-    CommandLine& command = line.command(name, what);
-    commands.emplace_back(&command, make(command, kinds));
-  };
-  add("simulate", "send a scene through the accelerator", add_simulate_command);
-  add("what-if", "double each resource in turn: what it gains and costs", add_what_if_command);
-  add("sweep", "simulate many configurations, scenes and views side by side", add_sweep_command);
-  add("diff", "what differs between two runs, and by how much", add_diff_command);
-  add("pack", "write the memory image of a scene into a file", add_pack_command);
-  add("train", "make a scene from photographs", add_train_command);
-  add("tune", "fit a scene that stands to the order or the codebooks of a machine",
-      add_tune_command);
-  add("render", "write one golden image", add_render_command);
-  add("compare", "PSNR, SSIM and largest error of two images", add_compare_command);
-  add("photographs", "write the test views of a data set as files", add_photographs_command);
-  add("gpu", "model the original rasteriser on a mobile GPU", add_gpu_command);
-  add("info", "print what a scene holds", add_info_command);
-  add("describe", "print the data sheets and the configuration of a machine", add_describe_command);
+  if (argc > 1 && is_elsewhere(argv[1], commands)) {
+    return run_guarded(line.name(), [&] { return hand_over(argc, argv); });
+  }
+  std::vector<std::pair<const CommandLine*, SubCommand>> here;
+  for (const Help& help : kHelp) {
+    CommandLine& command = line.command(help.command, help.purpose);
+    const auto found = commands.find(help.command);
+    if (found != commands.end()) here.emplace_back(&command, found->second(command, kinds));
+  }
   return run_program(line, argc, argv, [&] {
-    for (const auto& [command, run] : commands) {
+    for (const auto& [command, run] : here) {
       if (command->chosen()) return while_doing("running " + command->name(), run);
     }
     return kBadInput;

@@ -69,11 +69,20 @@ TEST_CASE("install: programs without their files say so") {
   }
 }
 
+TEST_CASE("install: a command whose program was not built is refused with what builds it") {
+  const Prefix prefix;
+  contains(prefix.run("$IN/streaminggs info $B"), 0, "cameras ");
+  const ShellOutcome outcome = prefix.run("rm $IN/streaminggs-commands; $IN/streaminggs info $B");
+  contains(outcome, 2, "scripts/setup.sh release streaminggs-commands");
+  CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+  contains(prefix.run("$IN/streaminggs --help"), 0, "print what a scene holds");
+}
+
 TEST_CASE("install: no program names the data of the source tree") {
   const Prefix prefix;
   for (const char* place : {"testbench/configs", "testbench/cost/technology_32nm",
                             "modules/dram/memspecs", "testbench/dram/published.json"}) {
-    for (const char* program : {"$IN/streaminggs", "$IN/tb_dram"}) {
+    for (const char* program : {"$IN/streaminggs", "$IN/streaminggs-commands", "$IN/tb_dram"}) {
       INFO(place << " in " << program);
       const std::string line = std::string("grep -c '" SGS_SOURCE_DIR "/") + place + "' " + program;
       CHECK(prefix.run(line).out == "0\n");

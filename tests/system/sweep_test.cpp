@@ -326,11 +326,12 @@ TEST_CASE("sweep: a result file that cannot grow is an error, and whole lines st
 
 TEST_CASE("sweep: what was simulated of another memspec of the same name counts no more") {
   const ScratchFolder scratch;
-  require_done(shell(scratch,
-                     "mkdir bin share; cp $SG bin; cp -rL ${SG%/*}/../share/streaminggs share\n"
-                     "sweep() { bin/streaminggs sweep $B --axis hfus=2 --out r.jsonl; }\n"
-                     "sweep && sweep && echo >>share/streaminggs/memspecs/lpddr3_1600_4gb.json && "
-                     "sweep"));
+  require_done(
+      shell(scratch,
+            "mkdir bin share; cp $SG $SG-commands bin; cp -rL ${SG%/*}/../share/streaminggs share\n"
+            "sweep() { bin/streaminggs sweep $B --axis hfus=2 --out r.jsonl; }\n"
+            "sweep && sweep && echo >>share/streaminggs/memspecs/lpddr3_1600_4gb.json && "
+            "sweep"));
   const std::vector<Json> results = results_in(scratch, "r.jsonl");
   REQUIRE(results.size() == 2);
   CHECK(results[0]["key"] != results[1]["key"]);

@@ -11,5 +11,5 @@ int sc_main(int argc, char* argv[]) {
   kinds.push_back({"toy", "one colour a group", []() -> std::unique_ptr<sgs::MachineDesign> {
                      return std::make_unique<sgs::toy::ToyDesign>();
                    }});
-  return sgs::run_command_line(argc, argv, kinds);
+  return sgs::run_command_line(argc, argv, kinds, sgs::all_commands());
 }
