@@ -13,7 +13,7 @@ namespace {
 
 using Operand = DataFlow::Operand;
 
-constexpr Operand constant(float value) { return {true, __builtin_bit_cast(std::uint32_t, value)}; }
+constexpr Operand literal(float value) { return {true, __builtin_bit_cast(std::uint32_t, value)}; }
 
 class Expansion {
  public:
@@ -132,11 +132,11 @@ class Expansion {
     if (node.first_division < first_) return at->second = push(StepBy::kOutside, {});
     const Operand d = value_of(node.b);
     Operand r = look_up(d);
-    for (int i = 0; i < 2; ++i) r = fused(r, fused(d, r, constant(1)), r);
+    for (int i = 0; i < 2; ++i) r = fused(r, fused(d, r, literal(1)), r);
     return at->second = r;
   }
   Operand divided(const DataFlow::Node& node) {
-    const Operand r = node.b.is_constant ? constant(0) : reciprocal(node);
+    const Operand r = node.b.is_constant ? literal(0) : reciprocal(node);
     const Operand n = value_of(node.a), d = value_of(node.b);
     const Operand q = product(n, r);
     return fused(fused(q, d, n), r, q);
@@ -147,7 +147,7 @@ class Expansion {
     Operand h = look_up(x);
     Operand g = product(x, h);
     for (int i = 0; i < 2; ++i) {
-      const Operand r = fused(g, h, constant(0.5F));
+      const Operand r = fused(g, h, literal(0.5F));
       g = fused(g, r, g);
       h = fused(h, r, h);
     }
@@ -157,22 +157,22 @@ class Expansion {
   Operand logarithm(Operand x) {
     const Operand apart = compared(x);
     const Operand row = look_up(apart);
-    const Operand r = fused(apart, row, constant(-1));
-    const Operand log_c = fused(push(StepBy::kLane, {{2, apart}}), constant(0.6931F), row);
+    const Operand r = fused(apart, row, literal(-1));
+    const Operand log_c = fused(push(StepBy::kLane, {{2, apart}}), literal(0.6931F), row);
     const Operand r2 = product(r, r);
-    const Operand high = fused(r, constant(0.3333F), constant(-0.5F));
-    return fused(fused(r2, constant(-0.25F), high), r2, sum(log_c, r));
+    const Operand high = fused(r, literal(0.3333F), literal(-0.5F));
+    return fused(fused(r2, literal(-0.25F), high), r2, sum(log_c, r));
   }
   // The ends of its range; n = x / ln2, rounded; x - n ln2 in two parts; polynomial; 2^n.
   Operand exponential(Operand x) {
     for (const float end : {88.0F, -88.0F}) {
-      compared(x, constant(end));
+      compared(x, literal(end));
       steps_.back().answers = true;
     }
-    const Operand n = compared_in_a_row(product(x, constant(1.4427F)), kRoundingComparisons);
-    const Operand rest = fused(n, constant(1e-6F), fused(n, constant(0.6931F), x));
-    Operand p = fused(rest, constant(0.001F), constant(0.01F));
-    for (int i = 0; i < 6; ++i) p = fused(p, rest, constant(static_cast<float>(i)));
+    const Operand n = compared_in_a_row(product(x, literal(1.4427F)), kRoundingComparisons);
+    const Operand rest = fused(n, literal(1e-6F), fused(n, literal(0.6931F), x));
+    Operand p = fused(rest, literal(0.001F), literal(0.01F));
+    for (int i = 0; i < 6; ++i) p = fused(p, rest, literal(static_cast<float>(i)));
     return compared(p, n);
   }
 

@@ -12,7 +12,7 @@
 namespace sgs {
 
 namespace {
-DramConfig validated(const DramConfig& config) {
+DramConfig checked(const DramConfig& config) {
   config.validate();
   return config;
 }
@@ -21,7 +21,7 @@ DramConfig validated(const DramConfig& config) {
 DramController::DramController(const sc_core::sc_module_name& name, const DramConfig& config)
     : sc_module(name),
       socket("socket"),
-      config_(validated(config)),
+      config_(checked(config)),
       memspec_(load_memspec(config.memspec)),
       mapping_(config_, memspec_),
       clock_period_(memspec_.clock_period_ns, sc_core::SC_NS),

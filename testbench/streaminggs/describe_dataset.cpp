@@ -16,7 +16,7 @@ namespace {
 
 void print(const char* name, const std::string& value) { fmt::print("{:<26}{}\n", name, value); }
 
-std::string shown(const Extent& extent) {
+std::string corners_of(const Extent& extent) {
   return fmt::format("{:.4g} {:.4g} {:.4g} .. {:.4g} {:.4g} {:.4g} (world units)", extent.min.x,
                      extent.min.y, extent.min.z, extent.max.x, extent.max.y, extent.max.z);
 }
@@ -69,8 +69,8 @@ void print_dataset(const Dataset& dataset) {
   print("with alpha", std::to_string(count_if(
                           dataset, [](const DatasetView& view) { return view.file.has_alpha; })));
   print("points", grouped(dataset.points.size()));
-  print("cameras stand in", shown(box_of_cameras(dataset)));
-  if (dataset.bounds) print("bounds", shown(*dataset.bounds));
+  print("cameras stand in", corners_of(box_of_cameras(dataset)));
+  if (dataset.bounds) print("bounds", corners_of(*dataset.bounds));
 }
 
 }  // namespace sgs

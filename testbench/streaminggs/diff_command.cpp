@@ -30,7 +30,7 @@ const QuantityWords& words_of(Quantity quantity) {
   return kWords[static_cast<std::size_t>(quantity)];
 }
 
-std::string shown(double value, Quantity quantity) {
+std::string in_words(double value, Quantity quantity) {
   const double scaled = value * words_of(quantity).scale;
   if (quantity == Quantity::kJoules || quantity == Quantity::kArea) return rounded(scaled);
   return grouped(static_cast<std::uint64_t>(std::llround(scaled)));
@@ -66,7 +66,7 @@ void print_views(const ReportDiff& diff) {
              "PSNR dB A", "B", "held by");
   for (const auto& [a, b] : diff.views) {
     fmt::print("{:>6} {:>15} {:>15} {:>10} {:>9} {:>9}   {}\n", a->view,
-               shown(a->cycles, Quantity::kBusy), shown(b->cycles, Quantity::kBusy),
+               in_words(a->cycles, Quantity::kBusy), in_words(b->cycles, Quantity::kBusy),
                change(a->cycles, b->cycles), a->psnr_db, b->psnr_db,
                a->holds == b->holds ? a->holds : a->holds + " -> " + b->holds);
   }
@@ -78,7 +78,7 @@ void print_wholes(const ReportDiff& diff) {
   for (const QuantityChange& q : diff.quantities) {
     const QuantityWords& words = words_of(q.quantity);
     fmt::print("{:<15} {:>15} {:>15} {:>10}\n", fmt::format("{} {}", words.name, words.unit),
-               shown(q.a, q.quantity), shown(q.b, q.quantity), change(q.a, q.b));
+               in_words(q.a, q.quantity), in_words(q.b, q.quantity), change(q.a, q.b));
   }
 }
 
@@ -94,7 +94,7 @@ void print_parts(const QuantityChange& q, double least) {
     width = std::max(width, part->name.size());
   for (auto part = q.parts.begin(); part != small; ++part) {
     fmt::print("  {:>9}  {:<{}} {:>12} -> {:>12}  {}\n", percent(part->of_whole), part->name, width,
-               shown(part->a, q.quantity), shown(part->b, q.quantity), change_of(*part));
+               in_words(part->a, q.quantity), in_words(part->b, q.quantity), change_of(*part));
   }
   const auto rest = q.parts.end() - small;
   if (rest > 0) fmt::print("  {} change it by less than {} % each\n", rest, rounded(100 * least));

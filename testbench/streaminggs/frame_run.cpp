@@ -19,6 +19,7 @@
 #include "testbench/result/sram_budget.h"
 #include "testbench/result/waveform_sheet.h"
 #include "testbench/result/wire.h"
+#include "testbench/streaminggs/seconds_since.h"
 #include "testbench/timeline/timeline.h"
 #include "testbench/waveform/waveform.h"
 #include "tlm/run_simulation.h"
@@ -83,10 +84,6 @@ FrameResult simulate(const MachineDesign& design, const FrameJob& job, const Mem
     waveform->close();
   }
   return result;
-}
-
-double seconds_since(std::chrono::steady_clock::time_point began) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
 }  // namespace

@@ -8,15 +8,12 @@
 #include "testbench/command_line/version.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/report.h"
+#include "testbench/streaminggs/seconds_since.h"
 
 namespace sgs {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double seconds_since(std::chrono::steady_clock::time_point began) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-}
 
 Json list_choices(const std::vector<AutoChoice>& chosen) {
   Json list = Json::array();
