@@ -79,7 +79,10 @@ if(NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
       sgs_precompile(sgs_system_test_headers
         HEADERS ${base_headers} <catch2/catch.hpp> <nlohmann/json.hpp>
         LIBS ${base_libs} nlohmann_json::nlohmann_json Catch2::Catch2 FOLDERS tests/system)
+      target_compile_definitions(sgs_systemc_test_headers PRIVATE CATCH_CONFIG_FAST_COMPILE)
+      target_compile_definitions(sgs_system_test_headers PRIVATE CATCH_CONFIG_FAST_COMPILE)
     endif()
+    target_compile_definitions(sgs_test_headers PRIVATE CATCH_CONFIG_FAST_COMPILE)
   endif()
 endif()
 
