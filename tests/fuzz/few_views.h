@@ -5,8 +5,8 @@
 
 namespace sgs::test {
 
-inline MadeScene few_views() {
-  MadeScene scene = made_scene();
+inline PhotographedScene few_views() {
+  PhotographedScene scene = made_scene();
   scene.cameras.resize(4);  // of a NeRF synthetic one the first three are to test with
   scene.points.resize(2);
   scene.width = 16;
@@ -16,7 +16,8 @@ inline MadeScene few_views() {
 }
 
 // Names its points in points.ply, which it has not.
-inline void write_transforms_with_points(const std::string& folder, const MadeScene& scene) {
+inline void write_transforms_with_points(const std::string& folder,
+                                         const PhotographedScene& scene) {
   write_transforms(folder, scene);
   write_file(folder, "transforms.json",
              R"({"fl_x": 9, "w": 16, "h": 12, "ply_file_path": "points.ply", "frames": [

@@ -12,7 +12,7 @@
 namespace sgs::test {
 namespace {
 
-using WriteDataset = void (*)(const std::string& folder, const MadeScene& scene);
+using WriteDataset = void (*)(const std::string& folder, const PhotographedScene& scene);
 
 FuzzedReader dataset_reader(const std::string& name, WriteDataset write, const std::string& file) {
   return {name, file, [](const std::string& folder) { open_dataset(folder); },

@@ -28,7 +28,7 @@ std::string bytes_of(const fs::path& path) {
 // The file of a data set that is fuzzed.
 struct DatasetSeed {
   const char* reader;
-  void (*write)(const std::string& folder, const MadeScene& scene);
+  void (*write)(const std::string& folder, const PhotographedScene& scene);
   const char* file;
 };
 
@@ -57,7 +57,7 @@ void make_datasets(const std::string& corpus, const fs::path& scratch) {
 }
 
 void make_pictures(const std::string& corpus) {
-  const MadeScene scene = few_views();
+  const PhotographedScene scene = few_views();
   const RgbaImage picture = picture_of(scene, scene.cameras[0]);
   const Image small = over(cropped(picture, 0, 0, 4, 3), glm::vec3(0.4f));
   write_file(corpus, "png/good_rgba.png", rgba_png(picture));

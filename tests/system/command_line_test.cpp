@@ -8,13 +8,13 @@
 namespace sgs::test {
 namespace {
 
-struct Row {
+struct OptionRow {
   std::string line;
   std::vector<std::string> words;  // in what is said on stdout
   std::string before = "";         // shell line that prepares
 };
 
-void check(const Row& row) {
+void check_said(const OptionRow& row) {
   INFO(row.line);
   const ScratchFolder scratch;
   if (!row.before.empty()) REQUIRE(shell(scratch, row.before).status == 0);
@@ -28,7 +28,7 @@ void check(const Row& row) {
 }
 
 TEST_CASE("command line: options and their values") {
-  for (const Row& row : std::vector<Row>{
+  for (const OptionRow& row : std::vector<OptionRow>{
            {"$SG --version", {"streaminggs 0."}},
            {"$TB --version", {"tb_dram 0."}},
            {"$SG simulate --help", {"exact_vq_packed", "paper_no_cgf"}},
@@ -104,7 +104,7 @@ TEST_CASE("command line: options and their values") {
            {"$TB --config c.json --print-config",
             {"\"channels\": 2"},
             "$TB --set dram.channels=2 --print-config >c.json"}}) {
-    check(row);
+    check_said(row);
   }
 }
 
@@ -112,9 +112,9 @@ TEST_CASE("command line: a scene that voxels cannot hold is described all the sa
   std::vector<std::string> positions;
   for (int i = 1; i < 200; ++i) positions.push_back(std::to_string(i) + " 0 " + std::to_string(i));
   positions.emplace_back("3000000 0 0");
-  check({"$SG info a.ply",
-         {"gaussians                 200", "occupied voxels           none: "},
-         ply_of(positions)});
+  check_said({"$SG info a.ply",
+              {"gaussians                 200", "occupied voxels           none: "},
+              ply_of(positions)});
 }
 
 const std::string kCameras =
@@ -125,30 +125,30 @@ TEST_CASE("command line: a picture of nothing, and Gaussians that are dropped, a
   const std::string simulate = "$SG simulate a.ply --cameras c --out o ";
   const std::string empty = "view 0: no Gaussian contributes to the picture\n";
   const std::string in_report = "&& grep '\"empty\"' o/view_0/report.json";
-  for (const Row& row :
-       std::vector<Row>{{simulate + in_report, {empty, "\"empty\": true"}, ply_of({})},
-                        {simulate + "--config paper", {empty}, ply_of({})},
-                        {simulate, {empty}, ply_of({"0 0 0"}, -9)},
-                        {simulate + "--config paper", {empty}, ply_of({"0 0 -9"})},
-                        {simulate + in_report, {"\"empty\": false"}, ply_of({"0 0 0"})},
-                        {simulate + "> t && ! grep contributes t", {}, ply_of({"0 0 0"})},
-                        {"$SG what-if a.ply --cameras c > t && [ $(wc -l <t) = 2 ] && cat t",
-                         {"no Gaussian contributes to the picture: there is nothing to change\n"},
-                         ply_of({"0 0 -9"})},
-                        {"$SG what-if a.ply --cameras c", {"doubled "}, ply_of({"0 0 0"})},
-                        {simulate + "--drop-invalid",
-                         {"dropped invalid: 2 Gaussians, 1 are left\n"},
-                         ply_of({"nan 0 0", "0 0 0", "0 inf 0"})},
-                        {simulate + "--drop-invalid",
-                         {"dropped invalid: 0 Gaussians, 1 are left\n"},
-                         ply_of({"0 0 0"})}}) {
-    check({row.line, row.words, row.before + kCameras});
+  for (const OptionRow& row : std::vector<OptionRow>{
+           {simulate + in_report, {empty, "\"empty\": true"}, ply_of({})},
+           {simulate + "--config paper", {empty}, ply_of({})},
+           {simulate, {empty}, ply_of({"0 0 0"}, -9)},
+           {simulate + "--config paper", {empty}, ply_of({"0 0 -9"})},
+           {simulate + in_report, {"\"empty\": false"}, ply_of({"0 0 0"})},
+           {simulate + "> t && ! grep contributes t", {}, ply_of({"0 0 0"})},
+           {"$SG what-if a.ply --cameras c > t && [ $(wc -l <t) = 2 ] && cat t",
+            {"no Gaussian contributes to the picture: there is nothing to change\n"},
+            ply_of({"0 0 -9"})},
+           {"$SG what-if a.ply --cameras c", {"doubled "}, ply_of({"0 0 0"})},
+           {simulate + "--drop-invalid",
+            {"dropped invalid: 2 Gaussians, 1 are left\n"},
+            ply_of({"nan 0 0", "0 0 0", "0 inf 0"})},
+           {simulate + "--drop-invalid",
+            {"dropped invalid: 0 Gaussians, 1 are left\n"},
+            ply_of({"0 0 0"})}}) {
+    check_said({row.line, row.words, row.before + kCameras});
   }
 }
 
 TEST_CASE("command line: a folder of results holds those of one run, and what is not ours") {
   const std::string all = "$SG simulate $B --view all --out o >/dev/null";
-  for (const Row& row : std::vector<Row>{
+  for (const OptionRow& row : std::vector<OptionRow>{
            {"$SG simulate $B --view 3 --out o >/dev/null && find o | sort | tr '\\n' ' '; echo end",
             {"o o/report.json o/view_3 o/view_3/error.png o/view_3/frame.exr o/view_3/frame.png "
              "o/view_3/groups.csv o/view_3/reference.exr o/view_3/reference.png "
@@ -166,7 +166,7 @@ TEST_CASE("command line: a folder of results holds those of one run, and what is
             "$SG simulate $B --config ./my.json >/dev/null && ls -d out/*/*",
             {"out/object/exact\nout/object/my\nout/object/paper_no_vq\n"},
             "echo '{}' >my.json"}}) {
-    check(row);
+    check_said(row);
   }
 }
 
@@ -178,33 +178,33 @@ TEST_CASE("command line: a rendered order is the picture that the preset of its 
                            Pair{"exact_half", "exact --config exact_half"},
                            Pair{"paper_no_vq --set storage.voxel_size=1",
                                 "paper --config paper_no_vq --set storage.voxel_size=1"}}) {
-    check({"$SG simulate $B --set framebuffer=rgb32f --out o --config " + pair.simulate +
-               " && $SG render $B --out a.exr --ordering " + pair.render +
-               " && $SG compare --exact o/view_0/frame.exr a.exr",
-           {"psnr_db inf"}});
+    check_said({"$SG simulate $B --set framebuffer=rgb32f --out o --config " + pair.simulate +
+                    " && $SG render $B --out a.exr --ordering " + pair.render +
+                    " && $SG compare --exact o/view_0/frame.exr a.exr",
+                {"psnr_db inf"}});
   }
 }
 
 TEST_CASE("command line: a DRAM trace holds what was simulated, however often and however idle") {
   for (const char* setting : {"dram.power_down_idle_cycles=0", "dram.power_down_idle_cycles=10"}) {
-    check(
+    check_said(
         {"for n in 100 300 500; do $SG simulate \"builtin:object?n=$n\" --size 32x18 --out o "
          "--dram-trace t --set " +
              std::string(setting) + " && $TB --check t || exit; done",
          {"commands, no violation"}});
   }
-  check(
+  check_said(
       {"$TB --transactions 300 --dram-trace t --set dram.power_down_idle_cycles=10 && $TB --check "
        "t",
        {"PASS", "no violation"}});
-  check({"$TB --stream rnd --requests 300 --dram-trace t && $TB --check t", {"no violation"}});
-  check({"$TB --replay r --dram-trace t && $TB --check t",
-         {"no violation"},
-         "printf '0 R\\n64 W 10\\n' >r"});
+  check_said({"$TB --stream rnd --requests 300 --dram-trace t && $TB --check t", {"no violation"}});
+  check_said({"$TB --replay r --dram-trace t && $TB --check t",
+              {"no violation"},
+              "printf '0 R\\n64 W 10\\n' >r"});
 }
 
 TEST_CASE("command line: of two runs with one trace, one is there whole") {
-  check(
+  check_said(
       {"for i in 1 2 3 4; do $TB --transactions 300 --seed $i --dram-trace t >/dev/null & done; "
        "wait; $TB --check t && ls",
        {"no violation", "\nt\n"}});
@@ -212,7 +212,7 @@ TEST_CASE("command line: of two runs with one trace, one is there whole") {
 
 TEST_CASE("command line: a process that is interrupted leaves nothing at all") {
   for (const auto& [signal, status] : {std::pair{"INT", "130"}, {"TERM", "143"}}) {
-    check(
+    check_said(
         {"set -m; $SG simulate 'builtin:object?n=60000' --vcd a.vcd --dram-trace t >/dev/null & "
          "AWAIT '[ $(ls | grep -c part) = 2 ]'; kill -" +
              std::string(signal) + " $!; wait $!; [ $? = " + status + " ] && [ -z \"$(ls)\" ]",
@@ -221,13 +221,13 @@ TEST_CASE("command line: a process that is interrupted leaves nothing at all") {
 }
 
 TEST_CASE("command line: a process that is killed leaves nothing under an output's name") {
-  check(
+  check_said(
       {"$TB --transactions 100000000 --vcd a.vcd --dram-trace t >/dev/null & sleep 0.5; kill -9 "
        "$!; "
        "wait; [ ! -e a.vcd ] && [ ! -e t ]",
        {}});
   // The simulation alone: whoever waits for it removes what it has begun.
-  check(
+  check_said(
       {"$SG simulate 'builtin:object?n=60000' --out o --vcd a.vcd --dram-trace t >/dev/null & "
        "AWAIT '[ -n \"$(cat /proc/$!/task/$!/children)\" ]'; sleep 0.3; "
        "kill -9 $(cat /proc/$!/task/$!/children); wait $!; [ $? = 1 ] && [ -z \"$(ls)\" ]",

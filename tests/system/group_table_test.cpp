@@ -35,7 +35,7 @@ Columns read_groups(const std::string& path) {
   return columns;
 }
 
-std::uint64_t sum(const std::vector<std::uint64_t>& values) {
+std::uint64_t sum_of(const std::vector<std::uint64_t>& values) {
   std::uint64_t all = 0;
   for (const std::uint64_t value : values) all += value;
   return all;
@@ -46,11 +46,12 @@ std::uint64_t parts_of(const nlohmann::json& config) {
 }
 
 void check_groups(const nlohmann::json& view, const Columns& groups) {
-  CHECK(sum(groups.at("blends")) == view["image"]["blends"]);
-  CHECK(sum(groups.at("misordered")) == view["image"]["misordered"]);
-  CHECK(sum(groups.at("missed")) == view["image"]["missed"]);
+  CHECK(sum_of(groups.at("blends")) == view["image"]["blends"]);
+  CHECK(sum_of(groups.at("misordered")) == view["image"]["misordered"]);
+  CHECK(sum_of(groups.at("missed")) == view["image"]["missed"]);
   // Codebooks are everybody's.
-  CHECK(sum(groups.at("bytes")) + region_bytes(view, "codebooks", "read") == view["dram"]["bytes"]);
+  CHECK(sum_of(groups.at("bytes")) + region_bytes(view, "codebooks", "read") ==
+        view["dram"]["bytes"]);
   std::uint64_t pixels = 0;
   for (std::size_t g = 0; g < groups.at("group").size(); ++g) {
     CHECK(groups.at("group")[g] == g);
@@ -60,8 +61,8 @@ void check_groups(const nlohmann::json& view, const Columns& groups) {
   CHECK(pixels == frame["width_px"].get<std::uint64_t>() * frame["height_px"].get<std::uint64_t>());
   // Behind the last group there is only its writing.
   const std::uint64_t parts = parts_of(view["config"]);
-  CHECK(sum(groups.at("cycles")) <= parts * frame_cycles(view));
-  CHECK(sum(groups.at("cycles")) > parts * frame_cycles(view) / 2);
+  CHECK(sum_of(groups.at("cycles")) <= parts * frame_cycles(view));
+  CHECK(sum_of(groups.at("cycles")) > parts * frame_cycles(view) / 2);
 }
 
 TEST_CASE("groups: counts and bytes of all of them are the frame's") {

@@ -14,14 +14,14 @@ namespace {
 using Catch::Matchers::Contains;
 using Json = nlohmann::json;
 
-struct Variant {
+struct GscoreVariant {
   const char* name;
   Arguments settings;
 };
 
 // Each brings something about that the others do not.
-const std::vector<Variant>& variants() {
-  static const std::vector<Variant> all = {
+const std::vector<GscoreVariant>& variants() {
+  static const std::vector<GscoreVariant> all = {
       {"as published", {}},
       {"bitmaps of 4 x 4", {"tiles.subtiles_across=4"}},
       {"no bitmaps, boxes along the screen", {"tiles.subtiles_across=1", "tiles.test=box"}},
@@ -45,7 +45,7 @@ const std::vector<Variant>& variants() {
   return all;
 }
 
-Arguments run_of(const Variant& variant) {
+Arguments run_of(const GscoreVariant& variant) {
   Arguments settings = variant.settings;
   settings.emplace_back("sram.buffer_bytes=1073741824");
   return with_settings({"builtin:object?n=3000", "--size", "97x61", "--config", "gscore"},
@@ -57,7 +57,7 @@ Arguments run_of(const Variant& variant) {
 // cycle.
 TEST_CASE("gscore: every variant, with stalls and in every order of processes", "[nightly]") {
   std::size_t changed = 0;
-  for (const Variant& variant : variants()) {
+  for (const GscoreVariant& variant : variants()) {
     INFO(variant.name);
     const Simulation plain(run_of(variant));
     plain.check();
@@ -79,7 +79,7 @@ TEST_CASE("gscore: every variant, with stalls and in every order of processes", 
 
 TEST_CASE("gscore: variants do what they are for") {
   const auto view_of = [](const char* name) {
-    for (const Variant& variant : variants()) {
+    for (const GscoreVariant& variant : variants()) {
       if (variant.name == std::string(name)) return Simulation(run_of(variant)).views()[0];
     }
     throw std::logic_error(name);

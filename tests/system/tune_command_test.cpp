@@ -11,7 +11,7 @@
 namespace sgs::test {
 namespace {
 
-struct Row {
+struct TuneRow {
   std::string line;
   std::vector<std::string> words;
 };
@@ -25,7 +25,7 @@ constexpr const char* kStreaming =
     "$SG tune $B --streaming --config exact --steps 30 --test-every 15 --price 0.5 ";
 
 TEST_CASE("tune: a scene whose centres rest, a log that begins with the scene as given") {
-  for (const Row& row : std::vector<Row>{
+  for (const TuneRow& row : std::vector<TuneRow>{
            {"--out t.ply --log l.csv",
             {"no photographs: the scene's own reference pictures, 4 views, 1 to test with",
              "step,seconds,loss,gaussians,test_psnr_db,test_ssim,reference_psnr_db,"
@@ -215,7 +215,7 @@ TEST_CASE("tune: Ctrl-C saves, and says how to go on") {
 
 TEST_CASE("tune: refusals") {
   const std::string checkpoint = std::string(kTune) + "--out s.ply --checkpoint 20 >t && ";
-  for (const Row& row : std::vector<Row>{
+  for (const TuneRow& row : std::vector<TuneRow>{
            {"$SG tune $B --out t.ply", {"got nothing to tune for"}},
            {"$SG tune $B --boundary --quantise --out t.ply", {"got several things to tune for"}},
            {"$SG tune $B --quantise --out t.ply", {"--out", "t.ply", ".sgs"}},

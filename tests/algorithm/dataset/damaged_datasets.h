@@ -13,7 +13,7 @@ namespace sgs::test {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-using WriteDataset = void (*)(const std::string& folder, const MadeScene& scene);
+using WriteDataset = void (*)(const std::string& folder, const PhotographedScene& scene);
 using Damage = std::function<void(const std::string& folder)>;
 
 // Puts `to` where `from` first is in folder/name.

@@ -25,7 +25,7 @@ glm::ivec2 pixel_of(const Camera& camera, const glm::dvec3& point) {
           static_cast<int>(std::lround(camera.focal_y * v.y / v.z + 0.5 * camera.height - 0.5))};
 }
 
-void check_pictures(const Dataset& dataset, const MadeScene& scene, double downscale,
+void check_pictures(const Dataset& dataset, const PhotographedScene& scene, double downscale,
                     double tolerance) {
   for (const DatasetView& view : dataset.views) {
     const Camera camera = downscaled_camera(view, downscale);
@@ -59,7 +59,7 @@ void check_cameras(const Dataset& dataset, const std::vector<MadeCamera>& expect
 
 struct Row {
   const char* layout;
-  void (*write)(const std::string& folder, const MadeScene& scene);
+  void (*write)(const std::string& folder, const PhotographedScene& scene);
   std::vector<int> test;  // numbers of the views for testing
   SplitBy split_by;
   bool has_alpha;
@@ -98,7 +98,7 @@ const std::vector<Row>& rows() {
 }  // namespace
 
 TEST_CASE("dataset: each layout gives the cameras, pictures and split that were written") {
-  const MadeScene scene = made_scene();
+  const PhotographedScene scene = made_scene();
   for (const Row& row : rows()) {
     INFO(row.layout);
     const ScratchFolder scratch;
@@ -128,7 +128,7 @@ TEST_CASE("dataset: each layout gives the cameras, pictures and split that were 
 
 TEST_CASE(
     "dataset: opened smaller, its cameras and pictures are, whether the sides divide or not") {
-  MadeScene scene = made_scene();
+  PhotographedScene scene = made_scene();
   scene.width = 70;
   scene.height = 53;
   scene.principal = {38, 26.5};  // 6 px are cut off
@@ -213,7 +213,7 @@ TEST_CASE("dataset: start points that transforms.json names, in text and binary"
 }
 
 TEST_CASE("dataset: points of COLMAP, bounds of NSVF, names without extension") {
-  const MadeScene scene = made_scene();
+  const PhotographedScene scene = made_scene();
   for (const auto& write : {write_colmap_binary, write_colmap_text}) {
     const ScratchFolder scratch;
     write(scratch.path(""), scene);
@@ -242,7 +242,7 @@ TEST_CASE("dataset: points of COLMAP, bounds of NSVF, names without extension") 
 
 TEST_CASE(
     "dataset: two focal lengths, and a principal point beside the middle comes there by a crop") {
-  MadeScene scene = made_scene();
+  PhotographedScene scene = made_scene();
   scene.width = 70;
   scene.height = 53;
   for (const glm::dvec2 principal : {glm::dvec2(38, 24.5), {32.3, 29}, {35.4, 26.1}, {35, 26.5}}) {
@@ -271,12 +271,12 @@ TEST_CASE(
 }
 
 TEST_CASE("dataset: images of another size than their camera's, by one factor") {
-  const MadeScene scene = made_scene();
+  const PhotographedScene scene = made_scene();
   for (const Row& row : rows()) {
     if (row.layout == std::string("NeRF synthetic") || row.write == write_nsvf_matrix) continue;
     INFO(row.layout);
     const ScratchFolder scratch;
-    MadeScene stated = scene;  // thrice the images, but for what rounding lost
+    PhotographedScene stated = scene;  // thrice the images, but for what rounding lost
     row.write(scratch.path(""), scene);
     const std::filesystem::path images = scratch.path(""), kept = scratch.path("kept");
     std::filesystem::create_directory(kept);

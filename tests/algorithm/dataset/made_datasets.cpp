@@ -65,7 +65,7 @@ std::string opengl_frame(const MadeCamera& camera, const std::string& file) {
                      matrix(camera, -1, -1, "[", ",", "]"));
 }
 
-void write_nsvf(const std::string& folder, const MadeScene& scene) {
+void write_nsvf(const std::string& folder, const PhotographedScene& scene) {
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     // 0..5 train, 6 and 7 validation, 8 and 9 test.
     const std::string name = fmt::format("{}_{:04}", i < 6 ? 0 : i < 8 ? 1 : 2, i);
@@ -77,8 +77,8 @@ void write_nsvf(const std::string& folder, const MadeScene& scene) {
 
 }  // namespace
 
-MadeScene made_scene() {
-  MadeScene scene;
+PhotographedScene made_scene() {
+  PhotographedScene scene;
   for (int i = 0; i < 10; ++i) {
     // Forward about world x, right about world y, down about world z.
     MadeCamera camera;
@@ -96,14 +96,15 @@ MadeScene made_scene() {
   return scene;
 }
 
-glm::dvec2 projected(const MadeScene& scene, const MadeCamera& camera, const glm::dvec3& point) {
+glm::dvec2 projected(const PhotographedScene& scene, const MadeCamera& camera,
+                     const glm::dvec3& point) {
   const glm::dvec3 away = point - camera.position;
   const double depth = glm::dot(camera.forward, away);
   return {scene.principal.x + scene.focal_x * glm::dot(camera.right, away) / depth,
           scene.principal.y + scene.focal_y * glm::dot(camera.down, away) / depth};
 }
 
-RgbaImage picture_of(const MadeScene& scene, const MadeCamera& camera) {
+RgbaImage picture_of(const PhotographedScene& scene, const MadeCamera& camera) {
   constexpr double kRadiusPx = 3;
   RgbaImage image(scene.width, scene.height);
   for (const MadePoint& point : scene.points) {
@@ -158,7 +159,7 @@ void write_file(const std::string& folder, const std::string& name, const std::s
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-void write_colmap_binary(const std::string& folder, const MadeScene& scene) {
+void write_colmap_binary(const std::string& folder, const PhotographedScene& scene) {
   std::string cameras, images, points;
   append(cameras, std::uint64_t{1});
   append(cameras, std::uint32_t{7});
@@ -201,7 +202,7 @@ void write_colmap_binary(const std::string& folder, const MadeScene& scene) {
   write_file(folder, "sparse/0/points3D.bin", points);
 }
 
-void write_colmap_text(const std::string& folder, const MadeScene& scene) {
+void write_colmap_text(const std::string& folder, const PhotographedScene& scene) {
   std::string images = "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME\n";
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     const ColmapPose p = colmap_pose_of(scene.cameras[i]);
@@ -223,7 +224,7 @@ void write_colmap_text(const std::string& folder, const MadeScene& scene) {
   write_file(folder, "sparse/0/points3D.txt", points);
 }
 
-void write_nerf_synthetic(const std::string& folder, const MadeScene& scene) {
+void write_nerf_synthetic(const std::string& folder, const PhotographedScene& scene) {
   const double angle = 2 * std::atan(0.5 * scene.width / scene.focal_x);
   std::string frames[2];
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
@@ -240,7 +241,7 @@ void write_nerf_synthetic(const std::string& folder, const MadeScene& scene) {
   }
 }
 
-void write_transforms(const std::string& folder, const MadeScene& scene) {
+void write_transforms(const std::string& folder, const PhotographedScene& scene) {
   std::string frames;
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     const std::string name = "images/" + image_name(i) + ".jpg";
@@ -254,7 +255,7 @@ void write_transforms(const std::string& folder, const MadeScene& scene) {
                          scene.width, scene.height, frames));
 }
 
-void write_cameras_json(const std::string& folder, const MadeScene& scene) {
+void write_cameras_json(const std::string& folder, const PhotographedScene& scene) {
   std::string list;
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     const MadeCamera& c = scene.cameras[i];
@@ -273,14 +274,14 @@ void write_cameras_json(const std::string& folder, const MadeScene& scene) {
   write_file(folder, "cameras.json", "[" + list + "]");
 }
 
-void write_nsvf_matrix(const std::string& folder, const MadeScene& scene) {
+void write_nsvf_matrix(const std::string& folder, const PhotographedScene& scene) {
   write_nsvf(folder, scene);
   write_file(folder, "intrinsics.txt",
              fmt::format("{} 0 {} 0\n0 {} {} 0\n0 0 1 0\n0 0 0 1\n", scene.focal_x,
                          scene.principal.x, scene.focal_y, scene.principal.y));
 }
 
-void write_nsvf_focal(const std::string& folder, const MadeScene& scene) {
+void write_nsvf_focal(const std::string& folder, const PhotographedScene& scene) {
   write_nsvf(folder, scene);
   write_file(folder, "intrinsics.txt",
              fmt::format("{} {} {} 0.\n0. 0. 0.\n0.\n1.\n{} {}\n", scene.focal_x, scene.principal.x,

@@ -95,7 +95,7 @@ TEST_CASE("splits: transforms.json that lists names") {
 
 TEST_CASE("splits: none to test with is said with what was to name them") {
   struct Row {
-    void (*write)(const std::string& folder, const MadeScene& scene);
+    void (*write)(const std::string& folder, const PhotographedScene& scene);
     const char* file;
     const char* from;
     const char* to;
