@@ -178,7 +178,7 @@ void run(unsigned seed, double skew) {
 
 }  // namespace
 
-TEST_CASE("bounds hold on 40,000 random Gaussians", "[nightly]") { run(20, 0); }
+TEST_CASE("bounds hold on 40,000 random Gaussians") { run(20, 0); }
 
 TEST_CASE("bounds hold for a camera whose rotation is one within 10^-3 only", "[nightly]") {
   run(21, 1e-3);

@@ -10,7 +10,7 @@
 
 using namespace sgs;
 
-TEST_CASE("chunk test misses nothing: random hard scenes", "[nightly]") {
+TEST_CASE("chunk test misses nothing: random hard scenes") {
   test::fuzz_chunk_bounds(0, 15000);
 }
 
