@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "algorithm/input_error.h"
+#include "algorithm/input_json.h"
 #include "modules/config/strict_json.h"
 
 namespace sgs {
@@ -76,7 +77,7 @@ Technology load_technology(const std::string& path) {
   if (technology.name.empty()) {
     throw InputError(fmt::format("{}: name: got none, expected that of the node", path));
   }
-  check_bands(Json::parse(config_to_json(technology)), "", path);
+  check_bands(parse_json(config_to_json(technology), path), "", path);
   return technology;
 }
 

@@ -10,6 +10,7 @@
 
 #include "algorithm/image/image_io.h"
 #include "algorithm/input_error.h"
+#include "algorithm/input_json.h"
 #include "algorithm/output_set.h"
 #include "testbench/streaminggs/contact_sheet.h"
 #include "testbench/streaminggs/numbers.h"
@@ -26,7 +27,7 @@ using Json = nlohmann::ordered_json;
 // The same machine behind its first frame: as resolved, but for codebooks that are there. None
 // where there is nothing to keep.
 std::optional<RunConfig> with_codebooks(RunConfig& config, const SecondHalfFormat& format) {
-  Json document = Json::parse(to_json(config));
+  Json document = parse_json(to_json(config), "the configuration");
   const Json::json_pointer kept("/codebook/preloaded");
   if (!format.quantised() || !document.contains(kept)) return {};
   document[kept] = true;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "algorithm/input_error.h"
+#include "algorithm/input_json.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
@@ -48,8 +49,8 @@ std::string in_words(const StorageConfig& storage) {
 // The line of RunConfig::storage_source. Throws InputError when somebody but the preset disagrees.
 std::string compared(const RunConfig& config, const PackedScene& packed, const std::string& path,
                      const std::string& preset) {
-  const Json said = {{"storage", Json::parse(config_to_json(config.storage))}};
-  const Json held = {{"storage", Json::parse(config_to_json(packed.storage))}};
+  const Json said = {{"storage", parse_json(config_to_json(config.storage), "the configuration")}};
+  const Json held = {{"storage", parse_json(config_to_json(packed.storage), path)}};
   std::string differs;
   for (const ConfigOrigin& value : config.origins) {
     if (value.path.rfind("storage.", 0) != 0) continue;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "algorithm/input_json.h"
 #include "testbench/command_line/version.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/report.h"
@@ -31,7 +32,7 @@ struct RunReport::Content {
 
 RunReport::RunReport(RunConfig& config, RunFacts facts)
     : facts_(std::move(facts)), content_(std::make_unique<Content>()) {
-  content_->config = Json::parse(to_json(config));
+  content_->config = parse_json(to_json(config), "the configuration");
   content_->chosen = list_choices(config.chosen);
 }
 

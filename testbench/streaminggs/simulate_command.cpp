@@ -14,6 +14,7 @@
 
 #include "algorithm/data_files.h"
 #include "algorithm/input_error.h"
+#include "algorithm/input_json.h"
 #include "algorithm/output_plan.h"
 #include "algorithm/render/group_state.h"
 #include "testbench/command_line/config_source.h"
@@ -29,6 +30,7 @@ namespace sgs {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 struct SimulateArguments : SceneArguments {
   ConfigSource config;
@@ -127,9 +129,9 @@ PathJob path_job(const SimulateArguments& arguments, std::vector<Camera>& keys) 
 
 // Of what blends, the precision; of any machine how its scene is stored.
 void print_what_runs(RunSetting& setting) {
-  const auto config = nlohmann::json::parse(to_json(setting.config));
+  const Json config = parse_json(to_json(setting.config), "the configuration");
   const std::string precision =
-      config.value(nlohmann::json::json_pointer("/rendering/precision"), std::string());
+      config.value(Json::json_pointer("/rendering/precision"), std::string());
   fmt::print("{}: machine {}, {}second halves {}\n", setting.facts.configuration,
              config.at("machine").get<std::string>(),
              precision.empty() ? "" : fmt::format("blends in {}, ", precision),
