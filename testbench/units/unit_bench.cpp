@@ -59,7 +59,7 @@ UnitContext UnitBench::context(const StreamingJob& job) const {
   port.path_cycles = 0;
   port.width_bytes = port.max_transaction_bytes;
   BuiltFor built_for;
-  built_for.memory_port = port;
+  built_for.memory_port = config_.port.value_or(port);
   return {clock_, job, built_for};
 }
 

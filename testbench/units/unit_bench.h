@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -33,6 +34,8 @@ struct BenchConfig {
   // that it does wait for.
   std::uint32_t latency_cycles = 20, write_latency_cycles = 150;
   std::size_t memory_bytes = 0;
+  // Of the units; none: without a path and, before a memory of fixed latency, without limits.
+  std::optional<MemoryPortConfig> port;
   double stall_probability = 0;  // at both sides of every FIFO made here
   std::uint32_t longest_stall_cycles = 20;
 
@@ -58,8 +61,7 @@ class UnitBench {
   // FIFOs made here never keep anybody waiting but for room, an entry or their latency.
   bool without_stalls() const { return config_.stall_probability == 0; }
 
-  // For a unit under test; the job must outlive it. Where times can be computed its ports hold
-  // nothing back.
+  // For a unit under test; the job must outlive it.
   UnitContext context(const StreamingJob& job) const;
 
   void load(std::uint64_t address, const std::vector<std::byte>& bytes);

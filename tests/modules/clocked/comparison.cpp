@@ -9,10 +9,19 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "modules/config/strict_json.h"
+#include "modules/memory_port_keys.h"
 #include "testbench/process/in_child.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs::test {
+
+MemoryPortConfig port_of_preset(const std::string& name, MemoryPortConfig port) {
+  ConfigDocument preset;
+  preset.add_file(SGS_SOURCE_DIR "/testbench/configs/" + name + ".json");
+  preset.read_section_into("memory_port", port);
+  return port;
+}
 
 Takings takings_of_unit(std::uint64_t seed, const std::function<void(tb::Case&, Takings&)>& run) {
   const std::string bytes = in_child([&] {

@@ -13,14 +13,26 @@ namespace sgs::test {
 constexpr int kSeeds = 5;                     // of each workload
 constexpr double kMostDifferencePercent = 2;  // in cycles, of one run
 
+// What is said of a preset's machine that every unit is built with.
+struct Preset {
+  PixelSize group;
+  MemoryPortConfig port;
+};
+// name: of the preset, whose machine has this configuration.
+MemoryPortConfig port_of_preset(const std::string& name, MemoryPortConfig port);
+template <class Config>
+Preset preset_of(const std::string& name, const Config& config = {}) {
+  return {{static_cast<int>(config.group_width_px), static_cast<int>(config.group_height_px)},
+          port_of_preset(name, config.memory_port)};
+}
+
 // What the unit hands out, simulated in a process of its own. Throws std::runtime_error where a
 // check of its bench fails.
 Takings takings_of_unit(std::uint64_t seed, const std::function<void(tb::Case&, Takings&)>& run);
 
 // A configuration of which `change` has changed something.
 template <class Config, class Change>
-Config changed(const Change& change) {
-  Config config;
+Config changed(Config config, const Change& change) {
   change(config);
   return config;
 }

@@ -23,7 +23,7 @@ struct CcuWorkload {
   std::size_t gaussians = 600;
   float extent = 4;  // of the scene; the wider, the more is culled
   CcuConfig ccu;
-  std::uint32_t latency = 40, transactions = 16;
+  PortHardware port = {};
   std::uint32_t out_one_in = 1, out_longest = 1;
   int sh_degree = 1;
 };
@@ -57,8 +57,7 @@ CcuHardware hardware_of(const CcuWorkload& load, const GscoreConfig& config,
   hw.convert_depth = convert.depth_cycles;
   hw.convert_entries = entries(load.ccu.output_entries, convert);
   hw.read_cycles = (second_half_bytes + kPortBytes - 1) / kPortBytes;
-  hw.latency = load.latency;
-  hw.transactions = load.transactions;
+  hw.port = load.port;
   return hw;
 }
 
@@ -107,15 +106,12 @@ std::size_t handed_on(const std::vector<CcuItem>& items) {
 }
 
 void run(tb::Case& test, Takings& taken, const CcuWorkload& load, std::uint64_t seed) {
-  tb::BenchConfig still = tb::still_gscore();
-  still.latency_cycles = load.latency;
-  tb::UnitBench bench(test, still);
+  tb::UnitBench bench(test, bench_of(load.port, tb::kGscoreMemoryBytes));
   const tb::TestScene scene = scene_of(load, seed);
   FrameJob frame = scene.job;
   frame.layout = scene.image.layout;
   GscoreConfig config = config_of(load);
   const GscoreJob job = tb::gscore_frame(config, bench, frame);
-  config.memory_port.max_outstanding = load.transactions;
   bench.load(0, scene.image.bytes);
   const CcuHardware hw = hardware_of(load, config, job.layout.second_halves.record_bytes);
   auto& passes = bench.add_fifo<Pass>("passes", 1, 1);
@@ -132,7 +128,7 @@ void run(tb::Case& test, Takings& taken, const CcuWorkload& load, std::uint64_t 
     over.over = true;
     passes.push(over, activity);
   });
-  add_sink(bench, "tests", kPasses * handed_on(items_of(scene, config)),
+  add_sink(bench, "tests", until_items(kPasses * handed_on(items_of(scene, config))),
            {seed + 1000, load.out_one_in, load.out_longest}, converted, taken,
            [](const Converted& one) { return what_of(one.there, one.splat); });
   bench.run();
@@ -141,15 +137,10 @@ void run(tb::Case& test, Takings& taken, const CcuWorkload& load, std::uint64_t 
 Takings clocked(const CcuWorkload& load, std::uint64_t seed) {
   const tb::TestScene scene = scene_of(load, seed);
   const GscoreConfig config = config_of(load);
-  const RecordArray& second = scene.image.layout.second_halves;
-  const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
+  const SceneLayout& layout = scene.image.layout;
   const std::vector<CcuItem> items = items_of(scene, config);
-  ClockedCcu unit(hardware_of(load, config, second.record_bytes), items,
-                  [&](std::uint32_t slot, std::uint32_t count) {
-                    const std::uint64_t begin = second.address(slot);
-                    const std::uint64_t last = second.address(slot + std::uint64_t{count}) - 1;
-                    return static_cast<std::uint32_t>(last / longest - begin / longest + 1);
-                  });
+  ClockedCcu unit(hardware_of(load, config, layout.second_halves.record_bytes), items,
+                  layout.first_halves, layout.second_halves);
   ClockedFifo<std::uint64_t> passes(1);
   ClockedSink<std::uint64_t> sink({seed + 1000, load.out_one_in, load.out_longest});
   std::uint32_t begun = 0;
@@ -168,33 +159,38 @@ Takings clocked(const CcuWorkload& load, std::uint64_t seed) {
 TEST_CASE("clocked reference: culling and conversion unit") {
   Comparison table("CCU");
   const CcuConfig published;
-  const CcuConfig tiny = changed<CcuConfig>([](CcuConfig& c) {
+  const PortHardware port{port_of_preset("gscore", GscoreConfig{}.memory_port)};
+  PortHardware slow = port, one = port;
+  slow.read_latency = 400;
+  slow.config.max_outstanding = 2;
+  one.config.max_outstanding = 1;
+  const CcuConfig tiny = changed(published, [](CcuConfig& c) {
     c.input_slots = c.candidates = c.output_entries = 1;
     c.second_half_slots = 2;
   });
-  const CcuConfig wide = changed<CcuConfig>([](CcuConfig& c) {
+  const CcuConfig wide = changed(published, [](CcuConfig& c) {
     c.cull_lanes = 24;
     c.convert_lanes = 1000;
   });
-  const CcuConfig narrow = changed<CcuConfig>([](CcuConfig& c) {
+  const CcuConfig narrow = changed(published, [](CcuConfig& c) {
     c.cull_lanes = 2;
     c.convert_lanes = 5;
   });
-  const CcuConfig long_slices = changed<CcuConfig>([](CcuConfig& c) { c.slice_gaussians = 16; });
-  const CcuConfig single = changed<CcuConfig>([](CcuConfig& c) { c.slice_gaussians = 1; });
+  const CcuConfig long_slices = changed(published, [](CcuConfig& c) { c.slice_gaussians = 16; });
+  const CcuConfig single = changed(published, [](CcuConfig& c) { c.slice_gaussians = 1; });
   for (const CcuWorkload& load : {
-           CcuWorkload{"light: 40 Gaussians", 40, 4, published},
-           CcuWorkload{"heavy: 1500, few culled", 1500, 1, published},
-           CcuWorkload{"many culled", 1500, 40, published},
-           CcuWorkload{"slow memory", 600, 4, published, 400, 2},
-           CcuWorkload{"output stalled", 600, 4, published, 40, 16, 3, 300},
-           CcuWorkload{"tiny buffers", 300, 4, tiny, 40, 1, 4, 20},
-           CcuWorkload{"wide lanes", 1500, 4, wide},
-           CcuWorkload{"wide lanes, output stalled", 600, 4, wide, 40, 16, 2, 60},
-           CcuWorkload{"narrow lanes", 300, 4, narrow},
-           CcuWorkload{"slices of 16", 600, 4, long_slices},
-           CcuWorkload{"slices of 1", 300, 4, single},
-           CcuWorkload{"SH degree 3", 600, 4, published, 40, 16, 1, 1, 3},
+           CcuWorkload{"light: 40 Gaussians", 40, 4, published, port},
+           CcuWorkload{"heavy: 1500, few culled", 1500, 1, published, port},
+           CcuWorkload{"many culled", 1500, 40, published, port},
+           CcuWorkload{"slow memory", 600, 4, published, slow},
+           CcuWorkload{"output stalled", 600, 4, published, port, 3, 300},
+           CcuWorkload{"tiny buffers", 300, 4, tiny, one, 4, 20},
+           CcuWorkload{"wide lanes", 1500, 4, wide, port},
+           CcuWorkload{"wide lanes, output stalled", 600, 4, wide, port, 2, 60},
+           CcuWorkload{"narrow lanes", 300, 4, narrow, port},
+           CcuWorkload{"slices of 16", 600, 4, long_slices, port},
+           CcuWorkload{"slices of 1", 300, 4, single, port},
+           CcuWorkload{"SH degree 3", 600, 4, published, port, 1, 1, 3},
        }) {
     table.workload(load, run, clocked);
   }

@@ -10,8 +10,9 @@
 #include <optional>
 #include <vector>
 
+#include "algorithm/memory/regions.h"
 #include "tests/modules/clocked/clocked_fifo.h"
-#include "tests/modules/gscore/clocked/clocked_port.h"
+#include "tests/modules/clocked/clocked_port.h"
 
 namespace sgs::test {
 
@@ -20,7 +21,7 @@ struct CcuHardware {
   std::uint32_t cull_interval = 3, cull_depth = 0, cull_entries = 0;
   std::uint32_t convert_interval = 0, convert_depth = 0, convert_entries = 0;
   std::uint32_t read_cycles = 0;  // of a second half, out of its slot
-  std::uint32_t latency = 40, transactions = 16;
+  PortHardware port = {};         // each of two
 };
 
 struct CcuItem {
@@ -35,27 +36,21 @@ class ClockedCcu {
  public:
   ClockedFifo<std::uint64_t> out;
 
-  // transactions: of a read of so many second halves from a slot on.
-  template <class Transactions>
-  ClockedCcu(const CcuHardware& hardware, std::vector<CcuItem> items,
-             const Transactions& transactions)
+  // first, second: halves of the items, in memory.
+  ClockedCcu(const CcuHardware& hardware, std::vector<CcuItem> items, const RecordArray& first,
+             const RecordArray& second)
       : out(hardware.convert_entries, 0),
         hw_(hardware),
         items_(std::move(items)),
+        first_halves_(first),
+        second_halves_(second),
         free_input_(hardware.input_slots),
         free_second_(hardware.second_half_slots),
-        first_port_(hardware.latency, hardware.transactions),
-        second_port_(hardware.latency, hardware.transactions),
+        first_port_(hardware.port),
+        second_port_(hardware.port),
         slices_(hardware.input_slots),
         culled_(hardware.cull_entries, 0),
-        fetched_(hardware.second_half_slots + 1) {
-    for (std::uint32_t slot = 0; slot < items_.size(); ++slot) {
-      transactions_.emplace_back();
-      for (std::uint32_t n = 1; n <= hw_.slice_gaussians; ++n) {
-        transactions_.back().push_back(transactions(slot, n));
-      }
-    }
-  }
+        fetched_(hardware.second_half_slots + 1) {}
 
   // What leaves the pipelines in this cycle; ahead of the reader of `out`.
   void step_results() {
@@ -85,7 +80,7 @@ class ClockedCcu {
  private:
   struct Slice {
     std::size_t first = 0, end = 0;
-    std::uint64_t read = 0;
+    ClockedTransfer read;
   };
   template <class T>
   struct InPipeline {
@@ -95,8 +90,11 @@ class ClockedCcu {
   };
   struct Fetched {
     CcuItem item;
-    std::uint64_t read = 0;
+    ClockedTransfer read;
   };
+  static ClockedTransfer read_of(const RecordArray& records, std::size_t first, std::size_t count) {
+    return {records.address(first), count * records.record_bytes};
+  }
   enum class Fetch { kGather, kRun, kSend, kPush };
 
   template <class T>
@@ -111,8 +109,7 @@ class ClockedCcu {
   // A slice wants a slot, then asks.
   void load(ClockedFifo<std::uint64_t>& passes) {
     if (asks_) {
-      if (!first_port_.can_send()) return;
-      asks_->read = first_port_.send();
+      if (!first_port_.read(asks_->read)) return;
       slices_.put(*asks_);
       asks_.reset();
     }
@@ -124,7 +121,7 @@ class ClockedCcu {
     if (free_input_ == 0) return;
     --free_input_;
     const std::size_t end = std::min<std::size_t>(next_ + hw_.slice_gaussians, items_.size());
-    asks_ = Slice{next_, end};
+    asks_ = Slice{next_, end, read_of(first_halves_, next_, end - next_)};
     next_ = end;
   }
 
@@ -158,9 +155,7 @@ class ClockedCcu {
       case Fetch::kRun:
         return begin_run();
       case Fetch::kSend:
-        if (!second_port_.can_send()) return false;
-        read_ = second_port_.send();
-        if (--to_send_ > 0) return false;
+        if (!second_port_.read(read_)) return false;
         fetch_ = Fetch::kPush;
         return true;
       case Fetch::kPush:
@@ -191,7 +186,7 @@ class ClockedCcu {
     if (free_second_ < run_) return false;
     free_second_ -= run_;
     next_second_ = (next_second_ + run_) % hw_.second_half_slots;
-    to_send_ = transactions_[gathered_[0].slot][run_ - 1];
+    read_ = read_of(second_halves_, gathered_[0].slot, run_);
     fetch_ = Fetch::kSend;
     return true;
   }
@@ -213,7 +208,7 @@ class ClockedCcu {
 
   const CcuHardware hw_;
   const std::vector<CcuItem> items_;
-  std::vector<std::vector<std::uint32_t>> transactions_;  // [slot][second halves - 1]
+  const RecordArray first_halves_, second_halves_;
   std::uint64_t now_ = 0, convert_free_ = 0;
   std::size_t next_ = items_.size();  // of the pass
   std::uint32_t free_input_, freed_input_ = 0, free_second_;
@@ -225,8 +220,8 @@ class ClockedCcu {
   ClockedFifo<CcuItem> culled_;
 
   Fetch fetch_ = Fetch::kGather;
-  std::uint32_t fetch_waits_ = 0, run_ = 0, to_send_ = 0, next_second_ = 0;
-  std::uint64_t read_ = 0;
+  std::uint32_t fetch_waits_ = 0, run_ = 0, next_second_ = 0;
+  ClockedTransfer read_;
   std::deque<CcuItem> gathered_;
   ClockedFifo<Fetched> fetched_;
   std::deque<std::uint32_t> freed_second_;  // cycles until a slot is free

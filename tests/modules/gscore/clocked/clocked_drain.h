@@ -8,19 +8,19 @@
 #include <optional>
 #include <vector>
 
-#include "tests/modules/gscore/clocked/clocked_port.h"
+#include "tests/modules/clocked/clocked_port.h"
 
 namespace sgs::test {
 
 struct CoreTile {
-  std::uint32_t outside = 0;                    // blocks beside the frame, a bit each
-  std::uint32_t row_cycles = 0;                 // of a row of pixels
-  std::vector<std::uint32_t> row_transactions;  // [row]
+  std::uint32_t outside = 0;     // blocks beside the frame, a bit each
+  std::uint32_t row_cycles = 0;  // of a row of pixels
+  std::vector<ClockedTransfer> rows;
 };
 
 class ClockedDrain {
  public:
-  ClockedDrain(std::uint32_t write_latency, std::size_t writes) : port_(write_latency, writes) {}
+  explicit ClockedDrain(const PortHardware& port) : port_(port) {}
 
   struct Mark {
     std::uint64_t leaves;  // the pipeline, in this cycle
@@ -38,8 +38,7 @@ class ClockedDrain {
       frame_ends_ = false;
       return false;
     }
-    const bool sends = drains_ && now >= row_full_ && port_.can_send();
-    if (sends) send(now, tiles[*drains_]);
+    const bool sends = drains_ && now >= row_full_ && send(now, tiles[*drains_]);
     if (!drains_) take_mark(now, tiles);
     return sends;
   }
@@ -47,12 +46,20 @@ class ClockedDrain {
   bool done() const { return ended_; }                 // the end of the frame has been put out
 
  private:
-  void send(std::uint64_t now, const CoreTile& tile) {
-    port_.send();
-    if (++left_of_row_ < tile.row_transactions[row_]) return;
-    left_of_row_ = 0;
+  bool send(std::uint64_t now, const CoreTile& tile) {
+    const std::uint64_t bytes_before = row_left_.bytes;
+    if (port_.write(row_left_)) {
+      end_row(now, tile);
+      return true;
+    }
+    return row_left_.bytes < bytes_before;
+  }
+  void end_row(std::uint64_t now, const CoreTile& tile) {
     row_full_ = now + tile.row_cycles;
-    if (++row_ < tile.row_transactions.size()) return;
+    if (++row_ < tile.rows.size()) {
+      row_left_ = tile.rows[row_];
+      return;
+    }
     drains_.reset();
     frees_pixels_ = true;
   }
@@ -61,6 +68,7 @@ class ClockedDrain {
     if (marks_.front().of_tile) {
       drains_ = marks_.front().tile;
       row_ = 0;
+      row_left_ = tiles[*drains_].rows[0];
       row_full_ = now + tiles[*drains_].row_cycles;
     } else {
       if (!port_.idle()) return;
@@ -73,8 +81,8 @@ class ClockedDrain {
   std::deque<Mark> marks_;
   std::optional<std::uint32_t> drains_;  // tile
   std::size_t row_ = 0;
-  std::uint32_t left_of_row_ = 0;  // transactions that have left
-  std::uint64_t row_full_ = 0;     // from this cycle on
+  ClockedTransfer row_left_;
+  std::uint64_t row_full_ = 0;  // from this cycle on
   bool frees_pixels_ = false, frame_ends_ = false, ended_ = false;
 };
 

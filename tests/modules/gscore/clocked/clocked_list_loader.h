@@ -17,10 +17,7 @@ namespace sgs::test {
 class ClockedListLoader {
  public:
   explicit ClockedListLoader(const SorterHardware& hardware)
-      : hw_(hardware),
-        free_lists_(hardware.list_buffers),
-        port_(hardware.latency, hardware.write_latency, hardware.transactions, hardware.writes),
-        lines_(hardware) {}
+      : hw_(hardware), free_lists_(hardware.list_buffers), port_(hardware.port), lines_(hardware) {}
 
   void free_list() { ++free_lists_; }
 
@@ -43,7 +40,7 @@ class ClockedListLoader {
   };
   struct Block {
     std::size_t entries = 0;
-    std::uint64_t head = 0, last = 0;
+    ClockedTransfer head, rest;
     bool followed = false;  // its link
   };
   // One step of the control; true: the next one follows in the same cycle.
@@ -73,7 +70,7 @@ class ClockedListLoader {
       case Do::kHead:
         return follow();
       case Do::kRest:
-        if (!port_.answered(blocks_.front().last)) return false;
+        if (!port_.answered(blocks_.front().rest)) return false;
         do_ = Do::kEntries;
         if (!splits_ || chosen_) return true;
         pivots_ = sample(chain_.entries, blocks_.front().entries);
@@ -132,17 +129,14 @@ class ClockedListLoader {
     Block block;
     block.entries = std::min(chain_.entries.size() - asked_, hw_.block_entries());
     asked_ += block.entries;
-    to_send_ = hw_.transactions_of(block.entries);
-    heads_ = true;
+    const std::size_t bytes = hw_.used_bytes(block.entries);
+    block.head = {0, std::min<std::size_t>(bytes, hw_.line_bytes)};
+    block.rest = {block.head.bytes, bytes - block.head.bytes};
     blocks_.push_back(block);
   }
   bool send() {
-    if (!port_.can_read()) return false;
     Block& block = blocks_.back();
-    block.last = port_.read();
-    if (heads_) block.head = block.last;
-    heads_ = false;
-    if (--to_send_ > 0) return false;
+    if (!port_.read(block.head) || !port_.read(block.rest)) return false;
     do_ = Do::kHead;
     return true;
   }
@@ -218,7 +212,7 @@ class ClockedListLoader {
 
   const SorterHardware hw_;
   std::uint32_t free_lists_;
-  ClockedTwoWayPort port_;
+  ClockedPort port_;
   Do do_ = Do::kRequest;
   std::uint32_t wait_ = 0;
   bool frame_ended_ = false;
@@ -226,8 +220,7 @@ class ClockedListLoader {
   std::vector<Chain> chains_;  // the next one last
   Chain chain_;
   std::size_t asked_ = 0, read_ = 0, held_ = 0;  // entries of it
-  bool splits_ = false, open_ = false, chosen_ = false, heads_ = false;
-  std::uint32_t to_send_ = 0;
+  bool splits_ = false, open_ = false, chosen_ = false;
   std::deque<Block> blocks_;
   std::array<std::uint32_t, kQsuPivots> pivots_{};
   ClockedSubsetLines lines_;

@@ -9,7 +9,7 @@
 #include <deque>
 #include <vector>
 
-#include "tests/modules/gscore/clocked/clocked_port.h"
+#include "tests/modules/clocked/clocked_port.h"
 #include "tests/modules/gscore/clocked/clocked_tile_tests.h"
 
 namespace sgs::test {
@@ -17,8 +17,8 @@ namespace sgs::test {
 struct ListerHardware {
   std::uint32_t lines = 64, records_at_once = 8;
   std::uint32_t first_entries = 4, line_entries = 5, block_lines = 16;
-  std::uint32_t write_latency = 150;
-  std::size_t writes = 2;  // unanswered at most
+  std::uint32_t record_bytes = 32, line_bytes = 32;  // a line is a word of the port
+  PortHardware port = {};
 };
 
 class ClockedLister {
@@ -28,7 +28,7 @@ class ClockedLister {
         most_(most_tiles),
         all_(all_tiles),
         lines_(hardware.lines),
-        port_(hardware.write_latency, hardware.writes) {}
+        port_(hardware.port) {}
 
   // Whether a pass begins in this cycle, whose tiles are [first(), end()).
   bool begins() const { return begins_; }
@@ -72,18 +72,16 @@ class ClockedLister {
         enter();
         return waits();
       case Do::kWrite:
-        if (writes_ == 0) {
-          do_ = Do::kTake;
-          return true;
+        while (!writes_.empty()) {
+          if (!write(writes_.front())) return false;
+          writes_.pop_front();
         }
-        if (!write()) return false;
-        if (--writes_ > 0) return false;
         do_ = Do::kTake;
         return true;
       case Do::kScan:
         return scan();
       case Do::kDrain:
-        if (records_ > 0 && !write()) return false;
+        if (records_ > 0 && !write(records_ * hw_.record_bytes)) return false;
         records_ = 0;
         if (!port_.idle()) return false;
         do_ = Do::kAnswer;
@@ -114,9 +112,10 @@ class ClockedLister {
     wait_ = cycles;
     return false;
   }
-  bool write() {
-    if (!port_.can_send()) return false;
-    port_.send();
+  // All in one transaction.
+  bool write(std::uint64_t bytes) {
+    ClockedTransfer what{0, bytes};
+    if (!port_.write(what)) return false;
     wrote_ = true;
     return true;
   }
@@ -134,21 +133,20 @@ class ClockedLister {
 
   // What is written because of it: records, the line of another tile, its own line.
   void enter() {
-    writes_ = 0;
     if (tile_.first && ++records_ == hw_.records_at_once) {
-      ++writes_;
+      writes_.push_back(records_ * hw_.record_bytes);
       records_ = 0;
     }
     const std::uint32_t at = tile_.tile - first_;
     Line& line = lines_[at % hw_.lines];
     if (line.tile != at + 1) {
-      writes_ += line.holds_new ? 1 : 0;
+      if (line.holds_new) writes_.push_back(hw_.line_bytes);
       line = {at + 1, false};
     }
     const std::uint32_t in_block = ++entries_[at] % block_entries();
     const bool full = in_block == 0 || (in_block >= hw_.first_entries &&
                                         (in_block - hw_.first_entries) % hw_.line_entries == 0);
-    writes_ += full ? 1 : 0;
+    if (full) writes_.push_back(hw_.line_bytes);
     line.holds_new = !full;
   }
   std::uint32_t block_entries() const {
@@ -162,7 +160,7 @@ class ClockedLister {
       return true;
     }
     Line& line = lines_[scanned_];
-    if (line.holds_new && !write()) return false;
+    if (line.holds_new && !write(hw_.line_bytes)) return false;
     ++scanned_;
     return waits();
   }
@@ -190,7 +188,8 @@ class ClockedLister {
   std::vector<std::uint32_t> entries_;  // [tile of the pass]
   std::vector<Line> lines_;
   ClockedTile tile_;
-  std::uint32_t writes_ = 0, records_ = 0, scanned_ = 0;
+  std::deque<std::uint64_t> writes_;  // bytes of each
+  std::uint32_t records_ = 0, scanned_ = 0;
   std::size_t core_ = 0;
   std::vector<bool> told_;  // that the pass is over
   ClockedPort port_;

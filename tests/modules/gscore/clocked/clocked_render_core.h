@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "tests/modules/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_port.h"
 #include "tests/modules/gscore/clocked/clocked_drain.h"
-#include "tests/modules/gscore/clocked/clocked_port.h"
 
 namespace sgs::test {
 
@@ -20,8 +20,7 @@ struct CoreHardware {
   std::uint32_t depth = 0, state_loop = 0, drain_depth = 0;
   bool skip_finished = true;
   std::uint32_t feedback = 2;
-  std::uint32_t read_latency = 40, reads = 16;  // unanswered at most
-  std::uint32_t write_latency = 150, writes = 16;
+  PortHardware port = {};  // each of two
 };
 
 enum class CoreMark { kEntry, kEndOfTile, kEndOfFrame };
@@ -30,6 +29,7 @@ struct CoreItem {
   std::uint32_t tile = 0;
   std::uint32_t parts = 0;     // a bit each
   std::uint32_t finishes = 0;  // blocks of 16 px, a bit each
+  ClockedTransfer record = {};
 };
 class ClockedRenderCore {
  public:
@@ -40,8 +40,8 @@ class ClockedRenderCore {
         free_records_(hardware.record_slots),
         free_pixels_(hardware.pixel_buffers),
         fetched_(hardware.record_slots + 1),
-        records_(hardware.read_latency, hardware.reads),
-        drain_(hardware.write_latency, hardware.writes) {}
+        records_(hardware.port),
+        drain_(hardware.port) {}
 
   bool done() const { return drain_.done(); }  // the end of the frame can be taken
 
@@ -60,10 +60,6 @@ class ClockedRenderCore {
 
  private:
   static constexpr std::uint32_t kAcross = 4, kAllBlocks = 0xffff;
-  struct Fetched {
-    CoreItem item;
-    std::uint64_t read = 0;
-  };
   struct InPipeline {
     std::uint64_t leaves;
     std::uint32_t tile, block;
@@ -95,13 +91,7 @@ class ClockedRenderCore {
 
   void fetch(ClockedFifo<CoreItem>& sorted) {
     if (asks_) {
-      const bool is_entry = asks_->item.mark == CoreMark::kEntry;
-      if (is_entry && !asked_) {
-        if (!records_.can_send()) return;
-        asks_->read = records_.send();
-        asked_ = true;
-      }
-      if (!fetched_.has_room()) return;
+      if (!records_.read(asks_->record) || !fetched_.has_room()) return;
       fetched_.put(*asks_);
       asks_.reset();
     }
@@ -115,8 +105,7 @@ class ClockedRenderCore {
       if (free_records_ == 0) return;
       --free_records_;
     }
-    asks_ = Fetched{*wants_};
-    asked_ = false;
+    asks_ = wants_;
     wants_.reset();
   }
 
@@ -130,8 +119,7 @@ class ClockedRenderCore {
     holds_record_ = false;
     if (fetched_.can_take()) take(fetched_.front());
   }
-  void take(const Fetched& next) {
-    const CoreItem item = next.item;
+  void take(const CoreItem item) {
     if (item.mark != CoreMark::kEndOfFrame && !in_tile_) {
       if (free_pixels_ == 0) return;
       --free_pixels_;
@@ -145,7 +133,7 @@ class ClockedRenderCore {
       drain_.mark({now_ + hw_.depth + hw_.drain_depth, of_tile, item.tile});
       in_tile_ = false;
     } else {
-      if (!records_.answered(next.read)) return;
+      if (!records_.answered(item.record)) return;
       const bool drops = seen_finished_[tile_];
       if (!drops && !in_turn()) return;
       holds_record_ = true;
@@ -190,10 +178,8 @@ class ClockedRenderCore {
   std::deque<News> news_;            // of finished tiles, on their way
   std::uint32_t free_records_, free_pixels_;
 
-  std::optional<CoreItem> wants_;  // a place for its record
-  std::optional<Fetched> asks_;    // for its record
-  bool asked_ = false;
-  ClockedFifo<Fetched> fetched_;
+  std::optional<CoreItem> wants_, asks_;  // a place for its record; for that
+  ClockedFifo<CoreItem> fetched_;
   ClockedPort records_;
 
   bool in_tile_ = false, holds_record_ = false;

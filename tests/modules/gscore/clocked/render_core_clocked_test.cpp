@@ -16,20 +16,12 @@ struct CoreBench {
   GscoreConfig config;
   GscoreJob job;
   CoreBench(tb::Case& test, const CoreWorkload& load, std::size_t records)
-      : bench(test, bench_of(load)), config(config_of(load)) {
+      : bench(test, bench_of(load.hardware.port, tb::kGscoreMemoryBytes)), config(config_of(load)) {
     FrameJob frame;
     frame.view.width = kCoreWidth;
     frame.view.height = kCoreHeight;
     frame.layout = tb::empty_layout(static_cast<std::uint32_t>(records));
     job = tb::gscore_frame(config, bench, frame);
-    config.memory_port.max_outstanding = load.hardware.reads;
-    config.memory_port.max_writes = load.hardware.writes;
-  }
-  static tb::BenchConfig bench_of(const CoreWorkload& load) {
-    tb::BenchConfig still = tb::still_gscore();
-    still.latency_cycles = load.hardware.read_latency;
-    still.write_latency_cycles = load.hardware.write_latency;
-    return still;
   }
 };
 
@@ -54,15 +46,16 @@ void run(tb::Case& test, Takings& taken, const CoreWorkload& load, std::uint64_t
   unit.done(done);
   bench.add_unit(unit);
   add_source(bench, "sorter", stream_of(plan), {seed, load.in_one_in, load.in_longest}, sorted);
-  const std::uint64_t all = transactions(tiles_of(own.job));
+  bool frame_done = false;
   bench.add_thread("watcher", [&](Activity&) {
-    for (std::uint64_t cycle = 0; taken.size() < all; ++cycle) {
+    for (std::uint64_t cycle = 0; !frame_done; ++cycle) {
       bench.wait_until_just_before(cycle + 1);
       if (unit.pixel_memory.transactions() > taken.size()) taken.push_back({cycle, taken.size()});
     }
   });
   bench.add_thread("lister", [&](Activity& activity) {
     done.pop(activity);
+    frame_done = true;
     taken.push_back({bench.clock().now_cycles(), kFrameDone});
   });
   bench.run();
@@ -96,23 +89,20 @@ Takings clocked(const CoreWorkload& load, std::uint64_t seed) {
 
 TEST_CASE("clocked reference: rendering core") {
   Comparison table("rendering core");
-  const CoreHardware published;
+  CoreHardware published;
+  published.port = {port_of_preset("gscore", GscoreConfig{}.memory_port)};
   const CoreHardware tiny =
-      changed<CoreHardware>([](CoreHardware& h) { h.record_slots = h.pixel_buffers = 1; });
+      changed(published, [](CoreHardware& h) { h.record_slots = h.pixel_buffers = 1; });
   const CoreHardware slow_memory =
-      changed<CoreHardware>([](CoreHardware& h) { h.read_latency = 300; });
-  const CoreHardware slow_writes = changed<CoreHardware>([](CoreHardware& h) {
-    h.write_latency = 60;
-    h.writes = 1;
-  });
-  const CoreHardware few_lanes =
-      changed<CoreHardware>([](CoreHardware& h) { h.blend_interval = 3; });
-  const CoreHardware fine_parts =
-      changed<CoreHardware>([](CoreHardware& h) { h.parts_across = 4; });
-  const CoreHardware whole = changed<CoreHardware>([](CoreHardware& h) { h.parts_across = 1; });
+      changed(published, [](CoreHardware& h) { h.port.read_latency = 300; });
+  const CoreHardware slow_writes =
+      changed(published, [](CoreHardware& h) { h.port.config.max_writes = 1; });
+  const CoreHardware few_lanes = changed(published, [](CoreHardware& h) { h.blend_interval = 3; });
+  const CoreHardware fine_parts = changed(published, [](CoreHardware& h) { h.parts_across = 4; });
+  const CoreHardware whole = changed(published, [](CoreHardware& h) { h.parts_across = 1; });
   const CoreHardware all_blended =
-      changed<CoreHardware>([](CoreHardware& h) { h.skip_finished = false; });
-  const CoreHardware late_news = changed<CoreHardware>([](CoreHardware& h) { h.feedback = 40; });
+      changed(published, [](CoreHardware& h) { h.skip_finished = false; });
+  const CoreHardware late_news = changed(published, [](CoreHardware& h) { h.feedback = 40; });
   for (const CoreWorkload& load : {
            CoreWorkload{"light: 4 entries a tile", 4, 0.3F, false, published},
            CoreWorkload{"heavy: 200 faint, whole tiles", 200, 0.05F, true, published},

@@ -90,7 +90,6 @@ inline CorePlan plan_of(const CoreWorkload& load, const GscoreConfig& config, st
 
 inline std::vector<CoreTile> tiles_of(const GscoreJob& job) {
   std::vector<CoreTile> tiles;
-  const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
   for (std::uint32_t t = 0; t < job.tile_count; ++t) {
     const PixelRect pixels = job.pixels(t);
     CoreTile tile;
@@ -100,22 +99,12 @@ inline std::vector<CoreTile> tiles_of(const GscoreJob& job) {
     }
     tile.row_cycles = static_cast<std::uint32_t>(pixels.width());
     for (int y = pixels.y0; y < pixels.y1; ++y) {
-      const std::uint64_t begin = job.pixel_address(pixels.x0, y);
-      const std::uint64_t bytes = std::uint64_t{tile.row_cycles} * pixel_bytes(job.frame_format);
-      tile.row_transactions.push_back(
-          static_cast<std::uint32_t>((begin + bytes - 1) / longest - begin / longest + 1));
+      tile.rows.push_back({job.pixel_address(pixels.x0, y),
+                           std::uint64_t{tile.row_cycles} * pixel_bytes(job.frame_format)});
     }
     tiles.push_back(tile);
   }
   return tiles;
-}
-
-inline std::uint64_t transactions(const std::vector<CoreTile>& tiles) {
-  std::uint64_t sum = 0;
-  for (const CoreTile& tile : tiles) {
-    for (const std::uint32_t of_row : tile.row_transactions) sum += of_row;
-  }
-  return sum;
 }
 
 inline std::vector<SortedEntry> stream_of(const CorePlan& plan) {
@@ -140,7 +129,8 @@ inline std::vector<CoreItem> items_of(const CorePlan& plan, const GscoreConfig& 
       return !state.any_unfinished({x, y, x, y});
     };
     for (const SortedEntry& entry : plan.tiles[t]) {
-      CoreItem item{CoreMark::kEntry, t, entry.bitmap, 0};
+      CoreItem item{CoreMark::kEntry, t, entry.bitmap};
+      item.record = {job.projected.address(entry.record), record_bytes(config.tiles.features)};
       for (std::uint32_t b = 0; b < 16; ++b) item.finishes |= finished(b) ? 0 : 1U << b;
       std::byte bytes[kRecordPlaceBytes];
       encode_projected(config.tiles.features, plan.records[entry.record], bytes);

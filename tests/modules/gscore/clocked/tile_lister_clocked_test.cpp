@@ -12,9 +12,7 @@ namespace sgs::test {
 namespace {
 
 void run(tb::Case& test, Takings& taken, const ListerWorkload& load, std::uint64_t seed) {
-  tb::BenchConfig still = tb::still_gscore();
-  still.write_latency_cycles = load.write_latency;
-  tb::UnitBench bench(test, still);
+  tb::UnitBench bench(test, bench_of(load.port, tb::kGscoreMemoryBytes));
   GscoreConfig config = config_of(load);
   FrameJob frame;
   frame.view.width = kListerWidth;
@@ -22,7 +20,6 @@ void run(tb::Case& test, Takings& taken, const ListerWorkload& load, std::uint64
   const ConvertedScene scene = converted_of(load, seed);
   frame.layout = tb::empty_layout(scene.gaussians);
   const GscoreJob job = tb::gscore_frame(config, bench, frame);
-  config.memory_port.max_writes = static_cast<std::uint32_t>(load.writes);
   auto passes = bench.add_fifos<Pass>("passes", load.ccus, 1, 1);
   auto converted = bench.add_fifos<Converted>("converted", load.ccus, 4, 1);
   auto requests = bench.add_fifos<TileRequest>("requests", load.cores, 1, 1);
@@ -111,8 +108,9 @@ struct Clocked {
     lists.first_entries = config.blocks().first_entries();
     lists.line_entries = config.blocks().line_entries();
     lists.block_lines = config.blocks().block_lines;
-    lists.write_latency = load.write_latency;
-    lists.writes = load.writes;
+    lists.record_bytes = kRecordPlaceBytes;
+    lists.line_bytes = config.lists.line_bytes;
+    lists.port = load.port;
   }
 
   void run(std::uint64_t seed) {
@@ -185,20 +183,26 @@ TEST_CASE("clocked reference: tile lister") {
   Comparison table("tile lister");
   ListsConfig tiny = lists_config(4);
   tiny.tested_entries = 1;
+  const PortHardware port{port_of_preset("gscore", GscoreConfig{}.memory_port)};
+  PortHardware fast = port, one = port;
+  fast.write_latency = 20;
+  one.write_latency = 40;
+  one.config.max_writes = 1;
   struct Known {
     ListerWorkload load;
     std::size_t elsewhere = 0;  // what comes behind tests that bind
   };
   for (const auto& [load, elsewhere] : {
-           Known{ListerWorkload{"light: 20 Gaussians", 20, lists_config(104)}},
-           Known{ListerWorkload{"heavy: 1500 Gaussians", 1500, lists_config(104)}, 2078},
-           Known{ListerWorkload{"tiles that share lines", 400, lists_config(7)}},
-           Known{ListerWorkload{"passes of 30 tiles", 300, lists_config(104, 30)}, 1261},
-           Known{ListerWorkload{"input stalled", 400, lists_config(104), 3, 60}, 921},
-           Known{ListerWorkload{"cores stalled", 100, lists_config(104), 1, 1, 2, 200}, 746},
-           Known{ListerWorkload{"fast memory", 400, lists_config(104), 1, 1, 1, 1, 5, 4, 4, 2, 16},
-                 1551},
-           Known{ListerWorkload{"tiny buffers", 200, tiny, 4, 20, 4, 20, 40, 1, 1, 2, 1}},
+           Known{ListerWorkload{"light: 20 Gaussians", 20, lists_config(104), 1, 1, 1, 1, port}},
+           Known{ListerWorkload{"heavy: 1500 Gaussians", 1500, lists_config(104), 1, 1, 1, 1, port},
+                 2078},
+           Known{ListerWorkload{"tiles that share lines", 400, lists_config(7), 1, 1, 1, 1, port}},
+           Known{ListerWorkload{"passes of 30 tiles", 300, lists_config(104, 30), 1, 1, 1, 1, port},
+                 1261},
+           Known{ListerWorkload{"input stalled", 400, lists_config(104), 3, 60, 1, 1, port}, 921},
+           Known{ListerWorkload{"cores stalled", 100, lists_config(104), 1, 1, 2, 200, port}, 746},
+           Known{ListerWorkload{"fast memory", 400, lists_config(104), 1, 1, 1, 1, fast}, 1455},
+           Known{ListerWorkload{"tiny buffers", 200, tiny, 4, 20, 4, 20, one, 1, 1}},
        }) {
     table.workload(
         load, run,

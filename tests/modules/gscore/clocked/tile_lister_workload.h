@@ -25,9 +25,9 @@ struct ListerWorkload {
   ListsConfig lists;
   std::uint32_t in_one_in = 1, in_longest = 1;      // a CCU
   std::uint32_t core_one_in = 1, core_longest = 1;  // a core, from a tile to the next
-  std::uint32_t write_latency = 150, ccus = 4, cores = 4;
+  PortHardware port = {};
+  std::uint32_t ccus = 4, cores = 4;
   int subtiles_across = 2;
-  std::size_t writes = 2;
 };
 
 inline ListsConfig lists_config(std::uint32_t lines, std::uint32_t tiles = 104) {

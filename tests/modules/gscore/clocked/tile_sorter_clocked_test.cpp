@@ -94,20 +94,15 @@ class Finisher {
 
 void run(tb::Case& test, Takings& taken, const SorterWorkload& load, std::uint64_t seed) {
   const auto lists = lists_of(load, seed);
-  tb::BenchConfig still = tb::still_gscore();
-  still.latency_cycles = load.hardware.latency;
-  still.write_latency_cycles = load.hardware.write_latency;
-  tb::UnitBench bench(test, still);
+  tb::UnitBench bench(test, bench_of(load.hardware.port, tb::kGscoreMemoryBytes));
   FrameJob frame;
   frame.view.width = static_cast<int>(lists.size()) * kTilePx;
   frame.view.height = kTilePx;
   frame.layout = tb::empty_layout(static_cast<std::uint32_t>(load.longest));
   GscoreConfig config = config_of(load);
   const GscoreJob job = tb::gscore_frame(config, bench, frame);
-  REQUIRE(job.lists.base % load.hardware.longest_bytes == 0);
-  REQUIRE(job.subsets.base % load.hardware.longest_bytes == 0);
-  config.memory_port.max_outstanding = static_cast<std::uint32_t>(load.hardware.transactions);
-  config.memory_port.max_writes = static_cast<std::uint32_t>(load.hardware.writes);
+  REQUIRE(job.lists.base % config.memory_port.max_transaction_bytes == 0);
+  REQUIRE(job.subsets.base % config.memory_port.max_transaction_bytes == 0);
   bench.load(job.lists.base, pool_of(config.blocks(), lists));
   auto& requests = bench.add_fifo<TileRequest>("requests", 1, 1);
   auto& jobs = bench.add_fifo<TileJob>("jobs", 1, 1);
@@ -188,21 +183,22 @@ Takings clocked(const SorterWorkload& load, std::uint64_t seed) {
 
 TEST_CASE("clocked reference: tile sorter") {
   Comparison table("tile sorter");
-  const SorterHardware published;
+  SorterHardware published;
+  published.port = {port_of_preset("gscore", GscoreConfig{}.memory_port)};
   const SorterHardware short_lists =
-      changed<SorterHardware>([](SorterHardware& h) { h.list_entries = 512; });
-  const SorterHardware tiny = changed<SorterHardware>([](SorterHardware& h) {
+      changed(published, [](SorterHardware& h) { h.list_entries = 512; });
+  const SorterHardware tiny = changed(published, [](SorterHardware& h) {
     h.chunk_entries = 16;
     h.list_entries = 64;
     h.list_buffers = 1;
-    h.writes = 1;
+    h.port.config.max_writes = 1;
   });
-  const SorterHardware slow_memory = changed<SorterHardware>([](SorterHardware& h) {
+  const SorterHardware slow_memory = changed(published, [](SorterHardware& h) {
     h.list_entries = 512;
-    h.latency = 300;
-    h.transactions = 2;
+    h.port.read_latency = 300;
+    h.port.config.max_outstanding = 2;
   });
-  const SorterHardware wide_keys = changed<SorterHardware>([](SorterHardware& h) {
+  const SorterHardware wide_keys = changed(published, [](SorterHardware& h) {
     h.entry_bytes = 8;
     h.line_bytes = 64;
     h.block_lines = 8;

@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "tests/modules/clocked/clocked_port.h"
+
 namespace sgs::test {
 
 class ClockedCache {
@@ -45,8 +47,8 @@ class ClockedCache {
 class ClockedSharedCache {
  public:
   // lines: at most so many on their way.
-  ClockedSharedCache(std::uint32_t bytes, std::uint32_t memory_latency, std::uint32_t lines)
-      : latency_(memory_latency), lines_(lines), cache_(bytes) {}
+  ClockedSharedCache(std::uint32_t bytes, const PortHardware& port, std::uint32_t lines)
+      : lines_(lines), port_(port), cache_(bytes) {}
 
   // From this cycle on somebody waits for a turn to look up a line. called: it was, and a place is
   // kept for it.
@@ -72,11 +74,13 @@ class ClockedSharedCache {
     for (Fetch& fetch : fetches_) fetch.waiting.clear();
   }
 
-  // A line that has come, at most one a cycle; who waits for it reads it when it has a turn.
+  // A line that had come by the last edge, at most one a cycle; who waits for it reads it when it
+  // has a turn.
   void lines_come() {
     leaves_place_ = false;
-    for (Fetch& fetch : fetches_) --fetch.left;
-    if (fetches_.empty() || fetches_.front().left > 0) return;
+    const bool come = !fetches_.empty() && port_.answered(fetches_.front().read);
+    port_.begin_cycle();
+    if (!come) return;
     cache_.fill(fetches_.front().line);
     for (const std::size_t who : fetches_.front().waiting) {
       look_ups_.push_back({who, fetches_.front().line, true, false});
@@ -100,8 +104,8 @@ class ClockedSharedCache {
         without_place_.push_back(at.who);
         return {};
       }
-      // Taken in the cycle behind that in which memory answers.
-      fetch = fetches_.insert(fetch, {at.line, latency_ + 1, {}});
+      fetch = fetches_.insert(fetch, {at.line, {at.line * ClockedCache::kLineBytes, 1}, {}});
+      port_.read(fetch->read);
     }
     fetch->waiting.push_back(at.who);
     return {};
@@ -115,11 +119,12 @@ class ClockedSharedCache {
   };
   struct Fetch {
     std::uint64_t line;
-    std::uint32_t left;  // cycles until it can be taken
+    ClockedTransfer read;
     std::vector<std::size_t> waiting;
   };
 
-  const std::uint32_t latency_, lines_;
+  const std::uint32_t lines_;
+  ClockedPort port_;  // with room for all lines
   ClockedCache cache_;
   std::deque<std::size_t> without_place_;
   std::size_t kept_ = 0;       // places, for those that were called

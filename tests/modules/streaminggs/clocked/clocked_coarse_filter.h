@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/modules/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_port.h"
 
 namespace sgs::test {
 
@@ -20,15 +21,16 @@ struct CoarseHardware {
   std::uint32_t depth_cycles = 131;
   std::uint32_t slice_gaussians = 8, input_slots = 5;
   std::uint32_t output_entries = 18;
-  std::uint32_t memory_latency = 20;
+  PortHardware port = {};
 };
 
 // Of a visit; behind it comes its mark.
 struct CoarseShare {
-  std::uint64_t mark = 0;                   // what the mark is told by
-  std::vector<std::uint64_t> what;          // [Gaussian]
-  std::vector<bool> passes;                 // [Gaussian]
-  std::vector<std::uint32_t> transactions;  // [slice] that fetch it
+  std::uint64_t mark = 0;  // what the mark is told by
+  std::uint32_t group = 0;
+  std::uint64_t address = 0, record_bytes = 0;  // of its first halves
+  std::vector<std::uint64_t> what;              // [Gaussian]
+  std::vector<bool> passes;                     // [Gaussian]
 };
 
 class ClockedCoarseFilter {
@@ -36,7 +38,10 @@ class ClockedCoarseFilter {
   ClockedFifo<std::uint64_t> out;
 
   explicit ClockedCoarseFilter(const CoarseHardware& hardware)
-      : out(hardware.output_entries, 0), hw_(hardware), free_slots_(hardware.input_slots) {
+      : out(hardware.output_entries, 0),
+        hw_(hardware),
+        port_(hardware.port),
+        free_slots_(hardware.input_slots) {
     while (between_turns_ < hw_.cfus) between_turns_ += hw_.test_cycles;
   }
 
@@ -48,14 +53,14 @@ class ClockedCoarseFilter {
       in_test_.pop_front();
     }
   }
-  // The rest of the cycle, behind that reader and ahead of the writer of `shares`.
-  void step(ClockedFifo<CoarseShare>& shares) {
-    dispatch();
-    load(shares);
-    for (Slice& slice : slices_) {
-      slice.seen_in -= slice.seen_in > 0 ? 1 : 0;
-      slice.data_in -= slice.data_in > 0 ? 1 : 0;
-    }
+  // The rest of the cycle, behind that reader and ahead of the writer of `shares`. finished: of a
+  // group, whether the news has come.
+  template <class Finished>
+  void step(ClockedFifo<CoarseShare>& shares, const Finished& finished) {
+    port_.begin_cycle();
+    dispatch(finished);
+    load(shares, finished);
+    for (Slice& slice : slices_) slice.seen_in -= slice.seen_in > 0 ? 1 : 0;
     ++now_;
   }
 
@@ -63,8 +68,8 @@ class ClockedCoarseFilter {
   struct Slice {
     std::size_t first = 0, end = 0;  // in its share
     bool last = false;
-    std::uint32_t transactions = 0;          // that are still to leave
-    std::uint32_t seen_in = 1, data_in = 0;  // cycles
+    ClockedTransfer read;
+    std::uint32_t seen_in = 1;  // cycles
   };
   struct InTest {
     std::uint64_t left, what;
@@ -77,7 +82,8 @@ class ClockedCoarseFilter {
     in_test_.push_back({hw_.depth_cycles + 1, what, passes});
   }
 
-  void dispatch() {
+  template <class Finished>
+  void dispatch(const Finished& finished) {
     free_slots_ += freed_;
     freed_ = 0;
     if (slices_.empty() || slices_.front().seen_in > 0) return;
@@ -88,9 +94,21 @@ class ClockedCoarseFilter {
       if (at_ == slice.end) ++free_slots_;  // it was never filled
     }
     const CoarseShare& share = shares_.front();
+    if (at_ < slice.end && !port_.answered(slice.read)) return;
+    if (at_ < slice.end && finished(share.group)) {
+      // What is left of a slice that has begun goes at once, another one in a cycle of its own.
+      const bool at_once = at_ > slice.first || slice.last;
+      (at_once ? free_slots_ : freed_) += 1;
+      at_ = slice.end;
+      if (!slice.last) {
+        end_slice();
+        if (at_once) dispatch(finished);
+        return;
+      }
+    }
     if (at_ < slice.end) {
       const bool turn = now_ % between_turns_ < hw_.cfus;
-      if (slice.data_in > 0 || !turn || !has_place()) return;
+      if (!turn || !has_place()) return;
       begin(share.what[at_], share.passes[at_]);
       if (++at_ < slice.end) return;
       freed_ = 1;  // when this word has been read
@@ -107,17 +125,17 @@ class ClockedCoarseFilter {
     slices_.pop_front();
   }
 
-  void load(ClockedFifo<CoarseShare>& shares) {
+  template <class Finished>
+  void load(ClockedFifo<CoarseShare>& shares, const Finished& finished) {
     if (asking_) {
-      if (asking_->transactions > 0) --asking_->transactions;
-      if (asking_->transactions > 0) return;
-      if (asking_->end > asking_->first) asking_->data_in = hw_.memory_latency;
+      if (!port_.read(asking_->read)) return;
       slices_.push_back(*asking_);
       asking_.reset();
     }
     if (!loading_) {
       if (!shares.can_take()) return;
       shares_.push_back(shares.take());
+      if (finished(shares_.back().group)) shares_.back().what.clear();
       loading_ = Slice{};
     }
     if (free_slots_ == 0) return;
@@ -126,15 +144,15 @@ class ClockedCoarseFilter {
     Slice slice = *loading_;
     slice.end = std::min<std::size_t>(slice.first + hw_.slice_gaussians, share.what.size());
     slice.last = slice.end == share.what.size();
-    if (slice.end > slice.first) {
-      slice.transactions = share.transactions[slice.first / hw_.slice_gaussians];
-    }
+    slice.read = {share.address + slice.first * share.record_bytes,
+                  (slice.end - slice.first) * share.record_bytes};
     asking_ = slice;
     loading_->first = slice.end;
     if (slice.last) loading_.reset();
   }
 
   const CoarseHardware hw_;
+  ClockedPort port_;
   std::uint64_t between_turns_ = 0, now_ = 0;
   std::deque<CoarseShare> shares_;         // that are loaded or dispatched
   std::optional<Slice> loading_, asking_;  // the share that is cut; the slice that is asked for

@@ -15,16 +15,16 @@ namespace sgs::test {
 struct CodebookHardware {
   std::uint32_t banks = 8;
   std::uint32_t latency_cycles = 3;  // from the last line to the decoded Gaussian
-  std::uint64_t load_transactions = 0;
-  std::uint32_t memory_latency = 20;
+  ClockedTransfer load;
+  PortHardware port = {};
 };
 
 class ClockedCodebooks {
  public:
   ClockedCodebooks(const CodebookHardware& hardware, std::uint32_t readers)
-      : hw_(hardware), readers_(readers), unasked_(hardware.load_transactions) {}
+      : hw_(hardware), port_(hardware.port), readers_(readers), load_(hardware.load) {}
 
-  bool full() const { return hw_.load_transactions == 0 || (unasked_ == 0 && answered_in_ == 0); }
+  bool full() const { return port_.answered(load_); }
   // From this cycle on, until done().
   void read(std::uint32_t reader, std::vector<std::uint32_t> banks) {
     readers_[reader] = {std::move(banks), 0, now_};
@@ -33,6 +33,7 @@ class ClockedCodebooks {
     return readers_[reader].next == readers_[reader].banks.size();
   }
 
+  void begin_cycle() { port_.begin_cycle(); }
   void step() {
     std::vector<Reader*> by_age;
     for (Reader& reader : readers_) by_age.push_back(&reader);
@@ -43,7 +44,7 @@ class ClockedCodebooks {
       if (reader->next == reader->banks.size() || taken[reader->banks[reader->next]]) continue;
       taken[reader->banks[reader->next++]] = true;
     }
-    load();
+    port_.read(load_);
     ++now_;
   }
 
@@ -54,18 +55,11 @@ class ClockedCodebooks {
     std::uint64_t began = 0;
   };
 
-  // A transaction a cycle leaves; the last that comes back fills the buffer.
-  void load() {
-    if (unasked_ > 0) {
-      --unasked_;
-      answered_in_ = hw_.memory_latency;
-    }
-    answered_in_ -= answered_in_ > 0 ? 1 : 0;
-  }
-
   const CodebookHardware hw_;
+  ClockedPort port_;
   std::vector<Reader> readers_;
-  std::uint64_t unasked_, answered_in_ = 0, now_ = 0;
+  ClockedTransfer load_;
+  std::uint64_t now_ = 0;
 };
 
 class ClockedDecodingFilter {
@@ -75,24 +69,22 @@ class ClockedDecodingFilter {
       : reader_(reader),
         fetch_(hardware),
         ffu_(hardware),
-        decoded_(kDecodedEntries, codebooks.latency_cycles + 1) {}
+        decoded_(kDecodedEntries, codebooks.latency_cycles) {}
 
   ClockedFifo<std::uint64_t>& out() { return ffu_.out; }
   void step_results() { ffu_.step_results(); }
-  // Before the codebooks' step().
-  void begin(ClockedCodebooks& codebooks) {
+  // Before the codebooks' step(). finished: of a group, whether the news has come.
+  template <class Finished>
+  void begin(ClockedCodebooks& codebooks, const Finished& finished) {
+    if (decoding_ && codebooks.done(reader_)) end_decoding();
     fetch_.step_slots();
-    begin_test();
-    begin_decoding(codebooks);
+    begin_test(finished);
+    begin_decoding(codebooks, finished);
   }
   // Behind it.
-  void step(const ClockedCodebooks& codebooks, ClockedFifo<FineItem>& candidates) {
-    if (decoding_ && codebooks.done(reader_)) {
-      decoding_ = false;
-      fetch_.free_slot(1);
-      decoded_.put(fetch_.take());
-    }
-    fetch_.step(candidates);
+  template <class Finished>
+  void step(ClockedFifo<FineItem>& candidates, const Finished& finished) {
+    fetch_.step(candidates, finished);
     decoded_.step();
     ffu_.step();
   }
@@ -100,20 +92,35 @@ class ClockedDecodingFilter {
  private:
   static constexpr std::size_t kDecodedEntries = 2;
 
-  void begin_test() {
+  template <class Finished>
+  void begin_test(const Finished& finished) {
     if (!decoded_.can_take() || !ffu_.has_place()) return;
-    if (!decoded_.front().is_mark && !ffu_.has_turn()) return;
+    if (!decoded_.front().is_mark) {
+      if (!ffu_.is_free()) return;
+      if (!ffu_.wants(decoded_.front(), finished)) {
+        decoded_.take();
+        ffu_.drop();
+        return;
+      }
+      if (!ffu_.has_turn()) return;
+    }
     ffu_.begin(decoded_.take(), 1);
   }
   // Lines go into the entry of the decoded Gaussian, which must be free when the first is read.
-  void begin_decoding(ClockedCodebooks& codebooks) {
+  template <class Finished>
+  void begin_decoding(ClockedCodebooks& codebooks, const Finished& finished) {
     if (decoding_ || !fetch_.can_take() || !decoded_.has_room()) return;
-    if (fetch_.front().is_mark) {
-      decoded_.put(fetch_.take());
-    } else if (fetch_.data_is_in() && codebooks.full()) {
-      codebooks.read(reader_, fetch_.front().banks);
-      decoding_ = true;
-    }
+    const FineItem& item = fetch_.front();
+    if (!item.is_mark && !fetch_.data_is_in()) return;
+    const bool reads = !item.is_mark && !finished(item.group);
+    if (reads && !codebooks.full()) return;
+    codebooks.read(reader_, reads ? item.banks : std::vector<std::uint32_t>());
+    decoding_ = true;
+  }
+  void end_decoding() {
+    decoding_ = false;
+    if (!fetch_.front().is_mark) fetch_.free_slot(0);
+    decoded_.put(fetch_.take());
   }
 
   const std::uint32_t reader_;

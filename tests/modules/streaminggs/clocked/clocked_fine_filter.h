@@ -13,22 +13,33 @@ class ClockedFineFilter {
 
   ClockedFifo<std::uint64_t>& out() { return ffu_.out; }
   void step_results() { ffu_.step_results(); }
-  void step(ClockedFifo<FineItem>& candidates) {
+  template <class Finished>
+  void step(ClockedFifo<FineItem>& candidates, const Finished& finished) {
     fetch_.step_slots();
-    begin_test();
-    fetch_.step(candidates);
+    begin_test(finished);
+    fetch_.step(candidates, finished);
     ffu_.step();
   }
 
  private:
   // The oldest of those that are fetched.
-  void begin_test() {
+  template <class Finished>
+  void begin_test(const Finished& finished) {
     if (!fetch_.can_take() || !ffu_.has_place()) return;
-    if (!fetch_.front().is_mark) {
-      if (!fetch_.data_is_in() || !ffu_.has_turn()) return;
-      fetch_.free_slot(hw_.read_cycles);
+    if (fetch_.front().is_mark) {
+      ffu_.begin(fetch_.take(), hw_.read_cycles);
+      return;
     }
-    ffu_.begin(fetch_.take(), hw_.read_cycles);
+    if (!fetch_.data_is_in() || !ffu_.is_free()) return;
+    const bool wanted = ffu_.wants(fetch_.front(), finished);
+    if (wanted && !ffu_.has_turn()) return;
+    fetch_.free_slot(hw_.read_cycles);
+    const FineItem item = fetch_.take();
+    if (wanted) {
+      ffu_.begin(item, hw_.read_cycles);
+    } else {
+      ffu_.drop();
+    }
   }
 
   const FineHardware hw_;

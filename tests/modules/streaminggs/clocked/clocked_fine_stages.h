@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/modules/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_port.h"
 
 namespace sgs::test {
 
@@ -18,25 +19,28 @@ struct FineHardware {
   std::uint32_t depth_cycles = 198;
   std::uint32_t read_cycles = 7;  // of a record, out of its slot
   std::uint32_t output_entries = 20;
-  std::uint32_t memory_latency = 20;
+  bool reports_rejects = false;  // they go on, as kRejectedItem
+  PortHardware port = {};
 };
+constexpr std::uint64_t kRejectedItem = 1U << 21U;
 
 struct FineItem {
   std::uint64_t what = 0;
+  std::uint32_t group = 0;
   bool is_mark = false;
-  bool passes = true;                // goes on; or nothing does
-  std::uint32_t transactions = 1;    // that fetch it
-  std::vector<std::uint32_t> banks;  // of the codebook buffer, of the lines of its entries
+  bool passes = true;
+  ClockedTransfer read = {};              // that fetches it; of a mark nothing
+  std::vector<std::uint32_t> banks = {};  // of the codebook buffer, of the lines of its entries
 };
 
 class ClockedFetch {
  public:
   explicit ClockedFetch(const FineHardware& hardware)
-      : hw_(hardware), free_slots_(hardware.slots) {}
+      : hw_(hardware), port_(hardware.port), free_slots_(hardware.slots) {}
 
   bool can_take() const { return !fetched_.empty() && fetched_.front().seen_in == 0; }
   const FineItem& front() const { return fetched_.front().item; }
-  bool data_is_in() const { return fetched_.front().data_in == 0; }
+  bool data_is_in() const { return port_.answered(front().read); }
   FineItem take() {
     FineItem item = std::move(fetched_.front().item);
     fetched_.pop_front();
@@ -46,38 +50,38 @@ class ClockedFetch {
 
   // In every cycle step_slots() comes before those who take and free, step() behind them.
   void step_slots() {
+    port_.begin_cycle();
     while (!freed_.empty() && freed_.front() == 0) {
       ++free_slots_;
       freed_.pop_front();
     }
   }
-  void step(ClockedFifo<FineItem>& candidates) {
-    fetch(candidates);
-    for (Fetched& entry : fetched_) {
-      entry.seen_in -= entry.seen_in > 0 ? 1 : 0;
-      entry.data_in -= entry.data_in > 0 ? 1 : 0;
-    }
+  // finished: of a group, whether the news has come.
+  template <class Finished>
+  void step(ClockedFifo<FineItem>& candidates, const Finished& finished) {
+    fetch(candidates, finished);
+    for (Fetched& entry : fetched_) entry.seen_in -= entry.seen_in > 0 ? 1 : 0;
     for (std::uint32_t& left : freed_) --left;
   }
 
  private:
   struct Fetched {
     FineItem item;
-    std::uint32_t seen_in = 1, data_in = 0;
+    std::uint32_t seen_in = 1;
   };
 
-  void fetch(ClockedFifo<FineItem>& candidates) {
+  template <class Finished>
+  void fetch(ClockedFifo<FineItem>& candidates, const Finished& finished) {
     if (asking_) {
-      std::uint32_t& left = asking_->transactions;
-      if (!asking_->is_mark && left > 0) --left;
-      if (!asking_->is_mark && left > 0) return;
-      if (fetched_.size() == hw_.slots + 1) return;
-      fetched_.push_back({*asking_, 1, asking_->is_mark ? 0 : hw_.memory_latency});
+      if (!port_.read(asking_->read) || fetched_.size() == hw_.slots + 1) return;
+      fetched_.push_back({*asking_});
       asking_.reset();
     }
     if (!fetching_) {
       if (!candidates.can_take()) return;
       fetching_ = candidates.take();
+      if (!fetching_->is_mark && finished(fetching_->group)) drop();
+      if (!fetching_) return;
     }
     if (!fetching_->is_mark) {
       if (free_slots_ == 0) return;
@@ -86,8 +90,17 @@ class ClockedFetch {
     asking_ = fetching_;
     fetching_.reset();
   }
+  // A rejected one keeps its place in the order, as a mark does.
+  void drop() {
+    if (hw_.reports_rejects) {
+      fetching_ = FineItem{kRejectedItem, fetching_->group, true};
+    } else {
+      fetching_.reset();
+    }
+  }
 
   const FineHardware hw_;
+  ClockedPort port_;
   std::optional<FineItem> fetching_, asking_;  // wants a slot; its transactions leave
   std::deque<Fetched> fetched_;
   std::uint32_t free_slots_;
@@ -105,18 +118,33 @@ class ClockedFfu {
   void step_results() {
     for (InTest& test : in_test_) --test.left;
     while (!in_test_.empty() && in_test_.front().left == 0) {
-      if (in_test_.front().passes) out.put(in_test_.front().what);
+      const InTest& test = in_test_.front();
+      if (test.passes || hw_.reports_rejects) out.put(test.passes ? test.what : kRejectedItem);
       in_test_.pop_front();
     }
   }
   bool has_place() const { return in_test_.size() + out.fill() < hw_.output_entries; }
-  bool has_turn() const { return now_ % hw_.test_cycles == 0 && lanes_free_in_ == 0; }
+  bool is_free() const { return lanes_free_in_ == 0; }
+  // Of one that could begin: whether its group wants it, which is asked once.
+  template <class Finished>
+  bool wants(const FineItem& item, const Finished& finished) {
+    if (!wants_) wants_ = !finished(item.group);
+    return *wants_;
+  }
+  bool has_turn() const { return now_ % hw_.test_cycles == 0; }
   // A mark passes beside what the lanes do. read_cycles: that an item is being read.
   void begin(const FineItem& item, std::uint32_t read_cycles) {
     if (!item.is_mark) {
       lanes_free_in_ = hw_.test_cycles < read_cycles ? read_cycles : hw_.test_cycles;
     }
     in_test_.push_back({hw_.depth_cycles + 1, item.what, item.passes});
+    if (!item.is_mark) wants_.reset();
+  }
+  // A cycle of the lanes' time.
+  void drop() {
+    lanes_free_in_ = 1;
+    if (hw_.reports_rejects) in_test_.push_back({hw_.depth_cycles + 1, 0, false});
+    wants_.reset();
   }
   void step() {
     lanes_free_in_ -= lanes_free_in_ > 0 ? 1 : 0;
@@ -132,6 +160,7 @@ class ClockedFfu {
   const FineHardware hw_;
   std::uint64_t now_ = 0;
   std::uint32_t lanes_free_in_ = 0;
+  std::optional<bool> wants_;
   std::deque<InTest> in_test_;
 };
 

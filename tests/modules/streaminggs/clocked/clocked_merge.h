@@ -16,6 +16,7 @@ namespace sgs::test {
 
 struct MergeItem {
   std::uint64_t key = 0;  // in final order; of a mark what it is told by
+  std::uint32_t group = 0;
   bool is_mark = false, ends_group = false;
   std::uint64_t bound = 0;  // of a mark: keys below it are final
 };
@@ -25,21 +26,23 @@ class ClockedMerge {
   ClockedMerge(std::uint32_t cycles_per_operation, std::size_t entries, const SpillHardware& spill)
       : pace_(cycles_per_operation), entries_(entries), spill_(spill) {}
 
-  void step(std::vector<ClockedFifo<MergeItem>>& in, std::vector<ClockedFifo<MergeItem>>& out) {
+  // finished: of a group, whether the news has come; of one that spills it never does.
+  template <class Finished>
+  void step(std::vector<ClockedFifo<MergeItem>>& in, std::vector<ClockedFifo<MergeItem>>& out,
+            const Finished& finished) {
     if (sent_ && out[sequence_ % out.size()].has_room()) {
       out[sequence_++ % out.size()].put(*sent_);
       sent_.reset();
       if (sent_of_run_) spill_.take_nearest();
       sent_of_run_ = false;
     }
-    spill_.step_port(now_);
+    spill_.step_port();
     if (spill_.at_work()) step_spill();
-    if (!spill_.at_work() && spill_.ready(now_)) {
-      if (!sent_ && releasing_) release();
-      if (!sent_ && !releasing_) take(in[visit_ % in.size()]);
+    if (!spill_.at_work() && spill_.ready()) {
+      if (!sent_ && releasing_) release(finished(mark_.group));
+      if (!sent_ && !releasing_) take(in[visit_ % in.size()], finished);
     }
     heap_busy_ -= heap_busy_ > 0 ? 1 : 0;
-    ++now_;
   }
 
  private:
@@ -49,10 +52,14 @@ class ClockedMerge {
     return true;
   }
 
-  void take(ClockedFifo<MergeItem>& in) {
-    if (!at_hand_ && in.can_take()) at_hand_ = in.take();
+  template <class Finished>
+  void take(ClockedFifo<MergeItem>& in, const Finished& finished) {
+    const bool is_next = !at_hand_ && in.can_take();
+    if (is_next) at_hand_ = in.take();
     if (!at_hand_) return;
-    if (at_hand_->is_mark) {
+    if (is_next && !at_hand_->is_mark && finished(at_hand_->group)) {
+      at_hand_.reset();
+    } else if (at_hand_->is_mark) {
       mark_ = *at_hand_;
       at_hand_.reset();
       releasing_ = true;  // from the next cycle on
@@ -67,14 +74,15 @@ class ClockedMerge {
   }
 
   void step_spill() {
-    spill_.step(now_, [this]() -> std::optional<std::uint64_t> {
+    spill_.step([this]() -> std::optional<std::uint64_t> {
       if (!begin_operation()) return {};
       return heap_.extract(std::prev(heap_.end())).value();
     });
   }
 
-  // What is final, then the mark of a group.
-  void release() {
+  // What is final, then the mark of a group. Of a finished one no key begins to leave.
+  void release(bool finished) {
+    if (finished && !leaves_) heap_.clear();
     const std::optional<std::uint64_t> spilled = spill_.nearest();
     if (spilled && (heap_.empty() || *spilled < *heap_.begin()) && *spilled < mark_.bound) {
       sent_ = MergeItem{*spilled};
@@ -82,7 +90,8 @@ class ClockedMerge {
       return;
     }
     if (!heap_.empty() && *heap_.begin() < mark_.bound) {
-      if (!begin_operation()) return;
+      leaves_ = !begin_operation();
+      if (leaves_) return;
       sent_ = MergeItem{*heap_.begin()};
       heap_.erase(heap_.begin());
       return;
@@ -101,8 +110,9 @@ class ClockedMerge {
   std::optional<MergeItem> at_hand_, sent_;
   MergeItem mark_;
   bool releasing_ = false;
+  bool leaves_ = false;       // the root, at the heap's pace
   bool sent_of_run_ = false;  // it stays in its block until it has gone
-  std::uint64_t visit_ = 0, sequence_ = 0, now_ = 0;
+  std::uint64_t visit_ = 0, sequence_ = 0;
 };
 
 }  // namespace sgs::test

@@ -37,15 +37,16 @@ class ClockedOrderingTable {
   }
   bool fits() const { return fits_; }
 
-  // The first read is of this cycle.
-  void begin_add(Chain& chain, std::uint32_t voxel) {
-    from_ = chain;
-    chain_ = &chain;
+  // The first read is of this cycle. from: the voxel that the ray met before.
+  void begin_add(Chain from, std::uint32_t voxel) {
+    from_ = from;
     voxel_ = voxel;
     number_ = kNone;
     slot_ = hash(voxel);
     doing_ = Doing::kSlot;
   }
+  // Of the voxel that was added last.
+  Chain number() const { return number_; }
   // Kahn's algorithm, from this cycle on; the voxels are in the order of their reading then.
   void begin_order() {
     order_.clear();
@@ -155,7 +156,6 @@ class ClockedOrderingTable {
       fits_ = has_room();
     }
     is_new_ = new_edge_ = false;
-    *chain_ = number_;
   }
 
   void next_ready() {
@@ -195,7 +195,6 @@ class ClockedOrderingTable {
   bool fits_ = true;
   Doing doing_ = Doing::kNothing;
   Chain from_ = kNone;
-  Chain* chain_ = nullptr;
   std::uint32_t voxel_ = 0, number_ = 0, slot_ = 0, edge_ = kNone;
   std::uint32_t left_ = 0, named_ = kNone;  // reads until a ready one is found; by an edge
   std::vector<std::uint32_t> order_;

@@ -39,6 +39,7 @@ class ClockedPaperVsu {
         layout_(layout),
         groups_(groups),
         rays_(hw_.rays, view, grid, layout.nodes),
+        port_(hw_.rays.port),
         table_(grid.voxels.size(), hw_.table_bytes, hw_.table_banks),
         ordered_(hw_.lists),
         records_(hw_.record_cache_bytes),
@@ -52,6 +53,7 @@ class ClockedPaperVsu {
   // shares: one FIFO a fetch. finished: of a group, whether the news has come.
   template <class Finished>
   void step(std::vector<ClockedFifo<std::uint64_t>>& shares, const Finished& finished) {
+    port_.begin_cycle();
     emit(shares, finished);
     traverse();
     ordered_.step();
@@ -116,8 +118,8 @@ class ClockedPaperVsu {
   // Until something takes time.
   template <class Finished>
   void emit(std::vector<ClockedFifo<std::uint64_t>>& shares, const Finished& finished) {
-    if (wait_ > 0 && --wait_ > 0) return;
-    while (wait_ == 0) {
+    if (!port_.answered(line_) || (wait_ > 0 && --wait_ > 0)) return;
+    while (wait_ == 0 && port_.answered(line_)) {
       switch (emitting_) {
         case Emit::kIdle:
           if (!ordered_.can_take()) return;
@@ -171,8 +173,11 @@ class ClockedPaperVsu {
   void look_up(ClockedCache& cache, const RecordArray& table, std::uint32_t index, Emit then) {
     const std::uint64_t line = table.address(index) / ClockedCache::kLineBytes;
     const bool hit = cache.hits(line);
-    if (!hit) cache.fill(line);
-    go_on(then, hit ? 0 : hw_.rays.memory_latency);
+    emitting_ = then;
+    if (hit) return;
+    cache.fill(line);
+    line_ = {line * ClockedCache::kLineBytes, 1};
+    port_.read(line_);
   }
   void next_piece() {
     if (open_.empty()) {
@@ -230,6 +235,8 @@ class ClockedPaperVsu {
   const VoxelTableLayout& layout_;
   const std::vector<PixelRect>& groups_;
   ClockedRays rays_;
+  ClockedPort port_;  // of records and planes
+  ClockedTransfer line_;
   ClockedOrderingTable table_;
   Rays doing_ = Rays::kBegin;
   std::size_t group_ = 0;

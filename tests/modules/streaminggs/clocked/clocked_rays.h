@@ -25,7 +25,7 @@ struct RaysHardware {
   std::uint32_t block_cycles = 46, cell_cycles = 13, begin_cycles = 100;
   std::uint32_t compare_cycles = 3;  // of the rounds of all
   std::uint32_t node_cache_bytes = 2048;
-  std::uint32_t memory_latency = 20;
+  PortHardware port = {};
   std::uint32_t node_fetches = 7;  // lines on their way
 };
 
@@ -38,7 +38,7 @@ class ClockedRays {
         grid_(grid),
         table_of_nodes_(nodes),
         contexts_(hw.rays, Context{RayPath<float>(grid.frame)}),
-        nodes_(hw.node_cache_bytes, hw.memory_latency, hw.node_fetches) {}
+        nodes_(hw.node_cache_bytes, hw.port, hw.node_fetches) {}
 
   // All is free and the table empty; the first step is of this cycle. window: of what is entered.
   void begin(const PixelRect& group, const VisitWindow& window) {
@@ -105,6 +105,7 @@ class ClockedRays {
     if (pixels_->done()) return;
     context.path.begin(pixel_ray(view_, pixels_->x(), pixels_->y()));
     context.chain = ClockedOrderingTable::kNone;
+    of_ray_before_ = of_ray_before_ || (adding_ && entering_ == c);
     pixels_->next();
     context.state = State::kWaits;
     begins_.push_back(c);
@@ -121,6 +122,7 @@ class ClockedRays {
     adding_ = false;
     overflows_ = !table.fits();
     --contexts_[entering_].entering;
+    if (!of_ray_before_) contexts_[entering_].chain = table.number();
     if (contexts_[entering_].state == State::kWithoutRoom) due_in(entering_, 1);
   }
 
@@ -141,6 +143,7 @@ class ClockedRays {
       ++context.entering;
       entering_ = *found_;
       adding_ = true;
+      of_ray_before_ = false;
     }
     found_.reset();
   }
@@ -261,6 +264,7 @@ class ClockedRays {
   std::optional<std::size_t> found_;  // first of all rounds, when it has ended
   std::size_t entering_ = 0;          // context whose voxel the table takes
   bool adding_ = false;               // still
+  bool of_ray_before_ = false;        // whose context has the next ray already
 };
 
 }  // namespace sgs::test

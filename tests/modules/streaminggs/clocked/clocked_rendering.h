@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/modules/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_port.h"
 
 namespace sgs::test {
 
@@ -19,7 +20,8 @@ struct RenderingHardware {
   std::uint32_t depth = 50, state_loop = 10;
   std::uint32_t begin_interval = 7, begin_depth = 91, rows_at_once = 1, row_interval = 2;
   std::uint32_t row_depth = 42, slots = 48;
-  std::uint32_t pixel_buffers = 1, drain_depth = 11, write_latency = 150;
+  std::uint32_t pixel_buffers = 1, drain_depth = 11;
+  PortHardware port = {};
 };
 
 // A sub-tile that a splat reaches, by its place in the group.
@@ -36,20 +38,30 @@ struct RenderingItem {
 // A group's pixels on their way out, row by row.
 struct DrainedGroup {
   std::uint32_t subtiles = 0;
-  std::uint32_t row_cycles = 0;                 // of a row of pixels
-  std::vector<std::uint32_t> row_transactions;  // [row]
+  std::uint32_t row_cycles = 0;  // of a row of pixels
+  std::vector<ClockedTransfer> rows;
+};
+// A group, and from which cycle on all of its sub-tiles are known to be finished.
+struct GroupNews {
+  std::uint32_t group;
+  std::uint64_t cycle;
 };
 
 class ClockedRendering {
  public:
   ClockedRendering(const RenderingHardware& hardware, std::vector<DrainedGroup> groups)
-      : hw_(hardware), groups_(std::move(groups)), free_buffers_(hardware.pixel_buffers) {
+      : hw_(hardware),
+        port_(hardware.port),
+        groups_(std::move(groups)),
+        free_buffers_(hardware.pixel_buffers) {
     clusters_.resize(hw_.clusters);
   }
 
-  bool done() const { return drained_ == groups_.size() && unanswered_in_ == 0; }
+  bool done() const { return drained_ == groups_.size() && port_.idle(); }
+  const std::vector<GroupNews>& finished() const { return finished_groups_; }
 
   void step(std::vector<ClockedFifo<RenderingItem>>& in) {
+    port_.begin_cycle();
     drain();
     if (!open_) open_group();
     if (open_) {
@@ -73,7 +85,6 @@ class ClockedRendering {
       blended_.pop_front();
       ++waiting_;
     }
-    unanswered_in_ -= unanswered_in_ > 0 ? 1 : 0;
   }
 
  private:
@@ -93,6 +104,7 @@ class ClockedRendering {
     --free_buffers_;
     open_ = true;
     ended_ = false;
+    unfinished_ = groups_[group_].subtiles;
     loop_.assign(groups_[group_].subtiles, 0);
     known_in_.assign(groups_[group_].subtiles, kNever);
   }
@@ -115,7 +127,11 @@ class ClockedRendering {
     cluster.queue.pop_front();
     cluster.busy = hw_.blend_interval;
     loop_[reach.at] = hw_.state_loop;
-    if (reach.finishes) known_in_[reach.at] = hw_.depth;
+    if (!reach.finishes) return;
+    known_in_[reach.at] = hw_.depth;
+    if (--unfinished_ == 0) {
+      finished_groups_.push_back({static_cast<std::uint32_t>(group_), now_ + hw_.depth});
+    }
   }
 
   void take(std::vector<ClockedFifo<RenderingItem>>& in) {
@@ -191,10 +207,8 @@ class ClockedRendering {
     row = std::move(left);
   }
 
-  // A row of pixels, then its transactions, one a cycle; the next row is read meanwhile, but does
-  // not go before they have left.
+  // A row of pixels, then its transactions; the next row is read when the last of them leaves.
   void drain() {
-    port_busy_ -= port_busy_ > 0 ? 1 : 0;
     if (!draining_) {
       if (waiting_ == 0) return;
       --waiting_;
@@ -218,12 +232,8 @@ class ClockedRendering {
       return;
     }
     // The row stands in a register: its transactions leave.
-    if (to_leave_ == 0) to_leave_ = group.row_transactions[row_at_];
-    if (port_busy_ > 0) return;
-    port_busy_ = 1;
-    unanswered_in_ = hw_.write_latency + 1;
-    if (--to_leave_ > 0) return;
-    if (++row_at_ < group.row_transactions.size()) {
+    if (!port_.write(groups_[drained_].rows[row_at_])) return;
+    if (++row_at_ < group.rows.size()) {
       reading_ = group.row_cycles - 1;
       return;
     }
@@ -231,10 +241,12 @@ class ClockedRendering {
   }
 
   const RenderingHardware hw_;
-  const std::vector<DrainedGroup> groups_;
+  ClockedPort port_;
+  std::vector<DrainedGroup> groups_;
+  std::vector<GroupNews> finished_groups_;
   std::uint64_t now_ = 0;
   std::size_t group_ = 0, drained_ = 0, waiting_ = 0;
-  std::uint32_t free_buffers_;
+  std::uint32_t free_buffers_, unfinished_ = 0;  // sub-tiles
   bool open_ = false, ended_ = false, begins_ = false;
   std::vector<Cluster> clusters_;
   std::vector<std::uint32_t> loop_, known_in_;  // [sub-tile] cycles left
@@ -245,7 +257,7 @@ class ClockedRendering {
   std::deque<std::uint32_t> blended_;             // groups in the last stages: cycles left
   bool draining_ = false, clearing_ = false;
   std::size_t row_at_ = 0;
-  std::uint32_t reading_ = 0, to_leave_ = 0, port_busy_ = 0, unanswered_in_ = 0;
+  std::uint32_t reading_ = 0;
 };
 
 }  // namespace sgs::test

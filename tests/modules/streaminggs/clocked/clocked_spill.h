@@ -1,6 +1,6 @@
-// The merge unit's way to DRAM register by register: a port that a transaction leaves in a cycle,
-// runs of keys with two blocks each, of which one is read and one is on its way, and the block that
-// is written. One thing at a time: a run is read from once all of it is written.
+// The merge unit's way to DRAM register by register: what is asked of its port in turn, runs of
+// keys with two blocks each, of which one is read and one is on its way, and the block that is
+// written. One thing at a time: a run is read from once all of it is written.
 #pragma once
 
 #include <algorithm>
@@ -11,59 +11,64 @@
 #include <optional>
 #include <vector>
 
+#include "tests/modules/clocked/clocked_port.h"
+
 namespace sgs::test {
 
 struct SpillHardware {
   std::uint32_t runs = 8, block_entries = 8;
-  std::uint32_t read_latency = 20, write_latency = 150;
+  PortHardware port = {};
   std::uint64_t base = 0, area_bytes = 0;  // of the first of two areas
 };
-constexpr std::uint32_t kSpilledKeyBytes = 32, kTransactionBytes = 256;
+constexpr std::uint32_t kSpilledKeyBytes = 32;
 
+// One thing after the other leaves.
 class ClockedSpillPort {
  public:
-  explicit ClockedSpillPort(const SpillHardware& hardware) : hw_(hardware) {}
+  explicit ClockedSpillPort(const SpillHardware& hardware) : port_(hardware.port) {}
 
-  // there: of a read, the cycle from which on its bytes are there.
-  void ask(std::uint64_t address, std::uint64_t bytes, std::uint64_t* there) {
-    const std::uint64_t end = address + bytes;
-    for (; address < end; address = (address / kTransactionBytes + 1) * kTransactionBytes) {
-      asked_.push_back(there);
-    }
-  }
+  void read(ClockedTransfer& what) { asked_.push_back({&what, {}}); }
+  void write(const ClockedTransfer& what) { asked_.push_back({nullptr, what}); }
   bool has_asked() const { return asked_.empty(); }
-  bool answered(std::uint64_t now) const { return has_asked() && last_answer_ <= now; }
-  void step(std::uint64_t now) {
-    if (asked_.empty()) return;
-    std::uint64_t* there = asked_.front();
-    asked_.pop_front();
-    const std::uint64_t answer = now + (there != nullptr ? hw_.read_latency : hw_.write_latency);
-    last_answer_ = std::max(last_answer_, answer);
-    if (there != nullptr) *there = answer;
+  bool answered(const ClockedTransfer& read) const { return port_.answered(read); }
+  bool idle() const { return has_asked() && port_.idle(); }
+  void begin_cycle() {
+    port_.begin_cycle();
+    ask();
+  }
+  void ask() {
+    while (!asked_.empty()) {
+      Asked& next = asked_.front();
+      if (!(next.read != nullptr ? port_.read(*next.read) : port_.write(next.written))) return;
+      asked_.pop_front();
+    }
   }
 
  private:
-  const SpillHardware hw_;
-  std::deque<std::uint64_t*> asked_;  // transactions; null: a write
-  std::uint64_t last_answer_ = 0;
+  struct Asked {
+    ClockedTransfer* read;  // null: a write
+    ClockedTransfer written;
+  };
+  ClockedPort port_;
+  std::deque<Asked> asked_;
 };
 
 struct ClockedRun {
   std::uint64_t address = 0;
   std::deque<std::uint64_t> keys;  // in final order; not yet taken
   std::size_t unasked = 0, taken = 0;
-  std::uint64_t there[2] = {0, 0};  // of its blocks
+  ClockedTransfer blocks[2];
 
   void ask(ClockedSpillPort& port, const SpillHardware& hw, std::uint32_t block) {
     const std::size_t entries = std::min<std::size_t>(unasked, hw.block_entries);
     if (entries == 0) return;
     const std::size_t first = taken + keys.size() - unasked;
-    port.ask(address + first * kSpilledKeyBytes, entries * kSpilledKeyBytes, &there[block]);
-    there[block] = ~std::uint64_t{0};
+    blocks[block] = {address + first * kSpilledKeyBytes, entries * kSpilledKeyBytes};
+    port.read(blocks[block]);
     unasked -= entries;
   }
-  bool front_is_there(const SpillHardware& hw, std::uint64_t now) const {
-    return there[taken / hw.block_entries % 2] <= now;
+  bool front_is_there(const ClockedSpillPort& port, const SpillHardware& hw) const {
+    return port.answered(blocks[taken / hw.block_entries % 2]);
   }
   // The block that is read to its end is asked for again.
   void take(ClockedSpillPort& port, const SpillHardware& hw) {
@@ -78,10 +83,10 @@ class ClockedSpill {
  public:
   explicit ClockedSpill(const SpillHardware& hardware) : hw_(hardware), port_(hardware) {}
 
-  void step_port(std::uint64_t now) { port_.step(now); }
+  void step_port() { port_.begin_cycle(); }
   bool at_work() const { return phase_ != Phase::kNone; }
   // What was asked for has left, and the nearest key of each run is there.
-  bool ready(std::uint64_t now) const { return port_.has_asked() && fronts_are_there(runs_, now); }
+  bool ready() const { return port_.has_asked() && fronts_are_there(runs_); }
   std::optional<std::uint64_t> nearest() const {
     if (runs_.empty()) return {};
     return nearest_of(runs_)->keys.front();
@@ -103,10 +108,10 @@ class ClockedSpill {
 
   // farthest(): of the heap, if it begins an operation in this cycle.
   template <class Farthest>
-  void step(std::uint64_t now, const Farthest& farthest) {
+  void step(const Farthest& farthest) {
     while (at_work() && port_.has_asked()) {
       if (phase_ == Phase::kMerging) {
-        if (fronts_are_there(merging_, now)) write_nearest();
+        if (fronts_are_there(merging_)) write_nearest();
         return;
       }
       if (phase_ == Phase::kSpilling) {
@@ -114,10 +119,10 @@ class ClockedSpill {
         return;
       }
       if (phase_ == Phase::kWritten) {
-        if (!port_.answered(now)) return;
+        if (!port_.idle()) return;
         open_run();
-        port_.step(now);
-      } else if (runs_.back().front_is_there(hw_, now)) {
+        port_.ask();
+      } else if (runs_.back().front_is_there(port_, hw_)) {
         opened();
       } else {
         return;
@@ -129,9 +134,9 @@ class ClockedSpill {
   enum class Phase { kNone, kMerging, kSpilling, kWritten, kOpening };
   using Runs = std::list<ClockedRun>;
 
-  bool fronts_are_there(const Runs& runs, std::uint64_t now) const {
+  bool fronts_are_there(const Runs& runs) const {
     return std::all_of(runs.begin(), runs.end(),
-                       [&](const ClockedRun& run) { return run.front_is_there(hw_, now); });
+                       [&](const ClockedRun& run) { return run.front_is_there(port_, hw_); });
   }
   template <class AnyRuns>
   static auto nearest_of(AnyRuns& runs) -> decltype(runs.begin()) {
@@ -204,7 +209,7 @@ class ClockedSpill {
     if (at == 0) phase_ = Phase::kWritten;
   }
   void write(std::size_t first, std::size_t keys) {
-    port_.ask(written_.address + first * kSpilledKeyBytes, keys * kSpilledKeyBytes, nullptr);
+    port_.write({written_.address + first * kSpilledKeyBytes, keys * kSpilledKeyBytes});
   }
   void open_run() {
     phase_ = Phase::kOpening;

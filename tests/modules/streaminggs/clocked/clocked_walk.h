@@ -14,6 +14,8 @@
 
 #include "algorithm/order/chunk_walk.h"
 #include "tests/modules/clocked/clocked_fifo.h"
+#include "tests/modules/clocked/clocked_port.h"
+#include "tests/modules/clocked/surroundings.h"
 
 namespace sgs::test {
 
@@ -23,37 +25,38 @@ struct WalkHardware {
   std::uint32_t depth_cycles = 198;
   std::uint32_t operation_cycles = 3;  // of a queue
   std::uint32_t queue_entries = 512, node_queue_entries = 256;
-  std::uint32_t memory_latency = 40;
-  std::uint32_t upper_transactions = 1;  // that load the upper nodes
+  PortHardware port = {};
 };
 
 class ClockedWalk {
  public:
   static constexpr std::uint64_t kEndOfGroup = std::numeric_limits<std::uint64_t>::max();
 
-  // nodes: of the tree, which outlive it as view and groups do.
+  // nodes: of the tree, at their places in memory; they outlive it as view and groups do.
   ClockedWalk(const WalkHardware& hardware, const View<float>& view,
-              const std::vector<ChunkNode>& nodes, const std::vector<PixelRect>& groups)
+              const std::vector<ChunkNode>& nodes, const RecordArray& places,
+              const std::vector<PixelRect>& groups, const Finishing& finishing)
       : hw_(hardware),
+        port_(hardware.port),
         nodes_(nodes),
+        places_(places),
         groups_(groups),
+        finishing_(finishing),
         walk_(view, aside_, {hw_.node_queue_entries, hw_.queue_entries}) {
-    const bool loads = !nodes.empty() && hw_.upper_nodes > 0;
-    if (loads) busy_ = hw_.upper_transactions + hw_.memory_latency;
+    const std::uint64_t upper = std::min<std::uint64_t>(hw_.upper_nodes, nodes.size());
+    upper_ = {places.base, upper * places.record_bytes};
   }
 
   // visits: one FIFO a HFU, taken in turn.
   void step(std::vector<ClockedFifo<std::uint64_t>>& visits) {
+    port_.begin_cycle();
     hand_out(visits);
     room_ += credits_;
     credits_ = std::exchange(new_credits_, 0);
     if (busy_ > 0) --busy_;
-    if (busy_ == 0) {
-      finish_step();
-      begin_step();
-    }
+    if (busy_ == 0 && port_.read(upper_) && port_.answered(upper_) && finish_step()) begin_step();
     test();
-    for (InFlight& node : in_flight_) node.left -= node.left > 0 ? 1 : 0;
+    for (InFlight& node : in_flight_) node.came = port_.answered(node.read);
     for (Tested& node : tested_) node.left -= node.left > 0 ? 1 : 0;
     waiting_.step();
     ready_.step();
@@ -74,20 +77,30 @@ class ClockedWalk {
   };
   struct InFlight {
     WalkEntry entry;
+    ClockedTransfer read;
+    bool came = false;  // by the last edge
+  };
+  struct Tested {
+    WalkEntry entry;
     std::uint32_t left;  // cycles until it can be taken
   };
-  using Tested = InFlight;
+  struct Visit {
+    std::uint64_t what;
+    std::uint32_t group;
+  };
 
-  // What the operation that ends now gives on.
-  void finish_step() {
+  // What the operation that ends now gives on. False: it waits for the port.
+  bool finish_step() {
     if (to_test_) {
       waiting_.put(*to_test_);
       to_test_.reset();
     }
     if (to_read_) {
-      in_flight_.push_back({*to_read_, hw_.memory_latency + 1});
+      if (!port_.read(to_read_->read)) return false;
+      in_flight_.push_back(*to_read_);
       to_read_.reset();
     }
+    return true;
   }
 
   // The queues' operations since the last step, or a cycle of another kind beside them.
@@ -104,6 +117,10 @@ class ClockedWalk {
         return;
     }
   }
+  // Of the group behind the first nothing is finished.
+  bool hidden(const WalkEntry& entry) const {
+    return walk_.of_first(entry) && finishing_.all_seen(group_, groups_[group_], entry.reach, now_);
+  }
   bool begin_group() {
     if (next_group_ == groups_.size()) return false;
     if (walk_.begun() > 0 && !walk_.has_read_ahead()) return false;
@@ -118,14 +135,29 @@ class ClockedWalk {
     if (on_chip ? in_test_ == hw_.nodes_in_test : in_flight_.size() == hw_.nodes_in_flight) {
       return false;
     }
-    (on_chip ? to_test_ : to_read_) = walk_.take_node();
-    in_test_ += on_chip ? 1 : 0;
+    const WalkEntry entry = walk_.take_node();
+    if (hidden(entry)) {
+      walk_.leave_out(entry);
+    } else if (on_chip) {
+      to_test_ = entry;
+      ++in_test_;
+    } else {
+      to_read_ = InFlight{entry, {places_.address(entry.at), places_.record_bytes}};
+    }
     take_time(1);
     return true;
   }
   bool give_chunk() {
     if (room_ == 0 || walk_.begun() == 0) return false;
+    if (finishing_.seen(group_, now_) && !walk_.exhausted()) {
+      end_group();
+      return true;
+    }
     if (const std::optional<WalkEntry> next = walk_.take_chunk()) {
+      if (hidden(*next)) {
+        take_time(1);
+        return true;
+      }
       if (held_) give(held_->at);
       held_ = next;
       take_time(1);
@@ -135,13 +167,18 @@ class ClockedWalk {
     if (held_) {
       give(held_->at);
       held_.reset();
+      take_time(1);
     } else {
-      walk_.end();
-      give(kEndOfGroup);
-      ++group_;
+      end_group();
     }
-    take_time(1);
     return true;
+  }
+  void end_group() {
+    held_.reset();
+    walk_.end();
+    give(kEndOfGroup);
+    ++group_;
+    take_time(1);
   }
   bool enter_children() {
     if (tested_.empty() || tested_.front().left > 0) return false;
@@ -153,17 +190,20 @@ class ClockedWalk {
     return true;
   }
   bool begin_test() {
-    if (in_flight_.empty() || in_flight_.front().left > 0) return false;
+    if (in_flight_.empty() || !in_flight_.front().came) return false;
     if (in_test_ == hw_.nodes_in_test) return false;
-    to_test_ = in_flight_.front().entry;
+    const WalkEntry entry = in_flight_.front().entry;
     in_flight_.pop_front();
-    ++in_test_;
+    if (!walk_.has_ended(entry)) {
+      to_test_ = entry;
+      ++in_test_;
+    }
     take_time(1);
     return true;
   }
 
   void give(std::uint64_t what) {
-    ready_.put(what);
+    ready_.put({what, group_});
     --room_;
   }
 
@@ -178,31 +218,39 @@ class ClockedWalk {
     if (--children_ == 0) tested_.push_back({on_lanes_, hw_.depth_cycles + 1});
   }
 
+  // Of a finished group a visit is dropped in its cycle.
   void hand_out(std::vector<ClockedFifo<std::uint64_t>>& visits) {
     if (out_ && visits[visit_ % visits.size()].has_room()) {
       visits[visit_++ % visits.size()].put(*out_);
       out_.reset();
     }
     if (out_ || !ready_.can_take()) return;
-    out_ = ready_.take();
+    const Visit visit = ready_.take();
     ++new_credits_;
+    if (visit.what == kEndOfGroup || !finishing_.seen(visit.group, now_)) out_ = visit.what;
   }
 
   const WalkHardware hw_;
+  ClockedPort port_;
+  ClockedTransfer upper_;  // nodes that are kept on chip, which come first
   const std::vector<ChunkNode>& nodes_;
+  const RecordArray& places_;
   const std::vector<PixelRect>& groups_;
+  const Finishing finishing_;
   Aside aside_;
   ChunkWalk<Aside> walk_;
   std::uint64_t now_ = 0, busy_ = 0, operations_ = 0, visit_ = 0;
-  std::size_t group_ = 0, next_group_ = 0;
-  std::optional<WalkEntry> held_, to_test_, to_read_;
+  std::uint32_t group_ = 0;
+  std::size_t next_group_ = 0;
+  std::optional<WalkEntry> held_, to_test_;
+  std::optional<InFlight> to_read_;
   std::deque<InFlight> in_flight_;
   ClockedFifo<WalkEntry> waiting_{1024};  // in_test_ bounds it
   std::uint32_t in_test_ = 0, children_ = 0;
   WalkEntry on_lanes_;
   std::deque<Tested> tested_;
   std::uint32_t room_ = 4, credits_ = 0, new_credits_ = 0;
-  ClockedFifo<std::uint64_t> ready_{4};
+  ClockedFifo<Visit> ready_{4};
   std::optional<std::uint64_t> out_;
 };
 

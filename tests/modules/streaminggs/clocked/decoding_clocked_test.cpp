@@ -6,6 +6,8 @@
 
 #include "modules/streaminggs/hfu/codebook_buffer.h"
 #include "modules/streaminggs/hfu/fine_filter.h"
+#include "modules/streaminggs/paper_config.h"
+#include "testbench/units/job_memory.h"
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_decoding_filter.h"
 #include "tests/modules/streaminggs/clocked/hfu_workloads.h"
@@ -18,14 +20,13 @@ struct DecodingWorkload {
   std::uint32_t readers = 4;
   CodebookConfig codebook;
   std::uint32_t visit = 50;  // candidates
-  Rejects rejects = Rejects::kDropped;
   Waits waits;
   FineHardware hardware;
 };
 
 // Each reader has the visits that are its in turn, as HFUs of paper order do.
 std::vector<tb::HfuPlan> plans_of(const DecodingWorkload& load, std::uint64_t seed) {
-  tb::SceneShape shape = shape_of();
+  tb::SceneShape shape = shape_of(preset_of<PaperConfig>("paper").group);
   shape.sh_degree = 3;
   shape.encoding = SecondHalfEncoding::kVq;
   const tb::HfuPlan all = fine_plan(shape, load.hardware, load.visit, seed);
@@ -38,12 +39,6 @@ std::vector<tb::HfuPlan> plans_of(const DecodingWorkload& load, std::uint64_t se
     }
   }
   return plans;
-}
-
-std::size_t handed_out(const tb::HfuPlan& plan, Rejects rejects) {
-  const std::vector<FineItem> items = clocked_candidates(plan, rejects);
-  return static_cast<std::size_t>(
-      std::count_if(items.begin(), items.end(), [](const FineItem& item) { return item.passes; }));
 }
 
 // One reader's behind the other's, and behind all the cycle of the last.
@@ -60,10 +55,13 @@ Takings together(const std::vector<Takings>& of_readers) {
 
 void run(tb::Case& test, Takings& taken, const DecodingWorkload& load, std::uint64_t seed) {
   const std::vector<tb::HfuPlan> plans = plans_of(load, seed);
-  tb::UnitBench bench(test, bench_of(plans[0], load.waits));
+  tb::UnitBench bench(test, bench_of(load.hardware.port, tb::memory_bytes(plans[0].scene.job)));
   bench.load(0, plans[0].scene.image.bytes);
-  const UnitContext context = bench.context(plans[0].scene.job);
-  FinishedGroups finished("finished", bench.clock(), 1, 1);
+  const StreamingJob& job = plans[0].scene.job;
+  const UnitContext context = bench.context(job);
+  FinishedGroups finished("finished", bench.clock(), job.groups.size(), 1);
+  add_finishing(bench, load.waits.finishing, job.groups.size(), finished);
+  const Rejects rejects = load.hardware.reports_rejects ? Rejects::kReported : Rejects::kDropped;
   CodebookBuffer codebooks("codebooks", load.codebook, context, bench.instant_end(), load.readers);
   bench.add_unit(codebooks);
   std::vector<std::unique_ptr<FineFilter>> units;
@@ -75,7 +73,7 @@ void run(tb::Case& test, Takings& taken, const DecodingWorkload& load, std::uint
     auto& out = bench.add_fifo<SplatToken>("splats" + number, load.hardware.output_entries,
                                            load.hardware.depth_cycles);
     units.push_back(std::make_unique<FineFilter>(("fine" + number).c_str(), plans[r].config,
-                                                 load.codebook, FineFilterPlace{r, load.rejects},
+                                                 load.codebook, FineFilterPlace{r, rejects},
                                                  context));
     FineFilter& unit = *units.back();
     unit.candidates(in);
@@ -84,7 +82,7 @@ void run(tb::Case& test, Takings& taken, const DecodingWorkload& load, std::uint
     unit.codebooks(codebooks);
     bench.add_unit(unit);
     add_source(bench, "before" + number, candidates_of(plans[r]), load.waits.in(seed + r), in);
-    add_sink(bench, "behind" + number, handed_out(plans[r], load.rejects), load.waits.out(seed + r),
+    add_sink(bench, "behind" + number, until_taken(last_of(plans[r])), load.waits.out(seed + r),
              out, takings[r], what_of_splat);
   }
   bench.run();
@@ -95,11 +93,10 @@ CodebookHardware codebooks_of(const DecodingWorkload& load, const tb::HfuPlan& p
   CodebookHardware hardware;
   hardware.banks = load.codebook.banks;
   hardware.latency_cycles = load.codebook.latency_cycles;
-  hardware.memory_latency = load.waits.memory_latency;
+  hardware.port = load.hardware.port;
   if (!load.codebook.preloaded) {
     const SceneLayout& layout = plan.scene.job.layout;
-    const RecordArray all{0, layout.codebooks.base, layout.second_half.codebook_bytes(), 1};
-    hardware.load_transactions = transactions(all, 0, 1);
+    hardware.load = {layout.codebooks.base, layout.second_half.codebook_bytes()};
   }
   return hardware;
 }
@@ -109,33 +106,35 @@ struct ClockedReader {
   ClockedFifo<FineItem> in;
   ClockedSource<FineItem> source;
   ClockedSink<std::uint64_t> sink;
-  std::size_t items;
+  std::uint64_t last;
 };
 
 Takings clocked(const DecodingWorkload& load, std::uint64_t seed) {
   const std::vector<tb::HfuPlan> plans = plans_of(load, seed);
-  FineHardware hardware = load.hardware;
-  hardware.memory_latency = load.waits.memory_latency;
   const CodebookHardware buffer = codebooks_of(load, plans[0]);
   ClockedCodebooks codebooks(buffer, load.readers);
   std::vector<ClockedReader> readers;
   for (std::uint32_t r = 0; r < load.readers; ++r) {
-    readers.push_back({ClockedDecodingFilter(hardware, buffer, r),
+    readers.push_back({ClockedDecodingFilter(load.hardware, buffer, r),
                        ClockedFifo<FineItem>(kCandidateEntries),
-                       {clocked_candidates(plans[r], load.rejects), load.waits.in(seed + r)},
+                       {clocked_candidates(plans[r]), load.waits.in(seed + r)},
                        ClockedSink<std::uint64_t>(load.waits.out(seed + r)),
-                       handed_out(plans[r], load.rejects)});
+                       last_of(plans[r])});
   }
-  const auto at_work = [](const ClockedReader& r) { return r.sink.taken().size() < r.items; };
+  const auto at_work = [](const ClockedReader& r) { return !until_taken(r.last)(r.sink.taken()); };
   for (std::uint64_t now = 0; std::any_of(readers.begin(), readers.end(), at_work); ++now) {
+    const auto finished = [&](std::uint32_t group) {
+      return load.waits.finishing.seen(group, now);
+    };
+    codebooks.begin_cycle();
     for (ClockedReader& r : readers) {
       r.unit.step_results();
       r.sink.step(r.unit.out(), now);
-      r.unit.begin(codebooks);
+      r.unit.begin(codebooks, finished);
     }
     codebooks.step();
     for (ClockedReader& r : readers) {
-      r.unit.step(codebooks, r.in);
+      r.unit.step(r.in, finished);
       r.source.step(r.in);
       r.in.step();
     }
@@ -147,10 +146,14 @@ Takings clocked(const DecodingWorkload& load, std::uint64_t seed) {
 
 TEST_CASE("clocked reference: fine filters that decode") {
   Comparison table("decoding");
-  const FineHardware paper{6, 27, 176, 1, 7, 0};
-  FineHardware fast = paper, tiny = paper;
+  FineHardware paper{6, 27, 176, 1, 7};
+  paper.port.config = preset_of<PaperConfig>("paper").port;
+  FineHardware fast = paper, tiny = paper, far = paper;
   fast.test_cycles = 4;
   fast.output_entries = 64;
+  far.port.read_latency = 300;
+  FineHardware told = fast;
+  told.reports_rejects = true;
   tiny.slots = 1;
   tiny.output_entries = 2;
   CodebookConfig full;
@@ -160,24 +163,24 @@ TEST_CASE("clocked reference: fine filters that decode") {
   narrow.banks = 3;
   narrow.line_bytes = 4;
   late.latency_cycles = 20;
-  const Rejects told = Rejects::kReported, dropped = Rejects::kDropped;
   for (const DecodingWorkload& load : {
-           DecodingWorkload{"one reader", 1, full, 50, dropped, {}, paper},
-           DecodingWorkload{"as of paper, visits of 5", 4, full, 5, dropped, {}, paper},
-           DecodingWorkload{"as of paper, visits of 50", 4, full, 50, dropped, {}, paper},
-           DecodingWorkload{"loading", 4, {}, 50, dropped, {}, paper},
-           DecodingWorkload{"light", 4, full, 50, dropped, {2, 300}, paper},
-           DecodingWorkload{"output stalled", 4, full, 50, dropped, {1, 1, 4, 200}, paper},
-           DecodingWorkload{"memory of 300 cycles", 4, full, 50, dropped, {1, 1, 1, 1, 300}, paper},
-           DecodingWorkload{"tests every 4 cycles", 4, full, 50, dropped, {}, fast},
-           DecodingWorkload{"the same, 8 readers", 8, full, 50, dropped, {}, fast},
-           DecodingWorkload{"the same, rejects reported", 8, full, 50, told, {}, fast},
-           DecodingWorkload{"one bank", 4, one_bank, 50, dropped, {}, fast},
-           DecodingWorkload{"3 banks of 4 B", 4, narrow, 50, dropped, {}, paper},
-           DecodingWorkload{"20 cycles behind the last line", 4, late, 50, dropped, {}, fast},
-           DecodingWorkload{"tiny buffers", 4, full, 50, dropped, {}, tiny},
-           DecodingWorkload{
-               "tiny buffers, output stalled", 4, full, 5, dropped, {1, 1, 4, 200}, tiny},
+           DecodingWorkload{"one reader", 1, full, 50, {}, paper},
+           DecodingWorkload{"as of paper, visits of 5", 4, full, 5, {}, paper},
+           DecodingWorkload{"as of paper, visits of 50", 4, full, 50, {}, paper},
+           DecodingWorkload{"loading", 4, {}, 50, {}, paper},
+           DecodingWorkload{"light", 4, full, 50, {2, 300}, paper},
+           DecodingWorkload{"output stalled", 4, full, 50, {1, 1, 4, 200}, paper},
+           DecodingWorkload{"memory of 300 cycles", 4, full, 50, {}, far},
+           DecodingWorkload{"tests every 4 cycles", 4, full, 50, {}, fast},
+           DecodingWorkload{"the same, 8 readers", 8, full, 50, {}, fast},
+           DecodingWorkload{"the same, rejects reported", 8, full, 50, {}, told},
+           DecodingWorkload{"groups that finish", 4, full, 5, {1, 1, 1, 1, {1500}}, paper},
+           DecodingWorkload{"groups that finish, told", 8, full, 50, {1, 1, 1, 1, {300}}, told},
+           DecodingWorkload{"one bank", 4, one_bank, 50, {}, fast},
+           DecodingWorkload{"3 banks of 4 B", 4, narrow, 50, {}, paper},
+           DecodingWorkload{"20 cycles behind the last line", 4, late, 50, {}, fast},
+           DecodingWorkload{"tiny buffers", 4, full, 50, {}, tiny},
+           DecodingWorkload{"tiny buffers, output stalled", 4, full, 5, {1, 1, 4, 200}, tiny},
        }) {
     table.workload(load, run, clocked);
   }

@@ -35,24 +35,26 @@ std::vector<std::uint32_t> banks_of(const tb::HfuPlan& plan, std::uint32_t slot)
 
 }  // namespace
 
-tb::SceneShape shape_of() {
+tb::SceneShape shape_of(const PixelSize& group) {
   tb::SceneShape shape;
   shape.gaussians = 1500;
+  shape.group = group;
+  shape.width_px = 3 * group.width;
+  shape.height_px = group.height;
   shape.order = StorageOrder::kChunks;
   return shape;
 }
 
-tb::BenchConfig bench_of(const tb::HfuPlan& plan, const Waits& waits) {
-  tb::BenchConfig config;
-  config.latency_cycles = waits.memory_latency;
-  config.memory_bytes = tb::memory_bytes(plan.scene.job);
-  return config;
+ClockedTransfer read_of(const RecordArray& records, std::uint32_t first, std::size_t count) {
+  return {records.address(first), count * records.record_bytes};
 }
 
-std::uint32_t transactions(const RecordArray& records, std::uint32_t first, std::size_t count) {
-  const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
-  const std::uint64_t begin = records.address(first), end = records.address(first + count);
-  return static_cast<std::uint32_t>((end - 1) / longest - begin / longest + 1);
+Takings only_marks(const Takings& all) {
+  Takings marks;
+  for (const Taken& taken : all) {
+    if (taken.what >= kMarks && taken.what < kRejectedItem) marks.push_back(taken);
+  }
+  return marks;
 }
 
 tb::HfuPlan fine_plan(const tb::SceneShape& shape, const FineHardware& hardware,
@@ -63,11 +65,11 @@ tb::HfuPlan fine_plan(const tb::SceneShape& shape, const FineHardware& hardware,
   plan.config.ffu_macs = 16 * hardware.test_cycles;
   plan.config.ffu_depth_cycles = hardware.depth_cycles;
   plan.config.second_half_slots = hardware.slots;
-  plan.scene.job.groups.resize(1);
-  plan.scene.job.parts = {plan.scene.job.groups};
+  const auto groups = static_cast<std::uint32_t>(plan.scene.job.groups.size());
   std::uint32_t visit = 0;
   for (std::uint32_t first = 0; first + visit_gaussians <= 1000; first += visit_gaussians) {
-    plan.shares.push_back({0, visit++, first, visit_gaussians, Mark::kEndOfVisit});
+    plan.shares.push_back(
+        {first * groups / 1000, visit++, first, visit_gaussians, Mark::kEndOfVisit});
   }
   return plan;
 }
@@ -78,6 +80,7 @@ std::vector<FineCandidate> candidates_of(const tb::HfuPlan& plan) {
     for (std::uint32_t slot = share.first; slot < share.first + share.count; ++slot) {
       const SplitFirstHalf first = first_half(plan.scene, slot);
       FineCandidate c;
+      c.group = share.group;
       c.visit = share.visit;
       c.slot = slot;
       c.mean_x = first.mean.x;
@@ -87,6 +90,7 @@ std::vector<FineCandidate> candidates_of(const tb::HfuPlan& plan) {
       candidates.push_back(c);
     }
     FineCandidate mark;
+    mark.group = share.group;
     mark.visit = share.visit;
     mark.mark = share.mark;
     candidates.push_back(mark);
@@ -94,7 +98,7 @@ std::vector<FineCandidate> candidates_of(const tb::HfuPlan& plan) {
   return candidates;
 }
 
-std::vector<FineItem> clocked_candidates(const tb::HfuPlan& plan, Rejects rejects) {
+std::vector<FineItem> clocked_candidates(const tb::HfuPlan& plan) {
   std::vector<bool> passes(plan.scene.job.layout.gaussian_count(), false);
   tb::HfuPlan unfiltered = plan;
   unfiltered.config.coarse_filter = false;
@@ -104,14 +108,15 @@ std::vector<FineItem> clocked_candidates(const tb::HfuPlan& plan, Rejects reject
   std::vector<FineItem> items;
   for (const FineCandidate& c : candidates_of(plan)) {
     FineItem item;
+    item.group = c.group;
     item.is_mark = c.mark != Mark::kNone;
     if (item.is_mark) {
       item.what = kMarks + c.visit;
     } else {
-      item.transactions = transactions(plan.scene.job.layout.second_halves, c.slot, 1);
+      item.read = read_of(plan.scene.job.layout.second_halves, c.slot, 1);
       item.banks = banks_of(plan, c.slot);
-      item.what = passes[c.slot] ? c.slot : 2 * kMarks;
-      item.passes = passes[c.slot] || rejects == Rejects::kReported;
+      item.what = c.slot;
+      item.passes = passes[c.slot];
     }
     items.push_back(std::move(item));
   }
@@ -119,7 +124,7 @@ std::vector<FineItem> clocked_candidates(const tb::HfuPlan& plan, Rejects reject
 }
 
 std::uint64_t what_of_splat(const SplatToken& t) {
-  if (t.mark == Mark::kRejected) return 2 * kMarks;
+  if (t.mark == Mark::kRejected) return kRejectedItem;
   return t.mark == Mark::kNone ? t.splat.index : kMarks + t.visit;
 }
 

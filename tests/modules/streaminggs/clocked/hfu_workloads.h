@@ -15,28 +15,32 @@ namespace sgs::test {
 
 constexpr std::uint64_t kMarks = 1U << 20U;  // a mark is told by its visit behind these
 constexpr std::uint32_t kCandidateEntries = 4;
+inline std::uint64_t last_of(const tb::HfuPlan& plan) { return kMarks + plan.shares.back().visit; }
 
-// How input, output and memory keep a filter waiting.
+// How input, output and rendering keep a filter waiting.
 struct Waits {
   std::uint32_t in_one_in = 1, in_longest = 1;
   std::uint32_t out_one_in = 1, out_longest = 1;
-  std::uint32_t memory_latency = 40;
+  Finishing finishing = {};
   Pace in(std::uint64_t seed) const { return {seed, in_one_in, in_longest}; }
   Pace out(std::uint64_t seed) const { return {seed + 1000, out_one_in, out_longest}; }
 };
 
-tb::SceneShape shape_of();
-tb::BenchConfig bench_of(const tb::HfuPlan& plan, const Waits& waits);
+// Three groups side by side.
+tb::SceneShape shape_of(const PixelSize& group);
 
-// That read so many records.
-std::uint32_t transactions(const RecordArray& records, std::uint32_t first, std::size_t count);
+// Of so many records.
+ClockedTransfer read_of(const RecordArray& records, std::uint32_t first, std::size_t count);
+
+// Of what is handed on, marks alone: what else of a finished group comes hangs on a cycle.
+Takings only_marks(const Takings& all);
 
 // Visits of so many Gaussians of the scene's first 1000 each, one behind the other, to a fine
 // filter.
 tb::HfuPlan fine_plan(const tb::SceneShape& shape, const FineHardware& hardware,
                       std::uint32_t visit_gaussians, std::uint64_t seed);
 std::vector<FineCandidate> candidates_of(const tb::HfuPlan& plan);
-std::vector<FineItem> clocked_candidates(const tb::HfuPlan& plan, Rejects rejects);
+std::vector<FineItem> clocked_candidates(const tb::HfuPlan& plan);
 std::uint64_t what_of_splat(const SplatToken& token);
 
 }  // namespace sgs::test

@@ -1,6 +1,7 @@
 // The merge unit against its clocked reference.
 #include <catch2/catch.hpp>
 
+#include "modules/streaminggs/exact_config.h"
 #include "testbench/units/merge_run.h"
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_merge.h"
@@ -19,6 +20,10 @@ struct MergeWorkload {
   std::uint32_t in_entries = 16, out_entries = 4, sorters = 1, hfus = 4;
   std::uint32_t entries = 512, spill_runs = 8, spill_block_entries = 8;
   std::uint32_t read_latency = 20, write_latency = 150;
+  Finishing finishing = {};
+  PortHardware port() const {
+    return {preset_of<ExactConfig>("exact").port, read_latency, write_latency};
+  }
 };
 
 tb::MergePlan plan_of(const MergeWorkload& load, std::uint64_t seed) {
@@ -70,21 +75,18 @@ std::vector<std::vector<FineCandidate>> inputs_of(const tb::MergePlan& plan) {
   return inputs;
 }
 
-std::size_t released(const tb::MergePlan& plan) {
-  std::size_t count = plan.groups.size();
-  for (const tb::MergeGroup& group : plan.groups) {
-    for (const tb::MergeVisit& visit : group.visits) count += visit.keys.size();
-  }
-  return count;
+// Until the marks of all groups are there.
+bool all_released(const tb::MergePlan& plan, const Takings& taken) {
+  const auto is_mark = [](const Taken& t) { return t.what == kMark; };
+  return static_cast<std::size_t>(std::count_if(taken.begin(), taken.end(), is_mark)) ==
+         plan.groups.size();
 }
 
 // Takes from the FIFOs in turn, as rendering does behind them.
 void run(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_t seed) {
   const tb::MergePlan plan = plan_of(load, seed);
-  tb::BenchConfig bench = tb::still_bench(plan);
-  bench.latency_cycles = load.read_latency;
-  bench.write_latency_cycles = load.write_latency;
-  tb::MergeRun run(test, bench, plan);
+  tb::MergeRun run(test, bench_of(load.port(), tb::still_bench(plan).memory_bytes), plan);
+  add_finishing(run.bench, load.finishing, plan.groups.size(), run.finished.channel);
   const std::vector<std::vector<FineCandidate>> inputs = inputs_of(plan);
   for (std::uint32_t s = 0; s < plan.sorters; ++s) {
     add_source(run.bench, fmt::format("sorter{}", s), inputs[s],
@@ -92,9 +94,9 @@ void run(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_
   }
   const Pace pace(seed + 1000, load.out_one_in, load.out_longest);
   run.bench.add_thread("reader", [&](Activity& activity) {
-    for (std::size_t at = 0; at < released(plan); ++at) {
-      run.bench.clock().wait_cycles(pace.gap(at));
-      const std::uint64_t what = what_of(run.outputs[at % plan.hfus]->pop(activity));
+    while (!all_released(plan, taken)) {
+      run.bench.clock().wait_cycles(pace.gap(taken.size()));
+      const std::uint64_t what = what_of(run.outputs[taken.size() % plan.hfus]->pop(activity));
       taken.push_back({run.bench.clock().now_cycles(), what});
     }
   });
@@ -104,9 +106,9 @@ void run(tb::Case& test, Takings& taken, const MergeWorkload& load, std::uint64_
 Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
   const tb::MergePlan plan = plan_of(load, seed);
   const RegionSpan spill = tb::merge_job(plan).spill;
-  ClockedMerge unit(load.cycles_per_operation, load.entries,
-                    {load.spill_runs, load.spill_block_entries, load.read_latency,
-                     load.write_latency, spill.base, spill.bytes / 2});
+  ClockedMerge unit(
+      load.cycles_per_operation, load.entries,
+      {load.spill_runs, load.spill_block_entries, load.port(), spill.base, spill.bytes / 2});
   std::vector<ClockedFifo<MergeItem>> in, out;
   std::vector<ClockedSource<MergeItem>> sources;
   std::uint64_t number = 0;
@@ -114,7 +116,7 @@ Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
     std::vector<MergeItem> items;
     for (const FineCandidate& key : keys) {
       const bool is_mark = key.mark != Mark::kNone;
-      items.push_back({what_of(key), is_mark, key.mark == Mark::kEndOfGroup,
+      items.push_back({what_of(key), key.group, is_mark, key.mark == Mark::kEndOfGroup,
                        depth_of(key.release_below) << 16U});
     }
     sources.emplace_back(std::move(items), Pace(seed + number++, load.in_one_in, load.in_longest));
@@ -122,10 +124,10 @@ Takings clocked(const MergeWorkload& load, std::uint64_t seed) {
   }
   for (std::uint32_t h = 0; h < plan.hfus; ++h) out.emplace_back(plan.output_entries);
   ClockedSink<MergeItem> sink({seed + 1000, load.out_one_in, load.out_longest});
-  for (std::uint64_t now = 0; sink.taken().size() < released(plan); ++now) {
+  for (std::uint64_t now = 0; !all_released(plan, sink.taken()); ++now) {
     sink.step(out[sink.taken().size() % out.size()], now,
               [](const MergeItem& item) { return item.key; });
-    unit.step(in, out);
+    unit.step(in, out, [&](std::uint32_t group) { return load.finishing.seen(group, now); });
     for (std::size_t s = 0; s < in.size(); ++s) sources[s].step(in[s]);
     for (ClockedFifo<MergeItem>& fifo : in) fifo.step();
     for (ClockedFifo<MergeItem>& fifo : out) fifo.step();
@@ -137,6 +139,8 @@ void compare(Comparison& table, const MergeWorkload& load) { table.workload(load
 
 TEST_CASE("clocked reference: merge unit") {
   Comparison table("merge unit");
+  MergeWorkload finishing{"groups that finish", 16, 1000, 2, 4, 60};
+  finishing.finishing.pitch = 2600;
   for (const MergeWorkload& load : {
            MergeWorkload{"light: visits of up to 3", 3},
            MergeWorkload{"heavy: visits of up to 16", 16},
@@ -146,6 +150,7 @@ TEST_CASE("clocked reference: merge unit") {
            MergeWorkload{"output stalled", 16, 1000, 2, 1, 1, 4, 60},
            MergeWorkload{"tiny buffers", 16, 1000, 2, 4, 20, 4, 20, 1, 1},
            MergeWorkload{"two sorting units, one HFU", 16, 1000, 2, 1, 1, 1, 1, 16, 4, 2, 1},
+           finishing,
        }) {
     compare(table, load);
   }

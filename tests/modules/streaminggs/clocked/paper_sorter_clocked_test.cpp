@@ -20,8 +20,7 @@ struct PaperSorterWorkload {
   std::uint32_t in_entries = 7, out_entries = 4, hfus = 4;
   NetworkTurns turns = {};
   bool skip_trivial = true;
-  std::uint32_t finish_pitch =
-      0;  // cycles from a group's end to the next one's; 0: none ends early
+  Finishing finishing = {};
 };
 
 SplatToken mark_of(std::uint32_t visit) {
@@ -54,11 +53,6 @@ std::vector<std::vector<SplatToken>> inputs_of(const PaperSorterWorkload& load,
 std::uint64_t what_of(const SplatToken& token) {
   if (token.mark != Mark::kNone) return kMark;
   return static_cast<std::uint64_t>(token.splat.depth) << 10U | token.splat.index;
-}
-
-// Cycle in which rendering says that a group is finished; it is seen in the next.
-std::uint64_t finish_cycle(const PaperSorterWorkload& load, std::uint32_t group) {
-  return std::uint64_t{load.finish_pitch} * (group + 1);
 }
 
 // Takes until it has the marks of all visits.
@@ -95,12 +89,7 @@ void run(tb::Case& test, Takings& taken, const PaperSorterWorkload& load, std::u
       marks += taken.back().what == kMark ? 1 : 0;
     }
   });
-  bench.add_thread("rendering", [&](Activity&) {
-    for (std::uint32_t g = 0; load.finish_pitch > 0 && g < kGroups; ++g) {
-      bench.clock().wait_cycles(load.finish_pitch);
-      finished.finish(g, 0);
-    }
-  });
+  add_finishing(bench, load.finishing, kGroups, finished);
   bench.run();
 }
 
@@ -125,9 +114,7 @@ Takings clocked(const PaperSorterWorkload& load, std::uint64_t seed) {
       marks += item.is_mark ? 1 : 0;
       return item.key;
     });
-    unit.step(in, out, [&](std::uint32_t group) {
-      return load.finish_pitch > 0 && now > finish_cycle(load, group);
-    });
+    unit.step(in, out, [&](std::uint32_t group) { return load.finishing.seen(group, now); });
     for (std::size_t h = 0; h < in.size(); ++h) sources[h].step(in[h]);
     for (ClockedFifo<PaperSorterItem>& fifo : in) fifo.step();
     out.step();
@@ -155,7 +142,8 @@ TEST_CASE("clocked reference: sorting unit of paper order, nothing spilled") {
            PaperSorterWorkload{"a merge every 3 cycles", 0, 256, 1, 1, 1, 1, 7, 4, 4, slow},
            PaperSorterWorkload{"network of 2 lists", 0, 256, 1, 1, 1, 1, 7, 4, 4, of_two},
            PaperSorterWorkload{"network of 4 lists", 0, 256, 1, 1, 1, 1, 7, 4, 4, of_four},
-           PaperSorterWorkload{"groups that finish", 0, 64, 1, 1, 1, 1, 7, 4, 4, alone, true, 600},
+           PaperSorterWorkload{
+               "groups that finish", 0, 64, 1, 1, 1, 1, 7, 4, 4, alone, true, {600}},
        }) {
     table.workload(load, run, clocked);
   }

@@ -1,6 +1,7 @@
 // VSU of paper order against its clocked reference.
 #include <catch2/catch.hpp>
 
+#include "modules/streaminggs/paper_config.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/paper_vsu_plan.h"
@@ -17,8 +18,7 @@ struct PaperVsuWorkload {
   PaperVsuHardware hardware;
   std::uint32_t entries = kVisitFifoEntries, hfus = 4;
   float voxel_size = 1;
-  std::uint32_t finish_pitch =
-      0;  // cycles from a group's end to the next one's; 0: none ends early
+  Finishing finishing = {};
 };
 
 tb::PaperVsuPlan plan_of(const PaperVsuWorkload& load, std::uint64_t seed) {
@@ -26,6 +26,10 @@ tb::PaperVsuPlan plan_of(const PaperVsuWorkload& load, std::uint64_t seed) {
   tb::SceneShape shape;
   shape.gaussians = load.gaussians;
   shape.voxel_size = load.voxel_size;
+  shape.group = preset_of<PaperConfig>("paper").group;
+  // A whole row of a group's pixels and one that the frame's edge cuts, lower than groups are.
+  shape.width_px = 3 * shape.group.width / 2;
+  shape.height_px = shape.group.height / 2;
   tb::PaperVsuPlan plan = tb::paper_vsu_plan_of(tb::random_scene(random, shape));
   const PaperVsuHardware& hw = load.hardware;
   const auto lanes = [](std::uint64_t macs, std::uint32_t turn) {
@@ -71,10 +75,7 @@ Takings joined(const std::vector<Takings>& of_hfus) {
 void run(tb::Case& test, Takings& taken, const PaperVsuWorkload& load, std::uint64_t seed) {
   const tb::PaperVsuPlan plan = plan_of(load, seed);
   const StreamingJob& job = plan.scene.job;
-  tb::BenchConfig config;
-  config.latency_cycles = load.hardware.rays.memory_latency;
-  config.memory_bytes = tb::memory_bytes(job);
-  tb::UnitBench bench(test, config);
+  tb::UnitBench bench(test, bench_of(load.hardware.rays.port, tb::memory_bytes(job)));
   bench.load(0, plan.scene.image.bytes);
   FinishedGroups finished("finished", bench.clock(), job.groups.size(), 1);
   const auto shares = bench.add_fifos<VisitShare>("to_hfu", load.hfus, load.entries, 1);
@@ -94,12 +95,7 @@ void run(tb::Case& test, Takings& taken, const PaperVsuWorkload& load, std::uint
       }
     });
   }
-  bench.add_thread("rendering", [&](Activity&) {
-    for (std::uint32_t g = 0; load.finish_pitch > 0 && g < job.groups.size(); ++g) {
-      bench.clock().wait_cycles(load.finish_pitch);
-      finished.finish(g, 0);
-    }
-  });
+  add_finishing(bench, load.finishing, job.groups.size(), finished);
   bench.run();
   taken = joined(of_hfus);
 }
@@ -121,9 +117,7 @@ Takings clocked(const PaperVsuWorkload& load, std::uint64_t seed) {
         return what;
       });
     }
-    unit.step(shares, [&](std::uint32_t group) {
-      return load.finish_pitch > 0 && now > std::uint64_t{load.finish_pitch} * (group + 1);
-    });
+    unit.step(shares, [&](std::uint32_t group) { return load.finishing.seen(group, now); });
     for (ClockedFifo<std::uint64_t>& fifo : shares) fifo.step();
   }
   std::vector<Takings> of_hfus;
@@ -133,9 +127,10 @@ Takings clocked(const PaperVsuWorkload& load, std::uint64_t seed) {
 
 TEST_CASE("clocked reference: VSU of paper order") {
   Comparison table("VSU, paper order");
-  const PaperVsuHardware paper;
+  PaperVsuHardware paper;
+  paper.rays.port = {preset_of<PaperConfig>("paper").port, 20};
   PaperVsuHardware far = paper;
-  far.rays.memory_latency = 300;
+  far.rays.port.read_latency = 300;
   PaperVsuHardware tiny = paper;
   tiny.rays.rays = 4;
   tiny.rays.compare_cycles = 1;
@@ -152,14 +147,15 @@ TEST_CASE("clocked reference: VSU of paper order") {
   PaperVsuHardware cut = paper;
   cut.visit_gaussians = 64;
   cut.min_share = 2;
-  PaperVsuHardware places = far;
+  PaperVsuHardware places = paper;
+  places.rays.port.read_latency = 100;
   places.rays.node_fetches = 2;
   places.rays.node_cache_bytes = 512;
   PaperVsuHardware full = paper;
   full.table_bytes = 400;
   PaperVsuHardware full_and_far = full;
   full_and_far.rays.node_cache_bytes = 128;
-  full_and_far.rays.memory_latency = 100;
+  full_and_far.rays.port.read_latency = 100;
   full_and_far.rays.node_fetches = 3;
   for (const PaperVsuWorkload& load : {
            PaperVsuWorkload{"light: 100 Gaussians", 100, 1, 1, paper},
@@ -173,7 +169,7 @@ TEST_CASE("clocked reference: VSU of paper order") {
            PaperVsuWorkload{"voxels cut", 5000, 1, 1, cut, 4, 4, 2},
            PaperVsuWorkload{"passes: a table of 400 B", 1500, 1, 1, full},
            PaperVsuWorkload{"passes, small voxels", 4000, 1, 1, full_and_far, 4, 4, 0.3F},
-           PaperVsuWorkload{"groups that finish", 1500, 4, 60, paper, 4, 4, 1, 3600},
+           PaperVsuWorkload{"groups that finish", 1500, 4, 300, paper, 4, 4, 1, {21000}},
        }) {
     table.workload(load, run, clocked);
   }

@@ -1,7 +1,9 @@
 // The rendering unit against its clocked reference: frames of several groups, splats of each token
-// in turn.
+// in turn; when groups are known to be finished, and the end of the frame.
 #include <catch2/catch.hpp>
 
+#include "modules/streaminggs/exact_config.h"
+#include "modules/streaminggs/paper_config.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/random_splats.h"
@@ -16,14 +18,19 @@ struct RenderingWorkload {
   std::size_t splats = 150;  // of a group
   float opacity = 1;
   std::uint32_t in_one_in = 1, in_longest = 1;
-  std::uint32_t write_latency = 150;
   RenderingHardware hardware;
+  PixelSize group = preset_of<ExactConfig>("exact").group;
   std::uint32_t inputs = 4, input_entries = 20;
+  bool curtains = false;  // half way through each group's splats
 };
 
 constexpr std::uint32_t kDrainPixels = 8;
 
-StreamingJob job_of() { return tb::frame_job(150, 100, square_of(48), FrameFormat::kRgb8, 0); }
+// Three groups, behind each row of them one that the frame's edge cuts.
+StreamingJob job_of(const RenderingWorkload& load) {
+  return tb::frame_job(3 * load.group.width / 2, 3 * load.group.height / 2, load.group,
+                       FrameFormat::kRgb8, 0);
+}
 
 // Lanes that give the hardware's intervals.
 RenderingConfig config_of(const RenderingHardware& hw) {
@@ -51,6 +58,16 @@ RenderingConfig config_of(const RenderingHardware& hw) {
   return config;
 }
 
+// Flat and opaque: three finish every pixel of a group.
+Splat curtain(const StreamingJob& job, std::uint32_t index) {
+  Splat splat{};
+  splat.conic_a = splat.conic_c = 1e-12F;
+  splat.opacity = splat.depth = 1;
+  splat.index = index;
+  splat.footprint = tb::subtiles_of({0, 0, job.view.width, job.view.height});
+  return splat;
+}
+
 // [group] in order.
 std::vector<std::vector<Splat>> splats_of(const RenderingWorkload& load, const StreamingJob& job,
                                           std::uint64_t seed) {
@@ -58,8 +75,11 @@ std::vector<std::vector<Splat>> splats_of(const RenderingWorkload& load, const S
   std::vector<std::vector<Splat>> groups(job.groups.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
     for (std::size_t i = 0; i < load.splats; ++i) {
-      groups[g].push_back(tb::random_splat(random, job.groups[g], job,
-                                           static_cast<std::uint32_t>(i), load.opacity));
+      const auto index = static_cast<std::uint32_t>(i);
+      const bool hides = load.curtains && i >= load.splats / 2 && i < load.splats / 2 + 4;
+      groups[g].push_back(hides
+                              ? curtain(job, index)
+                              : tb::random_splat(random, job.groups[g], job, index, load.opacity));
     }
   }
   return groups;
@@ -80,24 +100,31 @@ std::vector<std::vector<SplatToken>> tokens_of(const RenderingWorkload& load,
   return tokens;
 }
 
-struct NoOne : sc_core::sc_module, FinishGroupIf {
-  explicit NoOne(const sc_core::sc_module_name& name) : sc_module(name) {}
-  void finish(std::uint32_t, std::uint32_t) override {}
+// What is told of a group; of the frame's end it is 0.
+std::uint64_t what_of(std::uint32_t finished_group) { return 1 + finished_group; }
+
+struct Listener : sc_core::sc_module, FinishGroupIf {
+  Listener(const sc_core::sc_module_name& name, const ClockDomain& clock, Takings& taken)
+      : sc_module(name), clock_(clock), taken_(taken) {}
+  void finish(std::uint32_t group, std::uint32_t known_in_cycles) override {
+    taken_.push_back({clock_.now_cycles() + known_in_cycles, what_of(group)});
+  }
+
+ private:
+  const ClockDomain& clock_;
+  Takings& taken_;
 };
 
 void run(tb::Case& test, Takings& taken, const RenderingWorkload& load, std::uint64_t seed) {
-  const StreamingJob job = job_of();
-  tb::BenchConfig bench_config;
-  bench_config.memory_bytes = tb::memory_bytes(job);
-  bench_config.write_latency_cycles = load.write_latency;
-  tb::UnitBench bench(test, bench_config);
+  const StreamingJob job = job_of(load);
+  tb::UnitBench bench(test, bench_of(load.hardware.port, tb::memory_bytes(job)));
   UnitContext context = bench.context(job);
-  context.built_for.group = square_of(48);
-  NoOne no_one("no_one");
+  context.built_for.group = load.group;
+  Listener listener("listener", bench.clock(), taken);
   RenderingUnit unit("rendering", config_of(load.hardware), Arrival::kByToken, context, [&] {
     taken.push_back({bench.clock().now_cycles(), 0});
   });
-  unit.finish(no_one);
+  unit.finish(listener);
   const auto inputs = bench.add_fifos<SplatToken>("splats", load.inputs, load.input_entries, 1);
   for (TimedFifo<SplatToken>* input : inputs) unit.splats(*input);
   bench.add_unit(unit);
@@ -137,18 +164,15 @@ DrainedGroup drained(const StreamingJob& job, const PixelRect& pixels, std::uint
   const auto width = static_cast<std::uint32_t>(pixels.width());
   group.row_cycles = std::max((width + kDrainPixels - 1) / kDrainPixels,
                               ((width + 3) / 4 + clusters - 1) / clusters);
-  const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
   for (int y = pixels.y0; y < pixels.y1; ++y) {
-    const std::uint64_t begin = job.pixel_address(pixels.x0, y);
-    const std::uint64_t last = begin + width * pixel_bytes(job.frame_format) - 1;
-    group.row_transactions.push_back(
-        static_cast<std::uint32_t>(last / longest - begin / longest + 1));
+    group.rows.push_back(
+        {job.pixel_address(pixels.x0, y), std::uint64_t{width} * pixel_bytes(job.frame_format)});
   }
   return group;
 }
 
 Takings clocked(const RenderingWorkload& load, std::uint64_t seed) {
-  const StreamingJob job = job_of();
+  const StreamingJob job = job_of(load);
   const auto groups = splats_of(load, job, seed);
   std::vector<DrainedGroup> drains;
   std::vector<GroupState> states;
@@ -168,9 +192,7 @@ Takings clocked(const RenderingWorkload& load, std::uint64_t seed) {
     const SplatToken& token = tokens[i][next[i]++];
     items[i].push_back(item_of(token, states[token.group], load.hardware.clusters));
   }
-  RenderingHardware hardware = load.hardware;
-  hardware.write_latency = load.write_latency;
-  ClockedRendering unit(hardware, drains);
+  ClockedRendering unit(load.hardware, drains);
   std::vector<ClockedFifo<RenderingItem>> in(load.inputs,
                                              ClockedFifo<RenderingItem>(load.input_entries));
   std::vector<ClockedSource<RenderingItem>> sources;
@@ -179,7 +201,13 @@ Takings clocked(const RenderingWorkload& load, std::uint64_t seed) {
   }
   for (std::uint64_t now = 0;; ++now) {
     unit.step(in);
-    if (unit.done()) return {{now, 0}};
+    if (unit.done()) {
+      Takings taken;
+      for (const GroupNews& news : unit.finished())
+        taken.push_back({news.cycle, what_of(news.group)});
+      taken.push_back({now, 0});
+      return taken;
+    }
     for (std::uint32_t i = 0; i < load.inputs; ++i) {
       sources[i].step(in[i]);
       in[i].step();
@@ -189,11 +217,15 @@ Takings clocked(const RenderingWorkload& load, std::uint64_t seed) {
 
 TEST_CASE("clocked reference: rendering unit") {
   Comparison table("rendering unit");
-  const RenderingHardware exact;
+  RenderingHardware exact;
+  exact.port = {preset_of<ExactConfig>("exact").port, 40, 20};
+  RenderingHardware late = exact;
+  late.port.write_latency = 300;
   RenderingHardware tiny = exact;
   tiny.queue_entries = 1;
   tiny.slots = 2;
   RenderingHardware wide = exact;
+  wide.port.config = preset_of<PaperConfig>("paper").port;
   wide.blend_interval = 1;
   wide.begin_interval = 4;
   wide.rows_at_once = 2;
@@ -202,15 +234,18 @@ TEST_CASE("clocked reference: rendering unit") {
   wide.queue_entries = 4;
   RenderingHardware two = exact;
   two.pixel_buffers = 2;
+  const PixelSize of_exact = preset_of<ExactConfig>("exact").group;
   for (const RenderingWorkload& load : {
-           RenderingWorkload{"light: 20 splats a group", 20, 1, 1, 1, 150, exact},
-           RenderingWorkload{"heavy: 300 faint splats a group", 300, 0.05F, 1, 1, 150, exact},
-           RenderingWorkload{"heavy: 300 opaque splats a group", 300, 1, 1, 1, 150, exact},
-           RenderingWorkload{"input stalled", 150, 0.3F, 2, 200, 150, exact},
-           RenderingWorkload{"output stalled", 60, 1, 1, 1, 2000, exact},
-           RenderingWorkload{"two pixel buffers", 60, 1, 1, 1, 150, two},
-           RenderingWorkload{"tiny buffers", 150, 0.3F, 1, 1, 150, tiny, 1, 1},
-           RenderingWorkload{"a sub-tile a cycle, two rows a cycle", 150, 0.3F, 1, 1, 150, wide},
+           RenderingWorkload{"light: 20 splats a group", 20, 1, 1, 1, exact},
+           RenderingWorkload{"heavy: 300 faint splats a group", 300, 0.05F, 1, 1, exact},
+           RenderingWorkload{"heavy: 300 opaque splats a group", 300, 1, 1, 1, exact},
+           RenderingWorkload{"input stalled", 150, 0.3F, 2, 200, exact},
+           RenderingWorkload{"output stalled", 60, 1, 1, 1, late},
+           RenderingWorkload{"two pixel buffers", 60, 1, 1, 1, two},
+           RenderingWorkload{"groups that finish", 150, 0.3F, 1, 1, exact, of_exact, 4, 20, true},
+           RenderingWorkload{"tiny buffers", 150, 0.3F, 1, 1, tiny, of_exact, 1, 1},
+           RenderingWorkload{"as of paper: a sub-tile a cycle, two rows a cycle", 300, 1, 1, 1,
+                             wide, preset_of<PaperConfig>("paper").group},
        }) {
     table.workload(load, run, clocked);
   }

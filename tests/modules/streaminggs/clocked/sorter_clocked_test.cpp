@@ -53,8 +53,8 @@ void run(tb::Case& test, Takings& taken, const SorterWorkload& load, std::uint64
   bench.add_unit(unit);
   const std::vector<FineCandidate> keys = keys_of(load, seed);
   add_source(bench, "before", keys, {seed, load.in_one_in, load.in_longest}, in);
-  add_sink(bench, "behind", keys.size(), {seed + 1000, load.out_one_in, load.out_longest}, out,
-           taken, what_of);
+  add_sink(bench, "behind", until_items(keys.size()),
+           {seed + 1000, load.out_one_in, load.out_longest}, out, taken, what_of);
   bench.run();
 }
 

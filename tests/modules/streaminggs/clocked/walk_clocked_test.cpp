@@ -1,9 +1,9 @@
 // VSU of exact order against its clocked reference.
 #include <catch2/catch.hpp>
 
+#include "modules/streaminggs/exact_config.h"
 #include "testbench/units/exact_vsu_plan.h"
 #include "testbench/units/job_memory.h"
-#include "testbench/units/reported_groups.h"
 #include "tests/modules/clocked/comparison.h"
 #include "tests/modules/streaminggs/clocked/clocked_walk.h"
 
@@ -16,13 +16,18 @@ struct WalkWorkload {
   std::uint32_t out_one_in = 1, out_longest = 1;
   WalkHardware hardware;
   std::uint32_t entries = kVisitFifoEntries, hfus = 4;
+  Finishing finishing = {};
+  std::size_t elsewhere = 0;  // items, behind news that the unit sees late
 };
 
 tb::ExactVsuPlan plan_of(const WalkWorkload& load, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   tb::SceneShape shape;
   shape.gaussians = load.gaussians;
-  tb::ExactVsuPlan plan = tb::plan_of(tb::random_scene(random, shape), 16);
+  shape.group = preset_of<ExactConfig>("exact").group;
+  shape.width_px = 4 * shape.group.width;
+  shape.height_px = shape.group.height;
+  tb::ExactVsuPlan plan = tb::plan_of(tb::random_scene(random, shape), 8);
   const WalkHardware& hw = load.hardware;
   plan.config.upper_nodes = hw.upper_nodes;
   plan.config.nodes_in_flight = hw.nodes_in_flight;
@@ -42,19 +47,18 @@ std::uint64_t what_of(const VisitShare& visit) {
 
 void run(tb::Case& test, Takings& taken, const WalkWorkload& load, std::uint64_t seed) {
   const tb::ExactVsuPlan plan = plan_of(load, seed);
-  tb::BenchConfig config;
-  config.latency_cycles = load.hardware.memory_latency;
-  config.memory_bytes = tb::memory_bytes(plan.job);
-  tb::UnitBench bench(test, config);
+  tb::UnitBench bench(test, bench_of(load.hardware.port, tb::memory_bytes(plan.job)));
   bench.load(0, plan.image.bytes);
-  tb::ReportedGroups finished(bench.clock(), plan.job.groups.size(), 1);
+  FinishedGroups finished("finished", bench.clock(), plan.job.groups.size(), 1);
+  add_finishing(bench, load.finishing, plan.job.groups.size(), finished);
   FinishedSubtiles mask("mask", bench.clock(), plan.job.groups, 1);
+  add_finishing_subtiles(bench, load.finishing, plan.job.groups, mask);
   const auto visits = bench.add_fifos<VisitShare>("to_hfu", load.hfus, load.entries, 1);
   UnitContext context = bench.context(plan.job);
-  context.built_for.group = square_of(16);
+  context.built_for.group = preset_of<ExactConfig>("exact").group;
   ExactVsu unit("vsu", plan.config, context, plan.job.spill);
   for (TimedFifo<VisitShare>* fifo : visits) unit.visits(*fifo);
-  unit.finished(finished.channel);
+  unit.finished(finished);
   unit.mask(mask);
   bench.add_unit(unit);
   const Pace pace(seed + 1000, load.out_one_in, load.out_longest);
@@ -71,13 +75,8 @@ void run(tb::Case& test, Takings& taken, const WalkWorkload& load, std::uint64_t
 
 Takings clocked(const WalkWorkload& load, std::uint64_t seed) {
   const tb::ExactVsuPlan plan = plan_of(load, seed);
-  WalkHardware hardware = load.hardware;
-  const RecordArray& table = plan.job.layout.chunk_table().nodes;
-  const std::uint64_t loaded = std::min<std::uint64_t>(hardware.upper_nodes, table.count);
-  const std::uint64_t longest = MemoryPortConfig{}.max_transaction_bytes;
-  hardware.upper_transactions = static_cast<std::uint32_t>(
-      (table.base + loaded * sizeof(ChunkNode) - 1) / longest - table.base / longest + 1);
-  ClockedWalk unit(hardware, plan.job.view, plan.tree.nodes, plan.job.groups);
+  ClockedWalk unit(load.hardware, plan.job.view, plan.tree.nodes,
+                   plan.job.layout.chunk_table().nodes, plan.job.groups, load.finishing);
   std::vector<ClockedFifo<std::uint64_t>> visits(load.hfus,
                                                  ClockedFifo<std::uint64_t>(load.entries));
   ClockedSink<std::uint64_t> sink({seed + 1000, load.out_one_in, load.out_longest});
@@ -95,9 +94,10 @@ Takings clocked(const WalkWorkload& load, std::uint64_t seed) {
 
 TEST_CASE("clocked reference: VSU of exact order") {
   Comparison table("VSU, exact order");
-  const WalkHardware exact;
+  WalkHardware exact;
+  exact.port.config = preset_of<ExactConfig>("exact").port;
   WalkHardware far = exact;
-  far.memory_latency = 300;
+  far.port.read_latency = 300;
   WalkHardware tiny = exact;
   tiny.nodes_in_flight = 1;
   tiny.nodes_in_test = 1;
@@ -116,8 +116,9 @@ TEST_CASE("clocked reference: VSU of exact order") {
            WalkWorkload{"tiny buffers", 1500, 1, 1, tiny, 1, 1},
            WalkWorkload{"a child every 30 cycles", 1500, 1, 1, narrow},
            WalkWorkload{"a child a cycle, operations of 2", 1500, 1, 1, fast},
+           WalkWorkload{"groups that finish", 3000, 1, 1, exact, 4, 4, {3000}, 18},
        }) {
-    table.workload(load, run, clocked);
+    table.workload(load, run, clocked, load.elsewhere);
   }
 }
 
