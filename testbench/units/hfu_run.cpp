@@ -2,13 +2,10 @@
 #include "testbench/units/hfu_run.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
-#include <optional>
 
 #include "algorithm/memory/splat_record.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
-#include "testbench/units/hfu_timing_model.h"
 #include "testbench/units/random_splats.h"
 
 namespace sgs::tb {
@@ -31,15 +28,6 @@ void check_share(Checks& checks, const HfuPlan& plan, const VisitShare& share,
     const std::string differs = difference(splat, *next++, group);
     checks.that(differs.empty(), fmt::format("{}, slot {}: {}", where, splat.index, differs));
   }
-}
-
-// Those of Gaussians that the fine filter tests.
-std::vector<Splat> of_tested(const std::vector<Splat>& splats, const VisitShare& share,
-                             const std::vector<bool>& tested) {
-  std::vector<Splat> out;
-  std::copy_if(splats.begin(), splats.end(), std::back_inserter(out),
-               [&](const Splat& splat) { return tested[splat.index - share.first]; });
-  return out;
 }
 
 // Null where the scene has none. (Its loading is tb_codebook's.)
@@ -67,10 +55,36 @@ void add_feedback(UnitBench& bench, const HfuPlan& plan, FinishedGroups& finishe
   });
 }
 
-// exact: what is done is known; still: and when.
-void check_counters(UnitBench& bench, const HfuPlan& plan, const HfuTimes& times, bool exact,
-                    bool still) {
+// What is done of all shares where no group finishes.
+struct Totals {
+  std::uint64_t gaussians = 0, passed = 0, lines = 0, splats = 0;
+};
+
+Totals totals_of(const std::vector<ExpectedShare>& shares) {
+  Totals sum;
+  for (const ExpectedShare& share : shares) {
+    sum.gaussians += share.passes.size();
+    sum.splats += share.splats.size();
+    for (std::size_t i = 0; i < share.passes.size(); ++i) {
+      sum.passed += share.passes[i] ? 1 : 0;
+      sum.lines += share.passes[i] && !share.lines.empty() ? share.lines[i] : 0;
+    }
+  }
+  return sum;
+}
+
+// Of what has `least` cycles of work, and may wait for turns.
+void check_busy(UnitBench& bench, const char* what, std::uint64_t least, std::uint64_t turns,
+                std::uint64_t beside) {
+  const std::uint64_t cycles = bench.busy_cycles(what);
+  bench.checks().that(cycles + beside >= least, fmt::format("busy cycles, {}: too few", what));
+  bench.checks().that(cycles <= least + turns + beside,
+                      fmt::format("busy cycles, {}: too many", what));
+}
+
+void check_counters(UnitBench& bench, const HfuPlan& plan, const Totals& all, bool any_finished) {
   Checks& checks = bench.checks();
+  const RecordArray& second_halves = plan.scene.job.layout.second_halves;
   const bool quantised = plan.scene.job.layout.second_half.quantised();
   // Where they do not filter they find depths all the same.
   const std::uint64_t coarse = has_cfus(plan.config, plan.scene.job.layout.split.bound_by)
@@ -83,55 +97,37 @@ void check_counters(UnitBench& bench, const HfuPlan& plan, const HfuTimes& times
   const std::uint64_t halves = bench.counter("first_halves");
   checks.equal(bench.accesses("input").second, halves, "first halves written");
   checks.that(bench.accesses("input").first <= halves, "first halves read");
-  const std::uint64_t record = plan.scene.job.layout.second_halves.record_bytes;
-  const std::uint64_t words = bench.counter("second_halves") * ((record + 31) / 32);
+  const std::uint64_t read_cycles = (second_halves.record_bytes + 31) / 32;
+  const std::uint64_t words = bench.counter("second_halves") * read_cycles;
   bench.check_accesses("second halves", words, words);
-  if (exact) {
-    bench.check_counter("first_halves", times.first_halves);
-    bench.check_counter("coarse_tests", times.coarse_tests);
-    bench.check_counter("coarse_passed", times.coarse_passed);
-    bench.check_counter("second_halves", times.second_halves);
-    bench.check_counter("fine_tests", times.fine_tests);
-    bench.check_counter("dropped_saturated", times.dropped);
-    struct Busy {
-      const char* what;
-      // most: that the tests could wait for their turns; beside: what may pass while the lanes
-      // work.
-      std::uint64_t cycles, turns, most, beside;
-    };
-    // A stall of the FIFO behind counts in place of the lanes' work.
-    const std::uint64_t beside =
-        bench.without_stalls() ? 0 : times.fine_tests * plan.config.ffu_interval_cycles();
-    for (const Busy& busy :
-         {Busy{"coarse", times.coarse_busy, times.coarse_turns,
-               coarse * (plan.config.cfu_interval_cycles() + plan.config.cfus), 0},
-          Busy{"fine", times.fine_busy, times.fine_turns,
-               times.fine_tests * (plan.config.ffu_interval_cycles() - 1),
-               plan.shares.size() + beside}}) {
-      const std::uint64_t cycles = bench.busy_cycles(busy.what);
-      const std::string of = fmt::format("busy cycles, {}", busy.what);
-      if (still) {
-        checks.equal(cycles, busy.cycles, of);
-      } else {
-        const std::uint64_t least = busy.cycles - busy.turns;
-        checks.that(cycles + busy.beside >= least, of + ": too few");
-        checks.that(cycles <= least + busy.most + busy.beside, of + ": too many");
-      }
-    }
-    if (!quantised) return;
-    bench.check_counter("records_decoded", times.decoded);
-    bench.check_counter("lines_read", times.lines);
-    bench.check_counter("bank_conflict_cycles", 0);  // of one reader
-    checks.equal(bench.busy_cycles("decode"), times.decode_busy, "busy cycles, decode");
+  const std::uint64_t tests = bench.counter("fine_tests");
+  checks.equal(bench.accesses("input").first - bench.counter("coarse_candidates") + tests +
+                   bench.counter("dropped_saturated"),
+               all.gaussians, "Gaussians rejected, tested or dropped");
+  if (any_finished) {
+    checks.that(!quantised || (bench.counter("records_decoded") <= bench.counter("second_halves") &&
+                               bench.counter("records_decoded") >= tests),
+                "records decoded");
     return;
   }
-  checks.that(!quantised || (bench.counter("records_decoded") <= bench.counter("second_halves") &&
-                             bench.counter("records_decoded") >= bench.counter("fine_tests")),
-              "records decoded");
-  checks.that(bench.counter("first_halves") <= times.first_halves &&
-                  bench.counter("second_halves") <= times.second_halves &&
-                  bench.counter("fine_tests") <= times.fine_tests,
-              "more work than there is");
+  bench.check_counter("first_halves", all.gaussians);
+  bench.check_counter("coarse_tests", plan.config.coarse_filter ? all.gaussians : 0);
+  bench.check_counter("coarse_passed", all.passed);
+  bench.check_counter("second_halves", all.passed);
+  bench.check_counter("fine_tests", all.passed);
+  bench.check_counter("splats", all.splats);
+  const std::uint64_t shares = plan.shares.size(), interval = plan.config.ffu_interval_cycles();
+  check_busy(bench, "coarse", all.gaussians + shares,
+             coarse * (plan.config.cfu_interval_cycles() + plan.config.cfus), 0);
+  // Marks may pass beside the lanes; a stall of the FIFO behind counts in place of their work.
+  const std::uint64_t of_test = quantised ? interval : std::max(interval, read_cycles);
+  check_busy(bench, "fine", tests * of_test + shares, tests * (interval - 1),
+             shares + (bench.without_stalls() ? 0 : tests * interval));
+  if (!quantised) return;
+  bench.check_counter("records_decoded", all.passed);
+  bench.check_counter("lines_read", all.lines);
+  bench.check_counter("bank_conflict_cycles", 0);  // of one reader
+  checks.equal(bench.busy_cycles("decode"), all.lines + shares, "busy cycles, decode");
 }
 
 }  // namespace
@@ -161,36 +157,16 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
   bench.load(0, plan.scene.image.bytes);
   FinishedGroups finished("finished", bench.clock(), plan.scene.job.groups.size(),
                           plan.feedback_cycles);
-  const bool free_running = bench_config.still() && plan.saturate_one_in == 0;
-  auto& input = bench.add_fifo<VisitShare>(
-      "shares", free_running ? static_cast<std::uint32_t>(plan.shares.size() + 1) : 4, 1);
+  auto& input = bench.add_fifo<VisitShare>("shares", kVisitFifoEntries, 1);
   const auto outputs =
       bench.add_fifos<SplatToken>("to_sorting", plan.sorting_units, plan.output_entries, 1);
   const std::unique_ptr<CodebookBuffer> codebooks = full_codebooks(bench, plan);
   const std::unique_ptr<Hfu> unit =
       bound_hfu(bench, plan, finished, input, outputs, codebooks.get());
 
-  // What the HFU does when nobody tells it that a group is finished, or when that is known.
+  // What the HFU does when nobody tells it that a group is finished.
   std::vector<ExpectedShare> expected;
-  std::vector<TimedShare> timed;
-  for (const VisitShare& share : plan.shares) {
-    expected.push_back(expect(plan, share));
-    const auto& layout = plan.scene.job.layout;
-    timed.push_back({expected.back().passes, expected.back().lines, layout.first_halves,
-                     layout.second_halves, share.first});
-    if (free_running && !plan.finish_cycles.empty()) {
-      timed.back().finished_from = plan.finish_cycles[share.group] + plan.feedback_cycles;
-    }
-  }
-  std::optional<std::uint32_t> decode_latency;
-  if (codebooks) decode_latency = plan.codebook.latency_cycles;
-  const HfuTimes times = hfu_times(plan.config, plan.scene.job.layout.split.bound_by, timed,
-                                   bench_config.latency_cycles, decode_latency);
-  std::uint64_t splats = 0;
-  for (std::size_t k = 0; k < plan.shares.size(); ++k) {
-    expected[k].splats = of_tested(expected[k].splats, plan.shares[k], times.tested[k]);
-    splats += expected[k].splats.size();
-  }
+  for (const VisitShare& share : plan.shares) expected.push_back(expect(plan, share));
 
   bench.add_thread("vsu", [&](Activity& activity) {
     for (const VisitShare& share : plan.shares) input.push(share, activity);
@@ -215,13 +191,7 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
         checks.that(
             token.mark == share.mark && token.visit == share.visit && token.group == share.group,
             fmt::format("visit {}: its end", share.visit));
-        check_share(checks, plan, share, expected[k].splats, got,
-                    free_running || !finished.finished(share.group));
-        if (free_running) {
-          // One cycle for the FIFO.
-          checks.equal(bench.clock().now_cycles(), times.shares_done[k] + 1,
-                       fmt::format("visit {}: cycle of its end", share.visit));
-        }
+        check_share(checks, plan, share, expected[k].splats, got, !finished.finished(share.group));
       }
     });
   }
@@ -237,9 +207,7 @@ void run_hfu(Case& test, const BenchConfig& bench_config, const HfuPlan& plan) {
   for (std::uint32_t g = 0; g < plan.scene.job.groups.size(); ++g) {
     any_finished = any_finished || finished.finished(g);
   }
-  const bool exact = free_running || !any_finished;
-  check_counters(bench, plan, times, exact, free_running);
-  if (exact) bench.check_counter("splats", splats);
+  check_counters(bench, plan, totals_of(expected), any_finished);
 }
 
 }  // namespace sgs::tb

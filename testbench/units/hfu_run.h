@@ -17,7 +17,7 @@ std::unique_ptr<Hfu> bound_hfu(UnitBench& bench, const HfuPlan& plan, FinishedGr
                                TimedFifo<VisitShare>& shares, const Fifos<SplatToken>& splats,
                                CodebookBuffer* codebooks);
 
-// Simulates the plan and checks what comes out; where times can be computed, to the cycle.
+// Simulates the plan and checks what comes out.
 void run_hfu(Case& test, const BenchConfig& config, const HfuPlan& plan);
 
 }  // namespace sgs::tb

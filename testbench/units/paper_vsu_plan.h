@@ -38,11 +38,7 @@ std::uint64_t comparisons_of_a_beginning();
 struct ExpectedVisits {
   std::vector<std::vector<VoxelRecord>> groups;  // pieces of voxels in visiting order
   std::uint64_t cuts = 0;
-  std::uint64_t traverse_cycles = 0;     // of passes without an overflow, waiting left out
-  std::uint64_t first_group_cycles = 0;  // waiting included
   std::uint64_t lookups = 0, met = 0;
-  // Of passes without an overflow: their lines found no place; not in the cache.
-  std::uint64_t lookups_again = 0, lookups_missed = 0;
   std::uint64_t visits = 0, empty = 0, rays = 0, steps = 0, edges = 0, table_bytes_max = 0;
   std::uint64_t passes = 0, overflows = 0;
   std::vector<std::uint64_t> rays_of;  // [group]
@@ -51,7 +47,7 @@ struct ExpectedVisits {
   OrderingAccesses table;              // of passes without an overflow
 };
 
-// From the grid itself; latency: of memory, cycles.
-ExpectedVisits expect(const PaperVsuPlan& plan, std::uint64_t latency);
+// From the grid itself.
+ExpectedVisits expect(const PaperVsuPlan& plan);
 
 }  // namespace sgs::tb

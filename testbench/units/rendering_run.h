@@ -21,7 +21,7 @@ struct RenderingPlan {
   std::vector<std::vector<std::vector<Splat>>> groups;  // [group][visit] front to back
 };
 
-// Simulates the plan and checks the picture, cycles, bytes and accesses.
+// Simulates the plan and checks the picture, bytes and accesses.
 void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& plan);
 
 }  // namespace sgs::tb

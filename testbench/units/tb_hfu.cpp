@@ -1,6 +1,6 @@
 // Hierarchical filtering unit alone: shares of visits in, splats out to several sorting units.
-// Checked against the coarse bound and make_splat on what the bytes in memory decode to; times
-// against hfu_timing_model.h.
+// Checked against the coarse bound and make_splat on what the bytes in memory decode to; times of
+// the coarse filter alone are written out. All others: tests/modules/streaminggs/clocked.
 #include "algorithm/splat/reorder.h"
 #include "algorithm/storage/build_memory_image.h"
 #include "testbench/units/hfu_run.h"

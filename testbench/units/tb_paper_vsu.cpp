@@ -1,6 +1,6 @@
 // Voxel sorting unit in paper order, alone: the voxel table in memory, visits out to several HFUs.
-// Checked against paper_visits on the grid itself; times against a model that goes
-// cycle by cycle.
+// Checked against paper_visits on the grid itself; times from below, by what rays share. To the
+// cycle: tests/modules/streaminggs/clocked.
 #include <algorithm>
 
 #include "modules/streaminggs/vsu/paper_vsu.h"
@@ -110,17 +110,13 @@ void check_tables(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisi
                              kWays * (expected.lookups + again + ordered) + bench.counter("cuts"));
 }
 
-// Its cycles are those of the model where times can be computed, and never fewer than each thing
-// that the rays share takes.
-void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const PaperVsuPlan& plan,
-                     const ExpectedVisits& expected, std::uint64_t node_misses) {
+// Its cycles are never fewer than each thing that the rays share takes.
+void check_traversal(UnitBench& bench, const PaperVsuPlan& plan, const ExpectedVisits& expected,
+                     std::uint64_t node_misses) {
   Checks& checks = bench.checks();
   const std::uint64_t busy = bench.busy_cycles("vsu");
   if (expected.overflows == 0) {
     const std::uint64_t rays = expected.rays, steps = expected.steps - rays;
-    if (bench_config.still()) {
-      checks.equal(busy, expected.traverse_cycles, "busy cycles of the traversal");
-    }
     checks.that(busy >= expected.lookups, "more than a look-up a cycle");
     checks.that(busy * plan.config.step_lanes >= steps * macs_of_a_step(), "too many steps");
     checks.that(busy * plan.config.ray_lanes >= rays * macs_of_a_beginning(), "too many rays");
@@ -138,10 +134,6 @@ void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const Pa
     const std::uint64_t again = bench.accesses("node cache").first - expected.lookups;
     const std::uint64_t missed =
         bench.accesses("tags of node fetches").first / plan.config.node_fetches;
-    if (bench_config.still()) {
-      checks.equal(again, expected.lookups_again, "look-ups for which there was no place before");
-      checks.equal(missed, expected.lookups_missed, "look-ups not found in the cache");
-    }
     checks.that(missed >= node_misses + again, "look-ups that missed");
     bench.check_accesses("ray positions", steps + expected.lookups + again,
                          rays + steps + expected.lookups);
@@ -166,7 +158,7 @@ void check_traversal(UnitBench& bench, const BenchConfig& bench_config, const Pa
 }
 
 void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& plan) {
-  const ExpectedVisits expected = expect(plan, bench_config.latency_cycles);
+  const ExpectedVisits expected = expect(plan);
   UnitBench bench(test, bench_config);
   Checks& checks = bench.checks();
   bench.load(0, plan.scene.image.bytes);
@@ -181,7 +173,6 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
   bench.add_unit(unit);
 
   std::vector<Received> received;
-  std::uint64_t first_end_cycle = 0;
   for (std::uint32_t h = 0; h < plan.hfus; ++h) {
     bench.add_thread(fmt::format("hfu{}", h), [&, h](Activity& activity) {
       std::size_t at = 0;
@@ -190,9 +181,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
         if (at == received.size()) received.push_back({std::vector<VisitShare>(plan.hfus), 0});
         received[at].shares[h] = share;
         received[at].cycle = bench.clock().now_cycles();
-        if (share.mark == Mark::kEndOfGroup && ends++ == 0 && h == 0) {
-          first_end_cycle = bench.clock().now_cycles();
-        }
+        ends += share.mark == Mark::kEndOfGroup ? 1 : 0;
         if (plan.saturate_one_in > 0 &&
             test.random() % static_cast<unsigned>(plan.saturate_one_in) == 0) {
           finished.finish(share.group);
@@ -236,7 +225,7 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
   bench.check_counter("overflows", expected.overflows);
   checks.equal(expected.overflows > 0, expected.passes > plan.scene.job.groups.size(),
                "a table that overflows is ordered in passes");
-  check_traversal(bench, bench_config, plan, expected, unit.node_memory.transactions());
+  check_traversal(bench, plan, expected, unit.node_memory.transactions());
   checks.equal(bench.busy_cycles("visits"), visits + bench.counter("cuts") + expected.groups.size(),
                "busy cycles of handing out");
   // A line a miss.
@@ -251,14 +240,6 @@ void run_plan(Case& test, const BenchConfig& bench_config, const PaperVsuPlan& p
   const std::uint64_t tree_bytes = plan.scene.grid.nodes.size() * sizeof(VoxelNode);
   if (tree_bytes <= plan.config.node_cache_bytes) {
     checks.that(node_misses <= ceil_div(tree_bytes, kLineBytes), "lines of the tree fetched again");
-  }
-  if (bench_config.still() && plan.scene.job.groups.size() == 1 && expected.passes == 1) {
-    // The rays and their order, one cycle to the other thread, a cycle and a record's miss a visit
-    // (waits for room aside), one cycle for the end, one for the FIFO.
-    checks.equal(first_end_cycle,
-                 expected.first_group_cycles + 1 + visits + expected.cuts +
-                     record_misses * bench_config.latency_cycles + 1 + 1,
-                 "end of the group at HFU 0");
   }
 }
 

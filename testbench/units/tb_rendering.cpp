@@ -1,5 +1,5 @@
 // Rendering unit alone: sorted splats in, a frame buffer in memory out. Checked against GroupState;
-// times against a model stepped cycle by cycle and a recurrence over the groups.
+// times: tests/modules/streaminggs/clocked.
 #include "testbench/units/job_memory.h"
 #include "testbench/units/random_splats.h"
 #include "testbench/units/rendering_run.h"

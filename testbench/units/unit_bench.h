@@ -38,10 +38,6 @@ struct BenchConfig {
   std::optional<MemoryPortConfig> port;
   double stall_probability = 0;  // at both sides of every FIFO made here
   std::uint32_t longest_stall_cycles = 20;
-
-  // Times can be computed: memory and surroundings never keep a unit waiting for more than their
-  // latency.
-  bool still() const { return memory == Memory::kFixedLatency && stall_probability == 0; }
 };
 
 // Memory, its latency and the stalls at random.
