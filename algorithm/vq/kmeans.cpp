@@ -8,9 +8,9 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <random>
 
 #include "algorithm/vq/nearest.h"
+#include "algorithm/vq/seeding.h"
 
 namespace sgs {
 namespace {
@@ -29,51 +29,6 @@ double ordered_sum(std::size_t count, OfBlock&& of_block) {
 
 // Squares that overflow count as the largest number: infinite errors cannot be compared.
 float bounded(float squared) { return std::min(squared, std::numeric_limits<float>::max()); }
-
-float squared_distance(const float* a, const float* b, int dims) {
-  float sum = 0;
-  for (int d = 0; d < dims; ++d) sum += (a[d] - b[d]) * (a[d] - b[d]);
-  return bounded(sum);
-}
-
-// The point at which the running sum of `mass` passes `target`; the last of any mass for rounding.
-std::size_t point_at(const std::vector<double>& mass, double target) {
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (mass[i] <= 0) continue;
-    last = i;
-    target -= mass[i];
-    if (target < 0) break;
-  }
-  return last;
-}
-
-// Each next centroid is a point drawn in proportion to weight times squared distance to the nearest
-// one so far.
-std::vector<float> seed_centroids(const PointSet& points, std::uint32_t entries,
-                                  std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-  const int dims = points.dims;
-  std::vector<float> centroids;
-  std::vector<double> mass(points.weights.begin(), points.weights.end());
-  std::vector<float> nearest(points.size(), std::numeric_limits<float>::infinity());
-  double total = std::accumulate(mass.begin(), mass.end(), 0.0);
-  while (centroids.size() < std::size_t{entries} * static_cast<std::size_t>(dims) && total > 0) {
-    const float* chosen = points[point_at(mass, uniform() * total)];
-    centroids.insert(centroids.end(), chosen, chosen + dims);
-    total = ordered_sum(points.size(), [&](std::size_t begin, std::size_t end) {
-      double sum = 0;
-      for (std::size_t i = begin; i != end; ++i) {
-        nearest[i] = std::min(nearest[i], squared_distance(points[i], chosen, dims));
-        mass[i] = static_cast<double>(points.weights[i]) * nearest[i];
-        sum += mass[i];
-      }
-      return sum;
-    });
-  }
-  return centroids;
-}
 
 struct Assignment {
   std::vector<std::uint32_t> labels;     // [N]

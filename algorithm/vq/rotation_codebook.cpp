@@ -15,135 +15,17 @@
 #include <numeric>
 
 #include "algorithm/splat/constants.h"
+#include "algorithm/vq/rotation_search.h"
 
 namespace sgs {
 namespace {
 
-constexpr int kQuatDims = 4;
-constexpr int kDims = kQuatDims + 3;  // quaternion, share of each axis in the sensitivity
-
-struct Match {
-  std::uint32_t entry = 0;
-  std::size_t half_turn = 0;  // after which it costs that
-  float cost = 0;
-};
-
-// A shape's quaternion q and q i, q j, q k: the entry q' is off by the turn whose half angle's sine
-// has the components q' . q i, q' . q j, q' . q k about the shape's own axes.
-using Frame = std::array<glm::dvec4, 4>;
-Frame frame_of(const float* q) {
-  const double w = q[0], x = q[1], y = q[2], z = q[3];
-  return {glm::dvec4(w, x, y, z), glm::dvec4(-x, w, z, -y), glm::dvec4(-y, -z, w, x),
-          glm::dvec4(-z, y, -x, w)};
-}
-
-// Which of the frame's four play the turns about axes 0, 1, 2 after each of the half turns that
-// leave an ellipsoid as it is: none, about axis 0, 1, 2.
-constexpr std::size_t kTurns[4][3] = {{1, 2, 3}, {0, 3, 2}, {3, 0, 1}, {2, 1, 0}};
-
-// The matrix whose quadratic form is the cost of an entry, after a half turn.
-glm::dmat4 cost_matrix(const Frame& frame, const float* share, std::size_t half_turn) {
-  glm::dmat4 matrix(0.0);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const glm::dvec4& e = frame[kTurns[half_turn][axis]];
-    matrix += static_cast<double>(share[axis]) * glm::outerProduct(e, e);
-  }
-  return matrix;
-}
-
-// Half turns after which an entry could be nearer: canonical quaternions have their largest
-// component first, and a half turn about axis k puts component k there. Far from the border of the
-// canonical domain there is no entry to be found across it.
-bool near_border(const float* q, std::size_t half_turn) {
-  constexpr float kNear = 0.6F;
-  return half_turn == 0 || std::abs(q[half_turn]) > kNear * std::abs(q[0]);
-}
-
-// A quadratic form of four variables has ten coefficients; the entries' monomials stand side by
-// side, so that a loop over entries is vector code.
-constexpr std::size_t kMonomials = 10;
-constexpr int kFactors[kMonomials][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1},
-                                         {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
-class EntryTable {
- public:
-  explicit EntryTable(const std::vector<float>& quats) {
-    const std::size_t count = quats.size() / kQuatDims;
-    const std::size_t blocks = (count + kLanes - 1) / kLanes;
-    monomials_.resize(blocks * kMonomials * kLanes);
-    for (std::size_t e = 0; e < blocks * kLanes; ++e) {
-      // Padded with the first entry, which loses every tie against itself.
-      const float* q = quats.data() + (e < count ? e : 0) * kQuatDims;
-      for (std::size_t m = 0; m < kMonomials; ++m) {
-        monomials_[(e / kLanes * kMonomials + m) * kLanes + e % kLanes] =
-            q[kFactors[m][0]] * q[kFactors[m][1]];
-      }
-    }
-  }
-
-  // The entry that costs the point least; of equal ones the first.
-  Match find(const float* point) const {
-    const Frame frame = frame_of(point);
-    Match best{0, 0, std::numeric_limits<float>::infinity()};
-    for (std::size_t half_turn = 0; half_turn < 4; ++half_turn) {
-      if (!near_border(point, half_turn)) continue;
-      const glm::dmat4 matrix = cost_matrix(frame, point + kQuatDims, half_turn);
-      float coefficients[kMonomials];
-      for (std::size_t m = 0; m < kMonomials; ++m) {
-        const int* factors = kFactors[m];
-        const double twice = factors[0] == factors[1] ? 1 : 2;
-        coefficients[m] = static_cast<float>(twice * matrix[factors[0]][factors[1]]);
-      }
-      compare(coefficients, half_turn, best);
-    }
-    return best;
-  }
-
- private:
-  static constexpr std::uint32_t kLanes = 64;  // enough that the loop over them is not unrolled
-
-  void compare(const float (&coefficients)[kMonomials], std::size_t half_turn, Match& best) const {
-    float least[kLanes];
-    std::int32_t least_block[kLanes] = {};
-    std::fill_n(least, kLanes, std::numeric_limits<float>::infinity());
-    const auto blocks = static_cast<std::int32_t>(monomials_.size() / (kMonomials * kLanes));
-    for (std::int32_t block = 0; block < blocks; ++block) {
-      const float* values =
-          monomials_.data() + static_cast<std::size_t>(block) * kMonomials * kLanes;
-      float costs[kLanes];
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        float cost = 0;
-        for (std::size_t m = 0; m < kMonomials; ++m) {
-          cost += coefficients[m] * values[m * kLanes + lane];
-        }
-        costs[lane] = cost;
-      }
-      // Masks, not selections: two of one condition make a branch.
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const std::int32_t less = -static_cast<std::int32_t>(costs[lane] < least[lane]);
-        least_block[lane] = (block & less) | (least_block[lane] & ~less);
-      }
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        least[lane] = std::min(least[lane], costs[lane]);
-      }
-    }
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t entry = static_cast<std::uint32_t>(least_block[lane]) * kLanes + lane;
-      if (least[lane] < best.cost || (least[lane] == best.cost && entry < best.entry)) {
-        best = {entry, half_turn, least[lane]};
-      }
-    }
-  }
-
-  std::vector<float> monomials_;  // [blocks, monomials, lanes]
-};
-
-std::vector<Match> match_all(const PointSet& points, const std::vector<float>& quats) {
-  const EntryTable table(quats);
-  std::vector<Match> matches(points.size());
+std::vector<RotationMatch> match_all(const PointSet& points, const std::vector<float>& quats) {
+  const RotationSearch search(quats);
+  std::vector<RotationMatch> matches(points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 256), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      matches[i] = table.find(points[i]);
+      matches[i] = search.find(points[i]);
     }
   });
   return matches;
@@ -151,7 +33,7 @@ std::vector<Match> match_all(const PointSet& points, const std::vector<float>& q
 
 // Moves each entry to the quaternion of least cost for its points: the eigenvector of the smallest
 // eigenvalue, by inverse iteration from the present one.
-void move_entries(const PointSet& points, const std::vector<Match>& matches,
+void move_entries(const PointSet& points, const std::vector<RotationMatch>& matches,
                   std::vector<float>& quats) {
   const std::size_t entries = quats.size() / kQuatDims;
   std::vector<std::vector<std::uint32_t>> members(entries);
@@ -162,8 +44,8 @@ void move_entries(const PointSet& points, const std::vector<Match>& matches,
     float* entry = quats.data() + e * kQuatDims;
     glm::dmat4 sum(0.0);
     for (const std::uint32_t i : members[e]) {
-      sum += static_cast<double>(points.weights[i]) *
-             cost_matrix(frame_of(points[i]), points[i] + kQuatDims, matches[i].half_turn);
+      sum +=
+          static_cast<double>(points.weights[i]) * rotation_cost(points[i], matches[i].half_turn);
     }
     const double trace = sum[0][0] + sum[1][1] + sum[2][2] + sum[3][3];
     if (!(trace > 0)) return;  // nobody cares
@@ -179,7 +61,7 @@ void move_entries(const PointSet& points, const std::vector<Match>& matches,
   });
 }
 
-double mean_cost(const PointSet& points, const std::vector<Match>& matches) {
+double mean_cost(const PointSet& points, const std::vector<RotationMatch>& matches) {
   double cost = 0, weight = 0;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     cost += static_cast<double>(points.weights[i]) * std::max(0.0F, matches[i].cost);
@@ -204,11 +86,11 @@ void normalise(std::vector<float>& quats) {
 // multiplied.
 PointSet rotation_points(const std::vector<CanonicalShape>& shapes,
                          const std::vector<float>& weights, const std::vector<float>& pixel_sizes) {
-  PointSet points{kDims, std::vector<float>(shapes.size() * kDims), weights};
+  PointSet points{kRotationDims, std::vector<float>(shapes.size() * kRotationDims), weights};
   tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
     const std::array<float, 3> sensitivity = turn_sensitivity(shapes[i].scale, pixel_sizes[i]);
     const float sum = sensitivity[0] + sensitivity[1] + sensitivity[2];
-    float* const point = &points.values[i * kDims];
+    float* const point = &points.values[i * kRotationDims];
     std::copy_n(shapes[i].quat.begin(), kQuatDims, point);
     for (std::size_t k = 0; k < 3; ++k) {
       point[kQuatDims + k] = sum > 0 ? sensitivity[k] / sum : 0;
@@ -218,10 +100,10 @@ PointSet rotation_points(const std::vector<CanonicalShape>& shapes,
   return points;
 }
 
-std::vector<std::uint32_t> labels_of(const std::vector<Match>& matches) {
+std::vector<std::uint32_t> labels_of(const std::vector<RotationMatch>& matches) {
   std::vector<std::uint32_t> labels(matches.size());
   std::transform(matches.begin(), matches.end(), labels.begin(),
-                 [](const Match& match) { return match.entry; });
+                 [](const RotationMatch& match) { return match.entry; });
   return labels;
 }
 
@@ -272,7 +154,7 @@ RotationCodebook train_rotations(const std::vector<CanonicalShape>& shapes,
   const PointSet training = draw(points, config.training_points / 2, config.seed);
   double before = std::numeric_limits<double>::infinity();
   for (std::uint32_t iteration = 0; iteration < config.iterations; ++iteration) {
-    const std::vector<Match> matches = match_all(training, out.quats);
+    const std::vector<RotationMatch> matches = match_all(training, out.quats);
     const double cost = mean_cost(training, matches);
     if (progress) progress(start.iterations + 1 + iteration, cost);
     if (cost >= before * (1 - kLeastGain)) break;
