@@ -25,6 +25,15 @@ std::uint8_t quantised(float value) {
   return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * 255.0f));
 }
 
+std::vector<std::uint8_t> levels_of(const Image& image) {
+  std::vector<std::uint8_t> levels;
+  levels.reserve(3 * image.pixels.size());
+  for (const glm::vec3& pixel : image.pixels) {
+    levels.insert(levels.end(), {quantised(pixel.x), quantised(pixel.y), quantised(pixel.z)});
+  }
+  return levels;
+}
+
 // libpng's own state must be released whichever way the reader is left.
 struct PngImage : png_image {
   PngImage() : png_image{} { version = PNG_IMAGE_VERSION; }
@@ -77,11 +86,7 @@ std::string without_colour_space(const std::string& packed) {
 }  // namespace
 
 std::string encode_png(const Image& image) {
-  std::vector<std::uint8_t> values;
-  values.reserve(3 * image.pixels.size());
-  for (const glm::vec3& pixel : image.pixels) {
-    values.insert(values.end(), {quantised(pixel.x), quantised(pixel.y), quantised(pixel.z)});
-  }
+  const std::vector<std::uint8_t> values = levels_of(image);
   PngImage png;
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
@@ -94,6 +99,10 @@ std::string encode_png(const Image& image) {
   }
   bytes.resize(size);
   return bytes;
+}
+
+bool same_png(const Image& a, const Image& b) {
+  return a.width == b.width && a.height == b.height && levels_of(a) == levels_of(b);
 }
 
 RgbaImage read_png_rgba(const std::string& path) {

@@ -14,6 +14,9 @@ namespace sgs {
 // [0, 1] (NaN: 0), times 255, rounded; no gamma, the file says sRGB.
 std::string encode_png(const Image& image);
 
+// Whether both give the same file.
+bool same_png(const Image& a, const Image& b);
+
 // Reads a PNG of any kind as 8 bits a channel to values in [0, 1] as stored, whatever the file
 // states of gamma, primaries or profiles. Throws InputError: not a PNG, damaged, or shorter than
 // its size in pixels can be packed into.

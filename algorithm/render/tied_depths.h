@@ -4,15 +4,23 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithm/image/image.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/view.h"
 
 namespace sgs {
 
-// Whether two Gaussians that may be seen have the same depth and `ranks` (of each Gaussian, all
-// different) would order them otherwise than their indices do. Where none have, the reference
-// picture of the cloud in the order of `ranks` is that of the cloud as it is, bit for bit.
-bool reorders_ties(const View<float>& view, const ActivatedCloud& cloud,
-                   const std::vector<std::uint32_t>& ranks);
+// One flag for each tile of kTilePx, row by row: whether two Gaussians of a depth fall on it that
+// `ranks` (of each Gaussian, all different) order otherwise than their indices do, or may. On all
+// other tiles the reference picture of the cloud in the order of `ranks` is that of the cloud as it
+// is, bit for bit.
+std::vector<char> tiles_of_ties(const View<float>& view, const ActivatedCloud& cloud,
+                                const std::vector<std::uint32_t>& ranks);
+
+// The reference picture of the cloud in the order of `ranks`. tiles: of these ties; picture: the
+// reference picture of the cloud as it is, which gives the other tiles.
+Image picture_by_ranks(const View<float>& view, const ActivatedCloud& cloud,
+                       const std::vector<std::uint32_t>& ranks, const glm::vec3& background,
+                       const std::vector<char>& tiles, const Image& picture);
 
 }  // namespace sgs

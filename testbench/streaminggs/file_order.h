@@ -18,8 +18,8 @@ struct FileOrderDifference {
   std::uint64_t pixels = 0;  // that differ, in any bit of a channel's value
 };
 
-// reference: of scene.given(). The other picture is made only where some tie is broken otherwise;
-// where none is, both are the same by construction. None of a packed scene: its file's order is not
+// reference: of scene.given(). The other picture is made only of tiles where some tie is broken
+// otherwise; elsewhere both are the same by construction. None of a packed scene: its file's order is not
 // known.
 std::optional<FileOrderDifference> file_order_difference(const PreparedScene& scene,
                                                          const View<float>& view,

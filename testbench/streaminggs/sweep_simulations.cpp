@@ -63,7 +63,7 @@ std::unique_ptr<ChildProcess> SweepSimulations::start(const SweepTask& task) {
       fmt::format("{}\n{}\n{} {} {}", of_scene, text_of(task.camera), job.frame.background.x,
                   job.frame.background.y, job.frame.background.z);
   const auto references =
-      references_.get(of_view, [&] { return reference_pictures(*scene, job.frame); });
+      references_.get(of_view, [&] { return reference_pictures(*scene, job.frame, nullptr); });
   const std::string of_picture =
       fmt::format("{}\n{} {}", of_view, task.picture, static_cast<int>(job.frame.frame_format));
   const auto expected = expected_.get(

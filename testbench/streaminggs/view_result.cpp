@@ -81,12 +81,13 @@ ViewJob view_job(const PreparedScene& scene, int view, const Camera& camera,
   return job;
 }
 
-ReferencePictures reference_pictures(const PreparedScene& scene, const FrameJob& job) {
+ReferencePictures reference_pictures(const PreparedScene& scene, const FrameJob& job,
+                                     const Image* drawn) {
   const auto reference_of = [&](const ActivatedCloud& cloud) {
     return render_reference(job.view, cloud, job.background).image;
   };
   ReferencePictures out;
-  out.decoded_reference = reference_of(scene.stored.decoded);
+  out.decoded_reference = drawn == nullptr ? reference_of(scene.stored.decoded) : *drawn;
   out.reference =
       scene.stored.original ? reference_of(*scene.stored.original) : out.decoded_reference;
   out.file_order = file_order_difference(scene, job.view, job.background, out.reference);
@@ -132,11 +133,12 @@ ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& c
                          const RunConfig& config, const Technology& technology,
                          const RunOptions& options) {
   const ViewJob job = view_job(scene, number, camera, config);
-  ReferencePictures pictures = reference_pictures(scene, job.frame);
   std::vector<LeftOut> entries;
   LeftOutCollector left_out(entries);
   GoldenFrame golden = config.design->golden(scene.stored, job.frame, left_out);
   FrameResult run = run_frame(*config.design, job.frame, scene.stored.image, config.dram, options);
+  ReferencePictures pictures = reference_pictures(
+      scene, job.frame, config.design->draws_reference() ? &golden.image : nullptr);
   list_left_out(scene.stored, run.machine, left_out);
   const bool equal = run.frame == encode_frame(job.frame.frame_format, golden.image);
   JudgedFrame judged = judge_frame(scene, job, pictures, golden, run.frame);

@@ -38,7 +38,9 @@ struct ReferencePictures {
   std::optional<FileOrderDifference> file_order;  // of `reference`; none where it is not known
 };
 
-ReferencePictures reference_pictures(const PreparedScene& scene, const FrameJob& job);
+// drawn: that of the scene as encoded, where it is known; null: it is drawn.
+ReferencePictures reference_pictures(const PreparedScene& scene, const FrameJob& job,
+                                     const Image* drawn);
 
 // A frame out of the modelled DRAM as a picture, against those.
 struct JudgedFrame {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "algorithm/image/image_io.h"
+#include "algorithm/image/png_file.h"
 #include "algorithm/input_error.h"
 #include "algorithm/output_set.h"
 #include "testbench/streaminggs/error_maps.h"
@@ -30,9 +31,12 @@ void write_view(const fs::path& folder, const ViewResult& view, const std::strin
     return files.add((folder / file).string());
   };
   write_image(add("frame.exr"), view.frame);
-  write_image(add("frame.png"), view.frame);
   write_image(add("reference.exr"), view.reference);
-  write_image(add("reference.png"), view.reference);
+  // Of 8 bits a channel both are often the same.
+  const std::string frame = encode_png(view.frame);
+  add("frame.png").write(frame);
+  add("reference.png")
+      .write(same_png(view.frame, view.reference) ? frame : encode_png(view.reference));
   add("report.json").write(report);
   std::set<std::string> old(std::begin(kErrorMapFiles), std::end(kErrorMapFiles));
   old.insert(kGroupTableFile);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
+#include <random>
 
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
@@ -52,10 +53,44 @@ TEST_CASE("tied depths: only ties that may be seen and stand in another order co
                          {"none at all", {}, {}, false}}) {
     INFO(c.what);
     const ActivatedCloud cloud = row(c.depths);
-    CHECK(reorders_ties(view, cloud, c.ranks) == c.reordered);
+    const std::vector<char> tiles = tiles_of_ties(view, cloud, c.ranks);
+    CHECK((std::count(tiles.begin(), tiles.end(), 1) > 0) == c.reordered);
     // What it promises, and that the picture shows what it warns of.
-    const Image as_it_is = render_reference(view, cloud).image;
-    const Image other = render_reference(view, reordered(cloud, order_of(c.ranks))).image;
+    const glm::vec3 background(0.1F, 0.2F, 0.3F);
+    const Image as_it_is = render_reference(view, cloud, background).image;
+    const Image other =
+        render_reference(view, reordered(cloud, order_of(c.ranks)), background).image;
     CHECK((as_it_is.pixels == other.pixels) == !c.reordered);
+    CHECK(picture_by_ranks(view, cloud, c.ranks, background, tiles, as_it_is).pixels ==
+          other.pixels);
+  }
+}
+
+TEST_CASE("tied depths: of many ties all over a frame, only some tiles are drawn anew") {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    std::mt19937_64 random(seed);
+    const auto uniform = [&](float low, float high) {
+      return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    GaussianCloud given;
+    for (int i = 0; i < 1500; ++i) {
+      const float depth = 2 + 0.01F * static_cast<float>(random() % 400);
+      test::add_ball(given, {depth * uniform(-1, 1), depth * uniform(-1, 1), depth}, 0.02, 0.7,
+                     {uniform(0, 1), uniform(0, 1), uniform(0, 1)});
+    }
+    const ActivatedCloud cloud = activate(given);
+    Ranks ranks(cloud.size());
+    std::iota(ranks.begin(), ranks.end(), 0U);
+    std::shuffle(ranks.begin(), ranks.end(), random);
+    const View<float> view = make_view<float>(test::forward_camera(200, 120, 100));
+    const Image as_it_is = render_reference(view, cloud).image;
+    const Image other = render_reference(view, reordered(cloud, order_of(ranks))).image;
+    const std::vector<char> tiles = tiles_of_ties(view, cloud, ranks);
+    const auto drawn = std::count(tiles.begin(), tiles.end(), 1);
+    CHECK(drawn > 0);
+    CHECK(drawn < static_cast<std::ptrdiff_t>(tiles.size()));
+    CHECK(as_it_is.pixels != other.pixels);
+    CHECK(picture_by_ranks(view, cloud, ranks, glm::vec3(0), tiles, as_it_is).pixels ==
+          other.pixels);
   }
 }
