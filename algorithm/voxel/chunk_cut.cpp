@@ -29,11 +29,13 @@ Four least(Four a, Four b) { return b < a ? b : a; }
 Four largest(Four a, Four b) { return a < b ? b : a; }
 
 struct Bin {
-  Four low = all_four(std::numeric_limits<float>::max());
-  Four high = all_four(std::numeric_limits<float>::lowest());
-  Four reach = all_four(0.0F);
-  std::uint32_t count = 0;
+  Four low, high, reach;
+  std::uint32_t count;
 
+  static Bin empty() {
+    return {all_four(std::numeric_limits<float>::max()),
+            all_four(std::numeric_limits<float>::lowest()), all_four(0.0F), 0};
+  }
   void add(const Bin& other) {
     low = least(low, other.low);
     high = largest(high, other.high);
@@ -51,7 +53,7 @@ struct Bin {
 Bin bin_of(const ChunkItem& item) { return {four(item.at), four(item.at), four(item.reach), 1}; }
 
 Bin all_of(const ChunkItem* items, std::uint32_t count) {
-  Bin all;
+  Bin all = Bin::empty();
   for (std::uint32_t i = 0; i < count; ++i) all.add(bin_of(items[i]));
   return all;
 }
@@ -62,28 +64,51 @@ struct Cut {
   std::uint32_t left = 0;
 };
 
-// The least of its own cost and those of all cuts between bins.
-Cut better(Cut best, const std::array<Bin, kBins>& bins, int axis, std::uint32_t chunk) {
-  const auto cost_of = [&](const Bin& part) {
-    const std::uint64_t chunks = (std::uint64_t{part.count} + chunk - 1) / chunk;
-    return static_cast<double>(chunks) * inflated_area(part.bound());
-  };
-  constexpr double kNothingThere = std::numeric_limits<double>::infinity();
-  std::array<double, kBins> right_cost{};
-  Bin right;
-  for (std::size_t k = kBins - 1; k > 0; --k) {
-    if (bins[k].count > 0) right.add(bins[k]);
-    right_cost[k] = right.count == 0 ? kNothingThere : cost_of(right);
+// Along one axis. Most bins of most cuts are empty: those are neither written nor read.
+class AxisBins {
+ public:
+  AxisBins() {}  // bins are made when something falls into them
+
+  void add(std::size_t at, const Bin& one) {
+    const std::uint32_t bit = 1U << at;
+    if ((filled_ & bit) == 0) {
+      bins_[at] = one;
+    } else {
+      bins_[at].add(one);
+    }
+    filled_ |= bit;
   }
-  Bin left;
-  for (std::size_t k = 0; k + 1 < kBins; ++k) {
-    if (bins[k].count > 0) left.add(bins[k]);
-    if (left.count == 0) continue;
-    const double cost = cost_of(left) + right_cost[k + 1];
-    if (cost < best.cost) best = {cost, axis, left.count};
+
+  // The least of its own cost and those of all cuts between bins.
+  Cut better(Cut best, int axis, std::uint32_t chunk) const {
+    const auto cost_of = [&](const Bin& part) {
+      const std::uint64_t chunks = (std::uint64_t{part.count} + chunk - 1) / chunk;
+      return static_cast<double>(chunks) * inflated_area(part.bound());
+    };
+    std::size_t places[kBins];
+    std::size_t count = 0;
+    for (std::uint32_t left = filled_; left != 0; left &= left - 1) {
+      places[count++] = static_cast<std::size_t>(__builtin_ctz(left));
+    }
+    double right_cost[kBins];  // [place] of that bin and all behind it
+    Bin right = Bin::empty();
+    for (std::size_t k = count; k-- > 1;) {
+      right.add(bins_[places[k]]);
+      right_cost[k] = cost_of(right);
+    }
+    Bin left = Bin::empty();
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+      left.add(bins_[places[k]]);
+      const double cost = cost_of(left) + right_cost[k + 1];
+      if (cost < best.cost) best = {cost, axis, left.count};
+    }
+    return best;
   }
-  return best;
-}
+
+ private:
+  std::uint32_t filled_ = 0;
+  std::array<Bin, kBins> bins_;
+};
 
 Cut best_cut(const ChunkItem* items, std::uint32_t count, std::uint32_t chunk) {
   // No two floats are nearer to each other. Where all are at one place they lie in one bin, which
@@ -95,18 +120,18 @@ Cut best_cut(const ChunkItem* items, std::uint32_t count, std::uint32_t chunk) {
     const double length = static_cast<double>(all.high[k]) - all.low[k];
     scale[k] = kBins / std::max(length, kLeastLength);
   }
-  std::array<std::array<Bin, kBins>, kAxes> bins;
+  std::array<AxisBins, kAxes> bins;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Bin one = bin_of(items[i]);
     for (int k = 0; k < kAxes; ++k) {
       const auto at =
           static_cast<std::size_t>((static_cast<double>(items[i].at[k]) - all.low[k]) * scale[k]);
-      bins[static_cast<std::size_t>(k)][std::min(at, kBins - 1)].add(one);
+      bins[static_cast<std::size_t>(k)].add(std::min(at, kBins - 1), one);
     }
   }
   Cut best;
   for (int k = 0; k < kAxes; ++k) {
-    best = better(best, bins[static_cast<std::size_t>(k)], k, chunk);
+    best = bins[static_cast<std::size_t>(k)].better(best, k, chunk);
   }
   return best;
 }
