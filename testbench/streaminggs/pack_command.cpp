@@ -60,7 +60,7 @@ int run(const PackArguments& arguments, const Kinds& kinds) {
   const Scene scene = arguments.load();
   const std::vector<Camera> weighing =
       arguments.weighing_cameras(scene.cameras, config.storage.encoding);
-  const PreparedScene prepared = prepare(scene, config, weighing);
+  const PreparedScene prepared = prepare(scene, config, weighing, CodebookCache(arguments.cache));
   const MemoryImage& image = prepared.stored.image;
   check_records(image, arguments.scene);
   const PackedFacts facts{prepared.name, prepared.stored.gaussians, prepared.dropped_invalid,
@@ -92,6 +92,7 @@ SubCommand add_pack_command(CommandLine& line, const Kinds& kinds) {
   line.file("--cameras", arguments->cameras_path,
             "cameras.json, for vector quantisation; built-in scenes bring their own");
   arguments->add_weighing_to(line);
+  arguments->add_cache_to(line);
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(line);
   line.text("--out", arguments->out,

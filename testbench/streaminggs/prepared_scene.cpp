@@ -71,10 +71,13 @@ PreparedScene restore(PackedScene packed, const std::string& path) {
   return prepared;
 }
 
-PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>& weighing) {
+PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>& weighing,
+                      const CodebookCache& cache) {
   const ProgressLine progress;
   const Quantise quantise = [&](const ActivatedCloud& cloud, const VqConfig& vq) {
-    return quantise_scene(cloud, vq, weighing, progress.of_quantisation());
+    return cache.codebooks(cloud, vq, weighing, [&] {
+      return quantise_scene(cloud, vq, weighing, progress.of_quantisation());
+    });
   };
   ActivatedCloud cloud = activate(scene.cloud);
   scene.cloud = {};

@@ -11,6 +11,7 @@
 #include "algorithm/storage/storage_choices.h"
 #include "algorithm/storage/stored_scene.h"
 #include "algorithm/vq/quantise.h"
+#include "testbench/streaminggs/codebook_cache.h"
 #include "testbench/streaminggs/run_config.h"
 
 namespace sgs {
@@ -46,7 +47,8 @@ PreparedScene restore(PackedScene packed, const std::string& path);
 
 // Store, or restore, and fill in. weighing: cameras that weigh the Gaussians where second halves
 // are quantised; progress of that goes to stderr if it is a terminal. Both throw InputError.
-PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>& weighing);
+PreparedScene prepare(Scene scene, RunConfig& config, const std::vector<Camera>& weighing,
+                      const CodebookCache& cache = {});
 PreparedScene prepare(PackedScene packed, const std::string& path, RunConfig& config);
 
 }  // namespace sgs

@@ -13,11 +13,12 @@
 
 namespace sgs {
 
+std::uint64_t xxh64(const void* bytes, std::size_t count) { return XXH64(bytes, count, 0); }
 std::uint64_t xxh64(const std::vector<std::byte>& bytes) {
-  return XXH64(bytes.data(), bytes.size(), 0);
+  return xxh64(bytes.data(), bytes.size());
 }
 
-std::uint64_t xxh64_of_text(const std::string& text) { return XXH64(text.data(), text.size(), 0); }
+std::uint64_t xxh64_of_text(const std::string& text) { return xxh64(text.data(), text.size()); }
 
 std::uint64_t xxh64_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
@@ -37,6 +38,16 @@ std::string digest_of_files(const std::vector<std::string>& paths) {
     hashes.insert(hashes.end(), bytes, bytes + sizeof hash);
   }
   return fmt::format("{:016x}", xxh64(hashes));
+}
+
+std::string text_of(const Camera& camera) {
+  std::string text = fmt::format("{} {}x{} {} {}", camera.id, camera.width, camera.height,
+                                 camera.focal_x, camera.focal_y);
+  for (int i = 0; i < 3; ++i) {
+    text += fmt::format(" {}", camera.position[i]);
+    for (int j = 0; j < 3; ++j) text += fmt::format(" {}", camera.world_from_camera[i][j]);
+  }
+  return text + " " + camera.name;
 }
 
 std::string command_line() {

@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/scene/camera.h"
+
 namespace sgs {
 
 // XXH64 with seed 0, as `xxhsum` prints it: tells whether two runs were fed the same bytes.
+std::uint64_t xxh64(const void* bytes, std::size_t count);
 std::uint64_t xxh64(const std::vector<std::byte>& bytes);
 // Of a text's.
 std::uint64_t xxh64_of_text(const std::string& text);
@@ -16,6 +19,9 @@ std::uint64_t xxh64_of_text(const std::string& text);
 std::uint64_t xxh64_of_file(const std::string& path);
 // Of those among these that are files, in this order, as a text.
 std::string digest_of_files(const std::vector<std::string>& paths);
+
+// All that a picture depends on of a camera, and its name, as a text.
+std::string text_of(const Camera& camera);
 
 // This process' command line, its arguments separated by spaces.
 std::string command_line();

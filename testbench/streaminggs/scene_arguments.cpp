@@ -110,6 +110,12 @@ void SceneArguments::add_weighing_to(CommandLine& line) {
                "0,2,3; all if not given");
 }
 
+void SceneArguments::add_cache_to(CommandLine& line) {
+  line.text("--cache", cache,
+            "folder that keeps codebooks for later runs, or off; if not given, $STREAMINGGS_CACHE, "
+            "or streaminggs in $XDG_CACHE_HOME or ~/.cache");
+}
+
 std::string SceneArguments::default_out(const std::string& config_name) const {
   std::string name = std::filesystem::path(scene).stem().string();
   if (is_builtin_scene(scene)) {

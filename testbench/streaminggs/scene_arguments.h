@@ -34,6 +34,7 @@ struct SceneArguments {
   std::string size;           // "WxH" or empty
   std::vector<int> weigh_by;  // numbers of cameras; empty: all
   bool drop_invalid = false;
+  std::string cache;  // of codebooks, as CodebookCache takes it
 
   // forms: what SCENE may be.
   void add_scene_to(CommandLine& line, const char* forms = kSceneForms);
@@ -43,6 +44,7 @@ struct SceneArguments {
   void add_choice_of_views_to(CommandLine& line);
 
   void add_weighing_to(CommandLine& line);
+  void add_cache_to(CommandLine& line);
 
   // Where to write what the user gave no place for: out/, the scene's name, the configuration's.
   std::string default_out(const std::string& config_name) const;

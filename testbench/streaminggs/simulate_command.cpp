@@ -196,7 +196,7 @@ int run(const SimulateArguments& arguments, const Kinds& kinds) {
     // A path weighs a scene that brings no cameras of its own.
     const std::vector<Camera> weighing = arguments.weighing_cameras(
         scene.cameras.empty() ? keys : scene.cameras, config.storage.encoding);
-    setting.scene = prepare(std::move(scene), config, weighing);
+    setting.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
   print_what_runs(setting);
   return path ? run_path(*path, setting, out)
@@ -210,6 +210,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   arguments->add_scene_to(line);
   arguments->add_views_to(line);
   arguments->add_weighing_to(line);
+  arguments->add_cache_to(line);
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(line);
   line.file("--out", arguments->out,

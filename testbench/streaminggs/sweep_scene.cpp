@@ -12,23 +12,12 @@
 #include "modules/storage_keys.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/command_line/while_doing.h"
-#include "testbench/streaminggs/provenance.h"
 
 namespace sgs {
 
 std::uint64_t size_bytes(const PreparedScene& scene) {
   // The bytes of the image, and clouds of about as many.
   return scene.stored.image.bytes.size() * (scene.stored.original ? 3 : 2);
-}
-
-std::string text_of(const Camera& camera) {
-  std::string text = fmt::format("{} {}x{} {} {}", camera.id, camera.width, camera.height,
-                                 camera.focal_x, camera.focal_y);
-  for (int i = 0; i < 3; ++i) {
-    text += fmt::format(" {}", camera.position[i]);
-    for (int j = 0; j < 3; ++j) text += fmt::format(" {}", camera.world_from_camera[i][j]);
-  }
-  return text + " " + camera.name;
 }
 
 SweepScene::SweepScene(SceneArguments arguments) : arguments_(std::move(arguments)) {

@@ -13,6 +13,7 @@
 #include "algorithm/storage/image_file.h"
 #include "algorithm/vq/quantise.h"
 #include "testbench/streaminggs/prepared_scene.h"
+#include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/run_config.h"
 #include "testbench/streaminggs/scene_arguments.h"
 
@@ -60,8 +61,5 @@ class SweepScene {
 
 // About what a prepared scene takes of memory.
 std::uint64_t size_bytes(const PreparedScene& scene);
-
-// All that a picture depends on of a camera, and its name, as a text.
-std::string text_of(const Camera& camera);
 
 }  // namespace sgs

@@ -104,8 +104,8 @@ void print(const Outcome& base, const std::vector<Doubling>& doublings) {
     const auto per_mm2 = [&](double gain) {
       return counted && mm2 > 0 ? change_in_words(gain / mm2) : std::string("-");
     };
-    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>10} {:>10}   {}\n", d.key, d.from,
-               d.to, d.outcome.cycles, change_in_words(time), change_in_words(energy), mm2,
+    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>10} {:>10}   {}\n", d.key,
+               d.from, d.to, d.outcome.cycles, change_in_words(time), change_in_words(energy), mm2,
                per_mm2(time), per_mm2(energy), d.outcome.binding.holds);
   }
   for (const Doubling& d : doublings) {
@@ -206,7 +206,7 @@ int run(const WhatIfArguments& arguments, const Kinds& kinds) {
   } else {
     const std::vector<Camera> weighing =
         arguments.weighing_cameras(scene.cameras, config.storage.encoding);
-    base.scene = prepare(std::move(scene), config, weighing);
+    base.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
   }
   base.resolved = to_json(config);
   const Json resolved = Json::parse(base.resolved);
@@ -231,6 +231,7 @@ SubCommand add_what_if_command(CommandLine& line, const Kinds& kinds) {
   arguments->add_scene_to(line);
   arguments->add_views_to(line);
   arguments->add_weighing_to(line);
+  arguments->add_cache_to(line);
   arguments->config.config = kinds.front().name;
   arguments->config.add_to(line);
   line.file("--technology", arguments->technology, "table of energy and area");
