@@ -19,15 +19,18 @@ class BlendWatch {
   // To be called with each blend into the group. Whether the splat at `depth` was blended into any
   // of the sub-tile's pixels.
   bool see(const SubtileBlend& blend, float depth) {
+    // Masks and numbers of 32 bits, so that a loop over lanes is vector code.
     Deepest& deepest = deepest_[blend.at];
-    bool any = false;
+    std::int32_t any = 0, behind = 0;
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
-      const bool blended = blend.shares.alpha[lane] > 0;
+      const std::int32_t blended = blend.shares.alpha[lane] > 0 ? -1 : 0;
       any |= blended;
-      misordered_ += blended && depth < deepest.depth[lane] ? 1 : 0;
-      deepest.depth[lane] = blended ? std::max(depth, deepest.depth[lane]) : deepest.depth[lane];
+      behind -= blended & (depth < deepest.depth[lane] ? -1 : 0);
+      const float deeper = std::max(depth, deepest.depth[lane]);
+      deepest.depth[lane] = blended != 0 ? deeper : deepest.depth[lane];
     }
-    return any;
+    misordered_ += static_cast<std::uint32_t>(behind);
+    return any != 0;
   }
 
   // Blends, per pixel, of a splat that is nearer than one already blended there.

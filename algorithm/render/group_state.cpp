@@ -13,6 +13,8 @@ GroupState::GroupState(const PixelRect& pixels, int width_px, int height_px,
   const auto down = [](int px) { return static_cast<std::uint16_t>(px / kSubtilePx); };
   subtiles_ = {down(pixels.x0), down(pixels.y0), down(pixels.x1 + kSubtilePx - 1),
                down(pixels.y1 + kSubtilePx - 1)};
+  states_.reserve(static_cast<std::size_t>(subtiles_.x1 - subtiles_.x0) *
+                  static_cast<std::size_t>(subtiles_.y1 - subtiles_.y0));
   for (int y = subtiles_.y0; y < subtiles_.y1; ++y) {
     for (int x = subtiles_.x0; x < subtiles_.x1; ++x) {
       states_.push_back(make_subtile(x, y, width_px, height_px));

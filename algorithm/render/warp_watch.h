@@ -20,7 +20,7 @@ class WarpWatch {
     for (int y = 0; y < kTilePx; ++y) {
       for (int x = 0; x < kTilePx; ++x) {
         active_[y / kSubtilePx * kSubtilesPerTile + x / kSubtilePx][lane(x, y)] =
-            x < pixels.width() && y < pixels.height();
+            x < pixels.width() && y < pixels.height() ? -1 : 0;
       }
     }
   }
@@ -29,12 +29,17 @@ class WarpWatch {
   void see(const SubtileBlend& blend) {
     const int row = blend.y % kSubtilesPerTile, column = blend.x % kSubtilesPerTile;
     auto& active = active_[static_cast<std::size_t>(row * kSubtilesPerTile + column)];
-    for (std::size_t l = 0; l < kSubtilePixels; ++l) {
-      const std::size_t warp = row_pair(row * kSubtilePx + static_cast<int>(l) / kSubtilePx);
-      blends_[warp] |= blend.shares.alpha[l] > 0;
-      const bool now = blend.behind.active[l] != 0;
-      if (active[l] && !now) --left_[warp];
-      active[l] = now;
+    constexpr std::size_t kLanes = kSubtilePixels / 2;  // of a warp in a sub-tile
+    for (std::size_t first = 0; first < kSubtilePixels; first += kLanes) {
+      std::int32_t blends = 0, left = 0;
+      for (std::size_t l = first; l < first + kLanes; ++l) {
+        blends |= blend.shares.alpha[l] > 0 ? -1 : 0;
+        left += active[l] & ~blend.behind.active[l];  // masks: -1 where both are set
+        active[l] = blend.behind.active[l];
+      }
+      const std::size_t warp = row_pair(row * kSubtilePx + static_cast<int>(first) / kSubtilePx);
+      blends_[warp] |= blends != 0;
+      left_[warp] += left;
     }
   }
 
@@ -58,7 +63,9 @@ class WarpWatch {
     return static_cast<std::size_t>(y % kSubtilePx * kSubtilePx + x % kSubtilePx);
   }
 
-  std::array<std::array<bool, kSubtilePixels>, kSubtilesPerTile * kSubtilesPerTile> active_{};
+  // Masks: -1 of a pixel that was active behind the last entry, as in SubtileState.
+  std::array<std::array<std::int32_t, kSubtilePixels>, kSubtilesPerTile * kSubtilesPerTile>
+      active_{};
   std::array<int, kWarpsOfTile> unfinished_{}, left_{};
   std::array<bool, kWarpsOfTile> blends_{};
   std::uint64_t entries_ = 0, blended_ = 0;

@@ -10,6 +10,10 @@
 #include "algorithm/splat/visible_extents.h"
 #include "algorithm/voxel/binary_tree.h"
 
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
 namespace sgs {
 namespace {
 
@@ -25,8 +29,14 @@ Four four(const float* of) {
   return out;
 }
 Four all_four(float x) { return Four{x, x, x, x}; }
+#ifdef __SSE__
+// The same selections in one instruction each.
+Four least(Four a, Four b) { return _mm_min_ps(b, a); }
+Four largest(Four a, Four b) { return _mm_max_ps(b, a); }
+#else
 Four least(Four a, Four b) { return b < a ? b : a; }
 Four largest(Four a, Four b) { return a < b ? b : a; }
+#endif
 
 struct Bin {
   Four low, high, reach;
