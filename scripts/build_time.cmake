@@ -1,5 +1,5 @@
-# What shortens the build and changes no result: precompiled headers, and less optimisation of code
-# that runs once. Included after all targets are made.
+# What shortens the build and changes no result: precompiled headers, and less optimisation where
+# it gains no speed. Included after all targets are made.
 
 # sgs_targets_below(OUT TYPES FOLDERS...): the targets made in FOLDERS and below whose type matches
 # the regular expression TYPES.
@@ -41,6 +41,7 @@ function(sgs_precompile name)
   endforeach()
 endfunction()
 
+# Not JSON: each file behind nlohmann's header instantiates its parser, whether it reads JSON or not.
 set(base_headers <algorithm> <array> <charconv> <cmath> <cstdint> <cstring> <filesystem> <fstream>
   <functional> <limits> <map> <memory> <numeric> <optional> <random> <set> <string> <vector>
   <fmt/format.h> <glm/common.hpp> <glm/geometric.hpp> <glm/mat3x3.hpp> <glm/matrix.hpp>
@@ -66,21 +67,19 @@ if(NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
         testbench/timeline testbench/units testbench/waveform)
   endif()
   if(BUILD_TESTING)
+    set(test_folders tests/algorithm tests/fuzz tests/testbench)
+    if(SYSTEMC_FOUND)
+      list(APPEND test_folders tests/modules/config tests/system)
+    endif()
     sgs_precompile(sgs_test_headers HEADERS ${base_headers} <catch2/catch.hpp>
-      LIBS ${base_libs} Catch2::Catch2 FOLDERS tests/algorithm tests/fuzz
-        tests/modules/config tests/testbench)
+      LIBS ${base_libs} Catch2::Catch2 FOLDERS ${test_folders})
     if(SYSTEMC_FOUND)
       # What is compiled behind SystemC's headers must be linked with it.
       sgs_precompile(sgs_systemc_test_headers
         HEADERS ${base_headers} ${systemc_headers} <catch2/catch.hpp>
         LIBS ${systemc_libs} Catch2::Catch2
         FOLDERS tests/modules tests/tlm)
-      # Each file behind nlohmann's header instantiates its parser: here nearly all read reports.
-      sgs_precompile(sgs_system_test_headers
-        HEADERS ${base_headers} <catch2/catch.hpp> <nlohmann/json.hpp>
-        LIBS ${base_libs} nlohmann_json::nlohmann_json Catch2::Catch2 FOLDERS tests/system)
       target_compile_definitions(sgs_systemc_test_headers PRIVATE CATCH_CONFIG_FAST_COMPILE)
-      target_compile_definitions(sgs_system_test_headers PRIVATE CATCH_CONFIG_FAST_COMPILE)
     endif()
     target_compile_definitions(sgs_test_headers PRIVATE CATCH_CONFIG_FAST_COMPILE)
   endif()
@@ -88,20 +87,20 @@ endif()
 
 # Commands and tests read arguments, write reports and compare: the work is done in algorithm/, and
 # in the units that blend. What else a unit does is no faster by -O3, and takes longer to compile.
-set(once)
+set(lightly)
 if(SYSTEMC_FOUND)
-  sgs_targets_below(once "STATIC|EXECUTABLE" tlm modules testbench/builtin testbench/command_line
+  sgs_targets_below(lightly "STATIC|EXECUTABLE" tlm modules testbench/builtin testbench/command_line
     testbench/cost testbench/process testbench/result testbench/streaminggs testbench/timeline
     testbench/waveform)
-  list(REMOVE_ITEM once sgs_gscore sgs_rendering)
+  list(REMOVE_ITEM lightly sgs_gscore sgs_rendering)
   sgs_targets_below(benches EXECUTABLE testbench/dram testbench/units)
-  list(APPEND once ${benches})
+  list(APPEND lightly ${benches})
 endif()
 if(BUILD_TESTING)
   sgs_targets_below(tests EXECUTABLE tests)
-  list(APPEND once ${tests} sgs_test_main)
+  list(APPEND lightly ${tests} sgs_test_main)
 endif()
-foreach(target ${once})
+foreach(target ${lightly})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endforeach()
 
