@@ -17,6 +17,7 @@
 #include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/image_file.h"
+#include "modules/config/strict_json.h"
 #include "modules/storage_keys.h"
 #include "testbench/streaminggs/provenance.h"
 
