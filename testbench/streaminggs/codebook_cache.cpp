@@ -26,6 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What entries are told from packed scenes of the user by.
+constexpr const char* kEntryPrefix = "codebooks-";
+
 std::string environment(const char* name) {
   const char* const value = std::getenv(name);
   return value == nullptr ? "" : value;
@@ -52,7 +55,7 @@ std::string name_of(const ActivatedCloud& cloud, const VqConfig& config,
                                 cloud.sh_degree, hash_of(cloud.gaussians), hash_of(cloud.sh_coeffs),
                                 config_to_json(config));
   for (const Camera& camera : weighing) key += text_of(camera) + "\n";
-  return fmt::format("{:016x}{}", xxh64_of_text(key), kImageFileExtension);
+  return fmt::format("{}{:016x}{}", kEntryPrefix, xxh64_of_text(key), kImageFileExtension);
 }
 
 void write_entry(const std::string& path, const ActivatedCloud& cloud, const VqConfig& config,
@@ -115,7 +118,8 @@ void make_room(const fs::path& kept) {
   std::vector<Entry> entries;
   std::uint64_t bytes = 0;
   for (const fs::directory_entry& file : fs::directory_iterator(kept.parent_path())) {
-    if (file.path().extension() != kImageFileExtension) continue;
+    const std::string name = file.path().filename().string();
+    if (name.rfind(kEntryPrefix, 0) != 0 || file.path().extension() != kImageFileExtension) continue;
     bytes += file.file_size();
     if (file.path() != kept)
       entries.push_back({file.last_write_time(), file.path(), file.file_size()});

@@ -20,6 +20,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "scripts"))
 
 COMMAND = os.environ.get("STREAMINGGS", "")
+os.environ["STREAMINGGS_CACHE"] = "off"  # the user's is none of theirs
 
 # Marks a test or a class that takes long. A shorter test enters the same code.
 nightly = unittest.skipUnless(os.environ.get("SGS_NIGHTLY"), "nightly: $SGS_NIGHTLY is not set")

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -79,6 +80,7 @@ TEST_CASE("hostile: where nothing would run, a line says so") {
 extern "C" int sc_main(int, char*[]) { return 0; }
 
 int main(int argc, char* argv[]) {
+  setenv("STREAMINGGS_CACHE", "off", 1);  // the user's is none of theirs
   Catch::Session session;
   using Catch::clara::Opt;
   std::string text = "21:2";  // behind the extremes one by one

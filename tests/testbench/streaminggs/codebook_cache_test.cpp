@@ -138,15 +138,15 @@ TEST_CASE("codebook cache: the oldest give way beyond the most bytes, other file
     fs::last_write_time(folder / name,
                         fs::file_time_type::clock::now() - std::chrono::hours(hours));
   };
-  put("old.sgs", 1 << 20, 3);
-  put("older.sgs", CodebookCache::kMostBytes - (1 << 20), 4);
-  put("oldest.txt", 1 << 20, 5);
+  put("codebooks-old.sgs", 1 << 20, 3);
+  put("codebooks-older.sgs", CodebookCache::kMostBytes - (1 << 20), 4);
+  put("scene of the user.sgs", 1 << 20, 5);
   fs::remove(entry);
   kept.get();
   CHECK(fs::exists(entry));
-  CHECK(fs::exists(folder / "old.sgs"));
-  CHECK_FALSE(fs::exists(folder / "older.sgs"));
-  CHECK(fs::exists(folder / "oldest.txt"));
+  CHECK(fs::exists(folder / "codebooks-old.sgs"));
+  CHECK_FALSE(fs::exists(folder / "codebooks-older.sgs"));
+  CHECK(fs::exists(folder / "scene of the user.sgs"));
 }
 
 }  // namespace
