@@ -85,14 +85,16 @@ if(NOT CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
   endif()
 endif()
 
-# Commands and tests read arguments, write reports and compare: the work is done in algorithm/, and
-# in the units that blend. What else a unit does is no faster by -O3, and takes longer to compile.
+# Commands and tests read arguments, write reports and compare: the work is done in algorithm/, in
+# units and in the memory. Units that do not blend gain nothing by -O3 over -O2.
 set(lightly)
+set(units)
 if(SYSTEMC_FOUND)
-  sgs_targets_below(lightly "STATIC|EXECUTABLE" tlm modules testbench/builtin testbench/command_line
-    testbench/cost testbench/process testbench/result testbench/streaminggs testbench/timeline
-    testbench/waveform)
-  list(REMOVE_ITEM lightly sgs_gscore sgs_rendering)
+  sgs_targets_below(lightly "STATIC|EXECUTABLE" modules/config testbench/builtin
+    testbench/command_line testbench/cost testbench/process testbench/result testbench/streaminggs
+    testbench/timeline testbench/waveform)
+  sgs_targets_below(units STATIC tlm modules)
+  list(REMOVE_ITEM units sgs_config sgs_gscore sgs_rendering)
   sgs_targets_below(benches EXECUTABLE testbench/dram testbench/units)
   list(APPEND lightly ${benches})
 endif()
@@ -102,6 +104,9 @@ if(BUILD_TESTING)
 endif()
 foreach(target ${lightly})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endforeach()
+foreach(target ${units})
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
 endforeach()
 
 # UndefinedBehaviorSanitizer doubles what a file takes to compile. The product's libraries and
