@@ -119,7 +119,8 @@ void make_room(const fs::path& kept) {
   std::uint64_t bytes = 0;
   for (const fs::directory_entry& file : fs::directory_iterator(kept.parent_path())) {
     const std::string name = file.path().filename().string();
-    if (name.rfind(kEntryPrefix, 0) != 0 || file.path().extension() != kImageFileExtension) continue;
+    if (name.rfind(kEntryPrefix, 0) != 0 || file.path().extension() != kImageFileExtension)
+      continue;
     bytes += file.file_size();
     if (file.path() != kept)
       entries.push_back({file.last_write_time(), file.path(), file.file_size()});

@@ -19,8 +19,8 @@ struct FileOrderDifference {
 };
 
 // reference: of scene.given(). The other picture is made only of tiles where some tie is broken
-// otherwise; elsewhere both are the same by construction. None of a packed scene: its file's order is not
-// known.
+// otherwise; elsewhere both are the same by construction. None of a packed scene: its file's order
+// is not known.
 std::optional<FileOrderDifference> file_order_difference(const PreparedScene& scene,
                                                          const View<float>& view,
                                                          const glm::vec3& background,
