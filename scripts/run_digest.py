@@ -14,6 +14,8 @@ from simulations import Run
 # Where the program finds presets, memspecs and technology, from its own folder, links resolved
 # (algorithm/data_files.h).
 DATA_FROM_BIN = pathlib.Path("..", "share", "streaminggs")
+# Beside the program: what it becomes for any command but `simulate`.
+OTHER_COMMANDS = "streaminggs-commands"
 
 
 def data_folder(binary: pathlib.Path) -> pathlib.Path:
@@ -21,11 +23,15 @@ def data_folder(binary: pathlib.Path) -> pathlib.Path:
 
 
 def program_digest(binary: pathlib.Path) -> str:
-    """Of the program and its data files. Raises ValueError when there is no program."""
+    """Of the program, the one that has its other commands, and their data files. Raises ValueError
+    when there is no program."""
     if not binary.is_file():
         raise ValueError(f"{binary}: not there; scripts/setup.sh builds it")
     data = data_folder(binary)
     digest = hashlib.sha256(binary.read_bytes())
+    others = binary.resolve().with_name(OTHER_COMMANDS)
+    if others.is_file():
+        digest.update(others.read_bytes())
     # Folders of a build tree are links to the sources, which a recursive glob does not follow; what
     # is written there for readers the program does not read.
     files = (p for pattern in ("*", "*/*") for p in data.glob(pattern) if p.is_file())

@@ -246,6 +246,8 @@ class Keeping(InFolder):
         for path in read:
             path.write_text("{}")
         program = self.stand_in(self.BODY).rename(bin_folder / "streaminggs")
+        other_commands = bin_folder / "streaminggs-commands"
+        other_commands.write_text("sweep, tune")
         calls = bin_folder / "calls"
 
         def made() -> int:
@@ -261,7 +263,8 @@ class Keeping(InFolder):
         (self.folder / "presets" / "README.md").write_text("For readers.")
         self.assertEqual(made(), 3)
         so_far = 3
-        for path, again in zip((*read, config, self.scene), (3, 3, 3, 3, 1, 3, 3)):
+        files = (*read, config, self.scene, other_commands)
+        for path, again in zip(files, (3, 3, 3, 3, 1, 3, 3, 3)):
             with self.subTest(path.name):
                 content = path.read_bytes()
                 path.write_bytes(content[:-1] + b"!")  # as long as before
