@@ -21,7 +21,7 @@ import machine_cases
 import run_arguments
 import tables
 from machine_cases import Case
-from simulations import Run, simulate_all
+from simulations import Run, keep_no_codebooks, simulate_all
 
 # NeRArch-Sim (ISCA 2026), of a design point of GSCore.
 PUBLISHED_SECONDS = 47.7
@@ -72,6 +72,7 @@ def make(arguments: argparse.Namespace) -> None:
         Run(case.scene, arguments.view, case.size, machine, (f"dram.channels={channels}",))
         for case, channels, machine in asked
     ]
+    keep_no_codebooks()
     points, views = [], []
     for (case, _, machine), outcome in zip(asked, simulate_all(arguments.streaminggs, runs, 1)):
         (view,) = outcome.accepted()

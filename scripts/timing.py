@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import run_arguments
 import tables
 from scenes import find_scenes
-from simulations import Run, simulate_all
+from simulations import Run, keep_no_codebooks, simulate_all
 
 HEAD = ("scene", "size", "Gaussians", "preset", "simulation s", "whole command s", "peak MB")
 
@@ -25,6 +25,7 @@ def median(views: Sequence[dict], key: str) -> str:
 def make_table(arguments: argparse.Namespace) -> None:
     run_arguments.check_at_least("--repeats", arguments.repeats, 1)
     run_arguments.check_once("--configs", arguments.configs)
+    keep_no_codebooks()
     rows, measured = [], []
     for scene in find_scenes(arguments.scenes):
         for config in arguments.configs:

@@ -116,6 +116,14 @@ class Ends(InFolder):
                 with self.subTest(what, script=script.__name__):
                     self.check(script, (*needed, *program, *more), *expected)
 
+    def test_wall_times_are_of_codebooks_that_are_made(self):
+        keeping = self.stand_in("print(os.environ['STREAMINGGS_CACHE']); sys.exit(1)")
+        program = ("--streaminggs", str(keeping), "--out", str(self.folder / "out"))
+        for script in (design_point_seconds, timing):
+            with self.subTest(script.__name__), mock.patch.dict("os.environ"):
+                os.environ["STREAMINGGS_CACHE"] = "kept"
+                self.check(script, program, 1, "truck .*: off$")
+
     def test_of_one_script(self):
         good = self.stand_in("finish()")
         fifo = self.folder / "fifo"
