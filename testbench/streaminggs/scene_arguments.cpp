@@ -111,7 +111,7 @@ void SceneArguments::add_weighing_to(CommandLine& line) {
 }
 
 void SceneArguments::add_cache_to(CommandLine& line) {
-  line.text("--cache", cache,
+  line.file("--cache", cache,
             "folder that keeps codebooks for later runs, or off; if not given, $STREAMINGGS_CACHE, "
             "or streaminggs in $XDG_CACHE_HOME or ~/.cache");
 }

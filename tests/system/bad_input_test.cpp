@@ -257,6 +257,7 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
            {"$TB --table --set dram.channels=2", 2, {"--config, --set: got them with --table"}},
            {"$TB --check t --config exact", 2, {"--config, --set: got them with --check"}},
            {"$SG simulate $B --out o --cameras ''", 2, {"--cameras", "got nothing"}},
+           {"$SG simulate $B --out o --cache ''", 2, {"--cache", "got nothing"}},
            {"$TB --config ''", 2, {"--config", "got nothing"}},
            {"$TB --vcd ''", 2, {"--vcd", "got nothing"}},
            {"$TB --dram-trace ''", 2, {"--dram-trace", "got nothing"}},
