@@ -154,8 +154,9 @@ bool CommandLine::parse(int argc, const char* const* argv) {
     app.exit(asked_for_help);
     return false;
   } catch (const CLI::ParseError& error) {
-    throw InputError(
-        fmt::format("{} ({} --help lists what there is)", error.what(), app.get_name()));
+    std::string asked = app.get_name();
+    for (const CLI::App* command : app.get_subcommands()) asked += " " + command->get_name();
+    throw InputError(fmt::format("{} ({} --help lists what there is)", error.what(), asked));
   }
   return true;
 }
