@@ -338,6 +338,31 @@ class Ends(InFolder):
                 self.assertRegex(done.stdout, rf"\A{out}\Z")
                 self.assertRegex(done.stderr, rf"\A{said}\Z")
 
+    def test_of_suites_of_tests(self):
+        scripts = self.folder / "scripts"
+        scripts.mkdir()
+        shutil.copy(REPOSITORY / "scripts" / "test.sh", scripts)
+        for name, body in (
+            ("debian_packages.sh", "install_missing() { :; }"),
+            ("tools.sh", ":"),
+            ("setup.sh", 'echo "$@"; exit 9'),
+        ):
+            (scripts / name).write_text(f"#!/bin/sh\n{body}\n")
+            (scripts / name).chmod(0o755)
+        for words, status, out in (
+            ((), 9, "release\n"),
+            (("release",), 9, "release\n"),
+            (("asan",), 9, "asan sanitized_tests\n"),
+            (("nightly",), 9, "release\n"),
+            (("full",), 2, ""),
+            (("release", "nightly"), 2, ""),
+        ):
+            with self.subTest(words):
+                command = ["bash", str(scripts / "test.sh"), *words]
+                done = subprocess.run(command, capture_output=True, text=True, check=False)
+                self.assertEqual((done.returncode, done.stdout), (status, out))
+                self.assertEqual(done.stderr.startswith("usage: test.sh "), status == 2)
+
     def test_unknown_scene_and_readme(self):
         for script in (explore, fill_readme):
             with self.subTest(script.__name__):
