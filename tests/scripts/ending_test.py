@@ -363,6 +363,20 @@ class Ends(InFolder):
                 self.assertEqual((done.returncode, done.stdout), (status, out))
                 self.assertEqual(done.stderr.startswith("usage: test.sh "), status == 2)
 
+    def test_a_first_frame_leaves_no_older_program(self):
+        scripts = self.folder / "scripts"
+        others = self.folder / "build" / "release" / "bin" / "streaminggs-commands"
+        for folder in (scripts, others.parent):
+            folder.mkdir(parents=True)
+        shutil.copy(REPOSITORY / "scripts" / "run.sh", scripts)
+        (scripts / "setup.sh").write_text('#!/bin/sh\necho "$@"\nexit 9\n')
+        (scripts / "setup.sh").chmod(0o755)
+        for built in ("release streaminggs\n", "release streaminggs streaminggs-commands\n"):
+            command = ["bash", str(scripts / "run.sh")]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (9, built))
+            others.touch()
+
     def test_unknown_scene_and_readme(self):
         for script in (explore, fill_readme):
             with self.subTest(script.__name__):
