@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What entries are told from packed scenes of the user by.
-constexpr const char* kEntryPrefix = "codebooks-";
+// An entry is called so, a digest behind it: told from packed scenes of the user by that.
+const std::string kEntryPrefix = "codebooks-";
 
 std::string environment(const char* name) {
   const char* const value = std::getenv(name);
@@ -48,6 +48,7 @@ std::uint64_t hash_of(const std::vector<T>& values) {
   return xxh64(values.data(), values.size() * sizeof(T));
 }
 
+// Without extension.
 std::string name_of(const ActivatedCloud& cloud, const VqConfig& config,
                     const std::vector<Camera>& weighing) {
   static_assert(sizeof(Gaussian<float>) == 11 * sizeof(float), "no byte is left undefined");
@@ -55,7 +56,15 @@ std::string name_of(const ActivatedCloud& cloud, const VqConfig& config,
                                 cloud.sh_degree, hash_of(cloud.gaussians), hash_of(cloud.sh_coeffs),
                                 config_to_json(config));
   for (const Camera& camera : weighing) key += text_of(camera) + "\n";
-  return fmt::format("{}{:016x}{}", kEntryPrefix, xxh64_of_text(key), kImageFileExtension);
+  return fmt::format("{}{:016x}", kEntryPrefix, xxh64_of_text(key));
+}
+
+// Or the part file of one, which a killed process leaves.
+bool is_entry(const std::string& file) {
+  const std::size_t digest = kEntryPrefix.size(), extension = digest + 16;
+  return file.rfind(kEntryPrefix, 0) == 0 &&
+         file.find_first_not_of("0123456789abcdef", digest) == extension &&
+         file.find(kImageFileExtension, extension) == extension;
 }
 
 void write_entry(const std::string& path, const ActivatedCloud& cloud, const VqConfig& config,
@@ -66,20 +75,21 @@ void write_entry(const std::string& path, const ActivatedCloud& cloud, const VqC
   storage.encoding = SecondHalfEncoding::kVq;
   storage.store_invisible = true;
   storage.vq = config;
-  const PackedFacts facts{"codebooks", cloud.size(), 0, 0};
+  const PackedFacts facts{fs::path(path).stem().string(), cloud.size(), 0, 0};
   write_image_file(
       path, facts, storage,
       build_memory_image(encode_quantised(cloud, quantised, storage.encoding), NoTable{}));
 }
 
-// Throws InputError: damaged, or not of such a cloud.
+// Throws InputError: damaged, or kept under another name.
 QuantisedCloud read_entry(const std::string& path, const ActivatedCloud& cloud) {
   const PackedScene packed = read_image_file(path);
   const SceneLayout& layout = packed.image.layout;
   const SecondHalfFormat& format = layout.second_half;
-  if (layout.order() != StorageOrder::kFile || format.encoding != SecondHalfEncoding::kVq ||
+  if (packed.facts.name != fs::path(path).stem().string() ||
+      layout.order() != StorageOrder::kFile || format.encoding != SecondHalfEncoding::kVq ||
       layout.gaussian_count() != cloud.size() || format.sh_degree != cloud.sh_degree) {
-    throw InputError(path + ": of another scene, expected the one that it is named after");
+    throw InputError(path + ": of something else, expected what it is named after");
   }
   const ActivatedCloud decoded = decode_image(packed.image, path);
   QuantisedCloud out;
@@ -108,7 +118,7 @@ QuantisedCloud read_entry(const std::string& path, const ActivatedCloud& cloud) 
   return out;
 }
 
-// The oldest go until all fit; `kept` stays whatever it takes.
+// The oldest go until all fit; `kept` stays whatever it takes. Another process may be faster.
 void make_room(const fs::path& kept) {
   struct Entry {
     fs::file_time_type time;
@@ -117,19 +127,19 @@ void make_room(const fs::path& kept) {
   };
   std::vector<Entry> entries;
   std::uint64_t bytes = 0;
+  std::error_code gone;
   for (const fs::directory_entry& file : fs::directory_iterator(kept.parent_path())) {
-    const std::string name = file.path().filename().string();
-    if (name.rfind(kEntryPrefix, 0) != 0 || file.path().extension() != kImageFileExtension)
-      continue;
-    bytes += file.file_size();
-    if (file.path() != kept)
-      entries.push_back({file.last_write_time(), file.path(), file.file_size()});
+    if (!is_entry(file.path().filename().string())) continue;
+    const std::uint64_t of_file = file.file_size(gone);
+    if (gone) continue;
+    bytes += of_file;
+    if (file.path() != kept) entries.push_back({file.last_write_time(gone), file.path(), of_file});
   }
   std::sort(entries.begin(), entries.end(),
             [](const Entry& a, const Entry& b) { return a.time < b.time; });
   for (const Entry& entry : entries) {
     if (bytes <= CodebookCache::kMostBytes) return;
-    fs::remove(entry.path);
+    fs::remove(entry.path, gone);
     bytes -= entry.bytes;
   }
 }
@@ -145,7 +155,8 @@ QuantisedCloud CodebookCache::codebooks(const ActivatedCloud& cloud, const VqCon
                                         const std::vector<Camera>& weighing,
                                         const std::function<QuantisedCloud()>& make) const {
   if (folder_.empty()) return make();
-  const fs::path path = fs::path(folder_) / name_of(cloud, config, weighing);
+  const fs::path path =
+      fs::path(folder_) / (name_of(cloud, config, weighing) + kImageFileExtension);
   std::error_code unknown;
   if (fs::exists(path, unknown)) {
     try {
