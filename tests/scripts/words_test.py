@@ -50,7 +50,6 @@ NOT_REWRITTEN = {
     "algorithm/splat/README.md": 1883,
     "algorithm/train/README.md": 2473,
     "algorithm/tune/README.md": 2691,
-    "algorithm/vq/README.md": 571,
     "modules/README.md": 1565,
     "modules/dram/README.md": 1935,
     "modules/gscore/README.md": 4363,
