@@ -56,7 +56,6 @@ NOT_REWRITTEN = {
     "scripts/README.md": 10939,
     "testbench/configs/README.md": 2737,
     "testbench/cost/README.md": 2366,
-    "testbench/gpu/README.md": 987,
     "testbench/streaminggs/README.md": 6613,
     "testbench/units/README.md": 592,
     "tests/README.md": 2345,
