@@ -57,7 +57,6 @@ NOT_REWRITTEN = {
     "testbench/configs/README.md": 2737,
     "testbench/cost/README.md": 2366,
     "testbench/streaminggs/README.md": 6613,
-    "testbench/units/README.md": 592,
     "tests/README.md": 2345,
     "tlm/README.md": 858,
     "traces/README.md": 1370,
