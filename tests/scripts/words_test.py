@@ -58,7 +58,6 @@ NOT_REWRITTEN = {
     "testbench/cost/README.md": 2366,
     "testbench/streaminggs/README.md": 6613,
     "tests/README.md": 2345,
-    "tlm/README.md": 858,
     "traces/README.md": 1370,
 }
 LONGEST = 25  # words of a sentence
