@@ -58,7 +58,6 @@ NOT_REWRITTEN = {
     "testbench/cost/README.md": 2366,
     "testbench/streaminggs/README.md": 6613,
     "tests/README.md": 2345,
-    "traces/README.md": 1370,
 }
 LONGEST = 25  # words of a sentence
 MEDIAN, NINTH_TENTH = 14, 26  # words of a file's sentences, at most
