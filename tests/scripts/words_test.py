@@ -46,7 +46,6 @@ NOT_REWRITTEN = {
     "README.md": 3988,
     "algorithm/render/README.md": 2746,
     "algorithm/splat/README.md": 1883,
-    "algorithm/train/README.md": 2473,
     "algorithm/tune/README.md": 2691,
     "modules/README.md": 1565,
     "modules/dram/README.md": 1935,
