@@ -46,7 +46,6 @@ NOT_REWRITTEN = {
     "README.md": 3988,
     "algorithm/render/README.md": 2746,
     "algorithm/splat/README.md": 1883,
-    "algorithm/tune/README.md": 2691,
     "modules/README.md": 1565,
     "modules/dram/README.md": 1935,
     "modules/gscore/README.md": 4363,
