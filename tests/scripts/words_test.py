@@ -44,7 +44,6 @@ BUDGETS = {
 # Not rewritten yet: the words that each has today are its budget, and no other rule holds it.
 NOT_REWRITTEN = {
     "README.md": 3988,
-    "algorithm/splat/README.md": 1883,
     "modules/README.md": 1565,
     "modules/dram/README.md": 1935,
     "modules/gscore/README.md": 4363,
