@@ -50,7 +50,6 @@ NOT_REWRITTEN = {
     "modules/streaminggs/README.md": 11031,
     "scripts/README.md": 10939,
     "testbench/configs/README.md": 2737,
-    "testbench/cost/README.md": 2366,
     "testbench/streaminggs/README.md": 6613,
 }
 LONGEST = 25  # words of a sentence
