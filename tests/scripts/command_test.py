@@ -5,7 +5,7 @@ import subprocess
 import unittest
 from unittest import mock
 
-from in_folder import COMMAND, REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
+from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import binding_check
 import boundary_study
 import compare_machines
@@ -219,9 +219,11 @@ class WithTheCommand(InFolder):
         self.assertEqual(len(list((self.folder / "out").glob("fittings/*/scene.*"))), 4 + 7)
 
     def test_every_counter_of_a_report_is_described(self):
-        text = (REPOSITORY / "testbench" / "streaminggs" / "README.md").read_text()
         scene = find_scene(str(self.scene))
         for config in ("exact", "paper", "gscore"):
+            text = subprocess.run(
+                (COMMAND, "describe", "--config", config), capture_output=True, text=True, check=True
+            ).stdout
             (view,) = simulations.simulate(
                 pathlib.Path(COMMAND), simulations.Run(scene, config=config)
             ).accepted()
