@@ -59,7 +59,7 @@ IMAGE = re.compile(r"!\[[^]]*\]\([^)]*\)")
 LINK = re.compile(r"\[([^]]*)\]\(([^)\s]*)\)")
 ITEM = re.compile(r"\s*([-*]|\d+\.)\s+")
 SENTENCE_END = re.compile(r"(?<=[.!?])\**\)?\s+(?=[^a-z\s])")
-MEASURED = re.compile(r"(?<![\w.])\d[\d,.]*(?: million| M)?\s?-?(dB|mm2|mJ|W|fps|cycles?|%)(?!\w)")
+MEASURED = re.compile(r"(?<![\w.])\d[\d,.]*(?: million| M)?\s?-?(dB|mm2|mJ|W|fps|frames a second|cycles?|%)(?!\w)")
 COMMIT = re.compile(r"\b(?=\w*\d)(?=\w*[a-f])[0-9a-f]{7,40}\b")
 FRAGMENT = re.compile(r"(Of|That|What)\b(?!.*\?$)", re.IGNORECASE)
 
