@@ -57,6 +57,7 @@ KEYS = ("key", "argument")  # how the head of a table of keys begins
 CODE = re.compile(r"`[^`]*`")
 IMAGE = re.compile(r"!\[[^]]*\]\([^)]*\)")
 LINK = re.compile(r"\[([^]]*)\]\(([^)\s]*)\)")
+SOURCE = re.compile(r"`([\w./-]*?)(\w+|\{[\w,]+\})\.(h|cpp|\{h,cpp\})`")
 ITEM = re.compile(r"\s*([-*]|\d+\.)\s+")
 SENTENCE_END = re.compile(r"(?<=[.!?])\**\)?\s+(?=[^a-z\s])")
 MEASURED = re.compile(r"(?<![\w.])\d[\d,.]*(?: million| M)?\s?-?(dB|mm2|mJ|W|fps|frames a second|cycles?|%)(?!\w)")
@@ -187,6 +188,19 @@ def faults_of_links(path: pathlib.Path, text: str) -> Iterator[tuple[int, str]]:
                 yield piece.line, f"a link to {target}, which has no such heading"
 
 
+def faults_of_sources(path: pathlib.Path, text: str) -> Iterator[tuple[int, str]]:
+    """Headers and sources that are named and not there: below the README's folder, or by a path
+    from it or from the repository."""
+    for piece in pieces(text):
+        for folder, stem, ending in SOURCE.findall(piece.text):
+            name = f"{folder}{stem}.{ending.replace('{h,cpp}', 'h')}"
+            if not any(
+                (start / name).exists() or "/" not in name and any(start.rglob(name))
+                for start in (path.parent, REPOSITORY)
+            ):
+                yield piece.line, f"`{name}`, which is not there"
+
+
 def readmes() -> dict[str, pathlib.Path]:
     found = {}
     for path in sorted(REPOSITORY.rglob("README.md")):
@@ -213,6 +227,10 @@ class Readmes(unittest.TestCase):
                 text = path.read_text(encoding="utf-8")
                 self.check(name, faults_of_prose(text))
                 self.check(name, faults_of_length(text))
+
+    def test_sources_that_are_named(self):
+        for name, path in readmes().items():
+            self.check(name, faults_of_sources(path, path.read_text(encoding="utf-8")))
 
     def test_links(self):
         for name, path in readmes().items():
@@ -269,6 +287,14 @@ class Planted(unittest.TestCase):
         text = "One two three.\n<!-- table: x -->\n| many words |\n<!-- end -->\n"
         self.assertEqual(list(faults_of_budget(text, 3)), [])
         self.assertEqual(list(faults_of_budget(text, 2)), [(1, "3 words, over 2")])
+
+    def test_a_source_that_is_gone(self):
+        path = REPOSITORY / "tlm" / "README.md"
+        text = "`activity.h`, `memory_port.{h,cpp}`, `../tlm/phase.h`, `tlm/phase.h`, `x.json`\n"
+        self.assertEqual(list(faults_of_sources(path, text)), [])
+        for name in ("gone.h", "../tlm/gone.{h,cpp}"):
+            with self.subTest(name):
+                self.assertEqual(len(list(faults_of_sources(path, f"`{name}`\n"))), 1)
 
     def test_a_dead_link(self):
         path = REPOSITORY / "README.md"
