@@ -86,6 +86,8 @@ class MachineDesign {
                                          const BuildOptions& options) const = 0;
 };
 
+inline void visit(ConfigVisitor& v, MachineDesign& design) { design.visit(v); }
+
 // A line of the factory.
 struct MachineKind {
   const char* name;     // value of the configuration's key `machine`
