@@ -114,7 +114,7 @@ class GroupState {
   void store(const glm::vec3& background, RenderResult& frame) const;
 
  private:
-  // A splat on so few sub-tiles is blended in hardly more cycles than its rows anyway.
+  // A splat on so few sub-tiles costs hardly more to blend than its rows do.
   static constexpr int kUntestedSubtiles = 4;
 
   // Where row spans cost less than the sub-tiles that they spare.

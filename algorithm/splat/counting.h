@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <initializer_list>
 #include <type_traits>
 
 #include "algorithm/splat/data_flow.h"
@@ -45,7 +47,18 @@ inline int value_of(CountingIndex a) { return a.value; }
 
 inline Counting input(DataFlow& flow, float value) { return {value, &flow, flow.input()}; }
 
+inline glm::vec<3, Counting> input(DataFlow& flow, const glm::vec3& v) {
+  return {input(flow, v.x), input(flow, v.y), input(flow, v.z)};
+}
 inline CountingIndex input_index(DataFlow& flow, int value) { return {value, &flow, flow.input()}; }
+
+// What goes on at the end of the computation.
+template <class Value>
+void keep(DataFlow& flow, std::initializer_list<Value> values) {
+  for (const Value& value : values) {
+    if (value.flow != nullptr) flow.keep(value.node);
+  }
+}
 
 inline DataFlow::Operand operand_of(Counting a) {
   if (a.flow != nullptr) return {false, a.node};

@@ -6,8 +6,8 @@
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/tile_records.h"
 #include "algorithm/render/tile_renderer.h"
-#include "algorithm/splat/longest_path.h"
 #include "modules/config/config_visitor.h"
+#include "modules/datapath/lane_steps.h"
 #include "tlm/memory_port.h"
 #include "tlm/sram_use.h"
 

@@ -6,8 +6,8 @@
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/storage_config.h"
-#include "algorithm/splat/longest_path.h"
 #include "modules/config/config_visitor.h"
+#include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/hfu/codebook_config.h"
 #include "modules/streaminggs/hfu/hfu_config.h"

@@ -8,8 +8,8 @@
 
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/splat/lane_macs.h"
-#include "algorithm/splat/rendering_work.h"
+#include "modules/datapath/lane_steps.h"
+#include "modules/datapath/rendering_flows.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/multiplexers.h"
 
@@ -187,16 +187,17 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
         {"begun spans read", begun_span_reads, expected.begun_span_reads}}) {
     checks.that(got <= all && (taken < pushed || got == all), name);
   }
-  const RenderingWork work = rendering_work(plan.config.precision);
-  const std::uint64_t blend_macs = blends * folded_macs(work.subtile_blend);
+  const RenderingFlows flows = rendering_flows(plan.config.precision);
+  const OperationCounts conic = flows.conic.counts(), spans_begin = flows.spans_begin.counts(),
+                        span = flows.span.counts(), subtile_blend = flows.subtile_blend.counts();
+  const std::uint64_t blend_macs = blends * folded_macs(subtile_blend);
   std::uint64_t pixels = 0;
   for (const PixelRect& px : plan.job.groups) {
     pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
   }
-  const OperationCounts drained = pixel_work(plan.job.frame_format);
-  const std::uint64_t span_macs = pixels * folded_macs(drained) + taken * folded_macs(work.conic) +
-                                  spans * folded_macs(work.span) +
-                                  spanned * folded_macs(work.spans_begin);
+  const OperationCounts drained = pixel_flow(plan.job.frame_format).counts();
+  const std::uint64_t span_macs = pixels * folded_macs(drained) + taken * folded_macs(conic) +
+                                  spans * folded_macs(span) + spanned * folded_macs(spans_begin);
   // The mask is asked of every row for a splat, and of the row that is held for each cluster.
   const auto rows = static_cast<std::uint64_t>(plan.group.height / 4);
   const auto words = ceil_div(static_cast<std::uint64_t>(plan.group.width / 4), 32);
@@ -212,11 +213,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
                "bits of the mask written");
   const std::uint64_t dispatched =
       pushed * rows * words + row_cycles * plan.config.clusters * words + looks * in_loop;
-  bench.check_operations(
-      "rendering", "comparator",
-      dispatched + pixels * comparisons(drained) + taken * comparisons(work.conic) +
-          blends * comparisons(work.subtile_blend) + spans * comparisons(work.span) +
-          spanned * comparisons(work.spans_begin));
+  bench.check_operations("rendering", "comparator",
+                         dispatched + pixels * comparisons(drained) + taken * comparisons(conic) +
+                             blends * comparisons(subtile_blend) + spans * comparisons(span) +
+                             spanned * comparisons(spans_begin));
   const bool in_half = in_16_bits(plan.config.precision);
   bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", blends * 16);
   bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));

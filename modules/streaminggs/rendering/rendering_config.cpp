@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
-#include "algorithm/splat/rendering_work.h"
 #include "modules/datapath/counted_datapath.h"
-#include "modules/datapath/scheduled_datapath.h"
+#include "modules/datapath/rendering_flows.h"
 #include "modules/datapath/work_rates.h"
 
 namespace sgs {
@@ -14,11 +13,13 @@ namespace {
 
 struct Counted {
   explicit Counted(BlendPrecision precision)
-      : work(rendering_work(precision)),
-        blend_macs(folded_macs(work.subtile_blend)),
-        span_macs(folded_macs(work.span)) {}
-  RenderingWork work;
-  std::uint32_t blend_macs, span_macs;
+      : flows(rendering_flows(precision)),
+        conic(flows.conic.counts()),
+        spans_begin(flows.spans_begin.counts()),
+        span(flows.span.counts()),
+        subtile_blend(flows.subtile_blend.counts()) {}
+  RenderingFlows flows;
+  OperationCounts conic, spans_begin, span, subtile_blend;
 };
 
 const Counted& counted(BlendPrecision precision) {
@@ -29,12 +30,12 @@ const Counted& counted(BlendPrecision precision) {
 // Without schedule.
 Datapath begin_datapath(const RenderingConfig& config) {
   Datapath path =
-      counted_datapath("spans_begin", "rendering", counted(config.precision).work.spans_begin);
+      counted_datapath("spans_begin", "rendering", counted(config.precision).spans_begin);
   path.lanes = config.begin_lanes;
   return path;
 }
 Datapath span_datapath(const RenderingConfig& config) {
-  Datapath path = counted_datapath("row_span", "rendering", counted(config.precision).work.span);
+  Datapath path = counted_datapath("row_span", "rendering", counted(config.precision).span);
   path.copies = config.spans_at_once();
   path.lanes = config.span_lanes / path.copies;
   return path;
@@ -43,28 +44,28 @@ Datapath span_datapath(const RenderingConfig& config) {
 }  // namespace
 
 Datapath conic_pipeline(const RenderingConfig& config, const OperationLatencies& single) {
-  Datapath path = counted_datapath("conic", "rendering", counted(config.precision).work.conic);
+  Datapath path = counted_datapath("conic", "rendering", counted(config.precision).conic);
   path.lanes = path.used_macs;
-  schedule(path, conic_steps(config.precision, single), single);
+  schedule(path, counted(config.precision).flows.conic.steps(single), single);
   return path;
 }
 
 Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies) {
-  const OperationCounts& work = counted(config.precision).work.subtile_blend;
+  const OperationCounts& work = counted(config.precision).subtile_blend;
   const bool in_half = in_16_bits(config.precision);
   Datapath path = counted_datapath("subtile_blend", "rendering", work,
                                    in_half ? "exp2_table_half" : "exp2_table");
   if (in_half) path.lane = "fp16_lane";
   path.lanes = config.cluster_lanes;
   path.copies = config.clusters;
-  schedule(path, blend_steps(config.precision, latencies), latencies,
+  schedule(path, counted(config.precision).flows.subtile_blend.steps(latencies), latencies,
            in_half ? kHalfBits : kSingleBits);
   return path;
 }
 
 Datapath begin_pipeline(const RenderingConfig& config, const OperationLatencies& single) {
   Datapath path = begin_datapath(config);
-  schedule(path, spans_begin_steps(single), single);
+  schedule(path, counted(config.precision).flows.spans_begin.steps(single), single);
   return path;
 }
 
@@ -72,7 +73,7 @@ Datapath begin_pipeline(const RenderingConfig& config, const OperationLatencies&
 Datapath span_pipeline(const RenderingConfig& config, const OperationLatencies& single) {
   constexpr std::uint32_t kEdgeBits = 3 * kSingleBits;
   Datapath path = span_datapath(config);
-  schedule(path, span_steps(single), single);
+  schedule(path, counted(config.precision).flows.span.steps(single), single);
   path.between.multiplexers += kEdgeBits;
   path.between.selected += kEdgeBits;
   return path;
@@ -80,15 +81,16 @@ Datapath span_pipeline(const RenderingConfig& config, const OperationLatencies& 
 
 Datapath drain_pipeline(const RenderingConfig& config, FrameFormat format,
                         const OperationLatencies& single) {
-  Datapath path = counted_datapath("drain", "rendering", pixel_work(format));
+  Datapath path = counted_datapath("drain", "rendering", pixel_flow(format).counts());
   path.lanes = path.used_macs;
   path.copies = config.drain_pixels_per_cycle;
-  schedule(path, pixel_steps(format, single), single);
+  schedule(path, pixel_flow(format).steps(single), single);
   return path;
 }
 
 std::uint32_t RenderingConfig::cluster_interval_cycles() const {
-  return static_cast<std::uint32_t>(cycles_for(counted(precision).blend_macs, cluster_lanes));
+  return static_cast<std::uint32_t>(
+      cycles_for(folded_macs(counted(precision).subtile_blend), cluster_lanes));
 }
 
 std::uint32_t RenderingConfig::begin_interval_cycles() const {
@@ -96,7 +98,7 @@ std::uint32_t RenderingConfig::begin_interval_cycles() const {
 }
 
 std::uint32_t RenderingConfig::spans_at_once() const {
-  return std::max(1U, span_lanes / counted(precision).span_macs);
+  return std::max(1U, span_lanes / folded_macs(counted(precision).span));
 }
 
 std::uint32_t RenderingConfig::span_interval_cycles() const {

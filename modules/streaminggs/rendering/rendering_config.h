@@ -5,8 +5,8 @@
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/splat/blend.h"
-#include "algorithm/splat/longest_path.h"
 #include "modules/config/config_visitor.h"
+#include "modules/datapath/lane_steps.h"
 #include "tlm/datapath.h"
 
 namespace sgs {
@@ -52,9 +52,9 @@ struct RenderingConfig {
   std::uint32_t pixel_state_bytes() const { return in_16_bits(precision) ? 8 : 16; }
 };
 
-// Counted by running the code (algorithm/splat/rendering_work.h): the lanes that every splat passes
-// ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile; those
-// that begin a splat's spans, an item a splat; those of its rows. Scheduled on lanes of these
+// Counted by running the code (modules/datapath/rendering_flows.h): the lanes that every splat
+// passes ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile;
+// those that begin a splat's spans, an item a splat; those of its rows. Scheduled on lanes of these
 // latencies.
 Datapath conic_pipeline(const RenderingConfig& config, const OperationLatencies& single);
 Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies);

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "algorithm/memory/splat_record.h"
-#include "algorithm/splat/rendering_work.h"
+#include "modules/datapath/rendering_flows.h"
 #include "modules/datapath/selection.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithm/order/ordering_table.h"
-#include "algorithm/splat/longest_path.h"
+#include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/vsu/node_fetches.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
 #include "tlm/activity.h"

@@ -1,13 +1,13 @@
 // The filters run with the counting scalar.
-#include "algorithm/splat/filter_work.h"
+#include "modules/datapath/filter_flows.h"
 
 #include <array>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <memory>
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
-#include "algorithm/splat/flow_ends.h"
 #include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
@@ -47,17 +47,15 @@ FilterCase longest_case() {
   return out;
 }
 
-namespace {
-
-DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across) {
-  DataFlow flow;
+FlowPart coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across) {
+  const auto flow = std::make_shared<DataFlow>();
   const auto view = make_view<Counting>(tested.camera);
-  const auto mean = input(flow, tested.gaussian.mean);
+  const auto mean = input(*flow, tested.gaussian.mean);
   const VisibleExtents known = visible_extents(tested.gaussian);
-  // Counted whatever it says.
+  // Recorded whatever it says.
   const auto run = [&](const auto& bound) {
     if (!bound.in_front) return;
-    keep(flow, {bound.depth});
+    keep(*flow, {bound.depth});
     const PixelRect& group = tested.group;
     const int parts = static_cast<int>(across);
     const int width = (group.x1 - group.x0) / parts, height = (group.y1 - group.y0) / parts;
@@ -67,82 +65,44 @@ DataFlow coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint
     }
   };
   if (bound_by == CoarseBoundBy::kLargestScale) {
-    run(coarse_bound(view, mean, input(flow, known.scale_max)));
+    run(coarse_bound(view, mean, input(*flow, known.scale_max)));
   } else {
-    const auto extent = input(flow, known.extent);
-    const auto bound = extent_bound(view, mean, extent, input(flow, known.scale_max));
+    const auto extent = input(*flow, known.extent);
+    const auto bound = extent_bound(view, mean, extent, input(*flow, known.scale_max));
     run(bound);
     if (bound.in_front) static_cast<void>(group_reach(bound, tested.group));
   }
-  keep(flow, {mean.x, mean.y, mean.z});
-  flow.pass_beside(kBesideCoarse);
-  return flow;
+  keep(*flow, {mean.x, mean.y, mean.z});
+  flow->pass_beside(kBesideCoarse);
+  return whole(flow);
 }
 
-}  // namespace
-
 FineFlow fine_flow(const FilterCase& tested, const FineRecord& record) {
-  FineFlow out;
-  DataFlow& flow = out.flow;
+  const auto flow = std::make_shared<DataFlow>();
   const auto view = make_view<Counting>(tested.camera);
-  Gaussian<Counting> gaussian = input(flow, tested.gaussian);
+  Gaussian<Counting> gaussian = input(*flow, tested.gaussian);
   std::array<glm::vec<3, Counting>, 16> sh;
-  for (auto& coefficient : sh) coefficient = input(flow, glm::vec3(1.0F));
-  flow.pass_beside(kBesideFine);
+  for (auto& coefficient : sh) coefficient = input(*flow, glm::vec3(1.0F));
+  flow->pass_beside(kBesideFine);
   if (record.quaternion_words < gaussian.quat.size()) {
     auto& [largest, x, y, z] = gaussian.quat;
-    largest = moved_by_units(largest_component<Counting>({x, y, z}), input_index(flow, 0));
+    largest = moved_by_units(largest_component<Counting>({x, y, z}), input_index(*flow, 0));
   }
-  out.decoded = flow.size();
+  const std::size_t decoded = flow->size();
 
   SplatOf<Counting> splat{};
   const bool on_screen = make_geometry(view, gaussian, splat);
-  out.geometry_end = flow.size();
+  const std::size_t geometry_end = flow->size();
   const bool kept = on_screen && reaches_group(splat, tested.group);
-  out.test_end = flow.size();
+  const std::size_t test_end = flow->size();
   if (kept) add_colour(view, record.sh_degree, gaussian.mean, sh.data(), splat);
-  keep(flow, {splat.x, splat.y, splat.depth, splat.conic_a, splat.conic_b, splat.conic_c,
-              splat.opacity, splat.rgb.x, splat.rgb.y, splat.rgb.z});
-  return out;
+  keep(*flow, {splat.x, splat.y, splat.depth, splat.conic_a, splat.conic_b, splat.conic_c,
+               splat.opacity, splat.rgb.x, splat.rgb.y, splat.rgb.z});
+  return {whole(flow),
+          {flow, 0, decoded, {}},
+          {flow, decoded, geometry_end, {}},
+          {flow, geometry_end, test_end, {}},
+          {flow, test_end, flow->size(), {}}};
 }
-
-OperationCounts coarse_work(CoarseBoundBy bound_by, const FilterCase& tested,
-                            std::uint32_t across) {
-  const DataFlow flow = coarse_flow(bound_by, tested, across);
-  return flow.counts(0, flow.size());
-}
-
-LongestPath coarse_path(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across,
-                        const OperationLatencies& latencies) {
-  const DataFlow flow = coarse_flow(bound_by, tested, across);
-  return flow.longest_path(0, flow.size(), latencies);
-}
-
-FineWork fine_work(const FilterCase& tested, const FineRecord& record) {
-  const FineFlow fine = fine_flow(tested, record);
-  return {fine.flow.counts(0, fine.decoded), fine.flow.counts(fine.decoded, fine.geometry_end),
-          fine.flow.counts(fine.geometry_end, fine.test_end),
-          fine.flow.counts(fine.test_end, fine.flow.size())};
-}
-
-LongestPath fine_path(const FilterCase& tested, const FineRecord& record,
-                      const OperationLatencies& latencies) {
-  const FineFlow fine = fine_flow(tested, record);
-  return fine.flow.longest_path(0, fine.flow.size(), latencies);
-}
-
-std::vector<LaneStep> coarse_steps(CoarseBoundBy bound_by, const FilterCase& tested,
-                                   std::uint32_t across, const OperationLatencies& latencies) {
-  const DataFlow flow = coarse_flow(bound_by, tested, across);
-  return lane_steps(flow, 0, flow.size(), latencies);
-}
-
-std::vector<LaneStep> fine_steps(const FilterCase& tested, const FineRecord& record,
-                                 const OperationLatencies& latencies) {
-  const DataFlow flow = fine_flow(tested, record).flow;
-  return lane_steps(flow, 0, flow.size(), latencies);
-}
-
-OperationCounts FineWork::total() const { return decode + geometry + group_test + colour; }
 
 }  // namespace sgs

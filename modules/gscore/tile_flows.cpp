@@ -1,40 +1,38 @@
 // Conversion and tile tests run with the counting scalar.
-#include "algorithm/splat/tile_work.h"
+#include "modules/gscore/tile_flows.h"
 
 #include <array>
 #include <initializer_list>
+#include <memory>
 
 #include "algorithm/splat/counting.h"
 #include "algorithm/splat/counting_half.h"
 #include "algorithm/splat/frame_sides.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/square_conic.h"
+#include "modules/datapath/filter_flows.h"
 
-namespace sgs {
+namespace sgs::gscore {
 namespace {
 
 // Words that go along with a Gaussian, or a tile of it: its number.
 constexpr std::size_t kBesideTileWork = 1;
 
-glm::vec<3, Counting> from_outside(DataFlow& flow, const glm::vec3& v) {
-  return {input(flow, v.x), input(flow, v.y), input(flow, v.z)};
-}
-
-template <class Value>
-void keep_values(DataFlow& flow, std::initializer_list<Value> values) {
-  for (const Value& value : values) {
-    if (value.flow != nullptr) flow.keep(value.node);
-  }
-}
-
 void keep_box(DataFlow& flow, const TileBoxesOf<Counting>& b) {
   for (const PixelRectOf<CountingIndex>* rect : {&b.tiles, &b.parts}) {
-    keep_values(flow, {rect->x0, rect->y0, rect->x1, rect->y1});
+    keep(flow, {rect->x0, rect->y0, rect->x1, rect->y1});
   }
-  keep_values(flow, {b.box.x, b.box.y, b.box.axis_x, b.box.axis_y});
+  keep(flow, {b.box.x, b.box.y, b.box.axis_x, b.box.axis_y});
   for (const BoxLimits<Counting>* limits : {&b.tile, &b.part}) {
-    keep_values(flow, {limits->screen_x, limits->screen_y, limits->along, limits->across});
+    keep(flow, {limits->screen_x, limits->screen_y, limits->along, limits->across});
   }
+}
+
+// An ellipse that is long enough for a box along its axes: longest_case() with other scales.
+FilterCase longest_tile_case() {
+  FilterCase out = longest_case();
+  out.gaussian.scale = {0.5F, 0.04F, 0.11F};
+  return out;
 }
 
 // Of a box along the ellipse's axes, without its limits.
@@ -60,59 +58,55 @@ BoxLimits<Counting> wide_limits(DataFlow& flow) {
 
 }  // namespace
 
-FilterCase longest_tile_case() {
-  FilterCase out = longest_case();
-  out.gaussian.scale = {0.5F, 0.04F, 0.11F};
-  return out;
-}
-
-DataFlow cull_flow() {
-  DataFlow flow;
+FlowPart cull_flow() {
+  const auto recorded = std::make_shared<DataFlow>();
+  DataFlow& flow = *recorded;
   const FilterCase of = longest_case();
   const auto view = make_view<Counting>(of.camera);
-  const auto mean = from_outside(flow, of.gaussian.mean);
+  const auto mean = input(flow, of.gaussian.mean);
   const Counting scale = input(flow, 0.35F);
   flow.pass_beside(kBesideTileWork);
   static_cast<void>(may_touch_frame(view, frame_sides(view), mean, scale));
-  keep_values(flow, {mean.x, mean.y, mean.z, scale});
-  return flow;
+  keep(flow, {mean.x, mean.y, mean.z, scale});
+  return whole(recorded);
 }
 
-DataFlow convert_flow(const TileRules& rules, int sh_degree, bool half_records) {
-  DataFlow flow;
+FlowPart convert_flow(const TileRules& rules, int sh_degree, bool half_records) {
+  const auto recorded = std::make_shared<DataFlow>();
+  DataFlow& flow = *recorded;
   const FilterCase of = longest_tile_case();
   const auto view = make_view<Counting>(of.camera);
   Gaussian<Counting> g{};
-  g.mean = from_outside(flow, of.gaussian.mean);
-  g.scale = from_outside(flow, of.gaussian.scale);
+  g.mean = input(flow, of.gaussian.mean);
+  g.scale = input(flow, of.gaussian.scale);
   for (std::size_t k = 0; k < g.quat.size(); ++k) g.quat[k] = input(flow, of.gaussian.quat[k]);
   g.opacity = input(flow, of.gaussian.opacity);
   std::array<glm::vec<3, Counting>, 16> sh;
-  for (auto& coefficient : sh) coefficient = from_outside(flow, glm::vec3(1.0F));
+  for (auto& coefficient : sh) coefficient = input(flow, glm::vec3(1.0F));
   flow.pass_beside(kBesideTileWork);
 
   SplatOf<Counting> s{};
   TileBoxesOf<Counting> boxes{};
-  if (!make_tile_geometry(view, g, rules, s, boxes)) return flow;
+  if (!make_tile_geometry(view, g, rules, s, boxes)) return whole(recorded);
   add_colour(view, sh_degree, g.mean, sh.data(), s);
-  keep_values(flow, {s.x, s.y});
+  keep(flow, {s.x, s.y});
   keep_box(flow, boxes);
   if (!half_records) {
-    keep_values(flow,
-                {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth});
-    return flow;
+    keep(flow, {s.conic_a, s.conic_b, s.conic_c, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth});
+    return whole(recorded);
   }
   const SquareConic<Counting> square = square_conic(s.conic_a, s.conic_b, s.conic_c);
   const SquareConic<Counting> conic = in_units(square, axis_units(square));
   for (const Counting& value :
        {conic.a, conic.lean, conic.rest, s.opacity, s.rgb.x, s.rgb.y, s.rgb.z, s.depth}) {
-    keep_values(flow, {narrowed<CountingHalf>(value).counting()});
+    keep(flow, {narrowed<CountingHalf>(value).counting()});
   }
-  return flow;
+  return whole(recorded);
 }
 
-DataFlow tile_test_flow(int tiles_at_once) {
-  DataFlow flow;
+FlowPart tile_test_flow(int tiles_at_once) {
+  const auto recorded = std::make_shared<DataFlow>();
+  DataFlow& flow = *recorded;
   TileBoxesOf<Counting> boxes = boxes_from_outside(flow);
   boxes.tile = wide_limits(flow);
   const CountingIndex x = input_index(flow, 3), y = input_index(flow, 5);
@@ -123,20 +117,21 @@ DataFlow tile_test_flow(int tiles_at_once) {
   const CountingIndex next_x = x + CountingIndex(tiles_at_once), next_y = y + CountingIndex(1);
   static_cast<void>(next_x < boxes.tiles.x1);
   static_cast<void>(next_y < boxes.tiles.y1);
-  keep_values(flow, {x, y, next_x, next_y});
+  keep(flow, {x, y, next_x, next_y});
   flow.pass_beside(kBesideTileWork);
-  return flow;
+  return whole(recorded);
 }
 
-DataFlow part_test_flow(const TileRules& rules) {
-  DataFlow flow;
+FlowPart part_test_flow(const TileRules& rules) {
+  const auto recorded = std::make_shared<DataFlow>();
+  DataFlow& flow = *recorded;
   TileBoxesOf<Counting> boxes = boxes_from_outside(flow);
   boxes.part = wide_limits(flow);
   const CountingIndex x = input_index(flow, 3), y = input_index(flow, 5);
   static_cast<void>(part_bitmap(boxes, rules, x, y));
-  keep_values(flow, {x, y});
+  keep(flow, {x, y});
   flow.pass_beside(kBesideTileWork);
-  return flow;
+  return whole(recorded);
 }
 
-}  // namespace sgs
+}  // namespace sgs::gscore

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithm/splat/lane_steps.h"
+#include "modules/datapath/lane_steps.h"
 
 namespace sgs {
 
@@ -33,6 +33,13 @@ struct FoldedSchedule {
 // where the parts have fewer turns in an interval than there are steps.
 FoldedSchedule folded_schedule(const std::vector<LaneStep>& steps, const FoldedParts& parts,
                                const OperationLatencies& latencies);
+
+// The same with fewer values that wait: one step after the other goes to where it makes the lives
+// of its sources and of its own value shortest together, as long as a part is free for it there.
+// The end comes no later; steps that depend on what comes when it is needed stay. An early sum lets
+// two values go for one; a late quotient lets none wait.
+void shorten_lives(const std::vector<LaneStep>& steps, const FoldedParts& parts,
+                   const OperationLatencies& latencies, FoldedSchedule& schedule);
 
 // Parts that are enough for these steps at this interval.
 FoldedParts at_least(FoldedParts parts, const std::vector<LaneStep>& steps);

@@ -1,12 +1,10 @@
 // From operations to steps, each by its routine.
-#include "algorithm/splat/lane_steps.h"
+#include "modules/datapath/lane_steps.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
-
-#include "algorithm/splat/lane_macs.h"
 
 namespace sgs {
 namespace {
@@ -17,12 +15,14 @@ constexpr Operand literal(float value) { return {true, __builtin_bit_cast(std::u
 
 class Expansion {
  public:
-  Expansion(const DataFlow& flow, std::size_t first, std::size_t last,
-            const OperationLatencies& latencies,
-            const std::vector<std::vector<std::uint32_t>>& together)
-      : flow_(flow), first_(first), last_(last), latencies_(latencies), at_(flow.size()) {
-    for (std::size_t i = 0; i < together.size(); ++i) {
-      for (const std::uint32_t node : together[i]) {
+  Expansion(const FlowPart& part, const OperationLatencies& latencies)
+      : flow_(*part.flow),
+        first_(part.first),
+        last_(part.last),
+        latencies_(latencies),
+        at_(part.flow->size()) {
+    for (std::size_t i = 0; i < part.together.size(); ++i) {
+      for (const std::uint32_t node : part.together[i]) {
         comes_with_[node] = static_cast<std::uint32_t>(i + 1);
       }
     }
@@ -245,12 +245,36 @@ class Expansion {
   std::vector<std::uint32_t> ready_;  // [step], with lanes for all
 };
 
+LongestPath one_by(StepBy by) {
+  return {by == StepBy::kLane ? 1U : 0U, by == StepBy::kComparator ? 1U : 0U,
+          by == StepBy::kTable ? 1U : 0U};
+}
+
+// Of those that begin with a step for which this holds.
+template <class Begins>
+LongestPath longest_from(const std::vector<LaneStep>& steps, const OperationLatencies& latencies,
+                         const Begins& begins) {
+  std::vector<std::optional<LongestPath>> paths;  // [step], to its value
+  LongestPath longest;
+  for (const LaneStep& step : steps) {
+    std::optional<LongestPath> path;
+    if (begins(step)) path = LongestPath{};
+    for (const LaneStep::Source& source : step.sources) {
+      if (source.value.is_constant) continue;
+      const auto& before = paths[source.value.of];
+      if (before && (!path || path->cycles(latencies) < before->cycles(latencies))) path = before;
+    }
+    if (path) path = *path + one_by(step.by);
+    if (path && longest.cycles(latencies) < path->cycles(latencies)) longest = *path;
+    paths.push_back(path);
+  }
+  return longest;
+}
+
 }  // namespace
 
-std::vector<LaneStep> lane_steps(const DataFlow& flow, std::size_t first, std::size_t last,
-                                 const OperationLatencies& latencies,
-                                 const std::vector<std::vector<std::uint32_t>>& together) {
-  return Expansion(flow, first, last, latencies, together).run();
+std::vector<LaneStep> FlowPart::steps(const OperationLatencies& latencies) const {
+  return Expansion(*this, latencies).run();
 }
 
 std::uint32_t constants_of(const std::vector<LaneStep>& steps) {
@@ -261,6 +285,14 @@ std::uint32_t constants_of(const std::vector<LaneStep>& steps) {
     }
   }
   return static_cast<std::uint32_t>(bits.size());
+}
+
+LongestPath longest_path(const std::vector<LaneStep>& steps, const OperationLatencies& latencies) {
+  return longest_from(steps, latencies, [](const LaneStep&) { return true; });
+}
+
+LongestPath longest_loop(const std::vector<LaneStep>& steps, const OperationLatencies& latencies) {
+  return longest_from(steps, latencies, [](const LaneStep& step) { return step.comes_with > 0; });
 }
 
 }  // namespace sgs

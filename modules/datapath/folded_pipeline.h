@@ -1,12 +1,12 @@
-// What stands between the parts of a folded datapath: registers that hold values until they are
-// taken, and the multiplexers by which an input of a part, or of a register, takes now this, now
-// that.
+// A computation on the lanes that a unit has for it: when its steps are done, and what stands
+// between the parts: registers that hold values until they are taken, and the multiplexers by which
+// an input of a part, or of a register, takes now this, now that.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "algorithm/splat/folded_schedule.h"
+#include "modules/datapath/folded_schedule.h"
 
 namespace sgs {
 
@@ -30,5 +30,16 @@ LaneWiring lane_wiring(const std::vector<LaneStep>& steps, const FoldedSchedule&
 // registers.
 std::uint32_t most_alive(const std::vector<LaneStep>& steps, const FoldedSchedule& schedule,
                          std::uint32_t interval_cycles, const OperationLatencies& latencies);
+
+struct FoldedPipeline {
+  FoldedParts parts;
+  FoldedSchedule schedule;
+  LaneWiring wiring;
+};
+
+// On these parts, or on as many as the steps take at this interval if that is more: so where a
+// machine charges less than was counted.
+FoldedPipeline folded_pipeline(const std::vector<LaneStep>& steps, const FoldedParts& parts,
+                               const OperationLatencies& latencies);
 
 }  // namespace sgs

@@ -1,5 +1,6 @@
-// Registers by lifetimes, then parts by what their inputs already select from.
-#include "algorithm/splat/lane_wiring.h"
+// Schedule, then lives, then wiring: registers by lifetimes, then parts by what their inputs
+// already select from.
+#include "modules/datapath/folded_pipeline.h"
 
 #include <algorithm>
 
@@ -229,6 +230,16 @@ std::uint32_t most_alive(const std::vector<LaneStep>& steps, const FoldedSchedul
     for (std::uint32_t c = 0; c < life.cycles; ++c) ++alive[(life.from + c) % interval_cycles];
   }
   return *std::max_element(alive.begin(), alive.end());
+}
+
+FoldedPipeline folded_pipeline(const std::vector<LaneStep>& steps, const FoldedParts& parts,
+                               const OperationLatencies& latencies) {
+  FoldedPipeline out;
+  out.parts = at_least(parts, steps);
+  out.schedule = folded_schedule(steps, out.parts, latencies);
+  shorten_lives(steps, out.parts, latencies, out.schedule);
+  out.wiring = lane_wiring(steps, out.schedule, out.parts, latencies);
+  return out;
 }
 
 }  // namespace sgs

@@ -1,12 +1,12 @@
 // What a chunk test and a step of a ray execute: counts that can be told from the formulas.
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
+
 #include <catch2/catch.hpp>
 #include <random>
+#include <utility>
 
 #include "algorithm/splat/counting.h"
-#include "algorithm/splat/lane_macs.h"
 #include "algorithm/voxel/chunk_test.h"
-#include "algorithm/voxel/chunk_work.h"
-#include "algorithm/voxel/ray_work.h"
 
 namespace sgs::test {
 namespace {
@@ -22,7 +22,7 @@ ChunkBoundOf<Counting> counted(const ChunkBound& bound) {
   return out;
 }
 
-TEST_CASE("chunk work: the counted test computes what the float one computes") {
+TEST_CASE("chunk test, counted: the counted test computes what the float one computes") {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> place(-3, 3), size(0, 0.5F);
   const ChunkCase tested = longest_chunk_case();
@@ -47,10 +47,11 @@ TEST_CASE("chunk work: the counted test computes what the float one computes") {
   CHECK(touching < 1900);
 }
 
-TEST_CASE("chunk work: the longest case takes all sides, and what the formulas say at least") {
+TEST_CASE(
+    "chunk test, counted: the longest case takes all sides, and what the formulas say at least") {
   const ChunkCase tested = longest_chunk_case();
   CHECK(GroupFrustum(make_view<float>(tested.camera), tested.group).test(tested.bound).touches);
-  const OperationCounts work = chunk_work(tested);
+  const OperationCounts work = chunk_flow(tested).counts();
   // One quotient for each end of two ranges, one of the spread and two of the reach, by near and
   // far.
   CHECK(work.divisions == 7);
@@ -70,12 +71,12 @@ TEST_CASE("chunk work: the longest case takes all sides, and what the formulas s
     *v = glm::vec3(behind.camera.position) - (*v - glm::vec3(behind.camera.position));
   }
   std::swap(behind.bound.low, behind.bound.high);
-  CHECK(folded_macs(chunk_work(behind)) < folded_macs(work) / 2);
+  CHECK(folded_macs(chunk_flow(behind).counts()) < folded_macs(work) / 2);
 }
 
 TEST_CASE(
-    "ray work: a step takes three plane times, and two positions with the planes about them") {
-  const OperationCounts step = ray_step_work(longest_step_case());
+    "rays, counted: a step takes three plane times, and two positions with the planes about them") {
+  const OperationCounts step = ray_step_flow(longest_step_case()).counts();
   // A plane's time is two products, a position one and a quotient.
   CHECK(step.multiplies == (3 + 2 * 2) * 2 + 2);
   CHECK(step.divisions == 2);
@@ -87,37 +88,39 @@ TEST_CASE(
   // another product, the earliest of three times two comparisons.
   constexpr OperationLatencies kEach = {3, 1, 1};
   const LongestPath cell = {2, 1 + 2 + 2, 0};
-  CHECK(ray_step_path(cell_step_case(), kEach) == cell);
+  CHECK(ray_step_flow(cell_step_case()).longest_path(kEach) == cell);
   // From there to the position and its quotient, down, beside the root, into the block, to an index
   // and on to its plane, whose time is compared; the cell before or behind it.
   const LongestPath to_position = {1 + 3 + 1, 3 + 2 + 3, 0}, to_time = {2, 1 + 2 + 1, 0};
-  const LongestPath step_path = ray_step_path(longest_step_case(), kEach);
+  const LongestPath step_path = ray_step_flow(longest_step_case()).longest_path(kEach);
   CHECK(step_path == cell + to_position + to_time);
 }
 
-TEST_CASE("ray work: no step takes more than the longest, wherever it begins") {
+TEST_CASE("rays, counted: no step takes more than the longest, wherever it begins") {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> place(0.01F, 11.19F), slope(0.01F, 1);
-  const OperationCounts longest = ray_step_work(longest_step_case());
+  const OperationCounts longest = ray_step_flow(longest_step_case()).counts();
   const OperationLatencies each = {3, 1, 1};
-  const std::uint32_t cycles = ray_step_path(longest_step_case(), each).cycles(each);
+  const std::uint32_t cycles = ray_step_flow(longest_step_case()).longest_path(each).cycles(each);
   int as_long = 0;
   for (int i = 0; i < 3000; ++i) {
     StepCase step{{place(random), place(random), place(random)}, {}, 0};
     for (int k = 0; k < 3; ++k) {
       step.direction[k] = random() % 2 == 0 ? slope(random) : -slope(random);
     }
-    const OperationCounts work = ray_step_work(step);
+    const FlowPart flow = ray_step_flow(step);
+    const OperationCounts work = flow.counts();
     CHECK(folded_macs(work) <= folded_macs(longest));
     CHECK(comparisons(work) <= comparisons(longest));
-    CHECK(ray_step_path(step, each).cycles(each) <= cycles);
+    CHECK(flow.longest_path(each).cycles(each) <= cycles);
     as_long += folded_macs(work) == folded_macs(longest) ? 1 : 0;
   }
   CHECK(as_long > 0);
 }
 
-TEST_CASE("ray work: a ray begins with a direction, its reciprocals and a plane of each axis") {
-  const OperationCounts begin = pixel_ray_work();
+TEST_CASE(
+    "rays, counted: a ray begins with a direction, its reciprocals and a plane of each axis") {
+  const OperationCounts begin = pixel_ray_flow().counts();
   CHECK(begin.divisions == 2 + 3 + 2);  // the pixel's place, three reciprocals, two positions
   CHECK(begin.divisors == 3);           // the others are the same for all
   CHECK(begin.multiplies >= 6 + 3 + 2);

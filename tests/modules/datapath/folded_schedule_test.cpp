@@ -1,24 +1,30 @@
 // Schedules of the machine's own computations, checked against what a schedule must be.
-#include "algorithm/splat/folded_schedule.h"
+#include "modules/datapath/folded_schedule.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "algorithm/splat/counting.h"
-#include "algorithm/splat/filter_work.h"
-#include "algorithm/splat/folded_pipeline.h"
-#include "algorithm/splat/lane_macs.h"
-#include "algorithm/splat/rendering_work.h"
-#include "algorithm/splat/shorter_lives.h"
+#include "modules/datapath/filter_flows.h"
+#include "modules/datapath/folded_pipeline.h"
+#include "modules/datapath/lane_steps.h"
+#include "modules/datapath/rendering_flows.h"
+#include "tests/modules/datapath/flow_parts.h"
 
-namespace sgs {
+namespace sgs::test {
 namespace {
 
-constexpr OperationLatencies kLatencies{3, 1, 1};
-
 struct Work {
+  Work(std::string of, const FlowPart& flow)
+      : what(std::move(of)),
+        steps(flow.steps(kLatencies)),
+        counts(flow.counts()),
+        path(flow.longest_path(kLatencies)) {}
   std::string what;
   std::vector<LaneStep> steps;
   OperationCounts counts;
@@ -26,26 +32,25 @@ struct Work {
 };
 
 std::vector<Work> all_work() {
-  const FilterCase tested = longest_case();
   std::vector<Work> all;
   for (const CoarseBoundBy by : {CoarseBoundBy::kExtents, CoarseBoundBy::kLargestScale}) {
-    all.push_back({"coarse", coarse_steps(by, tested, 2, kLatencies), coarse_work(by, tested, 2),
-                   coarse_path(by, tested, 2, kLatencies)});
+    all.emplace_back("coarse", coarse_flow(by, longest_case(), 2));
   }
   for (const FineRecord record :
        {FineRecord{0, 4}, FineRecord{0, 3}, FineRecord{2, 3}, FineRecord{3, 4}}) {
-    all.push_back({"fine", fine_steps(tested, record, kLatencies),
-                   fine_work(tested, record).total(), fine_path(tested, record, kLatencies)});
+    all.emplace_back("fine", fine_flow(longest_case(), record).all);
   }
-  const RenderingWork work = rendering_work(BlendPrecision::kSingle);
-  const RenderingPaths paths = rendering_paths(BlendPrecision::kSingle, kLatencies, kLatencies);
-  all.push_back({"beginning", spans_begin_steps(kLatencies), work.spans_begin, paths.spans_begin});
-  all.push_back({"span", span_steps(kLatencies), work.span, paths.span});
-  all.push_back(
-      {"conic", conic_steps(BlendPrecision::kSingle, kLatencies), work.conic, paths.conic});
-  all.push_back(
-      {"blend", blend_steps(BlendPrecision::kSingle, kLatencies), work.subtile_blend, paths.blend});
+  const RenderingFlows flows = rendering_flows(BlendPrecision::kSingle);
+  all.emplace_back("beginning", flows.spans_begin);
+  all.emplace_back("span", flows.span);
+  all.emplace_back("conic", flows.conic);
+  all.emplace_back("blend", flows.subtile_blend);
   return all;
+}
+
+std::vector<LaneStep> steps_of(const DataFlow& flow,
+                               std::vector<std::vector<std::uint32_t>> together = {}) {
+  return part_of(flow, 0, flow.size(), std::move(together)).steps(kLatencies);
 }
 
 std::map<StepBy, std::uint32_t> by_part(const std::vector<LaneStep>& steps) {
@@ -84,14 +89,6 @@ TEST_CASE("lane steps: as many as are counted") {
     CHECK(count[StepBy::kComparator] == comparisons(work.counts));
     CHECK(count[StepBy::kTable] == seeds(work.counts) + work.counts.look_ups);
   }
-  DataFlow flow;
-  const Counting a = input(flow, 2), b = input(flow, 3);
-  static_cast<void>(exp(sqrt(a) / b) + log(b) / Counting(3.0F));
-  auto count = by_part(lane_steps(flow, 0, flow.size(), kLatencies));
-  const OperationCounts counts = flow.counts(0, flow.size());
-  CHECK(count[StepBy::kLane] == folded_macs(counts));
-  CHECK(count[StepBy::kComparator] == comparisons(counts));
-  CHECK(count[StepBy::kTable] == seeds(counts));
 }
 
 TEST_CASE("folded schedule: of the path and no longer with parts for every step") {
@@ -154,7 +151,7 @@ TEST_CASE("folded schedule: too few parts are refused") {
   DataFlow flow;
   const Counting a = input(flow, 2), b = input(flow, 3), c = input(flow, 4);
   static_cast<void>(a * b * c);
-  const auto steps = lane_steps(flow, 0, flow.size(), kLatencies);
+  const auto steps = steps_of(flow);
   CHECK_THROWS_AS(folded_schedule(steps, {1, 0, 0, 1}, kLatencies), std::logic_error);
   CHECK(folded_schedule(steps, {1, 0, 0, 2}, kLatencies).cycles == 6);
   CHECK(folded_schedule(steps, {1, 0, 0, 3}, kLatencies).cycles == 7);  // the second waits a turn
@@ -168,10 +165,10 @@ TEST_CASE("folded schedule: what is read when it is needed makes a loop") {
   const std::uint32_t first = static_cast<std::uint32_t>(flow.size());
   const Counting state = input(flow, 5);
   static_cast<void>(state - weight * state < Counting(1.0F));
-  const auto steps = lane_steps(flow, 0, flow.size(), kLatencies, {{first}});
+  const auto steps = steps_of(flow, {{first}});
   const FoldedParts parts = at_least({1, 1, 1, 1}, steps);
   const FoldedSchedule schedule = folded_schedule(steps, parts, kLatencies);
-  CHECK(schedule.loop_cycles == flow.longest_path_from({first}, kLatencies).cycles(kLatencies));
+  CHECK(schedule.loop_cycles == longest_loop(steps, kLatencies).cycles(kLatencies));
   CHECK(schedule.loop_cycles < schedule.cycles);
 }
 
@@ -204,7 +201,7 @@ TEST_CASE("lane wiring: registers and multiplexers by hand") {
     INFO(row.what);
     DataFlow flow;
     static_cast<void>(row.of(input(flow, 2), input(flow, 3), input(flow, 4)));
-    const auto steps = lane_steps(flow, 0, flow.size(), kLatencies);
+    const auto steps = steps_of(flow);
     const FoldedSchedule schedule = folded_schedule(steps, row.parts, kLatencies);
     const LaneWiring wiring = lane_wiring(steps, schedule, row.parts, kLatencies);
     CHECK(wiring.register_words == row.expected.register_words);
@@ -220,10 +217,11 @@ TEST_CASE("longest path: a reciprocal that was taken before is there") {
   static_cast<void>(a / c);
   const std::size_t first = flow.size();
   static_cast<void>(b / c);
-  CHECK(flow.longest_path(first, flow.size(), kLatencies) == LongestPath{3, 0, 0});
-  CHECK(flow.longest_path(0, flow.size(), kLatencies) == LongestPath{7, 0, 1});
-  const auto steps = lane_steps(flow, first, flow.size(), kLatencies);
+  const FlowPart second = part_of(flow, first, flow.size());
+  CHECK(second.longest_path(kLatencies) == LongestPath{3, 0, 0});
+  CHECK(part_of(flow, 0, flow.size()).longest_path(kLatencies) == LongestPath{7, 0, 1});
+  const auto steps = second.steps(kLatencies);
   CHECK(folded_schedule(steps, at_least({1, 0, 0, 1}, steps), kLatencies).cycles == 9);
 }
 
-}  // namespace sgs
+}  // namespace sgs::test
