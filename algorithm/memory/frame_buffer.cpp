@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "algorithm/input_error.h"
-#include "algorithm/splat/finished_pixel.h"
+#include "algorithm/splat/blend.h"
 
 namespace sgs {
 

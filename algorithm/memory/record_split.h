@@ -34,11 +34,20 @@
 #include <glm/vec3.hpp>
 
 #include "algorithm/memory/second_half.h"
-#include "algorithm/splat/coarse_bound_by.h"
-#include "algorithm/splat/fine_record.h"
+#include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/visible_extents.h"
 
 namespace sgs {
+
+// What of a Gaussian's record decides how much the fine filter computes.
+struct FineRecord {
+  int sh_degree = 0;
+  std::uint32_t quaternion_words = 4;  // 3: the largest component follows from the others
+
+  friend constexpr bool operator==(const FineRecord& a, const FineRecord& b) {
+    return a.sh_degree == b.sh_degree && a.quaternion_words == b.quaternion_words;
+  }
+};
 
 struct RecordSplit {
   CoarseBoundBy bound_by = CoarseBoundBy::kLargestScale;  // what the first half is tested by

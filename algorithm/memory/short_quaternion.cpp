@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "algorithm/splat/unit_quaternion.h"
+#include "algorithm/splat/gaussian.h"
 
 namespace sgs {
 namespace {

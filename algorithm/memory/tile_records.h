@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "algorithm/splat/splat.h"
-#include "algorithm/splat/square_splat.h"
+#include "algorithm/splat/square_conic.h"
 
 namespace sgs {
 

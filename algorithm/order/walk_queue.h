@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "algorithm/order/interval_heap.h"
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
 
 namespace sgs {
 

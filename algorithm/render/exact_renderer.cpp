@@ -13,7 +13,7 @@
 #include "algorithm/order/tree_in_memory.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
 

@@ -8,11 +8,11 @@
 
 #include "algorithm/render/render_result.h"
 #include "algorithm/splat/blend.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/footprint.h"
-#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/splat/row_span.h"
-#include "algorithm/splat/square_splat.h"
+#include "algorithm/splat/square_conic.h"
 
 namespace sgs {
 

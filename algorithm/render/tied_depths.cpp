@@ -9,8 +9,8 @@
 #include "algorithm/render/splat_bins.h"
 #include "algorithm/render/splat_sequence.h"
 #include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/make_splat.h"
-#include "algorithm/splat/reorder.h"
 
 namespace sgs {
 namespace {

@@ -35,7 +35,7 @@ struct TileOrderConfig {
 
 struct TileStats {
   std::uint64_t gaussians = 0;
-  std::uint64_t culled = 0;         // by frame_sides.h: they cannot touch the frame
+  std::uint64_t culled = 0;         // by FrameSides: they cannot touch the frame
   std::uint64_t projected = 0;      // that are listed in a tile
   std::uint64_t tile_tests = 0;     // (Gaussian, tile) candidates
   std::uint64_t subtile_tests = 0;  // parts of tiles tested

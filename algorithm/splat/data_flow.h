@@ -61,25 +61,6 @@ struct OperationCounts {
   std::uint32_t look_ups = 0;     // of a row of a table of coefficients
 };
 
-constexpr OperationCounts operator+(OperationCounts a, const OperationCounts& b) {
-  a.multiplies += b.multiplies;
-  a.adds += b.adds;
-  a.fused += b.fused;
-  a.divisions += b.divisions;
-  a.divisors += b.divisors;
-  a.square_roots += b.square_roots;
-  a.logarithms += b.logarithms;
-  a.exponentials += b.exponentials;
-  a.comparisons += b.comparisons;
-  a.roundings += b.roundings;
-  a.splits += b.splits;
-  a.scalings += b.scalings;
-  a.conversions += b.conversions;
-  a.index_adds += b.index_adds;
-  a.look_ups += b.look_ups;
-  return a;
-}
-
 class DataFlow {
  public:
   // A constant's bits, or the number of a node.

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/sh_bands.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/vq/image_weights.h"

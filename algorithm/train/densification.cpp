@@ -7,7 +7,7 @@
 
 #include "algorithm/scene/logit.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/train/counter_random.h"
 
 namespace sgs {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/deactivate.h"
 #include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/store_scene.h"
 #include "algorithm/train/comparison.h"

@@ -28,8 +28,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/footprint.h"
-#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/chunk_node.h"
 

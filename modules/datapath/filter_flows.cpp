@@ -8,7 +8,7 @@
 
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
 

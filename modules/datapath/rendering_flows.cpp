@@ -6,9 +6,8 @@
 #include <tuple>
 #include <vector>
 
-#include "algorithm/splat/counting_half.h"
-#include "algorithm/splat/finished_pixel.h"
-#include "algorithm/splat/lane_input.h"
+#include "algorithm/splat/blend.h"
+#include "algorithm/splat/counting.h"
 #include "algorithm/splat/row_span.h"
 #include "algorithm/splat/square_conic.h"
 
@@ -74,7 +73,7 @@ class PixelStates {
 
 // What blending does for 16 pixels, in the arithmetic T.
 template <class T, class Conic>
-void blend_pixels(const LaneInput<T, Conic>& in, PixelStates& state) {
+void blend_pixels(const BlendInput<T, Conic>& in, PixelStates& state) {
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
     const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_x);
     const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_y);
@@ -118,9 +117,9 @@ RenderingFlows rendering_flows(BlendPrecision precision) {
   const std::size_t cornered = flow->size();
   PixelStates state(*flow);
   if (in_16_bits(precision)) {
-    blend_pixels(lane_input_in_half<CountingHalf>(square_splat(splat), left, top), state);
+    blend_pixels(blend_input_in_half<CountingHalf>(square_splat(splat), left, top), state);
   } else {
-    blend_pixels(lane_input(splat, left, top), state);
+    blend_pixels(blend_input(splat, left, top), state);
   }
   RenderingFlows out;
   out.conic = {flow, spanned, in_base_2, {}};
@@ -140,15 +139,15 @@ FlowPart blend_of_halves_flow() {
   flow->pass_beside(kBesideBlend);
   PixelStates state(*flow);
   blend_pixels(
-      LaneInput<CountingHalf, SquareConic<CountingHalf>>{{half(-0.7F), half(0.6F), half(-0.6F)},
-                                                         half(0.9F),
-                                                         half(0.1F),
-                                                         half(0.2F),
-                                                         half(0.3F),
-                                                         CountingHalf(scaled_by(left, kUnits.x)),
-                                                         CountingHalf(scaled_by(top, kUnits.y)),
-                                                         kUnits.x,
-                                                         kUnits.y},
+      BlendInput<CountingHalf, SquareConic<CountingHalf>>{{half(-0.7F), half(0.6F), half(-0.6F)},
+                                                          half(0.9F),
+                                                          half(0.1F),
+                                                          half(0.2F),
+                                                          half(0.3F),
+                                                          CountingHalf(scaled_by(left, kUnits.x)),
+                                                          CountingHalf(scaled_by(top, kUnits.y)),
+                                                          kUnits.x,
+                                                          kUnits.y},
       state);
   return {flow, 0, flow->size(), state.pixels()};
 }

@@ -5,9 +5,8 @@
 #include <initializer_list>
 #include <memory>
 
+#include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/counting.h"
-#include "algorithm/splat/counting_half.h"
-#include "algorithm/splat/frame_sides.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/square_conic.h"
 #include "modules/datapath/filter_flows.h"

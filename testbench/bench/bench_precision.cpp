@@ -11,9 +11,9 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/splat/activate.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/fixed_pixel.h"
 #include "algorithm/splat/half_scalar.h"
-#include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/make_splat.h"
 #include "testbench/bench/bench_scene.h"
 #include "testbench/command_line/guard.h"
@@ -137,8 +137,8 @@ struct Pictures {
     const Splat& s = c.splat;
     const float left = s.x - static_cast<float>(subtile_x * kSubtilePx);
     const float top = s.y - static_cast<float>(subtile_y * kSubtilePx);
-    const auto in = lane_input(s, left, top);
-    const auto square_in_half = lane_input_in_half<HalfScalar>(square_splat(s), left, top);
+    const auto in = blend_input(s, left, top);
+    const auto square_in_half = blend_input_in_half<HalfScalar>(square_splat(s), left, top);
     const auto in_half = quadratic_lanes_in_half<HalfScalar>(s, left, top);
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
       const int column = lane % kSubtilePx, row = lane / kSubtilePx;

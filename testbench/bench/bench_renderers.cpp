@@ -28,7 +28,7 @@
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/render/tile_renderer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/storage_choices.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"

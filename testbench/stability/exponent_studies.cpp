@@ -1,7 +1,7 @@
 // The exponent of a splat's falloff at a pixel, and its derivative.
 #include <algorithm>
 
-#include "algorithm/splat/lane_input.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/tune/blend_gradient.h"
 #include "testbench/stability/conic_by_covariance.h"
 #include "testbench/stability/counted.h"
@@ -46,7 +46,7 @@ const Exact& exact_log2_e() {
 
 // Lane 0 of a sub-tile whose first pixel this is.
 template <class T, class Conic>
-T in_lane(const LaneInput<T, Conic>& in) {
+T in_lane(const BlendInput<T, Conic>& in) {
   return log2_falloff(in.conic, in.left, in.top);
 }
 
@@ -62,7 +62,7 @@ SplatOf<T> splat_of(const Projected<T>& p) {
 }
 
 BoundedFloat quadratic(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
-  return in_lane(lane_input(splat_of(p), dx, dy));
+  return in_lane(blend_input(splat_of(p), dx, dy));
 }
 BoundedHalf quadratic_in_half(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
   return in_lane(quadratic_lanes_in_half<BoundedHalf>(splat_of(p), dx, dy));
@@ -72,7 +72,7 @@ BoundedFloat completed(const Projected<BoundedFloat>& p, BoundedFloat dx, Bounde
   return log2_falloff(conic_by_covariance(p), dx, dy);
 }
 BoundedHalf completed_in_half(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
-  return in_lane(lane_input_in_half<BoundedHalf>(square_splat(splat_of(p)), dx, dy));
+  return in_lane(blend_input_in_half<BoundedHalf>(square_splat(splat_of(p)), dx, dy));
 }
 
 template <class T>

@@ -4,13 +4,13 @@
 
 #include <cmath>
 
-#include "algorithm/splat/lane_input.h"
+#include "algorithm/splat/blend.h"
 
 namespace sgs {
 
 // 4^e in [1/4, 1) of the larger of A and C: lengths are in units of 2^e px.
 template <class H, class S>
-LaneInput<H, Log2Conic<H>> quadratic_lanes_in_half(const SplatOf<S>& s, S left, S top) {
+BlendInput<H, Log2Conic<H>> quadratic_lanes_in_half(const SplatOf<S>& s, S left, S top) {
   int exponent = 0;
   std::frexp(value_of(max_of(s.conic_a, s.conic_c)), &exponent);
   const int e = (exponent + (exponent & 1)) / 2;

@@ -6,7 +6,7 @@
 
 #include "algorithm/input_error.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "testbench/streaminggs/numbers.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 #include "testbench/units/job_memory.h"

@@ -11,7 +11,7 @@
 #include <systemc>
 #include <vector>
 
-#include "algorithm/splat/frame_sides.h"
+#include "algorithm/splat/coarse_bound.h"
 #include "modules/datapath/places_under_test.h"
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/messages.h"

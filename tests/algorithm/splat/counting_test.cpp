@@ -5,7 +5,6 @@
 #include <random>
 
 #include "algorithm/splat/blend.h"
-#include "algorithm/splat/counting_half.h"
 #include "algorithm/splat/spherical_harmonics.h"
 
 namespace sgs {

@@ -7,7 +7,6 @@
 #include "algorithm/scene/gaussian_limits.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/extent_bound.h"
-#include "algorithm/splat/frame_sides.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
 #include "tests/algorithm/splat/random_gaussian.h"

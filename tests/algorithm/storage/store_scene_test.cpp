@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "algorithm/input_error.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/spherical_harmonics.h"
 #include "algorithm/storage/sh_bands.h"
 #include "algorithm/storage/storage_scheme.h"

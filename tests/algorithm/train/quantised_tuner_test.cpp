@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/image_file.h"
 #include "algorithm/storage/restore_scene.h"
 #include "algorithm/storage/storage_scheme.h"

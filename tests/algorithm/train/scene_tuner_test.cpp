@@ -10,7 +10,7 @@
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/render/splat_bins.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/train/own_pictures.h"
 #include "algorithm/train/paper_quality.h"
 #include "tests/algorithm/render/test_clouds.h"

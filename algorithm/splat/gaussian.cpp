@@ -1,11 +1,13 @@
 // Gathering, in parallel.
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cstddef>
+
+#include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
 namespace {
