@@ -195,7 +195,7 @@ GroupVisits group_visits(const PixelRect& group, Rays& rays, OrderingTable& tabl
       window = window.nearer_half();
       continue;
     }
-    out.table_bytes = std::max(out.table_bytes, table.sram_bytes());
+    out.table_bytes = std::max(out.table_bytes, table.bytes());
     const std::vector<std::uint32_t> voxels = table.order();
     out.voxels.insert(out.voxels.end(), voxels.begin(), voxels.end());
     ++out.passes;

@@ -3,7 +3,6 @@
 // 1962) visits every voxel after all that hide it on some ray.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -14,7 +13,7 @@
 
 namespace sgs {
 
-// SRAM that one group's table takes, by count of renamed voxels and of distinct edges: per voxel
+// Memory that one group's table takes, by count of renamed voxels and of distinct edges: per voxel
 // its global id (4 B), in-degree (2 B) and list head (2 B); per edge the successor and the next
 // link (4 B).
 constexpr std::uint32_t kOrderingBytesPerVoxel = 8;
@@ -22,16 +21,11 @@ constexpr std::uint32_t kOrderingBytesPerEdge = 4;
 
 // What has been read and written so far, a voxel's record or an edge at a time.
 struct OrderingAccesses {
+  std::uint64_t met = 0;                            // voxels
   std::uint64_t reads = 0, writes = 0;              // of the table
+  std::uint64_t heads_read = 0;                     // of these reads: where edges are looked for
   std::uint64_t names_read = 0, names_written = 0;  // of the renaming
   std::uint64_t ready_read = 0, ready_written = 0;  // of the words of ready voxels
-  // That all this takes. What is read names what is read next, so that it comes a cycle each, one
-  // behind the other: the hash's slot (beside it the record of the voxel before), the record that
-  // it names, the edges of the voxel before. Writes go to their banks beside the reads for the next
-  // voxel, which see what is still to be written (write_cycles). In ordering a level of ready
-  // voxels is read a cycle, then the voxel's record, then its edges; the record that an edge names
-  // is read beside the next edge, unless both lie in one bank.
-  std::uint64_t cycles = 0;
 };
 
 class OrderingTable {
@@ -40,11 +34,9 @@ class OrderingTable {
  public:
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
-  // voxel_count: how many voxels exist; ids below it may appear in chains. capacity_bytes: SRAM
-  // that is there for one group, at least that of a voxel. banks: over which its words of 8 B, a
-  // voxel's record or two edges, are spread in turn.
-  explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited,
-                         std::uint32_t banks = 2);
+  // voxel_count: how many voxels exist; ids below it may appear in chains. capacity_bytes:
+  // memory that is there for one group, at least that of a voxel.
+  explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited);
 
   // Voxels for which a table of so many bytes has room.
   static std::uint64_t most_voxels(std::uint64_t capacity_bytes) {
@@ -75,14 +67,21 @@ class OrderingTable {
     return static_cast<std::uint32_t>(edges_.size());
   }                                                               // distinct
   std::uint64_t edges_offered() const { return edges_offered_; }  // by all rays
-  std::uint64_t sram_bytes() const {
+  std::uint64_t bytes() const {
     return std::uint64_t{voxel_count()} * kOrderingBytesPerVoxel +
            std::uint64_t{edge_count()} * kOrderingBytesPerEdge;
   }
   const OrderingAccesses& accesses() const { return accesses_; }
-  // Of what was found of the voxel added last, beside the reads for the next.
-  std::uint64_t write_cycles() const {
-    return std::max(ready_written_, *std::max_element(written_.begin(), written_.end()));
+  // What was written of the voxel added last: the table's words of 8 B, a voxel's record or two
+  // edges, each kind by its number; and how many words of ready voxels.
+  const std::vector<std::uint32_t>& written() const { return written_; }
+  std::uint64_t ready_written() const { return ready_written_; }
+  // Of a voxel by its number, in the order of its list: visit(word of the edge, successor).
+  template <class Visit>
+  void for_each_edge(std::uint32_t number, const Visit& visit) const {
+    for (std::uint32_t at = voxels_[number].first_edge; at != kNone; at = edges_[at].next) {
+      visit(word_of_edge(at), edges_[at].successor);
+    }
   }
   // Of words, that finding the first of the ready voxels passes.
   std::uint32_t ready_levels() const { return ready_.levels(); }
@@ -97,14 +96,12 @@ class OrderingTable {
 
   std::uint32_t rename(std::uint32_t voxel, bool first);  // of its ray
   void add_edge(std::uint32_t from, std::uint32_t to, bool is_new);
-  bool fits() const { return sram_bytes() <= capacity_bytes_; }
+  bool fits() const { return bytes() <= capacity_bytes_; }
 
-  std::uint32_t bank_of_voxel(std::uint32_t number) const { return number % banks(); }
-  std::uint32_t bank_of_edge(std::uint32_t edge) const { return edge / 2 % banks(); }
-  std::uint32_t banks() const { return static_cast<std::uint32_t>(written_.size()); }
-  void write(std::uint32_t bank) {
+  static std::uint32_t word_of_edge(std::uint32_t edge) { return edge / 2; }
+  void write(std::uint32_t word) {
     ++accesses_.writes;
-    ++written_[bank];
+    written_.push_back(word);
   }
   void count_ready(std::uint32_t words) {
     accesses_.ready_read += words;
@@ -113,7 +110,7 @@ class OrderingTable {
   }
 
   const std::uint64_t capacity_bytes_;
-  std::vector<std::uint64_t> written_;  // [bank] of the voxel added last
+  std::vector<std::uint32_t> written_;  // words, of the voxel added last
   std::uint64_t ready_written_ = 0;     // words, likewise
   Renaming names_;
   ReadyVoxels ready_;

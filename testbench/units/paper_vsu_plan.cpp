@@ -70,7 +70,7 @@ std::uint64_t comparisons_of_a_beginning() { return comparisons(pixel_ray_flow()
 ExpectedVisits expect(const PaperVsuPlan& plan) {
   ExpectedVisits out;
   const VoxelGrid& grid = plan.scene.grid;
-  OrderingTable table(grid.voxels.size(), plan.config.table_bytes, plan.config.table_banks);
+  OrderingTable table(grid.voxels.size(), plan.config.table_bytes);
   for (const PixelRect& group : plan.scene.job.groups) {
     const RayPattern rays = plan.config.rays();
     const OrderingAccesses before = table.accesses();

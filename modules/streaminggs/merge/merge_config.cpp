@@ -1,7 +1,7 @@
 // Keys of the merge unit.
 #include "modules/streaminggs/merge/merge_config.h"
 
-#include "algorithm/order/interval_heap.h"
+#include "modules/streaminggs/heap_ledger.h"
 
 namespace sgs {
 

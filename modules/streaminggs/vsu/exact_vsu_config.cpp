@@ -2,6 +2,7 @@
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
 
 #include "algorithm/voxel/chunk_node.h"
+#include "modules/streaminggs/heap_ledger.h"
 
 namespace sgs {
 

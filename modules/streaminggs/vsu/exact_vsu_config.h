@@ -17,7 +17,7 @@ struct ExactVsuConfig {
   std::uint32_t queue_entries = 512;       // chunks in the queue of the front-to-back walk
   std::uint32_t node_queue_entries = 256;  // nodes in that of the nodes
   // Of a queue's heap, as the merge unit's: 2 would take four banks a level, which read ahead; with
-  // 3 and more it has two (../../../algorithm/order/interval_heap.h).
+  // 3 and more it has two (../heap_ledger.h).
   std::uint32_t cycles_per_queue_operation = 3;
 
   WalkRoom walk_room() const { return {node_queue_entries, queue_entries}; }

@@ -36,7 +36,7 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
              }}),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
-      table_(job_.layout.voxel_table().voxels.count, config.table_bytes, config.table_banks),
+      table_(job_.layout.voxel_table().voxels.count, config.table_bytes),
       ordered_("ordered", context.clock, config.groups_ahead) {
   SC_THREAD(run_traverse);
   SC_THREAD(run_arrivals);

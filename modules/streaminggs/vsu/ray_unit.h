@@ -107,7 +107,6 @@ class RayUnit {
     std::uint64_t names_cleared = 0, ready_cleared = 0;  // words
   };
   std::uint64_t turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle);
-  std::uint64_t cycles_since(const OrderingAccesses& all);
   // From this cycle on a ray is the first: when the tree has found it.
   std::uint64_t found(std::uint64_t cycle);
 
