@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "algorithm/splat/make_splat.h"
-#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 

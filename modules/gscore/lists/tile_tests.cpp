@@ -1,7 +1,6 @@
 // The testing thread of the tile lister: which tiles of the pass a Gaussian touches, which parts.
 #include <algorithm>
 
-#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/lists/tile_lister.h"
 

@@ -6,9 +6,7 @@
 #include <numeric>
 
 #include "algorithm/render/tile_blend.h"
-#include "modules/datapath/counter_bits.h"
 #include "modules/datapath/selection.h"
-#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 

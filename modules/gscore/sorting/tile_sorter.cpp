@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "modules/datapath/counter_bits.h"
+#include "modules/datapath/selection.h"
 #include "modules/gscore/sorting/bitonic_cost.h"
 
 namespace sgs::gscore {

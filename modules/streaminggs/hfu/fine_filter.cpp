@@ -6,7 +6,7 @@
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
-#include "modules/datapath/wait_for_turn.h"
+#include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
