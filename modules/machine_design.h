@@ -27,10 +27,9 @@ namespace sgs {
 // How a machine is put together, for tests.
 struct BuildOptions {
   StallConfig stalls;  // random waits at both sides of every FIFO
-  // A seed of the order in which the processes of an instant act: units are made in another order,
-  // and who has waited may go on some delta cycles late. 0: as the kernel has it. No number of a
-  // report may depend on it.
-  std::uint64_t process_order = 0;
+  // A seed of the delta jitter, by which the processes of an instant overtake each other; 0: none.
+  // No number of a report may depend on it.
+  std::uint64_t jitter_seed = 0;
 };
 
 class MachineDesign {

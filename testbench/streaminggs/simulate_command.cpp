@@ -236,7 +236,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.whole("--seed", build.stalls.seed, 0, kMostSeed, "of the random stalls");
   line.needs("--seed", "--stalls");
   line.whole(
-      "--process-order", build.process_order, 0, kMostSeed,
+      "--process-order", build.jitter_seed, 0, kMostSeed,
       "seed that shuffles in which order the processes of an instant act; changes no number");
   line.flag("--print-config", arguments->print_config,
             "show every key of the configuration: what --config takes; 0 where it is left open");
