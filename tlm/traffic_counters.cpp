@@ -1,5 +1,5 @@
 // Bytes and transactions by requester, region and direction.
-#include "tlm/counters.h"
+#include "tlm/traffic_counters.h"
 
 namespace sgs {
 
