@@ -71,7 +71,8 @@ void PaperMachine::publish_units(DataSheet& sheet) {
   for (const auto& hfu : hfus_) hfu->publish(sheet);
   for (const auto& sorter : sorters_) sorter->publish(sheet);
   std::uint64_t longest = 0;
-  for (const auto& sorter : sorters_) longest = std::max(longest, sorter->counters().list_max);
+  for (const auto& sorter : sorters_)
+    longest = std::max<std::uint64_t>(longest, sorter->counters().list_max);
   publish_spare(sheet, "spare_sort_buffer_entries", "sorting.buffer_entries",
                 sorting_.buffer_entries, longest, sorting_.least_buffer_entries());
   for (const auto& rendering : rendering_) rendering->publish(sheet);

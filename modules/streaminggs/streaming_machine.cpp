@@ -112,7 +112,8 @@ void StreamingMachine::publish_spare_units(DataSheet& sheet) {
   publish_spare(sheet, "spare_hfus", "hfus", config_.hfus,
                 units_fed(hfus_,
                           [](const Hfu& hfu) {
-                            return hfu.coarse.counters().first_halves + hfu.fine.counters().taken >
+                            return hfu.coarse.counters().first_halves +
+                                       hfu.fine.counters().second_halves_taken >
                                    0;
                           }),
                 1);

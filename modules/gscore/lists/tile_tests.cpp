@@ -42,7 +42,7 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
   const int end_row = static_cast<int>(cycles_for(pass.end, job_.columns));
   if (tiles.y0 >= end_row || tiles.y1 <= first_row) {
     test_.work(1);
-    ++counters_.off_pass;
+    ++counters_.gaussians_off_pass;
     return;
   }
   const auto at_once = static_cast<int>(config_.lists.tiles_at_once);
