@@ -37,7 +37,13 @@ struct ExactConfig : StreamingConfig {
   }
 };
 
-void visit(ConfigVisitor& v, ExactConfig& config);
+inline void visit(ConfigVisitor& v, ExactConfig& c) {
+  visit_head(v, c);
+  v.section("vsu", c.vsu, "voxel sorting unit");
+  v.section("sorting", c.sorting, "network of each sorting unit");
+  v.section("merge", c.merge, "merge unit");
+  visit_tail(v, c);
+}
 
 // FIFOs between its units, beside those of visits.
 struct ExactFifos {

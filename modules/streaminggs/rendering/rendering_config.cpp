@@ -1,4 +1,4 @@
-// Keys of the rendering unit.
+// Lanes and latencies of the rendering unit.
 #include "modules/streaminggs/rendering/rendering_config.h"
 
 #include <algorithm>
@@ -111,45 +111,6 @@ std::uint32_t RenderingConfig::drain_row_cycles(std::uint32_t px) const {
   const std::uint64_t subtiles = cycles_for(px, kSubtilePx);
   return static_cast<std::uint32_t>(
       std::max(cycles_for(px, drain_pixels_per_cycle), cycles_for(subtiles, clusters)));
-}
-
-void visit(ConfigVisitor& v, RenderingConfig& c) {
-  v("clusters", c.clusters, in_range(1, 256), "blend a 4x4 sub-tile at a time each");
-  v("cluster_lanes", c.cluster_lanes, in_range(1, 4096),
-    "MAC lanes of one cluster: how often it starts a sub-tile follows");
-  v("precision", c.precision,
-    names<BlendPrecision>({{"fp32", BlendPrecision::kSingle},
-                           {"fp16", BlendPrecision::kHalf},
-                           {"fixed16", BlendPrecision::kFixed}}),
-    "of blending and of the pixels on chip");
-  v("cluster_queue_entries", c.cluster_queue_entries, in_range(1, 1024),
-    "sub-tiles waiting for each cluster");
-  v("state_loop_cycles", c.state_loop_cycles, in_range(0, 1000),
-    "until the next splat may be blended into the same sub-tile; 0: by its schedule");
-  v("depth_cycles", c.depth_cycles, in_range(0, 1000),
-    "latency of a blend, by which drain and news of a finished group come later; 0: by its "
-    "schedule");
-  v("begin_depth_cycles", c.begin_depth_cycles, in_range(0, 1000),
-    "latency of the beginning of a splat's spans; 0: by its schedule");
-  v("span_depth_cycles", c.span_depth_cycles, in_range(0, 1000),
-    "latency of a row's span; 0: by its schedule");
-  v("drain_depth_cycles", c.drain_depth_cycles, in_range(0, 1000),
-    "latency of a finished pixel's conversion; 0: by its schedule");
-  v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "groups whose pixels are on chip");
-  v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
-    "finished pixels converted a cycle");
-  v("ellipse_test", c.ellipse_test, "sub-tiles that a splat's ellipse cannot reach are skipped");
-  v("begin_lanes", c.begin_lanes, in_range(1, 4096),
-    "MAC lanes that begin to find the sub-tiles of an ellipse");
-  v("span_lanes", c.span_lanes, in_range(1, 4096),
-    "MAC lanes that go on with it row by row, several rows at once where they are enough");
-  v("span_slots", c.span_slots, in_range(1, 1024),
-    "splats whose spans are under way or wait for the dispatcher");
-  v("feedback_latency_cycles", c.feedback_latency_cycles, in_range(1, 1000),
-    "until VSU and HFUs see that a group is finished");
-  v("saturation_feedback", c.saturation_feedback, "a finished group's visits are dropped upstream");
-  v("input_fifo_entries", c.input_fifo_entries, in_range(1, 4096),
-    "sorted splats waiting from each sorting unit");
 }
 
 }  // namespace sgs

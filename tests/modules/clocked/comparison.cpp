@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "modules/config/strict_json.h"
-#include "modules/memory_port_keys.h"
 #include "testbench/process/in_child.h"
 #include "tlm/time_resolution.h"
 
