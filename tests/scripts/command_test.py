@@ -218,18 +218,6 @@ class WithTheCommand(InFolder):
         self.assertEqual(len(list((self.folder / "out").glob("fittings/*_seed_*"))), 4)
         self.assertEqual(len(list((self.folder / "out").glob("fittings/*/scene.*"))), 4 + 7)
 
-    def test_every_counter_of_a_report_is_described(self):
-        text = (REPOSITORY / "testbench" / "streaminggs" / "README.md").read_text()
-        scene = find_scene(str(self.scene))
-        for config in ("exact", "paper", "gscore"):
-            (view,) = simulations.simulate(
-                pathlib.Path(COMMAND), simulations.Run(scene, config=config)
-            ).accepted()
-            for path, unit in view["units"].items():
-                for name in (*unit["activities"], *unit["counters"]):
-                    with self.subTest(config, unit=path):
-                        self.assertIn(f"`{name}`", text)
-
     def test_memory_is_as_large_as_needed(self):
         scene = find_scene(str(self.scene))
         streaming = (("hfus=1", "group_width_px=48"), ("input", "shared"))

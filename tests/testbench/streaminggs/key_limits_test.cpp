@@ -45,7 +45,7 @@ std::map<std::string, Limits> stated_limits(const std::string& preset) {
   return stated;
 }
 
-// Which they are, modules/*/KEYS.md says: a test holds these beside the program.
+// Which they are, the pages KEYS.md say: a test compares these with the program.
 TEST_CASE("key limits: stated and kept to, of all keys of all machines") {
   constexpr std::size_t kFewestNumbers = 50;
   for (const char* preset : {"exact", "paper_no_vq", "gscore"}) {
