@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/storage/stored_scene.h"
 #include "modules/auto_choice.h"

@@ -1,6 +1,6 @@
 # What `cmake --install` puts into a prefix: the programs that were built and the data files that
 # they read. The build tree has the shape of the prefix, with links to the sources for the data, so
-# that a program finds its data in one way (algorithm/data_files.h). Included before any folder.
+# that a program finds its data in one way (algorithm/files/data_files.h). Included before any folder.
 include(GNUInstallDirs)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR})
 set(SGS_DATADIR ${CMAKE_INSTALL_DATADIR}/streaminggs)

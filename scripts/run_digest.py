@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from simulations import Run
 
 # Where the program finds presets, memspecs and technology, from its own folder, links resolved
-# (algorithm/data_files.h).
+# (algorithm/files/data_files.h).
 DATA_FROM_BIN = pathlib.Path("..", "share", "streaminggs")
 
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/image/image_header.h"
+#include "algorithm/image/image.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/describe.h"
 
@@ -51,5 +51,29 @@ struct Dataset {
 
 // Numbers of the views of `split`, rising.
 std::vector<int> views_of(const Dataset& dataset, Split split);
+
+// A data set out of a folder.
+
+// Reads cameras, points and the headers of all images below `folder`; no pixel yet. Views are
+// `downscale` times smaller than their files, as downscaled_camera() makes them. The layout is
+// recognised by the files that are there. Test views are the data set's own, or every 8th in the
+// order of names, from the first, as the original takes them. Throws InputError: no such folder, no
+// layout or more than one (says what was looked for), what the readers in layouts.h and
+// complete_view() refuse, a name twice, no view to train from, a downscale that is not from 1.
+Dataset open_dataset(const std::string& folder, double downscale = 1);
+
+// Throws InputError where there is none, with what was to name them.
+void require_test_views(const Dataset& dataset);
+
+// The pixels of a view, when they are wanted.
+
+// The view's camera for an image `downscale` times smaller still, each side rounded, at least 1 px.
+// Throws InputError unless downscale is finite and from 1.
+Camera downscaled_camera(const DatasetView& view, double downscale);
+
+// The view's image as that camera sees it, each pixel the mean over its area of the file. Throws
+// InputError as read_photograph() and downscaled_camera() do, and when the file has changed its
+// size since the data set was opened. Several threads may load at once.
+RgbaImage load_view(const DatasetView& view, double downscale = 1);
 
 }  // namespace sgs

@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 
 #include "algorithm/image/drawing.h"
-#include "algorithm/image/image_pair.h"
+#include "algorithm/image/quality.h"
 
 namespace sgs {
 namespace {

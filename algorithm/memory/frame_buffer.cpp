@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/splat/counting.h"
 #include "algorithm/splat/finished_pixel.h"
 

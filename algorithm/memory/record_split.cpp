@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include "algorithm/memory/short_quaternion.h"
+#include "algorithm/memory/records.h"
 #include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
+
 namespace {
 
 constexpr std::uint32_t kWordBytes = 4;
@@ -178,6 +179,15 @@ DecodedGaussian read_record(const RecordSplit& split, const SecondHalfFormat& fo
 CodebookIndices read_indices(const RecordSplit& split, const SecondHalfFormat& format,
                              const CarriedWords& carried, const std::byte* second) {
   return decode_indices(format, joined(split, carried, second).data() + kWordBytes);
+}
+
+FirstHalfBound bound_first_half(const RecordSplit& split, const SplitFirstHalf& first,
+                                const View<float>& view) {
+  const VisibleExtents& known = first.extents;
+  if (split.bound_by == CoarseBoundBy::kLargestScale) {
+    return coarse_bound(view, first.mean, known.scale_max);
+  }
+  return extent_bound(view, first.mean, known.extent, known.scale_max);
 }
 
 }  // namespace sgs

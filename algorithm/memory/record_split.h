@@ -22,7 +22,7 @@
 //     vq, vq_packed     16 + 17, 8               32, 16: the next power of two
 //
 // (in brackets: bytes on the bus, the mean over the places at which such a record may begin). Where
-// a word of the quaternion is left out (short_quaternion.h), the payload is the scales in their
+// a word of the quaternion is left out (records.h), the payload is the scales in their
 // order, three words of the quaternion, the opacity and the SH coefficients. The 8 bits that bring
 // the fourth word back are kept where bits of these are nought: the signs of scales and opacity,
 // and the upper exponent bit of what does not exceed 1. All of it comes back to the bit.
@@ -32,9 +32,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <variant>
 
 #include "algorithm/memory/second_half.h"
+#include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/coarse_bound_by.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/fine_record.h"
 #include "algorithm/splat/visible_extents.h"
 
@@ -83,5 +86,23 @@ DecodedGaussian read_record(const RecordSplit& split, const SecondHalfFormat& fo
 // Of a quantised record.
 CodebookIndices read_indices(const RecordSplit& split, const SecondHalfFormat& format,
                              const CarriedWords& carried, const std::byte* second);
+
+// The coarse test of a first half, whatever it is bounded by.
+
+// What is the same for all rectangles that one Gaussian is tested against.
+using FirstHalfBound = std::variant<CoarseBound, ExtentBound>;
+
+FirstHalfBound bound_first_half(const RecordSplit& split, const SplitFirstHalf& first,
+                                const View<float>& view);
+
+// v_z
+inline float depth_of(const FirstHalfBound& bound) {
+  return std::visit([](const auto& of) { return of.depth; }, bound);
+}
+
+// false: behind the near plane, or no pixel of the rectangle can change.
+inline bool touches(const FirstHalfBound& bound, const PixelRect& pixels) {
+  return std::visit([&](const auto& of) { return of.in_front && touches(of, pixels); }, bound);
+}
 
 }  // namespace sgs

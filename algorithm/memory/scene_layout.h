@@ -1,8 +1,10 @@
 // What lies where of a stored scene: what every storage order has, and the tables of one of them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/regions.h"
@@ -69,5 +71,12 @@ SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussia
 
 // By file: first_halves, second_halves, codebooks.
 SceneLayout lay_out_file(const SecondHalfFormat& format, std::uint32_t gaussians);
+
+struct MemoryImage {
+  SceneLayout layout;            // of the scene alone
+  std::vector<std::byte> bytes;  // [layout.stored_bytes] from address 0 on
+
+  const std::byte* at(std::uint64_t address) const { return bytes.data() + address; }
+};
 
 }  // namespace sgs

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "algorithm/memory/codebook.h"
 #include "algorithm/memory/scene_layout.h"
 #include "algorithm/memory/second_half.h"
-#include "algorithm/vq/vq_config.h"
 
 namespace sgs {
 
@@ -26,5 +26,15 @@ struct StorageConfig {
   // The format of second halves with every codebook as large as it may become.
   SecondHalfFormat widest_format(int sh_degree) const;
 };
+
+inline SecondHalfFormat StorageConfig::widest_format(int sh_degree) const {
+  SecondHalfFormat format{encoding, sh_degree, {}};
+  if (!format.quantised()) return format;
+  for (std::size_t id = 0; id < kCodebookCount; ++id) {
+    const auto codebook = static_cast<Codebook>(id);
+    format.entries[id] = codebook_words(codebook, sh_degree) > 0 ? vq.entries(codebook) : 0;
+  }
+  return format;
+}
 
 }  // namespace sgs

@@ -8,10 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "algorithm/order/walk_queue.h"
 #include "algorithm/voxel/chunk_test.h"
+#include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
 
@@ -233,6 +235,21 @@ class ChunkWalk {
   std::vector<WalkEntry> opening_;  // nodes taken and not open yet
   std::optional<WalkEntry> aside_;  // the nearest of those put aside
   WalkCounters counters_;
+};
+
+// A chunk tree as the source of a walk (chunk_walk.h) that takes no time and reads no DRAM.
+
+struct TreeInMemory {
+  const ChunkTree& tree;
+  std::vector<WalkEntry> aside;
+
+  const ChunkNode& node(std::uint32_t index) const { return tree.nodes[index]; }
+  void put_aside(const WalkEntry& entry) { aside.push_back(entry); }
+  template <class To>
+  void take_back(const To& to) {
+    for (const WalkEntry& entry : std::exchange(aside, {})) to(entry);
+  }
+  void forget_aside() { aside.clear(); }
 };
 
 }  // namespace sgs

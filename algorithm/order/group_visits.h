@@ -9,8 +9,8 @@
 
 #include "algorithm/order/ordering_table.h"
 #include "algorithm/splat/rects.h"
+#include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
-#include "algorithm/voxel/ray_walk.h"
 
 namespace sgs {
 

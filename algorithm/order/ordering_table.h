@@ -9,10 +9,130 @@
 #include <limits>
 #include <vector>
 
-#include "algorithm/order/ready_voxels.h"
-#include "algorithm/order/renaming.h"
-
 namespace sgs {
+
+// Which voxel has which number in the ordering table: a hash table of numbers with linear probing.
+// A slot holds a number only; whose it is stands in the ordering table itself.
+
+class Renaming {
+ public:
+  // Slots for so many voxels: a power of two, at most three quarters of them taken.
+  static std::uint64_t slots_for(std::uint64_t voxels) {
+    std::uint64_t slots = 2;
+    while (3 * slots < 4 * voxels) slots *= 2;
+    return slots;
+  }
+
+  explicit Renaming(std::uint64_t voxels) : slots_(slots_for(voxels), kFree) {}
+
+  // The slot of a voxel, or the free one where it belongs. is_of(number): whether that number is
+  // the voxel's. Counts the slots that are looked at.
+  template <class IsOf>
+  std::uint32_t find(std::uint32_t voxel, const IsOf& is_of, std::uint64_t& looked_at) const {
+    std::uint32_t slot = first_slot(voxel);
+    for (;; slot = (slot + 1) & mask()) {
+      ++looked_at;
+      if (slots_[slot] == kFree || is_of(slots_[slot])) return slot;
+    }
+  }
+  bool taken(std::uint32_t slot) const { return slots_[slot] != kFree; }
+  std::uint32_t number(std::uint32_t slot) const { return slots_[slot]; }
+  void take(std::uint32_t slot, std::uint32_t number) {
+    slots_[slot] = number;
+    taken_.push_back(slot);
+  }
+  void clear() {
+    for (const std::uint32_t slot : taken_) slots_[slot] = kFree;
+    taken_.clear();
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = ~0U;
+
+  std::uint32_t mask() const { return static_cast<std::uint32_t>(slots_.size() - 1); }
+  // Neighbouring voxels have neighbouring ids, of which several runs would lie on top of one
+  // another: three shifts and exclusive ors spread them (Marsaglia, "Xorshift RNGs", 2003).
+  std::uint32_t first_slot(std::uint32_t voxel) const {
+    voxel ^= voxel << 13U;
+    voxel ^= voxel >> 17U;
+    voxel ^= voxel << 5U;
+    return voxel & mask();
+  }
+
+  std::vector<std::uint32_t> slots_;
+  std::vector<std::uint32_t> taken_;
+};
+
+// Which voxels of the ordering table wait for no other: a bit each, in words, above them a bit for
+// each word that has any, and so on up to one word. The first is found from the top, a word a
+// level.
+
+class ReadyVoxels {
+ public:
+  static constexpr std::uint32_t kWordBits = 32;
+
+  // Levels of words over so many voxels, the bits themselves included.
+  static std::uint32_t levels_for(std::uint64_t voxels) {
+    std::uint32_t levels = 1;
+    for (; voxels > kWordBits; voxels = words_for(voxels)) ++levels;
+    return levels;
+  }
+  // Words of all levels.
+  static std::uint64_t all_words_for(std::uint64_t voxels) {
+    std::uint64_t sum = words_for(voxels);
+    for (; voxels > kWordBits; voxels = words_for(voxels)) sum += words_for(words_for(voxels));
+    return sum;
+  }
+
+  explicit ReadyVoxels(std::uint64_t voxels) {
+    for (std::uint64_t bits = voxels;; bits = words_for(bits)) {
+      words_.emplace_back(words_for(bits), 0);
+      if (bits <= kWordBits) break;
+    }
+  }
+
+  std::uint32_t levels() const { return static_cast<std::uint32_t>(words_.size()); }
+  bool empty() const { return words_.back().front() == 0; }
+
+  // Each returns how many words it has read and written: one of each level that changes.
+  std::uint32_t set(std::uint32_t voxel) {
+    std::uint32_t written = 0, at = voxel;
+    for (auto& level : words_) {
+      std::uint32_t& word = level[at / kWordBits];
+      const bool was_empty = word == 0;
+      word |= 1U << at % kWordBits;
+      ++written;
+      if (!was_empty) break;
+      at /= kWordBits;
+    }
+    return written;
+  }
+  std::uint32_t clear(std::uint32_t voxel) {
+    std::uint32_t written = 0, at = voxel;
+    for (auto& level : words_) {
+      std::uint32_t& word = level[at / kWordBits];
+      word &= ~(1U << at % kWordBits);
+      ++written;
+      if (word != 0) break;
+      at /= kWordBits;
+    }
+    return written;
+  }
+
+  // The lowest; not where there is none.
+  std::uint32_t first() const {
+    std::uint32_t at = 0;
+    for (std::size_t level = words_.size(); level-- > 0;) {
+      at = at * kWordBits + static_cast<std::uint32_t>(__builtin_ctz(words_[level][at]));
+    }
+    return at;
+  }
+
+ private:
+  static std::uint64_t words_for(std::uint64_t bits) { return (bits + kWordBits - 1) / kWordBits; }
+
+  std::vector<std::vector<std::uint32_t>> words_;  // [level], the bits first
+};
 
 // SRAM that one group's table takes, by count of renamed voxels and of distinct edges: per voxel
 // its global id (4 B), in-degree (2 B) and list head (2 B); per edge the successor and the next

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/order/tree_in_memory.h"
+#include "algorithm/order/chunk_walk.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/group_reach.h"

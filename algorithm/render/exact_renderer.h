@@ -7,9 +7,8 @@
 #include <cstdint>
 
 #include "algorithm/order/chunk_walk.h"
-#include "algorithm/order/on_overflow.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/render/streaming_result.h"
+#include "algorithm/render/render_result.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/rects.h"
@@ -17,6 +16,11 @@
 #include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
+
+enum class OnOverflow {
+  kSpill,       // sorted runs go to DRAM and come back: the image stays exact
+  kBlendEarly,  // the nearest keys are released before they are final: the image may suffer
+};
 
 struct ExactOrderConfig {
   PixelSize group = square_of(64);     // of pixels rendered together, multiples of 4

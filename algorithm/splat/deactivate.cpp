@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "algorithm/scene/logit.h"
+#include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
 namespace {

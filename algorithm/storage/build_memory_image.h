@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "algorithm/memory/memory_image.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/stored_scene.h"
 #include "algorithm/voxel/chunk_tree.h"

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/scene/gaussian_cloud.h"
-#include "algorithm/scene/gaussian_limits.h"
-#include "algorithm/storage/first_fault.h"
 
 namespace sgs {
 namespace {

@@ -11,14 +11,57 @@
 #include <variant>
 #include <vector>
 
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/image_file.h"
-#include "algorithm/storage/storage_choices.h"
 #include "algorithm/storage/stored_scene.h"
-#include "algorithm/storage/table_fields.h"
-#include "algorithm/voxel/arrangement.h"
+#include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
+
+// What a storage configuration may leave open (0), chosen by rules that say why.
+
+template <class T>
+struct Choice {
+  T value;
+  std::string why;  // a sentence with the numbers
+};
+
+// The same of a key below `storage`.
+struct StorageChoice {
+  const char* key;
+  double value;
+  std::string why;
+};
+
+// World units, by the inner extent of the scene (voxel_grid.h).
+Choice<double> choose_voxel_size(const ActivatedCloud& cloud);
+
+// run_bytes: what lies together in one row of one memory channel. A chunk's first halves fill it:
+// smaller chunks cost more tree records than they save, larger ones stream Gaussians that the group
+// does not need.
+Choice<std::uint32_t> choose_chunk_gaussians(std::uint32_t run_bytes);
+
+// The numbers of a packed scene's header that only its storage order has.
+
+// Counts its bytes, writes or reads it. A reader throws InputError for what is not between lowest
+// and highest.
+class TableFields {
+ public:
+  virtual ~TableFields() = default;
+  virtual void operator()(const char* name, double& value, double lowest, double highest) = 0;
+  virtual void operator()(const char* name, int& value, double lowest, double highest) = 0;
+  virtual void operator()(const char* name, std::uint32_t& value, double lowest,
+                          double highest) = 0;
+
+  // Of records or blocks: four bytes in the file, whatever holds it in memory.
+  template <class Count>
+  void count(const char* name, Count& value) {
+    auto word = static_cast<std::uint32_t>(value);
+    (*this)(name, word, 0, UINT32_MAX);
+    value = word;
+  }
+};
 
 // A size among a configuration's storage keys that this order alone has; 0 leaves it open.
 struct StorageSize {
@@ -82,5 +125,13 @@ const StorageScheme& scheme_of(StorageOrder order);
 inline Stored stored_of(const StorageConfig& config) {
   return config.store_invisible ? Stored::kAll : Stored::kVisible;
 }
+
+// The schemes there are; storage_scheme.h tells which is of which order.
+
+class StorageScheme;
+
+const StorageScheme& voxel_scheme();
+const StorageScheme& chunk_scheme();
+const StorageScheme& file_scheme();
 
 }  // namespace sgs

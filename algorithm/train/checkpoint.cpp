@@ -8,9 +8,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
-#include "algorithm/output_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/train/saved_bytes.h"
 
 namespace sgs {

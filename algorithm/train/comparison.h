@@ -6,9 +6,9 @@
 
 #include "algorithm/image/image.h"
 #include "algorithm/tune/cloud_gradient.h"
-#include "algorithm/tune/gradient_rule.h"
 #include "algorithm/tune/group_sequences.h"
 #include "algorithm/tune/photometric_loss.h"
+#include "algorithm/tune/splat_gradient.h"
 
 namespace sgs {
 

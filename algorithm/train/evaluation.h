@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "algorithm/image/image.h"
+#include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/train/photographs.h"
+#include "algorithm/tune/boundary_penalty.h"
+#include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 
@@ -25,5 +28,22 @@ std::vector<Quality> qualities(const ActivatedCloud& cloud, const Photographs& p
 
 // Means over all of them, PSNR in dB.
 Quality mean_quality(const std::vector<Quality>& each);
+
+// How near paper order's pictures of a scene come to photographs, and how much of them is out of
+// order.
+
+// Means over the photographs; shares of all views together.
+struct PaperQuality {
+  Quality paper;                // of the pictures in paper order, as the golden renderer draws them
+  Quality reference;            // of the same scene's reference pictures
+  double misordered_gaussians;  // share of (group, Gaussian) pairs that are rendered
+  double misordered_pixels;     // share of blends behind a splat that is farther, at the same pixel
+  double penalty;               // L_CBP
+};
+
+// grid: of this cloud, which is in storage order. seen: is shown the pictures in paper order.
+PaperQuality paper_quality(const ActivatedCloud& cloud, const VoxelGrid& grid,
+                           const PaperOrderConfig& order, const BoundaryPenaltyConfig& penalty,
+                           const Photographs& photographs, const PictureSeen& seen = {});
 
 }  // namespace sgs

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "algorithm/dataset/dataset.h"
@@ -32,5 +33,11 @@ std::vector<SfmPoint> random_points(const Extent& box, std::size_t count, std::u
 // point that the optical axes pass nearest to, whose half side is a third of the mean distance of
 // the cameras from it.
 Extent box_to_fill(const Dataset& dataset);
+
+// How densely points lie.
+
+// Of each point the root of the mean square distance to its three nearest others, world units; to
+// fewer where there are fewer, 0 where there is none.
+std::vector<float> neighbour_distances(const std::vector<glm::vec3>& points);
 
 }  // namespace sgs

@@ -6,8 +6,8 @@
 #include "algorithm/image/image.h"
 #include "algorithm/render/render_result.h"
 #include "algorithm/tune/cloud_gradient.h"
-#include "algorithm/tune/gradient_rule.h"
 #include "algorithm/tune/group_sequences.h"
+#include "algorithm/tune/splat_gradient.h"
 
 namespace sgs {
 

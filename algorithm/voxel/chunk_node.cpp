@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "algorithm/voxel/chunk_decode.h"
-
 namespace sgs {
+
 namespace {
 
 constexpr int kLevels = kMostExtent;

@@ -3,7 +3,7 @@
 
 #include "algorithm/splat/counting.h"
 #include "algorithm/splat/filter_work.h"
-#include "algorithm/voxel/chunk_decode.h"
+#include "algorithm/voxel/chunk_node.h"
 #include "algorithm/voxel/chunk_test.h"
 
 namespace sgs {

@@ -1,10 +1,15 @@
-// Pixel rays in units of cell planes, for the grid traversal.
+// Pixel rays through the voxel tree: directions, distance of cells from the eye, and the events on
+// the way.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <glm/vec3.hpp>
 #include <limits>
 
 #include "algorithm/splat/view.h"
+#include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 
@@ -48,6 +53,74 @@ Ray pixel_ray(const View<float>& view, int x, int y);
 template <class T>
 bool crosses_before(T time_a, int axis_a, T time_b, int axis_b) {
   return time_a < time_b || (time_a <= time_b && axis_a < axis_b);
+}
+
+// How far a cell lies from the eye: a number that rises along every ray.
+
+// The eye's cell relative to the root's corner. Where the eye lies beyond the root along an axis,
+// the cell next to the root stands for it: all that matters is on which side the root lies.
+inline glm::ivec3 eye_cell(const glm::vec3& eye, const VoxelFrame& frame) {
+  glm::ivec3 cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int at = cell_of(eye[axis], frame.voxel_size) - frame.origin_cell[axis];
+    cell[axis] = std::clamp(at, -1, frame.side_cells());
+  }
+  return cell;
+}
+
+// Manhattan distance of a cell of the root from the eye's: less than 2^22. Each crossing from cell
+// to cell moves a ray one step away along one axis, so that it rises along every ray of the frame,
+// and an order by distance respects all of them.
+inline std::uint32_t cells_from_eye(const glm::ivec3& eye, const glm::ivec3& cell) {
+  std::uint32_t sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    sum += static_cast<std::uint32_t>(std::abs(cell[axis] - eye[axis]));
+  }
+  return sum;
+}
+
+// What a ray does next on its way through the voxel tree: so that whoever follows it, at once or
+// beside other rays and with time passing, follows it in the same way.
+
+enum class RayEvent : std::uint8_t {
+  kLookUp,  // it wants the node `index`, and goes on when it is given
+  kVoxel,   // it meets the voxel `index`
+  kStep,    // it has left a block, or taken a sample
+  kEnd      // it has left the tree, or never enters it
+};
+
+// The numbers that belong to an event: a node's or a voxel's, and of a voxel cells_from_eye(); of a
+// step log2 of the cells a side of the block that was left, 0 of a sample.
+struct RayEventOf {
+  RayEvent what = RayEvent::kEnd;
+  std::uint32_t index = 0;
+  std::uint32_t cells = 0;
+};
+
+// Follows a ray to its end, without any time. Path: RayPath or SamplePath. Table: anything with
+// `VoxelNode node(std::uint32_t index)`. Calls visit(voxel, cells_from_eye()) for each occupied
+// voxel that the ray meets, nearest first, until it returns false. Returns the number of steps
+// taken: into the tree, and those along it.
+template <class Path, class Ray, class Table, class Visit>
+std::uint32_t follow(Path& path, const Ray& ray, Table& table, Visit&& visit) {
+  path.begin(ray);
+  std::uint32_t steps = 1;
+  while (true) {
+    const RayEventOf event = path.next();
+    switch (event.what) {
+      case RayEvent::kLookUp:
+        path.give(table.node(event.index));
+        break;
+      case RayEvent::kVoxel:
+        if (!visit(event.index, event.cells)) return steps;
+        break;
+      case RayEvent::kStep:
+        ++steps;
+        break;
+      case RayEvent::kEnd:
+        return steps;
+    }
+  }
 }
 
 }  // namespace sgs

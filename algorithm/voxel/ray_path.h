@@ -9,10 +9,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "algorithm/voxel/cells_from_eye.h"
-#include "algorithm/voxel/children_ahead.h"
 #include "algorithm/voxel/ray.h"
-#include "algorithm/voxel/ray_event.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
@@ -208,6 +205,28 @@ class RayPath {
   int level_ = 1;    // of the node to look into: it spans 4^level cells
   int highest_ = 1;  // level of the nodes that are kept
   VoxelNode nodes_[kNodesOfRay];
+};
+
+// The exact traversal (ray_path.h) of a tree, ray by ray, without any time.
+
+// Table: anything with `VoxelNode node(std::uint32_t index)`.
+template <class Table, class T = float>
+class RayWalk {
+ public:
+  RayWalk(const VoxelFrame& frame, Table& table) : RayWalk(frame, table, T(frame.voxel_size)) {}
+  // voxel_size: the frame's, as a value of the datapath.
+  RayWalk(const VoxelFrame& frame, Table& table, T voxel_size)
+      : path_(frame, voxel_size), table_(table) {}
+
+  // As follow().
+  template <class Visit>
+  std::uint32_t walk(const RayOf<T>& ray, Visit&& visit) {
+    return follow(path_, ray, table_, visit);
+  }
+
+ private:
+  RayPath<T> path_;
+  Table& table_;
 };
 
 }  // namespace sgs

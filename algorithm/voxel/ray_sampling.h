@@ -9,9 +9,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "algorithm/voxel/cells_from_eye.h"
 #include "algorithm/voxel/ray.h"
-#include "algorithm/voxel/ray_event.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {

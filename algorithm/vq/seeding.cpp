@@ -1,6 +1,4 @@
 // All points against each new centroid: the sums of several blocks of points grow side by side.
-#include "algorithm/vq/seeding.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <random>
 
 #include "algorithm/splat/widest_lanes.h"
+#include "algorithm/vq/kmeans.h"
 
 namespace sgs {
 namespace {

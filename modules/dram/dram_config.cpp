@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
 

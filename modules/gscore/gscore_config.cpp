@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/gscore/ccu/ccu.h"
 #include "modules/gscore/gscore_machine.h"
 #include "modules/gscore/lists/tile_lister.h"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/streaminggs/sorting/paper_sorter.h"
 #include "modules/streaminggs/streaming_sram.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "algorithm/memory/splat_record.h"
+#include "algorithm/render/paper_losses.h"
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/render/visited_in_order.h"
 #include "algorithm/voxel/ray_work.h"
 #include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/paper_machine.h"

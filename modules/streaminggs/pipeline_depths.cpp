@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/splat/filter_work.h"
 #include "algorithm/splat/rendering_work.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"

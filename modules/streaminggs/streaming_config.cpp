@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/memory/splat_record.h"
-#include "algorithm/render/group_parts.h"
+#include "algorithm/render/group_shape.h"
 #include "algorithm/splat/constants.h"
 #include "modules/memory_port_keys.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/fixed_pixel.h"
 #include "algorithm/splat/half_scalar.h"

@@ -19,7 +19,7 @@
 #include <random>
 #include <utility>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/reorder.h"

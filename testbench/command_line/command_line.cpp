@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "algorithm/input_error.h"
-#include "algorithm/join.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/command_line/version.h"
 
 namespace sgs {

@@ -1,6 +1,6 @@
 // Alpha, the light that is left, colour, and their derivatives.
 #include "algorithm/splat/blend.h"
-#include "algorithm/tune/blend_gradient.h"
+#include "algorithm/tune/splat_gradient.h"
 #include "testbench/stability/counted.h"
 #include "testbench/stability/study.h"
 

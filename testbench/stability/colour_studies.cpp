@@ -1,6 +1,5 @@
 // Activations and spherical harmonics, and their derivatives.
-#include "algorithm/tune/activation_gradient.h"
-#include "algorithm/tune/colour_gradient.h"
+#include "algorithm/tune/gaussian_gradient.h"
 #include "testbench/stability/exact_colour.h"
 #include "testbench/stability/study.h"
 

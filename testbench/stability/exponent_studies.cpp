@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "algorithm/splat/lane_input.h"
-#include "algorithm/tune/blend_gradient.h"
+#include "algorithm/tune/splat_gradient.h"
 #include "testbench/stability/conic_by_covariance.h"
 #include "testbench/stability/counted.h"
 #include "testbench/stability/projected_case.h"

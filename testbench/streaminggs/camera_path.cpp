@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_json.h"
-#include "algorithm/scene/camera_between.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
+#include "algorithm/scene/camera.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/streaminggs/json_place.h"
 

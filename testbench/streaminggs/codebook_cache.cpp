@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/memory/record_split.h"
 #include "algorithm/storage/build_memory_image.h"
 #include "algorithm/storage/decoded_image.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/dataset/dataset.h"
 #include "testbench/command_line/while_doing.h"
 
 namespace sgs {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "algorithm/dataset/dataset.h"
-#include "algorithm/output_plan.h"
+#include "algorithm/files/output_file.h"
 #include "testbench/command_line/command_line.h"
 
 namespace sgs {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "algorithm/input_error.h"
-#include "algorithm/output_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 #include "testbench/command_line/guard.h"
 #include "testbench/command_line/interrupt.h"
 #include "testbench/streaminggs/provenance.h"

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/output_plan.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/train/checkpoint.h"
 #include "algorithm/train/fitting.h"
-#include "algorithm/tune/gradient_rule.h"
+#include "algorithm/tune/splat_gradient.h"
 #include "testbench/command_line/command_line.h"
 #include "testbench/streaminggs/fitting_log.h"
 #include "testbench/streaminggs/test_pictures.h"

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <systemc>
 
-#include "algorithm/output_set.h"
+#include "algorithm/files/output_file.h"
 #include "modules/dram/command_trace.h"
 #include "modules/dram/dram_controller.h"
 #include "testbench/process/in_child.h"

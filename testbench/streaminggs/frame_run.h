@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "algorithm/memory/memory_image.h"
+#include "algorithm/memory/scene_layout.h"
 #include "modules/dram/dram_config.h"
 #include "modules/machine_design.h"
 #include "testbench/result/frame_result.h"

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/output_file.h"
-#include "algorithm/output_plan.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/splat/activate.h"
 #include "modules/config/strict_json.h"
 #include "testbench/gpu/gpu_model.h"

@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "algorithm/dataset/open_dataset.h"
-#include "algorithm/input_error.h"
+#include "algorithm/dataset/dataset.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/scene/describe.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/storage/storage_choices.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "algorithm/voxel/voxel_grid.h"
 #include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"

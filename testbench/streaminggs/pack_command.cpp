@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/output_plan.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/deactivate.h"
 #include "algorithm/splat/reorder.h"

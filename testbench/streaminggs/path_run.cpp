@@ -8,10 +8,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/image/image_io.h"
-#include "algorithm/input_error.h"
-#include "algorithm/input_json.h"
-#include "algorithm/output_set.h"
 #include "testbench/streaminggs/contact_sheet.h"
 #include "testbench/streaminggs/numbers.h"
 #include "testbench/streaminggs/path_summary.h"

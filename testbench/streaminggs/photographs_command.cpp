@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/image/image_io.h"
-#include "algorithm/input_error.h"
-#include "algorithm/output_plan.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/train/photographs.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/dataset_arguments.h"

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 

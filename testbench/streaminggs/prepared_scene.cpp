@@ -4,10 +4,9 @@
 #include <utility>
 
 #include "algorithm/splat/activate.h"
-#include "algorithm/storage/restore_scene.h"
 #include "algorithm/storage/sh_bands.h"
 #include "algorithm/storage/storage_scheme.h"
-#include "algorithm/storage/store_scene.h"
+#include "algorithm/storage/stored_scene.h"
 #include "testbench/streaminggs/progress.h"
 #include "testbench/streaminggs/provenance.h"
 

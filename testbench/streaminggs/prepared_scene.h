@@ -8,7 +8,7 @@
 
 #include "algorithm/scene/load_scene.h"
 #include "algorithm/storage/image_file.h"
-#include "algorithm/storage/storage_choices.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "algorithm/storage/stored_scene.h"
 #include "algorithm/vq/quantise.h"
 #include "testbench/streaminggs/codebook_cache.h"

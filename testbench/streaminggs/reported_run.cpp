@@ -7,7 +7,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/streaminggs/json_place.h"
 #include "testbench/streaminggs/report.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/command_line/program.h"
 #include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"

@@ -8,8 +8,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_json.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"

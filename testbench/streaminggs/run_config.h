@@ -9,7 +9,7 @@
 
 #include "algorithm/memory/storage_config.h"
 #include "algorithm/storage/image_file.h"
-#include "algorithm/storage/storage_choices.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "modules/config/strict_json.h"
 #include "modules/dram/dram_config.h"
 #include "modules/machine_design.h"

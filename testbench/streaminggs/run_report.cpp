@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "algorithm/input_json.h"
+#include "algorithm/files/input_json.h"
 #include "testbench/command_line/version.h"
 #include "testbench/streaminggs/provenance.h"
 #include "testbench/streaminggs/report.h"

@@ -10,8 +10,8 @@
 #include <numeric>
 #include <sstream>
 
-#include "algorithm/input_error.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/splat/view.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/builtin/open_scene.h"

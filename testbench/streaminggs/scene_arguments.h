@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "algorithm/files/output_file.h"
 #include "algorithm/memory/second_half.h"
-#include "algorithm/output_plan.h"
 #include "algorithm/scene/load_scene.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/storage/image_file.h"

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/data_files.h"
-#include "algorithm/input_error.h"
-#include "algorithm/input_json.h"
-#include "algorithm/output_plan.h"
+#include "algorithm/files/data_files.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/render/group_state.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/camera_path.h"

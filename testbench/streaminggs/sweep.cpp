@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "algorithm/input_error.h"
-#include "algorithm/output_plan.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 
 namespace sgs {
 namespace {

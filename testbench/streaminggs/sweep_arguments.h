@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "algorithm/data_files.h"
+#include "algorithm/files/data_files.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/scene_arguments.h"
 #include "testbench/streaminggs/sweep_points.h"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/output_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 #include "testbench/command_line/guard.h"
 #include "testbench/command_line/interrupt.h"
 #include "testbench/streaminggs/commands.h"

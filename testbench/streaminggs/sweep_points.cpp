@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
-#include "algorithm/input_json.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
+#include "algorithm/files/input_json.h"
 
 namespace sgs {
 namespace {

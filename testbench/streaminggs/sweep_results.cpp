@@ -19,8 +19,8 @@
 #include <thread>
 #include <utility>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 
 namespace sgs {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/storage_scheme.h"
-#include "algorithm/storage/store_scene.h"
+#include "algorithm/storage/stored_scene.h"
 #include "modules/storage_keys.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/command_line/while_doing.h"

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/dram/memspec.h"
 #include "testbench/streaminggs/provenance.h"
 

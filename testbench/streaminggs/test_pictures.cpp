@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/image/image_io.h"
-#include "algorithm/input_error.h"
 
 namespace sgs {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/output_plan.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/train/evaluation.h"
 #include "algorithm/train/photographs.h"
 #include "testbench/command_line/command_line.h"

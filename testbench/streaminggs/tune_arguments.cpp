@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/storage/image_file.h"
 
 namespace sgs {

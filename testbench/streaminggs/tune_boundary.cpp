@@ -5,13 +5,12 @@
 #include <utility>
 #include <variant>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/train/drawing_order.h"
-#include "algorithm/train/paper_quality.h"
-#include "algorithm/train/penalties.h"
+#include "algorithm/train/evaluation.h"
 #include "algorithm/train/scene_tuner.h"
+#include "algorithm/train/tuning_config.h"
 #include "testbench/streaminggs/tune_command.h"
 
 namespace sgs {

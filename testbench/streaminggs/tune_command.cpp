@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/output_plan.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/splat/activate.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/prepared_scene.h"

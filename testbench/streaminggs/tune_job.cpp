@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/reorder.h"
 #include "algorithm/storage/storage_scheme.h"

@@ -7,11 +7,11 @@
 #include <utility>
 #include <variant>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/image_file.h"
-#include "algorithm/train/paper_quality.h"
+#include "algorithm/train/evaluation.h"
 #include "algorithm/train/quantised_tuner.h"
 #include "algorithm/vq/image_weights.h"
 #include "testbench/streaminggs/progress.h"

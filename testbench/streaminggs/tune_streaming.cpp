@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/render/splat_bins.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "algorithm/train/own_pictures.h"
+#include "algorithm/train/photographs.h"
 #include "testbench/streaminggs/numbers.h"
 
 namespace sgs {

@@ -26,7 +26,7 @@ TuningViews views_of_dataset(Dataset dataset);
 
 // The pictures that `cloud` gives from `cameras` in the reference order: of every eighth, from the
 // first on, to test with and of the others to tune on; one camera serves for both. With
-// between > 0 all of them are to test with, and so many between them (own_pictures.h), drawn by
+// between > 0 all of them are to test with, and so many between them (photographs.h), drawn by
 // seed, are tuned on. pictures: what to call them on the terminal.
 TuningViews views_of_scene(const std::string& pictures, const ActivatedCloud& cloud,
                            const std::vector<Camera>& cameras, std::uint32_t between,

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/image/quality.h"
-#include "algorithm/input_error.h"
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/render/reference_renderer.h"
 #include "modules/dram/address_mapping.h"

@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
+#include "algorithm/image/image_formats.h"
 #include "algorithm/image/image_io.h"
-#include "algorithm/image/png_file.h"
-#include "algorithm/input_error.h"
-#include "algorithm/output_set.h"
 #include "testbench/streaminggs/error_maps.h"
 #include "testbench/streaminggs/group_table.h"
 #include "testbench/streaminggs/terminal.h"

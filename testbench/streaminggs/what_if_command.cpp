@@ -8,11 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/data_files.h"
-#include "algorithm/input_error.h"
+#include "algorithm/files/data_files.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/memory/frame_buffer.h"
-#include "algorithm/output_file.h"
-#include "algorithm/output_plan.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/result/collect.h"
 #include "testbench/streaminggs/commands.h"

@@ -7,7 +7,7 @@
 
 #include "algorithm/storage/image_file.h"
 #include "algorithm/storage/image_file_fields.h"
-#include "algorithm/storage/restore_scene.h"
+#include "algorithm/storage/stored_scene.h"
 #include "algorithm/train/checkpoint.h"
 #include "modules/dram/command_trace.h"
 #include "modules/dram/memspec.h"

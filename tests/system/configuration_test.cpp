@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "testbench/builtin/open_scene.h"
 #include "tests/system/frame_checks.h"

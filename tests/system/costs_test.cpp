@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/filter_work.h"
 #include "algorithm/splat/lane_macs.h"

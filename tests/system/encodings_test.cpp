@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/system/report_values.h"

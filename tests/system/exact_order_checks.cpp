@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "tests/algorithm/voxel/hard_scenes.h"
 #include "tests/support/shared_inputs.h"

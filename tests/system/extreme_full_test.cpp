@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/scene/ply_writer.h"
 #include "tests/system/extreme_scenes.h"

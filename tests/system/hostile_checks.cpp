@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"

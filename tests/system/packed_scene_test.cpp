@@ -9,7 +9,7 @@
 
 #include "algorithm/image/image_io.h"
 #include "algorithm/image/quality.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "algorithm/render/tile_blend.h"
+#include "algorithm/render/tile_renderer.h"
 #include "modules/datapath/counter_bits.h"
 #include "modules/datapath/selection.h"
 #include "modules/datapath/wait_for_turn.h"

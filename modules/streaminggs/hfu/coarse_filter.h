@@ -2,7 +2,7 @@
 // the CFUs, which know only what stands in a first half. With a shared fetch the CFUs of all HFUs
 // divide the Gaussians among themselves; a CFU bounds one once and compares the bound with every
 // part of the group. Timing: a Gaussian in each CFU at a time; the next slices are fetched while
-// this one is filtered. Function: algorithm/memory/first_half_test.h.
+// this one is filtered. Function: algorithm/memory/record_split.h.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <systemc>
 #include <vector>
 
-#include "algorithm/memory/first_half_test.h"
+#include "algorithm/memory/record_split.h"
 #include "modules/datapath/places_under_test.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/hfu_config.h"

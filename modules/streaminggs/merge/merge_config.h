@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "algorithm/order/on_overflow.h"
+#include "algorithm/render/exact_renderer.h"
 #include "modules/config/config_visitor.h"
 
 namespace sgs {

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "algorithm/order/ready_voxels.h"
-#include "algorithm/order/renaming.h"
+#include "algorithm/order/ordering_table.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 

@@ -6,8 +6,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
-#include "algorithm/dataset/load_view.h"
-#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/dataset/dataset.h"
 #include "tests/support/shared_inputs.h"
 
 using namespace sgs;

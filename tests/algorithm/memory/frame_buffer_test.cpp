@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/splat/lane_macs.h"
 
 namespace sgs {

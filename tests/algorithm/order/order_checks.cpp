@@ -9,7 +9,7 @@
 #include "algorithm/order/group_visits.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/splat/activate.h"
 #include "testbench/builtin/open_scene.h"
 #include "tests/algorithm/voxel/stored_clouds.h"

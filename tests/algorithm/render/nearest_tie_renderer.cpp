@@ -10,7 +10,7 @@
 
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/make_splat.h"
-#include "algorithm/voxel/ray_walk.h"
+#include "algorithm/voxel/ray_path.h"
 
 namespace sgs::test {
 namespace {

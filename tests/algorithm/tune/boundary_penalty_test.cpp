@@ -9,7 +9,7 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/reorder.h"
 #include "algorithm/tune/scene_gradient.h"
-#include "algorithm/tune/visit_plan.h"
+#include "algorithm/tune/visited_sequences.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/splat/dual.h"
 

@@ -46,7 +46,7 @@ TEST_CASE("nearest depth of a box: its corners are not nearer") {
 
 TEST_CASE("nearest depth of a box: corners that only the slack for rounding keeps behind it") {
   // Found by a search for the least distance between the two; without the slack of the depth in
-  // chunk_test.cpp the box is said to begin one to four steps of float behind its corner.
+  // chunk_tree.cpp the box is said to begin one to four steps of float behind its corner.
   struct Case {
     glm::vec3 forward, low, high;
   };

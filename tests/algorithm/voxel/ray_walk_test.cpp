@@ -1,11 +1,10 @@
 // The hierarchical walk and the sampling against stepping from cell to cell.
-#include "algorithm/voxel/ray_walk.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <string>
 
+#include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
 #include "tests/algorithm/voxel/cell_stepper.h"
 #include "tests/algorithm/voxel/stored_clouds.h"

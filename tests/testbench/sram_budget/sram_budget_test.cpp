@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/machines.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "testbench/builtin/open_scene.h"

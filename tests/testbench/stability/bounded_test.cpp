@@ -6,7 +6,7 @@
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/spherical_harmonics.h"
-#include "algorithm/tune/projection_gradient.h"
+#include "algorithm/tune/gaussian_gradient.h"
 #include "testbench/stability/projected_case.h"
 
 using namespace sgs;

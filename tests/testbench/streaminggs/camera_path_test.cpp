@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/camera_between.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/builtin/camera_rig.h"
 #include "testbench/streaminggs/contact_sheet.h"

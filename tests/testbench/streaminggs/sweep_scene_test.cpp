@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/storage/store_scene.h"
+#include "algorithm/storage/stored_scene.h"
 #include "modules/machines.h"
 #include "testbench/streaminggs/recently_used.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/cost/technology.h"
 #include "tests/support/scratch_folder.h"

@@ -1,7 +1,7 @@
 // Coarse and fine filter against their clocked references.
 #include <catch2/catch.hpp>
 
-#include "algorithm/memory/first_half_test.h"
+#include "algorithm/memory/record_split.h"
 #include "modules/streaminggs/exact_config.h"
 #include "modules/streaminggs/hfu/coarse_filter.h"
 #include "modules/streaminggs/hfu/fine_filter.h"
