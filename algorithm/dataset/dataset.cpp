@@ -16,7 +16,6 @@
 #include "algorithm/scene/camera.h"
 
 namespace sgs {
-
 namespace {
 
 struct Layout {

@@ -15,17 +15,18 @@ namespace sgs {
 
 enum class Split { kTrain, kTest };
 
-// Where the split comes from.
+// The source of the split: the data set, or every eighth view.
 enum class SplitBy { kDataset, kEveryEighth };
 
 struct DatasetView {
   std::string name;        // path of the image as the data set has it, without extension
   std::string image_path;  // PNG or JPEG
   ImageHeader file;        // as the image lies in its file
-  // Of what is used of the file, whatever size the data set states, as many times smaller as the
-  // data set was opened. camera.id is the view's number in Dataset::views, camera.name its name.
+  // The camera of the used part of the file, whatever size the data set states, as many times
+  // smaller as the data set was opened. camera.id is the view's number in Dataset::views,
+  // camera.name its name.
   Camera camera;
-  // What is used of the file: all but the pixels that are cut off to have the principal point in
+  // The used part of the file: all but the pixels that are cut off to have the principal point in
   // the middle. Its top left pixel and its width and height.
   glm::ivec2 crop_px{0}, used_px{0};
   Split split = Split::kTrain;
@@ -52,8 +53,6 @@ struct Dataset {
 // Numbers of the views of `split`, rising.
 std::vector<int> views_of(const Dataset& dataset, Split split);
 
-// A data set out of a folder.
-
 // Reads cameras, points and the headers of all images below `folder`; no pixel yet. Views are
 // `downscale` times smaller than their files, as downscaled_camera() makes them. The layout is
 // recognised by the files that are there. Test views are the data set's own, or every 8th in the
@@ -64,8 +63,6 @@ Dataset open_dataset(const std::string& folder, double downscale = 1);
 
 // Throws InputError where there is none, with what was to name them.
 void require_test_views(const Dataset& dataset);
-
-// The pixels of a view, when they are wanted.
 
 // The view's camera for an image `downscale` times smaller still, each side rounded, at least 1 px.
 // Throws InputError unless downscale is finite and from 1.

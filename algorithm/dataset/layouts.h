@@ -32,12 +32,11 @@ StatedDataset read_cameras_json(const std::string& folder);
 bool holds_nsvf(const std::string& folder);
 StatedDataset read_nsvf(const std::string& folder);
 
-// Points with colours as a PLY file: what nerfstudio keeps of structure from motion.
-
-// Reads x y z of any type and red green blue as uchar of the element `vertex`, which comes first,
-// in text or binary of either byte order; other properties and what follows are skipped. Throws
-// InputError: not a PLY, another element first, a property that is missing, a list or of another
-// type, a file cut off, a number that is none or too large.
+// The points with colours that nerfstudio keeps of structure from motion, a PLY file: reads x y z
+// of any type and red green blue as uchar of the element `vertex`, which comes first, in text or
+// binary of either byte order; other properties and what follows are skipped. Throws InputError:
+// not a PLY, another element first, a property that is missing, a list or of another type, a file
+// cut off, a number that is none or too large.
 std::vector<SfmPoint> read_points_ply(const std::string& path);
 
 }  // namespace sgs

@@ -14,7 +14,6 @@
 #include "algorithm/scene/ply_header.h"
 
 namespace sgs {
-
 namespace {
 
 constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "red", "green", "blue"};

@@ -12,7 +12,6 @@
 #include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
-
 namespace {
 
 constexpr double kOrthonormalTolerance = 1e-3;  // as cameras.json has it

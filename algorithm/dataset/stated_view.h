@@ -1,4 +1,4 @@
-// What the files of a data set state, before images and cameras are brought together.
+// The statements of a data set's files, before images and cameras are brought together.
 #pragma once
 
 #include <glm/ext/vector_uint3_sized.hpp>
@@ -46,8 +46,6 @@ struct StatedDataset {
   std::optional<Extent> bounds;
 };
 
-// Poses out of the matrices and quaternions of data sets.
-
 // world_from_camera: a rigid motion, columns as glm has them, of a camera with x right, y down, z
 // forward axes. Throws InputError that begins with `where`: a number that is not finite, axes that
 // are not orthonormal within 1e-3 or mirror, a last row that is not 0 0 0 1.
@@ -62,9 +60,8 @@ Pose opengl_pose(const glm::dmat4& world_from_camera, const std::string& where);
 Pose colmap_pose(const glm::dquat& camera_from_world, const glm::dvec3& translation,
                  const std::string& where);
 
-// A point of a data set out of the numbers that state it.
-
-// Throws InputError that begins with `where`: coordinates that are not finite or too large.
+// The point that these numbers state. Throws InputError that begins with `where`: coordinates that
+// are not finite or too large.
 SfmPoint sfm_point(const glm::dvec3& position, const glm::u8vec3& colour, const std::string& where);
 
 }  // namespace sgs

@@ -14,7 +14,6 @@
 #include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -10,7 +10,6 @@
 namespace sgs {
 
 // The image file that a data set means by a name.
-
 struct FoundImage {
   std::string path;
   ImageHeader header;
@@ -24,8 +23,6 @@ FoundImage find_image(const std::vector<std::string>& folders, const std::string
 
 // `name` without "./" before it and without the extension of an image behind it.
 std::string view_name(const std::string& name);
-
-// Brings together the camera that a data set states and the image that lies there.
 
 // Whether one factor brings both stated sides to within a pixel of the others.
 bool of_one_shape(int width, int height, int stated_width, int stated_height);

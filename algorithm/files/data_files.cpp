@@ -8,7 +8,6 @@
 #include "algorithm/files/input_error.h"
 
 namespace sgs {
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,4 +1,4 @@
-// Where the files lie that come with the programs: presets, memspecs, technology tables.
+// The files that come with the programs: presets, memspecs, technology tables.
 #pragma once
 
 #include <string>

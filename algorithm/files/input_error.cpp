@@ -6,7 +6,6 @@
 #include <cstdint>
 
 namespace sgs {
-
 namespace {
 
 // Bytes of the UTF-8 character that `text` begins with; 0 for what is none or controls a terminal.

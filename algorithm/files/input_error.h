@@ -1,5 +1,5 @@
-// What every reader of files, arguments and configurations throws on input that it cannot use, and
-// how its message is put together.
+// The error that every reader of files, arguments and configurations throws on input that it cannot
+// use, and how its message is put together.
 #pragma once
 
 #include <stdexcept>
@@ -21,9 +21,7 @@ class InputError : public std::runtime_error {
   explicit InputError(std::string_view message) : std::runtime_error(one_line(message)) {}
 };
 
-// Words for messages. (fmt::join draws a false overflow warning from gcc 12.)
-
-// "a, b, c" of anything that holds strings.
+// "a, b, c" of anything that holds strings. (fmt::join draws a false overflow warning from gcc 12.)
 template <class Container>
 std::string join(const Container& words, const char* between = ", ") {
   std::string text;

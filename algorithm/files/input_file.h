@@ -34,7 +34,6 @@ class InputFile {
 };
 
 // A text file line by line.
-
 constexpr std::size_t kMostLineBytes = 4096;
 
 class LineReader {
@@ -43,7 +42,7 @@ class LineReader {
   explicit LineReader(const std::string& path) : file_(path) {}
 
   const std::string& path() const { return file_.path(); }
-  // Of the last line, from 1; at the end of the file, of the one that is not there.
+  // The number of the last line, from 1; at the end of the file, that of the line behind it.
   std::uint64_t line_number() const { return line_number_; }
 
   // The next line without its end, until the next call; false at the end of the file. Throws

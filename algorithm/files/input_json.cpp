@@ -11,7 +11,6 @@
 #include "algorithm/files/input_file.h"
 
 namespace sgs {
-
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -17,7 +17,6 @@
 #include "algorithm/files/part_files.h"
 
 namespace sgs {
-
 namespace {
 
 namespace fs = std::filesystem;

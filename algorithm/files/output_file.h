@@ -28,7 +28,7 @@ class OutputFile {
   const std::string& path() const { return path_; }
   const std::string& temporary_path() const { return temporary_path_; }
 
-  // What goes wrong is remembered for finish().
+  // Errors are kept for finish().
   void write(const void* data, std::size_t size_bytes);
   void write(std::string_view text) { write(text.data(), text.size()); }
 
@@ -58,9 +58,8 @@ class OutputFile {
 // Writes `size_bytes` bytes as the whole content of `path`. Throws as OutputFile does.
 void write_whole_file(const std::string& path, const void* data, std::size_t size_bytes);
 
-// Output files that belong together.
-
-// Either all of them appear under their names or, when one cannot be written, none does.
+// Output files that belong together: all of them appear under their names or, when one cannot be
+// written, none does.
 class OutputSet {
  public:
   OutputSet() = default;
@@ -83,8 +82,7 @@ class OutputSet {
   std::deque<OutputFile> files_;
 };
 
-// What a command reads and writes, checked as a whole before it begins.
-
+// The files that a command reads and writes, checked as a whole before it begins.
 class OutputPlan {
  public:
   // Names that are no file, and empty ones, are for whoever reads them to judge.

@@ -9,7 +9,6 @@
 #include <csignal>
 
 namespace sgs {
-
 namespace {
 
 std::array<std::atomic<const char*>, 256> parts;

@@ -9,7 +9,6 @@
 #include "algorithm/files/input_error.h"
 
 namespace sgs {
-
 namespace {
 
 // The source pixels that one pixel of the result covers, along one axis.

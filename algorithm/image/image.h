@@ -8,6 +8,7 @@
 
 namespace sgs {
 
+// A linear RGB picture.
 struct Image {
   int width = 0, height = 0;      // px
   std::vector<glm::vec3> pixels;  // [height, width] row-major, top row first
@@ -21,8 +22,7 @@ struct Image {
   }
 };
 
-// A picture in float whose pixels may be transparent.
-
+// A picture whose pixels may be transparent.
 struct RgbaImage {
   int width = 0, height = 0;  // px
   // [height, width] row-major, top row first. xyz: colour times alpha, so that pixels may be
@@ -48,8 +48,7 @@ RgbaImage area_averaged(const RgbaImage& image, int width, int height);
 // The rectangle of `width` x `height` px whose top left pixel is (left, top); it must lie inside.
 RgbaImage cropped(const RgbaImage& image, int left, int top, int width, int height);
 
-// What an image file says of itself before its pixels.
-
+// The size of an image, which its file states before the pixels.
 struct ImageHeader {
   int width = 0, height = 0;  // px, from 1
   bool has_alpha = false;

@@ -13,7 +13,6 @@
 #include "algorithm/image/image_formats.h"
 
 namespace sgs {
-
 namespace {
 
 std::string extension_of(const std::string& path) {

@@ -31,8 +31,8 @@ struct JpegErrors {
   std::longjmp(errors->place, 1);
 }
 
-// What libjpeg would repair by guessing (level -1) is an error here, but for bytes between segments
-// that mean nothing.
+// Damage that libjpeg would repair by guessing (level -1) is an error here, but for bytes between
+// segments that mean nothing.
 void leave_on_damage(j_common_ptr info, int level) {
   if (level < 0 && info->err->msg_code != JWRN_EXTRANEOUS_DATA) leave(info);
 }

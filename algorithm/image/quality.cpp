@@ -16,7 +16,6 @@
 #include "algorithm/files/input_error.h"
 
 namespace sgs {
-
 namespace {
 
 double channel_error(float a, float b) {

@@ -25,18 +25,16 @@ inline glm::vec3 clamp_to_unit(const glm::vec3& pixel) {
 // infinite error, so that it cannot hide.
 double pixel_error(const glm::vec3& a, const glm::vec3& b);
 
-// How far two pictures are apart: PSNR, SSIM, largest error.
-
-// All of these throw InputError when the pictures differ in size or have no pixels.
+// All measures throw InputError when the pictures differ in size or have no pixels.
 
 // Peak signal-to-noise ratio in dB over all pixels and channels, both pictures clamped to [0, 1]:
 // -10 log10(MSE). Infinity for equal pictures, NaN where a picture holds NaN.
 double psnr_db(const Image& a, const Image& b);
 
-// Structural similarity, mean over pixels and channels, both pictures clamped to [0, 1]: 11x11
-// Gaussian window of sigma 1.5 px, zero padding, C1 = 0.01^2, C2 = 0.03^2, as in the loss of
-// Kerbl et al. 2023. 1 for equal pictures, NaN (without a sign) where a picture holds NaN. The
-// result does not depend on the number of threads.
+// Structural similarity (Wang et al. 2004), mean over pixels and channels, both pictures clamped to
+// [0, 1]: 11x11 Gaussian window of sigma 1.5 px, zero padding, C1 = 0.01^2, C2 = 0.03^2, as in the
+// loss of Kerbl et al. 2023. 1 for equal pictures, NaN (without a sign) where a picture holds NaN.
+// The result does not depend on the number of threads.
 double ssim(const Image& a, const Image& b);
 
 // Largest |a - b| over pixels and channels, not clamped. A NaN on one side only counts as infinity.
@@ -49,7 +47,6 @@ std::uint64_t differing_pixels(const Image& a, const Image& b);
 double fraction_within(const Image& a, const Image& b, double tolerance);
 
 // The window and the constants of SSIM (Wang et al. 2004), as in the loss of Kerbl et al. 2023.
-
 constexpr int kSsimRadiusPx = 5;  // 11x11 window
 constexpr int kSsimTaps = 2 * kSsimRadiusPx + 1;
 constexpr double kSsimSigmaPx = 1.5;

@@ -1,5 +1,5 @@
-// Codebooks as they lie in memory: what quantised second halves point into. (Their making:
-// algorithm/vq.)
+// Codebooks as they lie in memory (StreamingGS, DAC 2025: vector quantisation): quantised second
+// halves point into them. Their making: algorithm/vq.
 #pragma once
 
 #include <array>
@@ -34,7 +34,6 @@ constexpr std::uint32_t codebook_words(Codebook codebook, int sh_degree) {
 using CodebookIndices = std::array<std::uint32_t, kCodebookCount>;
 
 // How the codebooks of a scene are made.
-
 struct VqConfig {
   std::uint32_t scale_entries = 4096;  // most entries of each codebook
   std::uint32_t rotation_entries = 4096;

@@ -8,7 +8,6 @@
 #include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
-
 namespace {
 
 constexpr std::uint32_t kWordBytes = 4;
@@ -17,7 +16,7 @@ constexpr std::uint32_t kBurstBytes = 32;
 // [carried words][second half]
 using Payload = std::array<std::byte, kWordBytes + kMaxSecondHalfBytes>;
 
-// Of a raw payload with a short quaternion.
+// Places in a raw payload with a short quaternion, in words.
 constexpr std::size_t kScaleWord = 0, kQuaternionWord = 3, kOpacityWord = 6, kShWord = 7;
 constexpr std::uint32_t kRawShByte = 28;  // of a raw second half
 

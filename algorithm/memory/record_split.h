@@ -1,4 +1,4 @@
-// How the bytes of a Gaussian are divided between its first half, which the coarse filter reads of
+// The bytes of a Gaussian are divided between its first half, which the coarse filter reads of
 // every Gaussian of a block, and its second half, which is fetched of those that pass.
 //
 // A second half in its encoding (second_half.h) with the largest scale in front of it is the
@@ -83,19 +83,18 @@ DecodedGaussian read_record(const RecordSplit& split, const SecondHalfFormat& fo
                             const glm::vec3& mean, const CarriedWords& carried,
                             const std::byte* second, const std::byte* codebooks);
 
-// Of a quantised record.
+// The indices of a quantised record.
 CodebookIndices read_indices(const RecordSplit& split, const SecondHalfFormat& format,
                              const CarriedWords& carried, const std::byte* second);
 
-// The coarse test of a first half, whatever it is bounded by.
-
-// What is the same for all rectangles that one Gaussian is tested against.
+// The coarse test of a first half, whatever it is bounded by: its part that is the same for all
+// rectangles.
 using FirstHalfBound = std::variant<CoarseBound, ExtentBound>;
 
 FirstHalfBound bound_first_half(const RecordSplit& split, const SplitFirstHalf& first,
                                 const View<float>& view);
 
-// v_z
+// The depth v_z of its centre, world units.
 inline float depth_of(const FirstHalfBound& bound) {
   return std::visit([](const auto& of) { return of.depth; }, bound);
 }

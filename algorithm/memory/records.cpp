@@ -11,7 +11,6 @@
 #include "algorithm/splat/unit_quaternion.h"
 
 namespace sgs {
-
 namespace {
 
 void put(std::byte*& out, float value) {

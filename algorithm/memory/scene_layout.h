@@ -1,4 +1,5 @@
-// What lies where of a stored scene: what every storage order has, and the tables of one of them.
+// The layout of a stored scene in the modelled DRAM: the records that every storage order has, and
+// the tables of one of them.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,8 @@
 
 namespace sgs {
 
-// What the records are sorted by, and which table finds them. What an order says of itself beside
-// its layout: ../storage/storage_scheme.h.
+// The key by which records are sorted, and so the table that finds them. All else of an order:
+// ../storage/storage_scheme.h.
 enum class StorageOrder : std::uint8_t { kVoxels, kChunks, kFile };
 
 // By voxels the halves are the paper's; by chunks whole bursts count, and by file, where every

@@ -9,8 +9,8 @@
 
 namespace sgs {
 
-// Of a scene without a table, whose machine finds by itself what it needs: as in the scene's file,
-// or neighbours in space side by side.
+// The sequence of a scene without a table, whose machine finds by itself what it needs: that of the
+// scene's file, or neighbours in space side by side.
 enum class FileSequence : std::uint8_t { kFile, kSpatial };
 
 struct StorageConfig {
@@ -24,17 +24,15 @@ struct StorageConfig {
   VqConfig vq;              // how codebooks are made, where the encoding has any
 
   // The format of second halves with every codebook as large as it may become.
-  SecondHalfFormat widest_format(int sh_degree) const;
-};
-
-inline SecondHalfFormat StorageConfig::widest_format(int sh_degree) const {
-  SecondHalfFormat format{encoding, sh_degree, {}};
-  if (!format.quantised()) return format;
-  for (std::size_t id = 0; id < kCodebookCount; ++id) {
-    const auto codebook = static_cast<Codebook>(id);
-    format.entries[id] = codebook_words(codebook, sh_degree) > 0 ? vq.entries(codebook) : 0;
+  SecondHalfFormat widest_format(int sh_degree) const {
+    SecondHalfFormat format{encoding, sh_degree, {}};
+    if (!format.quantised()) return format;
+    for (std::size_t id = 0; id < kCodebookCount; ++id) {
+      const auto codebook = static_cast<Codebook>(id);
+      format.entries[id] = codebook_words(codebook, sh_degree) > 0 ? vq.entries(codebook) : 0;
+    }
+    return format;
   }
-  return format;
-}
+};
 
 }  // namespace sgs

@@ -1,5 +1,5 @@
-// What the voxel sorting unit (VSU) computes for one pixel group in paper order: the occupied
-// voxels that its rays cross, in an order that respects every ray.
+// The visits of one pixel group in paper order, as the voxel sorting unit (VSU) finds them: the
+// occupied voxels that its rays cross, in an order that respects every ray (StreamingGS, DAC 2025).
 #pragma once
 
 #include <algorithm>

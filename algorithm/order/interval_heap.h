@@ -35,14 +35,14 @@
 
 namespace sgs {
 
-// What the memory of one level did.
+// Accesses to the memory of one level.
 struct HeapLevelWork {
   std::uint64_t nodes_read = 0;        // that hold a key: of two keys and two counts
   std::uint64_t nodes_read_ahead = 0;  // beside these, below candidates that do not fill a hole
   std::uint64_t nodes_written = 0;     // at most one an operation
 };
 
-// What the levels did. The root is in registers, where nothing is counted.
+// Operations, and the accesses of all levels. The root is in registers, where nothing is counted.
 struct HeapWork {
   std::uint64_t inserts = 0, delete_mins = 0, delete_maxs = 0;
   std::uint64_t comparisons = 0;  // of two keys, at any level

@@ -11,9 +11,8 @@
 
 namespace sgs {
 
-// Which voxel has which number in the ordering table: a hash table of numbers with linear probing.
-// A slot holds a number only; whose it is stands in the ordering table itself.
-
+// The numbers of voxels in the ordering table: a hash table of numbers with linear probing. A slot
+// holds a number only; whose it is stands in the ordering table itself.
 class Renaming {
  public:
   // Slots for so many voxels: a power of two, at most three quarters of them taken.
@@ -63,10 +62,9 @@ class Renaming {
   std::vector<std::uint32_t> taken_;
 };
 
-// Which voxels of the ordering table wait for no other: a bit each, in words, above them a bit for
-// each word that has any, and so on up to one word. The first is found from the top, a word a
+// The voxels of the ordering table that wait for no other: a bit each, in words, above them a bit
+// for each word that has any, and so on up to one word. The first is found from the top, a word a
 // level.
-
 class ReadyVoxels {
  public:
   static constexpr std::uint32_t kWordBits = 32;
@@ -140,7 +138,7 @@ class ReadyVoxels {
 constexpr std::uint32_t kOrderingBytesPerVoxel = 8;
 constexpr std::uint32_t kOrderingBytesPerEdge = 4;
 
-// What has been read and written so far, a voxel's record or an edge at a time.
+// Accesses to the table so far, each to a voxel's record or to an edge.
 struct OrderingAccesses {
   std::uint64_t reads = 0, writes = 0;              // of the table
   std::uint64_t names_read = 0, names_written = 0;  // of the renaming
@@ -174,7 +172,7 @@ class OrderingTable {
   // Forgets the group before.
   void clear();
 
-  // Of a ray: the number of the voxel that it met last, if any.
+  // The place of a ray: the number of the voxel that it met last, if any.
   class Chain {
     friend class OrderingTable;
     std::uint32_t before = kNone;
@@ -204,7 +202,7 @@ class OrderingTable {
   std::uint64_t write_cycles() const {
     return std::max(ready_written_, *std::max_element(written_.begin(), written_.end()));
   }
-  // Of words, that finding the first of the ready voxels passes.
+  // Levels of words that finding the first of the ready voxels passes.
   std::uint32_t ready_levels() const { return ready_.levels(); }
 
  private:

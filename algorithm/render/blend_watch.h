@@ -60,9 +60,7 @@ class Flags {
   std::vector<std::atomic<std::uint8_t>> flags_;
 };
 
-// What the warps of a GPU do that blends a tile with a thread for each pixel: 16 x 2 px each, all
-// in step.
-
+// The warps of a GPU that blends a tile with a thread for each pixel: 16 x 2 px each, all in step.
 constexpr int kWarpsOfTile = 8, kWarpThreads = 32;
 
 class WarpWatch {

@@ -143,7 +143,7 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
   }
   stats.nodes_read = walk.counters().nodes;
   stream.finish(frame);
-  // What is left is behind finished pixels, not out of reach.
+  // The chunks that are left are behind finished pixels, not out of reach.
   for (; chunk; chunk = walk.next()) reached.set(chunk->at);
 }
 

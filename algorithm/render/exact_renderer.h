@@ -1,7 +1,7 @@
 // Streaming renderer in exact order: the reference image, chunk by chunk. For each pixel group the
 // chunks that can touch it are streamed by nearest depth; keys (depth, slot) of what passes the
 // coarse filter wait until nothing nearer can come; only then is the rest of the Gaussian looked
-// at.
+// at. The order is this project's; the filters are those of StreamingGS (DAC 2025).
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@
 
 namespace sgs {
 
+// The way out when more keys wait than the merge buffer holds.
 enum class OnOverflow {
   kSpill,       // sorted runs go to DRAM and come back: the image stays exact
   kBlendEarly,  // the nearest keys are released before they are final: the image may suffer

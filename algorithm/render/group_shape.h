@@ -9,15 +9,13 @@
 
 namespace sgs {
 
-// The shape of pixel groups that costs a frame least, where a configuration leaves it open.
-
 // Px of the borders between groups of this size, over all frames. Every Gaussian that lies on one
 // is fetched for both sides.
 std::uint64_t border_px(const std::vector<PixelSize>& frames, const PixelSize& group);
 
-// Of the sizes that fit the one with the shortest borders; of several the one with the fewest
-// pixels, then the widest. Sides are multiples of step_px up to most_px. fits(): what fits still
-// does when it gets narrower or lower. 0 x 0 where nothing fits.
+// The size that has the shortest borders of those that fit; of several the one with the fewest
+// pixels, then the widest. Sides are multiples of step_px up to most_px. fits(): a size that fits
+// still does when it gets narrower or lower. 0 x 0 where nothing fits.
 PixelSize group_for_frame(const std::vector<PixelSize>& frames, int step_px, int most_px,
                           const std::function<bool(const PixelSize&)>& fits);
 
@@ -27,7 +25,7 @@ PixelSize group_for_frame(const std::vector<PixelSize>& frames, int step_px, int
 // Whole square root of a number of parts, or 0 where it has none.
 std::uint32_t parts_across(std::uint32_t parts);
 
-// Of which both sides of a group are to be multiples: then parts are whole 4x4 sub-tiles.
+// Both sides of a group are to be multiples of this, in px: then parts are whole 4x4 sub-tiles.
 std::uint32_t group_step_px(std::uint32_t parts);
 
 // Size of a part of such a group.

@@ -1,4 +1,5 @@
-// The pixels of one group while it is being blended, as the rendering unit holds them.
+// The pixels of one group while it is being blended (equation 3 of Kerbl et al. 2023), as the
+// rendering unit holds them.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 
 namespace sgs {
 
-// Which 4x4 sub-tiles of a splat's footprint are blended: all, or only those that its visible
+// The 4x4 sub-tiles of a splat's footprint that are blended: all, or only those that its visible
 // ellipse can reach, row by row (row_span.h). The pixels are the same; the spans cost less than the
 // blending they spare.
 enum class SubtileTest { kBox, kEllipse };
@@ -44,7 +45,7 @@ struct SubtileReach {
   std::uint32_t row;  // of the splat's rows, the first is 0
 };
 
-// What a splat may reach of a group, before its rows have spans.
+// The part of a group that a splat may reach, before its rows have spans.
 struct SplatBox {
   SubtileRect subtiles;  // of its footprint, from the group's corner on
   bool spanned;          // its rows get spans

@@ -78,7 +78,7 @@ void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const
   }
 }
 
-// What is blended is seen: seen(slot).
+// Calls seen(slot) for each splat that is blended.
 template <class Seen>
 void blend_run(Part& part, StreamingStats& stats, const Seen& seen) {
   for (const Splat& splat : part.run) {

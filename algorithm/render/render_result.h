@@ -8,15 +8,15 @@
 
 namespace sgs {
 
+// The picture and, for each pixel, the light that is left and the number of splats blended.
 struct RenderResult {
   Image image;                              // colour composed over the background
   std::vector<float> transmittance;         // [height, width]
   std::vector<std::uint32_t> contributors;  // [height, width] splats blended
 };
 
-// What the streaming renderers return beside the picture: the work that a frame takes, by count.
-
-// A block is what one visit streams: a voxel in paper order, a chunk in exact order.
+// The counts of a streaming frame. A visit streams one block: a voxel in paper order, a chunk in
+// exact order.
 struct StreamingStats {
   std::uint64_t groups = 0;
   std::uint64_t visits = 0;            // (group, block) pairs streamed

@@ -29,7 +29,7 @@ class SplatSequence {
   // InputError when the cloud has 2^32 Gaussians or more.
   SplatSequence(const View<float>& view, const ActivatedCloud& cloud);
 
-  // Of all Gaussians near the frustum, by (depth, index).
+  // The keys of all Gaussians near the frustum, by (depth, index).
   const std::vector<DepthKey>& keys() const { return keys_; }
 
   bool at_end() const { return next_ == keys_.size(); }

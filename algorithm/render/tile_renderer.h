@@ -1,7 +1,7 @@
-// Tile-centric renderer: every Gaussian is projected and listed in the tiles that its boxes touch;
-// each tile's list is sorted by depth and blended. With boxes that reach what is visible, in single
-// precision, the picture is the reference's, bit for bit; each approximation is a choice of its
-// own.
+// Tile-centric renderer, as GSCore (Lee et al., ASPLOS 2024) and the original draw: every Gaussian
+// is projected and listed in the tiles that its boxes touch; each tile's list is sorted by depth
+// and blended. With boxes that reach what is visible, in single precision, the picture is the
+// reference's, bit for bit; each approximation is a choice of its own.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct TileOrderConfig {
   std::uint32_t chunk_entries = 256;  // sorted at once; counts whole chunks of sorted lists
   glm::vec3 background{0.0F};
 
-  // What loses nothing.
+  // The choices that lose nothing.
   static TileOrderConfig lossless() {
     TileOrderConfig config;
     config.rules.reach = TileReach::kVisible;
@@ -46,7 +46,7 @@ struct TileStats {
   std::uint64_t entries_taken = 0;  // of lists, until their tile was finished
   std::uint64_t chunks = 0;         // of sorted lists
   std::uint64_t chunks_taken = 0;   // of these begun before their tile was finished
-  // Of the chunks that were taken: the last one of a list may hold fewer.
+  // Entries of the chunks that were taken; the last one of a list may hold fewer.
   std::uint64_t chunk_entries_taken = 0;
   std::uint64_t tiles_finished = 0;
   std::uint64_t subtile_blends = 0;  // (entry, 4x4 sub-tile): 16 fragments each

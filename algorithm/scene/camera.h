@@ -9,6 +9,8 @@
 
 namespace sgs {
 
+// A pinhole camera in the form of the original's cameras.json: the principal point is in the
+// middle.
 struct Camera {
   int id = 0;
   std::string name;

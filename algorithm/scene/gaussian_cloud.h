@@ -1,4 +1,5 @@
-// A trained 3D Gaussian scene with the parameters as the file holds them, before any activation.
+// A trained 3D Gaussian scene with the parameters as the file holds them, before any activation
+// (Kerbl et al. 2023, section 4), and how large these may be.
 #pragma once
 
 #include <array>
@@ -32,9 +33,8 @@ struct GaussianCloud {
   }
 };
 
-// Opacities as files and training keep them.
-
-// ln(p / (1 - p)) of p in [0, 1]; -inf and inf at its ends.
+// Files and training keep opacities as logits: ln(p / (1 - p)) of p in [0, 1]; -inf and inf at its
+// ends.
 inline double logit(double p) { return std::log(p / (1 - p)); }
 
 // Its inverse.
@@ -52,7 +52,6 @@ inline double sigmoid(double logit) { return 1 / (1 + std::exp(-logit)); }
 // all that some camera could show, from far enough, and nothing that another would lose. Distances
 // are squared for the direction of colour: coordinates of 10^18 give 1.2e37. SH coefficients are
 // squared where codebooks are trained.
-
 constexpr double kMaxCoordinate = 1e18;      // magnitude, world units: Gaussians and cameras
 constexpr double kMaxCoefficient = 1e18;     // magnitude of SH coefficients
 constexpr double kMaxScale = 1e7;            // world units

@@ -16,7 +16,6 @@
 #include "algorithm/scene/ply_header.h"
 
 namespace sgs {
-
 namespace {
 
 constexpr const char* kBlanks = " \t\r\v\f";

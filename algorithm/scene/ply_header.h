@@ -1,4 +1,5 @@
-// The header of a PLY file (format, elements, properties) and the scalars of a binary body.
+// The header of a PLY file (Turk 1994: format, elements, properties) and the scalars of a binary
+// body.
 #pragma once
 
 #include <algorithm>

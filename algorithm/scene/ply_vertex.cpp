@@ -12,7 +12,6 @@
 #include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
-
 namespace {
 
 constexpr std::array<const char*, kRestSlot> kNames = {
@@ -93,7 +92,7 @@ constexpr std::array<std::uint32_t, kMaxSlots> largest_magnitudes() {
 }
 constexpr std::array<std::uint32_t, kMaxSlots> kLargest = largest_magnitudes();
 
-// Of scales, which are logarithms, only the upper end matters: exp makes 0 of the others.
+// Scales are logarithms, so only their upper end matters: exp makes 0 of the others.
 bool is_usable(int slot, float value) {
   const bool is_scale = slot >= kScaleSlot && slot < kScaleSlot + 3;
   return magnitude_bits(value) <= kLargest[slot] &&

@@ -12,8 +12,6 @@
 
 namespace sgs {
 
-// Where in a PLY vertex the parameters of a Gaussian stand.
-
 // The parameters of one Gaussian in a fixed order of "slots", whatever the order in the file:
 // x y z, f_dc_0..2, opacity, scale_0..2, rot_0..3, then f_rest_0.. as in the file, channel-major.
 constexpr int kMeanSlot = 0, kDcSlot = 3, kOpacitySlot = 6, kScaleSlot = 7, kRotationSlot = 10,
@@ -37,10 +35,8 @@ struct VertexLayout {
 // one is missing or a list, or when the count of f_rest fits no SH degree; `path` is for the text.
 VertexLayout layout_of_vertex(const std::string& path, const PlyElement& vertex);
 
-// Values of PLY vertices on their way into a GaussianCloud, and what is wrong with them.
-
-// A vertex that cannot be used: the slot (vertex_layout.h) with a value that is not finite or
-// beyond gaussian_cloud.h, or kRotationSlot with the value 0 when the quaternion has length zero.
+// A vertex that cannot be used: the slot with a value that is not finite or beyond
+// gaussian_cloud.h, or kRotationSlot with the value 0 when the quaternion has length zero.
 struct VertexFault {
   std::uint64_t vertex = 0;
   int slot = 0;

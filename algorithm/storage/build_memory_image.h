@@ -17,7 +17,7 @@ MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid)
 MemoryImage build_memory_image(const EncodedCloud& scene, const ChunkTree& tree);
 MemoryImage build_memory_image(const EncodedCloud& scene, NoTable);
 
-// What they are made of: records and codebooks and, one by one, the order's own records.
+// The parts of an image: records and codebooks and, one by one, the order's own records.
 MemoryImage store_gaussians(const EncodedCloud& scene, SceneLayout layout);
 
 template <class Record>

@@ -10,10 +10,9 @@
 #include "algorithm/storage/storage_scheme.h"
 
 namespace sgs {
+namespace {
 
 // Reading of the chunk table: downward for its shape, upward for its bounds.
-
-namespace {
 
 class TableCheck {
  public:
@@ -132,8 +131,10 @@ class TableCheck {
   std::vector<char> in_chunk_;        // of each slot
 };
 
-}  // namespace
-
+// The table of an image, with nothing in it believed. decoded: the Gaussians by slot. source: what
+// errors name. Throws InputError for a table that no builder could have made: every node and slot
+// is reached once, and every child's bound holds the Gaussians below it, so that exact order misses
+// none.
 ChunkTree read_chunk_table(const MemoryImage& image, std::uint32_t chunk_gaussians,
                            const ActivatedCloud& decoded, const std::string& source) {
   const ChunkTableLayout& layout = image.layout.chunk_table();
@@ -149,8 +150,6 @@ ChunkTree read_chunk_table(const MemoryImage& image, std::uint32_t chunk_gaussia
   check.check_bounds();
   return tree;
 }
-
-namespace {
 
 constexpr std::uint32_t kMostGaussians = 65535;  // of a chunk
 

@@ -19,10 +19,9 @@ namespace sgs {
 // value that is not finite.
 ActivatedCloud decode_image(const MemoryImage& image, const std::string& source);
 
-// The first of many things in which something is wrong, looked for in parallel.
-
-// fault_at(i) says what is wrong with thing i of `count`, or nothing; may be called for several at
-// once, and for those behind the first fault as well. Returns what it said of the lowest such i.
+// Looks in parallel for the first of many things in which something is wrong. fault_at(i) says what
+// is wrong with thing i of `count`, or nothing; may be called for several at once, and for those
+// behind the first fault as well. Returns what it said of the lowest such i.
 template <class FaultAt>
 std::optional<std::string> first_fault(std::size_t count, const FaultAt& fault_at) {
   using Fault = std::optional<std::string>;

@@ -7,8 +7,8 @@
 namespace sgs {
 namespace {
 
-// Of the tree of bounds whose leaves are the spatial sequence; so many first halves lie together in
-// a row of memory (storage_scheme.h).
+// Gaussians in a leaf of the tree of bounds that gives the spatial sequence: so many first halves
+// lie together in a row of memory (storage_scheme.h).
 constexpr std::uint32_t kNeighbours = 16;
 
 class FileScheme : public StorageScheme {

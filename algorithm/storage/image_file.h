@@ -24,7 +24,7 @@ constexpr const char* kImageFileExtension = ".sgs";
 constexpr std::uint32_t kImageFileVersion = 5;
 constexpr std::size_t kMostNameBytes = 255;
 
-// Of a scene, whichever way it is stored.
+// Facts about a scene, whichever way it is stored.
 struct PackedFacts {
   std::string name;                   // cut to kMostNameBytes in the file
   std::uint64_t gaussians = 0;        // in the scene, stored or not

@@ -13,7 +13,6 @@
 #include "algorithm/storage/image_file.h"
 
 namespace sgs {
-
 namespace {
 
 struct FieldCounter {

@@ -19,8 +19,7 @@
 
 namespace sgs {
 
-// What a storage configuration may leave open (0), chosen by rules that say why.
-
+// Values that a storage configuration may leave open (0), chosen by rules that say why.
 template <class T>
 struct Choice {
   T value;
@@ -34,18 +33,16 @@ struct StorageChoice {
   std::string why;
 };
 
-// World units, by the inner extent of the scene (voxel_grid.h).
+// The voxel size in world units, by the inner extent of the scene (voxel_grid.h).
 Choice<double> choose_voxel_size(const ActivatedCloud& cloud);
 
-// run_bytes: what lies together in one row of one memory channel. A chunk's first halves fill it:
-// smaller chunks cost more tree records than they save, larger ones stream Gaussians that the group
-// does not need.
+// The most Gaussians in a chunk. run_bytes: what lies together in one row of one memory channel. A
+// chunk's first halves fill it: smaller chunks cost more tree records than they save, larger ones
+// stream Gaussians that the group does not need.
 Choice<std::uint32_t> choose_chunk_gaussians(std::uint32_t run_bytes);
 
-// The numbers of a packed scene's header that only its storage order has.
-
-// Counts its bytes, writes or reads it. A reader throws InputError for what is not between lowest
-// and highest.
+// The numbers of a packed scene's header that only its storage order has: counts their bytes,
+// writes or reads them. A reader throws InputError for what is not between lowest and highest.
 class TableFields {
  public:
   virtual ~TableFields() = default;
@@ -54,7 +51,7 @@ class TableFields {
   virtual void operator()(const char* name, std::uint32_t& value, double lowest,
                           double highest) = 0;
 
-  // Of records or blocks: four bytes in the file, whatever holds it in memory.
+  // A count of records or blocks takes four bytes in the file, whatever holds it in memory.
   template <class Count>
   void count(const char* name, Count& value) {
     auto word = static_cast<std::uint32_t>(value);
@@ -71,7 +68,7 @@ struct StorageSize {
   const char* meaning;
 };
 
-// What a report says of a stored scene's table.
+// A number that a report states of a stored scene's table.
 using StorageFact = std::pair<const char*, std::variant<std::uint64_t, double>>;
 
 class StorageScheme {
@@ -126,10 +123,7 @@ inline Stored stored_of(const StorageConfig& config) {
   return config.store_invisible ? Stored::kAll : Stored::kVisible;
 }
 
-// The schemes there are; storage_scheme.h tells which is of which order.
-
-class StorageScheme;
-
+// The schemes there are.
 const StorageScheme& voxel_scheme();
 const StorageScheme& chunk_scheme();
 const StorageScheme& file_scheme();

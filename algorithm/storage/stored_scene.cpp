@@ -11,10 +11,9 @@
 #include "algorithm/vq/image_weights.h"
 
 namespace sgs {
-
 namespace {
 
-// What is stored of a scene's colours, and the scene whole where that is not all.
+// The bands of a scene's colours that are stored, and the scene whole where that is not all.
 struct KeptBands {
   KeptBands(ActivatedCloud&& cloud, const StorageConfig& config)
       : bands(bands_to_store(cloud, config)),

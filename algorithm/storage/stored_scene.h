@@ -50,11 +50,9 @@ struct StoredScene {
   const ChunkTree& tree() const { return std::get<ChunkTree>(table); }
 };
 
-// Storing of a scene: encoded, sorted and laid out as a storage configuration says.
-
-// weighing: cameras that weigh the Gaussians where codebooks are made; progress: of that. Throws
-// InputError where a size is still to be chosen (storage_scheme.h), or voxels are too small for the
-// scene.
+// Encodes, sorts and lays out a scene as a storage configuration says. weighing: cameras that weigh
+// the Gaussians where codebooks are made; progress: of that. Throws InputError where a size is
+// still to be chosen (storage_scheme.h), or voxels are too small for the scene.
 StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
                         const std::vector<Camera>& weighing, const VqProgress& progress = {});
 
@@ -63,16 +61,15 @@ StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
 QuantisedCloud quantise_scene(const ActivatedCloud& cloud, const VqConfig& config,
                               const std::vector<Camera>& weighing, const VqProgress& progress = {});
 
-// Of a scene that was quantised elsewhere. quantised: of this cloud, with the bands that are stored
-// (sh_bands.h), whose centres, largest scales and order are stored as they are; config's encoding:
-// vq or vq_packed.
+// Stores a scene that was quantised elsewhere. quantised: of this cloud, with the bands that are
+// stored (sh_bands.h), whose centres, largest scales and order are stored as they are; config's
+// encoding: vq or vq_packed.
 StoredScene store_quantised(ActivatedCloud cloud, const QuantisedCloud& quantised,
                             const StorageConfig& config);
 
-// The inverse of store_scene.h: from a memory image the scene that golden renderers need.
-
-// Golden renderers give the same bits on it as on the scene that was stored. source: what errors
-// name. Throws InputError when tables or records say what no builder could have written.
+// The inverse of storing: from a memory image the scene that golden renderers need. These give the
+// same bits on it as on the scene that was stored. source: what errors name. Throws InputError when
+// tables or records say what no builder could have written.
 StoredScene restore_scene(PackedScene packed, const std::string& source);
 
 }  // namespace sgs

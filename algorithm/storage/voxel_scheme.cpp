@@ -12,10 +12,9 @@
 #include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
+namespace {
 
 // Reading of the voxel table, level by level.
-
-namespace {
 
 // Where child `bit` lies in the 4x4x4 block of its node: the inverse of child_bit().
 glm::ivec3 place_of(unsigned bit) {
@@ -99,8 +98,9 @@ std::optional<std::string> fault_of_cuts(const VoxelGrid& grid, const ActivatedC
   return fault ? fault : fault_of_cuts(grid, decoded, {cut, end - cut}, next, source);
 }
 
-}  // namespace
-
+// The table of an image, with nothing in it believed. decoded: the Gaussians by slot. source: what
+// errors name. Throws InputError for a table that no builder could have made: every node and voxel
+// is reached once, and every Gaussian lies in the cell of its voxel.
 VoxelGrid read_voxel_table(const MemoryImage& image, const ActivatedCloud& decoded,
                            const std::string& source) {
   const VoxelTableLayout& layout = image.layout.voxel_table();
@@ -147,8 +147,6 @@ VoxelGrid read_voxel_table(const MemoryImage& image, const ActivatedCloud& decod
   if (fault) throw InputError(*fault);
   return grid;
 }
-
-namespace {
 
 class VoxelScheme : public StorageScheme {
  public:

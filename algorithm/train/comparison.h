@@ -1,4 +1,5 @@
-// A scene's picture beside its photograph, and which way every parameter brings it nearer.
+// A scene's picture beside its photograph by the loss of Kerbl et al. 2023, and the derivative by
+// every parameter.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,7 @@
 
 namespace sgs {
 
-// As which loss a picture and its photograph are compared, and what of it is taken for its
-// gradient.
+// The loss by which a picture and its photograph are compared, and its gradient rule.
 struct ComparisonRule {
   double ssim_share = kSsimShare;
   GradientRule gradients = GradientRule::kDerivative;

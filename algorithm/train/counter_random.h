@@ -10,7 +10,6 @@
 namespace sgs {
 
 // SplitMix64 (Steele, Lea and Flood 2014): random bits from a counter, and a good hash of one.
-
 constexpr std::uint64_t kSplitMixStep = 0x9e3779b97f4a7c15u;
 
 // Its last step: one to one.
@@ -23,7 +22,7 @@ constexpr std::uint64_t scrambled(std::uint64_t z) {
 // The number behind `value`.
 constexpr std::uint64_t mix_bits(std::uint64_t value) { return scrambled(value + kSplitMixStep); }
 
-// What is drawn.
+// The uses of random numbers.
 enum class RandomUse : std::uint64_t {
   kStart,
   kOrderOfViews,

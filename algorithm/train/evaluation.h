@@ -21,18 +21,16 @@ struct Quality {
 // Is shown what the scene looks like from where photograph `at` was taken.
 using PictureSeen = std::function<void(std::size_t at, const Image& picture)>;
 
-// Of each photograph, before `background`, in the reference order. What the scene shows is rounded
-// to 8 bits neither here nor in PSNR.
+// The quality at each photograph, before `background`, in the reference order. The scene's picture
+// is rounded to 8 bits neither here nor in PSNR.
 std::vector<Quality> qualities(const ActivatedCloud& cloud, const Photographs& photographs,
                                const glm::vec3& background, const PictureSeen& seen = {});
 
 // Means over all of them, PSNR in dB.
 Quality mean_quality(const std::vector<Quality>& each);
 
-// How near paper order's pictures of a scene come to photographs, and how much of them is out of
-// order.
-
-// Means over the photographs; shares of all views together.
+// The quality of paper order's pictures of a scene, and the share of them that is out of order:
+// means over the photographs; shares of all views together.
 struct PaperQuality {
   Quality paper;                // of the pictures in paper order, as the golden renderer draws them
   Quality reference;            // of the same scene's reference pictures

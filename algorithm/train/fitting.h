@@ -1,4 +1,4 @@
-// What is made to come nearer to photographs, a step at a time: training and tunings alike.
+// A scene is fitted to photographs a step at a time: training and tunings alike.
 #pragma once
 
 #include <cstddef>
@@ -40,10 +40,8 @@ class Fitting {
   virtual std::string saved() const = 0;
 };
 
-// Which photograph a step looks at.
-
-// All of them once each time through, in an order drawn anew each time: it follows from the seed
-// and the step.
+// The photograph that each step looks at: all of them once each time through, in an order drawn
+// anew each time: it follows from the seed and the step.
 class ViewOrder {
  public:
   explicit ViewOrder(std::uint64_t seed) : seed_(seed) {}

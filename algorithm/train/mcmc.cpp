@@ -16,7 +16,6 @@
 #include "algorithm/train/counter_random.h"
 
 namespace sgs {
-
 namespace {
 
 constexpr int kMostShares = 51;

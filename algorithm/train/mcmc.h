@@ -12,8 +12,8 @@
 
 namespace sgs {
 
-// Gaussians that are not needed go where others are at work (Kheradmand et al. 2024): the picture
-// hardly changes, and the number of Gaussians is what one says it is.
+// Relocation: Gaussians that are not needed go where others are at work. The picture hardly
+// changes, and the number of Gaussians is what one says it is.
 
 // Opacity and scales of each of `count` Gaussians that stand in one's place and look like it
 // together, equation 9 of the source:
@@ -28,8 +28,8 @@ Division divided(double opacity, int count);
 
 constexpr double kDeadOpacity = 0.005;
 
-// What happens at one step; which ones is drawn from the seed, in proportion to opacity. Moments of
-// those that are moved or divided begin anew.
+// Both happen at one step. The Gaussians that are divided are drawn from the seed, in proportion to
+// opacity. Moments of those that are moved or divided begin anew.
 
 // Each Gaussian of at most kDeadOpacity takes a share of one above it. Returns how many: none where
 // none is above.
@@ -40,12 +40,10 @@ std::size_t relocate_dead(GaussianCloud& cloud, Adam& adam, std::uint64_t seed, 
 void add_shares(std::size_t count, GaussianCloud& cloud, Adam& adam, std::uint64_t seed,
                 std::uint64_t step);
 
-// Random steps of Gaussians that are hardly there (Kheradmand et al. 2024, "3D Gaussian splatting
-// as Markov chain Monte Carlo"): what lets them find where they are of use.
-
-// mean += factor sigmoid(100 (0.005 - opacity)) Sigma xi, xi normal of the seed, the step and the
-// Gaussian. factor: 1/world units. activated: activate(cloud). Gaussians of an opacity above 0.25
-// would move by less than 2^-30 of that and stay. Returns those that were moved, ascending.
+// Noise: random steps let Gaussians that are hardly there find where they are of use, mean +=
+// factor sigmoid(100 (0.005 - opacity)) Sigma xi, xi normal of the seed, the step and the Gaussian.
+// factor: 1/world units. activated: activate(cloud). Gaussians of an opacity above 0.25 would move
+// by less than 2^-30 of that and stay. Returns those that were moved, ascending.
 std::vector<std::uint32_t> add_position_noise(GaussianCloud& cloud, const ActivatedCloud& activated,
                                               double factor, std::uint64_t seed,
                                               std::uint64_t step);

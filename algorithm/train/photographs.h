@@ -25,7 +25,7 @@ class Photographs {
   using Source = std::function<Photograph(std::size_t at, double downscale)>;
 
   Photographs(std::size_t count, Source source) : stored_(count), source_(std::move(source)) {}
-  // Those of one split of a data set, which must outlive them.
+  // The photographs of one split of a data set, which must outlive them.
   Photographs(const Dataset& dataset, Split split);
 
   // Loads all of them at another size. 8 B a pixel stay; on the way 16 more for each pixel of a

@@ -1,4 +1,4 @@
-// Which of the quaternions of an ellipsoid is meant.
+// Steps, alignment and reassignment of quantised scenes.
 #include "algorithm/train/quantised_tuner.h"
 
 #include <algorithm>
@@ -18,11 +18,27 @@
 
 namespace sgs {
 
+template <class Archive>
+void serialize(Archive& archive, QuantisedCloud& quantised) {
+  archive(quantised.codebooks, quantised.indices, quantised.opacities);
+}
+template <class Archive>
+void serialize(Archive& archive, CodebookEntries::State& state) {
+  archive(state.entries, state.moments);
+}
+template <class Archive>
+void serialize(Archive& archive, QuantisedTuner::State& state) {
+  archive(state.next_step, state.own, state.moments, state.entries, state.quantised,
+          state.reassigned);
+}
+
+namespace {
+
 using Quaternion = std::array<float, 4>;  // w, x, y, z
 
-// Of the quaternions that name the same ellipsoid with its axes in this order, the one nearest to
-// an entry: q, q i, q j and q k, either sign.
-inline Quaternion nearest_name(const Quaternion& q, const float* entry) {
+// The quaternion nearest to an entry among those that name the same ellipsoid with its axes in this
+// order: q, q i, q j and q k, either sign.
+Quaternion nearest_name(const Quaternion& q, const float* entry) {
   const Quaternion names[4] = {{q[0], q[1], q[2], q[3]},
                                {-q[1], q[0], q[3], -q[2]},
                                {-q[2], -q[3], q[0], q[1]},
@@ -39,22 +55,6 @@ inline Quaternion nearest_name(const Quaternion& q, const float* entry) {
   }
   return best;
 }
-
-template <class Archive>
-void serialize(Archive& archive, QuantisedCloud& quantised) {
-  archive(quantised.codebooks, quantised.indices, quantised.opacities);
-}
-template <class Archive>
-void serialize(Archive& archive, CodebookEntries::State& state) {
-  archive(state.entries, state.moments);
-}
-template <class Archive>
-void serialize(Archive& archive, QuantisedTuner::State& state) {
-  archive(state.next_step, state.own, state.moments, state.entries, state.quantised,
-          state.reassigned);
-}
-
-namespace {
 
 std::vector<std::uint32_t> all_of(std::size_t count) {
   std::vector<std::uint32_t> out(count);
@@ -188,8 +188,8 @@ void QuantisedTuner::reassign() {
   refresh(all);
 }
 
-// Of what is drawn, as derivatives are taken by them; colours are no function of any. An opacity's
-// is that of before it was rounded.
+// The parameters of what is drawn, by which derivatives are taken; colours are no function of any.
+// An opacity is taken as it was before it was rounded.
 GaussianCloud QuantisedTuner::parameters_of(const ActivatedCloud& drawn) const {
   GaussianCloud out;
   out.sh_degree = drawn.sh_degree;

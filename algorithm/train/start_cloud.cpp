@@ -19,7 +19,6 @@
 #include "algorithm/train/counter_random.h"
 
 namespace sgs {
-
 namespace {
 
 constexpr std::size_t kNeighbours = 3;
@@ -64,7 +63,7 @@ std::vector<float> neighbour_distances(const std::vector<glm::vec3>& points) {
 
 namespace {
 
-// Of a Gaussian whose points all coincide, world units.
+// The scale of a Gaussian whose points all coincide, world units.
 constexpr float kLeastScale = 1e-4F;
 
 std::vector<SfmPoint> drawn(std::vector<SfmPoint> points, std::size_t most, std::uint64_t seed) {

@@ -105,7 +105,7 @@ void Trainer::prepare(int step) {
   }
 }
 
-// Of what a step sees only: Gaussians that no view of the moment shows rest in everything.
+// The regularisers act on the Gaussians that a step sees; all others rest.
 void Trainer::add_regularisers() {
   const auto count = static_cast<double>(cloud_.size());
   const auto by_opacity = static_cast<float>(config_.opacity_share / count);

@@ -18,8 +18,6 @@
 
 namespace sgs {
 
-// How a scene is trained.
-
 // Who decides where Gaussians come and go: Markov chain Monte Carlo with a fixed number in the end
 // (Kheradmand et al. 2024), or the original's rules.
 enum class Growth { kMcmc, kOriginal };

@@ -30,9 +30,9 @@ struct TuningConfig {
 };
 
 // The order that a tuning's pictures are drawn in, and how.
-
 struct DrawingOrder {
-  // Of view number `at`, of a cloud whose Gaussians stand where they stood at the first call.
+  // The sequences of view number `at`, of a cloud whose Gaussians stand where they stood at the
+  // first call.
   std::function<GroupSequences(std::size_t at, const View<float>& view,
                                const ActivatedCloud& cloud)>
       sequences;
@@ -54,10 +54,8 @@ inline DrawingOrder paper_order(VisitPlan& plan) {
           plan.order().background, plan.order().precision};
 }
 
-// What tunings add to the photometric loss.
-
-// Adds its derivative to the gradient of the picture of these sequences; returns its part of the
-// loss. cloud: activate(parameters).
+// A term that a tuning adds to the photometric loss. Adds its derivative to the gradient of the
+// picture of these sequences; returns its part of the loss. cloud: activate(parameters).
 using Penalty = std::function<double(const View<float>& view, const GroupSequences& sequences,
                                      const GaussianCloud& parameters, const ActivatedCloud& cloud,
                                      CloudGradient& gradient)>;

@@ -13,17 +13,15 @@
 
 namespace sgs {
 
-// How far a step goes for each kind of parameter, as in the original.
-
-// Of one step, in units of the parameter.
+// How far one step goes for each kind of parameter, as in the original, in units of each parameter.
 struct LearningRates {
   double mean, log_scale, quat, opacity_logit;
   double sh_dc, sh_rest;
 };
 
 struct LearningSchedule {
-  // Of means, as parts of the scene's extent: exponential from the first to the last step, then
-  // constant.
+  // Rates of means, as shares of the scene's extent: they fall exponentially from the first to the
+  // last step, then stay.
   double mean_first = 1.6e-4, mean_last = 1.6e-6;
   int mean_steps = 30'000;
   double log_scale = 5e-3, quat = 1e-3;
@@ -34,7 +32,8 @@ struct LearningSchedule {
   LearningRates at(int step, double extent) const;
 };
 
-// 1.1 times the largest distance of a camera from the mean of their positions, world units.
+// The scene's extent: 1.1 times the largest distance of a camera from the mean of their positions,
+// world units (as the released code of Kerbl et al. 2023).
 double scene_extent(const std::vector<Camera>& cameras);
 
 struct AdamConfig {
@@ -42,7 +41,7 @@ struct AdamConfig {
   double epsilon = 1e-15;
 };
 
-// What the optimiser remembers of each Gaussian. Rows: mean, log_scale, quat, opacity_logit, SH
+// The optimiser's memory of each Gaussian. Rows: mean, log_scale, quat, opacity_logit, SH
 // coefficients as the cloud holds them, filled up with zeros to a whole number of vectors; first
 // moments, then second.
 struct AdamMoments {

@@ -1,5 +1,5 @@
 // From a splat's gradient to that of the Gaussian that it is the picture of, and on to the
-// parameters in its file.
+// parameters in its file: appendix A of Kerbl et al. 2023.
 #pragma once
 
 #include "algorithm/splat/activate.h"
@@ -13,8 +13,8 @@ namespace sgs {
 
 // Projection (splat/projection.h), differentiated.
 
-// Of L with respect to the entries of a rotation matrix, by those of a unit quaternion: the
-// polynomials of rotation_rows() as they stand, each component by itself.
+// dL/dquaternion from dL/d of the entries of its rotation matrix r: the polynomials of
+// rotation_rows() as they stand, each component by itself.
 template <class T>
 std::array<T, 4> rotation_gradient(const std::array<T, 4>& quat, const T (&r)[3][3]) {
   const T w = quat[0], x = quat[1], y = quat[2], z = quat[3];

@@ -20,10 +20,11 @@
 #include "algorithm/tune/splat_gradient.h"
 
 namespace sgs {
+namespace {
 
 // Blending of one group of pixels, done once more and differentiated.
 
-// What a group's pixels say of the splats that were blended into them, back to front.
+// A group's part of the derivatives of the splats that were blended into it, back to front.
 struct GroupPartials {
   std::vector<std::uint32_t> splats;  // positions in the sequences' splats
   std::vector<SplatGradient<float>> gradients;
@@ -48,8 +49,6 @@ class GroupGradient {
   std::vector<Blend> blends_;  // in the order of blending
   std::vector<LaneShares> shares_;
 };
-
-namespace {
 
 // Lanes outside the frame are never blended.
 SubtileAdjoint make_adjoint(const DrawnScene& scene, const PixelGradient& by_pixel, int left_px,
@@ -89,8 +88,6 @@ bool any_blended(const LaneShares& shares) {
   for (const std::uint64_t pair : pairs) bits |= pair;
   return bits != 0;
 }
-
-}  // namespace
 
 void GroupGradient::blend(const DrawnScene& scene, std::size_t group) {
   const GroupSequences& sequences = scene.sequences;
@@ -135,8 +132,6 @@ GroupPartials GroupGradient::differentiate(const DrawnScene& scene, std::size_t 
   }
   return out;
 }
-
-namespace {
 
 struct SplatSums {
   std::vector<SplatGradient<float>> gradients;  // [splats]

@@ -9,15 +9,16 @@
 
 namespace sgs {
 
+// The gradient to take where the picture has none, or where the original code takes another.
 // kDerivative: that of the picture as it is drawn. kOriginal: what the released code of Kerbl et
 // al. 2023 takes for it, which differs in two places: alpha passes its gradient on where it is
 // capped at 0.99, and where v_x / v_z or v_y / v_z is clamped in the Jacobian, u = limit v_z is
 // held fixed beside v_z.
 enum class GradientRule { kDerivative, kOriginal };
 
-// Of the covariance rather than of the conic, its inverse: with e = conic d, each pixel's part is a
-// product of components of e, where by way of the conic it would be one of components of d, huge
-// along a needle, whose differences would have to cancel.
+// The derivatives by the covariance, not by its inverse, the conic. With e = conic d, each pixel's
+// part is a product of components of e. By way of the conic it would be one of components of d,
+// which are huge along a needle and would have to cancel.
 template <class T>
 struct SplatGradient {
   T x{}, y{};                   // centre, 1/px
@@ -46,7 +47,7 @@ struct SplatGradient {
 //   behind_i = sum_{j>i} alpha_j T_j (g . c_j) + T_end (g . B + dL/dT_end),
 // the last for a loss that looks at T_end, too.
 
-// What one splat means to one pixel.
+// The derivatives of one splat in one pixel.
 template <class T>
 struct ShareGradient {
   T weight;   // dC/dc = alpha T

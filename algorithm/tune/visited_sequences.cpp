@@ -11,7 +11,6 @@
 #include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {
-
 namespace {
 
 // [slot] position among the splats, or kNoSplat.

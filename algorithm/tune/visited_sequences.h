@@ -22,17 +22,16 @@ GroupSequences visited_sequences(const View<float>& view, const ActivatedCloud& 
                                  const std::vector<std::vector<std::uint32_t>>& group_voxels,
                                  const PixelSize& group, std::uint32_t visit_gaussians = 0);
 
-// What paper order visits in each of several views, made once: it follows from the centres of the
-// Gaussians alone, and a tuning that leaves those where they are asks for it step after step.
-
+// The voxels that paper order visits in each of several views, found once. They follow from the
+// centres of the Gaussians alone, which a tuning that asks step after step leaves where they are.
 class VisitPlan {
  public:
-  // grid: must outlive the plan. most_bytes: of what is kept; views that come when it is full are
-  // followed anew each time. What is kept never changes a result.
+  // grid: must outlive the plan. most_bytes: host memory for visits that are kept; views that come
+  // when it is full are followed anew each time. Keeping never changes a result.
   VisitPlan(const VoxelGrid& grid, const PaperOrderConfig& order, std::size_t most_bytes)
       : grid_(grid), order_(order), most_bytes_(most_bytes) {}
 
-  // What is blended of view number `at` in paper order. cloud: in the grid's storage order, its
+  // The sequences of view number `at` in paper order. cloud: in the grid's storage order, its
   // centres those of the grid. The candidates of a voxel are its slots, which lie together: they
   // take no list of their own.
   GroupSequences sequences(std::size_t at, const View<float>& view, const ActivatedCloud& cloud);

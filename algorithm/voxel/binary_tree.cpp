@@ -15,7 +15,6 @@
 #endif
 
 namespace sgs {
-
 namespace {
 
 constexpr int kAxes = 4;
@@ -181,7 +180,7 @@ double cost_as(const BinaryNode& node, int children) {
   return node.cost_as[static_cast<std::size_t>(children - 1)];
 }
 
-// What lies below `node` as `children` of them, from both sides of its cut.
+// The number of children that the left side of a cut gives to a wide node, and the least cost.
 struct Share {
   int left;
   double cost;

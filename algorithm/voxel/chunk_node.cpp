@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace sgs {
-
 namespace {
 
 constexpr int kLevels = kMostExtent;

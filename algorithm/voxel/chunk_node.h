@@ -14,7 +14,7 @@ namespace sgs {
 
 constexpr int kChunkNodeWidth = 8;
 
-// What is known of all Gaussians below a child without looking at them. World frame.
+// Bounds of all Gaussians below a child, known without looking at them. World frame.
 template <class T>
 struct ChunkBoundOf {
   glm::vec<3, T> low{T(0.0F)}, high{T(0.0F)};  // box of the centres
@@ -49,12 +49,11 @@ void quantise(const ChunkBound* bounds, ChunkNode& node);
 // as infinity.
 ChunkBound child_bound(const ChunkNode& node, int child);
 
-// From the quantised bounds of a node's child (chunk_node.h) to numbers.
-
+// Decoding of a child's quantised bounds, for any scalar.
 constexpr int kExtentSteps = 16;  // of an octave
 constexpr int kMostExtent = 255;
 
-// Of row q mod 16: 2^(-(15 - q mod 16) / 16), rounded up, so that no extent comes back smaller.
+// 2^(-(15 - q mod 16) / 16), rounded up, so that no extent comes back smaller.
 float extent_fraction(int q);
 
 // x 2^exponent: an addition to its exponent.

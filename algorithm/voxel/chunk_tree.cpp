@@ -14,7 +14,6 @@
 #include "algorithm/voxel/chunk_test.h"
 
 namespace sgs {
-
 namespace {
 
 class Builder {

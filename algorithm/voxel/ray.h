@@ -1,5 +1,5 @@
-// Pixel rays through the voxel tree: directions, distance of cells from the eye, and the events on
-// the way.
+// Pixel rays through the voxel tree (Amanatides and Woo 1987): directions, distance of cells from
+// the eye, and the events on the way.
 #pragma once
 
 #include <algorithm>
@@ -47,15 +47,15 @@ RayOf<T> pixel_ray_of(const View<T>& view, T x, T y) {
   }
   return ray;
 }
-Ray pixel_ray(const View<float>& view, int x, int y);
+inline Ray pixel_ray(const View<float>& view, int x, int y) {
+  return pixel_ray_of(view, static_cast<float>(x), static_cast<float>(y));
+}
 
 // Whether the crossing of one plane comes before that of another; equal times go by axis.
 template <class T>
 bool crosses_before(T time_a, int axis_a, T time_b, int axis_b) {
   return time_a < time_b || (time_a <= time_b && axis_a < axis_b);
 }
-
-// How far a cell lies from the eye: a number that rises along every ray.
 
 // The eye's cell relative to the root's corner. Where the eye lies beyond the root along an axis,
 // the cell next to the root stands for it: all that matters is on which side the root lies.
@@ -79,9 +79,8 @@ inline std::uint32_t cells_from_eye(const glm::ivec3& eye, const glm::ivec3& cel
   return sum;
 }
 
-// What a ray does next on its way through the voxel tree: so that whoever follows it, at once or
-// beside other rays and with time passing, follows it in the same way.
-
+// The events of a ray on its way through the voxel tree. Whoever follows it, at once or beside
+// other rays and with time passing, follows the same events.
 enum class RayEvent : std::uint8_t {
   kLookUp,  // it wants the node `index`, and goes on when it is given
   kVoxel,   // it meets the voxel `index`

@@ -1,6 +1,6 @@
-// Sampling along a ray with a fixed step, as the paper's VSU does: cheaper than the exact
-// traversal, and it can miss the corner of a cell. Points in empty blocks are not sampled one by
-// one.
+// Sampling along a ray with a fixed step, as the VSU of StreamingGS (DAC 2025) does: cheaper than
+// the exact traversal, and it can miss the corner of a cell. Points in empty blocks are not sampled
+// one by one.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// The paper's grid: Gaussians by the cubic voxel that holds their centre. Only occupied cells
-// exist: a sparse tree of 4x4x4 nodes finds them, so nothing is sized by the dense grid (real
-// scenes span 10^12 cells).
+// The grid of StreamingGS (DAC 2025): Gaussians by the cubic voxel that holds their centre. Only
+// occupied cells exist: a sparse tree of 4x4x4 nodes finds them, so nothing is sized by the dense
+// grid (real scenes span 10^12 cells).
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct VoxelRecord {
   std::uint32_t count = 0;
 };
 
-// What a traversal must know besides the table itself.
+// The place and size of the tree: a traversal needs them besides the table.
 struct VoxelFrame {
   float voxel_size = 0;       // world units
   glm::ivec3 origin_cell{0};  // cell of the root's corner; cell i spans [i, i + 1) voxel_size

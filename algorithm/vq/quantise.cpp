@@ -15,7 +15,6 @@
 #include "algorithm/vq/vq_points.h"
 
 namespace sgs {
-
 namespace {
 
 class Quantiser {

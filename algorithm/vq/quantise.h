@@ -1,4 +1,5 @@
-// Vector quantisation of a scene: four codebooks, and for each Gaussian an entry of each.
+// Vector quantisation of a scene as in StreamingGS (DAC 2025): four codebooks, and for each
+// Gaussian an entry of each.
 #pragma once
 
 #include <array>
@@ -30,12 +31,11 @@ QuantisedCloud quantise(const ActivatedCloud& cloud, const std::vector<float>& w
                         const std::vector<float>& pixel_sizes, const VqConfig& config,
                         const VqProgress& progress = {});
 
-// To each Gaussian the entries that suit it best, of codebooks that are there.
-
-// Indices and opacities of `quantised` anew, by the distances that quantise() goes by; codebooks
-// stay but for entries that no Gaussian is nearest to: each of these is put on the Gaussian whose
-// error, times its weight, is the largest that is left (but for rotations, whose entries few are
-// idle of). weights, pixel_sizes: as there. The same result whatever the number of threads.
+// Finds for each Gaussian the entries that suit it best, of codebooks that are there: indices and
+// opacities of `quantised` anew, by the distances that quantise() goes by; codebooks stay but for
+// entries that no Gaussian is nearest to: each of these is put on the Gaussian whose error, times
+// its weight, is the largest that is left (but for rotations, whose entries few are idle of).
+// weights, pixel_sizes: as there. The same result whatever the number of threads.
 void assign_entries(const ActivatedCloud& cloud, const std::vector<float>& weights,
                     const std::vector<float>& pixel_sizes, QuantisedCloud& quantised);
 

@@ -151,7 +151,7 @@ class DrawnPoints {
 
   const PointSet& points_;
   const std::size_t dims_, rows_, groups_;
-  // What is left of the last group has no weight.
+  // Points that fill up the last group have no weight.
   std::vector<float> values_, weights_, nearest_;
   std::vector<double> sums_;  // [blocks]
   double total_ = 0;
