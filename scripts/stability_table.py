@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""How far off every formula of one Gaussian is in float and in half, in the form that the units
-compute and in those that were tried, beside 100 decimal digits: the program `stability` measured,
-each row swept along what makes it hard. Writes stability.md and stability.csv, the latter with
-every place of every sweep."""
+"""How far off every formula of one Gaussian is in float and in half, as the units compute it, beside
+100 decimal digits: the program `stability` measured, each row swept along what makes it hard. Writes
+stability.md and stability.csv, the latter with every place of every sweep."""
 
 from __future__ import annotations
 
@@ -23,20 +22,17 @@ REFUSED = 2
 HEAD = (
     "formula",
     "form",
-    "taken",
     "in",
     "over",
     "largest error",
     "proven at most",
     "by analysis",
     "breaks at",
-    "operations",
     "what breaks, why, what to do",
 )
 CSV_HEAD = (
     "formula",
     "form",
-    "taken",
     "arithmetic",
     "axis",
     "unit",
@@ -79,20 +75,18 @@ def row_of(study: dict) -> tuple:
     return (
         study["formula"],
         study["form"],
-        "yes" if study["taken"] else "no",
         study["arithmetic"],
         f"{study['axis']} {place_text(first)} .. {place_text(last)}",
         f"{short(worst['error'])} {study['unit']}",
         "nothing" if bound is None else short(bound),
         study["law"],
         place_text(study["breaks_at"]) if broken(study) else "nowhere",
-        study["operations"],
         study["why"],
     )
 
 
 def csv_rows(study: dict) -> list[tuple]:
-    keys = ("formula", "form", "taken", "arithmetic", "axis", "unit")
+    keys = ("formula", "form", "arithmetic", "axis", "unit")
     measured = ("place", "error", "bound", "error_over_bound", "law")
     return [
         (*(study[key] for key in keys), *(place[key] for key in measured))

@@ -31,13 +31,11 @@ Json measured(const Study& study, int samples, std::uint64_t seed) {
   }
   return {{"formula", study.formula},
           {"form", study.form},
-          {"taken", study.taken},
           {"arithmetic", study.arithmetic},
           {"axis", study.axis},
           {"unit", study.unit},
           {"law", study.law_text},
           {"breaks_at", number(breaks_at(results))},
-          {"operations", study.operations},
           {"why", study.why},
           {"places", places}};
 }

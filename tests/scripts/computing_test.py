@@ -194,12 +194,10 @@ class Stability(unittest.TestCase):
     STUDY = {
         "formula": "x",
         "form": "as written",
-        "taken": True,
         "arithmetic": "float",
         "axis": "size",
         "unit": "of x",
         "law": "u",
-        "operations": "2 x",
         "why": "Too large.",
         "breaks_at": 1e6,
         "places": [
@@ -211,18 +209,18 @@ class Stability(unittest.TestCase):
 
     def test_a_row_tells_of_what_comes_before_it_breaks(self):
         row = stability_table.row_of(self.STUDY)
-        self.assertEqual(row[4:9], ("size 1 .. 10^6", "3.0e-03 of x", "nothing", "u", "10^6"))
+        self.assertEqual(row[3:8], ("size 1 .. 10^6", "3.0e-03 of x", "nothing", "u", "10^6"))
         whole = self.STUDY | {"breaks_at": None, "places": self.STUDY["places"][:1]}
         row = stability_table.row_of(whole)
-        self.assertEqual(row[4:9], ("size 1 .. 1", "1.0e-07 of x", "2.0e-07", "u", "nowhere"))
+        self.assertEqual(row[3:8], ("size 1 .. 1", "1.0e-07 of x", "2.0e-07", "u", "nowhere"))
 
     def test_never_whole(self):
         broken = self.STUDY | {"breaks_at": 1000, "places": self.STUDY["places"][1:]}
-        self.assertEqual(stability_table.row_of(broken)[5], "3.0e-03 of x")
+        self.assertEqual(stability_table.row_of(broken)[4], "3.0e-03 of x")
 
     def test_every_place_is_in_the_csv(self):
         rows = stability_table.csv_rows(self.STUDY)
-        self.assertEqual(rows[1][6:], (1000, 3e-3, None, 0.1, None))
+        self.assertEqual(rows[1][5:], (1000, 3e-3, None, 0.1, None))
         self.assertEqual(len(rows), 3)
 
 
