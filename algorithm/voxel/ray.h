@@ -96,30 +96,4 @@ struct RayEventOf {
   std::uint32_t cells = 0;
 };
 
-// Follows a ray to its end, without any time. Path: RayPath or SamplePath. Table: anything with
-// `VoxelNode node(std::uint32_t index)`. Calls visit(voxel, cells_from_eye()) for each occupied
-// voxel that the ray meets, nearest first, until it returns false. Returns the number of steps
-// taken: into the tree, and those along it.
-template <class Path, class Ray, class Table, class Visit>
-std::uint32_t follow(Path& path, const Ray& ray, Table& table, Visit&& visit) {
-  path.begin(ray);
-  std::uint32_t steps = 1;
-  while (true) {
-    const RayEventOf event = path.next();
-    switch (event.what) {
-      case RayEvent::kLookUp:
-        path.give(table.node(event.index));
-        break;
-      case RayEvent::kVoxel:
-        if (!visit(event.index, event.cells)) return steps;
-        break;
-      case RayEvent::kStep:
-        ++steps;
-        break;
-      case RayEvent::kEnd:
-        return steps;
-    }
-  }
-}
-
 }  // namespace sgs

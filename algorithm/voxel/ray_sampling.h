@@ -134,22 +134,4 @@ class SamplePath {
   bool found_ = false;       // it is occupied
 };
 
-// The samples of a tree, ray by ray, without any time.
-template <class Table>
-class RaySampling {
- public:
-  RaySampling(const VoxelFrame& frame, Table& table, float step_voxels)
-      : path_(frame, step_voxels), table_(table) {}
-
-  // As RayWalk::walk.
-  template <class Visit>
-  std::uint32_t walk(const Ray& ray, Visit&& visit) {
-    return follow(path_, ray, table_, visit);
-  }
-
- private:
-  SamplePath path_;
-  Table& table_;
-};
-
 }  // namespace sgs
