@@ -13,10 +13,10 @@ import pathlib
 import sys
 import tempfile
 
-import run_arguments
-import tables
-from scenes import Scene, find_scenes, shared_names
-from simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, Run, call, program_version, said
+from runs import run_arguments
+from results import tables
+from runs.scenes import Scene, find_scenes, shared_names
+from runs.simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, Run, call, program_version, said
 
 HEAD = (
     "scene",

@@ -13,11 +13,11 @@ from __future__ import annotations
 import argparse
 import sys
 
-import run_arguments
+from runs import run_arguments
 import subjects
-import tables
+from results import tables
 import tunings
-from fittings import Fitted, KeptFittings
+from runs.fittings import Fitted, KeptFittings
 
 HEAD = (
     "scene",

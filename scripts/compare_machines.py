@@ -41,10 +41,10 @@ from collections.abc import Sequence
 
 import machine_cases
 import machine_ratios
-import run_arguments
-import tables
-from gpu_views import MODEL, model_gpu
-from kept_runs import KeptRuns
+from runs import run_arguments
+from results import tables
+from runs.gpu_views import MODEL, model_gpu
+from runs.kept_runs import KeptRuns
 from machine_cases import Case, sizes_of
 from machine_measures import GPU, modelled, simulated
 from machine_tables import (
@@ -59,9 +59,9 @@ from machine_tables import (
     parts_rows,
     row,
 )
-from simulations import REPOSITORY, Run, said
-from sweep_server import SweepServer
-from view_numbers import view_numbers
+from runs.simulations import REPOSITORY, Run, said
+from runs.sweep_server import SweepServer
+from runs.view_numbers import view_numbers
 
 MACHINES = (
     "gscore",

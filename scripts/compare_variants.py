@@ -14,12 +14,12 @@ import statistics
 import sys
 from collections.abc import Callable, Sequence
 
-import run_arguments
-import tables
-from group_shapes import shape_of
-from scenes import find_scenes
-from simulations import Run, region_bytes, simulate_all
-from view_numbers import binders
+from runs import run_arguments
+from results import tables
+from runs.group_shapes import shape_of
+from runs.scenes import find_scenes
+from runs.simulations import Run, region_bytes, simulate_all
+from runs.view_numbers import binders
 
 PAPER_VARIANTS = ("paper", "paper_no_vq", "paper_no_cgf", "paper_no_vq_cgf")
 EXACT_VARIANTS = ("exact", "exact_half", "exact_vq", "exact_vq_packed")

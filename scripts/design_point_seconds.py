@@ -18,10 +18,10 @@ import sys
 from collections.abc import Sequence
 
 import machine_cases
-import run_arguments
-import tables
+from runs import run_arguments
+from results import tables
 from machine_cases import Case
-from simulations import Run, simulate_all
+from runs.simulations import Run, simulate_all
 
 # NeRArch-Sim (ISCA 2026), of a design point of GSCore.
 PUBLISHED_SECONDS = 47.7

@@ -18,14 +18,14 @@ import statistics
 import sys
 from collections.abc import Callable, Sequence
 
-import run_arguments
-import tables
+from runs import run_arguments
+from results import tables
 from energy_components import OTHER, components, joules, joules_at_end
-from group_shapes import assignments
-from kept_runs import KeptRuns
+from runs.group_shapes import assignments
+from runs.kept_runs import KeptRuns
 from measures import value_at
-from scenes import Scene, find_scenes, shared_names
-from simulations import SRAM_AS_NEEDED, Run
+from runs.scenes import Scene, find_scenes, shared_names
+from runs.simulations import SRAM_AS_NEEDED, Run
 
 RUNS_FILE = "energy_runs.jsonl"
 # Second halves raw in both: codebooks are compare_variants.py's business.

@@ -24,10 +24,10 @@ import sys
 import error_image
 import error_renderers
 import error_tuning
-import run_arguments
-from figures_beside import draw_beside
-from scenes import find_scenes
-from view_numbers import view_numbers_there
+from runs import run_arguments
+from drawing.figures_beside import draw_beside
+from runs.scenes import find_scenes
+from runs.view_numbers import view_numbers_there
 
 DIAGRAMS = {
     "image": error_image.make,

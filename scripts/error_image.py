@@ -6,14 +6,14 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-import run_arguments
-import tables
+from runs import run_arguments
+from results import tables
 import tunings
 from image_points import PAPER, PRESETS, Point, points
-from scenes import Scene
-from simulations import Outcome, Run
+from runs.scenes import Scene
+from runs.simulations import Outcome, Run
 from subjects import Subject
-from sweep_server import SweepServer
+from runs.sweep_server import SweepServer
 from tuning_points import tuned_frames
 
 KEPT = "error_image_runs.jsonl"

@@ -15,12 +15,11 @@ import subprocess
 import tempfile
 from collections.abc import Sequence
 
-import run_arguments
-import simulations
-import tables
-from run_digest import content_digest
-from scenes import Scene
-from simulations import REFUSED, Failure, program_version
+from runs import run_arguments, simulations
+from results import tables
+from runs.run_digest import content_digest
+from runs.scenes import Scene
+from runs.simulations import REFUSED, Failure, program_version
 
 PROGRAM = simulations.BINARY.with_name("bench_renderers")
 HEAD = (

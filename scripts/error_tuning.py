@@ -7,11 +7,11 @@ from __future__ import annotations
 import argparse
 import pathlib
 
-import run_arguments
+from runs import run_arguments
 import subjects
-import tables
-from fittings import Fitted
-from scenes import Scene
+from results import tables
+from runs.fittings import Fitted
+from runs.scenes import Scene
 from tuning_points import kept_fittings, training, tuning
 
 HEAD = ("what", "of", "moved", "to", "step", "seconds", "Gaussians", "PSNR dB", "SSIM")

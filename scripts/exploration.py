@@ -10,8 +10,8 @@ import threading
 import time
 from collections.abc import Mapping, Sequence
 
-import run_arguments
-import tables
+from runs import run_arguments
+from results import tables
 from judging import Assignments, Judge, Judged, Task
 from measures import pareto_front
 from search_space import Space

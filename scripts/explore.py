@@ -50,21 +50,21 @@ import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 
-import debian_python
+from runs import debian_python
 import explore_checks
-import run_arguments
+from runs import run_arguments
 from exploration import Exploration, Work
-from figures_beside import draw_beside
-from group_shapes import KEYS, NAME, expanded
+from drawing.figures_beside import draw_beside
+from runs.group_shapes import KEYS, NAME, expanded
 from judging import Assignments, Judge, Task
 from machine_areas import SMALL, SMALL_SIZE, start_of
 from machine_axes import ORDERS, Axis
 from measures import Objective, objective, requirement, shown
-from scenes import Scene, find_scenes
+from runs.scenes import Scene, find_scenes
 from search_space import Space, parse_axes, read_points
-from simulations import Run, read_config, simulate, sram_as_needed
-from sweep_server import SweepServer
-from view_numbers import view_numbers_there
+from runs.simulations import Run, read_config, simulate, sram_as_needed
+from runs.sweep_server import SweepServer
+from runs.view_numbers import view_numbers_there
 
 RUNS_FILE = "explore_runs.jsonl"
 SAMPLERS = ("tpe", "nsga2", "random")

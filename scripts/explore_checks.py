@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterable, Sequence
 
-import run_arguments
-from group_shapes import expanded
+from runs import run_arguments
+from runs.group_shapes import expanded
 from machine_axes import ORDERS, Assignments, Axis, Order
 from measures import value_at
 from search_space import parse_named

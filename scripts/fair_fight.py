@@ -27,17 +27,17 @@ import statistics
 import sys
 from collections.abc import Sequence
 
-import run_arguments
-import tables
+from runs import run_arguments
+from results import tables
 from fair_fight_tables import FRONT_HEAD, assigned_document, found_table, front_rows, near_front
-from kept_runs import KeptRuns
+from runs.kept_runs import KeptRuns
 from machine_areas import Areas, area_mm2, start_of
 from machine_axes import ORDERS, Machine, Order
 from machine_search import OBJECTIVES, Point, Search
 from machine_views import Contender, views_tables
-from scenes import Scene, find_scenes, shared_names
-from simulations import Run
-from view_numbers import decibels
+from runs.scenes import Scene, find_scenes, shared_names
+from runs.simulations import Run
+from runs.view_numbers import decibels
 
 BUDGET_PRESET = "paper"
 PRESETS = ("exact", BUDGET_PRESET, "exact_wide")

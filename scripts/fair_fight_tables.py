@@ -7,12 +7,12 @@ import math
 import pathlib
 from collections.abc import Sequence
 
-import tables
+from results import tables
 from machine_axes import Machine
 from machine_search import OBJECTIVES, Point
 from measures import pareto_front
-from run_digest import data_folder
-from view_numbers import decibels, psnr_span
+from runs.run_digest import data_folder
+from runs.view_numbers import decibels, psnr_span
 
 # Points that are this close in everything count as one.
 ALIKE = 1.05

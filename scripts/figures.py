@@ -22,23 +22,17 @@ import argparse
 import pathlib
 import sys
 
-import debian_python
-import run_arguments
-import simulations
-from figure_inputs import Missing, Results
+from runs import debian_python, run_arguments, simulations
+from drawing.figure_inputs import Missing, Results
 
 
 def make_figures(arguments: argparse.Namespace) -> None:
     """Raises ValueError where nothing could be made, and for a table that is none."""
     debian_python.need("matplotlib", "python3-matplotlib")
-    import figure_style  # these need it
-    import figures_of_comparison
-    import figures_of_errors
-    import figures_of_exploration
-    import figures_of_image_errors
-    import figures_of_machines
-    import figures_of_paper
-    import figures_of_tuning
+    from drawing import figure_style  # these need it
+    from drawing import figures_of_comparison, figures_of_errors
+    from drawing import figures_of_exploration, figures_of_image_errors
+    from drawing import figures_of_machines, figures_of_paper, figures_of_tuning
 
     known = {
         **figures_of_paper.FIGURES,

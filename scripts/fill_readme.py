@@ -13,9 +13,9 @@ import re
 import sys
 from collections.abc import Iterator
 
-import run_arguments
-import tables
-from simulations import REPOSITORY
+from runs import run_arguments
+from results import tables
+from runs.simulations import REPOSITORY
 
 PLACE = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 # What a table says of a program whose sources no commit has (run_arguments.how_made).

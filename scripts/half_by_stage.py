@@ -8,10 +8,10 @@ from __future__ import annotations
 import argparse
 import sys
 
-import run_arguments
-import tables
-from scenes import Scene, find_scenes
-from simulations import SRAM_AS_NEEDED, Run, psnr_text, simulate_all
+from runs import run_arguments
+from results import tables
+from runs.scenes import Scene, find_scenes
+from runs.simulations import SRAM_AS_NEEDED, Run, psnr_text, simulate_all
 
 # Stage: preset, and the keys that put it into half. Records of projected features and depth keys go
 # through memory in the tile-centric machine alone.

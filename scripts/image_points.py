@@ -6,8 +6,8 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator
 
-from group_shapes import assignments
-from simulations import SRAM_AS_NEEDED
+from runs.group_shapes import assignments
+from runs.simulations import SRAM_AS_NEEDED
 
 EXACT, PAPER, TILES = "exact", "paper", "tiles"
 PRESETS = {EXACT: "exact", PAPER: "paper_no_vq", TILES: "gscore_fp32_keys"}

@@ -8,9 +8,9 @@ import statistics
 import tempfile
 from collections.abc import Callable, Sequence
 
-from kept_runs import KeptRuns
-from scenes import Scene
-from simulations import Outcome, Run, simulate_into
+from runs.kept_runs import KeptRuns
+from runs.scenes import Scene
+from runs.simulations import Outcome, Run, simulate_into
 from target_pictures import TargetPictures, make
 
 

@@ -8,12 +8,12 @@ import math
 import threading
 from collections.abc import Callable, Sequence
 
-from group_shapes import NAME as GROUP
-from group_shapes import shape_of
+from runs.group_shapes import NAME as GROUP
+from runs.group_shapes import shape_of
 from machine_areas import SMALL, SMALL_SIZE
 from measures import Measure, Objective, Requirement, value_at
-from scenes import Scene
-from simulations import Outcome, Run
+from runs.scenes import Scene
+from runs.simulations import Outcome, Run
 
 Assignments = tuple[str, ...]
 Simulate = Callable[[Run], Outcome]  # called from several threads

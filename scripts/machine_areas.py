@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from kept_runs import KeptRuns
+from runs.kept_runs import KeptRuns
 from machine_axes import Machine, Order
-from scenes import Scene
-from simulations import Outcome, Run
+from runs.scenes import Scene
+from runs.simulations import Outcome, Run
 
 # Area is that of the machine, whatever it draws: the smallest frame there is tells it.
 SMALL = Scene("area", "builtin:object?n=500")

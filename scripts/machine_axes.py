@@ -5,8 +5,8 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator
 
-from group_shapes import NAME, assignments, setting_text
-from simulations import SRAM_AS_NEEDED
+from runs.group_shapes import NAME, assignments, setting_text
+from runs.simulations import SRAM_AS_NEEDED
 
 Assignments = tuple[str, ...]
 

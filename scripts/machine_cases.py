@@ -8,10 +8,10 @@ import itertools
 import subprocess
 from collections.abc import Sequence
 
-import run_arguments
-from scenes import Scene, find_scenes, shared_names
-from simulations import said
-from view_numbers import view_numbers_there
+from runs import run_arguments
+from runs.scenes import Scene, find_scenes, shared_names
+from runs.simulations import said
+from runs.view_numbers import view_numbers_there
 
 OBJECTS = ("truck", "playbot", "builtin:object")  # whatever their parameters
 SIZES, OBJECT_SIZES = ("640x360", "980x545"), ("640x360", "800x800")

@@ -6,11 +6,11 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
-from kept_runs import KeptRuns
+from runs.kept_runs import KeptRuns
 from machine_areas import Areas
 from machine_axes import Machine
-from scenes import Scene
-from simulations import Run
+from runs.scenes import Scene
+from runs.simulations import Run
 
 LEAST_GAIN = 1.003  # in frames a second: what a step is worth taking for
 

@@ -8,8 +8,8 @@ import statistics
 from collections.abc import Callable, Mapping, Sequence
 
 from energy_components import components, joules
-from simulations import Outcome
-from view_numbers import binders, decibels
+from runs.simulations import Outcome
+from runs.view_numbers import binders, decibels
 
 GPU = "GPU, modelled"
 PIXELS = ("frame_buffer",)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from machine_measures import GPU, Measured
 from machine_tables import MB, Case, Entry
-from view_numbers import decibels_span
+from runs.view_numbers import decibels_span
 
 # By scene, the cases of each: what every machine took.
 Found = Mapping[str, Sequence[Mapping[str, Measured]]]

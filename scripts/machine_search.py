@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterator, Sequence
 
 from machine_areas import Areas, area_mm2
 from machine_axes import Machine
-from scenes import Scene
-from simulations import Outcome, Run
-from view_numbers import decibels
+from runs.scenes import Scene
+from runs.simulations import Outcome, Run
+from runs.view_numbers import decibels
 
 OBJECTIVES: dict[str, Callable[[dict], float]] = {
     "cycles": lambda view: view["frame"]["cycles"],

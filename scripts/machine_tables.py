@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from machine_cases import Case
 from machine_measures import MJ, Measured
-from view_numbers import decibels_text
+from runs.view_numbers import decibels_text
 
 MB = 1e6
 WISHED_FPS = 90

@@ -6,12 +6,12 @@ import dataclasses
 import statistics
 from collections.abc import Sequence
 
-import run_arguments
-import tables
-from kept_runs import KeptRuns
-from scenes import Scene
-from simulations import Outcome, Run
-from view_numbers import binders, decibels, numbers, psnr_span, vsu_waits
+from runs import run_arguments
+from results import tables
+from runs.kept_runs import KeptRuns
+from runs.scenes import Scene
+from runs.simulations import Outcome, Run
+from runs.view_numbers import binders, decibels, numbers, psnr_span, vsu_waits
 
 # Above this the rounding to 8 bits decides: such views are drawn once more, in floats.
 ROUNDING_DB = 50

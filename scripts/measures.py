@@ -21,7 +21,7 @@ import re
 import statistics
 from collections.abc import Callable, Sequence
 
-from simulations import sram_bytes
+from runs.simulations import sram_bytes
 
 Views = Sequence[dict]
 

@@ -17,11 +17,11 @@ import statistics
 import sys
 from collections.abc import Callable, Sequence
 
-import run_arguments
-import tables
-import view_numbers
-from scenes import Scene, find_scene, find_scenes, shared_names
-from simulations import Run, simulate_all, work
+from runs import run_arguments
+from results import tables
+from runs import view_numbers
+from runs.scenes import Scene, find_scene, find_scenes, shared_names
+from runs.simulations import Run, simulate_all, work
 
 REAL_SIZE, SYNTHETIC_SIZE = "980x545", "800x800"
 BUILT_IN = {"builtin:outdoor?n=1000000": REAL_SIZE, "builtin:object?n=300000": SYNTHETIC_SIZE}

@@ -22,13 +22,13 @@ import sys
 from collections.abc import Sequence
 
 import published_gpu
-import run_arguments
-import tables
-from gpu_views import MODEL, model_gpu
-from kept_runs import KeptRuns
-from scenes import Scene, find_scene, find_scenes, shared_names
-from simulations import Outcome, Run, region_bytes
-from view_numbers import view_numbers_there
+from runs import run_arguments
+from results import tables
+from runs.gpu_views import MODEL, model_gpu
+from runs.kept_runs import KeptRuns
+from runs.scenes import Scene, find_scene, find_scenes, shared_names
+from runs.simulations import Outcome, Run, region_bytes
+from runs.view_numbers import view_numbers_there
 
 RUNS_FILE, GPU_RUNS_FILE = "published_runs.jsonl", "published_gpu_runs.jsonl"
 BANDWIDTH = ("dram.channels=8",)  # 8 x LPDDR3-1600 x32 are the published 51.2 GB/s

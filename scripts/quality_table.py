@@ -22,11 +22,11 @@ import dataclasses
 import sys
 from collections.abc import Sequence
 
-import run_arguments
+from runs import run_arguments
 import subjects
-import tables
+from results import tables
 import tunings
-from fittings import Fitting, KeptFittings
+from runs.fittings import Fitting, KeptFittings
 from judged_frames import (
     MACHINE_HEAD,
     JudgedFrames,

@@ -23,14 +23,11 @@ import pathlib
 import sys
 from collections.abc import Sequence
 
-import report_overview
-import report_sweep
-import report_tables
-import report_view
-import run_arguments
-import tables
-from report_charts import data_uri, escaped, ramp_css
-from report_folder import (
+from reporting import report_overview, report_sweep, report_tables, report_view
+from runs import run_arguments
+from results import tables
+from reporting.report_charts import data_uri, escaped, ramp_css
+from reporting.report_folder import (
     PATH,
     Run,
     Table,
@@ -39,9 +36,9 @@ from report_folder import (
     find_tables,
     read_path,
 )
-from sweep_results import read_sweep
+from reporting.sweep_results import read_sweep
 
-ASSETS = pathlib.Path(__file__).resolve().parent
+ASSETS = pathlib.Path(__file__).resolve().parent / "reporting"
 STYLE, SCRIPTS = "report_page.css", ("report_page.js", "report_points.js")
 MOST_BYTES = 6_000_000  # of the page
 MOST_HALVINGS = 2

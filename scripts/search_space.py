@@ -10,8 +10,8 @@ import pathlib
 import re
 from collections.abc import Iterator, Sequence
 
-from given_files import read_text
-from group_shapes import KEYS, NAME, expanded
+from runs.given_files import read_text
+from runs.group_shapes import KEYS, NAME, expanded
 from machine_axes import Assignments, Axis
 
 At = tuple[int, ...]  # for each axis the number of its setting

@@ -21,14 +21,14 @@ import json
 import sys
 from collections.abc import Sequence
 
-import run_arguments
-import tables
+from runs import run_arguments
+from results import tables
 from fair_fight_tables import assigned_document, settings_text
-from kept_runs import KeptRuns
+from runs.kept_runs import KeptRuns
 from machine_areas import start_of
 from machine_axes import EXACT, Machine
 from machine_descent import Descent, Drawn, TooSlow
-from scenes import Scene, find_scenes, shared_names
+from runs.scenes import Scene, find_scenes, shared_names
 
 RUNS_FILE = "smallest_machine_runs.jsonl"
 HEAD = (

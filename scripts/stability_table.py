@@ -13,9 +13,8 @@ import pathlib
 import sys
 from collections.abc import Sequence
 
-import run_arguments
-import simulations
-import tables
+from runs import run_arguments, simulations
+from results import tables
 
 PROGRAM = simulations.BINARY.with_name("stability")
 REFUSED = 2

@@ -26,11 +26,11 @@ import pathlib
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 
-import simulations
-from report_folder import find_runs
-from scenes import Scene, find_scene
-from sweep_server import SweepServer
-from view_numbers import view_numbers
+from runs import simulations
+from reporting.report_folder import find_runs
+from runs.scenes import Scene, find_scene
+from runs.sweep_server import SweepServer
+from runs.view_numbers import view_numbers
 
 Failure = simulations.Failure
 Settings = Mapping[str, object]  # keys of the configuration

@@ -12,11 +12,11 @@ from exploration import Work
 from judging import Judged
 from machine_axes import nearest
 from measures import dominates
-from run_digest import content_digest, named_files
+from runs.run_digest import content_digest, named_files
 from search_space import At
-from simulations import Run
+from runs.simulations import Run
 from studies import JUDGED, SAME_AS, Study, locked, open_storage, sampler, unpacked
-from sweep_server import SweepServer
+from runs.sweep_server import SweepServer
 
 SAMPLED_EVERY = 4  # what the sampler proposes; between them what is next to the best
 MOST_PROPOSED = 20  # for each to be judged: then nearly all that is proposed need not be judged

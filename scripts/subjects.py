@@ -9,8 +9,8 @@ import dataclasses
 import pathlib
 from collections.abc import Sequence
 
-from fittings import Fitting, KeptFittings
-from scenes import Scene, find_scene, shared_folder
+from runs.fittings import Fitting, KeptFittings
+from runs.scenes import Scene, find_scene, shared_folder
 
 DEFAULT_SUBJECTS = ("lego", "desk", "truck", "platform", "yard")
 DATASET_FORMS = "a data set of ../shared by name, or the folder of one"

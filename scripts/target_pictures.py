@@ -9,11 +9,11 @@ import json
 import pathlib
 from collections.abc import Sequence
 
-import tables
-from fittings import files_of
-from run_digest import content_digest
-from scenes import Scene
-from simulations import REFUSED, Failure, call, said
+from results import tables
+from runs.fittings import files_of
+from runs.run_digest import content_digest
+from runs.scenes import Scene
+from runs.simulations import REFUSED, Failure, call, said
 from subjects import Source, Subject
 
 DONE = "made.json"  # written last

@@ -10,10 +10,10 @@ import statistics
 import sys
 from collections.abc import Sequence
 
-import run_arguments
-import tables
-from scenes import find_scenes
-from simulations import Run, simulate_all
+from runs import run_arguments
+from results import tables
+from runs.scenes import find_scenes
+from runs.simulations import Run, simulate_all
 
 HEAD = ("scene", "size", "Gaussians", "preset", "simulation s", "whole command s", "peak MB")
 

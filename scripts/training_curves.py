@@ -12,12 +12,12 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-import run_arguments
+from runs import run_arguments
 import subjects
-import tables
-from fittings import Fitted, Fitting, KeptFittings
-from run_digest import content_digest
-from simulations import Failure
+from results import tables
+from runs.fittings import Fitted, Fitting, KeptFittings
+from runs.run_digest import content_digest
+from runs.simulations import Failure
 
 HEAD = ("data set", "seed", "step", "seconds", "Gaussians", "loss", "PSNR dB", "SSIM")
 SUMMARY_HEAD = (

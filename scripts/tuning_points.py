@@ -9,9 +9,9 @@ import sys
 from collections.abc import Iterator
 
 import tunings
-from fittings import Fitted, Fitting, KeptFittings
+from runs.fittings import Fitted, Fitting, KeptFittings
 from judged_frames import JudgedFrames
-from scenes import Scene
+from runs.scenes import Scene
 from subjects import Subject
 from target_pictures import target_pictures
 

@@ -8,9 +8,9 @@ import dataclasses
 import pathlib
 from collections.abc import Sequence
 
-import run_arguments
+from runs import run_arguments
 import subjects
-from fittings import Fitting
+from runs.fittings import Fitting
 from subjects import Subject
 from target_pictures import make
 

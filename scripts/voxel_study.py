@@ -12,12 +12,12 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-import run_arguments
+from runs import run_arguments
 import subjects
-import tables
+from results import tables
 import tunings
-from figures_beside import draw_beside
-from fittings import KeptFittings
+from drawing.figures_beside import draw_beside
+from runs.fittings import KeptFittings
 from judged_frames import (
     MACHINE_HEAD,
     JudgedFrames,

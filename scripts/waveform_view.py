@@ -16,8 +16,8 @@ import re
 import sys
 from collections.abc import Iterator
 
-import run_arguments
-import tables
+from runs import run_arguments
+from results import tables
 
 # Names of what stands between a unit and the leaf: an activity, a FIFO or a memory port.
 OF_AN_ACTIVITY = {"busy", "waits_for"}

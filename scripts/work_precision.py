@@ -14,11 +14,11 @@ import argparse
 import itertools
 import sys
 
-import run_arguments
-import tables
-from group_shapes import assignments, shape_of
-from scenes import find_scenes
-from simulations import (
+from runs import run_arguments
+from results import tables
+from runs.group_shapes import assignments, shape_of
+from runs.scenes import find_scenes
+from runs.simulations import (
     SRAM_AS_NEEDED,
     Outcome,
     Run,

@@ -32,10 +32,9 @@ import tempfile
 import zlib
 from collections.abc import Callable, Iterator, Sequence
 
-import png_pictures
-import run_arguments
-import simulations
-import tables
+from reporting import png_pictures
+from runs import run_arguments, simulations
+from results import tables
 
 SCENE = ("builtin:object?n=60", "--size", "16x16")
 SMALL = (*SCENE, "--view", "0")

@@ -20,13 +20,13 @@ import paper_claims
 import published_figures
 import published_gpu
 import quality_table
-import simulations
+from runs import simulations
 import smallest_machine
 import timing
 import training_curves
 import voxel_study
 import work_precision
-from scenes import find_scene
+from runs.scenes import find_scene
 
 
 RENDERERS = pathlib.Path(COMMAND).with_name("bench_renderers") if COMMAND else ""

@@ -12,7 +12,7 @@ import machine_cases
 import machine_measures
 import machine_ratios
 import machine_tables
-from scenes import Scene
+from runs.scenes import Scene
 
 
 def measured(*seconds: float, region: float = 0) -> machine_measures.Measured:

@@ -11,17 +11,17 @@ import binding_check
 import energy_components
 import energy_tables
 import fill_readme
-import group_shapes
+from runs import group_shapes
 import measures
-import run_arguments
+from runs import run_arguments
 import search_space
-import simulations
+from runs import simulations
 import stability_table
-import tables
-import view_numbers
+from results import tables
+from runs import view_numbers
 import work_precision
 from machine_axes import Axis
-from scenes import find_scene, find_scenes
+from runs.scenes import find_scene, find_scenes
 
 
 class Pareto(unittest.TestCase):

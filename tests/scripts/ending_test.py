@@ -24,14 +24,14 @@ import fill_readme
 import half_by_stage
 import published_figures
 import quality_table
-import simulations
+from runs import simulations
 import smallest_machine
 import stability_table
 import timing
 import training_curves
 import voxel_study
 import work_precision
-from scenes import Scene
+from runs.scenes import Scene
 
 SCENE = Scene("toy", "builtin:object")
 

@@ -10,7 +10,7 @@ import sys
 import unittest
 
 from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
-import debian_python
+from runs import debian_python
 
 
 class Explorations(InFolder):

@@ -14,7 +14,7 @@ from in_folder import COMMAND, REPOSITORY, InFolder, nightly  # isort: skip (fin
 import boundary_study
 import compare_machines
 import compare_variants
-import debian_python
+from runs import debian_python
 import energy_tables
 import error_image
 import error_renderers
@@ -23,11 +23,11 @@ import fair_fight_tables
 import machine_ratios
 import machine_tables
 import machine_views
-import simulations
-import tables
+from runs import simulations
+from results import tables
 import training_curves
 import voxel_study
-from scenes import find_scene
+from runs.scenes import find_scene
 
 SCRIPT = REPOSITORY / "scripts" / "figures.py"
 PYTHONS = (sys.executable, str(debian_python.DEBIAN))

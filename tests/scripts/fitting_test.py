@@ -14,11 +14,11 @@ from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
 import boundary_study
 import judged_frames
 import quality_table
-import simulations
+from runs import simulations
 import subjects
 import target_pictures
 import training_curves
-from fittings import Fitted, Fitting, KeptFittings
+from runs.fittings import Fitted, Fitting, KeptFittings
 from subjects import Subject
 from tunings import Tunings
 
@@ -153,8 +153,8 @@ class Keeping(InFolder):
         script.write_text(f"""\
 import pathlib, sys
 sys.path.insert(0, {str(REPOSITORY / "scripts")!r})
-import run_arguments
-from fittings import Fitting, KeptFittings
+from runs import run_arguments
+from runs.fittings import Fitting, KeptFittings
 def work():
     kept = KeptFittings(pathlib.Path({str(self.program)!r}), pathlib.Path("fittings"), 1)
     kept.all([Fitting("slow", "train", ("slow",)), Fitting("next", "train", ("next",))])

@@ -7,13 +7,10 @@ import unittest
 import zlib
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
-import given_files
-import png_pictures
-import report_charts
-import report_pictures
-import report_tables
-import report_time
-from report_folder import Table
+from runs import given_files
+from reporting import png_pictures, report_charts, report_pictures, report_tables
+from reporting import report_time
+from reporting.report_folder import Table
 
 
 def filtered_png(width: int, height: int, pixels: bytes) -> bytes:

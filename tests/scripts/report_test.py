@@ -9,15 +9,14 @@ import unittest
 from unittest import mock
 
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
-import png_pictures
+from reporting import png_pictures
 import report
-import report_charts
-import report_view
-import simulations
+from reporting import report_charts, report_view
+from runs import simulations
 from chromium import Chromium
 from page_checks import NEEDS_BROWSER, PageChecks
-from report_folder import find_runs
-from scenes import find_scene
+from reporting.report_folder import find_runs
+from runs.scenes import find_scene
 
 NEEDS_COMMAND = unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
 

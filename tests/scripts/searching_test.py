@@ -9,12 +9,12 @@ import unittest
 from in_folder import InFolder  # isort: skip (finds the scripts)
 import fair_fight_tables
 import machine_axes
-import simulations
-from kept_runs import KeptRuns
+from runs import simulations
+from runs.kept_runs import KeptRuns
 from machine_areas import SMALL, Areas
 from machine_descent import Descent, TooSlow
 from machine_search import Point, Search
-from scenes import Scene
+from runs.scenes import Scene
 
 AXES = (
     machine_axes.axis("hfus", 1, 2, 4, 8),

@@ -12,10 +12,10 @@ from unittest import mock
 
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import report
-import report_sweep
+from reporting import report_sweep
 from chromium import Chromium
 from page_checks import NEEDS_BROWSER, PageChecks
-from sweep_results import read_sweep
+from reporting.sweep_results import read_sweep
 
 
 def line(cycles, mm2, joules, status="done", technology="32 nm", **more) -> str:

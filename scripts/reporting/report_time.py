@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-import report_charts as charts
-from report_charts import percent
+from reporting import report_charts as charts
+from reporting.report_charts import percent
 
 # Causes in the order in which they are drawn, each the name of its colour's class.
 CAUSES = (

@@ -9,9 +9,9 @@ import json
 import pathlib
 import shlex
 
-from given_files import read_text
+from runs.given_files import read_text
 from measures import value_at
-from report_folder import flat
+from reporting.report_folder import flat
 
 DONE = "done"
 STATUSES = (DONE, "refused", "failed")

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import report_charts as charts
-import report_tables
-from report_charts import number
-from report_costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes
-from report_folder import Run, Table, ViewFiles
-from report_view import quality
+from reporting import report_charts as charts, report_tables
+from reporting.report_charts import number
+from reporting.report_costs import KINDS_OF_ENERGY, WAYS, kinds_of_energy, ways_of_bytes
+from reporting.report_folder import Run, Table, ViewFiles
+from reporting.report_view import quality
 
 MOST_BARS = 40  # views whose energy and traffic are drawn
 

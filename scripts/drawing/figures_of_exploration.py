@@ -10,9 +10,9 @@ import re
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figure_inputs import Data, Missing, Results, number
-from figure_style import INK, ON_PAPER, legend_above, line_style, panels, published
-from figures_of_machines import lower_left
+from drawing.figure_inputs import Data, Missing, Results, number
+from drawing.figure_style import INK, ON_PAPER, legend_above, line_style, panels, published
+from drawing.figures_of_machines import lower_left
 
 # What is drawn across where it is there, and what is drawn up beside what is required.
 ACROSS = ("mm2", "area_mm2.total", "sram_bytes", "filter_lanes")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import report_charts as charts
-from png_pictures import size_of
-from report_charts import escaped, number, percent
-from report_folder import ViewFiles
+from reporting import report_charts as charts
+from reporting.png_pictures import size_of
+from reporting.report_charts import escaped, number, percent
+from reporting.report_folder import ViewFiles
 
 HEAT_MAPS = (
     ("cycles", "Cycles of rendering", "cycles"),

@@ -7,9 +7,8 @@ import dataclasses
 import pathlib
 from collections.abc import Iterator
 
-import png_pictures
-import report_shape
-from given_files import read_bytes, read_json, read_text
+from reporting import png_pictures, report_shape
+from runs.given_files import read_bytes, read_json, read_text
 
 REPORT = "report.json"
 PATH = "path.json"

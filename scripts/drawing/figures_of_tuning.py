@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figure_inputs import Results, number
-from figure_style import COLOURS, LINES, MARKERS, from_zero, legend_above, line_style, panels
+from drawing.figure_inputs import Results, number
+from drawing.figure_style import COLOURS, LINES, MARKERS, from_zero, legend_above, line_style, panels
 
 Made = tuple[Figure, str]  # with its caption
 

@@ -7,7 +7,7 @@ import pathlib
 import tempfile
 import time
 
-from simulations import REFUSED, Failure, Outcome, Run, call, said
+from runs.simulations import REFUSED, Failure, Outcome, Run, call, said
 
 # What a run of the model has in the place of a preset.
 MODEL = "gpu"

@@ -7,10 +7,10 @@ import statistics
 
 from matplotlib.figure import Figure
 
-import report_time
-from figure_inputs import Results, how_simulated, number
-from figure_style import bar_style, from_zero, legend_above, line_style, panels
-from report_folder import Run
+from reporting import report_time
+from drawing.figure_inputs import Results, how_simulated, number
+from drawing.figure_style import bar_style, from_zero, legend_above, line_style, panels
+from reporting.report_folder import Run
 
 MOST_RUNS = 6  # whose frames are drawn
 Made = tuple[Figure, str]  # with its caption

@@ -9,7 +9,7 @@ import json
 import math
 from collections.abc import Sequence
 
-from png_pictures import write_png
+from reporting.png_pictures import write_png
 
 # As the command's error maps (algorithm/image/error_map.cpp): even steps of lightness and hue.
 RAMP = (

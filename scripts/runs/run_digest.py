@@ -9,7 +9,7 @@ import json
 import pathlib
 from collections.abc import Iterator
 
-from simulations import Run
+from runs.simulations import Run
 
 # Where the program finds presets, memspecs and technology, from its own folder, links resolved
 # (algorithm/data_files.h).

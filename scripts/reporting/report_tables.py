@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 
-from report_charts import escaped
-from report_folder import Table
+from reporting.report_charts import escaped
+from reporting.report_folder import Table
 
 MOST_ROWS = 2000  # of a table that are shown
 # Columns that are drawn at first where they are there, the likelier ones first.

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import report_charts as charts
-from report_charts import number, percent
+from reporting import report_charts as charts
+from reporting.report_charts import number, percent
 
 MOST_COMPONENTS = 14  # of energy; the rest is one line
 KINDS_OF_ENERGY = (

@@ -11,9 +11,10 @@ import pathlib
 import subprocess
 import tempfile
 import threading
+from collections.abc import Sequence
 
-from run_digest import program_digest
-from simulations import REFUSED, Failure, Outcome, Run, said
+from runs.run_digest import program_digest
+from runs.simulations import REFUSED, Failure, Outcome, Run, said
 
 Answer = dict
 

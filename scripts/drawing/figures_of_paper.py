@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from figure_inputs import Data, Missing, Results, number
-from figure_style import (
+from drawing.figure_inputs import Data, Missing, Results, number
+from drawing.figure_style import (
     bar_style,
     case_label,
     from_zero,

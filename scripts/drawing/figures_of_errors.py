@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figure_inputs import Results, number
-from figure_style import (
+from drawing.figure_inputs import Results, number
+from drawing.figure_style import (
     COLOURS,
     INK,
     LINES,
@@ -19,7 +19,7 @@ from figure_style import (
     panels,
     plain_logarithmic,
 )
-from figures_of_image_errors import SCRIPT, quality
+from drawing.figures_of_image_errors import SCRIPT, quality
 
 Made = tuple[Figure, str]  # with its caption
 TIMED = ("scene", "view", "renderer", "finished below", "threads", "ms", "PSNR dB")

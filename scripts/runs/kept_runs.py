@@ -11,8 +11,8 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 
-from run_digest import program_digest, run_name
-from simulations import Failure, Outcome, Run, simulate
+from runs.run_digest import program_digest, run_name
+from runs.simulations import Failure, Outcome, Run, simulate
 
 # Parts of a view's report that no table asks for; they are most of its size.
 NOT_KEPT = ("ledger", "left_out", "chosen")

@@ -18,9 +18,9 @@ import time
 from collections.abc import Sequence
 from typing import IO
 
-import tables
-from run_digest import content_digest, program_digest
-from simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, program_version, said
+from results import tables
+from runs.run_digest import content_digest, program_digest
+from runs.simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, program_version, said
 
 CHECKPOINT_EVERY = "500"  # steps; what is lost where a computer stops
 INTERRUPTED = 130  # exit status of the command: saved, to be resumed

@@ -8,11 +8,11 @@ import json
 import math
 from collections.abc import Callable, Collection, Sequence
 
-import report_tables
+from reporting import report_tables
 from measures import pareto_front
-from report_charts import details, escaped
-from report_folder import Table
-from sweep_results import DONE, MEMORIES, Point
+from reporting.report_charts import details, escaped
+from reporting.report_folder import Table
+from reporting.sweep_results import DONE, MEMORIES, Point
 
 Case = tuple[str, str, str, str]
 BY_SCENE = "differs by scene"

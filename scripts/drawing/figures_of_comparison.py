@@ -9,8 +9,8 @@ import statistics
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figure_inputs import Data, Results, number
-from figure_style import COLOURS, INK, bar_style, case_label, legend_above, panels
+from drawing.figure_inputs import Data, Results, number
+from drawing.figure_style import COLOURS, INK, bar_style, case_label, legend_above, panels
 
 MAKER = "compare_machines.py"
 GPU = "GPU, modelled"  # it has its own memory, and stands beside machines with any

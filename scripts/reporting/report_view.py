@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import report_charts as charts
-import report_costs
-import report_pictures
-import report_time
-from report_charts import escaped, number, percent
-from report_folder import ViewFiles, flat
+from reporting import report_charts as charts, report_costs
+from reporting import report_pictures, report_time
+from reporting.report_charts import escaped, number, percent
+from reporting.report_folder import ViewFiles, flat
 
 
 def quality(view: dict) -> str:

@@ -6,9 +6,9 @@ import pathlib
 import statistics
 from collections.abc import Callable, Iterable, Sequence
 
-from given_files import read_json
-from scenes import Scene
-from simulations import call, said
+from runs.given_files import read_json
+from runs.scenes import Scene
+from runs.simulations import call, said
 
 
 def view_numbers(binary: pathlib.Path, scene: Scene, text: str) -> list[int]:

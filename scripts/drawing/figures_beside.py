@@ -7,7 +7,7 @@ import pathlib
 import subprocess
 import sys
 
-SCRIPT = pathlib.Path(__file__).resolve().parent / "figures.py"
+SCRIPT = pathlib.Path(__file__).resolve().parents[1] / "figures.py"
 
 
 def draw_beside(tables: pathlib.Path, *names: str) -> None:

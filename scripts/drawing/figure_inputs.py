@@ -7,8 +7,8 @@ import dataclasses
 import pathlib
 from collections.abc import Iterable
 
-from given_files import read_text
-from report_folder import Run, find_runs
+from runs.given_files import read_text
+from reporting.report_folder import Run, find_runs
 
 
 class Missing(Exception):

@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 
-from figure_inputs import Data, Results, number
-from figure_style import COLOURS, INK, ON_PAPER, legend_above, panels, plain_logarithmic
+from drawing.figure_inputs import Data, Results, number
+from drawing.figure_style import COLOURS, INK, ON_PAPER, legend_above, panels, plain_logarithmic
 
 Made = tuple[Figure, str]  # with its caption
 EQUAL = "equal"
