@@ -353,7 +353,7 @@ class Starts(unittest.TestCase):
             if file.is_file():  # not removed, which git has not been told yet
                 with self.subTest(name), file.open("rb") as content:
                     self.assertEqual(mode == "100755", content.read(2) == b"#!", mode)
-        self.assertIn("scripts/planted_faults.py", modes)
+        self.assertIn("scripts/report.py", modes)
 
 
 if __name__ == "__main__":

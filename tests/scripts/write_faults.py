@@ -32,6 +32,7 @@ import tempfile
 import zlib
 from collections.abc import Callable, Iterator, Sequence
 
+import in_folder  # noqa: F401, isort: skip (finds the scripts)
 from reporting import png_pictures
 from runs import run_arguments, simulations
 from results import tables
