@@ -9,8 +9,8 @@ import json
 import pathlib
 from collections.abc import Sequence
 
-from results import tables
-from runs.fittings import files_of
+from runs.given_files import write_text
+from runs.keeper import files_of
 from runs.run_digest import content_digest
 from runs.scenes import Scene
 from runs.simulations import REFUSED, Failure, call, said
@@ -76,7 +76,7 @@ def target_pictures(
             make(binary, "photographs", words)
         else:
             draw_own(binary, subject, targets)
-        tables.write_text(place / DONE, json.dumps({"of": sources}) + "\n")
+        write_text(place / DONE, json.dumps({"of": sources}) + "\n")
     return targets
 
 

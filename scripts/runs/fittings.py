@@ -1,14 +1,10 @@
-"""Runs of `streaminggs train` and `tune`, kept in folders, so that a script which is interrupted,
-or run again, goes on where it ended."""
+"""Runs of `streaminggs train` and `tune`, kept: the next start resumes what is under way."""
 
 from __future__ import annotations
 
 import concurrent.futures
 import csv
 import dataclasses
-import fcntl
-import hashlib
-import json
 import pathlib
 import signal
 import subprocess
@@ -18,13 +14,12 @@ import time
 from collections.abc import Sequence
 from typing import IO
 
-from results import tables
-from runs.run_digest import content_digest, program_digest
+from runs.given_files import write_text
+from runs.keeper import Keeper
 from runs.simulations import MOST_SIDE_BY_SIDE, REFUSED, Failure, program_version, said
 
 CHECKPOINT_EVERY = "500"  # steps; what is lost where a computer stops
 INTERRUPTED = 130  # exit status of the command: saved, to be resumed
-DONE = "made.json"  # written last: a folder that has it is whole
 
 
 @dataclasses.dataclass(frozen=True)
@@ -39,19 +34,9 @@ class Fitting:
     most_seconds: float = 0
     copy: int = 0
 
-    def digest(self, program: str) -> str:
-        facts = [program, self.command, *self.words, self.extension]
-        facts += [str(self.most_seconds), str(self.copy)]
-        for word in self.words:
-            facts += [content_digest(path) for path in files_of(pathlib.Path(word))]
-        return hashlib.sha256("\n".join(facts).encode()).hexdigest()[:16]
-
-
-def files_of(path: pathlib.Path) -> list[pathlib.Path]:
-    """The file of that name, or all below the folder; none for what is neither."""
-    if path.is_dir():
-        return sorted(below for below in path.rglob("*") if below.is_file())
-    return [path] if path.is_file() else []
+    def facts(self) -> tuple[str, ...]:
+        """Of which any other one makes it another run."""
+        return (self.command, *self.words, self.extension, str(self.most_seconds), str(self.copy))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -68,16 +53,13 @@ class Fitted:
 
 
 class KeptFittings:
-    """Fittings below a folder, a folder each. In it lies what is still under way, too: the next
-    start resumes it. Each takes all cores; two side by side share them."""
+    """Fittings below a folder. Each takes all cores; two side by side share them."""
 
     def __init__(self, binary: pathlib.Path, folder: pathlib.Path, side_by_side: int):
-        self.binary, self.folder = binary, folder
+        self.binary, self.keeper = binary, Keeper(binary, folder)
         self.workers = max(1, min(MOST_SIDE_BY_SIDE, side_by_side))
-        self.program = program_digest(binary)
         self.commit = program_version(binary)
         self.calls: set[subprocess.Popen] = set()
-        self.stopping = False
         self.lock = threading.Lock()
 
     def all(self, fittings: Sequence[Fitting]) -> list[Fitted]:
@@ -95,46 +77,21 @@ class KeptFittings:
 
     def stop(self) -> None:
         with self.lock:
-            self.stopping = True
+            self.keeper.stopping = True
             for call in self.calls:
                 call.send_signal(signal.SIGINT)
 
-    def place(self, fitting: Fitting) -> pathlib.Path:
-        name = "".join(c if c.isalnum() or c in ".-" else "_" for c in fitting.label)
-        return self.folder / f"{name}_{fitting.digest(self.program)}"
-
     def made(self, fitting: Fitting) -> Fitted:
-        place = self.place(fitting)
-        scene = place / f"scene{fitting.extension}"
-        if not (place / DONE).exists():
-            place.mkdir(parents=True, exist_ok=True)
-            with (place / "lock").open("w") as lock:
-                self.wait_for(lock, fitting)
-                if not (place / DONE).exists():
-                    self.make(fitting, scene, place, lock)
-        entry = json.loads((place / DONE).read_text())
+        def make(place: pathlib.Path, lock: IO) -> float:
+            print(f"{fitting.label}: in {place}", file=sys.stderr, flush=True)
+            scene = scene_of(fitting, place)
+            seconds = self.run(fitting, scene, place / "seconds", lock)
+            checkpoint_of(scene).unlink(missing_ok=True)
+            return seconds
+
+        place, seconds = self.keeper.kept(fitting.label, fitting.facts(), make)
         with (place / "log.csv").open() as log:
-            return Fitted(fitting, scene, list(csv.DictReader(log)), entry["seconds"])
-
-    def wait_for(self, lock: IO, fitting: Fitting) -> None:
-        """Until no other script has it under way, nor a call that such a one left behind."""
-        told = False
-        while not self.stopping:
-            try:
-                return fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                if not told:
-                    print(f"{fitting.label}: waits for another script", file=sys.stderr, flush=True)
-                told = True
-                time.sleep(0.5)
-        raise Failure("interrupted")
-
-    def make(self, fitting: Fitting, scene: pathlib.Path, place: pathlib.Path, lock: IO) -> None:
-        print(f"{fitting.label}: in {place}", file=sys.stderr, flush=True)
-        seconds = self.run(fitting, scene, place / "seconds", lock)
-        entry = {"words": fitting.words, "commit": self.commit, "seconds": seconds}
-        tables.write_text(place / DONE, json.dumps(entry) + "\n")
-        checkpoint_of(scene).unlink(missing_ok=True)
+            return Fitted(fitting, scene_of(fitting, place), list(csv.DictReader(log)), seconds)
 
     def run(self, fitting: Fitting, scene: pathlib.Path, clock: pathlib.Path, lock: IO) -> float:
         """Until its end. clock: file of the seconds that earlier parts took, which a script that
@@ -153,18 +110,17 @@ class KeptFittings:
         if done.returncode == 0 or (timed_out and done.returncode == INTERRUPTED):
             return seconds
         if checkpoint_of(scene).exists():
-            tables.write_text(clock, f"{seconds:.1f}\n")
-        if done.returncode == REFUSED:
-            raise ValueError(f"{fitting.label}: {said(done)}")
-        raise Failure(f"{fitting.label}: {said(done)}")
+            write_text(clock, f"{seconds:.1f}\n")
+        kind = ValueError if done.returncode == REFUSED else Failure
+        raise kind(f"{fitting.label}: {said(done)}")
 
     def call(
         self, words: Sequence[str], most_seconds: float, earlier: float, lock: IO
     ) -> tuple[subprocess.CompletedProcess[str], bool]:
         """How it ended, and whether that was for its time. In a session of its own: of Ctrl-C it
-        hears once, from stop(). It holds the lock, too, should this script be killed."""
+        hears once, from stop()."""
         with self.lock:
-            if self.stopping:
+            if self.keeper.stopping:
                 raise Failure("interrupted")
             try:
                 call = subprocess.Popen(
@@ -191,6 +147,10 @@ class KeptFittings:
             with self.lock:
                 self.calls.discard(call)
         return subprocess.CompletedProcess(words, call.returncode, out, err), timed_out
+
+
+def scene_of(fitting: Fitting, place: pathlib.Path) -> pathlib.Path:
+    return place / f"scene{fitting.extension}"
 
 
 def checkpoint_of(scene: pathlib.Path) -> pathlib.Path:

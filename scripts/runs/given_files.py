@@ -1,8 +1,10 @@
-"""Files that a user names, or that lie in a folder so named: lists, reports, tables, pictures."""
+"""Files that a user names, or that lie in a folder so named: lists, reports, tables, pictures; and
+files that are written whole or not at all."""
 
 from __future__ import annotations
 
 import json
+import os
 import pathlib
 
 MOST_LEVELS = 100  # of JSON: what walks through it later is not to run out of stack
@@ -45,3 +47,15 @@ def levels(found: object) -> int:
         count += 1
         level = [y for x in within for y in (x.values() if isinstance(x, dict) else x)]
     return count
+
+
+def write_text(path: pathlib.Path, text: str) -> None:
+    """Writes a whole file or none."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        os.replace(part, path)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise

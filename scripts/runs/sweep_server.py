@@ -5,16 +5,20 @@ from __future__ import annotations
 
 import concurrent.futures
 import contextlib
+import dataclasses
+import functools
 import itertools
 import json
 import pathlib
 import subprocess
+import sys
 import tempfile
 import threading
 from collections.abc import Sequence
 
 from runs.run_digest import program_digest
 from runs.simulations import REFUSED, Failure, Outcome, Run, said
+from runs.view_numbers import view_numbers
 
 Answer = dict
 
@@ -148,3 +152,31 @@ def json_value(text: str) -> object:
         return json.loads(text)
     except json.JSONDecodeError:
         return text
+
+
+def swept(
+    binary: pathlib.Path, kept: pathlib.Path, jobs: int, runs: Sequence[Run]
+) -> list[Outcome]:
+    """In the order of the runs, which may be of several views each. Raises the first Failure when
+    all else is simulated and kept, ValueError for views that a scene has not."""
+    numbers = functools.cache(functools.partial(view_numbers, binary))
+    single = [
+        [dataclasses.replace(run, view=str(view)) for view in numbers(run.scene, run.view)]
+        for run in runs
+    ]
+    with SweepServer(binary, kept, jobs) as server:
+        asked = [(each, server.ask(each)) for of_run in single for each in of_run]
+        answered = []
+        for number, (run, answer) in enumerate(asked, start=1):
+            answered.append(server.answered(run, answer))
+            print(f"[{number}/{len(asked)}] {run.label()}", file=sys.stderr, flush=True)
+        server.end()
+    outcomes = iter(answered)
+    return [together(run, [next(outcomes) for _ in of_run]) for run, of_run in zip(runs, single)]
+
+
+def together(run: Run, outcomes: Sequence[Outcome]) -> Outcome:
+    """Of one run, what each of its views came to."""
+    refused = next((outcome.refused for outcome in outcomes if outcome.refused), "")
+    views = () if refused else tuple(view for outcome in outcomes for view in outcome.views)
+    return Outcome(run, views, refused)

@@ -10,7 +10,6 @@ import in_folder  # noqa: F401, isort: skip (finds the scripts)
 import binding_check
 import energy_components
 import energy_tables
-import fill_readme
 from runs import group_shapes
 import measures
 from runs import run_arguments
@@ -237,35 +236,6 @@ class Tables(unittest.TestCase):
 
     def test_csv(self):
         self.assertEqual(tables.csv_text(("a", "b"), [(1, "x, y")]), 'a,b\n1,"x, y"\n')
-
-    def test_places_in_the_readme(self):
-        readme = "A\n<!-- table: one -->\nold\n<!-- end -->\nB\n<!-- table: two -->\n<!-- end -->\n"
-        with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "one.md").write_text("new\n")
-            filled = fill_readme.filled(readme, pathlib.Path(folder))
-        self.assertEqual(filled, readme.replace("old", "new"))
-
-    def test_a_table_of_changed_sources_is_refused(self):
-        readme = "<!-- table: one -->\nold\n<!-- end -->\n"
-        made = "Made by `x`; commit {}.\n\nrows\n"
-        with tempfile.TemporaryDirectory() as folder:
-            for commit, refused in (("abc-dirty", True), ("abc, def-dirty", True), ("abc", False)):
-                (pathlib.Path(folder) / "one.md").write_text(made.format(commit))
-                with self.subTest(commit):
-                    if refused:
-                        with self.assertRaisesRegex(ValueError, "one.md: commit .*-dirty"):
-                            fill_readme.filled(readme, pathlib.Path(folder))
-                    else:
-                        self.assertIn("rows", fill_readme.filled(readme, pathlib.Path(folder)))
-
-    def test_readmes_of_sources_only(self):
-        with tempfile.TemporaryDirectory() as folder:
-            top = pathlib.Path(folder)
-            for name in ("", "modules/dram", "build/release", "out/x", ".git"):
-                (top / name).mkdir(parents=True, exist_ok=True)
-                (top / name / "README.md").write_text("text\n")
-            found = [str(path.relative_to(top)) for path in fill_readme.readmes(top)]
-        self.assertEqual(found, ["README.md", "modules/dram/README.md"])
 
 
 class Reports(unittest.TestCase):

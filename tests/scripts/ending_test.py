@@ -20,7 +20,6 @@ import error_against_time
 import error_renderers
 import explore
 import fair_fight
-import fill_readme
 import half_by_stage
 import published_figures
 import quality_table
@@ -330,13 +329,10 @@ class Ends(InFolder):
                 self.assertRegex(done.stdout, rf"\A{out}\Z")
                 self.assertRegex(done.stderr, rf"\A{said}\Z")
 
-    def test_unknown_scene_and_readme(self):
-        for script in (explore, fill_readme):
-            with self.subTest(script.__name__):
-                needed = ("--axis", "hfus=2") if script is explore else ()
-                status, line, _ = self.ended(script, "nowhere", *needed)
-                self.assertRegex(line, "nowhere: (no scene|No such file)")
-                self.assertEqual(status, 2)
+    def test_unknown_scene(self):
+        status, line, _ = self.ended(explore, "nowhere", "--axis", "hfus=2")
+        self.assertRegex(line, "nowhere: no scene")
+        self.assertEqual(status, 2)
 
 
 class Starts(unittest.TestCase):

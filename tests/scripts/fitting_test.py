@@ -127,7 +127,7 @@ class Keeping(InFolder):
             )
         ):
             fitting = Fitting("a", "train", ("x",), copy=number)
-            place = self.kept().place(fitting)
+            place = self.kept().keeper.place(fitting.label, fitting.facts())
             place.mkdir(parents=True)
             (place / "scene.ply.checkpoint").write_bytes(b"half")
             if told:

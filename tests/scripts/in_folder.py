@@ -2,6 +2,7 @@
 the command does. $STREAMINGGS names the command; it is empty where there is none."""
 
 import contextlib
+import importlib.util
 import io
 import json
 import math
@@ -21,6 +22,18 @@ sys.path.insert(0, str(REPOSITORY / "scripts"))
 
 COMMAND = os.environ.get("STREAMINGGS", "")
 os.environ["STREAMINGGS_CACHE"] = "off"  # the user's is none of theirs
+
+
+def results_script():
+    """results.py, which as a module has the name of a package."""
+    path = REPOSITORY / "scripts" / "results.py"
+    spec = importlib.util.spec_from_file_location("results", path)
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    return script
+
+
+RESULTS = results_script()
 
 # Marks a test or a class that takes long. A shorter test enters the same code.
 nightly = unittest.skipUnless(os.environ.get("SGS_NIGHTLY"), "nightly: $SGS_NIGHTLY is not set")
@@ -140,6 +153,10 @@ class InFolder(unittest.TestCase):
         program.write_text(textwrap.dedent(prelude) + textwrap.dedent(body))
         program.chmod(program.stat().st_mode | stat.S_IXUSR)
         return program
+
+    def study_ended(self, name: str, *arguments: str) -> tuple[int, str, str]:
+        """The same of a study of results.py, which keeps what it does in the test's folder."""
+        return self.ended(RESULTS, name, *arguments, "--kept", str(self.folder / "kept"))
 
     def ended(self, script, *arguments: str) -> tuple[int, str, str]:
         """Exit status, last line of stderr and stdout of a script that gets these arguments."""
