@@ -13,28 +13,37 @@ ended, and takes what another one had made.
 
 from __future__ import annotations
 
+import argparse
 import ast
 import importlib
 import pathlib
+import re
 import sys
+from collections.abc import Iterator
 
-from results import readmes
+from results import facts_of, markdown_of
 from runs import run_arguments
-from runs.simulations import REPOSITORY
+from runs.files import write_text
+from runs.scenes import REPOSITORY
 
 STUDIES = pathlib.Path(__file__).resolve().parent / "studies"
 TABLES = REPOSITORY / "traces" / "results"
+PLACE = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
+# The commit of a program whose sources no commit has.
+CHANGED = re.compile(r"\w+-dirty\b")
+# What builds and runs leave behind.
+NOT_SOURCES = ("build", "out")
 
 
 def studies() -> dict[str, str]:
-    """By name, the first sentence that each says of itself; without what they share."""
+    """By name, how what each says of itself begins; without what they share."""
     found = {}
     for path in sorted(STUDIES.glob("*.py")):
         source = ast.parse(path.read_text())
         functions = {node.name for node in source.body if isinstance(node, ast.FunctionDef)}
         if {"add_arguments", "make"} <= functions:
-            sentence = " ".join((ast.get_docstring(source) or "").split()).partition(". ")[0]
-            found[path.stem] = sentence.removesuffix(".")
+            about = " ".join((ast.get_docstring(source) or "").split())
+            found[path.stem] = re.split(r"[.:] ", about)[0]
     return found
 
 
@@ -56,6 +65,43 @@ def run(name: str, words: list[str]) -> int:
     return run_arguments.main_of_tables(study.make, parser.parse_args(words))
 
 
+def filled(text: str, folder: pathlib.Path) -> str:
+    """The text with each place filled from the folder's tables; one of a table that is not there is
+    named and left as it is. Raises ValueError where a table was made from changed sources: nobody
+    could make it again."""
+
+    def content(place: re.Match[str]) -> str:
+        name = place.group(2)
+        if not (folder / f"{name}.json").exists():
+            print(f"{folder / name}.json: not there, its place is left as it is", file=sys.stderr)
+            return place.group(0)
+        for commit in facts_of(folder, name)["made"]["commits"]:
+            if CHANGED.fullmatch(commit):
+                raise ValueError(
+                    f"{folder / name}.json: commit {commit}, expected one without changes"
+                )
+        return place.group(1) + markdown_of(folder, name) + place.group(3)
+
+    return PLACE.sub(content, text)
+
+
+def readmes(repository: pathlib.Path) -> Iterator[pathlib.Path]:
+    """Every README.md among the sources, sorted."""
+    for path in sorted(repository.rglob("README.md")):
+        top = path.relative_to(repository).parts[0]
+        if top not in NOT_SOURCES and not top.startswith("."):
+            yield path
+
+
+def fill(arguments: argparse.Namespace) -> None:
+    texts = {path: path.read_text() for path in arguments.fill or readmes(REPOSITORY)}
+    new = {path: filled(text, arguments.tables) for path, text in texts.items()}
+    for path in texts:
+        if new[path] != texts[path]:
+            write_text(path, new[path])
+            print(path.relative_to(REPOSITORY) if path.is_relative_to(REPOSITORY) else path)
+
+
 def list_studies() -> int:
     for name, sentence in studies().items():
         print(f"{name:22}{sentence}")
@@ -71,10 +117,19 @@ def main() -> int:
         "study", nargs="?", choices=studies(), metavar="STUDY", help="one that --list names"
     )
     parser.add_argument("--list", action="store_true", help="name the studies")
-    readmes.add_arguments(parser, TABLES)
+    parser.add_argument(
+        "--fill",
+        nargs="*",
+        type=pathlib.Path,
+        metavar="README",
+        help="put tables into these, or into all; refused is what was made from changed sources",
+    )
+    parser.add_argument(
+        "--tables", type=pathlib.Path, default=TABLES, metavar="FOLDER", help="where they lie"
+    )
     arguments = parser.parse_args()
     if arguments.fill is not None:
-        return run_arguments.main(lambda: readmes.fill(arguments))
+        return run_arguments.main(lambda: fill(arguments))
     return list_studies()
 
 

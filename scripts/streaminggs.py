@@ -27,10 +27,10 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 
 from runs import simulations
-from reporting.report_folder import find_runs
 from runs.scenes import Scene, find_scene
+from runs.simulations import view_numbers
 from runs.sweep_server import SweepServer
-from runs.view_numbers import view_numbers
+from reporting.folder import find_runs
 
 Failure = simulations.Failure
 Settings = Mapping[str, object]  # keys of the configuration

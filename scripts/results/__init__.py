@@ -6,18 +6,22 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import hashlib
 import io
 import json
 import math
 import pathlib
 import re
 import statistics
+import subprocess
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from runs.given_files import read_json, read_text, write_text
+from runs.files import content_digest, program_digest, read_json, read_text, write_text
 from runs.run_arguments import command_line
-from runs.run_digest import content_digest, program_digest
 from runs.scenes import Scene
+
+FIGURES = pathlib.Path(__file__).resolve().parents[1] / "figures.py"
 
 Row = Sequence[object]
 Cells = Mapping[str, str]
@@ -66,7 +70,7 @@ class Spread:
 
 @dataclasses.dataclass(frozen=True)
 class Made:
-    """What made a table. inputs: digests of files by name."""
+    """What made a table. program, inputs: digests, of scenes and data sets by name."""
 
     command: str
     commits: tuple[str, ...]
@@ -85,11 +89,8 @@ def made(
     told = list(provenances)
     inputs = {}
     for scene in scenes:
-        files = (scene.spec, scene.cameras) if isinstance(scene, Scene) else (scene,)
-        for path in map(pathlib.Path, filter(None, files)):
-            for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
-                if file.is_file():
-                    inputs[str(file.relative_to(path.parent))] = content_digest(file)
+        paths = (scene.spec, scene.cameras) if isinstance(scene, Scene) else (scene,)
+        inputs |= {path.name: tree_digest(path) for path in map(pathlib.Path, paths) if path.name}
     return Made(
         command_line(),
         *(tuple(sorted({p.get(key, "") for p in told} - {""})) for key in ("commit", "version")),
@@ -98,12 +99,27 @@ def made(
     )
 
 
+def tree_digest(path: pathlib.Path) -> str:
+    """Of a file, of all files below a folder; empty for what is neither, as a built-in scene."""
+    if path.is_dir():
+        below = (file for file in sorted(path.rglob("*")) if file.is_file())
+        text = "".join(f"{file.relative_to(path)} {content_digest(file)}\n" for file in below)
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+    return content_digest(path) if path.is_file() else ""
+
+
 def made_of(program: pathlib.Path, views: Iterable[dict], scenes: Iterable[Scene] = ()) -> Made:
     """The same of reports of views."""
     return made(program, (view["provenance"] for view in views), scenes)
 
 
-def write(
+def write(folder: pathlib.Path, name: str, *table: object, **more: object) -> None:
+    """What save() does, and the Markdown of the table on the terminal."""
+    save(folder, name, *table, **more)
+    print(f"{markdown_of(folder, name)}\n", flush=True)
+
+
+def save(
     folder: pathlib.Path,
     name: str,
     by: Made,
@@ -113,8 +129,8 @@ def write(
     spread: Spread | None = None,
     only: Mapping[str, str] | None = None,
 ) -> None:
-    """Both files, and the Markdown on the terminal. about: what else a reader has to know. only:
-    values of columns, which rows of the Markdown have."""
+    """Both files of a table. about: what else a reader has to know. only: values of columns, which
+    rows of the Markdown have."""
     names = [column.name for column in columns]
     if len(set(names)) < len(names):
         raise AssertionError(f"{name}: two columns of one name in {names}")
@@ -132,7 +148,6 @@ def write(
     }
     write_text(folder / f"{name}.csv", out.getvalue())
     write_text(folder / f"{name}.json", json.dumps(facts, indent=1) + "\n")
-    print(f"{markdown_of(folder, name)}\n", flush=True)
 
 
 def check_row(name: str, names: Sequence[str], row: Row) -> Row:
@@ -178,7 +193,30 @@ def markdown_of(folder: pathlib.Path, name: str) -> str:
     if facts["spread"]:
         return text + spread_out(columns, rows, Spread(**facts["spread"]))
     shown = [name for name in columns if name not in facts["only"]]
-    return text + markdown(shown, [[columns[n].shown(row[n]) for n in shown] for row in rows])
+    return text + markdown(*ranges(shown, [[columns[n].shown(r[n]) for n in shown] for r in rows]))
+
+
+def ranges(
+    head: Sequence[str], rows: Sequence[Sequence[str]]
+) -> tuple[list[str], list[list[str]]]:
+    """With a column `X, least` and `X, most` behind it as one: `1 .. 2`."""
+    pairs = {
+        at
+        for at, (name, after) in enumerate(zip(head, head[1:]))
+        if name.endswith(", least") and after == name.removesuffix("least") + "most"
+    }
+
+    def joined(cells: Sequence[str], between: Callable[[str, str], str]) -> list[str]:
+        return [
+            between(cell, cells[at + 1]) if at in pairs else cell
+            for at, cell in enumerate(cells)
+            if at - 1 not in pairs
+        ]
+
+    return (
+        joined(head, lambda least, _: f"{least} .. most"),
+        [joined(row, lambda a, b: a if a == b else f"{a} .. {b}") for row in rows],
+    )
 
 
 def spread_out(columns: Mapping[str, Column], rows: Sequence[Cells], how: Spread) -> str:
@@ -198,7 +236,10 @@ def spread_out(columns: Mapping[str, Column], rows: Sequence[Cells], how: Spread
         return how.cell.format_map({n: columns[n].shown(values[n]) for n in measured})
 
     body = [
-        [*(columns[n].shown(v) for n, v in zip(named, key)), *(cell(of.get(h, ())) for h in headings)]
+        [
+            *(columns[name].shown(value) for name, value in zip(named, key)),
+            *(cell(of.get(heading, ())) for heading in headings),
+        ]
         for key, of in lines.items()
     ]
     return markdown([*named, *headings], body)
@@ -228,5 +269,15 @@ def markdown(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def mean(views: Sequence[dict], value: Callable[[dict], float]) -> float:
-    return statistics.fmean(value(view) for view in views)
+def draw_beside(tables: pathlib.Path, *names: str) -> None:
+    """Those of these figures that the folder's tables have something for, by a script of its own,
+    which may need another Python. Where there are none, or no Matplotlib, a line says why: the
+    tables are what counts. No figure of earlier tables stays beside them."""
+    for name in names:
+        for suffix in ("svg", "png"):
+            (tables / f"{name}.{suffix}").unlink(missing_ok=True)
+    words = [sys.executable, "-B", str(FIGURES), *names]
+    words += ["--from", str(tables), "--out", str(tables)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if done.returncode:
+        print(f"no figure: {(done.stdout or done.stderr).splitlines()[0]}", file=sys.stderr)

@@ -3,6 +3,7 @@ of results holds is not simulated again."""
 
 from __future__ import annotations
 
+import argparse
 import concurrent.futures
 import contextlib
 import dataclasses
@@ -16,9 +17,8 @@ import tempfile
 import threading
 from collections.abc import Sequence
 
-from runs.run_digest import program_digest
-from runs.simulations import REFUSED, Failure, Outcome, Run, said
-from runs.view_numbers import view_numbers
+from runs.files import program_digest
+from runs.simulations import REFUSED, Failure, Outcome, Run, said, view_numbers
 
 Answer = dict
 
@@ -154,17 +154,17 @@ def json_value(text: str) -> object:
         return text
 
 
-def swept(
-    binary: pathlib.Path, kept: pathlib.Path, jobs: int, runs: Sequence[Run]
-) -> list[Outcome]:
-    """In the order of the runs, which may be of several views each. Raises the first Failure when
-    all else is simulated and kept, ValueError for views that a scene has not."""
-    numbers = functools.cache(functools.partial(view_numbers, binary))
+def swept(arguments: argparse.Namespace, study: str, runs: Sequence[Run]) -> list[Outcome]:
+    """In the order of the runs, which may be of several views each; with the program, the folder of
+    what is kept and the pace of the arguments. Raises the first Failure when all else is simulated
+    and kept, ValueError for views that are none."""
+    numbers = functools.cache(functools.partial(view_numbers, arguments.streaminggs))
     single = [
         [dataclasses.replace(run, view=str(view)) for view in numbers(run.scene, run.view)]
         for run in runs
     ]
-    with SweepServer(binary, kept, jobs) as server:
+    kept = arguments.kept / f"{study}.jsonl"
+    with SweepServer(arguments.streaminggs, kept, arguments.side_by_side) as server:
         asked = [(each, server.ask(each)) for of_run in single for each in of_run]
         answered = []
         for number, (run, answer) in enumerate(asked, start=1):

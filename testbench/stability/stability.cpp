@@ -1,5 +1,5 @@
 // stability: how far each formula of one Gaussian is from what it is without rounding, as JSON on
-// standard output; scripts/stability_table.py makes the table of it.
+// standard output; scripts/results.py stability_table makes the table of it.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -115,14 +115,17 @@ class InFolder(unittest.TestCase):
                 hfus = int(SET.get("hfus", 1))
                 number = int(sys.argv[sys.argv.index("--view") + 1])
                 frame = {{"cycles": 8 // hfus, "time_s": 1e-9 * (8 // hfus), "fps": hfus}}
+                config = {{"hfus": hfus, "group_width_px": 112, "group_height_px": 80}}
+                config["sram"] = {{"input_bytes": 100 * hfus + number, "codebook_bytes": 0}}
                 view = {{"view": number, "frame": frame, "binding": {{"unit": "dram"}},
-                        "config": {{"hfus": hfus, "group_width_px": 112, "group_height_px": 80}},
+                        "config": config,
                         "area_mm2": {{"total": 1 + hfus}}, "provenance": {{}}}}
                 out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
                 (out / "report.json").write_text(json.dumps({{"views": [view]}}))
             def swept(point):
                 with tempfile.TemporaryDirectory() as out:
                     words = [__file__, "simulate", "--view", str(point["view"]), "--out", out]
+                    words += ["--size", point["size"]] if "size" in point else []
                     for key, value in point["set"].items():
                         words += ["--set", f"{{key}}={{value}}"]
                     environment = {{**os.environ, "SCRIPT": str(os.getppid())}}
@@ -154,15 +157,25 @@ class InFolder(unittest.TestCase):
         program.chmod(program.stat().st_mode | stat.S_IXUSR)
         return program
 
-    def study_ended(self, name: str, *arguments: str) -> tuple[int, str, str]:
-        """The same of a study of results.py, which keeps what it does in the test's folder."""
-        return self.ended(RESULTS, name, *arguments, "--kept", str(self.folder / "kept"))
-
     def ended(self, script, *arguments: str) -> tuple[int, str, str]:
-        """Exit status, last line of stderr and stdout of a script that gets these arguments."""
+        """Exit status, last line of stderr and stdout of a script that gets these arguments. A study
+        of results.py keeps in the test's folder what it simulates, trains and tunes."""
         out, said = io.StringIO(), io.StringIO()
         words = [f"{script.__name__}.py", *arguments]
+        if is_study(script):
+            name = script.__name__.removeprefix("studies.")
+            words = ["results.py", name, *arguments, "--kept", str(self.folder / "kept")]
+            script = RESULTS
         with mock.patch("sys.argv", words), contextlib.redirect_stdout(out):
             with contextlib.redirect_stderr(said):
                 status = script.main()
         return status, said.getvalue().rstrip().rpartition("\n")[2], out.getvalue()
+
+
+def is_study(script) -> bool:
+    return script.__name__.startswith("studies.")
+
+
+def file_of(script) -> str:
+    """That a user starts."""
+    return "results.py" if is_study(script) else f"{script.__name__}.py"

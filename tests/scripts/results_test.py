@@ -9,7 +9,7 @@ from unittest import mock
 
 from in_folder import RESULTS, InFolder  # isort: skip (finds the scripts)
 import results
-from results import Column, Made, Spread, readmes
+from results import Column, Made, Spread
 
 BY = Made("scripts/results.py one truck", ("abc",))
 COLUMNS = (
@@ -53,13 +53,22 @@ class Writing(InFolder):
         text = self.written(columns, (("a", 1, True), ("b", 2, False)), only={"front": "yes"})
         self.assertRegex(text, r"\n\| scene \| view \|\n.*\n\| a \| 1 \|\n$")
 
+    def test_the_ends_of_a_range_stand_together(self):
+        ends = (Column(f"dB, {end}", "", "dB", ".1f") for end in ("least", "most"))
+        columns = (Column("s", ""), *ends)
+        text = self.written(columns, (("a", 1, 2.5), ("b", 3, 3.01), ("c", None, None)))
+        self.assertRegex(text, r"\| s \| dB, least .. most \|\n.*\n\| a \| 1.0 .. 2.5 \|\n")
+        self.assertTrue(text.endswith("| b | 3.0 |\n| c |  |\n"), text)
+        self.assertIn("\na,1,2.5\n", (self.folder / "one.csv").read_text())
+
     def test_spread_out(self):
         columns = (*COLUMNS[:1], Column("what", ""), Column("ms", "", "ms", ".1f"))
         rows = (("a", "x", 1), ("a", "y", 2), ("b", "y", 3))
         text = self.written(columns, rows, spread=Spread("scene", "{ms} ms"))
         self.assertTrue(
             text.endswith(
-                "| what | a | b |\n| --- | --- | --- |\n| x | 1.0 ms |  |\n| y | 2.0 ms | 3.0 ms |\n"
+                "| what | a | b |\n| --- | --- | --- |\n"
+                "| x | 1.0 ms |  |\n| y | 2.0 ms | 3.0 ms |\n"
             ),
             text,
         )
@@ -88,10 +97,13 @@ class Writing(InFolder):
         program.write_text("it")
         told = [{"commit": "b", "version": "1"}, {"commit": ""}, {"commit": "a", "version": "1"}]
         with mock.patch("sys.argv", words):
-            by = results.made(program, told, [results.Scene("truck", str(self.scene))])
+            scenes = [results.Scene("truck", str(self.scene)), results.Scene("b", "builtin:b?n=1")]
+            by = results.made(program, told, [*scenes, self.write_dataset()])
         self.assertEqual(by.command, "scripts/results.py one truck --cross")
         self.assertEqual((by.commits, by.releases), (("a", "b"), ("1",)))
-        self.assertEqual(list(by.inputs), ["truck.ply"])
+        self.assertEqual(list(by.inputs), ["truck.ply", "builtin:b?n=1", "photographs"])
+        lengths = [len(digest) for digest in by.inputs.values()]
+        self.assertEqual(lengths, [16, 0, 16])
         self.assertEqual(len(by.program), 64)
 
 
@@ -103,7 +115,7 @@ class Places(InFolder):
             results.write(self.folder, "one", BY, COLUMNS, ROWS)
         text = results.markdown_of(self.folder, "one")
         with contextlib.redirect_stderr(io.StringIO()) as said:
-            filled = readmes.filled(self.README, self.folder)
+            filled = RESULTS.filled(self.README, self.folder)
         self.assertEqual(filled, self.README.replace("old\n", text))
         self.assertRegex(said.getvalue(), "two.json: not there, its place is left")
 
@@ -115,15 +127,15 @@ class Places(InFolder):
             with self.subTest(commits), said:
                 if refused:
                     with self.assertRaisesRegex(ValueError, "one.json: commit .*-dirty"):
-                        readmes.filled(self.README, self.folder)
+                        RESULTS.filled(self.README, self.folder)
                 else:
-                    self.assertIn("12,345", readmes.filled(self.README, self.folder))
+                    self.assertIn("12,345", RESULTS.filled(self.README, self.folder))
 
     def test_readmes_of_sources_only(self):
         for name in ("", "modules/dram", "build/release", "out/x", ".git"):
             (self.folder / name).mkdir(parents=True, exist_ok=True)
             (self.folder / name / "README.md").write_text("text\n")
-        found = [str(path.relative_to(self.folder)) for path in readmes.readmes(self.folder)]
+        found = [str(path.relative_to(self.folder)) for path in RESULTS.readmes(self.folder)]
         self.assertEqual(found, ["README.md", "modules/dram/README.md"])
 
     def test_from_the_command_line(self):

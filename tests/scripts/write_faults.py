@@ -10,7 +10,7 @@ many sizes. Afterwards
   temporaries are left by what was killed, and by nothing else;
   whoever lives ends with exit status 1 or 2 and one line that says why.
 
-Writes write_faults.md and .csv: trials and what was found, by command and fault. Exit status 1 where
+Makes the table write_faults: trials and what was found, by command and fault. Exit status 1 where
 anything was found; each is a line on stderr.
 """
 
@@ -33,9 +33,10 @@ import zlib
 from collections.abc import Callable, Iterator, Sequence
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
-from reporting import png_pictures
+from reporting import charts
 from runs import run_arguments, simulations
-from results import tables
+import results
+from results import Column
 
 SCENE = ("builtin:object?n=60", "--size", "16x16")
 SMALL = (*SCENE, "--view", "0")
@@ -52,6 +53,13 @@ TIMED = (".json", ".jsonl", ".csv", ".checkpoint", ".html")
 TIMED_DIGITS = 64
 # Of a disk, where --most says nothing.
 SIZES = 20
+COLUMNS = (
+    Column("command", "job that it was tried on"),
+    Column("fault", "what the kernel does to its writes"),
+    Column("in", "the command itself, or all that it starts"),
+    Column("trials", "of the fault", "", ","),
+    Column("found", "that were not as they must be", "", ","),
+)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -113,7 +121,7 @@ def write_dataset(folder: pathlib.Path) -> None:
         camera |= {"fx": 20, "fy": 20, "position": [2 * ahead, 0, -2 * right]}
         camera["rotation"] = [[right, 0, -ahead], [0, 1, 0], [ahead, 0, right]]
         cameras.append(camera)
-        picture = png_pictures.write_png(SIDE_PX, SIDE_PX, bytes((200, 100, 50)) * SIDE_PX**2)
+        picture = charts.write_png(SIDE_PX, SIDE_PX, bytes((200, 100, 50)) * SIDE_PX**2)
         (folder / "images" / f"{i}.png").write_bytes(picture)
     (folder / "cameras.json").write_text(json.dumps(cameras))
 
@@ -341,8 +349,8 @@ def make(arguments: argparse.Namespace) -> None:
         rows += tried(
             name, WORKS[name], programs, arguments.most, lambda line: print(line, file=sys.stderr)
         )
-    head = ("command", "fault", "in", "trials", "found")
-    tables.write(arguments.out, "write_faults", run_arguments.how_made_at(()), head, rows)
+    by = results.made(arguments.streaminggs, ())
+    results.write(arguments.out, "write_faults", by, COLUMNS, rows)
     if any(row[-1] for row in rows):
         raise simulations.Failure(f"{sum(row[-1] for row in rows)} found")
 
