@@ -65,9 +65,12 @@ class Steps:
         self.points: list[Point] = []
 
     def search(self) -> None:
-        """Into work.made. Raises ValueError where the start is refused."""
+        """Into work.made. Raises ValueError where the preset is refused."""
         start = self.judge.start(self.space)
         try:
+            if self.size(start) is None:  # a view says why
+                self.look(start, self.task.views[:1])
+                return
             if self.task.of_the_machine():
                 self.smallest(start)
                 return
@@ -157,20 +160,20 @@ class Steps:
                 break
         return views
 
-    def hardest(self, views: Sequence[dict]) -> list[View]:
-        """The view with least room; all of them where they are judged together only."""
+    def hardest(self, views: Sequence[dict], watched: Sequence[View]) -> list[View]:
+        """The view with least room; all that are watched where they are judged together only."""
         if not self.single:
-            return list(self.task.views)
+            return list(watched)
         worst = min(views, key=lambda view: self.room([view]))
         of = (worst["scene_name"], worst["view"])
-        return [view for view in self.task.views if (view[0].name, view[1]) == of]
+        return [view for view in watched if (view[0].name, view[1]) == of]
 
     # What holds what is required, and is small.
 
     def smallest(self, at: At) -> None:
         start, watched = at, []
         while views := self.look(at, self.task.views):
-            hardest = self.hardest(views)
+            hardest = self.hardest(views, self.task.views)
             if watched and (self.room(views) >= 0 or set(hardest) <= set(watched)):
                 return
             watched += hardest
@@ -185,7 +188,7 @@ class Steps:
             views = self.look_until_missed(at, watched)
             if views and self.room(views) >= 0:
                 return at
-            more = views and self.roomier(at, self.hardest(views), views)
+            more = views and self.roomier(at, self.hardest(views, watched), views)
             if not more:
                 self.work.made.remarks.append(
                     f"One step on any axis gains less than {math.expm1(LEAST_GAIN):.1%} of what is "
@@ -337,6 +340,7 @@ class Steps:
             for to in sorted(settings, key=lambda to: abs(to - at[which]))[1:]:
                 trial = self.space.moved(at, which, to - at[which])
                 drawn = self.draw(trial, [self.views[n]])
+                self.tell(trial, drawn, drawn.views)
                 if drawn.views and holds(drawn.views[0]):
                     return trial, drawn.views[0]
         return None

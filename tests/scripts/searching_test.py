@@ -187,6 +187,24 @@ class Within(unittest.TestCase):
         self.found(4, formulas=formulas, trials=15)
         self.assertLessEqual(len(set(formulas.drawn)), 2 * 15)
 
+    def test_growing_until_what_frames_tell_holds(self):
+        before = dict(PRESET)
+        self.addCleanup(PRESET.update, before)
+        PRESET.update({"hfus": 1, "hfu.lanes": 4, "rendering.clusters": 1, "merge.entries": 64})
+        for required in ("min(fps) >= 40", "each(cycles) <= 250"):
+            with self.subTest(required):
+                best = self.found(6, required, views=2)
+                self.assertTrue(best.holds())
+        self.assertIsNone(self.found(6, "each(cycles) <= 1", views=2))
+
+    def test_a_start_that_cannot_be(self):
+        before = dict(PRESET)
+        self.addCleanup(PRESET.update, before)
+        PRESET.update({"hfus": 5, "hfu.lanes": 32})  # nearest to it are 4
+        work = searched(Formulas(), "geomean(cycles)", "mm2 <= 6")
+        self.assertEqual(work.made.told(), [])
+        self.assertRegex(work.made.not_told()[0], "^Refused: a toy .*: cannot be$")
+
     def test_nothing_fits(self):
         self.assertIsNone(self.found(0.5))
 
