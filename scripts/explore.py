@@ -59,7 +59,7 @@ import sys
 from collections.abc import Iterable, Sequence
 
 from results import draw_beside
-from exploring import checks, recipe
+from exploring import options
 from exploring.axes import ORDERS, Axis, label, of_scene
 from exploring.exploration import Exploration, Work
 from exploring.judging import SMALL, SMALL_SIZE, Assignments, Judge, Task, relative_to
@@ -94,7 +94,7 @@ def machine_axes(
     if not arguments.machine:
         return (), ()
     order = ORDERS[arguments.machine]
-    checks.check_machine(order, config, arguments.config)
+    options.check_machine(order, config, arguments.config)
     own = (*order.fixed, *expanded(arguments.set))
     # Of a run of its own, since what is swept keeps no schedules.
     run = Run(SMALL, size=SMALL_SIZE, config=arguments.config, overrides=own)
@@ -115,7 +115,7 @@ def find_space(arguments: argparse.Namespace, axes: Sequence[Axis], scopes: Sequ
         space = Space(parse_axes(arguments.axis, axes, scopes))
     if not space.axes:
         raise ValueError("expected --axis, --points or --machine: what to choose from")
-    checks.check_set(arguments.set, space.axes)
+    options.check_set(arguments.set, space.axes)
     return space
 
 
@@ -133,7 +133,7 @@ def check_keys(
         ("--points" if arguments.points else "--axis", chosen),
         ("--beside", [s for assignments in beside for s in assignments]),
     ):
-        checks.check_keys(place, settings, scopes, config, arguments.config)
+        options.check_keys(place, settings, scopes, config, arguments.config)
 
 
 def objectives_of(text: str) -> tuple[Objective, ...]:
@@ -219,7 +219,7 @@ def is_studied(arguments: argparse.Namespace) -> bool:
 
 
 def explore(arguments: argparse.Namespace) -> None:
-    checks.check_arguments(arguments)
+    options.check_arguments(arguments)
     if is_studied(arguments):
         run_arguments.need("optuna", "python3-optuna")
     scenes = find_scenes(arguments.scenes)
@@ -232,11 +232,11 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
     axes, fixed = machine_axes(arguments, kept, config)
     scopes = [label(scene.name) for scene in scenes]
     space = find_space(arguments, axes, scopes)
-    beside = checks.parse_beside(arguments.beside)
+    beside = options.parse_beside(arguments.beside)
     check_keys(arguments, space, scopes, beside, config)
     keys = [*space.keys(), *Space((Axis("", tuple(beside)),)).keys()] if beside else space.keys()
     task = find_task(arguments, scenes, keys, fixed, config)
-    checks.check_search(arguments.search, task)
+    options.check_search(arguments.search, task)
     task = relative_to(task, kept.outcomes)
     judge = Judge(task, kept.outcomes)
     work = Work(arguments, space, judge, Exploration(task, beside))
@@ -283,7 +283,7 @@ def main() -> int:
         "--recipe",
         default="",
         metavar="NAME",
-        help=f"{', '.join(recipe.names())}, or a JSON file of options by name; what the command line "
+        help=f"{', '.join(options.recipes())}, or a JSON file of options by name; what the command line "
         "says of one counts in its place",
     )
     parser.add_argument("--machine", choices=list(ORDERS), help="axes of an order's machine")
@@ -325,7 +325,7 @@ def main() -> int:
     )
     parser.add_argument(
         "--search",
-        choices=(checks.STEPS, *SAMPLERS),
+        choices=(options.STEPS, *SAMPLERS),
         help="steps along the axes, or Optuna's sampler; default: all there is",
     )
     parser.add_argument(
@@ -351,8 +351,8 @@ def main() -> int:
         metavar="SECONDS",
         help="a worker of a study that was not heard of for so long counts as dead",
     )
-    arguments = recipe.parsed(parser, sys.argv[1:])
-    arguments.config = arguments.config or checks.default_config(arguments.machine)
+    arguments = options.parsed(parser, sys.argv[1:])
+    arguments.config = arguments.config or options.default_config(arguments.machine)
     return run_arguments.main_of_tables(explore, arguments)
 
 

@@ -11,7 +11,7 @@ import unittest
 
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import explore
-from exploring import recipe
+from exploring import options
 from exploring.axes import ORDERS, axis, nearest
 from exploring.exploration import Exploration, Work
 from exploring.judging import SMALL, Judge, Judged, Task, relative_to
@@ -298,19 +298,19 @@ class Recipes(InFolder):
         return next(row for row in rows if row["front"]), drawn.count('"size":"64x36"')
 
     def check(self, name: str, view: str, required: list[str], *free: str):
-        options = json.loads((recipe.FOLDER / f"{name}.json").read_text())
-        order = ORDERS[options["machine"]]
+        told = json.loads((options.RECIPES / f"{name}.json").read_text())
+        order = ORDERS[told["machine"]]
         run = simulations.Run(SMALL, config=order.preset)
         config = simulations.read_config(pathlib.Path(COMMAND), run)
-        words = [f"--require={text}" for text in required or options["require"]]
+        words = [f"--require={text}" for text in required or told["require"]]
         words += [f"--axis={text}" for text in free]
         chosen = {key for text in free for a in parse_axis(text) for key in keys_of(a)}
         keys = {key for a in order.axes for key in keys_of(a)} - chosen
         words += [f"--axis={key}={value_at(config, key)}" for key in sorted(keys)]
         found, drawn = self.front("found", f"--recipe={name}", "--view", view, *words)
-        words += [f"--machine={order.name}", f"--objectives={options['objectives']}"]
+        words += [f"--machine={order.name}", f"--objectives={told['objectives']}"]
         best, of_all = self.front("grid", "--view", view, *words)
-        shown = [options["objectives"], *chosen & found.keys()]
+        shown = [told["objectives"], *chosen & found.keys()]
         self.assertEqual([found[key] for key in shown], [best[key] for key in shown])
         self.assertLess(drawn, of_all)
 

@@ -1,19 +1,56 @@
-"""What explore.py refuses before it judges anything."""
+"""Options of explore.py: recipes, which are options by name in a JSON file, and what is refused
+before anything is judged."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable, Sequence
+import pathlib
+from collections.abc import Iterable, Iterator, Sequence
 
-from runs import run_arguments
-from runs.simulations import expanded
 from exploring.axes import EACH, ORDERS, Assignments, Axis, Order, key_of, scope_of
 from exploring.judging import Task
 from exploring.measures import value_at
 from exploring.space import parse_named
+from runs import run_arguments
+from runs.files import read_json
+from runs.simulations import expanded
 
 CONFIG = "exact"
 STEPS = "steps"
+RECIPES = pathlib.Path(__file__).resolve().parent / "recipes"
+
+
+def recipes() -> list[str]:
+    return sorted(path.stem for path in RECIPES.glob("*.json"))
+
+
+def parsed(parser: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Namespace:
+    """The words, and before them those of the recipe that --recipe names."""
+    if not (name := parser.parse_known_args(words)[0].recipe):
+        return parser.parse_args(words)
+    try:
+        return parser.parse_args([*recipe_words(name, words), *words])
+    except (ValueError, OSError) as error:
+        parser.error(f"--recipe: {error}")
+
+
+def recipe_words(name: str, given: Sequence[str]) -> Iterator[str]:
+    """Raises ValueError, OSError."""
+    path = RECIPES / f"{name}.json" if name in recipes() else pathlib.Path(name)
+    if not path.exists():
+        raise ValueError(f"got {name}, expected a JSON file or one of {', '.join(recipes())}")
+    options = read_json(path)
+    if not isinstance(options, dict):
+        raise ValueError(f"{path}: expected options by name")
+    said = {word.partition("=")[0] for word in given}
+    for option, values in options.items():
+        for value in values if isinstance(values, list) else [values]:
+            if not isinstance(value, str):
+                raise ValueError(
+                    f"{path}: {option}: got {value!r}, expected a text or a list of them"
+                )
+            if f"--{option}" not in said:
+                yield f"--{option}={value}"
 
 
 def default_config(machine: str) -> str:
