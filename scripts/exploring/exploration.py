@@ -112,9 +112,10 @@ class Exploration:
         held = sum(judged.holds() for judged in self.told())
         text = f"{len(self.told())} configurations"
         text += f", of which {held} hold {required}" if required else ""
-        text += f"; {len(self.front())} of them no other one beats.\n\n"
-        text += f"None holds: {miss}.\n" if not held and (miss := self.nearest_miss()) else ""
-        return text + "".join(f"\n{line}\n" for line in [*self.remarks, *self.not_told()] if line)
+        said = [f"{text}; {len(self.front())} of them no other one beats."]
+        if not held and (miss := self.nearest_miss()):
+            said.append(f"None holds: {miss}.")
+        return "\n\n".join(filter(None, [*said, *self.remarks, *self.not_told()]))
 
     def write(self, out: pathlib.Path, name: str, program: pathlib.Path, remark: str = "") -> None:
         front = self.front()

@@ -81,8 +81,12 @@ class Task:
         return all(o.measure.is_of_the_machine() for o in self.objectives)
 
     def of_machines(self) -> list[Requirement]:
-        """What is required and is known without a frame."""
-        return [r for r in self.requirements if r.measure.is_of_the_machine()]
+        """Bounds that any frame may show to be missed: no other frame has less."""
+        return [
+            r
+            for r in self.requirements
+            if r.measure.is_of_the_machine() and not r.least and r.measure.aggregate != EACH
+        ]
 
 
 def relative_to(task: Task, simulate: Simulate) -> Task:
@@ -192,18 +196,18 @@ class Judge:
         """With what any frame tells; what only frames tell has no number."""
         views = self.machine(assignments)
 
-        def told(measure: Measure, value: float) -> float:
-            return value if measure.is_of_the_machine() else math.nan
+        def told(measure: Measure) -> float:
+            return measure.of(views) if measure.is_of_the_machine() else math.nan
 
-        required = self.task.requirements
+        required, bounds = self.task.requirements, self.task.of_machines()
         return Judged(
             assignments,
-            costs=tuple(told(o.measure, o.cost(views)) for o in self.task.objectives),
-            values=tuple(told(r.measure, r.value(views)) for r in required),
-            violations=tuple(
-                r.violation(views) if r in self.task.of_machines() else 0.0 for r in required
+            costs=tuple(
+                -told(o.measure) if o.large else told(o.measure) for o in self.task.objectives
             ),
-            shown=tuple(told(measure, measure.of(views)) for measure in self.task.shown),
+            values=tuple(r.value(views) if r in bounds else math.nan for r in required),
+            violations=tuple(r.violation(views) if r in bounds else 0.0 for r in required),
+            shown=tuple(map(told, self.task.shown)),
             settings=self.settings(views),
             provenance=provenance(views[0]),
             dropped=why,

@@ -141,10 +141,11 @@ class Exploring(Explorations):
         body = """
             # Any frame is asked at its own size.
             if "64x36" not in sys.argv:
-                (HERE / f"drawn {SET['hfus']}").touch()
+                (HERE / f"drawn {SET.get('hfus', 'exact')}").touch()
             finish()
             """
         words = ("--axis", "hfus=1,2,4", "--require", "mm2 <= 3", "--require", "min(fps) >= 1")
+        words += ("--require", "each(mm2) >= 0.1 x exact", "--require", "config.hfus >= 1")
         done = self.explore(body, *words)
         self.assertEqual(done.returncode, 0, done.stderr)
         head, *rows = self.rows("explore.csv")
@@ -160,7 +161,7 @@ class Exploring(Explorations):
             ],
         )
         drawn = sorted(path.name for path in self.folder.glob("drawn*"))
-        self.assertEqual(drawn, ["drawn 1", "drawn 2"])
+        self.assertEqual(drawn, ["drawn 1", "drawn 2", "drawn exact"])
 
     def test_where_none_holds_the_nearest_is_named(self):
         done = self.explore("finish()", "--axis", "hfus=2,4", "--require", "min(fps) >= 5")
