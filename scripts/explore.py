@@ -52,6 +52,7 @@ from __future__ import annotations
 
 import argparse
 import concurrent.futures
+import functools
 import json
 import os
 import pathlib
@@ -263,10 +264,10 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
         raise ValueError(why[0].removeprefix("Refused: "))
     work.made.remarks.append(area_band(work, kept))
     work.made.write(arguments.out, "explore", arguments.streaminggs)
-    for scene, document in work.best_configurations().items():
-        write_text(
-            arguments.out / f"explore_best{scene}.json", json.dumps(document, indent=2) + "\n"
-        )
+    read = functools.partial(read_config, kept.binary)
+    for scene, document in work.best_configurations(read).items():
+        path = arguments.out / f"explore_best{scene}.json"
+        write_text(path, json.dumps(document, indent=2) + "\n")
     draw_beside(arguments.out, "exploration", "filter_units")
 
 

@@ -9,7 +9,7 @@ import pathlib
 import sys
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import results
 from exploring.axes import Assignments, label, scope_of
@@ -17,6 +17,7 @@ from exploring.judging import Judge, Judged, Task
 from exploring.measures import pareto_front
 from exploring.space import Space
 from results import Column
+from runs.simulations import Run
 
 NOT_DRAWN = "not all views drawn"
 SETTING = "what was simulated, by its key"
@@ -180,19 +181,22 @@ class Work:
             words[-1] += f"; {max(left, 0) / 60:.1f} min left"
         print(*words, file=sys.stderr, flush=True)
 
-    def best_configurations(self) -> dict[str, dict]:
+    def best_configurations(self, read: Callable[[Run], dict]) -> dict[str, dict]:
         """The best for one objective as configurations, by what tells their names apart: one for
-        each scene where something is chosen for each. Memory is as large as all views need."""
+        each scene where something is chosen for each. Memory is as large as all views need; what
+        else a configuration leaves open stays so. read: every key of a run's configuration."""
         if not (best := self.made.best()):
             return {}
-        views = self.judge.draw(best.assignments, self.judge.task.views).views
+        task = self.judge.task
+        views = self.judge.draw(best.assignments, task.views).views
         memories = [view["config"]["sram"] for view in views]
-        found = {}
-        for view in views:
-            scope = label(view["scene_name"])
-            own = any(scope_of(a) == scope for a in best.assignments)
-            sram = {key: max(memory[key] for memory in memories) for key in memories[0]}
-            found.setdefault(
-                f"_{view['scene_name']}" if own else "", {**view["config"], "sram": sram}
-            )
-        return found
+        sram = {key: max(memory[key] for memory in memories) for key in memories[0]}
+        own = {scope_of(assignment) for assignment in best.assignments}
+        runs = {
+            f"_{scene.name}" if label(scene.name) in own else "": (scene, number)
+            for scene, number in task.views
+        }
+        return {
+            name: {**read(task.run(*view, best.assignments)), "sram": sram}
+            for name, view in runs.items()
+        }

@@ -107,7 +107,8 @@ class InFolder(unittest.TestCase):
                 memories = {{"input_bytes": 0, "codebook_bytes": 0, "shared_bytes": 0}}
                 sides = {{"group_width_px": 112, "group_height_px": 80}}
                 filters = {{"cfus": 4, "ffu_lanes": 16}}
-                print(json.dumps({{"hfus": 1, **sides, "hfu": filters, "sram": memories}}))
+                hfus = int(SET.get("hfus", 1))
+                print(json.dumps({{"hfus": hfus, **sides, "hfu": filters, "sram": memories}}))
                 sys.exit()
             if "describe" in sys.argv:
                 sys.exit()
