@@ -44,6 +44,7 @@ UNITS = {
 MORE_IS_BETTER = ("fps", "psnr_db")
 EQUAL = "equal"
 REQUIRED = re.compile(r"(.+) (>=|<=) ([-+.\de]+)")
+MEASURE = re.compile(r"(?:\w+\()?([\w.]+)\)?")
 
 Point = tuple[float, float]
 
@@ -57,12 +58,20 @@ def lower_left(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return front
 
 
+def measure_of(column: str) -> str:
+    """Without aggregate and bound."""
+    required = REQUIRED.fullmatch(column)
+    found = MEASURE.fullmatch(required[1] if required else column)
+    return found[1] if found else column
+
+
 def axes_of(data: Data) -> tuple[str, list[str]]:
     """The column across, and those that are drawn over it. Raises Missing."""
-    head = list(data.rows[0])
-    across = next((name for name in ACROSS if name in head), None)
-    required = [name for name in head if REQUIRED.fullmatch(name)]
-    ups = required + [name for name in UP if name in head][:1]
+    head = {column: measure_of(column) for column in data.rows[0]}
+    across = next((c for name in ACROSS for c, of in head.items() if of == name), None)
+    required = [c for c, of in head.items() if REQUIRED.fullmatch(c) and of != head.get(across)]
+    others = [c for name in UP for c, of in head.items() if of == name and c not in required]
+    ups = required + others[:1]
     if not across or not ups:
         raise Missing(
             f"columns {', '.join(head)}: expected one of {', '.join(ACROSS)}, and of "
@@ -72,7 +81,10 @@ def axes_of(data: Data) -> tuple[str, list[str]]:
 
 
 def unit_of(column: str) -> tuple[str, float]:
-    return UNITS.get(column, (column, 1))
+    """What is required stands in its own unit, as its bound does."""
+    if REQUIRED.fullmatch(column) and measure_of(column) not in ACROSS:
+        return column, 1
+    return UNITS.get(measure_of(column), (column, 1))
 
 
 def point_of(row: dict[str, str], across: str, up: str) -> Point | None:
@@ -137,7 +149,7 @@ def draw_required(axes: Axes, name: str) -> None:
     """The bound as a line, and hatched what does not hold."""
     _, relation, bound = REQUIRED.fullmatch(name).groups()
     low, high = axes.get_ylim()
-    value = float(bound)
+    value = float(bound) / unit_of(name)[1]
     room = 0.08 * (high - low)
     low, high = min(low, value - room), max(high, value + room)
     lost = (low, value) if relation == ">=" else (value, high)

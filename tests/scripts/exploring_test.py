@@ -282,6 +282,14 @@ class Drawing(Explorations):
         for said in ("required: min(fps) &gt;= 3", "by hand", "area, mm²", "scripts/explore.py"):
             self.assertIn(said, text)
         self.assertTrue((self.folder / "exploration.png").exists())
+        # What is required of area is drawn across.
+        words = ("--axis", "hfus=2,4,8", "--require", "min(fps) >= 3", "--require", "mm2 <= 6")
+        done = self.explore("finish()", *words, "--objectives", "mean(cycles)")
+        self.assertEqual((done.returncode, "no figure" in done.stderr), (0, False), done.stderr)
+        text = (self.folder / "exploration.svg").read_text()
+        for said in ("required: min(fps) &gt;= 3", "area, mm²", "M cycles against area"):
+            self.assertIn(said, text)
+        self.assertNotIn("required: mm2", text)
         # One number alone has nothing to be drawn against; that is no failure.
         done = self.explore("finish()", "--axis", "hfus=2,4")
         self.assertEqual((done.returncode, list(self.folder.glob("exploration.*"))), (0, []))
