@@ -264,6 +264,8 @@ def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Seque
         raise ValueError(why[0].removeprefix("Refused: "))
     work.made.remarks.append(area_band(work, kept))
     work.made.write(arguments.out, "explore", arguments.streaminggs)
+    for earlier in arguments.out.glob("explore_best*.json"):
+        earlier.unlink()
     read = functools.partial(read_config, kept.binary)
     for scene, document in work.best_configurations(read).items():
         path = arguments.out / f"explore_best{scene}.json"
