@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/storage/stored_scene.h"
 #include "modules/auto_choice.h"
@@ -27,10 +27,9 @@ namespace sgs {
 // How a machine is put together, for tests.
 struct BuildOptions {
   StallConfig stalls;  // random waits at both sides of every FIFO
-  // A seed of the order in which the processes of an instant act: units are made in another order,
-  // and who has waited may go on some delta cycles late. 0: as the kernel has it. No number of a
-  // report may depend on it.
-  std::uint64_t process_order = 0;
+  // A seed of the delta jitter, by which the processes of an instant overtake each other; 0: none.
+  // No number of a report may depend on it.
+  std::uint64_t jitter_seed = 0;
 };
 
 class MachineDesign {
@@ -85,6 +84,8 @@ class MachineDesign {
   virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,
                                          const BuildOptions& options) const = 0;
 };
+
+inline void visit(ConfigVisitor& v, MachineDesign& design) { design.visit(v); }
 
 // A line of the factory.
 struct MachineKind {

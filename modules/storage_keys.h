@@ -1,13 +1,26 @@
-// How a scene is stored, as keys of the configuration.
+// How a scene is stored, as keys of the configuration: those of its storage order, and of every.
 #pragma once
 
+#include <variant>
+
 #include "algorithm/memory/storage_config.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "modules/config/config_visitor.h"
 
 namespace sgs {
 
-void visit(ConfigVisitor& v, VqConfig& config);
-// The keys of the configuration's own storage order; those of others are unknown.
-void visit(ConfigVisitor& v, StorageConfig& config);
+// The keys of other storage orders are unknown.
+inline void visit(ConfigVisitor& v, StorageConfig& c) {
+  for (const StorageSize& size : scheme_of(c.order).sizes()) {
+    std::visit([&](auto value) { v(size.key, c.*value, in_range(0, size.most), size.meaning); },
+               size.value);
+  }
+  if (scheme_of(c.order).has_sequence()) {
+    v("sequence", c.sequence,
+      names<FileSequence>({{"file", FileSequence::kFile}, {"spatial", FileSequence::kSpatial}}),
+      "of Gaussians: as in the scene's file, or neighbours in space side by side");
+  }
+  visit_every_order(v, c);
+}
 
 }  // namespace sgs

@@ -1,33 +1,13 @@
 # What shortens the build and changes no result: precompiled headers, and less optimisation where
 # it gains no speed. Included after all targets are made.
 
-# sgs_targets_below(OUT TYPES FOLDERS...): the targets made in FOLDERS and below whose type matches
-# the regular expression TYPES.
-function(sgs_targets_below out types)
-  set(folders ${ARGN})
-  set(found)
-  while(folders)
-    list(POP_FRONT folders folder)
-    get_property(below DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
-    list(APPEND folders ${below})
-    get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
-    foreach(target ${targets})
-      get_target_property(type ${target} TYPE)
-      if(type MATCHES "${types}")
-        list(APPEND found ${target})
-      endif()
-    endforeach()
-  endwhile()
-  set(${out} ${found} PARENT_SCOPE)
-endfunction()
-
 # sgs_precompile(NAME HEADERS... LIBS... FOLDERS...): everything in FOLDERS that does not yet begin
 # with other precompiled headers begins with HEADERS.
 # These are headers of libraries only, never our own, so that what a folder may not know stays
 # unknown to it.
 function(sgs_precompile name)
   cmake_parse_arguments(ARG "" "" "HEADERS;LIBS;FOLDERS" ${ARGN})
-  set(empty ${CMAKE_BINARY_DIR}/${name}.cpp)
+  set(empty ${PROJECT_BINARY_DIR}/${name}.cpp)
   file(TOUCH ${empty})
   add_library(${name} OBJECT EXCLUDE_FROM_ALL ${empty})
   target_link_libraries(${name} PRIVATE sgs_options ${ARG_LIBS})

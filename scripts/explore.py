@@ -5,35 +5,43 @@ one beats.
   explore.py builtin:object --axis hfus=2,4,8 --axis hfu.ffu_lanes=8,16,32 --axis group=64,160x120
   explore.py truck platform yard --size 1280x720 --view all --machine exact \\
     --require 'min(fps) >= 90' --objectives mm2 --search tpe --minutes 10
+  explore.py truck platform yard --recipe smallest
 
 --axis KEY=V1,V2,... spans a grid, of which every configuration is simulated; --points FILE takes a
-list instead, one configuration a line: KEY=VALUE KEY=VALUE ... With --search configurations are
-proposed by Optuna, between them those next to the best ones; --machine adds the axes of an order's
-machine (machine_axes.py) and begins at its preset. --config takes any machine, a tile-centric one
-(gscore) as well. Every configuration gets as much on-chip memory as it needs, but for codebooks,
-unless --set, --axis or the list say how much: memory is what it costs, not what stops it, and no
-other size follows from it. Tables show what was simulated: values as the resolved configuration has
-them, the size of the pixel group always among them: `group=SHAPE` stands for both of its sides.
+list instead, one configuration a line: KEY=VALUE KEY=VALUE ... KEY@each=V1,V2,... is an axis for
+each scene, KEY@SCENE=... one for a single scene. With --search configurations are found by steps
+from the preset along the axes (steps), or proposed by Optuna, between them those next to the best
+ones; --machine adds the axes of an order's machine (exploring/axes.py) and begins at its preset.
+--recipe stands for options, which the command line changes (exploring/recipes). --config takes any
+machine, a tile-centric one (gscore) as well. Every configuration gets as much on-chip memory as it
+needs, but for codebooks, unless --set, --axis or the list say how much: memory is what it costs,
+not what stops it, and no other size follows from it. Tables show what was simulated: values as the
+resolved configuration has them, the size of the pixel group always among them: `group=SHAPE` stands
+for both of its sides.
 
   MEASURE      a number of a view's report.json by its path, such as dram.row_conflicts: the sum
                over views, or the largest of what an accelerator has (config, sram, area_mm2); or
-               sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes.
-               Names: fps, cycles, seconds, dram_bytes, joules, watts, mm2, psnr_db; sram_bytes;
+               sum(PATH), mean(PATH), min(PATH), max(PATH), p99(PATH) over all views of all scenes;
+               or geomean(PATH), geometric over the scenes, of the means over their views. Names:
+               fps, cycles, seconds, dram_bytes, joules, watts, mm2, psnr_db; sram_bytes;
                filter_lanes, the multiply-accumulate lanes of coarse and fine filters
   --objectives MEASURE,..., each to be small, or large with max: before it. worst(PATH) is the
                largest of what should be small, the smallest of what should be large
-  --require    'MEASURE >= NUMBER' or 'MEASURE <= NUMBER'
+  --require    'MEASURE >= BOUND' or 'MEASURE <= BOUND'; each(PATH) is the mean of each scene. BOUND
+               is NUMBER, or NUMBER x CONFIG, what a preset or file comes to on the same views, with
+               + NUMBER or - NUMBER behind it
   --show       MEASURE,..., further columns, by which nothing is judged
 
 Views that took long are drawn first: a configuration that has lost on one of them is drawn on no
-other. In a search whose objectives any frame tells (area), one that is no better than another that
-holds is not drawn at all.
+other; one that any frame shows to have lost (area), on none. In a search by Optuna whose objectives
+any frame tells, one that is no better than another that holds is not drawn at all.
 
 Simulations are kept in explore_runs.jsonl: interrupted or started again it goes on where it ended.
-Writes explore.csv, a line for each configuration, explore.md, the front, and exploration.svg and
-.png, which show both beside what was required; filter_units.svg and .png where CFUs and FFU lanes
-are all that differs. Of what was interrupted or failed midway there are explore_partial.csv and
-.md.
+Writes explore.csv, a line for each configuration, explore.json, what its columns mean and what made
+it, and exploration.svg and .png, which show the front beside what was required; filter_units.svg
+and .png where CFUs and FFU lanes are all that differs. For one objective explore_best.json is the
+best as a configuration, explore_best_SCENE.json where scenes have their own. Of what was
+interrupted or failed midway there are explore_partial.csv and .json.
 
 With --study the trials of a search or grid are kept by name in --storage, a file, or a database of
 postgresql:// in which any number of workers on any number of machines take part, each started by
@@ -45,26 +53,34 @@ from __future__ import annotations
 import argparse
 import concurrent.futures
 import functools
+import json
 import os
 import pathlib
 import sys
 from collections.abc import Iterable, Sequence
 
-import debian_python
-import explore_checks
-import run_arguments
-from exploration import Exploration, Work
-from figures_beside import draw_beside
-from group_shapes import KEYS, NAME, expanded
-from judging import Assignments, Judge, Task
-from machine_areas import SMALL, SMALL_SIZE, start_of
-from machine_axes import ORDERS, Axis
-from measures import Objective, objective, requirement, shown
-from scenes import Scene, find_scenes
-from search_space import Space, parse_axes, read_points
-from simulations import Run, read_config, simulate, sram_as_needed
-from sweep_server import SweepServer
-from view_numbers import view_numbers_there
+from results import draw_beside
+from exploring import options
+from exploring.axes import ORDERS, Axis, label, of_scene
+from exploring.exploration import Exploration, Work
+from exploring.judging import SMALL, SMALL_SIZE, Assignments, Judge, Task, relative_to
+from exploring.measures import NAMES, Objective, objective, requirement, shown, value_at
+from exploring.space import Space, parse_axes, read_points
+from exploring.steps import Steps
+from runs import run_arguments
+from runs.files import write_text
+from runs.scenes import REPOSITORY, Scene, find_scenes
+from runs.simulations import (
+    GROUP,
+    GROUP_KEYS,
+    Run,
+    expanded,
+    read_config,
+    simulate,
+    sram_as_needed,
+    view_numbers_there,
+)
+from runs.sweep_server import SweepServer
 
 RUNS_FILE = "explore_runs.jsonl"
 SAMPLERS = ("tpe", "nsga2", "random")
@@ -74,15 +90,17 @@ OBJECTIVES = "cycles,dram_bytes,sram_bytes,filter_lanes,mm2"
 def machine_axes(
     arguments: argparse.Namespace, kept: SweepServer, config: dict
 ) -> tuple[tuple[Axis, ...], Assignments]:
-    """Of --machine, with what its order has set. Raises ValueError where what --config names is of
-    another machine."""
+    """Of --machine, with what its order has set, on axes that fit what a blend takes. Raises
+    ValueError where what --config names is of another machine."""
     if not arguments.machine:
         return (), ()
-    explore_checks.check_machine(ORDERS[arguments.machine], config, arguments.config)
+    order = ORDERS[arguments.machine]
+    options.check_machine(order, config, arguments.config)
+    own = (*order.fixed, *expanded(arguments.set))
     # Of a run of its own, since what is swept keeps no schedules.
-    simulated = functools.partial(simulate, kept.binary)
-    order = start_of(ORDERS[arguments.machine], simulated).order
-    return order.axes, order.fixed
+    run = Run(SMALL, size=SMALL_SIZE, config=arguments.config, overrides=own)
+    (view,) = simulate(kept.binary, run).accepted()
+    return order.with_blend(view["datapath"]["subtile_blend"]["used"]["macs"]).axes, order.fixed
 
 
 def config_of(arguments: argparse.Namespace, kept: SweepServer) -> dict:
@@ -90,20 +108,24 @@ def config_of(arguments: argparse.Namespace, kept: SweepServer) -> dict:
     return read_config(kept.binary, Run(SMALL, size=SMALL_SIZE, config=arguments.config))
 
 
-def find_space(arguments: argparse.Namespace, axes: Sequence[Axis]) -> Space:
+def find_space(arguments: argparse.Namespace, axes: Sequence[Axis], scopes: Sequence[str]) -> Space:
     """Raises ValueError where there is nothing to choose from, or --set has no effect on it."""
     if arguments.points:
         space = Space(read_points(arguments.points))
     else:
-        space = Space(parse_axes(arguments.axis, axes))
+        space = Space(parse_axes(arguments.axis, axes, scopes))
     if not space.axes:
         raise ValueError("expected --axis, --points or --machine: what to choose from")
-    explore_checks.check_set(arguments.set, space.axes)
+    options.check_set(arguments.set, space.axes)
     return space
 
 
 def check_keys(
-    arguments: argparse.Namespace, space: Space, beside: Iterable[Assignments], config: dict
+    arguments: argparse.Namespace,
+    space: Space,
+    scopes: Sequence[str],
+    beside: Iterable[Assignments],
+    config: dict,
 ) -> None:
     """Raises ValueError for what the machine that is explored has not."""
     chosen = [s for axis in space.axes for setting in axis.settings for s in setting]
@@ -112,7 +134,7 @@ def check_keys(
         ("--points" if arguments.points else "--axis", chosen),
         ("--beside", [s for assignments in beside for s in assignments]),
     ):
-        explore_checks.check_keys(place, settings, config, arguments.config)
+        options.check_keys(place, settings, scopes, config, arguments.config)
 
 
 def objectives_of(text: str) -> tuple[Objective, ...]:
@@ -145,7 +167,7 @@ def find_task(
     ]
     return Task(
         views=tuple(views),
-        keys=tuple(dict.fromkeys([*keys, *((NAME,) if KEYS[0] in config else ())])),
+        keys=tuple(dict.fromkeys([*keys, *((GROUP,) if GROUP_KEYS[0] in config else ())])),
         size=arguments.size,
         config=arguments.config,
         base=expanded((*sram_as_needed(config), *fixed, *arguments.set)),
@@ -178,40 +200,57 @@ def explore_all(work: Work) -> None:
         work.made.add_last(work.made.judged[point])
 
 
+def area_band(work: Work, kept: SweepServer) -> str:
+    """What the area of the best may be, by what is known of it; empty where nobody asked for area.
+    Of a run of its own, since what is swept keeps no bands."""
+    task, best = work.judge.task, work.made.best()
+    asked = [*(o.measure for o in task.objectives), *(r.measure for r in task.requirements)]
+    if not best or NAMES["mm2"] not in (measure.path for measure in (*asked, *task.shown)):
+        return ""
+    own = of_scene(best.assignments, label(task.views[0][0].name))
+    views = simulate(kept.binary, task.small_run(own)).views
+    band = value_at(views[0], "area_mm2.bands.total") if views else None
+    return (
+        f"mm2 of the best: {band['low']:.2f} to {band['high']:.2f} by its sources." if band else ""
+    )
+
+
 def is_studied(arguments: argparse.Namespace) -> bool:
-    return bool(arguments.search or arguments.study)
+    return arguments.search in SAMPLERS or bool(arguments.study)
 
 
 def explore(arguments: argparse.Namespace) -> None:
-    explore_checks.check_arguments(arguments)
+    options.check_arguments(arguments)
     if is_studied(arguments):
-        debian_python.need("optuna", "python3-optuna")
+        run_arguments.need("optuna", "python3-optuna")
     scenes = find_scenes(arguments.scenes)
-    runs = arguments.out / RUNS_FILE
-    with SweepServer(arguments.streaminggs, runs, arguments.j) as kept:
+    with SweepServer(arguments.streaminggs, arguments.out / RUNS_FILE, arguments.j) as kept:
         explore_with(kept, arguments, scenes)
 
 
-def explore_with(
-    kept: SweepServer, arguments: argparse.Namespace, scenes: Sequence[Scene]
-) -> None:
+def explore_with(kept: SweepServer, arguments: argparse.Namespace, scenes: Sequence[Scene]) -> None:
     config = config_of(arguments, kept)
     axes, fixed = machine_axes(arguments, kept, config)
-    space = find_space(arguments, axes)
-    beside = explore_checks.parse_beside(arguments.beside)
-    check_keys(arguments, space, beside, config)
+    scopes = [label(scene.name) for scene in scenes]
+    space = find_space(arguments, axes, scopes)
+    beside = options.parse_beside(arguments.beside)
+    check_keys(arguments, space, scopes, beside, config)
     keys = [*space.keys(), *Space((Axis("", tuple(beside)),)).keys()] if beside else space.keys()
     task = find_task(arguments, scenes, keys, fixed, config)
-    judge = Judge(task, kept.outcome)
+    options.check_search(arguments.search, task)
+    task = relative_to(task, kept.outcomes)
+    judge = Judge(task, kept.outcomes)
     work = Work(arguments, space, judge, Exploration(task, beside))
     complete = False
     try:
         for assignments in beside:
             work.made.add(judge.judged(assignments))
         if is_studied(arguments):
-            import study_work  # Optuna is not everybody's
+            from exploring import sampling  # Optuna is not everybody's
 
-            study_work.explore(work, kept)
+            sampling.explore(work, kept.program)
+        elif arguments.search:
+            Steps(work).search()
         else:
             explore_all(work)
         kept.end()
@@ -219,18 +258,36 @@ def explore_with(
     finally:
         if not complete and work.made.told():
             remark = "Not complete: what was judged so far.\n\n"
-            work.made.write(arguments.out, "explore_partial", remark)
+            work.made.write(arguments.out, "explore_partial", arguments.streaminggs, remark)
     if not work.made.told():
         why = work.made.not_told() or ["there was no time for any configuration (--minutes)"]
         raise ValueError(why[0].removeprefix("Refused: "))
-    work.made.write(arguments.out, "explore")
+    work.made.remarks.append(area_band(work, kept))
+    work.made.write(arguments.out, "explore", arguments.streaminggs)
+    for earlier in arguments.out.glob("explore_best*.json"):
+        earlier.unlink()
+    read = functools.partial(read_config, kept.binary)
+    for scene, document in work.best_configurations(read).items():
+        path = arguments.out / f"explore_best{scene}.json"
+        write_text(path, json.dumps(document, indent=2) + "\n")
     draw_beside(arguments.out, "exploration", "filter_units")
 
 
 def main() -> int:
-    parser = run_arguments.parser(__doc__)
+    parser = run_arguments.Parser(__doc__)
+    run_arguments.add_scenes(parser)
+    parser.add_argument(
+        "--out", type=pathlib.Path, default=REPOSITORY / "out", metavar="FOLDER", help="for tables"
+    )
     parser.add_argument(
         "-j", type=int, default=os.cpu_count(), metavar="N", help="simulations at a time"
+    )
+    parser.add_argument(
+        "--recipe",
+        default="",
+        metavar="NAME",
+        help=f"{', '.join(options.recipes())}, or a JSON file of options by name; what the command line "
+        "says of one counts in its place",
     )
     parser.add_argument("--machine", choices=list(ORDERS), help="axes of an order's machine")
     which = parser.add_mutually_exclusive_group()
@@ -270,16 +327,19 @@ def main() -> int:
         "--show", default="", metavar="MEASURE,...", help="further columns of the tables"
     )
     parser.add_argument(
-        "--search", choices=SAMPLERS, help="Optuna's sampler; default: all there is"
+        "--search",
+        choices=(options.STEPS, *SAMPLERS),
+        help="steps along the axes, or Optuna's sampler; default: all there is",
     )
     parser.add_argument(
         "--trials",
         type=int,
         metavar="N",
-        help="configurations that a search judges or that are refused, at most; default: 200. "
-        "Those of a --study's earlier runs and other workers count; without one each run counts "
-        "anew, also what is kept and not simulated again. What is --beside, skipped or proposed twice "
-        "does not count; each other worker of a study may add what it has under way",
+        help="configurations that a search judges or that are refused, at most; default: 200, by "
+        "steps as many as it takes. Those of a --study's earlier runs and other workers count; "
+        "without one each run counts anew, also what is kept and not simulated again. What is "
+        "--beside, skipped or proposed twice does not count; each other worker of a study may add "
+        "what it has under way",
     )
     parser.add_argument("--minutes", type=float, default=0, help="then it ends; 0: no limit")
     parser.add_argument("--seed", type=int, default=1, help="of the sampler")
@@ -294,8 +354,8 @@ def main() -> int:
         metavar="SECONDS",
         help="a worker of a study that was not heard of for so long counts as dead",
     )
-    arguments = parser.parse_args()
-    arguments.config = arguments.config or explore_checks.default_config(arguments.machine)
+    arguments = options.parsed(parser, sys.argv[1:])
+    arguments.config = arguments.config or options.default_config(arguments.machine)
     return run_arguments.main_of_tables(explore, arguments)
 
 

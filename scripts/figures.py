@@ -22,40 +22,30 @@ import argparse
 import pathlib
 import sys
 
-import debian_python
-import run_arguments
-import simulations
-from figure_inputs import Missing, Results
+from runs import run_arguments
+from runs.scenes import REPOSITORY
 
 
 def make_figures(arguments: argparse.Namespace) -> None:
     """Raises ValueError where nothing could be made, and for a table that is none."""
-    debian_python.need("matplotlib", "python3-matplotlib")
-    import figure_style  # these need it
-    import figures_of_comparison
-    import figures_of_errors
-    import figures_of_exploration
-    import figures_of_image_errors
-    import figures_of_machines
-    import figures_of_paper
-    import figures_of_tuning
+    run_arguments.need("matplotlib", "python3-matplotlib")
+    from drawing import exploration, frames, machines, quality  # these need it
+    from drawing.figure import Missing, Results, save
 
     known = {
-        **figures_of_paper.FIGURES,
-        **figures_of_tuning.FIGURES,
-        **figures_of_exploration.FIGURES,
-        **figures_of_machines.FIGURES,
-        **figures_of_comparison.FIGURES,
-        **figures_of_image_errors.FIGURES,
-        **figures_of_errors.FIGURES,
+        **machines.FIGURES,
+        **quality.FIGURES,
+        **exploration.FIGURES,
+        **frames.FIGURES,
     }
     for name in arguments.names:
         if name not in known:
             raise ValueError(f"{name}: no figure, expected {', '.join(known)}")
-    results = Results(arguments.folder)
-    if not results.folder.is_dir():
-        raise ValueError(f"--from: {results.folder}: no folder, expected one with results")
-    out = arguments.out or results.folder / "figures"
+    runs = arguments.folder or REPOSITORY / "out"
+    results = Results(arguments.folder or REPOSITORY / "traces" / "results", runs)
+    if not runs.is_dir():
+        raise ValueError(f"--from: {runs}: no folder, expected one with results")
+    out = arguments.out or runs / "figures"
     made = 0
     for name in arguments.names or known:
         try:
@@ -63,11 +53,11 @@ def make_figures(arguments: argparse.Namespace) -> None:
         except Missing as missing:
             print(f"skipped {name}: {missing}")
             continue
-        figure_style.save(figure, out, name, caption)
+        save(figure, out, name, caption)
         print(f"written to {out / name}.svg, .png", flush=True)
         made += 1
     if made == 0:
-        raise ValueError(f"{results.folder}: nothing to draw any of the figures from")
+        raise ValueError(f"{runs}: nothing to draw any of the figures from")
 
 
 def main() -> int:
@@ -77,12 +67,14 @@ def main() -> int:
         "--from",
         dest="folder",
         type=pathlib.Path,
-        default=simulations.REPOSITORY / "out",
         metavar="FOLDER",
-        help="with results",
+        help="with tables and results; default: traces/results and out",
     )
     parser.add_argument(
-        "--out", type=pathlib.Path, metavar="FOLDER", help="default: figures/ in that of --from"
+        "--out",
+        type=pathlib.Path,
+        metavar="FOLDER",
+        help="default: figures/ in that of --from, or in out",
     )
     arguments = parser.parse_args()
     return run_arguments.main(lambda: make_figures(arguments))

@@ -23,14 +23,11 @@ import pathlib
 import sys
 from collections.abc import Sequence
 
-import report_overview
-import report_sweep
-import report_tables
-import report_view
-import run_arguments
-import tables
-from report_charts import data_uri, escaped, ramp_css
-from report_folder import (
+from reporting import sweep, tables, view
+from runs import run_arguments
+from runs.files import write_text
+from reporting.charts import data_uri, escaped, ramp_css
+from reporting.folder import (
     PATH,
     Run,
     Table,
@@ -39,9 +36,9 @@ from report_folder import (
     find_tables,
     read_path,
 )
-from sweep_results import read_sweep
+from reporting.sweep import read_sweep
 
-ASSETS = pathlib.Path(__file__).resolve().parent
+ASSETS = pathlib.Path(__file__).resolve().parent / "reporting"
 STYLE, SCRIPTS = "report_page.css", ("report_page.js", "report_points.js")
 MOST_BYTES = 6_000_000  # of the page
 MOST_HALVINGS = 2
@@ -68,8 +65,8 @@ def panels_of(runs: Sequence[Run], found: Sequence[Table]) -> list[Panel]:
     panels = []
     text = ""
     if len(views) > 1:
-        text += report_overview.sections(runs)
-    text += "".join(report_tables.section(table, f"{table.name}.csv") for table in found)
+        text += tables.sections(runs)
+    text += "".join(tables.section(table, f"{table.name}.csv") for table in found)
     failed = [(run, failure) for run in runs for failure in run.failed]
     text += "".join(
         f"<p class=note><b>{escaped(run.name)} view {failure['view']} failed.</b> "
@@ -84,7 +81,7 @@ def panels_of(runs: Sequence[Run], found: Sequence[Table]) -> list[Panel]:
 
 
 def text_of(panel: Panel, at: int, uris: dict[str, str], remark: str) -> str:
-    return panel.text or report_view.panel(panel.files, uris, f"v{at}", remark)
+    return panel.text or view.panel(panel.files, uris, f"v{at}", remark)
 
 
 def fitted(panels: Sequence[Panel], room: int) -> list[str]:
@@ -172,8 +169,8 @@ def page_of_folder(folder: pathlib.Path) -> str:
 def page_of_sweep(results: pathlib.Path) -> str:
     """Raises ValueError where there is nothing to show."""
     points = read_sweep(results)
-    panels = [Panel(name, text=text) for name, text in report_sweep.panels(points)]
-    return page(results.stem, report_sweep.subtitle(points), panels)
+    panels = [Panel(name, text=text) for name, text in sweep.panels(points)]
+    return page(results.stem, sweep.subtitle(points), panels)
 
 
 def page(title: str, subtitle: str, panels: Sequence[Panel]) -> str:
@@ -237,7 +234,7 @@ def main() -> int:
             raise ValueError(f"{results}: no folder, expected one with results or those of a sweep")
         out = arguments.out or out
         check_page(out, results)
-        tables.write_text(out, made)
+        write_text(out, made)
         print(f"written to {out}")
 
     return run_arguments.main(work)

@@ -3,7 +3,10 @@
 # Any arguments are handed to `streaminggs simulate` in place of the built-in job.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scripts/setup.sh release streaminggs
+programs=(streaminggs)
+# The other commands must not stay those of older sources.
+if [ -e build/release/bin/streaminggs-commands ]; then programs+=(streaminggs-commands); fi
+scripts/setup.sh release "${programs[@]}"
 if [ $# -gt 0 ]; then
   exec build/release/bin/streaminggs simulate "$@"
 fi

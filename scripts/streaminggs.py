@@ -26,11 +26,11 @@ import pathlib
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 
-import simulations
-from report_folder import find_runs
-from scenes import Scene, find_scene
-from sweep_server import SweepServer
-from view_numbers import view_numbers
+from runs import simulations
+from runs.scenes import Scene, find_scene
+from runs.simulations import view_numbers
+from runs.sweep_server import SweepServer
+from reporting.folder import find_runs
 
 Failure = simulations.Failure
 Settings = Mapping[str, object]  # keys of the configuration

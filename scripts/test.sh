@@ -23,7 +23,7 @@ nightly() {
   scripts/setup.sh asan
   ctest --preset asan_nightly
 }
-case "${1:-}" in
+case "$*" in
   release | asan | nightly) suites=("$1") ;;
   '') suites=(release asan) ;;
   *) echo "usage: test.sh [release|asan|nightly]" >&2; exit 2 ;;

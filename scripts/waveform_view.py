@@ -16,8 +16,8 @@ import re
 import sys
 from collections.abc import Iterator
 
-import run_arguments
-import tables
+from runs import run_arguments
+from runs.files import write_text
 
 # Names of what stands between a unit and the leaf: an activity, a FIFO or a memory port.
 OF_AN_ACTIVITY = {"busy", "waits_for"}
@@ -126,7 +126,7 @@ def write_view(vcd: pathlib.Path, out: pathlib.Path) -> None:
         signals = signals_of(file)
     if not signals:
         raise ValueError(f"{vcd}: no signal found, expected a VCD file")
-    tables.write_text(out, view_of(signals, last_time(vcd)))
+    write_text(out, view_of(signals, last_time(vcd)))
 
 
 def main() -> int:

@@ -4,7 +4,7 @@
 //   void ExactSorter::publish(DataSheet& sheet) {
 //     sheet.unit(*this);
 //     sheet.activity(sort_, "sorting", "takes, sorts and hands on the keys of one chunk");
-//     sheet.counter("keys", "keys", "sorted", counters_.keys);
+//     sheet.counters(counters_);
 //     sheet.part("sorting", "comparator", kNetworkComparators, 1);
 //     sheet.operations("sorting", "comparator", counters_.compare_exchanges);
 //     sheet.sram(sram_uses(built_for_));
@@ -21,6 +21,7 @@
 #include <systemc>
 #include <vector>
 
+#include "tlm/counter.h"
 #include "tlm/datapath.h"
 #include "tlm/memory_port.h"
 #include "tlm/remedy.h"
@@ -51,7 +52,11 @@ class DataSheet {
   }
   // What may help the unit as well, though nothing names it: for a search that tries all.
   virtual void may_help(const Remedy&) {}
-  // unit: of the value ("cycles", "bytes", "keys").
+  // The unit's own counters, and a value that something else has counted for it. unit: of the
+  // value.
+  void counters(const CounterSet& set) {
+    for (const Counter* c : set.all()) counter(c->name(), c->unit(), c->meaning(), *c);
+  }
   virtual void counter(const char* name, const char* unit, const char* meaning,
                        std::uint64_t value) {
     (void)name;

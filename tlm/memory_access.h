@@ -1,5 +1,6 @@
 // Memory accesses as a hardware activity makes them: waiting is charged to it, for room in the port
-// or for answers, and the unit goes on at its own next clock edge.
+// or for answers, and the unit goes on at its own next clock edge. Who asks jitters before: at time
+// 0 nobody has waited yet.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,7 @@ inline void take_up_group(Activity& activity, MemoryPort& port, std::uint32_t gr
 
 inline MemoryPort::Ticket start_read(MemoryPort& port, Activity& activity, std::uint64_t address,
                                      void* into, std::uint32_t bytes, std::uint8_t region) {
+  activity.clock().jitter();
   activity.waits_for(WaitFor::kPort, port);
   const MemoryPort::Ticket ticket = port.read(address, into, bytes, region);
   activity.clock().align();
@@ -28,6 +30,7 @@ inline MemoryPort::Ticket start_read(MemoryPort& port, Activity& activity, std::
 
 inline MemoryPort::Ticket start_write(MemoryPort& port, Activity& activity, std::uint64_t address,
                                       const void* from, std::uint32_t bytes, std::uint8_t region) {
+  activity.clock().jitter();
   activity.waits_for(WaitFor::kPort, port);
   const MemoryPort::Ticket ticket = port.write(address, from, bytes, region);
   activity.clock().align();

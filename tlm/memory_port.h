@@ -26,18 +26,28 @@ constexpr std::uint32_t kPortBytes = 32;
 
 struct MemoryPortConfig {
   std::uint32_t max_transaction_bytes = 256;
-  std::uint32_t max_outstanding = 16;  // transactions
-  // Writes among them. The port keeps the bytes of a write until it is answered, which memories
-  // with posted writes do when they have taken it: one is answered, one is on its way.
+  std::uint32_t max_outstanding = 16;
+  // Memories with posted writes answer a write when they have taken it: one is answered, one is on
+  // its way.
   std::uint32_t max_writes = 2;
-  // Registers between a port and the channels' controllers, in each direction: wires of some
-  // millimetres and multiplexers of all ports and channels take a cycle. With 0 answers come at
-  // once, whatever their width.
+  // Wires of some millimetres and multiplexers of all ports and channels take a cycle.
   std::uint32_t path_cycles = 1;
   // Of the path in each direction: a transaction takes it for as many cycles as it has words.
   // No key: the memories behind a port are as wide.
   std::uint32_t width_bytes = kPortBytes;
 };
+
+// Its keys, for a visitor as modules/config has.
+template <class Visitor>
+void visit(Visitor& v, MemoryPortConfig& c) {
+  v("max_transaction_bytes", c.max_transaction_bytes, {32, 4096}, "a port's longest request");
+  v("max_outstanding", c.max_outstanding, {1, 4096}, "requests of a port in flight");
+  v("max_writes", c.max_writes, {1, 4096},
+    "writes of these; the port keeps the bytes of a write until it is answered");
+  v("path_cycles", c.path_cycles, {0, 64},
+    "registers between port and channels, in each direction; 0: answers come at once, whatever "
+    "their width");
+}
 
 // What a port keeps of writes that are at most so long.
 SramUse unanswered_writes(const char* name, const char* memory, const MemoryPortConfig& config,

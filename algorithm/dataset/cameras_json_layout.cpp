@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "algorithm/dataset/find_image.h"
 #include "algorithm/dataset/layouts.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/dataset/view_image.h"
+#include "algorithm/scene/camera.h"
 
 namespace sgs {
 namespace {

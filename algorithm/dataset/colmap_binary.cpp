@@ -6,10 +6,9 @@
 #include <filesystem>
 
 #include "algorithm/dataset/colmap_model.h"
-#include "algorithm/dataset/pose.h"
-#include "algorithm/dataset/sfm_point.h"
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/dataset/stated_view.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 
 namespace sgs {
 namespace {

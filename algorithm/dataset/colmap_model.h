@@ -34,7 +34,7 @@ ColmapModel read_colmap_binary(const std::string& folder);
 // The same of cameras.txt, images.txt and points3D.txt.
 ColmapModel read_colmap_text(const std::string& folder);
 
-// What both do with what they read. All throw InputError that begins with `where`.
+// Both make their models by these. All throw InputError that begins with `where`.
 
 // Numbers that a camera of this model has. Refuses models other than PINHOLE and SIMPLE_PINHOLE.
 int colmap_parameter_count(std::string_view model, const std::string& where);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/image/image_header.h"
+#include "algorithm/image/image.h"
 #include "algorithm/scene/camera.h"
 #include "algorithm/scene/describe.h"
 
@@ -15,17 +15,18 @@ namespace sgs {
 
 enum class Split { kTrain, kTest };
 
-// Where the split comes from.
+// The source of the split: the data set, or every eighth view.
 enum class SplitBy { kDataset, kEveryEighth };
 
 struct DatasetView {
   std::string name;        // path of the image as the data set has it, without extension
   std::string image_path;  // PNG or JPEG
   ImageHeader file;        // as the image lies in its file
-  // Of what is used of the file, whatever size the data set states, as many times smaller as the
-  // data set was opened. camera.id is the view's number in Dataset::views, camera.name its name.
+  // The camera of the used part of the file, whatever size the data set states, as many times
+  // smaller as the data set was opened. camera.id is the view's number in Dataset::views,
+  // camera.name its name.
   Camera camera;
-  // What is used of the file: all but the pixels that are cut off to have the principal point in
+  // The used part of the file: all but the pixels that are cut off to have the principal point in
   // the middle. Its top left pixel and its width and height.
   glm::ivec2 crop_px{0}, used_px{0};
   Split split = Split::kTrain;
@@ -51,5 +52,25 @@ struct Dataset {
 
 // Numbers of the views of `split`, rising.
 std::vector<int> views_of(const Dataset& dataset, Split split);
+
+// Reads cameras, points and the headers of all images below `folder`; no pixel yet. Views are
+// `downscale` times smaller than their files, as downscaled_camera() makes them. The layout is
+// recognised by the files that are there. Test views are the data set's own, or every 8th in the
+// order of names, from the first, as the original takes them. Throws InputError: no such folder, no
+// layout or more than one (says what was looked for), what the readers in layouts.h and
+// complete_view() refuse, a name twice, no view to train from, a downscale that is not from 1.
+Dataset open_dataset(const std::string& folder, double downscale = 1);
+
+// Throws InputError where there is none, with what was to name them.
+void require_test_views(const Dataset& dataset);
+
+// The view's camera for an image `downscale` times smaller still, each side rounded, at least 1 px.
+// Throws InputError unless downscale is finite and from 1.
+Camera downscaled_camera(const DatasetView& view, double downscale);
+
+// The view's image as that camera sees it, each pixel the mean over its area of the file. Throws
+// InputError as read_photograph() and downscaled_camera() do, and when the file has changed its
+// size since the data set was opened. Several threads may load at once.
+RgbaImage load_view(const DatasetView& view, double downscale = 1);
 
 }  // namespace sgs

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "algorithm/dataset/dataset.h"
 #include "algorithm/dataset/stated_view.h"
 
 namespace sgs {
@@ -29,5 +31,12 @@ StatedDataset read_cameras_json(const std::string& folder);
 // intrinsics.txt with pose and rgb.
 bool holds_nsvf(const std::string& folder);
 StatedDataset read_nsvf(const std::string& folder);
+
+// The points with colours that nerfstudio keeps of structure from motion, a PLY file: reads x y z
+// of any type and red green blue as uchar of the element `vertex`, which comes first, in text or
+// binary of either byte order; other properties and what follows are skipped. Throws InputError:
+// not a PLY, another element first, a property that is missing, a list or of another type, a file
+// cut off, a number that is none or too large.
+std::vector<SfmPoint> read_points_ply(const std::string& path);
 
 }  // namespace sgs

@@ -6,12 +6,12 @@
 #include <map>
 #include <set>
 
-#include "algorithm/dataset/find_image.h"
 #include "algorithm/dataset/layouts.h"
-#include "algorithm/dataset/pose.h"
+#include "algorithm/dataset/stated_view.h"
 #include "algorithm/dataset/text_fields.h"
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/dataset/view_image.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 
 namespace sgs {
 namespace {

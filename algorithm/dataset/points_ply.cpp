@@ -1,6 +1,4 @@
-// Both bodies of points_ply.h.
-#include "algorithm/dataset/points_ply.h"
-
+// Both bodies of the points' PLY file (layouts.h).
 #include <fmt/format.h>
 
 #include <array>
@@ -8,12 +6,12 @@
 #include <cstdint>
 #include <string_view>
 
-#include "algorithm/dataset/sfm_point.h"
+#include "algorithm/dataset/layouts.h"
+#include "algorithm/dataset/stated_view.h"
 #include "algorithm/dataset/text_fields.h"
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 #include "algorithm/scene/ply_header.h"
-#include "algorithm/scene/ply_scalar.h"
 
 namespace sgs {
 namespace {

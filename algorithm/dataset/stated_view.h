@@ -1,7 +1,10 @@
-// What the files of a data set state, before images and cameras are brought together.
+// The statements of a data set's files, before images and cameras are brought together.
 #pragma once
 
+#include <glm/ext/vector_uint3_sized.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -42,5 +45,23 @@ struct StatedDataset {
   std::vector<SfmPoint> points;
   std::optional<Extent> bounds;
 };
+
+// world_from_camera: a rigid motion, columns as glm has them, of a camera with x right, y down, z
+// forward axes. Throws InputError that begins with `where`: a number that is not finite, axes that
+// are not orthonormal within 1e-3 or mirror, a last row that is not 0 0 0 1.
+Pose opencv_pose(const glm::dmat4& world_from_camera, const std::string& where);
+
+// The same for x right, y up, z backward axes (OpenGL, Blender).
+Pose opengl_pose(const glm::dmat4& world_from_camera, const std::string& where);
+
+// v = R p + translation takes the world into the camera, whose axes are x right, y down, z forward;
+// R of the quaternion, whose length does not matter. Throws InputError that begins with `where`: a
+// number that is not finite, a quaternion of length 0.
+Pose colmap_pose(const glm::dquat& camera_from_world, const glm::dvec3& translation,
+                 const std::string& where);
+
+// The point that these numbers state. Throws InputError that begins with `where`: coordinates that
+// are not finite or too large.
+SfmPoint sfm_point(const glm::dvec3& position, const glm::u8vec3& colour, const std::string& where);
 
 }  // namespace sgs

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 namespace {

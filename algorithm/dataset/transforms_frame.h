@@ -10,8 +10,8 @@
 
 namespace sgs {
 
-// What a frame does not say of its camera stands at the top of the file. All functions throw
-// InputError that begins with `where`.
+// A key that a frame lacks is looked for at the top of the file. All functions throw InputError
+// that begins with `where`.
 class TransformsFrame {
  public:
   using Json = nlohmann::ordered_json;

@@ -6,14 +6,12 @@
 #include <optional>
 #include <set>
 
-#include "algorithm/dataset/complete_view.h"
-#include "algorithm/dataset/find_image.h"
 #include "algorithm/dataset/layouts.h"
-#include "algorithm/dataset/points_ply.h"
-#include "algorithm/dataset/pose.h"
+#include "algorithm/dataset/stated_view.h"
 #include "algorithm/dataset/transforms_frame.h"
-#include "algorithm/input_error.h"
-#include "algorithm/input_json.h"
+#include "algorithm/dataset/view_image.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
 
 namespace sgs {
 namespace {

@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 
 #include "algorithm/image/drawing.h"
-#include "algorithm/image/image_pair.h"
+#include "algorithm/image/quality.h"
 
 namespace sgs {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::array<glm::vec3, 8> kRamp = {
 double place_of(double error) { return 1 - std::log10(error) / std::log10(kLeastShownError); }
 double error_at(double place) { return std::pow(kLeastShownError, 1 - place); }
 
-// What the legend names, beside kLeastShownError; 0.004 is one step of 8 bits.
+// The errors that the legend names, beside kLeastShownError; 0.004 is one step of 8 bits.
 constexpr std::array<double, 6> kNamedErrors = {1, 0.3, 0.1, 0.03, 0.01, 0.004};
 
 const glm::vec3 kPaper(0.2F), kInk(0.9F);

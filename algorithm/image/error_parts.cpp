@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "algorithm/image/image_pair.h"
+#include "algorithm/image/quality.h"
 
 namespace sgs {
 

@@ -1,6 +1,4 @@
-// Reading and writing of exr_file.h with the OpenEXR library.
-#include "algorithm/image/exr_file.h"
-
+// Reading and writing of image_formats.h with the OpenEXR library.
 #include <ImathBox.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -16,8 +14,9 @@
 #include <cstring>
 #include <new>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
+#include "algorithm/image/image_formats.h"
 
 namespace sgs {
 namespace {

@@ -1,4 +1,4 @@
-// The choice of the format for image_io.h.
+// The choice of the format.
 #include "algorithm/image/image_io.h"
 
 #include <fmt/format.h>
@@ -8,10 +8,9 @@
 #include <cctype>
 #include <filesystem>
 
-#include "algorithm/image/exr_file.h"
-#include "algorithm/image/pfm_file.h"
-#include "algorithm/image/png_file.h"
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
+#include "algorithm/image/image_formats.h"
 
 namespace sgs {
 namespace {
@@ -63,5 +62,25 @@ void write_image(const std::string& path, const Image& image) {
 }
 
 Image read_image(const std::string& path) { return format_of(path).read(path); }
+
+namespace {
+
+bool is_png(const std::string& path) {
+  const std::string head = InputFile(path).text_from(0, 8);
+  if (head == "\x89PNG\r\n\x1a\n") return true;
+  if (head.compare(0, 2, "\xff\xd8") == 0) return false;
+  throw InputError(
+      fmt::format("{}: neither begins as a PNG nor as a JPEG, expected one of them", path));
+}
+
+}  // namespace
+
+RgbaImage read_photograph(const std::string& path) {
+  return is_png(path) ? read_png_rgba(path) : read_jpeg(path);
+}
+
+ImageHeader read_photograph_header(const std::string& path) {
+  return is_png(path) ? read_png_header(path) : read_jpeg_header(path);
+}
 
 }  // namespace sgs

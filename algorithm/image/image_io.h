@@ -1,10 +1,10 @@
-// Image files by extension: .exr, .pfm, .png.
+// Image files: pictures by extension (.exr, .pfm, .png), photographs by their first bytes.
 #pragma once
 
 #include <string>
 
+#include "algorithm/files/output_file.h"
 #include "algorithm/image/image.h"
-#include "algorithm/output_file.h"
 
 namespace sgs {
 
@@ -22,8 +22,16 @@ void write_image(OutputFile& to, const Image& image);
 void check_image_name(const std::string& path);
 
 // Reads such a file: .exr with channels R, G, B; .pfm of either byte order, colour or grey; .png of
-// any kind, to [0, 1], transparent pixels over black (png_file.h). Throws InputError with file,
-// place, what was found and what was expected.
+// any kind, to [0, 1], transparent pixels over black (image_formats.h). Throws InputError with
+// file, place, what was found and what was expected.
 Image read_image(const std::string& path);
+
+// PNG and JPEG pictures, told apart by their first bytes.
+
+// As read_png_rgba or read_jpeg. Throws InputError as they do, and for a file of another kind.
+RgbaImage read_photograph(const std::string& path);
+
+// As read_png_header or read_jpeg_header.
+ImageHeader read_photograph_header(const std::string& path);
 
 }  // namespace sgs

@@ -1,9 +1,9 @@
-// Reading of jpeg_file.h with libjpeg. It reports errors by longjmp: the functions that call
+// Reading of image_formats.h with libjpeg. It reports errors by longjmp: the functions that call
 // setjmp hold nothing that has a destructor.
-#include "algorithm/image/jpeg_file.h"
-
 #include <csetjmp>
 #include <cstdio>
+
+#include "algorithm/image/image_formats.h"
 // libjpeg's headers want <cstdio> before them.
 #include <fmt/format.h>
 #include <jerror.h>
@@ -13,8 +13,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 
 namespace sgs {
 namespace {
@@ -31,8 +31,8 @@ struct JpegErrors {
   std::longjmp(errors->place, 1);
 }
 
-// What libjpeg would repair by guessing (level -1) is an error here, but for bytes between segments
-// that mean nothing.
+// Damage that libjpeg would repair by guessing (level -1) is an error here, but for bytes between
+// segments that mean nothing.
 void leave_on_damage(j_common_ptr info, int level) {
   if (level < 0 && info->err->msg_code != JWRN_EXTRANEOUS_DATA) leave(info);
 }

@@ -1,6 +1,4 @@
-// Reading and writing of pfm_file.h.
-#include "algorithm/image/pfm_file.h"
-
+// Reading and writing of image_formats.h.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +9,9 @@
 #include <sstream>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
+#include "algorithm/image/image_formats.h"
 
 namespace sgs {
 namespace {

@@ -1,7 +1,5 @@
-// Reading and writing of png_file.h with libpng's simplified interface, which reports errors by
-// value: the full one leaves functions by longjmp.
-#include "algorithm/image/png_file.h"
-
+// Reading and writing of image_formats.h with libpng's simplified interface, which reports errors
+// by value: the full one leaves functions by longjmp.
 #include <fmt/format.h>
 #include <png.h>
 
@@ -13,8 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
+#include "algorithm/image/image_formats.h"
 
 namespace sgs {
 namespace {

@@ -1,22 +1,40 @@
 // How far two pictures are apart: PSNR, SSIM, largest error.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <numeric>
 
 #include "algorithm/image/image.h"
 
 namespace sgs {
 
-// All of these throw InputError when the pictures differ in size or have no pixels.
+// Throws InputError unless both pictures have the same width and height and at least one pixel.
+void check_same_size(const Image& a, const Image& b);
+
+// Value limited to [0, 1]; NaN stays NaN.
+inline float clamp_to_unit(float value) { return std::clamp(value, 0.0f, 1.0f); }
+inline glm::vec3 clamp_to_unit(const glm::vec3& pixel) {
+  return {clamp_to_unit(pixel.x), clamp_to_unit(pixel.y), clamp_to_unit(pixel.z)};
+}
+
+// Largest |a - b| of a channel. Equal infinities and two NaN agree; a NaN on one side only is an
+// infinite error, so that it cannot hide.
+double pixel_error(const glm::vec3& a, const glm::vec3& b);
+
+// All measures throw InputError when the pictures differ in size or have no pixels.
 
 // Peak signal-to-noise ratio in dB over all pixels and channels, both pictures clamped to [0, 1]:
 // -10 log10(MSE). Infinity for equal pictures, NaN where a picture holds NaN.
 double psnr_db(const Image& a, const Image& b);
 
-// Structural similarity, mean over pixels and channels, both pictures clamped to [0, 1]: 11x11
-// Gaussian window of sigma 1.5 px, zero padding, C1 = 0.01^2, C2 = 0.03^2, as in the loss of
-// Kerbl et al. 2023. 1 for equal pictures, NaN (without a sign) where a picture holds NaN. The
-// result does not depend on the number of threads.
+// Structural similarity (Wang et al. 2004), mean over pixels and channels, both pictures clamped to
+// [0, 1]: 11x11 Gaussian window of sigma 1.5 px, zero padding, C1 = 0.01^2, C2 = 0.03^2, as in the
+// loss of Kerbl et al. 2023. 1 for equal pictures, NaN (without a sign) where a picture holds NaN.
+// The result does not depend on the number of threads.
 double ssim(const Image& a, const Image& b);
 
 // Largest |a - b| over pixels and channels, not clamped. A NaN on one side only counts as infinity.
@@ -27,5 +45,24 @@ std::uint64_t differing_pixels(const Image& a, const Image& b);
 
 // Share of the pixels, 0 to 1, whose three channels all differ by at most `tolerance`.
 double fraction_within(const Image& a, const Image& b, double tolerance);
+
+// The window and the constants of SSIM (Wang et al. 2004), as in the loss of Kerbl et al. 2023.
+constexpr int kSsimRadiusPx = 5;  // 11x11 window
+constexpr int kSsimTaps = 2 * kSsimRadiusPx + 1;
+constexpr double kSsimSigmaPx = 1.5;
+constexpr double kSsimC1 = 0.01 * 0.01;  // (0.01 L)^2 with L = 1, the range of the values
+constexpr double kSsimC2 = 0.03 * 0.03;
+
+// One side of the separable window; its sum is 1.
+inline std::array<double, kSsimTaps> ssim_window() {
+  std::array<double, kSsimTaps> window{};
+  for (int i = 0; i < kSsimTaps; ++i) {
+    const double offset = i - kSsimRadiusPx;
+    window[i] = std::exp(-offset * offset / (2.0 * kSsimSigmaPx * kSsimSigmaPx));
+  }
+  const double sum = std::accumulate(window.begin(), window.end(), 0.0);
+  for (double& weight : window) weight /= sum;
+  return window;
+}
 
 }  // namespace sgs

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/counting.h"
-#include "algorithm/splat/finished_pixel.h"
 
 namespace sgs {
 
@@ -21,36 +21,6 @@ void encode_pixel(FrameFormat format, const glm::vec3& colour, std::byte* out) {
       std::memcpy(out + 4 * channel, &colour[channel], 4);
     }
   }
-}
-
-namespace {
-
-DataFlow pixel_flow(FrameFormat format) {
-  DataFlow flow;
-  const Counting transmittance = input(flow, 0.25F);
-  for (const float background : {0.5F, 0.25F, 0.125F}) {
-    const Counting channel =
-        over_background(input(flow, 0.5F), transmittance, Counting(background));
-    if (format == FrameFormat::kRgb8) static_cast<void>(level_of(channel));
-  }
-  return flow;
-}
-
-}  // namespace
-
-OperationCounts pixel_work(FrameFormat format) {
-  const DataFlow flow = pixel_flow(format);
-  return flow.counts(0, flow.size());
-}
-
-LongestPath pixel_path(FrameFormat format, const OperationLatencies& latencies) {
-  const DataFlow flow = pixel_flow(format);
-  return flow.longest_path(0, flow.size(), latencies);
-}
-
-std::vector<LaneStep> pixel_steps(FrameFormat format, const OperationLatencies& latencies) {
-  const DataFlow flow = pixel_flow(format);
-  return lane_steps(flow, 0, flow.size(), latencies);
 }
 
 std::vector<std::byte> encode_frame(FrameFormat format, const Image& image) {

@@ -7,9 +7,6 @@
 #include <vector>
 
 #include "algorithm/image/image.h"
-#include "algorithm/splat/lane_steps.h"
-#include "algorithm/splat/longest_path.h"
-#include "algorithm/splat/operation_counts.h"
 
 namespace sgs {
 
@@ -24,11 +21,6 @@ constexpr std::uint32_t pixel_bytes(FrameFormat format) {
 
 // Writes one pixel (pixel_bytes) to out.
 void encode_pixel(FrameFormat format, const glm::vec3& colour, std::byte* out);
-
-// Of a finished pixel on its way there: the background through what light is left, then its bytes.
-OperationCounts pixel_work(FrameFormat format);
-LongestPath pixel_path(FrameFormat format, const OperationLatencies& latencies);
-std::vector<LaneStep> pixel_steps(FrameFormat format, const OperationLatencies& latencies);
 
 // A whole frame as bytes, and back. decode throws InputError when the size does not fit.
 std::vector<std::byte> encode_frame(FrameFormat format, const Image& image);

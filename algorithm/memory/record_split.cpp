@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "algorithm/memory/short_quaternion.h"
+#include "algorithm/memory/records.h"
 #include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
@@ -16,7 +16,7 @@ constexpr std::uint32_t kBurstBytes = 32;
 // [carried words][second half]
 using Payload = std::array<std::byte, kWordBytes + kMaxSecondHalfBytes>;
 
-// Of a raw payload with a short quaternion.
+// Places in a raw payload with a short quaternion, in words.
 constexpr std::size_t kScaleWord = 0, kQuaternionWord = 3, kOpacityWord = 6, kShWord = 7;
 constexpr std::uint32_t kRawShByte = 28;  // of a raw second half
 
@@ -178,6 +178,15 @@ DecodedGaussian read_record(const RecordSplit& split, const SecondHalfFormat& fo
 CodebookIndices read_indices(const RecordSplit& split, const SecondHalfFormat& format,
                              const CarriedWords& carried, const std::byte* second) {
   return decode_indices(format, joined(split, carried, second).data() + kWordBytes);
+}
+
+FirstHalfBound bound_first_half(const RecordSplit& split, const SplitFirstHalf& first,
+                                const View<float>& view) {
+  const VisibleExtents& known = first.extents;
+  if (split.bound_by == CoarseBoundBy::kLargestScale) {
+    return coarse_bound(view, first.mean, known.scale_max);
+  }
+  return extent_bound(view, first.mean, known.extent, known.scale_max);
 }
 
 }  // namespace sgs

@@ -1,4 +1,4 @@
-// How the bytes of a Gaussian are divided between its first half, which the coarse filter reads of
+// The bytes of a Gaussian are divided between its first half, which the coarse filter reads of
 // every Gaussian of a block, and its second half, which is fetched of those that pass.
 //
 // A second half in its encoding (second_half.h) with the largest scale in front of it is the
@@ -22,7 +22,7 @@
 //     vq, vq_packed     16 + 17, 8               32, 16: the next power of two
 //
 // (in brackets: bytes on the bus, the mean over the places at which such a record may begin). Where
-// a word of the quaternion is left out (short_quaternion.h), the payload is the scales in their
+// a word of the quaternion is left out (records.h), the payload is the scales in their
 // order, three words of the quaternion, the opacity and the SH coefficients. The 8 bits that bring
 // the fourth word back are kept where bits of these are nought: the signs of scales and opacity,
 // and the upper exponent bit of what does not exceed 1. All of it comes back to the bit.
@@ -32,13 +32,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <variant>
 
 #include "algorithm/memory/second_half.h"
-#include "algorithm/splat/coarse_bound_by.h"
-#include "algorithm/splat/fine_record.h"
+#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/visible_extents.h"
 
 namespace sgs {
+
+// What of a Gaussian's record decides how much the fine filter computes.
+struct FineRecord {
+  int sh_degree = 0;
+  std::uint32_t quaternion_words = 4;  // 3: the largest component follows from the others
+
+  friend constexpr bool operator==(const FineRecord& a, const FineRecord& b) {
+    return a.sh_degree == b.sh_degree && a.quaternion_words == b.quaternion_words;
+  }
+};
 
 struct RecordSplit {
   CoarseBoundBy bound_by = CoarseBoundBy::kLargestScale;  // what the first half is tested by
@@ -80,8 +91,25 @@ DecodedGaussian read_record(const RecordSplit& split, const SecondHalfFormat& fo
                             const glm::vec3& mean, const CarriedWords& carried,
                             const std::byte* second, const std::byte* codebooks);
 
-// Of a quantised record.
+// The indices of a quantised record.
 CodebookIndices read_indices(const RecordSplit& split, const SecondHalfFormat& format,
                              const CarriedWords& carried, const std::byte* second);
+
+// The coarse test of a first half, whatever it is bounded by: its part that is the same for all
+// rectangles.
+using FirstHalfBound = std::variant<CoarseBound, ExtentBound>;
+
+FirstHalfBound bound_first_half(const RecordSplit& split, const SplitFirstHalf& first,
+                                const View<float>& view);
+
+// The depth v_z of its centre, world units.
+inline float depth_of(const FirstHalfBound& bound) {
+  return std::visit([](const auto& of) { return of.depth; }, bound);
+}
+
+// false: behind the near plane, or no pixel of the rectangle can change.
+inline bool touches(const FirstHalfBound& bound, const PixelRect& pixels) {
+  return std::visit([&](const auto& of) { return of.in_front && touches(of, pixels); }, bound);
+}
 
 }  // namespace sgs

@@ -10,7 +10,7 @@
 
 namespace sgs {
 
-// What a transaction carries: the number of its region.
+// The number of a region, which each transaction carries.
 using RegionId = std::uint8_t;
 
 constexpr std::uint64_t kRegionAlignment = 4096;  // the row size of a DRAM page
@@ -37,7 +37,7 @@ struct RegionSpan {
   RegionId region = 0;
   std::uint64_t base = 0, bytes = 0;
   std::uint64_t end() const { return base + bytes; }
-  // What lies in it from `offset` on.
+  // The piece from `offset` on.
   RegionSpan part(std::uint64_t offset, std::uint64_t size) const {
     return {region, base + offset, size};
   }

@@ -1,8 +1,11 @@
-// What lies where of a stored scene: what every storage order has, and the tables of one of them.
+// The layout of a stored scene in the modelled DRAM: the records that every storage order has, and
+// the tables of one of them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <variant>
+#include <vector>
 
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/regions.h"
@@ -11,8 +14,8 @@
 
 namespace sgs {
 
-// What the records are sorted by, and which table finds them. What an order says of itself beside
-// its layout: ../storage/storage_scheme.h.
+// The key by which records are sorted, and so the table that finds them. All else of an order:
+// ../storage/storage_scheme.h.
 enum class StorageOrder : std::uint8_t { kVoxels, kChunks, kFile };
 
 // By voxels the halves are the paper's; by chunks whole bursts count, and by file, where every
@@ -69,5 +72,12 @@ SceneLayout lay_out_chunks(const SecondHalfFormat& format, std::uint32_t gaussia
 
 // By file: first_halves, second_halves, codebooks.
 SceneLayout lay_out_file(const SecondHalfFormat& format, std::uint32_t gaussians);
+
+struct MemoryImage {
+  SceneLayout layout;            // of the scene alone
+  std::vector<std::byte> bytes;  // [layout.stored_bytes] from address 0 on
+
+  const std::byte* at(std::uint64_t address) const { return bytes.data() + address; }
+};
 
 }  // namespace sgs

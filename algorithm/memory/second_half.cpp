@@ -38,7 +38,7 @@ float take_half(const std::byte*& record) {
   return half_value(bits);
 }
 
-// What can be seen stays so, what cannot be seen becomes nothing.
+// An opacity that can be seen stays so, one that cannot becomes 0.
 std::uint16_t half_opacity(float opacity) {
   constexpr float kLeast = 1 / kOpacityLevels;
   if (opacity < kLeast) return 0;

@@ -33,8 +33,8 @@ struct SecondHalfFormat {
   bool quantised() const {
     return encoding == SecondHalfEncoding::kVq || encoding == SecondHalfEncoding::kVqPacked;
   }
-  // Of one record. kVqPacked takes a power of two, so that none crosses a burst of the memory: two
-  // bursts for one record cost more than the bytes that closer packing saves.
+  // Bytes of one record. kVqPacked takes a power of two, so that none crosses a burst of the
+  // memory: two bursts for one record cost more than the bytes that closer packing saves.
   std::uint32_t bytes() const;
   // Bits that tell the entries of a codebook apart: none where there is only one.
   std::uint32_t index_bits(Codebook codebook) const;
@@ -58,7 +58,7 @@ void encode_half_second_half(const Gaussian<float>& g, const glm::vec3* sh, int 
 void encode_quantised_second_half(const SecondHalfFormat& format, const CodebookIndices& indices,
                                   std::uint8_t opacity, std::byte* out);
 
-// Of a quantised record; 0 for a codebook without index.
+// The indices of a quantised record; 0 for a codebook without index.
 CodebookIndices decode_indices(const SecondHalfFormat& format, const std::byte* record);
 
 // codebooks: codebook_bytes() bytes; not looked at where the format has none. The largest scale is

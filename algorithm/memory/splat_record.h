@@ -1,4 +1,4 @@
-// A splat as bytes, as it lies in SRAM between the units and in the spill region of the DRAM.
+// A splat as bytes, as it lies on the chip between the units, and in the spill region.
 #pragma once
 
 #include <cstddef>

@@ -3,28 +3,53 @@
 
 #include <cstdint>
 
+#include "algorithm/memory/codebook.h"
 #include "algorithm/memory/scene_layout.h"
 #include "algorithm/memory/second_half.h"
-#include "algorithm/vq/vq_config.h"
 
 namespace sgs {
 
-// Of a scene without a table, whose machine finds by itself what it needs: as in the scene's file,
-// or neighbours in space side by side.
+// The sequence of a scene without a table, whose machine finds by itself what it needs: that of the
+// scene's file, or neighbours in space side by side.
 enum class FileSequence : std::uint8_t { kFile, kSpatial };
 
 struct StorageConfig {
   StorageOrder order = StorageOrder::kChunks;
+  // Keys of one order, which its scheme says (../storage/storage_scheme.h).
+  double voxel_size = 0;
+  std::uint32_t chunk_gaussians = 8;
+  FileSequence sequence = FileSequence::kSpatial;
+  // Keys of every order.
   SecondHalfEncoding encoding = SecondHalfEncoding::kRaw;
-  double voxel_size = 0;              // by voxels: world units; 0: to be chosen
-  std::uint32_t chunk_gaussians = 8;  // by chunks: most Gaussians in one; 0: to be chosen
-  FileSequence sequence = FileSequence::kSpatial;  // by file
-  bool store_invisible = false;                    // also Gaussians that no view can show
-  double sh_tolerance = 0;  // most that a colour may change by SH bands that are not stored
-  VqConfig vq;              // how codebooks are made, where the encoding has any
+  VqConfig vq;
+  bool store_invisible = false;
+  double sh_tolerance = 0;
 
   // The format of second halves with every codebook as large as it may become.
-  SecondHalfFormat widest_format(int sh_degree) const;
+  SecondHalfFormat widest_format(int sh_degree) const {
+    SecondHalfFormat format{encoding, sh_degree, {}};
+    if (!format.quantised()) return format;
+    for (std::size_t id = 0; id < kCodebookCount; ++id) {
+      const auto codebook = static_cast<Codebook>(id);
+      format.entries[id] = codebook_words(codebook, sh_degree) > 0 ? vq.entries(codebook) : 0;
+    }
+    return format;
+  }
 };
+
+// The keys of every order, for a visitor as modules/config has.
+template <class Visitor>
+void visit_every_order(Visitor& v, StorageConfig& c) {
+  v("encoding", c.encoding,
+    {{"raw", SecondHalfEncoding::kRaw},
+     {"half", SecondHalfEncoding::kHalf},
+     {"vq", SecondHalfEncoding::kVq},
+     {"vq_packed", SecondHalfEncoding::kVqPacked}},
+    "of second halves: 32-bit floats, 16-bit floats, codebook indices of 32 bits or packed");
+  v.section("vq", c.vq, "how codebooks are made");
+  v("store_invisible", c.store_invisible, "also store Gaussians with opacity below 1/255");
+  v("sh_tolerance", c.sh_tolerance, {0, 1},
+    "most that a channel of a colour may change by SH bands that are not stored; 0: all are");
+}
 
 }  // namespace sgs

@@ -78,7 +78,8 @@ Splat with_terms(const SquareSplat& square) {
   return s;
 }
 
-// Of the floats from 2^-8, which is below what can be seen, to 1: counted from there, from 1 on.
+// Opacities are the floats from 2^-8, which is below what can be seen, to 1: counted from there,
+// from 1 on.
 constexpr std::uint32_t kLeastOpacityBits = 0x3b800000, kOpacityInRecord = 5;
 
 std::uint32_t number_of_opacity(float opacity) {

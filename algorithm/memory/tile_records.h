@@ -1,12 +1,12 @@
-// What a tile-centric machine keeps in memory between projection and rendering: the projected
-// Gaussian, and the entries of the tiles' lists.
+// The records of a tile-centric machine (as GSCore, ASPLOS 2024) between projection and rendering:
+// the projected Gaussian, and the entries of the tiles' lists.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
 #include "algorithm/splat/splat.h"
-#include "algorithm/splat/square_splat.h"
+#include "algorithm/splat/square_conic.h"
 
 namespace sgs {
 
@@ -25,9 +25,10 @@ constexpr std::uint32_t record_bytes(NumberFormat format) {
 }
 constexpr std::uint32_t kRecordPlaceBytes = 32;
 void encode_projected(NumberFormat format, const Splat& splat, std::byte* out);
-// What of an opacity each entry holds; 0 with halves.
+// The part of an opacity that each entry holds; 0 with halves.
 std::uint32_t listed_opacity(NumberFormat format, float opacity);
-// Without depth, index and footprint, which the lists hold. What cannot be seen has no opacity.
+// Without depth, index and footprint, which the lists hold. A Gaussian that cannot be seen has no
+// opacity.
 Splat decode_projected(NumberFormat format, const std::byte* bytes, std::uint32_t listed_opacity);
 // The same for blending in half.
 SquareSplat decode_square(NumberFormat format, const std::byte* bytes,
@@ -55,7 +56,7 @@ struct EntryFormat {
   std::uint32_t opacity_bits() const { return features == NumberFormat::kHalf ? 0 : 22; }
   std::uint32_t bitmap_bits() const { return wide() ? 0 : 4; }
   std::uint32_t word_bytes() const { return features == NumberFormat::kHalf ? 4 : 6; }
-  // Of the number in the word.
+  // Bits of the record's number in the word.
   std::uint32_t number_bits() const { return 8 * word_bytes() - bitmap_bits() - opacity_bits(); }
   std::uint32_t bytes() const { return key_bytes() + word_bytes() + (wide() ? 2 : 0); }
   // Most records that an entry tells apart.
@@ -73,14 +74,15 @@ struct BlockFormat {
   EntryFormat entry;
   std::uint32_t line_bytes = 64, block_lines = 8;
 
-  // Of a block's first line, and of the others.
+  // Entries of a block's first line, and of each other one.
   std::uint32_t first_entries() const { return (line_bytes - kLinkBytes) / entry.bytes(); }
   std::uint32_t line_entries() const { return line_bytes / entry.bytes(); }
   std::uint32_t block_entries() const {
     return first_entries() + (block_lines - 1) * line_entries();
   }
   std::uint32_t block_bytes() const { return block_lines * line_bytes; }
-  // Of an entry, from the beginning of its block; `at` counts entries of the list.
+  // The place of an entry in bytes from the beginning of its block; `at` counts entries of the
+  // list.
   std::uint32_t offset(std::uint64_t at) const {
     const auto in_block = static_cast<std::uint32_t>(at % block_entries());
     if (in_block < first_entries()) return kLinkBytes + in_block * entry.bytes();

@@ -1,4 +1,5 @@
-// Front-to-back walk over the chunk tree: the chunks that a pixel group may need, by nearest depth.
+// Front-to-back walk over the chunk tree: the chunks that a pixel group may need, by nearest depth
+// (a best-first search, as Hjaltason and Samet, "Distance Browsing in Spatial Databases", 1999).
 // Nodes may be opened in any order and ahead of need; which chunks come out, and in which order,
 // does not depend on it. A second group's walk can begin before the first has ended.
 #pragma once
@@ -8,10 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "algorithm/order/walk_queue.h"
 #include "algorithm/voxel/chunk_test.h"
+#include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
 
@@ -94,7 +97,7 @@ class ChunkWalk {
     opening_.push_back(nodes_.take_nearest());
     return opening_.back();
   }
-  // What take_node() would give; only where there is one.
+  // The entry that take_node() would give; only where there is one.
   const WalkEntry& next_node() const { return nodes_.nearest(); }
   // The next node is of the first walk, and nothing is being read that could give a chunk.
   bool needs_node() const {
@@ -144,7 +147,7 @@ class ChunkWalk {
   const WalkCounters& counters() const { return counters_; }
   const WalkQueue& node_queue() const { return nodes_; }
   const WalkQueue& chunk_queue() const { return chunks_; }
-  // Of both queues.
+  // Heap operations of both queues.
   std::uint64_t queue_operations() const {
     return nodes_.work().operations() + chunks_.work().operations();
   }
@@ -219,7 +222,7 @@ class ChunkWalk {
   void bring_back() {
     aside_.reset();
     source_.take_back([&](const WalkEntry& entry) {
-      // Of a walk that has ended there may be some.
+      // Some may be of a walk that has ended.
       if (!has_ended(entry)) push(entry);
     });
   }
@@ -233,6 +236,20 @@ class ChunkWalk {
   std::vector<WalkEntry> opening_;  // nodes taken and not open yet
   std::optional<WalkEntry> aside_;  // the nearest of those put aside
   WalkCounters counters_;
+};
+
+// A chunk tree as the source of a walk (chunk_walk.h) that takes no time and reads no DRAM.
+struct TreeInMemory {
+  const ChunkTree& tree;
+  std::vector<WalkEntry> aside;
+
+  const ChunkNode& node(std::uint32_t index) const { return tree.nodes[index]; }
+  void put_aside(const WalkEntry& entry) { aside.push_back(entry); }
+  template <class To>
+  void take_back(const To& to) {
+    for (const WalkEntry& entry : std::exchange(aside, {})) to(entry);
+  }
+  void forget_aside() { aside.clear(); }
 };
 
 }  // namespace sgs

@@ -1,5 +1,5 @@
-// What the voxel sorting unit (VSU) computes for one pixel group in paper order: the occupied
-// voxels that its rays cross, in an order that respects every ray.
+// The visits of one pixel group in paper order, as the voxel sorting unit (VSU) finds them: the
+// occupied voxels that its rays cross, in an order that respects every ray (StreamingGS, DAC 2025).
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 #include "algorithm/order/ordering_table.h"
 #include "algorithm/splat/rects.h"
+#include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
-#include "algorithm/voxel/ray_walk.h"
 
 namespace sgs {
 
@@ -195,7 +195,7 @@ GroupVisits group_visits(const PixelRect& group, Rays& rays, OrderingTable& tabl
       window = window.nearer_half();
       continue;
     }
-    out.table_bytes = std::max(out.table_bytes, table.sram_bytes());
+    out.table_bytes = std::max(out.table_bytes, table.bytes());
     const std::vector<std::uint32_t> voxels = table.order();
     out.voxels.insert(out.voxels.end(), voxels.begin(), voxels.end());
     ++out.passes;

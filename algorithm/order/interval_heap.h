@@ -8,7 +8,7 @@
 // that the root holds the nearest and the farthest key of all. A node also knows how many keys lie
 // below each of its children. From these counts follows what memory would have to be searched for
 // otherwise: which child has room, and whether a child is empty whatever its memory still holds.
-// Setting the root's counts to 0 therefore empties the heap in one cycle.
+// Setting the root's counts to 0 therefore empties the heap.
 //
 //   insert      the key takes its place in the interval, what it displaces sinks to a child with
 //               room: one node read and written a level
@@ -16,15 +16,7 @@
 //               and leaves in its turn: both children read, one node written a level. delete max
 //               likewise at the high ends
 //
-// Level l is a memory of its own of at most 2^l nodes, spread over banks of a read and a write port
-// each. A hole is filled from the level below, so two neighbouring levels work on one operation.
-//   - Another may begin every second cycle if a hole sinks a level a cycle. While the candidates
-//     for it are compared, the children of both are read, up to four nodes of one level: four
-//     banks, by the side of the candidate and that of its child. The operation before writes that
-//     level in the same cycle, so a node that is read as it is written is what is written.
-//   - With two banks, left and right children, what is read waits for the comparison: a hole sinks
-//     a level in two cycles, and another operation may begin every third.
-// tests/algorithm/order/stepped_heap.h goes through both cycle by cycle.
+// How often an operation may begin: modules/streaminggs/heap_ledger.h.
 #pragma once
 
 #include <algorithm>
@@ -35,14 +27,14 @@
 
 namespace sgs {
 
-// What the memory of one level did.
+// Accesses to the memory of one level.
 struct HeapLevelWork {
   std::uint64_t nodes_read = 0;        // that hold a key: of two keys and two counts
   std::uint64_t nodes_read_ahead = 0;  // beside these, below candidates that do not fill a hole
   std::uint64_t nodes_written = 0;     // at most one an operation
 };
 
-// What the levels did. The root is in registers, where nothing is counted.
+// Operations, and the accesses of all levels. The root is in registers, where nothing is counted.
 struct HeapWork {
   std::uint64_t inserts = 0, delete_mins = 0, delete_maxs = 0;
   std::uint64_t comparisons = 0;  // of two keys, at any level
@@ -59,13 +51,6 @@ struct HeapWork {
     return sum;
   }
 };
-
-// From one operation to the next, at least.
-constexpr std::uint32_t kFewestHeapCycles = 2;
-// Banks of a level, where an operation begins every so many cycles.
-constexpr std::uint32_t heap_banks_of_level(std::uint32_t cycles_per_operation) {
-  return cycles_per_operation == kFewestHeapCycles ? 4 : 2;
-}
 
 // Levels of nodes that so many keys take.
 inline std::uint32_t heap_levels(std::uint64_t capacity) {

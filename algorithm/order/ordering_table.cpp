@@ -15,10 +15,8 @@ std::uint64_t most_held(std::size_t voxel_count, std::uint64_t capacity_bytes) {
 
 }  // namespace
 
-OrderingTable::OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes,
-                             std::uint32_t banks)
+OrderingTable::OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes)
     : capacity_bytes_(capacity_bytes),
-      written_(banks),
       names_(most_held(voxel_count, capacity_bytes)),
       ready_(most_held(voxel_count, capacity_bytes)) {}
 
@@ -46,7 +44,7 @@ std::uint32_t OrderingTable::rename(std::uint32_t voxel, bool first) {
   if (!fits()) return kNone;
   names_.take(slot, number);
   ++accesses_.names_written;
-  write(bank_of_voxel(number));
+  write(number);
   if (first) count_ready(ready_.set(number));
   return number;
 }
@@ -55,30 +53,29 @@ std::uint32_t OrderingTable::rename(std::uint32_t voxel, bool first) {
 // with its first edge was never ready, and its in-degree is written with the rest of its record.
 void OrderingTable::add_edge(std::uint32_t from, std::uint32_t to, bool is_new) {
   ++accesses_.reads;
+  ++accesses_.heads_read;
   for (std::uint32_t at = voxels_[from].first_edge; at != kNone; at = edges_[at].next) {
     ++accesses_.reads;
     if (edges_[at].successor == to) return;
   }
   edges_.push_back({to, voxels_[from].first_edge});
   voxels_[from].first_edge = edge_count() - 1;
-  write(bank_of_edge(edge_count() - 1));
-  write(bank_of_voxel(from));             // the list's head
-  if (!is_new) write(bank_of_voxel(to));  // the in-degree
+  write(word_of_edge(edge_count() - 1));
+  write(from);             // the list's head
+  if (!is_new) write(to);  // the in-degree
   if (voxels_[to].in_degree++ == 0 && !is_new) count_ready(ready_.clear(to));
 }
 
 bool OrderingTable::add(Chain& chain, std::uint32_t voxel) {
-  const std::uint64_t reads = accesses_.reads;
+  ++accesses_.met;
   const std::uint32_t voxels = voxel_count();
-  std::fill(written_.begin(), written_.end(), 0);
+  written_.clear();
   ready_written_ = 0;
   const bool first = chain.before == kNone;
   if (!first) ++edges_offered_;
   const std::uint32_t number = rename(voxel, first);
   if (number != kNone && !first) add_edge(chain.before, number, number == voxels);
   chain.before = number;
-  // The slot, and beside it the first record, if any.
-  accesses_.cycles += 1 + accesses_.reads - reads - (number == kNone || first ? 0 : 1);
   return number != kNone && fits();
 }
 
@@ -90,21 +87,15 @@ std::vector<std::uint32_t> OrderingTable::order() {
     accesses_.ready_read += ready_.levels();
     accesses_.ready_written += ready_.clear(number);
     ++accesses_.reads;
-    accesses_.cycles += ready_.levels() + 1;
     order.push_back(voxels_[number].id);
     voxels_[number].in_degree = kNone;  // taken
-    std::uint32_t named = kNone;        // record that the edge before names
     for (std::uint32_t at = voxels_[number].first_edge; at != kNone; at = edges_[at].next) {
-      const bool conflict = named != kNone && bank_of_voxel(named) == bank_of_edge(at);
-      accesses_.cycles += conflict ? 2 : 1;
-      named = edges_[at].successor;
-      Voxel& next = voxels_[named];
+      Voxel& next = voxels_[edges_[at].successor];
       accesses_.reads += 2;
       ++accesses_.writes;
       if (--next.in_degree > 0) continue;
       count_ready(ready_.set(edges_[at].successor));
     }
-    accesses_.cycles += named != kNone ? 1 : 0;  // the last of them
   }
   if (order.size() != voxels_.size()) {
     throw std::logic_error("ordering table: the rays of a group contradict each other");

@@ -3,35 +3,147 @@
 // 1962) visits every voxel after all that hide it on some ray.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "algorithm/order/ready_voxels.h"
-#include "algorithm/order/renaming.h"
-
 namespace sgs {
 
-// SRAM that one group's table takes, by count of renamed voxels and of distinct edges: per voxel
+// The numbers of voxels in the ordering table: a hash table of numbers with linear probing. A slot
+// holds a number only; whose it is stands in the ordering table itself.
+class Renaming {
+ public:
+  // Slots for so many voxels: a power of two, at most three quarters of them taken.
+  static std::uint64_t slots_for(std::uint64_t voxels) {
+    std::uint64_t slots = 2;
+    while (3 * slots < 4 * voxels) slots *= 2;
+    return slots;
+  }
+
+  explicit Renaming(std::uint64_t voxels) : slots_(slots_for(voxels), kFree) {}
+
+  // The slot of a voxel, or the free one where it belongs. is_of(number): whether that number is
+  // the voxel's. Counts the slots that are looked at.
+  template <class IsOf>
+  std::uint32_t find(std::uint32_t voxel, const IsOf& is_of, std::uint64_t& looked_at) const {
+    std::uint32_t slot = first_slot(voxel);
+    for (;; slot = (slot + 1) & mask()) {
+      ++looked_at;
+      if (slots_[slot] == kFree || is_of(slots_[slot])) return slot;
+    }
+  }
+  bool taken(std::uint32_t slot) const { return slots_[slot] != kFree; }
+  std::uint32_t number(std::uint32_t slot) const { return slots_[slot]; }
+  void take(std::uint32_t slot, std::uint32_t number) {
+    slots_[slot] = number;
+    taken_.push_back(slot);
+  }
+  void clear() {
+    for (const std::uint32_t slot : taken_) slots_[slot] = kFree;
+    taken_.clear();
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = ~0U;
+
+  std::uint32_t mask() const { return static_cast<std::uint32_t>(slots_.size() - 1); }
+  // Neighbouring voxels have neighbouring ids, of which several runs would lie on top of one
+  // another: three shifts and exclusive ors spread them (Marsaglia, "Xorshift RNGs", 2003).
+  std::uint32_t first_slot(std::uint32_t voxel) const {
+    voxel ^= voxel << 13U;
+    voxel ^= voxel >> 17U;
+    voxel ^= voxel << 5U;
+    return voxel & mask();
+  }
+
+  std::vector<std::uint32_t> slots_;
+  std::vector<std::uint32_t> taken_;
+};
+
+// The voxels of the ordering table that wait for no other: a bit each, in words, above them a bit
+// for each word that has any, and so on up to one word. The first is found from the top, a word a
+// level.
+class ReadyVoxels {
+ public:
+  static constexpr std::uint32_t kWordBits = 32;
+
+  // Levels of words over so many voxels, the bits themselves included.
+  static std::uint32_t levels_for(std::uint64_t voxels) {
+    std::uint32_t levels = 1;
+    for (; voxels > kWordBits; voxels = words_for(voxels)) ++levels;
+    return levels;
+  }
+  // Words of all levels.
+  static std::uint64_t all_words_for(std::uint64_t voxels) {
+    std::uint64_t sum = words_for(voxels);
+    for (; voxels > kWordBits; voxels = words_for(voxels)) sum += words_for(words_for(voxels));
+    return sum;
+  }
+
+  explicit ReadyVoxels(std::uint64_t voxels) {
+    for (std::uint64_t bits = voxels;; bits = words_for(bits)) {
+      words_.emplace_back(words_for(bits), 0);
+      if (bits <= kWordBits) break;
+    }
+  }
+
+  std::uint32_t levels() const { return static_cast<std::uint32_t>(words_.size()); }
+  bool empty() const { return words_.back().front() == 0; }
+
+  // Each returns how many words it has read and written: one of each level that changes.
+  std::uint32_t set(std::uint32_t voxel) {
+    std::uint32_t written = 0, at = voxel;
+    for (auto& level : words_) {
+      std::uint32_t& word = level[at / kWordBits];
+      const bool was_empty = word == 0;
+      word |= 1U << at % kWordBits;
+      ++written;
+      if (!was_empty) break;
+      at /= kWordBits;
+    }
+    return written;
+  }
+  std::uint32_t clear(std::uint32_t voxel) {
+    std::uint32_t written = 0, at = voxel;
+    for (auto& level : words_) {
+      std::uint32_t& word = level[at / kWordBits];
+      word &= ~(1U << at % kWordBits);
+      ++written;
+      if (word != 0) break;
+      at /= kWordBits;
+    }
+    return written;
+  }
+
+  // The lowest; not where there is none.
+  std::uint32_t first() const {
+    std::uint32_t at = 0;
+    for (std::size_t level = words_.size(); level-- > 0;) {
+      at = at * kWordBits + static_cast<std::uint32_t>(__builtin_ctz(words_[level][at]));
+    }
+    return at;
+  }
+
+ private:
+  static std::uint64_t words_for(std::uint64_t bits) { return (bits + kWordBits - 1) / kWordBits; }
+
+  std::vector<std::vector<std::uint32_t>> words_;  // [level], the bits first
+};
+
+// Memory that one group's table takes, by count of renamed voxels and of distinct edges: per voxel
 // its global id (4 B), in-degree (2 B) and list head (2 B); per edge the successor and the next
 // link (4 B).
 constexpr std::uint32_t kOrderingBytesPerVoxel = 8;
 constexpr std::uint32_t kOrderingBytesPerEdge = 4;
 
-// What has been read and written so far, a voxel's record or an edge at a time.
+// Accesses to the table so far, each to a voxel's record or to an edge.
 struct OrderingAccesses {
+  std::uint64_t met = 0;                            // voxels
   std::uint64_t reads = 0, writes = 0;              // of the table
+  std::uint64_t heads_read = 0;                     // of these reads: where edges are looked for
   std::uint64_t names_read = 0, names_written = 0;  // of the renaming
   std::uint64_t ready_read = 0, ready_written = 0;  // of the words of ready voxels
-  // That all this takes. What is read names what is read next, so that it comes a cycle each, one
-  // behind the other: the hash's slot (beside it the record of the voxel before), the record that
-  // it names, the edges of the voxel before. Writes go to their banks beside the reads for the next
-  // voxel, which see what is still to be written (write_cycles). In ordering a level of ready
-  // voxels is read a cycle, then the voxel's record, then its edges; the record that an edge names
-  // is read beside the next edge, unless both lie in one bank.
-  std::uint64_t cycles = 0;
 };
 
 class OrderingTable {
@@ -40,11 +152,9 @@ class OrderingTable {
  public:
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
-  // voxel_count: how many voxels exist; ids below it may appear in chains. capacity_bytes: SRAM
-  // that is there for one group, at least that of a voxel. banks: over which its words of 8 B, a
-  // voxel's record or two edges, are spread in turn.
-  explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited,
-                         std::uint32_t banks = 2);
+  // voxel_count: how many voxels exist; ids below it may appear in chains. capacity_bytes:
+  // memory that is there for one group, at least that of a voxel.
+  explicit OrderingTable(std::size_t voxel_count, std::uint64_t capacity_bytes = kUnlimited);
 
   // Voxels for which a table of so many bytes has room.
   static std::uint64_t most_voxels(std::uint64_t capacity_bytes) {
@@ -54,7 +164,7 @@ class OrderingTable {
   // Forgets the group before.
   void clear();
 
-  // Of a ray: the number of the voxel that it met last, if any.
+  // The place of a ray: the number of the voxel that it met last, if any.
   class Chain {
     friend class OrderingTable;
     std::uint32_t before = kNone;
@@ -75,16 +185,23 @@ class OrderingTable {
     return static_cast<std::uint32_t>(edges_.size());
   }                                                               // distinct
   std::uint64_t edges_offered() const { return edges_offered_; }  // by all rays
-  std::uint64_t sram_bytes() const {
+  std::uint64_t bytes() const {
     return std::uint64_t{voxel_count()} * kOrderingBytesPerVoxel +
            std::uint64_t{edge_count()} * kOrderingBytesPerEdge;
   }
   const OrderingAccesses& accesses() const { return accesses_; }
-  // Of what was found of the voxel added last, beside the reads for the next.
-  std::uint64_t write_cycles() const {
-    return std::max(ready_written_, *std::max_element(written_.begin(), written_.end()));
+  // What was written of the voxel added last: the table's words of 8 B, a voxel's record or two
+  // edges, each kind by its number; and how many words of ready voxels.
+  const std::vector<std::uint32_t>& written() const { return written_; }
+  std::uint64_t ready_written() const { return ready_written_; }
+  // Of a voxel by its number, in the order of its list: visit(word of the edge, successor).
+  template <class Visit>
+  void for_each_edge(std::uint32_t number, const Visit& visit) const {
+    for (std::uint32_t at = voxels_[number].first_edge; at != kNone; at = edges_[at].next) {
+      visit(word_of_edge(at), edges_[at].successor);
+    }
   }
-  // Of words, that finding the first of the ready voxels passes.
+  // Levels of words that finding the first of the ready voxels passes.
   std::uint32_t ready_levels() const { return ready_.levels(); }
 
  private:
@@ -97,14 +214,12 @@ class OrderingTable {
 
   std::uint32_t rename(std::uint32_t voxel, bool first);  // of its ray
   void add_edge(std::uint32_t from, std::uint32_t to, bool is_new);
-  bool fits() const { return sram_bytes() <= capacity_bytes_; }
+  bool fits() const { return bytes() <= capacity_bytes_; }
 
-  std::uint32_t bank_of_voxel(std::uint32_t number) const { return number % banks(); }
-  std::uint32_t bank_of_edge(std::uint32_t edge) const { return edge / 2 % banks(); }
-  std::uint32_t banks() const { return static_cast<std::uint32_t>(written_.size()); }
-  void write(std::uint32_t bank) {
+  static std::uint32_t word_of_edge(std::uint32_t edge) { return edge / 2; }
+  void write(std::uint32_t word) {
     ++accesses_.writes;
-    ++written_[bank];
+    written_.push_back(word);
   }
   void count_ready(std::uint32_t words) {
     accesses_.ready_read += words;
@@ -113,7 +228,7 @@ class OrderingTable {
   }
 
   const std::uint64_t capacity_bytes_;
-  std::vector<std::uint64_t> written_;  // [bank] of the voxel added last
+  std::vector<std::uint32_t> written_;  // words, of the voxel added last
   std::uint64_t ready_written_ = 0;     // words, likewise
   Renaming names_;
   ReadyVoxels ready_;

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "algorithm/order/interval_heap.h"
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
 
 namespace sgs {
 
@@ -45,7 +45,7 @@ class WalkQueue {
   std::size_t most() const { return most_; }
   const HeapWork& work() const { return heap_.work(); }
 
-  // Of one that is not empty.
+  // Both need a queue that is not empty.
   const WalkEntry& nearest() const { return heap_.min(); }
   const WalkEntry& farthest() const { return heap_.max(); }
 

@@ -1,5 +1,7 @@
 // One pass over all splats of a frame, front to back: whatever looks at the reference image splat
-// by splat (the image itself, weights, gradients) is this loop with another body.
+// by splat (the image itself, weights, gradients) is this loop with another body. Each pixel is C =
+// sum_i c_i alpha_i T_i + T_end background, T_i = prod_{j<i} (1 - alpha_j): equation 3 of Kerbl et
+// al. 2023, with the thresholds of its released rasteriser (splat/constants.h).
 #pragma once
 
 #include <tbb/parallel_for.h>

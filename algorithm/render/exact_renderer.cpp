@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/order/tree_in_memory.h"
+#include "algorithm/order/chunk_walk.h"
 #include "algorithm/render/blend_watch.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
 
@@ -143,7 +143,7 @@ void render_group(const View<float>& view, const ActivatedCloud& cloud, const Ch
   }
   stats.nodes_read = walk.counters().nodes;
   stream.finish(frame);
-  // What is left is behind finished pixels, not out of reach.
+  // The chunks that are left are behind finished pixels, not out of reach.
   for (; chunk; chunk = walk.next()) reached.set(chunk->at);
 }
 

@@ -1,15 +1,14 @@
 // Streaming renderer in exact order: the reference image, chunk by chunk. For each pixel group the
 // chunks that can touch it are streamed by nearest depth; keys (depth, slot) of what passes the
 // coarse filter wait until nothing nearer can come; only then is the rest of the Gaussian looked
-// at.
+// at. The order is this project's; the filters are those of StreamingGS (DAC 2025).
 #pragma once
 
 #include <cstdint>
 
 #include "algorithm/order/chunk_walk.h"
-#include "algorithm/order/on_overflow.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/render/streaming_result.h"
+#include "algorithm/render/render_result.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/rects.h"
@@ -17,6 +16,12 @@
 #include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
+
+// The way out when more keys wait than the merge buffer holds.
+enum class OnOverflow {
+  kSpill,       // sorted runs go to DRAM and come back: the image stays exact
+  kBlendEarly,  // the nearest keys are released before they are final: the image may suffer
+};
 
 struct ExactOrderConfig {
   PixelSize group = square_of(64);     // of pixels rendered together, multiples of 4

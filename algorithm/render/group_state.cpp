@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "algorithm/splat/finished_pixel.h"
+#include "algorithm/splat/blend.h"
 
 namespace sgs {
 

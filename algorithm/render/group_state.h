@@ -1,4 +1,5 @@
-// The pixels of one group while it is being blended, as the rendering unit holds them.
+// The pixels of one group while it is being blended (equation 3 of Kerbl et al. 2023), as the
+// rendering unit holds them.
 #pragma once
 
 #include <algorithm>
@@ -8,15 +9,15 @@
 
 #include "algorithm/render/render_result.h"
 #include "algorithm/splat/blend.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/footprint.h"
-#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/rects.h"
 #include "algorithm/splat/row_span.h"
-#include "algorithm/splat/square_splat.h"
+#include "algorithm/splat/square_conic.h"
 
 namespace sgs {
 
-// Which 4x4 sub-tiles of a splat's footprint are blended: all, or only those that its visible
+// The 4x4 sub-tiles of a splat's footprint that are blended: all, or only those that its visible
 // ellipse can reach, row by row (row_span.h). The pixels are the same; the spans cost less than the
 // blending they spare.
 enum class SubtileTest { kBox, kEllipse };
@@ -44,7 +45,7 @@ struct SubtileReach {
   std::uint32_t row;  // of the splat's rows, the first is 0
 };
 
-// What a splat may reach of a group, before its rows have spans.
+// The part of a group that a splat may reach, before its rows have spans.
 struct SplatBox {
   SubtileRect subtiles;  // of its footprint, from the group's corner on
   bool spanned;          // its rows get spans
@@ -114,7 +115,7 @@ class GroupState {
   void store(const glm::vec3& background, RenderResult& frame) const;
 
  private:
-  // A splat on so few sub-tiles is blended in hardly more cycles than its rows anyway.
+  // A splat on so few sub-tiles costs hardly more to blend than its rows do.
   static constexpr int kUntestedSubtiles = 4;
 
   // Where row spans cost less than the sub-tiles that they spare.

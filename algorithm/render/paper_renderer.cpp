@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "algorithm/render/blend_watch.h"
-#include "algorithm/render/group_parts.h"
+#include "algorithm/render/group_shape.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/render/missed_splats.h"
+#include "algorithm/render/paper_losses.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/voxel/voxel_cuts.h"
@@ -78,7 +78,7 @@ void filter_and_sort(const View<float>& view, const ActivatedCloud& cloud, const
   }
 }
 
-// What is blended is seen: seen(slot).
+// Calls seen(slot) for each splat that is blended.
 template <class Seen>
 void blend_run(Part& part, StreamingStats& stats, const Seen& seen) {
   for (const Splat& splat : part.run) {

@@ -8,7 +8,7 @@
 
 #include "algorithm/order/group_visits.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/render/streaming_result.h"
+#include "algorithm/render/render_result.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/rects.h"
@@ -25,7 +25,7 @@ struct PaperOrderConfig {
   std::uint64_t table_bytes = OrderingTable::kUnlimited;
   // Voxels with more Gaussians are cut (voxel_cuts.h), each piece a visit of its own; 0: never.
   std::uint32_t visit_gaussians = 0;
-  // Parts of a group, each filtered and blended by itself (group_parts.h): a square number, and
+  // Parts of a group, each filtered and blended by itself (group_shape.h): a square number, and
   // the group's sides multiples of 4 times its root. In
   // single precision the pixels are the same for any. In half they are not: rounded, alpha passes
   // 1/255 some hundredths of a pixel beyond the ellipse, and a splat that reaches a part only so is

@@ -3,14 +3,23 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "algorithm/render/depth_order.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/splat.h"
 #include "algorithm/splat/view.h"
 
 namespace sgs {
+
+// The sorting key of one Gaussian of a frame.
+struct DepthKey {
+  std::uint32_t depth_bits;  // of v_z as float: positive floats order like their bit patterns
+  std::uint32_t index;       // in the cloud
+};
+
+// Sorts by (depth, index). keys: by ascending index, fewer than 2^32.
+void sort_front_to_back(std::vector<DepthKey>& keys);
 
 // Only the keys of the whole frame are held (16 B a Gaussian near the frustum); splats are made as
 // they are asked for. The same bits whatever the number of threads.
@@ -20,7 +29,7 @@ class SplatSequence {
   // InputError when the cloud has 2^32 Gaussians or more.
   SplatSequence(const View<float>& view, const ActivatedCloud& cloud);
 
-  // Of all Gaussians near the frustum, by (depth, index).
+  // The keys of all Gaussians near the frustum, by (depth, index).
   const std::vector<DepthKey>& keys() const { return keys_; }
 
   bool at_end() const { return next_ == keys_.size(); }

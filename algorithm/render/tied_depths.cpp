@@ -9,8 +9,8 @@
 #include "algorithm/render/splat_bins.h"
 #include "algorithm/render/splat_sequence.h"
 #include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/make_splat.h"
-#include "algorithm/splat/reorder.h"
 
 namespace sgs {
 namespace {
@@ -62,7 +62,7 @@ CellRect tiles_near(const CellGrid& grid, const CoarseBound& bound) {
           tile_behind(bound.x + reach, grid.columns), tile_behind(bound.y + reach, grid.rows)};
 }
 
-// Those that may reach a flagged tile, in the order of their ranks.
+// The Gaussians that may reach a flagged tile, in the order of their ranks.
 std::vector<std::uint32_t> reaching(const View<float>& view, const ActivatedCloud& cloud,
                                     const std::vector<std::uint32_t>& ranks,
                                     const std::vector<char>& tiles) {

@@ -9,11 +9,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/render/blend_watch.h"
-#include "algorithm/render/tile_blend.h"
-#include "algorithm/render/warp_watch.h"
-#include "algorithm/splat/frame_sides.h"
+#include "algorithm/splat/coarse_bound.h"
 
 namespace sgs {
 namespace {

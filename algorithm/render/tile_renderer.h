@@ -1,12 +1,13 @@
-// Tile-centric renderer: every Gaussian is projected and listed in the tiles that its boxes touch;
-// each tile's list is sorted by depth and blended. With boxes that reach what is visible, in single
-// precision, the picture is the reference's, bit for bit; each approximation is a choice of its
-// own.
+// Tile-centric renderer, as GSCore (Lee et al., ASPLOS 2024) and the original draw: every Gaussian
+// is projected and listed in the tiles that its boxes touch; each tile's list is sorted by depth
+// and blended. With boxes that reach what is visible, in single precision, the picture is the
+// reference's, bit for bit; each approximation is a choice of its own.
 #pragma once
 
 #include <cstdint>
 
 #include "algorithm/memory/tile_records.h"
+#include "algorithm/render/group_state.h"
 #include "algorithm/render/render_result.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/gaussian.h"
@@ -23,7 +24,7 @@ struct TileOrderConfig {
   std::uint32_t chunk_entries = 256;  // sorted at once; counts whole chunks of sorted lists
   glm::vec3 background{0.0F};
 
-  // What loses nothing.
+  // The choices that lose nothing.
   static TileOrderConfig lossless() {
     TileOrderConfig config;
     config.rules.reach = TileReach::kVisible;
@@ -35,7 +36,7 @@ struct TileOrderConfig {
 
 struct TileStats {
   std::uint64_t gaussians = 0;
-  std::uint64_t culled = 0;         // by frame_sides.h: they cannot touch the frame
+  std::uint64_t culled = 0;         // by FrameSides: they cannot touch the frame
   std::uint64_t projected = 0;      // that are listed in a tile
   std::uint64_t tile_tests = 0;     // (Gaussian, tile) candidates
   std::uint64_t subtile_tests = 0;  // parts of tiles tested
@@ -45,12 +46,12 @@ struct TileStats {
   std::uint64_t entries_taken = 0;  // of lists, until their tile was finished
   std::uint64_t chunks = 0;         // of sorted lists
   std::uint64_t chunks_taken = 0;   // of these begun before their tile was finished
-  // Of the chunks that were taken: the last one of a list may hold fewer.
+  // Entries of the chunks that were taken; the last one of a list may hold fewer.
   std::uint64_t chunk_entries_taken = 0;
   std::uint64_t tiles_finished = 0;
   std::uint64_t subtile_blends = 0;  // (entry, 4x4 sub-tile): 16 fragments each
   std::uint64_t contributors = 0;    // (splat, pixel) blends
-  std::uint64_t warp_entries = 0;    // (entry, 16 x 2 px) with an unfinished pixel (warp_watch.h)
+  std::uint64_t warp_entries = 0;    // (entry, 16 x 2 px) with an unfinished pixel (blend_watch.h)
   std::uint64_t warp_blends = 0;     // of these with a pixel that it is blended into
   std::uint64_t contributing = 0;    // Gaussians blended into at least one pixel of the frame
   std::uint64_t misordered = 0;      // blends behind a splat that is farther, at the same pixel
@@ -67,5 +68,35 @@ struct TileResult {
 // than an entry can tell apart.
 TileResult render_tiles(const View<float>& view, const ActivatedCloud& cloud,
                         const TileOrderConfig& config);
+
+// One entry of a tile's list blended into the tile: the parts of the tile whose bits are set.
+
+// Calls visit(splat) with what record and entry hold, as blending in that precision takes it: a
+// Splat or a SquareSplat.
+template <class Visit>
+void with_record(NumberFormat format, BlendPrecision precision, const std::byte* record,
+                 std::uint32_t listed_opacity, const Visit& visit) {
+  if (in_16_bits(precision)) {
+    visit(decode_square(format, record, listed_opacity));
+  } else {
+    visit(decode_projected(format, record, listed_opacity));
+  }
+}
+
+// Calls blend(splat, part) with a footprint for each part of the tile (in tiles of the frame) whose
+// bit is set.
+template <class AnySplat, class Blend>
+void for_each_part(const TileRules& rules, int tile_x, int tile_y, std::uint32_t bitmap,
+                   AnySplat splat, const Blend& blend) {
+  const int across = rules.subtiles_across, side = kSubtilesPerTile / across;
+  const auto of_frame = [](int at) { return static_cast<std::uint16_t>(at); };
+  for (int part = 0; part < across * across; ++part) {
+    if ((bitmap >> part & 1U) == 0) continue;
+    const int x = tile_x * kSubtilesPerTile + part % across * side;
+    const int y = tile_y * kSubtilesPerTile + part / across * side;
+    splat.footprint = {of_frame(x), of_frame(y), of_frame(x + side), of_frame(y + side)};
+    blend(static_cast<const AnySplat&>(splat), part);
+  }
+}
 
 }  // namespace sgs

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "algorithm/scene/logit.h"
+#include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
 namespace {

@@ -1,4 +1,4 @@
-// What a scene holds, in numbers.
+// The summary of a scene in numbers: counts, extents, sizes.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,9 @@
-// A trained 3D Gaussian scene with the parameters as the file holds them, before any activation.
+// A trained 3D Gaussian scene with the parameters as the file holds them, before any activation
+// (Kerbl et al. 2023, section 4), and how large these may be.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -30,5 +32,30 @@ struct GaussianCloud {
     sh_coeffs.resize(count * static_cast<std::size_t>(sh_coeff_count(degree)));
   }
 };
+
+// Files and training keep opacities as logits: ln(p / (1 - p)) of p in [0, 1]; -inf and inf at its
+// ends.
+inline double logit(double p) { return std::log(p / (1 - p)); }
+
+// Its inverse.
+inline double sigmoid(double logit) { return 1 / (1 + std::exp(-logit)); }
+
+// How large the parameters of Gaussians and cameras may be: what lies within is drawn, what lies
+// beyond is refused by name, so that nothing vanishes where a computation leaves float.
+//
+// The steepest computation is the projection. With f the focal length, v_z > 0.2 the depth and S
+// the largest scale, a splat is up to sigma = f S / v_z px wide. Its covariance, sigma^2, stays
+// within float for every f and S within the limits. The determinant, sigma^4, does not: from sigma
+// of 4 10^9 px it may be infinite and the conic 0, so that the splat is as opaque everywhere as it
+// is at its centre. That is right to the eye unless the centre lies as far off the frame as a tenth
+// of sigma, and takes a Gaussian of scale 10^7 nearer than f / 430. No limit on S alone lets pass
+// all that some camera could show, from far enough, and nothing that another would lose. Distances
+// are squared for the direction of colour: coordinates of 10^18 give 1.2e37. SH coefficients are
+// squared where codebooks are trained.
+constexpr double kMaxCoordinate = 1e18;      // magnitude, world units: Gaussians and cameras
+constexpr double kMaxCoefficient = 1e18;     // magnitude of SH coefficients
+constexpr double kMaxScale = 1e7;            // world units
+constexpr double kMaxLogScale = 16.1180956;  // ln(kMaxScale)
+constexpr double kMaxFocalPx = 1e9;
 
 }  // namespace sgs

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 

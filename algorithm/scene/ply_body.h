@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithm/input_file.h"
+#include "algorithm/files/input_file.h"
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/scene/ply_header.h"
-#include "algorithm/scene/vertex_layout.h"
-#include "algorithm/scene/vertex_store.h"
+#include "algorithm/scene/ply_vertex.h"
 
 namespace sgs {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 namespace {

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 #include "algorithm/scene/ply_body.h"
 #include "algorithm/scene/ply_header.h"
-#include "algorithm/scene/vertex_layout.h"
-#include "algorithm/scene/vertex_store.h"
+#include "algorithm/scene/ply_vertex.h"
 
 namespace sgs {
 

@@ -9,7 +9,7 @@
 namespace sgs {
 
 struct PlyReadOptions {
-  // Leave out Gaussians with NaN, infinite values, values beyond gaussian_limits.h or a zero
+  // Leave out Gaussians with NaN, infinite values, values beyond gaussian_cloud.h or a zero
   // quaternion instead of refusing the file.
   bool drop_invalid = false;
 };
@@ -25,7 +25,7 @@ struct PlyReadResult {
 // float). Other elements are skipped. Throws InputError: not a PLY, an unknown format, a missing,
 // duplicate or list property, a count that the file cannot hold, a truncated file or bytes behind
 // its last record, text that is no number, or (unless dropped) a value that is not finite or too
-// large to be drawn (gaussian_limits.h), or a quaternion of length zero.
+// large to be drawn (gaussian_cloud.h), or a quaternion of length zero.
 PlyReadResult read_ply(const std::string& path, const PlyReadOptions& options = {});
 
 }  // namespace sgs

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/output_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 
 namespace sgs {
 namespace {

@@ -1,5 +1,5 @@
-// From the parameters of a file to those of the datapath (3D Gaussian Splatting, Kerbl et al.
-// 2023).
+// From the parameters of a file to those of the datapath and back (3D Gaussian Splatting, Kerbl et
+// al. 2023).
 #pragma once
 
 #include <array>
@@ -61,5 +61,13 @@ ActivatedCloud activate(const GaussianCloud& cloud);
 // activation is where nothing but those changed since.
 void reactivate(const GaussianCloud& cloud, const std::vector<std::uint32_t>& indices,
                 ActivatedCloud& activated);
+
+// The way back: log_scale = ln(scale), logit = ln(opacity / (1 - opacity)), each the nearest float.
+// What activation makes of them is within a few units in the last place: not every scale, opacity
+// and unit quaternion is one that floats of a file lead to. 0 and 1 come back as they are.
+GaussianCloud deactivate(const ActivatedCloud& cloud);
+
+// ln(scale), of 0 a number whose exponential is 0 as a float.
+float log_scale_of(float scale);
 
 }  // namespace sgs

@@ -7,16 +7,15 @@
 
 #include "algorithm/splat/fixed_pixel.h"
 #include "algorithm/splat/half_scalar.h"
-#include "algorithm/splat/lane_input.h"
-#include "algorithm/splat/square_splat.h"
+#include "algorithm/splat/square_conic.h"
 #include "algorithm/splat/widest_lanes.h"
 
 namespace sgs {
 namespace {
 
-auto input_of(const Splat& s, float left, float top) { return lane_input(s, left, top); }
+auto input_of(const Splat& s, float left, float top) { return blend_input(s, left, top); }
 auto input_of(const SquareSplat& s, float left, float top) {
-  return lane_input_in_half<HalfScalar>(s, left, top);
+  return blend_input_in_half<HalfScalar>(s, left, top);
 }
 
 // of_lane[lane] = column[steps[lane] mod 64], all aligned to 64 B. Permutations of registers: 16

@@ -1,13 +1,14 @@
 // Blending of one splat into pixels: section 3 of the rendering semantics.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "algorithm/splat/constants.h"
 #include "algorithm/splat/exp2.h"
 #include "algorithm/splat/scalar.h"
 #include "algorithm/splat/splat.h"
-#include "algorithm/splat/square_splat.h"
+#include "algorithm/splat/square_conic.h"
 
 namespace sgs {
 
@@ -44,6 +45,46 @@ inline T alpha_at(T conic_a, T conic_b, T conic_c, T opacity, T dx, T dy) {
   return alpha_of(exponent, exp2_of(exponent), opacity);
 }
 
+// A splat as the arithmetic of blending takes it, beside a sub-tile's first pixel. Conic:
+// Log2Conic<T>, or SquareConic<T>.
+template <class T, class Conic>
+struct BlendInput {
+  Conic conic;
+  T opacity, red, green, blue;
+  T left, top;             // splat centre minus the sub-tile's first pixel
+  float pixel_x, pixel_y;  // distance of neighbours, in the same units
+};
+
+// left, top: px. Blending in the scalar that the splat is given in.
+template <class S>
+BlendInput<S, Log2Conic<S>> blend_input(const SplatOf<S>& s, S left, S top) {
+  return {log2_conic(s.conic_a, s.conic_b, s.conic_c),
+          s.opacity,
+          s.rgb.x,
+          s.rgb.y,
+          s.rgb.z,
+          left,
+          top,
+          1.0F,
+          1.0F};
+}
+
+// In the half H. Lengths along x are in units of their own, and so are those along y.
+template <class H, class S>
+BlendInput<H, SquareConic<H>> blend_input_in_half(const SquareSplatOf<S>& s, S left, S top) {
+  const AxisUnits units = axis_units(s.conic);
+  const SquareConic<S> conic = in_units(s.conic, units);
+  return {{H(conic.a), H(conic.lean), H(conic.rest)},
+          narrowed<H>(s.opacity),
+          narrowed<H>(s.rgb.x),
+          narrowed<H>(s.rgb.y),
+          narrowed<H>(s.rgb.z),
+          H(scaled_by(left, units.x)),
+          H(scaled_by(top, units.y)),
+          units.x,
+          units.y};
+}
+
 // State of a 4x4 block of pixels; lane = 4 y + x.
 struct SubtileState {
   float red[kSubtilePixels], green[kSubtilePixels], blue[kSubtilePixels];
@@ -62,10 +103,10 @@ enum class BlendPrecision : std::uint8_t { kSingle, kHalf, kFixed };
 // Whether the exponent and alpha are halves, and what is kept of a pixel has 16 bits a number.
 constexpr bool in_16_bits(BlendPrecision precision) { return precision != BlendPrecision::kSingle; }
 
-// Fresh state; lanes whose pixel lies outside the frame (width x height px) begin finished.
+// Fresh state; pixels that lie outside the frame (width x height px) begin finished.
 SubtileState make_subtile(int subtile_x, int subtile_y, int width_px, int height_px);
 
-// What one splat took of the light of each lane.
+// What one splat took of the light of each pixel.
 struct LaneShares {
   float alpha[kSubtilePixels];   // 0 where it was not blended
   float before[kSubtilePixels];  // T in front of it; behind it is the state's
@@ -100,5 +141,18 @@ LaneShares blend_and_tell(SubtileState& state, int subtile_x, int subtile_y,
 
 // Whether every pixel of the block is finished.
 bool finished(const SubtileState& state);
+
+// From the state of a pixel to the frame: one channel of C + T background.
+template <class T>
+T over_background(T colour, T transmittance, T background) {
+  return T(colour + transmittance * background);
+}
+
+// A channel as a whole number of 8 bits.
+template <class T>
+T level_of(T channel) {
+  using std::round;
+  return T(round(T(T(255.0F) * clamp_of(channel, T(0.0F), T(1.0F)))));
+}
 
 }  // namespace sgs

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <initializer_list>
 #include <type_traits>
 
 #include "algorithm/splat/data_flow.h"
 #include "algorithm/splat/exp2.h"
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/half_scalar.h"
 #include "algorithm/splat/scalar.h"
-#include "algorithm/splat/unit_quaternion.h"
 
 namespace sgs {
 
@@ -45,7 +48,18 @@ inline int value_of(CountingIndex a) { return a.value; }
 
 inline Counting input(DataFlow& flow, float value) { return {value, &flow, flow.input()}; }
 
+inline glm::vec<3, Counting> input(DataFlow& flow, const glm::vec3& v) {
+  return {input(flow, v.x), input(flow, v.y), input(flow, v.z)};
+}
 inline CountingIndex input_index(DataFlow& flow, int value) { return {value, &flow, flow.input()}; }
+
+// What goes on at the end of the computation.
+template <class Value>
+void keep(DataFlow& flow, std::initializer_list<Value> values) {
+  for (const Value& value : values) {
+    if (value.flow != nullptr) flow.keep(value.node);
+  }
+}
 
 inline DataFlow::Operand operand_of(Counting a) {
   if (a.flow != nullptr) return {false, a.node};
@@ -195,6 +209,70 @@ inline Counting moved_by_units(Counting x, CountingIndex units) {
 }
 template <>
 inline Counting exp2_of<Counting>(Counting t) {
+  return exp2_by_table(t);
+}
+
+// A half (half_scalar.h) that records every operation it goes through: the templates of blending
+// instantiated with it round as HalfScalar does, and are counted. Rounding to 16 bits is part of
+// the operation that it follows; an addition to an exponent rounds in the same adder.
+class CountingHalf {
+ public:
+  CountingHalf() = default;
+  explicit CountingHalf(float constant) : half_(rounded_to_half(constant)) {}
+  explicit CountingHalf(Counting x) : half_(x) { half_.value = rounded_to_half(x.value); }
+  Counting counting() const { return half_; }
+
+  friend CountingHalf operator-(CountingHalf a) { return CountingHalf(-a.half_); }
+  friend CountingHalf operator+(CountingHalf a, CountingHalf b) {
+    return CountingHalf(a.half_ + b.half_);
+  }
+  friend CountingHalf operator-(CountingHalf a, CountingHalf b) {
+    return CountingHalf(a.half_ - b.half_);
+  }
+  friend CountingHalf operator*(CountingHalf a, CountingHalf b) {
+    return CountingHalf(a.half_ * b.half_);
+  }
+  friend bool operator<(CountingHalf a, CountingHalf b) { return a.half_ < b.half_; }
+  friend bool operator>(CountingHalf a, CountingHalf b) { return a.half_ > b.half_; }
+  friend bool operator>=(CountingHalf a, CountingHalf b) { return a.half_ >= b.half_; }
+
+ private:
+  Counting half_;
+};
+
+inline float value_of(CountingHalf a) { return a.counting().value; }
+
+template <>
+inline CountingHalf max_of<CountingHalf>(CountingHalf a, CountingHalf b) {
+  return CountingHalf(max_of(a.counting(), b.counting()));
+}
+template <>
+inline CountingHalf min_of<CountingHalf>(CountingHalf a, CountingHalf b) {
+  return CountingHalf(min_of(a.counting(), b.counting()));
+}
+
+template <>
+inline CountingHalf narrowed<CountingHalf, Counting>(Counting x) {
+  return CountingHalf(recorded(clamped_to_half(x.value), Operation::kRound, x));
+}
+
+template <>
+struct Exp2TableOf<CountingHalf> : Exp2TableOf<HalfScalar> {};
+
+inline Exp2Parts<CountingHalf> exp2_parts(CountingHalf t) {
+  const Exp2Parts<Counting> parts = exp2_parts(t.counting());
+  return {CountingHalf(parts.rest), parts.steps};
+}
+template <>
+inline CountingHalf exp2_coefficient(const Exp2Parts<CountingHalf>& parts, std::size_t column) {
+  const auto value = Exp2TableOf<HalfScalar>::kTable.column[column][exp2_row(parts.steps)];
+  return CountingHalf(row_entry(parts.rest.counting(), value));
+}
+inline CountingHalf scaled_by_steps(CountingHalf x, std::int32_t steps) {
+  return CountingHalf(scaled_by_steps(x.counting(), steps));
+}
+template <>
+inline CountingHalf exp2_of<CountingHalf>(CountingHalf t) {
   return exp2_by_table(t);
 }
 

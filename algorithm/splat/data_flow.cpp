@@ -1,4 +1,4 @@
-// Numbering of values, the tally of a range of them, and the longest path through it.
+// Numbering of values, and the tally of a range of them.
 #include "algorithm/splat/data_flow.h"
 
 #include <algorithm>
@@ -30,18 +30,6 @@ bool is_unary(Operation operation) {
 bool commutes(Operation operation) {
   return operation == Operation::kMultiply || operation == Operation::kAdd ||
          operation == Operation::kCompare || operation == Operation::kAddIndex;
-}
-
-using Path = std::optional<LongestPath>;
-
-Path later(const Path& a, const Path& b, const OperationLatencies& latencies) {
-  if (!a || !b) return a ? a : b;
-  return a->cycles(latencies) < b->cycles(latencies) ? b : a;
-}
-
-Path behind(const Path& path, const LongestPath& operations) {
-  if (!path) return path;
-  return *path + operations;
 }
 
 }  // namespace
@@ -143,82 +131,6 @@ OperationCounts DataFlow::counts(std::size_t first, std::size_t last) const {
     }
   }
   return c;
-}
-
-LongestPath DataFlow::longest_path(std::size_t first, std::size_t last,
-                                   const OperationLatencies& latencies) const {
-  Paths paths(nodes_.size());
-  for (std::size_t i = 0; i < last; ++i) {
-    if (i < first || nodes_[i].operation == Operation::kInput) paths[i] = LongestPath{};
-  }
-  return longest_of(extended(std::move(paths), first, last, latencies), last, latencies);
-}
-
-LongestPath DataFlow::longest_path_from(const std::vector<std::uint32_t>& sources,
-                                        const OperationLatencies& latencies) const {
-  Paths paths(nodes_.size());
-  for (const std::uint32_t source : sources) paths[source] = LongestPath{};
-  return longest_of(extended(std::move(paths), 0, nodes_.size(), latencies), nodes_.size(),
-                    latencies);
-}
-
-std::vector<std::uint32_t> DataFlow::ready_cycles(const OperationLatencies& latencies) const {
-  Paths paths(nodes_.size());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i].operation == Operation::kInput) paths[i] = LongestPath{};
-  }
-  std::vector<std::uint32_t> cycles;
-  for (const Path& path : extended(std::move(paths), 0, nodes_.size(), latencies)) {
-    cycles.push_back(path->cycles(latencies));
-  }
-  return cycles;
-}
-
-// Every value is numbered behind those that it is made of.
-DataFlow::Paths DataFlow::extended(Paths paths, std::size_t first, std::size_t last,
-                                   const OperationLatencies& latencies) const {
-  for (std::size_t i = 0; i < last; ++i) {
-    if (!paths[i]) paths[i] = path_through(nodes_[i], first, paths, latencies);
-  }
-  return paths;
-}
-
-LongestPath DataFlow::longest_of(const Paths& paths, std::size_t last,
-                                 const OperationLatencies& latencies) const {
-  Path longest = LongestPath{};
-  for (std::size_t i = 0; i < last; ++i) longest = later(longest, paths[i], latencies);
-  return *longest;
-}
-
-// Of the products that a sum takes alone, the later one is made in the sum's own lane. A reciprocal
-// that was taken before `first` is there.
-std::optional<LongestPath> DataFlow::path_through(const Node& node, std::size_t first,
-                                                  const Paths& paths,
-                                                  const OperationLatencies& latencies) const {
-  const auto of = [&](const Operand& operand) {
-    return operand.is_constant ? Path{} : paths[operand.of];
-  };
-  const auto join = [&](const Path& a, const Path& b) { return later(a, b, latencies); };
-  const Path a = of(node.a), b = is_unary(node.operation) ? Path{} : of(node.b);
-  const auto factors = [&](const Operand& product) {
-    return join(of(nodes_[product.of].a), of(nodes_[product.of].b));
-  };
-  switch (node.operation) {
-    case Operation::kAdd:
-    case Operation::kSubtract: {
-      const bool a_fuses = is_lone_product(node.a), b_fuses = is_lone_product(node.b);
-      const bool fuses_a = a_fuses && (!b_fuses || join(a, b) == a);
-      const Path from = fuses_a   ? join(factors(node.a), b)
-                        : b_fuses ? join(a, factors(node.b))
-                                  : join(a, b);
-      return behind(from, path_of(node.operation));
-    }
-    case Operation::kDivide:
-      return behind(node.first_division < first ? join(a, b) : join(a, behind(b, kReciprocalPath)),
-                    path_of(node.operation));
-    default:
-      return behind(join(a, b), path_of(node.operation));
-  }
 }
 
 }  // namespace sgs

@@ -6,14 +6,60 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <vector>
 
-#include "algorithm/splat/longest_path.h"
-#include "algorithm/splat/operation_counts.h"
-
 namespace sgs {
+
+// What a computation can consist of, as the counting scalar records it.
+enum class Operation : std::uint8_t {
+  kInput,
+  kNegate,
+  kAbsolute,
+  kMultiply,
+  kAdd,
+  kSubtract,
+  kDivide,
+  kSquareRoot,
+  kLogarithm,
+  kExponential,
+  kLookUp,  // a row of a table
+  kSplit,   // into whole steps and a rest
+  kScale,   // by a power of two that is computed
+  kCompare,
+  kMinimum,
+  kMaximum,
+  kIsFinite,
+  kCeil,
+  kFloor,
+  kTruncate,
+  kRound,
+  kFromIndex,  // a whole number becomes a float
+  kAddIndex,   // of two whole numbers
+  kMoveBits,   // of a whole number, by places that are known: wires
+  kMaskBits    // of a whole number: set or cleared
+};
+
+// How many operations of each class a computation takes. Signs (negation, absolute value)
+// and selections are not counted, nor bits of a whole number that are moved or cleared.
+struct OperationCounts {
+  std::uint32_t multiplies = 0;
+  std::uint32_t adds = 0;  // and subtractions
+  std::uint32_t fused =
+      0;  // of the adds: right behind a multiplication, which they can be fused with
+  std::uint32_t divisions = 0;  // quotients; by a constant power of two they are multiplies
+  std::uint32_t divisors = 0;   // different ones among them
+  std::uint32_t square_roots = 0;
+  std::uint32_t logarithms = 0;
+  std::uint32_t exponentials = 0;
+  std::uint32_t comparisons = 0;  // also minimum, maximum, test for infinity
+  std::uint32_t roundings = 0;    // to a whole number
+  std::uint32_t splits = 0;       // into whole steps and the rest
+  std::uint32_t scalings = 0;     // by a power of two that is computed: added to the exponent
+  std::uint32_t conversions = 0;  // of whole numbers to floats
+  std::uint32_t index_adds = 0;   // of whole numbers
+  std::uint32_t look_ups = 0;     // of a row of a table of coefficients
+};
 
 class DataFlow {
  public:
@@ -54,28 +100,9 @@ class DataFlow {
   // graph takes the product a second time.
   OperationCounts counts(std::size_t first, std::size_t last) const;
 
-  // The operations that wait for each other among nodes [first, last), longest in cycles. What
-  // comes from outside or lies before `first` is there at the beginning.
-  LongestPath longest_path(std::size_t first, std::size_t last,
-                           const OperationLatencies& latencies) const;
-  // The same from one of these nodes on: everything that depends on none of them is there.
-  LongestPath longest_path_from(const std::vector<std::uint32_t>& sources,
-                                const OperationLatencies& latencies) const;
-  // [node] when its value is there, in cycles, if all that comes from outside is there at 0.
-  std::vector<std::uint32_t> ready_cycles(const OperationLatencies& latencies) const;
-
  private:
   using Key = std::tuple<Operation, bool, std::uint32_t, bool, std::uint32_t>;
 
-  // The path to each value, none to what is there at the beginning; null: it is on no path.
-  using Paths = std::vector<std::optional<LongestPath>>;
-
-  std::optional<LongestPath> path_through(const Node& node, std::size_t first, const Paths& paths,
-                                          const OperationLatencies& latencies) const;
-  Paths extended(Paths paths, std::size_t first, std::size_t last,
-                 const OperationLatencies& latencies) const;
-  LongestPath longest_of(const Paths& paths, std::size_t last,
-                         const OperationLatencies& latencies) const;
   std::uint32_t first_division_by(Operand divisor) const;
 
   std::vector<Node> nodes_;

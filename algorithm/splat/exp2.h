@@ -3,11 +3,11 @@
 // steps mod 64 holds the coefficients of a polynomial in the rest, and steps / 64 is added to the
 // exponent of what it gives.
 //
-// With h = ln2 / 128, the largest |rest| ln2, the parabola is off by h^3 / 24 = 6.6e-9 of the value,
-// the line by h^2 / 4 = 7.3e-6: each a small part of its format's last place. In float the result
-// is within 1.1 units in the last place: half of one each from the constant of a row and from the
-// last sum. Branch-free, so that a loop over pixels becomes vector code that gives the same bits on
-// every lane and machine.
+// With h = ln2 / 128, the largest |rest| ln2, the parabola is off by h^3 / 24 = 6.6e-9 of the
+// value, the line by h^2 / 4 = 7.3e-6: each a small part of its format's last place. In float the
+// result is within 1.1 units in the last place: half of one each from the constant of a row and
+// from the last sum. Branch-free, so that a loop over pixels becomes vector code that gives the
+// same bits on every lane and machine.
 #pragma once
 
 #include <array>

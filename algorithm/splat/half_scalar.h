@@ -13,7 +13,6 @@
 #include <cstdint>
 
 #include "algorithm/splat/exp2.h"
-#include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/scalar.h"
 
 namespace sgs {

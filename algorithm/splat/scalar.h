@@ -109,4 +109,10 @@ inline IndexOf<T> truncated_index(T x, int high) {
   return x >= T(static_cast<float>(high)) ? IndexOf<T>(high) : static_cast<IndexOf<T>>(x);
 }
 
+// In a narrower format, within its range: what no operation before has rounded.
+template <class H, class S>
+H narrowed(S x) {
+  return H(x);
+}
+
 }  // namespace sgs

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec3.hpp>
 #include <limits>
 
 #include "algorithm/splat/constants.h"
+#include "algorithm/splat/rects.h"
 #include "algorithm/splat/scalar.h"
+#include "algorithm/splat/splat.h"
 
 namespace sgs {
 
@@ -83,6 +86,22 @@ template <class T>
 inline T log2_falloff(const SquareConic<T>& conic, T dx, T dy) {
   const T across = T(dx + conic.lean * dy);
   return T(conic.a * across * across + conic.rest * dy * dy);
+}
+
+// A splat with the square of its conic completed, as blending in half takes it.
+template <class T>
+struct SquareSplatOf {
+  T x, y;  // px, centre
+  SquareConic<T> conic;
+  T opacity;
+  glm::vec<3, T> rgb;
+  FootprintOf<T> footprint;  // sub-tiles that may be blended, in the whole frame
+};
+using SquareSplat = SquareSplatOf<float>;
+
+template <class T>
+SquareSplatOf<T> square_splat(const SplatOf<T>& s) {
+  return {s.x, s.y, square_conic(s.conic_a, s.conic_b, s.conic_c), s.opacity, s.rgb, s.footprint};
 }
 
 }  // namespace sgs

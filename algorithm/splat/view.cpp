@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "algorithm/input_error.h"
-#include "algorithm/scene/gaussian_limits.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
 

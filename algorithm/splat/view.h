@@ -37,7 +37,7 @@ inline double largest_stretch(const glm::dmat3& r) {
 }
 
 // Throws InputError when the frame has no pixels or more than kMaxFramePx a side, or when focal
-// lengths or position are beyond gaussian_limits.h.
+// lengths or position are beyond gaussian_cloud.h.
 void check_drawable(const Camera& camera);
 
 // Throws InputError as check_drawable does.

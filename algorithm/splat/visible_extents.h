@@ -20,7 +20,7 @@ VisibleExtents visible_extents(const Gaussian<float>& g);
 
 // Levels are powers of 2^(1/16), so that decoding adds whole numbers and looks up a fraction out of
 // 16. The scale takes every other level, from 2^-8 to 2^23.75 world units; a smaller one is stored
-// as 2^-8, and beyond, which gaussian_limits.h does not allow, the last code stands for infinity.
+// as 2^-8, and beyond, which gaussian_cloud.h does not allow, the last code stands for infinity.
 // It is there for the condition of splats hundreds of pixels wide, where small ones do not matter.
 // The extents, which decide what is fetched, are counted down from the level that no opacity
 // exceeds.

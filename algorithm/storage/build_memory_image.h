@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "algorithm/memory/memory_image.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/stored_scene.h"
 #include "algorithm/voxel/chunk_tree.h"
@@ -17,7 +17,7 @@ MemoryImage build_memory_image(const EncodedCloud& scene, const VoxelGrid& grid)
 MemoryImage build_memory_image(const EncodedCloud& scene, const ChunkTree& tree);
 MemoryImage build_memory_image(const EncodedCloud& scene, NoTable);
 
-// What they are made of: records and codebooks and, one by one, the order's own records.
+// The parts of an image: records and codebooks and, one by one, the order's own records.
 MemoryImage store_gaussians(const EncodedCloud& scene, SceneLayout layout);
 
 template <class Record>

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/scene/gaussian_cloud.h"
-#include "algorithm/scene/gaussian_limits.h"
-#include "algorithm/storage/first_fault.h"
 
 namespace sgs {
 namespace {
@@ -74,7 +72,7 @@ bool within(const glm::vec3& v, double magnitude) {
   return std::abs(v.x) <= magnitude && std::abs(v.y) <= magnitude && std::abs(v.z) <= magnitude;
 }
 
-// What the coarse filter goes by must not be less than what is there.
+// The bound that the coarse filter goes by must not be less than the Gaussian.
 Fault fault_of_bound(const SplitFirstHalf& first, const Gaussian<float>& g, CoarseBoundBy by) {
   const VisibleExtents least = visible_extents(g);
   const VisibleExtents& got = first.extents;

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "algorithm/scene/gaussian_cloud.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 
 namespace sgs {
 namespace {

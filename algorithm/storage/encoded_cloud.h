@@ -21,7 +21,7 @@ struct EncodedCloud {
   void write_second_half(std::size_t index, std::byte* out) const;
 };
 
-// order: as in ../splat/reorder.h.
+// order: as in ../splat/gaussian.h.
 EncodedCloud reordered(EncodedCloud encoded, const std::vector<std::uint32_t>& order);
 
 EncodedCloud encode_raw(ActivatedCloud cloud);

@@ -1,15 +1,14 @@
 // Stored by file: for machines that read all of a scene and find what they need by themselves. In
 // the order that the scene came in, or neighbours in space side by side.
 #include "algorithm/storage/build_memory_image.h"
-#include "algorithm/storage/schemes.h"
 #include "algorithm/storage/storage_scheme.h"
 #include "algorithm/voxel/chunk_tree.h"
 
 namespace sgs {
 namespace {
 
-// Of the tree of bounds whose leaves are the spatial sequence; so many first halves lie together in
-// a row of memory (storage_choices.h).
+// Gaussians in a leaf of the tree of bounds that gives the spatial sequence: so many first halves
+// lie together in a row of memory (storage_scheme.h).
 constexpr std::uint32_t kNeighbours = 16;
 
 class FileScheme : public StorageScheme {

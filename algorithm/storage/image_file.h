@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <string>
 
-#include "algorithm/memory/memory_image.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/memory/storage_config.h"
 
 namespace sgs {
@@ -24,7 +24,7 @@ constexpr const char* kImageFileExtension = ".sgs";
 constexpr std::uint32_t kImageFileVersion = 5;
 constexpr std::size_t kMostNameBytes = 255;
 
-// Of a scene, whichever way it is stored.
+// Facts about a scene, whichever way it is stored.
 struct PackedFacts {
   std::string name;                   // cut to kMostNameBytes in the file
   std::uint64_t gaussians = 0;        // in the scene, stored or not
@@ -49,7 +49,7 @@ void write_image_file(const std::string& path, const PackedFacts& facts,
 
 // Throws InputError: not such a file, of another version, shorter or longer than it says, changed
 // (checksum), or with a header whose numbers do not fit each other. What the tables and records say
-// is checked by restore_scene (restore_scene.h).
+// is checked by restore_scene (stored_scene.h).
 PackedScene read_image_file(const std::string& path);
 
 }  // namespace sgs

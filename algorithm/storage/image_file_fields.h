@@ -1,5 +1,5 @@
-// What writer and reader of memory image files share: where the header's fields lie, and their
-// list; the numbers that one storage order alone has come from its scheme. Eight bytes for
+// Fields that writer and reader of memory image files share: where the header's fields lie, and
+// their list; the numbers that one storage order alone has come from its scheme. Eight bytes for
 // std::uint64_t and double, four for everything else (floating point as its bits, signed numbers as
 // two's complement).
 #pragma once
@@ -22,8 +22,8 @@ constexpr std::size_t field_bytes() {
   return sizeof(T) == 8 ? 8 : 4;
 }
 
-// What the fields say: all that a layout follows from, and the layout's regions once more, which
-// must be the same.
+// The contents of a header: all that a layout follows from, and the layout's regions once more,
+// which must be the same.
 struct ImageFileHeader {
   PackedFacts facts;
   StorageConfig storage;
@@ -33,18 +33,18 @@ struct ImageFileHeader {
   std::vector<Region> regions;
 };
 
-// Of a scene of nothing, with the regions that this order has.
+// The header of a scene of nothing, with the regions that this order has.
 ImageFileHeader empty_header(StorageOrder order);
 
 ImageFileHeader header_of(const PackedFacts& facts, const StorageConfig& storage,
                           const SceneLayout& layout);
 
-// What follows from all but the regions.
+// The layout that follows from all but the regions.
 SceneLayout layout_of(const ImageFileHeader& header);
 
 constexpr double kMostStorageOrder = std::variant_size_v<TableLayout> - 1;  // voxels, chunks, file
 
-// Those of the storage order among the others.
+// The fields of the storage order among the others.
 template <class Fields>
 class TableFieldsOf : public TableFields {
  public:
@@ -101,7 +101,7 @@ void visit_fields(Fields& fields, ImageFileHeader& header) {
 void write_image_file(const std::string& path, const ImageFileHeader& header,
                       const std::vector<std::byte>& bytes);
 
-// Of a header in this order with an empty name.
+// Bytes of a header in this order with an empty name.
 std::size_t least_header_bytes(StorageOrder order);
 
 // CRC-32 of bytes behind those whose checksum is `before`; 0 to begin with.

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 #include "algorithm/storage/image_file.h"
 #include "algorithm/storage/image_file_fields.h"
 

@@ -11,14 +11,54 @@
 #include <variant>
 #include <vector>
 
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/encoded_cloud.h"
 #include "algorithm/storage/image_file.h"
-#include "algorithm/storage/storage_choices.h"
 #include "algorithm/storage/stored_scene.h"
-#include "algorithm/storage/table_fields.h"
-#include "algorithm/voxel/arrangement.h"
+#include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
+
+// Values that a storage configuration may leave open (0), chosen by rules that say why.
+template <class T>
+struct Choice {
+  T value;
+  std::string why;  // a sentence with the numbers
+};
+
+// The same of a key below `storage`.
+struct StorageChoice {
+  const char* key;
+  double value;
+  std::string why;
+};
+
+// The voxel size in world units, by the inner extent of the scene (voxel_grid.h).
+Choice<double> choose_voxel_size(const ActivatedCloud& cloud);
+
+// The most Gaussians in a chunk. run_bytes: what lies together in one row of one memory channel. A
+// chunk's first halves fill it: smaller chunks cost more tree records than they save, larger ones
+// stream Gaussians that the group does not need.
+Choice<std::uint32_t> choose_chunk_gaussians(std::uint32_t run_bytes);
+
+// The numbers of a packed scene's header that only its storage order has: counts their bytes,
+// writes or reads them. A reader throws InputError for what is not between lowest and highest.
+class TableFields {
+ public:
+  virtual ~TableFields() = default;
+  virtual void operator()(const char* name, double& value, double lowest, double highest) = 0;
+  virtual void operator()(const char* name, int& value, double lowest, double highest) = 0;
+  virtual void operator()(const char* name, std::uint32_t& value, double lowest,
+                          double highest) = 0;
+
+  // A count of records or blocks takes four bytes in the file, whatever holds it in memory.
+  template <class Count>
+  void count(const char* name, Count& value) {
+    auto word = static_cast<std::uint32_t>(value);
+    (*this)(name, word, 0, UINT32_MAX);
+    value = word;
+  }
+};
 
 // A size among a configuration's storage keys that this order alone has; 0 leaves it open.
 struct StorageSize {
@@ -28,7 +68,7 @@ struct StorageSize {
   const char* meaning;
 };
 
-// What a report says of a stored scene's table.
+// A number that a report states of a stored scene's table.
 using StorageFact = std::pair<const char*, std::variant<std::uint64_t, double>>;
 
 class StorageScheme {
@@ -82,5 +122,10 @@ const StorageScheme& scheme_of(StorageOrder order);
 inline Stored stored_of(const StorageConfig& config) {
   return config.store_invisible ? Stored::kAll : Stored::kVisible;
 }
+
+// The schemes there are.
+const StorageScheme& voxel_scheme();
+const StorageScheme& chunk_scheme();
+const StorageScheme& file_scheme();
 
 }  // namespace sgs

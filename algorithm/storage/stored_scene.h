@@ -3,14 +3,18 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
-#include "algorithm/memory/memory_image.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/memory/storage_config.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/splat/gaussian.h"
+#include "algorithm/storage/image_file.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"
+#include "algorithm/vq/quantise.h"
 
 namespace sgs {
 
@@ -45,5 +49,27 @@ struct StoredScene {
   const VoxelGrid& grid() const { return std::get<VoxelGrid>(table); }
   const ChunkTree& tree() const { return std::get<ChunkTree>(table); }
 };
+
+// Encodes, sorts and lays out a scene as a storage configuration says. weighing: cameras that weigh
+// the Gaussians where codebooks are made; progress: of that. Throws InputError where a size is
+// still to be chosen (storage_scheme.h), or voxels are too small for the scene.
+StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
+                        const std::vector<Camera>& weighing, const VqProgress& progress = {});
+
+// The codebooks of a scene, and their indices: what store_scene makes for vq and vq_packed,
+// whatever the order.
+QuantisedCloud quantise_scene(const ActivatedCloud& cloud, const VqConfig& config,
+                              const std::vector<Camera>& weighing, const VqProgress& progress = {});
+
+// Stores a scene that was quantised elsewhere. quantised: of this cloud, with the bands that are
+// stored (sh_bands.h), whose centres, largest scales and order are stored as they are; config's
+// encoding: vq or vq_packed.
+StoredScene store_quantised(ActivatedCloud cloud, const QuantisedCloud& quantised,
+                            const StorageConfig& config);
+
+// The inverse of storing: from a memory image the scene that golden renderers need. These give the
+// same bits on it as on the scene that was stored. source: what errors name. Throws InputError when
+// tables or records say what no builder could have written.
+StoredScene restore_scene(PackedScene packed, const std::string& source);
 
 }  // namespace sgs

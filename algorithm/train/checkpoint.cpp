@@ -8,9 +8,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_file.h"
-#include "algorithm/output_file.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/train/saved_bytes.h"
 
 namespace sgs {
@@ -36,7 +36,8 @@ std::string four_bytes(std::uint32_t value) {
   return out;
 }
 
-// What cereal has written, front to back. It would make room for whatever length a text states.
+// A reader of what cereal has written, front to back. It would make room for whatever length a text
+// states.
 class Body {
  public:
   // path: for messages. The first byte says that numbers are little-endian.

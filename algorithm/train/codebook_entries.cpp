@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "algorithm/splat/deactivate.h"
+#include "algorithm/splat/activate.h"
 
 namespace sgs {
 namespace {

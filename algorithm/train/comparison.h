@@ -1,4 +1,5 @@
-// A scene's picture beside its photograph, and which way every parameter brings it nearer.
+// A scene's picture beside its photograph by the loss of Kerbl et al. 2023, and the derivative by
+// every parameter.
 #pragma once
 
 #include <cstdint>
@@ -6,14 +7,13 @@
 
 #include "algorithm/image/image.h"
 #include "algorithm/tune/cloud_gradient.h"
-#include "algorithm/tune/gradient_rule.h"
 #include "algorithm/tune/group_sequences.h"
 #include "algorithm/tune/photometric_loss.h"
+#include "algorithm/tune/splat_gradient.h"
 
 namespace sgs {
 
-// As which loss a picture and its photograph are compared, and what of it is taken for its
-// gradient.
+// The loss by which a picture and its photograph are compared, and its gradient rule.
 struct ComparisonRule {
   double ssim_share = kSsimShare;
   GradientRule gradients = GradientRule::kDerivative;

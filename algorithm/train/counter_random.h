@@ -7,11 +7,22 @@
 #include <glm/vec3.hpp>
 #include <initializer_list>
 
-#include "algorithm/split_mix.h"
-
 namespace sgs {
 
-// What is drawn.
+// SplitMix64 (Steele, Lea and Flood 2014): random bits from a counter, and a good hash of one.
+constexpr std::uint64_t kSplitMixStep = 0x9e3779b97f4a7c15u;
+
+// Its last step: one to one.
+constexpr std::uint64_t scrambled(std::uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+// The number behind `value`.
+constexpr std::uint64_t mix_bits(std::uint64_t value) { return scrambled(value + kSplitMixStep); }
+
+// The uses of random numbers.
 enum class RandomUse : std::uint64_t {
   kStart,
   kOrderOfViews,

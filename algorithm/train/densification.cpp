@@ -5,9 +5,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numeric>
 
-#include "algorithm/scene/logit.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/train/counter_random.h"
 
 namespace sgs {

@@ -22,16 +22,16 @@ struct DensificationConfig {
   double reset_opacity = 0.01;
 };
 
-// What is seen of the Gaussians between two densifications.
+// Statistics of the Gaussians between two densifications.
 class DensificationStatistics {
  public:
   explicit DensificationStatistics(std::size_t count) { clear(count); }
 
   void clear(std::size_t count);
-  // Of one step.
+  // Adds what one step saw.
   void add(const GroupSequences& sequences, const CloudGradient& gradient);
 
-  // Mean over the steps that saw it, in half screens; 0 where none did.
+  // Mean pull over the steps that saw the Gaussian, in half screens; 0 where none did.
   double pull(std::size_t i) const;
   // Three deviations along its long axis, the largest seen.
   double radius_px(std::size_t i) const { return radii_px_[i]; }

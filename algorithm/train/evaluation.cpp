@@ -1,7 +1,12 @@
+
 #include "algorithm/train/evaluation.h"
+
+#include <cstdint>
+#include <vector>
 
 #include "algorithm/image/quality.h"
 #include "algorithm/tune/group_sequences.h"
+#include "algorithm/tune/visited_sequences.h"
 
 namespace sgs {
 
@@ -26,6 +31,36 @@ Quality mean_quality(const std::vector<Quality>& each) {
   }
   const auto count = static_cast<double>(each.size());
   return {sum.psnr_db / count, sum.ssim / count};
+}
+
+PaperQuality paper_quality(const ActivatedCloud& cloud, const VoxelGrid& grid,
+                           const PaperOrderConfig& order, const BoundaryPenaltyConfig& penalty,
+                           const Photographs& photographs, const PictureSeen& seen) {
+  std::vector<Quality> paper;
+  std::uint64_t rendered = 0, misordered = 0, blends = 0, misordered_blends = 0;
+  double penalties = 0;
+  for (std::size_t at = 0; at < photographs.size(); ++at) {
+    const auto view = make_view<float>(photographs.camera(at));
+    const StreamingResult result = render_paper_order(view, cloud, grid, order);
+    if (seen) seen(at, result.frame.image);
+    const Image target = photographs.before(at, order.background);
+    paper.push_back({psnr_db(result.frame.image, target), ssim(result.frame.image, target)});
+    blends += result.stats.contributors;
+    misordered_blends += result.stats.misordered;
+    const BoundaryPenalty found =
+        boundary_penalty(visited_sequences(view, cloud, grid, result.group_voxels, order.group,
+                                           order.visit_gaussians),
+                         cloud, order.precision, penalty);
+    rendered += found.rendered;
+    misordered += found.misordered;
+    penalties += found.value;
+  }
+  const auto share = [](std::uint64_t part, std::uint64_t all) {
+    return all > 0 ? static_cast<double>(part) / static_cast<double>(all) : 0;
+  };
+  return {mean_quality(paper), mean_quality(qualities(cloud, photographs, order.background)),
+          share(misordered, rendered), share(misordered_blends, blends),
+          penalties / static_cast<double>(photographs.size())};
 }
 
 }  // namespace sgs

@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "algorithm/image/image.h"
+#include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/train/photographs.h"
+#include "algorithm/tune/boundary_penalty.h"
+#include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
 
@@ -18,12 +21,27 @@ struct Quality {
 // Is shown what the scene looks like from where photograph `at` was taken.
 using PictureSeen = std::function<void(std::size_t at, const Image& picture)>;
 
-// Of each photograph, before `background`, in the reference order. What the scene shows is rounded
-// to 8 bits neither here nor in PSNR.
+// The quality at each photograph, before `background`, in the reference order. The scene's picture
+// is rounded to 8 bits neither here nor in PSNR.
 std::vector<Quality> qualities(const ActivatedCloud& cloud, const Photographs& photographs,
                                const glm::vec3& background, const PictureSeen& seen = {});
 
 // Means over all of them, PSNR in dB.
 Quality mean_quality(const std::vector<Quality>& each);
+
+// The quality of paper order's pictures of a scene, and the share of them that is out of order:
+// means over the photographs; shares of all views together.
+struct PaperQuality {
+  Quality paper;                // of the pictures in paper order, as the golden renderer draws them
+  Quality reference;            // of the same scene's reference pictures
+  double misordered_gaussians;  // share of (group, Gaussian) pairs that are rendered
+  double misordered_pixels;     // share of blends behind a splat that is farther, at the same pixel
+  double penalty;               // L_CBP
+};
+
+// grid: of this cloud, which is in storage order. seen: is shown the pictures in paper order.
+PaperQuality paper_quality(const ActivatedCloud& cloud, const VoxelGrid& grid,
+                           const PaperOrderConfig& order, const BoundaryPenaltyConfig& penalty,
+                           const Photographs& photographs, const PictureSeen& seen = {});
 
 }  // namespace sgs

@@ -1,9 +1,11 @@
-// What is made to come nearer to photographs, a step at a time: training and tunings alike.
+// A scene is fitted to photographs a step at a time: training and tunings alike.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace sgs {
 
@@ -36,6 +38,21 @@ class Fitting {
 
   // All that the next step depends on, for a checkpoint.
   virtual std::string saved() const = 0;
+};
+
+// The photograph that each step looks at: all of them once each time through, in an order drawn
+// anew each time: it follows from the seed and the step.
+class ViewOrder {
+ public:
+  explicit ViewOrder(std::uint64_t seed) : seed_(seed) {}
+
+  // count: of the photographs, the same each time.
+  std::size_t at(int step, std::size_t count);
+
+ private:
+  std::uint64_t seed_;
+  std::vector<std::size_t> order_;
+  int order_of_ = -1;  // which time through that is
 };
 
 }  // namespace sgs

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "algorithm/dataset/dataset.h"
-#include "algorithm/image/rgba_image.h"
+#include "algorithm/image/image.h"
 #include "algorithm/scene/camera.h"
+#include "algorithm/splat/gaussian.h"
 
 namespace sgs {
 
@@ -23,11 +25,11 @@ class Photographs {
   using Source = std::function<Photograph(std::size_t at, double downscale)>;
 
   Photographs(std::size_t count, Source source) : stored_(count), source_(std::move(source)) {}
-  // Those of one split of a data set, which must outlive them.
+  // The photographs of one split of a data set, which must outlive them.
   Photographs(const Dataset& dataset, Split split);
 
-  // Loads all of them at another size. 8 B a pixel stay; on the way 16 more for each pixel of a file
-  // that a thread is at. Throws what the source throws.
+  // Loads all of them at another size. 8 B a pixel stay; on the way 16 more for each pixel of a
+  // file that a thread is at. Throws what the source throws.
   void load(double downscale);
 
   std::size_t size() const { return stored_.size(); }
@@ -48,5 +50,16 @@ class Photographs {
   Source source_;
   bool transparent_ = false;
 };
+
+// Targets where there are no photographs: the scene's own reference pictures.
+
+// Before black, opaque; what is brighter than 1 becomes 1, as in any photograph. cloud: copied.
+Photographs own_pictures(const ActivatedCloud& cloud, std::vector<Camera> cameras);
+
+// `count` cameras, each somewhere between two of the given ones, drawn: on the line between their
+// centres, turned as far on the shortest way, with the size and focal lengths of the first of the
+// two. Throws InputError where fewer than two are given.
+std::vector<Camera> cameras_between(const std::vector<Camera>& cameras, std::size_t count,
+                                    std::uint64_t seed);
 
 }  // namespace sgs

@@ -1,17 +1,18 @@
+// Steps, alignment and reassignment of quantised scenes.
 #include "algorithm/train/quantised_tuner.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/deactivate.h"
 #include "algorithm/storage/encoded_cloud.h"
-#include "algorithm/storage/store_scene.h"
+#include "algorithm/storage/stored_scene.h"
 #include "algorithm/train/comparison.h"
-#include "algorithm/train/nearest_name.h"
 #include "algorithm/train/saved_bytes.h"
-#include "algorithm/vq/assign.h"
+#include "algorithm/vq/quantise.h"
 #include "algorithm/vq/vq_points.h"
 
 namespace sgs {
@@ -31,6 +32,28 @@ void serialize(Archive& archive, QuantisedTuner::State& state) {
 }
 
 namespace {
+
+using Quaternion = std::array<float, 4>;  // w, x, y, z
+
+// The quaternion nearest to an entry among those that name the same ellipsoid with its axes in this
+// order: q, q i, q j and q k, either sign.
+Quaternion nearest_name(const Quaternion& q, const float* entry) {
+  const Quaternion names[4] = {{q[0], q[1], q[2], q[3]},
+                               {-q[1], q[0], q[3], -q[2]},
+                               {-q[2], -q[3], q[0], q[1]},
+                               {-q[3], q[2], -q[1], q[0]}};
+  const auto along = [&](const Quaternion& name) {
+    return name[0] * entry[0] + name[1] * entry[1] + name[2] * entry[2] + name[3] * entry[3];
+  };
+  Quaternion best = names[0];
+  for (const Quaternion& name : names) {
+    if (std::abs(along(name)) > std::abs(along(best))) best = name;
+  }
+  if (along(best) < 0) {
+    for (float& part : best) part = -part;
+  }
+  return best;
+}
 
 std::vector<std::uint32_t> all_of(std::size_t count) {
   std::vector<std::uint32_t> out(count);
@@ -164,8 +187,8 @@ void QuantisedTuner::reassign() {
   refresh(all);
 }
 
-// Of what is drawn, as derivatives are taken by them; colours are no function of any. An opacity's
-// is that of before it was rounded.
+// The parameters of what is drawn, by which derivatives are taken; colours are no function of any.
+// An opacity is taken as it was before it was rounded.
 GaussianCloud QuantisedTuner::parameters_of(const ActivatedCloud& drawn) const {
   GaussianCloud out;
   out.sh_degree = drawn.sh_degree;

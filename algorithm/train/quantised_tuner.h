@@ -1,5 +1,5 @@
-// Quantisation-aware fine-tuning: a scene and its codebooks, learned together through what the
-// units decode.
+// Quantisation-aware fine-tuning (StreamingGS, DAC 2025): a scene and its codebooks, learned
+// together through what the units decode.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,9 @@
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/stored_scene.h"
 #include "algorithm/train/codebook_entries.h"
-#include "algorithm/train/drawing_order.h"
 #include "algorithm/train/fitting.h"
 #include "algorithm/train/photographs.h"
 #include "algorithm/train/tuning_config.h"
-#include "algorithm/train/view_order.h"
 #include "algorithm/tune/adam.h"
 #include "algorithm/tune/cloud_gradient.h"
 #include "algorithm/vq/quantise.h"
@@ -42,7 +40,7 @@ class QuantisedTuner : public Fitting {
     QuantisedCloud quantised;
     std::uint64_t reassigned = 0;
   };
-  // What indices are found by, as quantise() has it.
+  // The measures by which indices are found, as quantise() has them.
   struct Weighing {
     std::vector<float> weights, pixel_sizes;
   };
@@ -80,8 +78,8 @@ class QuantisedTuner : public Fitting {
   const DrawingOrder order_;
   const Weighing weighing_;
   int next_step_ = 0;
-  // What each Gaussian would be without codebooks. log_scales: of the largest, then those of the
-  // ratios of the two others to it.
+  // The Gaussians as they would be without codebooks. log_scales: that of the largest scale, then
+  // those of the ratios of the two others to it.
   GaussianCloud own_;
   GaussianCloud file_;    // the same with log_scales as files have them
   ActivatedCloud exact_;  // activate(file_)

@@ -6,12 +6,9 @@
 
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/gaussian.h"
-#include "algorithm/train/drawing_order.h"
 #include "algorithm/train/fitting.h"
-#include "algorithm/train/penalties.h"
 #include "algorithm/train/photographs.h"
 #include "algorithm/train/tuning_config.h"
-#include "algorithm/train/view_order.h"
 #include "algorithm/tune/adam.h"
 #include "algorithm/tune/cloud_gradient.h"
 

@@ -1,24 +1,69 @@
+
 #include "algorithm/train/start_cloud.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <nanoflann.hpp>
 #include <numeric>
 
-#include "algorithm/input_error.h"
-#include "algorithm/scene/logit.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/spherical_harmonics.h"
 #include "algorithm/train/counter_random.h"
-#include "algorithm/train/neighbour_distance.h"
 
 namespace sgs {
 namespace {
 
-// Of a Gaussian whose points all coincide, world units.
+constexpr std::size_t kNeighbours = 3;
+
+// As nanoflann wants to see points.
+struct Points {
+  const std::vector<glm::vec3>& points;
+
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  float kdtree_get_pt(std::size_t index, std::size_t axis) const {
+    return points[index][static_cast<int>(axis)];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>,
+                                                 Points, 3, std::size_t>;
+
+}  // namespace
+
+std::vector<float> neighbour_distances(const std::vector<glm::vec3>& points) {
+  std::vector<float> distances(points.size(), 0.0F);
+  if (points.size() < 2) return distances;
+  const Points adapted{points};
+  Tree tree(3, adapted, nanoflann::KDTreeSingleIndexAdaptorParams());
+  tree.buildIndex();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size()), [&](const auto& range) {
+    std::size_t found[kNeighbours + 1];
+    float squares[kNeighbours + 1];
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      // The nearest one is the point itself, or one at the same place.
+      const std::size_t count = tree.knnSearch(&points[i].x, kNeighbours + 1, found, squares);
+      double sum = 0;
+      for (std::size_t k = 1; k < count; ++k) sum += squares[k];
+      distances[i] = static_cast<float>(std::sqrt(sum / static_cast<double>(count - 1)));
+    }
+  });
+  return distances;
+}
+
+namespace {
+
+// The scale of a Gaussian whose points all coincide, world units.
 constexpr float kLeastScale = 1e-4F;
 
 std::vector<SfmPoint> drawn(std::vector<SfmPoint> points, std::size_t most, std::uint64_t seed) {

@@ -1,8 +1,9 @@
-// What training begins with.
+// The cloud that training begins with.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "algorithm/dataset/dataset.h"
@@ -28,9 +29,13 @@ GaussianCloud start_at_points(const std::vector<SfmPoint>& points, std::size_t m
 // `count` points of random colours, even in a box.
 std::vector<SfmPoint> random_points(const Extent& box, std::size_t count, std::uint64_t seed);
 
-// Where what the cameras look at may be: the box that the data set states; else a cube around the
-// point that the optical axes pass nearest to, whose half side is a third of the mean distance of
-// the cameras from it.
+// The box that holds what the cameras look at: the one that the data set states; else a cube around
+// the point that the optical axes pass nearest to, whose half side is a third of the mean distance
+// of the cameras from it.
 Extent box_to_fill(const Dataset& dataset);
+
+// For each point the root of the mean square distance to its three nearest others, world units; to
+// fewer where there are fewer, 0 where there is none.
+std::vector<float> neighbour_distances(const std::vector<glm::vec3>& points);
 
 }  // namespace sgs

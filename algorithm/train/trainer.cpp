@@ -1,3 +1,4 @@
+
 #include "algorithm/train/trainer.h"
 
 #include <algorithm>
@@ -6,11 +7,35 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/train/comparison.h"
 #include "algorithm/train/counter_random.h"
-#include "algorithm/train/position_noise.h"
-#include "algorithm/train/relocation.h"
+#include "algorithm/train/mcmc.h"
 #include "algorithm/train/saved_bytes.h"
 
 namespace sgs {
+
+LearningRates TrainingConfig::rates_at(int step, double extent) const {
+  LearningSchedule schedule = rates;
+  schedule.mean_steps = steps;
+  return schedule.at(step, extent);
+}
+
+int TrainingConfig::degree_at(int step) const {
+  const double each = std::max(1.0, degrees_by * steps / std::max(1, sh_degree));
+  return std::min(sh_degree, static_cast<int>(step / each));
+}
+
+double TrainingConfig::downscale_at(int step) const {
+  const double until = full_size_from * steps;
+  if (step >= until) return 1;
+  const double first = 1 / (first_downscale * first_downscale);
+  const double share = first + (1 - first) * step / until;
+  // At least as many pixels as that.
+  const double halvings = std::floor(std::log2(1 / share) + 1e-9);
+  return std::exp2(halvings / 2);
+}
+
+bool TrainingConfig::grows_at(int step) const {
+  return step >= grow_from * steps && step <= grow_to * steps && step % grow_every == 0;
+}
 
 template <class Archive>
 void serialize(Archive& archive, Trainer::State& state) {
@@ -80,7 +105,7 @@ void Trainer::prepare(int step) {
   }
 }
 
-// Of what a step sees only: Gaussians that no view of the moment shows rest in everything.
+// The regularisers act on the Gaussians that a step sees; all others rest.
 void Trainer::add_regularisers() {
   const auto count = static_cast<double>(cloud_.size());
   const auto by_opacity = static_cast<float>(config_.opacity_share / count);

@@ -1,4 +1,4 @@
-// One Gaussian at a time: its parameters gathered to a row, the row updated as vectors, put back.
+// Learning rates, and the steps of the optimiser.
 #include "algorithm/tune/adam.h"
 
 #include <tbb/blocked_range.h>
@@ -6,13 +6,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 #include <utility>
 
-#include "algorithm/scene/gaussian_limits.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/widest_lanes.h"
 
 namespace sgs {
+
+LearningRates LearningSchedule::at(int step, double extent) const {
+  const double done = std::clamp(static_cast<double>(step) / mean_steps, 0.0, 1.0);
+  const double mean = std::exp(std::log(mean_first) * (1 - done) + std::log(mean_last) * done);
+  return {mean * extent, log_scale, quat, opacity_logit, sh_dc, sh_rest};
+}
+
+double scene_extent(const std::vector<Camera>& cameras) {
+  glm::dvec3 sum(0.0);
+  for (const Camera& camera : cameras) sum += camera.position;
+  const glm::dvec3 mean = sum / static_cast<double>(cameras.size());
+  double farthest = 0;
+  for (const Camera& camera : cameras) {
+    farthest = std::max(farthest, glm::distance(camera.position, mean));
+  }
+  return 1.1 * farthest;
+}
+
+// One Gaussian at a time: its parameters gathered to a row, the row updated as vectors, put back.
+
 namespace {
 
 constexpr std::size_t kVector = 16;  // values

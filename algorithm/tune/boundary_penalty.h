@@ -14,12 +14,12 @@
 
 namespace sgs {
 
-// Before which Gaussians one is out of order: the paper says no more than "rendered before it".
+// The Gaussians before which one is out of order: the paper says no more than "rendered before it".
 // kGroup: anywhere in the group. kPixel: at one of the pixels that it is blended into itself, which
 // is where it costs something.
 enum class MisorderedIn { kGroup, kPixel };
 
-// What N counts, which the paper leaves open too: (group, Gaussian) pairs that are rendered, or the
+// N, which the paper leaves open too, counts the (group, Gaussian) pairs that are rendered, or the
 // Gaussians of the scene.
 enum class PenaltyMean { kRendered, kScene };
 

@@ -1,9 +1,9 @@
-// blend_gradient.h for the 16 pixels of a sub-tile at a time, in float.
+// splat_gradient.h for the 16 pixels of a sub-tile at a time, in float.
 #pragma once
 
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/splat.h"
-#include "algorithm/tune/blend_gradient.h"
+#include "algorithm/tune/splat_gradient.h"
 
 namespace sgs {
 

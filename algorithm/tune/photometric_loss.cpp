@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include "algorithm/image/image_pair.h"
+#include "algorithm/image/quality.h"
 #include "algorithm/tune/row_filter.h"
 
 namespace sgs {

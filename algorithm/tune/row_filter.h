@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "algorithm/image/ssim_window.h"
+#include "algorithm/image/quality.h"
 
 namespace sgs {
 

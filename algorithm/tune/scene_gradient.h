@@ -1,4 +1,5 @@
-// From the derivatives of a loss with respect to pixels to those with respect to Gaussians.
+// From the derivatives of a loss with respect to pixels to those with respect to Gaussians: the
+// backward pass of Kerbl et al. 2023, for any order of rendering.
 #pragma once
 
 #include <vector>
@@ -6,8 +7,8 @@
 #include "algorithm/image/image.h"
 #include "algorithm/render/render_result.h"
 #include "algorithm/tune/cloud_gradient.h"
-#include "algorithm/tune/gradient_rule.h"
 #include "algorithm/tune/group_sequences.h"
+#include "algorithm/tune/splat_gradient.h"
 
 namespace sgs {
 
@@ -18,7 +19,7 @@ struct PixelGradient {
                                      // shows the background; empty: 0
 };
 
-// What is differentiated: draw(sequences, background, precision) == picture, of parameters that
+// A picture to differentiate: draw(sequences, background, precision) == picture, and
 // activate(parameters) == cloud.
 struct DrawnScene {
   const View<float>& view;

@@ -7,8 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "algorithm/tune/activation_gradient.h"
-#include "algorithm/tune/projection_gradient.h"
+#include "algorithm/tune/gaussian_gradient.h"
 
 namespace sgs {
 namespace {

@@ -1,5 +1,5 @@
-// What a Gaussian costs to stream: in each view its record is fetched for every group of pixels
-// that it may be seen in. A price that can be differentiated, for scenes that are to be cheaper.
+// The price of streaming a Gaussian: in each view its record is fetched for every group of pixels
+// that it may be seen in. The price can be differentiated, so that a tuning can lower it.
 #pragma once
 
 #include "algorithm/splat/footprint.h"

@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "algorithm/voxel/chunk_decode.h"
-
 namespace sgs {
 namespace {
 

@@ -3,15 +3,18 @@
 // Traversal on GPUs Through Compressed Wide BVHs", 2017).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+
+#include "algorithm/splat/scalar.h"
 
 namespace sgs {
 
 constexpr int kChunkNodeWidth = 8;
 
-// What is known of all Gaussians below a child without looking at them. World frame.
+// Bounds of all Gaussians below a child, known without looking at them. World frame.
 template <class T>
 struct ChunkBoundOf {
   glm::vec<3, T> low{T(0.0F)}, high{T(0.0F)};  // box of the centres
@@ -45,5 +48,28 @@ void quantise(const ChunkBound* bounds, ChunkNode& node);
 // The bound of one child, never smaller than what was quantised. Extents beyond the range come back
 // as infinity.
 ChunkBound child_bound(const ChunkNode& node, int child);
+
+// Decoding of a child's quantised bounds, for any scalar.
+constexpr int kExtentSteps = 16;  // of an octave
+constexpr int kMostExtent = 255;
+
+// 2^(-(15 - q mod 16) / 16), rounded up, so that no extent comes back smaller.
+float extent_fraction(int q);
+
+// x 2^exponent: an addition to its exponent.
+inline float scaled_by_exponent(float x, int exponent) { return std::ldexp(x, exponent); }
+
+// origin + q step.
+template <class T>
+T box_bound(T origin, T step, IndexOf<T> q) {
+  return T(origin + number_of<T>(q) * step);
+}
+
+// 2^(exponent - (255 - q) / 16), where exponent is least + 15.
+template <class T>
+T extent_value(IndexOf<T> q, IndexOf<T> least) {
+  return scaled_by_exponent(extent_fraction(q), least + q / kExtentSteps);
+}
+inline int least_extent_exponent(int exponent) { return exponent - kMostExtent / kExtentSteps; }
 
 }  // namespace sgs

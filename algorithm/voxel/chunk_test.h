@@ -28,8 +28,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/footprint.h"
-#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/view.h"
 #include "algorithm/voxel/chunk_node.h"
 
@@ -183,7 +183,7 @@ ChunkTestOf<T> GroupFrustumOf<T>::test(const ChunkBoundOf<T>& bound) const {
   const auto subtiles = [&](T middle, T axis_focal, Interval ratio, T reach, int begin, int end) {
     const T around = axis_focal * reach / z.low + padding_px;
     const T left = px(begin), right = px(end - 1);
-    // What is not a number leaves the group's own edge.
+    // A value that is not a number leaves the group's own edge.
     const T first =
         max_of(left, min_of(T(ceil(T(middle + axis_focal * ratio.low - around))), right));
     const T last =

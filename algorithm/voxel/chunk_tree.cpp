@@ -1,4 +1,4 @@
-// Top-down building of the chunk tree.
+// Top-down building of the chunk tree, and the test of its bounds for float.
 #include "algorithm/voxel/chunk_tree.h"
 
 #include <tbb/blocked_range.h>
@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "algorithm/splat/visible_extents.h"
-#include "algorithm/voxel/chunk_cut.h"
-#include "algorithm/voxel/wide_nodes.h"
+#include "algorithm/voxel/binary_tree.h"
+#include "algorithm/voxel/chunk_test.h"
 
 namespace sgs {
 namespace {
@@ -145,5 +145,7 @@ Arrangement<ChunkTree> arrange_by_chunks(const ActivatedCloud& cloud, std::uint3
   Widener(items, out).run(*root);
   return out;
 }
+
+template class GroupFrustumOf<float>;
 
 }  // namespace sgs

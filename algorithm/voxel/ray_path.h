@@ -9,10 +9,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "algorithm/voxel/cells_from_eye.h"
-#include "algorithm/voxel/children_ahead.h"
 #include "algorithm/voxel/ray.h"
-#include "algorithm/voxel/ray_event.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {

@@ -1,6 +1,6 @@
-// Sampling along a ray with a fixed step, as the paper's VSU does: cheaper than the exact
-// traversal, and it can miss the corner of a cell. Points in empty blocks are not sampled one by
-// one.
+// Sampling along a ray with a fixed step, as the VSU of StreamingGS (DAC 2025) does: cheaper than
+// the exact traversal, and it can miss the corner of a cell. Points in empty blocks are not sampled
+// one by one.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "algorithm/voxel/cells_from_eye.h"
 #include "algorithm/voxel/ray.h"
-#include "algorithm/voxel/ray_event.h"
 #include "algorithm/voxel/voxel_grid.h"
 
 namespace sgs {
@@ -134,24 +132,6 @@ class SamplePath {
   int block_level_ = 0;      // of the block that was looked into last
   std::uint32_t index_ = 0;  // of the child there
   bool found_ = false;       // it is occupied
-};
-
-// The samples of a tree, ray by ray, without any time.
-template <class Table>
-class RaySampling {
- public:
-  RaySampling(const VoxelFrame& frame, Table& table, float step_voxels)
-      : path_(frame, step_voxels), table_(table) {}
-
-  // As RayWalk::walk.
-  template <class Visit>
-  std::uint32_t walk(const Ray& ray, Visit&& visit) {
-    return follow(path_, ray, table_, visit);
-  }
-
- private:
-  SamplePath path_;
-  Table& table_;
 };
 
 }  // namespace sgs

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <utility>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/splat/footprint.h"
 #include "algorithm/voxel/voxel_cuts.h"
 

@@ -1,6 +1,6 @@
-// The paper's grid: Gaussians by the cubic voxel that holds their centre. Only occupied cells
-// exist: a sparse tree of 4x4x4 nodes finds them, so nothing is sized by the dense grid (real
-// scenes span 10^12 cells).
+// The grid of StreamingGS (DAC 2025): Gaussians by the cubic voxel that holds their centre. Only
+// occupied cells exist: a sparse tree of 4x4x4 nodes finds them, so nothing is sized by the dense
+// grid (real scenes span 10^12 cells).
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,17 @@
 #include <vector>
 
 #include "algorithm/splat/gaussian.h"
-#include "algorithm/voxel/arrangement.h"
 
 namespace sgs {
+
+// A table that finds Gaussians by their storage slots, and which of the cloud's Gaussians goes into
+// which slot. Whoever reads the table has the cloud in that order (`reordered`,
+// ../splat/gaussian.h): to them a slot is a Gaussian's index, and equal depths are ordered by it.
+template <class Table>
+struct Arrangement {
+  Table table;
+  std::vector<std::uint32_t> storage_order;  // [slot] index in the cloud
+};
 
 // 64 children, one bit each, in Morton order of their place in the 4x4x4 block. Children lie
 // contiguously: child k of a node is entry first_child + popcount(occupied below bit k), a node of
@@ -28,7 +36,7 @@ struct VoxelRecord {
   std::uint32_t count = 0;
 };
 
-// What a traversal must know besides the table itself.
+// The place and size of the tree: a traversal needs them besides the table.
 struct VoxelFrame {
   float voxel_size = 0;       // world units
   glm::ivec3 origin_cell{0};  // cell of the root's corner; cell i spans [i, i + 1) voxel_size
@@ -70,5 +78,37 @@ float inner_extent(const ActivatedCloud& cloud);
 // counts as small when its inner extent is at most kSmallSceneExtent.
 constexpr float kSmallSceneExtent = 10;
 double paper_voxel_size(float inner_extent);
+
+// Which children of a node a ray can still meet, and how large the block is in which there are
+// none: it is crossed in one step.
+
+// [axis][place of a child along it, 0 to 3] the children there, one bit each (child_bit).
+constexpr std::uint64_t kChildLayers[3][4] = {
+    {0x0055005500550055, 0x00aa00aa00aa00aa, 0x5500550055005500, 0xaa00aa00aa00aa00},
+    {0x0000333300003333, 0x0000cccc0000cccc, 0x3333000033330000, 0xcccc0000cccc0000},
+    {0x000000000f0f0f0f, 0x00000000f0f0f0f0, 0x0f0f0f0f00000000, 0xf0f0f0f000000000}};
+
+// Children at `place` of an axis or, seen along `step` (-1, 0 or 1), behind it.
+constexpr std::uint64_t children_from(int axis, int step, unsigned place) {
+  std::uint64_t out = kChildLayers[axis][place];
+  for (unsigned other = 0; other < 4; ++other) {
+    const bool behind = step > 0 ? other > place : step < 0 && other < place;
+    if (behind) out |= kChildLayers[axis][other];
+  }
+  return out;
+}
+
+// log2 of the cells a side of the largest block around child `at` of a node in which a ray that has
+// done with that child can meet nothing more: the child, its octant of the node, or the node, of
+// 4^level cells a side. A ray only ever moves on along `step`.
+inline int empty_block(const VoxelNode& node, const glm::uvec3& at, const glm::ivec3& step,
+                       int level) {
+  const unsigned child = child_bit(at.x, at.y, at.z);
+  std::uint64_t ahead = node.occupied & ~(std::uint64_t{1} << child);
+  for (int axis = 0; axis < 3; ++axis) ahead &= children_from(axis, step[axis], at[axis]);
+  if (ahead == 0) return 2 * level;
+  const bool octant_empty = (ahead >> (child & ~7U) & 0xffU) == 0;
+  return 2 * (level - 1) + (octant_empty ? 1 : 0);
+}
 
 }  // namespace sgs

@@ -9,9 +9,9 @@
 #include <limits>
 #include <numeric>
 
-#include "algorithm/fixed_point_sums.h"
 #include "algorithm/render/blend_pass.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
+#include "algorithm/vq/fixed_point_sums.h"
 
 namespace sgs {
 namespace {

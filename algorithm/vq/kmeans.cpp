@@ -10,7 +10,6 @@
 #include <numeric>
 
 #include "algorithm/vq/nearest.h"
-#include "algorithm/vq/seeding.h"
 
 namespace sgs {
 namespace {

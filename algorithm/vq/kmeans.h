@@ -39,4 +39,11 @@ using KMeansProgress = std::function<void(std::uint32_t iteration, double mean_s
 KMeansResult kmeans(const PointSet& points, const KMeansConfig& config,
                     const KMeansProgress& progress = {});
 
+// The centroids that k-means begins with, by k-means++ (Arthur and Vassilvitskii 2007): [K, dims],
+// K <= entries: each next centroid is a point drawn in proportion to weight times squared distance
+// to the nearest one so far, until none is left off a centroid. Squared distances beyond the range
+// of float count as its largest number. The same result whatever the number of threads.
+std::vector<float> seed_centroids(const PointSet& points, std::uint32_t entries,
+                                  std::uint64_t seed);
+
 }  // namespace sgs

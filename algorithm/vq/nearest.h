@@ -16,8 +16,9 @@ struct Nearest {
 class NearestSearch {
  public:
   virtual ~NearestSearch() = default;
-  // Of equal distances the lowest index. May be called from many threads. hint: a centroid that is
-  // probably near, which makes it faster; any number will do.
+  // The nearest centroid of a point; where distances are equal, that of the lowest index. May be
+  // called from many threads. hint: a centroid that is probably near, which makes it faster; any
+  // number will do.
   virtual Nearest find(const float* point, std::uint32_t hint) const = 0;
 };
 

@@ -117,7 +117,7 @@ std::array<float, 3> turn_sensitivity(const glm::vec3& falling_scale, float pixe
   double squares[3], seen[3];
   const double longest = falling_scale[0];
   for (int k = 0; k < 3; ++k) {
-    // Of equal scales the ratio is 1 also where both are 0 or have overflowed.
+    // The ratio of equal scales is 1 also where both are 0 or have overflowed.
     const double ratio =
         falling_scale[k] == falling_scale[0] ? 1 : static_cast<double>(falling_scale[k]) / longest;
     const double pixel =

@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "algorithm/vq/canonical_shape.h"
 #include "algorithm/vq/kmeans.h"
+#include "algorithm/vq/vq_points.h"
 
 namespace sgs {
 

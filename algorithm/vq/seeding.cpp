@@ -1,6 +1,4 @@
 // All points against each new centroid: the sums of several blocks of points grow side by side.
-#include "algorithm/vq/seeding.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <random>
 
 #include "algorithm/splat/widest_lanes.h"
+#include "algorithm/vq/kmeans.h"
 
 namespace sgs {
 namespace {
@@ -152,7 +151,7 @@ class DrawnPoints {
 
   const PointSet& points_;
   const std::size_t dims_, rows_, groups_;
-  // What is left of the last group has no weight.
+  // Points that fill up the last group have no weight.
   std::vector<float> values_, weights_, nearest_;
   std::vector<double> sums_;  // [blocks]
   double total_ = 0;

@@ -1,17 +1,29 @@
-// What codebooks are made from and searched with: the parameters of Gaussians as points.
+// The points that codebooks are made from and searched with: the parameters of Gaussians.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "algorithm/memory/codebook.h"
 #include "algorithm/splat/gaussian.h"
-#include "algorithm/vq/canonical_shape.h"
 #include "algorithm/vq/point_set.h"
 
 namespace sgs {
 
-// [N]
+// One form for each ellipsoid, which scales and quaternion name in 48 ways. scale: any order; quat:
+// (w, x, y, z), unit length. Out: scales falling, and of the quaternions that give the same
+// ellipsoid the one with w >= |x|, |y|, |z|. Axes of an ellipsoid can be renamed (R diag(s) becomes
+// R P diag(P^T s), P a rotation by quarter turns) and turned over in pairs without changing R
+// diag(s)^2 R^T: a codebook need not tell these apart.
+struct CanonicalShape {
+  glm::vec3 scale;
+  std::array<float, 4> quat;
+};
+CanonicalShape canonical_shape(const glm::vec3& scale, const std::array<float, 4>& quat);
+
+// [N] the shape of each Gaussian.
 std::vector<CanonicalShape> canonical_shapes(const ActivatedCloud& cloud);
 
 // Scales compare as logarithms of their ratios to the largest: two dimensions. Entries hold ratios,

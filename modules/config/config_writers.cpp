@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "algorithm/join.h"
+#include "algorithm/files/input_error.h"
 #include "modules/config/strict_json.h"
 
 namespace sgs {

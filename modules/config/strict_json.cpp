@@ -8,9 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_json.h"
-#include "algorithm/join.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
 
 namespace sgs {
 

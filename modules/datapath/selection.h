@@ -1,12 +1,19 @@
-// Multiplexers by which a word comes from one of several memories or registers.
+// Registers of a counter, and multiplexers by which a word comes from one of several memories or
+// registers.
 #pragma once
 
 #include <cstdint>
 
-#include "modules/datapath/counter_bits.h"
 #include "tlm/data_sheet.h"
 
 namespace sgs {
+
+// Bits of a counter that takes the values 0 to most.
+constexpr std::uint32_t counter_bits(std::uint64_t most) {
+  std::uint32_t bits = 0;
+  for (; most > 0; most /= 2) ++bits;
+  return bits;
+}
 
 struct Selection {
   std::uint64_t sources = 1;  // of which one is taken

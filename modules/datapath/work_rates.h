@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "tlm/activity.h"
+
 namespace sgs {
 
 // Cycles of `count` things of which `per_cycle` are done a cycle.
@@ -21,6 +23,13 @@ constexpr std::uint64_t next_turn(std::uint64_t now, std::uint64_t interval) {
 constexpr std::uint64_t next_turn_of_one(std::uint64_t now, std::uint64_t interval,
                                          std::uint64_t copies) {
   return now % interval < copies ? now : next_turn(now, interval);
+}
+
+// Waits until the pipeline's next turn. It keeps the activity busy, and what waits keeps its place
+// in the queue ahead: take it out behind this.
+inline void wait_for_turn(Activity& activity, std::uint64_t interval) {
+  const std::uint64_t now = activity.clock().now_cycles();
+  activity.work(next_turn(now, interval) - now);
 }
 
 }  // namespace sgs

@@ -7,7 +7,7 @@
 #include <array>
 #include <sstream>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "tlm/counters.h"
+#include "tlm/traffic_counters.h"
 
 namespace sgs {
 

@@ -9,8 +9,7 @@
 #include <map>
 #include <sstream>
 
-#include "algorithm/input_error.h"
-#include "algorithm/join.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 

@@ -17,8 +17,8 @@
 
 #include <string>
 
-#include "algorithm/line_reader.h"
-#include "algorithm/output_file.h"
+#include "algorithm/files/input_file.h"
+#include "algorithm/files/output_file.h"
 #include "modules/dram/command.h"
 #include "modules/dram/dram_config.h"
 

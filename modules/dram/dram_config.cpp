@@ -1,63 +1,13 @@
-// Keys, ranges and combinations of the memory system's configuration.
+// Combinations of the memory system's keys that cannot be built.
 #include "modules/dram/dram_config.h"
 
 #include <fmt/format.h>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/memspec.h"
 
 namespace sgs {
-
-void visit(ConfigVisitor& v, DramConfig& c) {
-  v("memspec", c.memspec, "device: name of a shipped memspec or path of a JSON file");
-  v("channels", c.channels, in_range(1, 16), "independent channels, a power of two");
-  v("ranks", c.ranks, in_range(1, 4), "ranks a channel, a power of two");
-  v("mapping", c.mapping, "address fields from most to least significant");
-  v("bank_hash", c.bank_hash, names<BankHash>({{"none", BankHash::kNone}, {"xor", BankHash::kXor}}),
-    "xor: bank bits are XORed with the lowest row bits");
-  v("write_latency_set", c.write_latency_set,
-    names<WriteLatencySet>({{"a", WriteLatencySet::kA}, {"b", WriteLatencySet::kB}}),
-    "mode-register set of the write latency");
-  v("read_strobe", c.read_strobe,
-    names<ReadStrobe>({{"min", ReadStrobe::kMin}, {"max", ReadStrobe::kMax}}),
-    "which tDQSCK read data arrive with; turn-arounds always keep to the longest");
-  v("scheduler", c.scheduler,
-    names<SchedulerKind>({{"fr_fcfs", SchedulerKind::kFrFcfs}, {"fcfs", SchedulerKind::kFcfs}}),
-    "which request goes next");
-  v("age_cap_cycles", c.age_cap_cycles, in_range(1, 1000000),
-    "age beyond which a request is no longer overtaken in its bank");
-  v("page_policy", c.page_policy,
-    names<PagePolicyKind>({{"open", PagePolicyKind::kOpen},
-                           {"closed", PagePolicyKind::kClosed},
-                           {"adaptive", PagePolicyKind::kAdaptive}}),
-    "when a row is closed");
-  v("read_queue_entries", c.read_queue_entries, in_range(1, 1024), "read queue of a channel");
-  v("write_queue_entries", c.write_queue_entries, in_range(1, 1024), "write queue of a channel");
-  v("write_high_watermark", c.write_high_watermark, in_range(1, 1024),
-    "queued writes at which writing begins");
-  v("write_low_watermark", c.write_low_watermark, in_range(0, 1023),
-    "queued writes at which reading resumes");
-  v("posted_writes", c.posted_writes, "answer a write when it is queued, not when it is written");
-  v("front_end_ns", c.front_end_ns, in_range(0.0, 1000.0),
-    "from a request's arrival to its first command, at least");
-  v("back_end_ns", c.back_end_ns, in_range(0.0, 1000.0),
-    "from the last datum on the bus to the answer");
-  v("refresh", c.refresh,
-    names<RefreshMode>({{"off", RefreshMode::kOff},
-                        {"all_bank", RefreshMode::kAllBank},
-                        {"per_bank", RefreshMode::kPerBank}}),
-    "kind of refresh");
-  v("refresh_postpone_max", c.refresh_postpone_max, in_range(0, 8),
-    "refresh commands that may be owed while requests wait");
-  v("power_down_idle_cycles", c.power_down_idle_cycles, in_range(0, 100000000),
-    "idle time of a rank before power-down; 0: never");
-  v("self_refresh_idle_cycles", c.self_refresh_idle_cycles, in_range(0, 100000000),
-    "idle time of a rank before self-refresh; 0: never");
-  v("current_set", c.current_set, "set of currents of the memspec; empty: its default");
-  v("io_pj_per_bit", c.io_pj_per_bit, in_range(0.0, 100.0),
-    "I/O energy added to each transferred bit");
-}
 
 void DramConfig::validate() const {
   const auto refuse = [](const char* key, const std::string& got, const std::string& expected) {

@@ -25,7 +25,7 @@
 #include "modules/dram/queued_channel.h"
 #include "modules/dram/request_trace.h"
 #include "modules/dram/ring_queue.h"
-#include "tlm/counters.h"
+#include "tlm/traffic_counters.h"
 
 namespace sgs {
 

@@ -11,7 +11,7 @@
 #include "modules/dram/dram_energy.h"
 #include "modules/dram/latency_histogram.h"
 #include "modules/dram/row_counts.h"
-#include "tlm/counters.h"
+#include "tlm/traffic_counters.h"
 
 namespace sgs {
 

@@ -22,7 +22,8 @@ struct PathLatency {
 
   std::uint32_t front_end;      // arrival to first command
   std::uint32_t back_end_read;  // last datum to answer
-  std::uint32_t back_end_write;  // 0 where writes are posted: the answer does not wait for the datum
+  std::uint32_t
+      back_end_write;  // 0 where writes are posted: the answer does not wait for the datum
 
  private:
   static std::uint32_t cycles(double ns, double period_ns) {

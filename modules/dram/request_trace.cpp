@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "algorithm/input_error.h"
-#include "algorithm/line_reader.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_file.h"
 
 namespace sgs {
 

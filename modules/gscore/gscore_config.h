@@ -6,8 +6,8 @@
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/tile_records.h"
 #include "algorithm/render/tile_renderer.h"
-#include "algorithm/splat/longest_path.h"
 #include "modules/config/config_visitor.h"
+#include "modules/datapath/lane_steps.h"
 #include "tlm/memory_port.h"
 #include "tlm/sram_use.h"
 
@@ -25,49 +25,117 @@ struct TilesConfig {
   TileRules rules() const { return {reach, test, subtiles_across}; }
 };
 
+inline void visit(ConfigVisitor& v, TilesConfig& c) {
+  v("reach", c.reach,
+    names<TileReach>({{"three_sigma", TileReach::kThreeSigma}, {"visible", TileReach::kVisible}}),
+    "of boxes: as published, or to where alpha falls below 1/255, which loses nothing");
+  v("test", c.test, names<TileTest>({{"box", TileTest::kBox}, {"oriented", TileTest::kOriented}}),
+    "along the screen; or along the ellipse too, where it is long and has several tiles");
+  v("subtiles_across", c.subtiles_across, in_range(1, 4),
+    "parts of a tile with a bit each, in a row: 1, 2 or 4");
+  const auto formats =
+      names<NumberFormat>({{"fp32", NumberFormat::kSingle}, {"fp16", NumberFormat::kHalf}});
+  v("features", c.features, formats, "of projected Gaussians in memory");
+  v("keys", c.keys, formats, "of depth");
+}
+
 struct CcuConfig {
-  // Multiply-accumulates of one CCU that cull and that convert.
   std::uint32_t cull_lanes = 8, convert_lanes = 18;
-  std::uint32_t slice_gaussians = 8;     // first halves read at once
-  std::uint32_t input_slots = 4;         // slices on their way or waiting
-  std::uint32_t candidates = 16;         // that wait for their second halves to be asked for
-  std::uint32_t second_half_slots = 16;  // second halves on their way or waiting
-  std::uint32_t output_entries = 16;     // converted Gaussians that wait for the lister
+  std::uint32_t slice_gaussians = 8;
+  std::uint32_t input_slots = 4;
+  std::uint32_t candidates = 16;
+  std::uint32_t second_half_slots = 16;
+  std::uint32_t output_entries = 16;
 };
+
+inline void visit(ConfigVisitor& v, CcuConfig& c) {
+  v("cull_lanes", c.cull_lanes, in_range(1, 256), "MAC lanes that test centres");
+  v("convert_lanes", c.convert_lanes, in_range(1, 1024), "MAC lanes that project and colour");
+  v("slice_gaussians", c.slice_gaussians, in_range(1, 256), "first halves read at once");
+  v("input_slots", c.input_slots, in_range(1, 64), "slices on their way or waiting");
+  v("candidates", c.candidates, in_range(1, 1024),
+    "Gaussians that wait for their second halves to be asked for");
+  v("second_half_slots", c.second_half_slots, in_range(1, 256),
+    "second halves on their way or waiting");
+  v("output_entries", c.output_entries, in_range(1, 1024), "converted Gaussians that wait");
+}
 
 struct ListsConfig {
-  std::uint32_t tiles_at_once = 4;  // neighbours in a row that are tested together
-  // Multiply-accumulates that test tiles, and the parts of one, for all CCUs.
+  std::uint32_t tiles_at_once = 4;
   std::uint32_t tile_lanes = 20, part_lanes = 24;
-  std::uint32_t tested_entries = 4;  // listed tiles that wait for the lines
-  // Of a pass at most: a frame with more takes several. Lines in which entries of a tile are
-  // combined. 0: chosen by the frame (list_memory.h).
+  std::uint32_t tested_entries = 4;
   std::uint32_t tiles = 0, lines = 0;
   std::uint32_t line_bytes = 32, block_lines = 16;
-  std::uint64_t pool_bytes = 268435456;  // of lists in memory
+  std::uint64_t pool_bytes = 268435456;
 };
+
+inline void visit(ConfigVisitor& v, ListsConfig& c) {
+  v("tiles_at_once", c.tiles_at_once, in_range(1, 16), "neighbours in a row, tested together");
+  v("tile_lanes", c.tile_lanes, in_range(1, 1024), "MAC lanes that test these");
+  v("part_lanes", c.part_lanes, in_range(1, 1024), "MAC lanes that test the parts of a tile");
+  v("tested_entries", c.tested_entries, in_range(1, 1024), "listed tiles that wait");
+  v("tiles", c.tiles, in_range(0, 1 << 20),
+    "of one pass; a frame with more takes several passes; 0: as many as the frame has and fit");
+  v("lines", c.lines, in_range(0, 1 << 20),
+    "of lists that are combined on chip; 0: as many as fit, one a tile at most");
+  v("line_bytes", c.line_bytes, in_range(32, 256), "of a line, a power of two");
+  v("block_lines", c.block_lines, in_range(1, 64), "lines behind one link");
+  v("pool_bytes", c.pool_bytes, in_range(4096, std::int64_t{1} << 40),
+    "lists in memory; a pass that takes more is made again with half of its tiles");
+}
 
 struct SortingConfig {
-  // Of a list on chip; longer ones are split in memory. 0: chosen by what lists of tiles leave.
   std::uint32_t list_entries = 0;
-  std::uint32_t list_buffers = 2;     // such lists in a core
-  std::uint32_t chunk_entries = 256;  // that the network sorts
+  std::uint32_t list_buffers = 2;
+  std::uint32_t chunk_entries = 256;
 };
 
+inline void visit(ConfigVisitor& v, SortingConfig& c) {
+  v("list_entries", c.list_entries, in_range(0, 65536),
+    "of a list on chip; longer ones are split in memory; 0: as many as fit");
+  v("list_buffers", c.list_buffers, in_range(1, 16), "such lists in a core");
+  v("chunk_entries", c.chunk_entries, in_range(16, 4096), "sorted by the network at once");
+}
+
 struct RenderingConfig {
-  BlendPrecision precision = BlendPrecision::kHalf;  // of blending and of the pixels on chip
-  std::uint32_t core_lanes = 0;  // multiply-accumulates of the 16 VRUs; 0: a pixel a cycle each
-  std::uint32_t sorted_entries = 256;  // that wait for their records
-  std::uint32_t record_slots = 48;     // records on their way or waiting
-  std::uint32_t pixel_buffers = 2;     // tiles whose pixels are in a core
+  BlendPrecision precision = BlendPrecision::kHalf;
+  std::uint32_t core_lanes = 0;
+  std::uint32_t sorted_entries = 256;
+  std::uint32_t record_slots = 48;
+  std::uint32_t pixel_buffers = 2;
   std::uint32_t drain_pixels_per_cycle = 1;
-  bool skip_finished = true;  // parts of a tile in which every pixel is finished
+  bool skip_finished = true;
   std::uint32_t feedback_latency_cycles = 2;
 };
+
+inline void visit(ConfigVisitor& v, RenderingConfig& c) {
+  v("precision", c.precision,
+    names<BlendPrecision>({{"fp32", BlendPrecision::kSingle},
+                           {"fp16", BlendPrecision::kHalf},
+                           {"fixed16", BlendPrecision::kFixed}}),
+    "of blending and of the pixels on chip");
+  v("core_lanes", c.core_lanes, in_range(0, 4096),
+    "MAC lanes of the 16 VRUs of a core; 0: a pixel a cycle each");
+  v("sorted_entries", c.sorted_entries, in_range(1, 65536),
+    "sorted entries that wait for their records");
+  v("record_slots", c.record_slots, in_range(1, 1024), "records on their way or waiting");
+  v("pixel_buffers", c.pixel_buffers, in_range(1, 2), "tiles whose pixels are in a core");
+  v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4),
+    "finished pixels converted a cycle; a row of a tile lies in four memories");
+  v("skip_finished", c.skip_finished,
+    "parts of a tile in which every pixel is finished are not blended");
+  v("feedback_latency_cycles", c.feedback_latency_cycles, in_range(1, 1000),
+    "until a sorter sees that a tile is finished");
+}
 
 struct SramConfig {
   std::uint32_t buffer_bytes = 8 * 34 * 1024;
 };
+
+inline void visit(ConfigVisitor& v, SramConfig& c) {
+  v("buffer_bytes", c.buffer_bytes, in_range(0, 1 << 30),
+    "all buffers, published as 8 x 34 KB; 0: as large as the other parameters need");
+}
 
 struct GscoreConfig {
   double clock_mhz = 1000;
@@ -95,7 +163,24 @@ struct GscoreConfig {
   }
 };
 
-void visit(ConfigVisitor& v, GscoreConfig& config);
+inline void visit(ConfigVisitor& v, GscoreConfig& c) {
+  v("clock_mhz", c.clock_mhz, in_range(1, 10000), "clock of all units");
+  v("lane_latency_cycles", c.lane_latency_cycles, in_range(1, 64),
+    "of a multiply-add in single precision: depths of pipelines follow");
+  v("half_lane_latency_cycles", c.half_lane_latency_cycles, in_range(1, 64), "in half precision");
+  v("framebuffer", c.framebuffer,
+    names<FrameFormat>({{"rgb8", FrameFormat::kRgb8}, {"rgb32f", FrameFormat::kRgb32f}}),
+    "pixels in DRAM");
+  v("ccus", c.ccus, in_range(1, 64), "culling and conversion units");
+  v("cores", c.cores, in_range(1, 64), "with two QSUs, a BSU and 16 VRUs each");
+  v.section("tiles", c.tiles, "how Gaussians come to tiles");
+  v.section("sram", c.sram, "on-chip memory");
+  v.section("ccu", c.ccu, "each culling and conversion unit");
+  v.section("lists", c.lists, "lists of tiles");
+  v.section("sorting", c.sorting, "sorter of each core");
+  v.section("rendering", c.rendering, "volume rendering units of each core");
+  v.section("memory_port", c.memory_port, "how units talk to memory");
+}
 
 // The one on-chip memory.
 constexpr const char* kBuffer = "buffer";

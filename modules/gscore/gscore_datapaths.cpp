@@ -5,12 +5,10 @@
 #include <tuple>
 #include <vector>
 
-#include "algorithm/splat/lane_macs.h"
-#include "algorithm/splat/rendering_work.h"
-#include "algorithm/splat/tile_work.h"
 #include "modules/datapath/counted_datapath.h"
-#include "modules/datapath/scheduled_datapath.h"
+#include "modules/datapath/rendering_flows.h"
 #include "modules/datapath/work_rates.h"
+#include "modules/gscore/tile_flows.h"
 
 namespace sgs::gscore {
 namespace {
@@ -20,11 +18,11 @@ void set_by_frame(Datapath& path, const std::vector<LaneStep>& steps) {
   path.set_bits = kSingleBits * constants_of(steps);
 }
 
-Datapath counted(const char* name, const char* component, const DataFlow& flow, std::uint32_t lanes,
+Datapath counted(const char* name, const char* component, const FlowPart& flow, std::uint32_t lanes,
                  const OperationLatencies& latencies) {
-  Datapath path = counted_datapath(name, component, flow.counts(0, flow.size()));
+  Datapath path = counted_datapath(name, component, flow.counts());
   path.lanes = lanes;
-  const std::vector<LaneStep> steps = lane_steps(flow, 0, flow.size(), latencies);
+  const std::vector<LaneStep> steps = flow.steps(latencies);
   schedule(path, steps, latencies);
   set_by_frame(path, steps);
   return path;
@@ -36,7 +34,7 @@ std::uint32_t opacity_comparisons(const GscoreConfig& config) {
 }
 
 Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
-  const DataFlow flow =
+  const FlowPart flow =
       convert_flow(config.tiles.rules(), sh_degree, config.tiles.features == NumberFormat::kHalf);
   Datapath path = counted("convert", "ccu", flow, config.ccu.convert_lanes, config.single());
   path.part_of("comparator").operations += opacity_comparisons(config);
@@ -48,15 +46,15 @@ bool blends_its_records(const GscoreConfig& config) {
   return config.tiles.features == NumberFormat::kHalf && in_16_bits(config.rendering.precision);
 }
 
-OperationCounts blend_work(const GscoreConfig& config) {
-  if (blends_its_records(config)) return blend_of_halves_work();
-  return rendering_work(config.rendering.precision).blend_from_corner;
+FlowPart blend_flow(const GscoreConfig& config) {
+  if (blends_its_records(config)) return blend_of_halves_flow();
+  return rendering_flows(config.rendering.precision).blend_from_corner;
 }
 
 // Of a block of pixels to the next.
 std::uint64_t blend_interval(const GscoreConfig& config) {
   const std::uint32_t lanes = config.rendering.core_lanes;
-  return lanes == 0 ? 1 : cycles_for(folded_macs(blend_work(config)), lanes);
+  return lanes == 0 ? 1 : cycles_for(folded_macs(blend_flow(config).counts()), lanes);
 }
 
 }  // namespace
@@ -100,13 +98,11 @@ Datapath part_test_pipeline(const GscoreConfig& config) {
 // pace suffice. Ahead of them the halves of its record are widened.
 std::optional<Datapath> conic_pipeline(const GscoreConfig& config) {
   if (blends_its_records(config)) return std::nullopt;
-  const BlendPrecision precision = config.rendering.precision;
   const bool of_halves = config.tiles.features == NumberFormat::kHalf;
   constexpr std::uint32_t kHalves = 7, kOfConic = 3;
-  const DataFlow terms = terms_of_square_flow();
-  Datapath path =
-      counted_datapath("conic", "rendering",
-                       of_halves ? terms.counts(0, terms.size()) : rendering_work(precision).conic);
+  const FlowPart flow =
+      of_halves ? terms_of_square_flow() : rendering_flows(config.rendering.precision).conic;
+  Datapath path = counted_datapath("conic", "rendering", flow.counts());
   if (of_halves) {
     path.part_of("comparator").operations +=
         kHalves * kConversionComparisons + kOfConic * kScalingComparisons;
@@ -115,47 +111,43 @@ std::optional<Datapath> conic_pipeline(const GscoreConfig& config) {
   const int across = kSubtilesPerTile / config.tiles.subtiles_across;
   const std::uint64_t turn = static_cast<std::uint64_t>(across * across) * blend_interval(config);
   path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, turn));
-  schedule(path,
-           of_halves ? lane_steps(terms, 0, terms.size(), config.single())
-                     : conic_steps(precision, config.single()),
-           config.single());
+  schedule(path, flow.steps(config.single()), config.single());
   return path;
 }
 
 // The block's first pixel comes as two whole numbers.
 Datapath corner_pipeline(const GscoreConfig& config) {
-  Datapath path =
-      counted_datapath("corner", "rendering", rendering_work(BlendPrecision::kSingle).corner);
+  const FlowPart flow = rendering_flows(BlendPrecision::kSingle).corner;
+  Datapath path = counted_datapath("corner", "rendering", flow.counts());
   path.part_of("comparator").operations += 2 * kConversionComparisons;
   path.lanes = static_cast<std::uint32_t>(cycles_for(path.used_macs, blend_interval(config)));
-  schedule(path, corner_steps(config.single()), config.single());
+  schedule(path, flow.steps(config.single()), config.single());
   return path;
 }
 
 Datapath blend_pipeline(const GscoreConfig& config) {
-  const BlendPrecision precision = config.rendering.precision;
-  const bool in_half = in_16_bits(precision);
-  Datapath path = counted_datapath("blend", "rendering", blend_work(config),
+  const bool in_half = in_16_bits(config.rendering.precision);
+  const FlowPart flow = blend_flow(config);
+  Datapath path = counted_datapath("blend", "rendering", flow.counts(),
                                    in_half ? "exp2_table_half" : "exp2_table");
   if (in_half) path.lane = "fp16_lane";
   path.lanes = config.rendering.core_lanes > 0 ? config.rendering.core_lanes : path.used_macs;
-  schedule(path,
-           blends_its_records(config) ? blend_of_halves_steps(config.blending())
-                                      : blend_from_corner_steps(precision, config.blending()),
-           config.blending(), in_half ? kHalfBits : kSingleBits);
+  schedule(path, flow.steps(config.blending()), config.blending(),
+           in_half ? kHalfBits : kSingleBits);
   return path;
 }
 
 // Of pixels in halves colour and transmittance are widened.
 Datapath drain_pipeline(const GscoreConfig& config) {
-  Datapath path = counted_datapath("drain", "rendering", pixel_work(config.framebuffer));
+  const FlowPart flow = pixel_flow(config.framebuffer);
+  Datapath path = counted_datapath("drain", "rendering", flow.counts());
   constexpr std::uint32_t kOfPixel = 4;
   if (in_16_bits(config.rendering.precision)) {
     path.part_of("comparator").operations += kOfPixel * kConversionComparisons;
   }
   path.lanes = path.used_macs;
   path.copies = config.rendering.drain_pixels_per_cycle;
-  schedule(path, pixel_steps(config.framebuffer, config.single()), config.single());
+  schedule(path, flow.steps(config.single()), config.single());
   return path;
 }
 

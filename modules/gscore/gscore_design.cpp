@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/render/tile_renderer.h"
 #include "modules/gscore/gscore_machine.h"
 #include "modules/gscore/list_memory.h"

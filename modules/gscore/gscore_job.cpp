@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/sorting/pivots.h"
 

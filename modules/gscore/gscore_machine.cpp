@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "modules/construction.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 
@@ -52,17 +51,10 @@ GscoreMachine::GscoreMachine(const sc_core::sc_module_name& name, const GscoreCo
     : Machine(name),
       config_(config),
       job_(job),
-      clock_(config.clock_mhz, options.process_order),
-      ccus_(config.ccus),
-      sorters_(config.cores),
-      renderers_(config.cores) {
+      clock_(config.clock_mhz, options.jitter_seed),
+      lister_("lister", context(), [this] { finish_frame(); }) {
   add_all_fifos(options);
-  for (std::uint32_t c = 0; c < config.cores; ++c) {
-    finished_.push_back(std::make_unique<FinishedTiles>(fmt::format("finished_tiles{}", c).c_str(),
-                                                        clock_, job.tile_count,
-                                                        config.rendering.feedback_latency_cycles));
-  }
-  make_units(options);
+  make_units();
   bind();
   connect_memory();
 }
@@ -78,45 +70,37 @@ void GscoreMachine::add_all_fifos(const BuildOptions& options) {
   add_fifos(done_, "done_by_core", config_.cores, 1, 1, options);
 }
 
-void GscoreMachine::make_units(const BuildOptions& options) {
-  const UnitContext context{clock_, job_, config_, phases_};
-  Construction units;
+void GscoreMachine::make_units() {
   for (std::uint32_t c = 0; c < config_.ccus; ++c) {
-    units.push_back(
-        [=] { ccus_[c] = std::make_unique<Ccu>(fmt::format("ccu{}", c).c_str(), c, context); });
+    ccus_.push_back(std::make_unique<Ccu>(fmt::format("ccu{}", c).c_str(), c, context()));
   }
-  units.push_back([=] {
-    lister_ = std::make_unique<TileLister>("lister", context, [this] { finish_frame(); });
-  });
   for (std::uint32_t c = 0; c < config_.cores; ++c) {
-    units.push_back([=] {
-      sorters_[c] = std::make_unique<TileSorter>(fmt::format("sorter{}", c).c_str(), c, context,
-                                                 *finished_[c]);
-    });
-    units.push_back([=] {
-      renderers_[c] = std::make_unique<RenderCore>(fmt::format("rendering{}", c).c_str(), context,
-                                                   *finished_[c]);
-    });
+    finished_.push_back(std::make_unique<FinishedTiles>(fmt::format("finished_tiles{}", c).c_str(),
+                                                        clock_, job_.tile_count,
+                                                        config_.rendering.feedback_latency_cycles));
+    sorters_.push_back(std::make_unique<TileSorter>(fmt::format("sorter{}", c).c_str(), c,
+                                                    context(), *finished_[c]));
+    renderers_.push_back(std::make_unique<RenderCore>(fmt::format("rendering{}", c).c_str(),
+                                                      context(), *finished_[c]));
   }
-  construct(std::move(units), options.process_order);
 }
 
 void GscoreMachine::bind() {
   for (std::uint32_t c = 0; c < config_.ccus; ++c) {
-    lister_->passes(*passes_[c]);
+    lister_.passes(*passes_[c]);
     ccus_[c]->passes(*passes_[c]);
     ccus_[c]->converted(*converted_[c]);
-    lister_->converted(*converted_[c]);
+    lister_.converted(*converted_[c]);
   }
   for (std::uint32_t c = 0; c < config_.cores; ++c) {
     sorters_[c]->requests(*requests_[c]);
-    lister_->requests(*requests_[c]);
-    lister_->jobs(*jobs_[c]);
+    lister_.requests(*requests_[c]);
+    lister_.jobs(*jobs_[c]);
     sorters_[c]->jobs(*jobs_[c]);
     sorters_[c]->sorted(*sorted_[c]);
     renderers_[c]->sorted(*sorted_[c]);
     renderers_[c]->done(*done_[c]);
-    lister_->done(*done_[c]);
+    lister_.done(*done_[c]);
   }
 }
 
@@ -131,7 +115,7 @@ void GscoreMachine::publish_queues(DataSheet& sheet, const Fifos<T>& fifos, cons
 
 void GscoreMachine::publish(DataSheet& sheet) {
   for (const auto& ccu : ccus_) ccu->publish(sheet);
-  lister_->publish(sheet);
+  lister_.publish(sheet);
   for (std::uint32_t c = 0; c < config_.cores; ++c) {
     sorters_[c]->publish(sheet);
     renderers_[c]->publish(sheet);

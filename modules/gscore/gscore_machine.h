@@ -47,7 +47,8 @@ class GscoreMachine : public Machine {
   template <class T>
   void publish_queues(DataSheet& sheet, const Fifos<T>& fifos, const char* use, const char* key);
   void add_all_fifos(const BuildOptions& options);
-  void make_units(const BuildOptions& options);
+  void make_units();
+  UnitContext context() { return {clock_, job_, config_, phases_}; }
   void bind();
 
   const GscoreConfig config_;
@@ -62,7 +63,7 @@ class GscoreMachine : public Machine {
   Fifos<PassDone> done_;                                  // [core]
   std::vector<std::unique_ptr<FinishedTiles>> finished_;  // [core]
   std::vector<std::unique_ptr<Ccu>> ccus_;
-  std::unique_ptr<TileLister> lister_;
+  TileLister lister_;
   std::vector<std::unique_ptr<TileSorter>> sorters_;    // [core]
   std::vector<std::unique_ptr<RenderCore>> renderers_;  // [core]
 };

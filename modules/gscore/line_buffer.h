@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithm/memory/tile_records.h"
-#include "modules/datapath/counter_bits.h"
+#include "modules/datapath/selection.h"
 #include "tlm/memory_port.h"
 
 namespace sgs::gscore {

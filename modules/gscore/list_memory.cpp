@@ -7,7 +7,7 @@
 #include <array>
 #include <functional>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/sorting/bitonic_cost.h"
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/record_split.h"
 #include "algorithm/memory/second_half.h"
-#include "algorithm/splat/fine_record.h"
-#include "algorithm/splat/longest_path.h"
 #include "algorithm/splat/rects.h"
+#include "modules/datapath/lane_steps.h"
 #include "tlm/memory_port.h"
 
 namespace sgs {

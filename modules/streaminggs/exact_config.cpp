@@ -1,4 +1,4 @@
-// Keys and on-chip memory of the machine of exact order.
+// FIFOs and on-chip memory of the machine of exact order.
 #include "modules/streaminggs/exact_config.h"
 
 #include "modules/streaminggs/merge/merge_unit.h"
@@ -8,22 +8,20 @@
 
 namespace sgs {
 
-void visit(ConfigVisitor& v, ExactConfig& c) {
-  visit_head(v, c);
-  v.section("vsu", c.vsu, "voxel sorting unit");
-  v.section("sorting", c.sorting, "network of each sorting unit");
-  v.section("merge", c.merge, "merge unit");
-  visit_tail(v, c);
-}
-
 ExactFifos::ExactFifos(const ExactConfig& c)
-    : keys{"keys to sorting",        "keys",
-           c.hfus * c.sorting_units, c.hfu.candidate_fifo_entries,
-           c.hfu.cfu_depth_cycles,   "hfu.candidate_fifo_entries",
+    : keys{"keys to sorting",
+           "keys",
+           c.hfus * c.sorting_units,
+           c.hfu.candidate_fifo_entries,
+           c.hfu.cfu_depth_cycles,
+           "hfu.candidate_fifo_entries",
            kKeyBytes},
-      sorted_keys{"keys to merge",        "keys",
-                  c.sorting_units,        c.merge.input_fifo_entries,
-                  c.merge.latency_cycles, "merge.input_fifo_entries",
+      sorted_keys{"keys to merge",
+                  "keys",
+                  c.sorting_units,
+                  c.merge.input_fifo_entries,
+                  c.merge.latency_cycles,
+                  "merge.input_fifo_entries",
                   kKeyBytes},
       released{"keys to HFUs",
                "keys",

@@ -18,7 +18,7 @@ struct ExactConfig : StreamingConfig {
   MergeConfig merge;
 
   // The fastest that a search over the real scenes found in the area of the preset `paper`
-  // (scripts/fair_fight.py).
+  // (scripts/explore.py).
   ExactConfig() {
     group_width_px = group_height_px = 96;
     sram = {3840, 0, 359680};  // the 355 KB of the paper: what is not taken is not built
@@ -37,7 +37,13 @@ struct ExactConfig : StreamingConfig {
   }
 };
 
-void visit(ConfigVisitor& v, ExactConfig& config);
+inline void visit(ConfigVisitor& v, ExactConfig& c) {
+  visit_head(v, c);
+  v.section("vsu", c.vsu, "voxel sorting unit");
+  v.section("sorting", c.sorting, "network of each sorting unit");
+  v.section("merge", c.merge, "merge unit");
+  visit_tail(v, c);
+}
 
 // FIFOs between its units, beside those of visits.
 struct ExactFifos {

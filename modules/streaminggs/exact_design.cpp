@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "algorithm/voxel/chunk_work.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "modules/streaminggs/pipeline_depths.h"
 #include "modules/streaminggs/streaming_design.h"
@@ -24,7 +23,7 @@ void ExactDesign::adapt(const SecondHalfFormat& format, std::vector<AutoChoice>&
   const OperationLatencies latencies = config_.single_latencies();
   resolve_depth("vsu.test_depth_cycles", config_.vsu.test_depth_cycles,
                 chunk_test_pipeline(config_.vsu, latencies),
-                chunk_path(longest_chunk_case(), latencies), latencies, 0, chosen);
+                chunk_flow(longest_chunk_case()).longest_path(latencies), latencies, 0, chosen);
 }
 
 FrameJob ExactDesign::job(const StoredScene& scene, const Camera& camera) const {

@@ -16,18 +16,18 @@ class ExactMachine : public StreamingMachine {
                const StreamingJob& job, const BuiltFor& built_for, const BuildOptions& options);
 
  private:
-  void add_fifos();
-  void bind();
+  void add_fifos(const ExactConfig& config);
+  void make_sorters(const ExactConfig& config);
+  void bind(OnOverflow on_overflow);
   void publish_units(DataSheet& sheet) override;
 
-  const ExactConfig config_;
   Fifos<FineCandidate> keys_;         // [HFU, sorting unit]
   Fifos<FineCandidate> sorted_keys_;  // [sorting unit]
   Fifos<FineCandidate> released_;     // [HFU]
   Fifos<SplatToken> splats_;          // [HFU]
-  std::unique_ptr<ExactVsu> vsu_;
+  ExactVsu vsu_;
   std::vector<std::unique_ptr<ExactSorter>> sorters_;
-  std::unique_ptr<MergeUnit> merge_;
+  MergeUnit merge_;
   FinishedSubtiles finished_subtiles_;
   FinishedSubtiles untold_;  // for VSU with blend_early: there what waits decides the picture
 };

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "algorithm/splat/constants.h"
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/rects.h"
 #include "modules/streaminggs/built_for.h"
 #include "tlm/clock_domain.h"

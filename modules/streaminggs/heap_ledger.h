@@ -8,6 +8,17 @@
 //   - what an insert swaps at either end and what a hole takes: 7 K of multiplexers
 //   - of what is read: a word that is written in the same cycle passes by each bank, two of the
 //     four that are read ahead go on, and one of the two that are compared rises
+//
+// Level l is a memory of its own of at most 2^l nodes, spread over banks of a read and a write port
+// each. A hole is filled from the level below, so two neighbouring levels work on one operation.
+//   - Another may begin every second cycle if a hole sinks a level a cycle. While the candidates
+//     for it are compared, the children of both are read, up to four nodes of one level: four
+//     banks, by the side of the candidate and that of its child. The operation before writes that
+//     level in the same cycle, so a node that is read as it is written is what is written.
+//   - With two banks, left and right children, what is read waits for the comparison: a hole sinks
+//     a level in two cycles, and another operation may begin every third.
+// tests/modules/streaminggs/stepped_heap.h goes through both cycle by cycle. The heap is emptied in
+// one.
 #pragma once
 
 #include <algorithm>
@@ -19,6 +30,13 @@
 #include "tlm/data_sheet.h"
 
 namespace sgs {
+
+// From one operation to the next, at least.
+constexpr std::uint32_t kFewestHeapCycles = 2;
+// Banks of a level, where an operation begins every so many cycles.
+constexpr std::uint32_t heap_banks_of_level(std::uint32_t cycles_per_operation) {
+  return cycles_per_operation == kFewestHeapCycles ? 4 : 2;
+}
 
 struct HeapLedger {
   const char* keys;  // the uses are named so, and by their level

@@ -6,7 +6,7 @@
 
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/splat.h"
 
 namespace sgs {

@@ -1,23 +1,14 @@
-// Keys and on-chip memory of the machine of paper order.
+// FIFOs and on-chip memory of the machine of paper order, and what cannot be built.
 #include "modules/streaminggs/paper_config.h"
 
 #include <fmt/format.h>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/streaminggs/sorting/paper_sorter.h"
 #include "modules/streaminggs/streaming_sram.h"
 #include "modules/streaminggs/vsu/paper_vsu.h"
 
 namespace sgs {
-
-void visit(ConfigVisitor& v, PaperConfig& c) {
-  visit_head(v, c);
-  v("fetch", c.fetch, names<Fetch>({{"shared", Fetch::kShared}, {"split", Fetch::kSplit}}),
-    "shared: one feeds all HFUs, each with its part of the group; split: each its part of a visit");
-  v.section("vsu", c.vsu, "voxel sorting unit");
-  v.section("sorting", c.sorting, "each sorting unit");
-  visit_tail(v, c);
-}
 
 void check(const PaperConfig& c) {
   check_parts(c);

@@ -38,7 +38,14 @@ struct PaperConfig : StreamingConfig {
   std::uint32_t lists_of_network() const { return lists() / sorting_units; }
 };
 
-void visit(ConfigVisitor& v, PaperConfig& config);
+inline void visit(ConfigVisitor& v, PaperConfig& c) {
+  visit_head(v, c);
+  v("fetch", c.fetch, names<Fetch>({{"shared", Fetch::kShared}, {"split", Fetch::kSplit}}),
+    "shared: one feeds all HFUs, each with its part of the group; split: each its part of a visit");
+  v.section("vsu", c.vsu, "voxel sorting unit");
+  v.section("sorting", c.sorting, "each sorting unit");
+  visit_tail(v, c);
+}
 
 // Throw InputError: what cannot be built; rays farther apart than a group is long, once it has a
 // size.

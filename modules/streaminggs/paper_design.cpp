@@ -6,9 +6,8 @@
 #include <algorithm>
 
 #include "algorithm/memory/splat_record.h"
+#include "algorithm/render/paper_losses.h"
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/render/visited_in_order.h"
-#include "algorithm/voxel/ray_work.h"
 #include "algorithm/voxel/voxel_cuts.h"
 #include "modules/streaminggs/paper_machine.h"
 #include "modules/streaminggs/pipeline_depths.h"
@@ -40,13 +39,15 @@ void PaperDesign::resolve(const StorageConfig& storage, std::vector<AutoChoice>&
   constexpr std::uint32_t kContext = kReadCycles + kWriteCycles;
   resolve_depth("vsu.step_depth_cycles", config_.vsu.step_depth_cycles,
                 ray_step_pipeline(config_.vsu, latencies),
-                ray_step_path(longest_step_case(), latencies), latencies, kContext, chosen);
+                ray_step_flow(longest_step_case()).longest_path(latencies), latencies, kContext,
+                chosen);
   resolve_depth("vsu.cell_step_depth_cycles", config_.vsu.cell_step_depth_cycles,
                 cell_step_pipeline(config_.vsu, latencies),
-                ray_step_path(cell_step_case(), latencies), latencies, kContext, chosen);
+                ray_step_flow(cell_step_case()).longest_path(latencies), latencies, kContext,
+                chosen);
   resolve_depth("vsu.ray_depth_cycles", config_.vsu.ray_depth_cycles,
-                pixel_ray_pipeline(config_.vsu, latencies), pixel_ray_path(latencies), latencies,
-                kWriteCycles, chosen);
+                pixel_ray_pipeline(config_.vsu, latencies),
+                pixel_ray_flow().longest_path(latencies), latencies, kWriteCycles, chosen);
   resolve_rendering_depths(config_, chosen);
   resolve_sram(
       config_, storage_, frames_, [&] { return sram_uses(config_, storage_); }, chosen);

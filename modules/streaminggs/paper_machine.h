@@ -15,15 +15,16 @@ class PaperMachine : public StreamingMachine {
                const StreamingJob& job, const BuiltFor& built_for, const BuildOptions& options);
 
  private:
-  void add_fifos();
-  void bind();
+  void add_fifos(const PaperConfig& config);
+  void make_sorters(const PaperConfig& config);
+  void bind(std::uint32_t lists_of_part);
   void publish_units(DataSheet& sheet) override;
 
-  const PaperConfig config_;
+  const PaperSorterConfig sorting_;
   Fifos<FineCandidate> candidates_;  // [fetch]
   Fifos<SplatToken> splats_;         // [list, fetch]
   Fifos<SplatToken> sorted_;         // [list]
-  std::unique_ptr<PaperVsu> vsu_;
+  PaperVsu vsu_;
   std::vector<std::unique_ptr<PaperSorter>> sorters_;  // [list]: those of a part one after another
 };
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "algorithm/input_error.h"
-#include "algorithm/splat/filter_work.h"
-#include "algorithm/splat/rendering_work.h"
+#include "algorithm/files/input_error.h"
+#include "modules/datapath/filter_flows.h"
+#include "modules/datapath/rendering_flows.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 #include "modules/streaminggs/hfu/fine_filter.h"
 
@@ -47,21 +47,23 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   const OperationLatencies single = config.single_latencies(), half = config.half_latencies();
   RenderingConfig& rendering = config.rendering;
   const RenderingConfig part = rendering_of_part(config);
-  const RenderingPaths paths = rendering_paths(rendering.precision, single, half);
+  const RenderingFlows flows = rendering_flows(rendering.precision);
   const bool in_half = in_16_bits(rendering.precision);
   const OperationLatencies& blending = in_half ? half : single;
   // What begins a splat's spans is written to its slot, and read for its first row.
   resolve_depth("rendering.begin_depth_cycles", rendering.begin_depth_cycles,
-                begin_pipeline(part, single), paths.spans_begin, single, kWriteCycles + kReadCycles,
-                chosen);
+                begin_pipeline(part, single), flows.spans_begin.longest_path(single), single,
+                kWriteCycles + kReadCycles, chosen);
   resolve_depth("rendering.span_depth_cycles", rendering.span_depth_cycles,
-                span_pipeline(part, single), paths.span, single, 0, chosen);
+                span_pipeline(part, single), flows.span.longest_path(single), single, 0, chosen);
   // The conic's lanes stand ahead of the queues: what they take comes on top.
   const Datapath blend = blend_pipeline(part, blending);
-  resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend, paths.blend, blending,
+  resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend,
+                flows.subtile_blend.longest_path(blending), blending,
                 conic_pipeline(part, single).depth_cycles + kReadCycles + kWriteCycles, chosen);
   take("rendering.state_loop_cycles", rendering.state_loop_cycles, blend.loop_cycles,
-       "subtile_blend, from a pixel's state on", paths.state_loop, blending,
+       "subtile_blend, from a pixel's state on",
+       longest_loop(flows.subtile_blend.steps(blending), blending), blending,
        kReadCycles + kWriteCycles, chosen);
   if (rendering.state_loop_cycles > rendering.depth_cycles) {
     throw InputError(
@@ -72,7 +74,7 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   }
   resolve_depth("rendering.drain_depth_cycles", rendering.drain_depth_cycles,
                 drain_pipeline(part, config.framebuffer, single),
-                pixel_path(config.framebuffer, single), single, 0, chosen);
+                pixel_flow(config.framebuffer).longest_path(single), single, 0, chosen);
 }
 
 void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, int sh_degree,
@@ -82,8 +84,8 @@ void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, in
   if (has_cfus(config.hfu, split.bound_by)) {
     resolve_depth("hfu.cfu_depth_cycles", config.hfu.cfu_depth_cycles,
                   coarse_pipeline(config.hfu, split.bound_by, config.parts(), single),
-                  coarse_path(split.bound_by, longest_case(), across, single), single, kReadCycles,
-                  chosen);
+                  coarse_flow(split.bound_by, longest_case(), across).longest_path(single), single,
+                  kReadCycles, chosen);
   } else if (config.hfu.cfu_depth_cycles > 0) {
     throw InputError(fmt::format(
         "hfu.cfu_depth_cycles: got {} with hfu.coarse_filter=false, which has no CFUs, expected 0",
@@ -93,8 +95,8 @@ void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, in
   }
   resolve_depth("hfu.ffu_depth_cycles", config.hfu.ffu_depth_cycles,
                 fine_pipeline(config.hfu, split.fine_record(sh_degree), single),
-                fine_path(longest_case(), split.fine_record(sh_degree), single), single,
-                FineFilter::read_cycles(split.second_bytes), chosen);
+                fine_flow(longest_case(), split.fine_record(sh_degree)).all.longest_path(single),
+                single, FineFilter::read_cycles(split.second_bytes), chosen);
 }
 
 }  // namespace sgs

@@ -1,13 +1,13 @@
 // How long a result takes through each pipeline: the end of a schedule of what its unit computes on
-// the lanes that it has (algorithm/splat/folded_schedule.h), at their latency.
+// the lanes that it has (modules/datapath/folded_schedule.h), at their latency.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "algorithm/memory/record_split.h"
-#include "algorithm/splat/longest_path.h"
 #include "modules/auto_choice.h"
+#include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/streaming_config.h"
 #include "tlm/datapath.h"
 

@@ -1,49 +1,16 @@
-// Keys that both orders share.
+// What both orders build, and what neither can.
 #include "modules/streaminggs/streaming_config.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/memory/splat_record.h"
-#include "algorithm/render/group_parts.h"
+#include "algorithm/render/group_shape.h"
 #include "algorithm/splat/constants.h"
-#include "modules/memory_port_keys.h"
 
 namespace sgs {
-
-void visit(ConfigVisitor& v, SramConfig& c) {
-  v("input_bytes", c.input_bytes, in_range(0, 1 << 30),
-    "input buffer of all HFUs; 0: as large as the other parameters need");
-  v("codebook_bytes", c.codebook_bytes, in_range(0, 1 << 30), "codebook buffer");
-  v("shared_bytes", c.shared_bytes, in_range(0, 1 << 30),
-    "everything between the stages; 0: as large as the other parameters need");
-}
-
-void visit_head(ConfigVisitor& v, StreamingConfig& c) {
-  v("clock_mhz", c.clock_mhz, in_range(1, 10000), "clock of all units");
-  v("lane_latency_cycles", c.lane_latency_cycles, in_range(1, 64),
-    "of a multiply-add in single precision: depths of pipelines follow");
-  v("half_lane_latency_cycles", c.half_lane_latency_cycles, in_range(1, 64), "in half precision");
-  v("group_width_px", c.group_width_px, in_range(0, kMaxGroupPx),
-    "of a pixel group, a multiple of 4; 0, and the height too: of the shapes that fit the SRAM the "
-    "one that cuts the frame with the shortest borders");
-  v("group_height_px", c.group_height_px, in_range(0, kMaxGroupPx), "of a pixel group, likewise");
-  v("framebuffer", c.framebuffer,
-    names<FrameFormat>({{"rgb8", FrameFormat::kRgb8}, {"rgb32f", FrameFormat::kRgb32f}}),
-    "pixels in DRAM");
-  v("hfus", c.hfus, in_range(1, 64), "hierarchical filtering units");
-  v("sorting_units", c.sorting_units, in_range(1, 16), "sorting units");
-  v.section("sram", c.sram, "on-chip memory");
-}
-
-void visit_tail(ConfigVisitor& v, StreamingConfig& c) {
-  v.section("hfu", c.hfu, "each hierarchical filtering unit");
-  v.section("codebook", c.codebook, "codebook buffer of all HFUs");
-  v.section("rendering", c.rendering, "rendering unit");
-  v.section("memory_port", c.memory_port, "how units talk to memory");
-}
 
 // Each part of a group has its share of everything behind the fetch.
 void check_parts(const StreamingConfig& c) {

@@ -6,8 +6,9 @@
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/memory/storage_config.h"
-#include "algorithm/splat/longest_path.h"
+#include "algorithm/splat/constants.h"
 #include "modules/config/config_visitor.h"
+#include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/hfu/codebook_config.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
@@ -17,10 +18,19 @@
 namespace sgs {
 
 struct SramConfig {
-  std::uint32_t input_bytes;     // first halves, some slices ahead
-  std::uint32_t codebook_bytes;  // idle unless second halves are quantised
-  std::uint32_t shared_bytes;    // everything between the stages
+  std::uint32_t input_bytes;
+  std::uint32_t codebook_bytes;
+  std::uint32_t shared_bytes;
 };
+
+inline void visit(ConfigVisitor& v, SramConfig& c) {
+  v("input_bytes", c.input_bytes, in_range(0, 1 << 30),
+    "input buffer of all HFUs, first halves; 0: as large as the other parameters need");
+  v("codebook_bytes", c.codebook_bytes, in_range(0, 1 << 30),
+    "codebook buffer, idle unless second halves are quantised");
+  v("shared_bytes", c.shared_bytes, in_range(0, 1 << 30),
+    "everything between the stages; 0: as large as the other parameters need");
+}
 
 // Who fetches what the HFUs filter.
 enum class Fetch {
@@ -30,9 +40,8 @@ enum class Fetch {
 
 struct StreamingConfig {
   double clock_mhz = 1000;
-  std::uint32_t lane_latency_cycles = 3;       // of a multiply-add in single precision
-  std::uint32_t half_lane_latency_cycles = 2;  // in half
-  // Both 0: chosen for the frame, of what the SRAM allows.
+  std::uint32_t lane_latency_cycles = 3;
+  std::uint32_t half_lane_latency_cycles = 2;
   std::uint32_t group_width_px = 32, group_height_px = 32;
   FrameFormat framebuffer = FrameFormat::kRgb8;
   std::uint32_t hfus = 4;
@@ -42,7 +51,7 @@ struct StreamingConfig {
   HfuConfig hfu;
   CodebookConfig codebook;
   RenderingConfig rendering;
-  MemoryPortConfig memory_port;  // of each unit's port
+  MemoryPortConfig memory_port;
 
   OperationLatencies single_latencies() const { return {lane_latency_cycles, 1, 1}; }
   OperationLatencies half_latencies() const { return {half_lane_latency_cycles, 1, 1}; }
@@ -59,10 +68,30 @@ struct StreamingConfig {
   std::uint32_t fetches() const { return hfus / parts(); }
 };
 
-void visit(ConfigVisitor& v, SramConfig& config);
 // The keys that stand before and behind those of the order's own units.
-void visit_head(ConfigVisitor& v, StreamingConfig& config);
-void visit_tail(ConfigVisitor& v, StreamingConfig& config);
+inline void visit_head(ConfigVisitor& v, StreamingConfig& c) {
+  v("clock_mhz", c.clock_mhz, in_range(1, 10000), "clock of all units");
+  v("lane_latency_cycles", c.lane_latency_cycles, in_range(1, 64),
+    "of a multiply-add in single precision: depths of pipelines follow");
+  v("half_lane_latency_cycles", c.half_lane_latency_cycles, in_range(1, 64), "in half precision");
+  v("group_width_px", c.group_width_px, in_range(0, kMaxGroupPx),
+    "of a pixel group, a multiple of 4; 0, and the height too: of the shapes that fit the SRAM the "
+    "one that cuts the frame with the shortest borders");
+  v("group_height_px", c.group_height_px, in_range(0, kMaxGroupPx), "of a pixel group, likewise");
+  v("framebuffer", c.framebuffer,
+    names<FrameFormat>({{"rgb8", FrameFormat::kRgb8}, {"rgb32f", FrameFormat::kRgb32f}}),
+    "pixels in DRAM");
+  v("hfus", c.hfus, in_range(1, 64), "hierarchical filtering units");
+  v("sorting_units", c.sorting_units, in_range(1, 16), "sorting units");
+  v.section("sram", c.sram, "on-chip memory");
+}
+
+inline void visit_tail(ConfigVisitor& v, StreamingConfig& c) {
+  v.section("hfu", c.hfu, "each hierarchical filtering unit");
+  v.section("codebook", c.codebook, "codebook buffer of all HFUs");
+  v.section("rendering", c.rendering, "rendering unit");
+  v.section("memory_port", c.memory_port, "how units talk to memory");
+}
 
 // What buffers are made for that hold any scene that is stored so: second halves of degree 3, with
 // full codebooks.

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "algorithm/render/group_parts.h"
+#include "algorithm/render/group_shape.h"
 #include "algorithm/render/group_state.h"
 #include "modules/streaminggs/filter_cost.h"
 #include "modules/streaminggs/hfu/codebook_buffer.h"

@@ -1,8 +1,8 @@
 // What the designs of both orders have in common.
 #pragma once
 
-#include "algorithm/render/streaming_result.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/render/render_result.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/storage/stored_scene.h"
 #include "modules/auto_choice.h"
 #include "modules/golden_frame.h"

@@ -24,20 +24,21 @@ StreamingJob job_of_part(const StreamingJob& job, std::uint32_t part) {
 
 StreamingMachine::StreamingMachine(const sc_core::sc_module_name& name,
                                    const StreamingConfig& config, const StreamingJob& job,
-                                   const BuiltFor& built_for, const BuildOptions& options)
+                                   const BuiltFor& built_for, const BuildOptions& options,
+                                   const Tokens& tokens)
     : Machine(name),
       config_(config),
       job_(job),
       built_for_(built_for),
-      options_(options),
-      clock_(config.clock_mhz, options.process_order),
-      hfus_(config.fetches()),
-      rendering_(config.parts()) {
+      stalls_(options.stalls),
+      clock_(config.clock_mhz, options.jitter_seed) {
   for (std::uint32_t p = 0; p < config.parts(); ++p) part_jobs_.push_back(job_of_part(job_, p));
   make_finished_groups();
   for (std::uint32_t h = 0; h < config.fetches(); ++h) {
     add_fifo(visits_, fmt::format("visits_to_hfu{}", h), visit_fifos(config));
   }
+  make_units(tokens);
+  bind();
 }
 
 std::string StreamingMachine::name_of_part(const char* what, std::uint32_t part) const {
@@ -57,32 +58,27 @@ void StreamingMachine::make_finished_groups() {
   }
 }
 
-void StreamingMachine::make_units(Construction parts, Rejects rejects, Arrival arrival) {
+void StreamingMachine::make_units(const Tokens& tokens) {
   for (std::uint32_t h = 0; h < config_.fetches(); ++h) {
-    parts.push_back([this, h, rejects] {
-      hfus_[h] =
-          std::make_unique<Hfu>(fmt::format("hfu{}", h).c_str(), config_.hfu, config_.codebook,
-                                FineFilterPlace{h * config_.parts(), rejects}, context());
-    });
+    hfus_.push_back(
+        std::make_unique<Hfu>(fmt::format("hfu{}", h).c_str(), config_.hfu, config_.codebook,
+                              FineFilterPlace{h * config_.parts(), tokens.rejects}, context()));
   }
+  const auto part_done = [this] {
+    if (++parts_done_ == config_.parts()) finish_frame();
+  };
   for (std::uint32_t p = 0; p < config_.parts(); ++p) {
-    parts.push_back([this, p, arrival] {
-      rendering_[p] = std::make_unique<RenderingUnit>(name_of_part("rendering", p).c_str(),
-                                                      rendering_of_part(config_), arrival,
-                                                      part_context(p), [this] {
-                                                        if (++parts_done_ == config_.parts())
-                                                          finish_frame();
-                                                      });
-    });
+    rendering_.push_back(std::make_unique<RenderingUnit>(name_of_part("rendering", p).c_str(),
+                                                         rendering_of_part(config_), tokens.arrival,
+                                                         part_context(p), part_done));
   }
   if (job_.layout.second_half.quantised()) {
-    parts.push_back([this] {
-      codebooks_ = std::make_unique<CodebookBuffer>("codebooks", config_.codebook, context(),
-                                                    instant_end(), config_.hfus);
-    });
+    codebooks_ = std::make_unique<CodebookBuffer>("codebooks", config_.codebook, context(),
+                                                  instant_end(), config_.hfus);
   }
-  construct(std::move(parts), options_.process_order);
+}
 
+void StreamingMachine::bind() {
   for (std::uint32_t p = 0; p < config_.parts(); ++p) {
     rendering_[p]->finish(*finished_groups_[p]);
   }
@@ -116,7 +112,8 @@ void StreamingMachine::publish_spare_units(DataSheet& sheet) {
   publish_spare(sheet, "spare_hfus", "hfus", config_.hfus,
                 units_fed(hfus_,
                           [](const Hfu& hfu) {
-                            return hfu.coarse.counters().first_halves + hfu.fine.counters().taken >
+                            return hfu.coarse.counters().first_halves +
+                                       hfu.fine.counters().second_halves_taken >
                                    0;
                           }),
                 1);

@@ -10,7 +10,6 @@
 #include <systemc>
 #include <vector>
 
-#include "modules/construction.h"
 #include "modules/machine.h"
 #include "modules/machine_design.h"
 #include "modules/streaminggs/fifo_kind.h"
@@ -34,7 +33,7 @@ class StreamingMachine : public Machine {
   const StreamingConfig config_;
   const StreamingJob job_;
   const BuiltFor built_for_;
-  const BuildOptions options_;
+  const StallConfig stalls_;
   const ClockDomain clock_;
   std::vector<StreamingJob> part_jobs_;  // [part]
   std::uint32_t parts_done_ = 0;
@@ -49,15 +48,24 @@ class StreamingMachine : public Machine {
   template <class T>
   using Fifos = std::vector<std::unique_ptr<TimedFifo<T>>>;
 
+  // How the order wants its tokens: candidates without a splat reported or not, and splats spread
+  // over the FIFOs that rendering reads.
+  struct Tokens {
+    Rejects rejects;
+    Arrival arrival;
+  };
+
+  // Makes the shared units, and binds what is bound alike in both orders.
   StreamingMachine(const sc_core::sc_module_name& name, const StreamingConfig& config,
-                   const StreamingJob& job, const BuiltFor& built_for, const BuildOptions& options);
+                   const StreamingJob& job, const BuiltFor& built_for, const BuildOptions& options,
+                   const Tokens& tokens);
 
   // A FIFO between two units, one of its kind.
   template <class T>
   void add_fifo(Fifos<T>& fifos, const std::string& name, const FifoKind<T>& kind) {
     fifos.push_back(
         std::make_unique<TimedFifo<T>>(name.c_str(), clock_, kind.entries, kind.latency_cycles));
-    if (options_.stalls.probability > 0) fifos.back()->inject(options_.stalls);
+    if (stalls_.probability > 0) fifos.back()->inject(stalls_);
     queues_.push_back({fifos.back().get(), kind.each(), kind.key});
   }
 
@@ -67,11 +75,6 @@ class StreamingMachine : public Machine {
     return {clock_, part_jobs_[part], built_for_part(config_, built_for_)};
   }
   const StreamingJob& job() const { return job_; }
-
-  // Makes the shared units and those of the order, in the order of construction that is asked for,
-  // and binds what is bound alike in both. rejects, arrival: how the order wants candidates without
-  // a splat reported, and splats spread over the FIFOs that rendering reads.
-  void make_units(Construction units_of_order, Rejects rejects, Arrival arrival);
 
   // The units in the order of the pipeline.
   virtual void publish_units(DataSheet& sheet) = 0;
@@ -84,6 +87,8 @@ class StreamingMachine : public Machine {
 
  private:
   void make_finished_groups();
+  void make_units(const Tokens& tokens);
+  void bind();
   std::string name_of_part(const char* what, std::uint32_t part) const;
 };
 

@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/memory/splat_record.h"
-#include "algorithm/render/group_for_frame.h"
-#include "algorithm/render/group_parts.h"
+#include "algorithm/render/group_shape.h"
 #include "modules/streaminggs/hfu/hfu.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
 

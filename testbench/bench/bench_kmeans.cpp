@@ -14,12 +14,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/vq/canonical_shape.h"
 #include "algorithm/vq/kmeans.h"
 #include "algorithm/vq/nearest.h"
 #include "algorithm/vq/quantise.h"
+#include "algorithm/vq/vq_points.h"
 #include "testbench/bench/bench_scene.h"
 #include "testbench/bench/stopwatch.h"
 #include "testbench/command_line/guard.h"

@@ -1,6 +1,6 @@
-// What half precision and fixed point cost the picture, by stage of blending and by form of the
-// exponent: each view blended pixel by pixel in several arithmetics, PSNR beside double. Twice: in
-// all sub-tiles of each splat's footprint, and in those that its ellipse reaches.
+// The cost of half precision and fixed point to the picture, by stage of blending: each view
+// blended pixel by pixel in several arithmetics, PSNR beside double. Twice: in all sub-tiles of
+// each splat's footprint, and in those that its ellipse reaches.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,16 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/splat/activate.h"
+#include "algorithm/splat/blend.h"
 #include "algorithm/splat/fixed_pixel.h"
 #include "algorithm/splat/half_scalar.h"
-#include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/make_splat.h"
 #include "testbench/bench/bench_scene.h"
 #include "testbench/command_line/guard.h"
-#include "testbench/stability/conic_by_covariance.h"
-#include "testbench/stability/quadratic_in_half.h"
 
 namespace sgs {
 namespace {
@@ -28,19 +26,16 @@ constexpr int kWidth = 640, kHeight = 360;
 enum class Pixels { kFloat, kHalf, kFixed };
 struct Arithmetic {
   const char* name;
-  bool exponent_in_half, square;
+  bool exponent_in_half;
   Pixels pixels;
 };
 constexpr Arithmetic kArithmetics[] = {
-    {"float", false, false, Pixels::kFloat},
-    {"float, square completed", false, true, Pixels::kFloat},
-    {"pixels in half", false, false, Pixels::kHalf},
-    {"pixels in fixed point", false, false, Pixels::kFixed},
-    {"exponent in half", true, false, Pixels::kFloat},
-    {"exponent in half, square completed", true, true, Pixels::kFloat},
-    {"both in half", true, false, Pixels::kHalf},
-    {"both in half, square completed", true, true, Pixels::kHalf},
-    {"exponent in half, square completed, pixels in fixed point", true, true, Pixels::kFixed},
+    {"float", false, Pixels::kFloat},
+    {"pixels in half", false, Pixels::kHalf},
+    {"pixels in fixed point", false, Pixels::kFixed},
+    {"exponent in half", true, Pixels::kFloat},
+    {"both in half", true, Pixels::kHalf},
+    {"exponent in half, pixels in fixed point", true, Pixels::kFixed},
 };
 constexpr std::size_t kCount = std::size(kArithmetics);
 
@@ -84,10 +79,9 @@ void blend_in_fixed_point(Pixel<float>& pixel, float alpha, const glm::vec3& col
   pixel.light = of_fixed_units(share.after, kFixedLight);
 }
 
-// A splat in float, and what the other arithmetics take of it.
+// A splat in float, and its place and conic in double.
 struct Candidate {
   Splat splat;
-  SquareConic<float> square;
   SplatOf<double> in_double;
 };
 
@@ -110,7 +104,6 @@ std::vector<Candidate> candidates(const Camera& camera, const ActivatedCloud& cl
     if (!make_geometry(view, cloud.gaussians[i], c.splat, p)) continue;
     add_colour(view, cloud.sh_degree, cloud.gaussians[i].mean, cloud.sh(i), c.splat);
     c.splat.index = static_cast<std::uint32_t>(i);
-    c.square = conic_by_covariance(p);
     const Gaussian<double> g = widened<double>(cloud.gaussians[i]);
     const auto exact = project(view_in_double, g, to_camera(view_in_double, g.mean));
     c.in_double.x = exact.x;
@@ -137,9 +130,8 @@ struct Pictures {
     const Splat& s = c.splat;
     const float left = s.x - static_cast<float>(subtile_x * kSubtilePx);
     const float top = s.y - static_cast<float>(subtile_y * kSubtilePx);
-    const auto in = lane_input(s, left, top);
-    const auto square_in_half = lane_input_in_half<HalfScalar>(square_splat(s), left, top);
-    const auto in_half = quadratic_lanes_in_half<HalfScalar>(s, left, top);
+    const auto in = blend_input(s, left, top);
+    const auto in_half = blend_input_in_half<HalfScalar>(square_splat(s), left, top);
     for (int lane = 0; lane < kSubtilePixels; ++lane) {
       const int column = lane % kSubtilePx, row = lane / kSubtilePx;
       const int x = subtile_x * kSubtilePx + column, y = subtile_y * kSubtilePx + row;
@@ -153,26 +145,21 @@ struct Pictures {
       const auto alpha = [](auto exponent, auto opacity) {
         return alpha_of(exponent, exp2_of(exponent), opacity);
       };
-      const auto alpha_in_half = [&](const auto& lanes) {
-        const HalfScalar of_x(static_cast<float>(column) * lanes.pixel_x);
-        const HalfScalar of_y(static_cast<float>(row) * lanes.pixel_y);
-        return alpha(log2_falloff(lanes.conic, lanes.left - of_x, lanes.top - of_y), lanes.opacity);
-      };
-      const float alphas[] = {alpha(log2_falloff(in.conic, dx, dy), in.opacity),
-                              alpha(log2_falloff(c.square, dx, dy), in.opacity)};
-      const HalfScalar halves[] = {alpha_in_half(in_half), alpha_in_half(square_in_half)};
+      const HalfScalar of_x(static_cast<float>(column) * in_half.pixel_x);
+      const HalfScalar of_y(static_cast<float>(row) * in_half.pixel_y);
+      const HalfScalar half = alpha(
+          log2_falloff(in_half.conic, in_half.left - of_x, in_half.top - of_y), in_half.opacity);
+      const float single = alpha(log2_falloff(in.conic, dx, dy), in.opacity);
       for (std::size_t k = 0; k < kCount; ++k) {
         const Arithmetic& how = kArithmetics[k];
-        const HalfScalar half =
-            how.exponent_in_half ? halves[how.square] : HalfScalar(alphas[how.square]);
         Pixel<float>& pixel = of[k][at];
-        const float in_float = how.exponent_in_half ? half.value() : alphas[how.square];
+        const float in_float = how.exponent_in_half ? half.value() : single;
         switch (how.pixels) {
           case Pixels::kFloat:
             pixel.blend(in_float, s.rgb);
             break;
           case Pixels::kHalf:
-            blend_in_half(pixel, half, s.rgb);
+            blend_in_half(pixel, how.exponent_in_half ? half : HalfScalar(single), s.rgb);
             break;
           case Pixels::kFixed:
             blend_in_fixed_point(pixel, in_float, s.rgb);

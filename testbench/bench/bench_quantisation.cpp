@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/image/quality.h"
-#include "algorithm/input_error.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/storage/encoded_cloud.h"

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/render/splat_bins.h"

@@ -21,15 +21,15 @@
 #include <utility>
 #include <vector>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/image/quality.h"
-#include "algorithm/input_error.h"
 #include "algorithm/render/exact_renderer.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/render/tile_renderer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
-#include "algorithm/storage/storage_choices.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"
 #include "testbench/bench/bench_scene.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "testbench/builtin/open_scene.h"
 
 namespace sgs {

@@ -19,10 +19,10 @@
 #include <random>
 #include <utility>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/tune/adam.h"
 #include "algorithm/tune/photometric_loss.h"
 #include "algorithm/tune/scene_gradient.h"

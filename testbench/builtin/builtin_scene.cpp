@@ -7,7 +7,7 @@
 #include <map>
 #include <string_view>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/builtin/object_scene.h"
 #include "testbench/builtin/outdoor_scene.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/builtin/builtin_scene.h"
 
 namespace sgs {

@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "algorithm/split_mix.h"
+#include "algorithm/train/counter_random.h"
 
 namespace sgs {
 

@@ -9,7 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numeric>
 
-#include "algorithm/scene/logit.h"
+#include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs {
 namespace {

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "algorithm/input_error.h"
-#include "algorithm/join.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/command_line/version.h"
 
 namespace sgs {
@@ -154,8 +153,9 @@ bool CommandLine::parse(int argc, const char* const* argv) {
     app.exit(asked_for_help);
     return false;
   } catch (const CLI::ParseError& error) {
-    throw InputError(
-        fmt::format("{} ({} --help lists what there is)", error.what(), app.get_name()));
+    std::string asked = app.get_name();
+    for (const CLI::App* command : app.get_subcommands()) asked += " " + command->get_name();
+    throw InputError(fmt::format("{} ({} --help lists what there is)", error.what(), asked));
   }
   return true;
 }

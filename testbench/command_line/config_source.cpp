@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "algorithm/input_error.h"
-#include "algorithm/join.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/command_line/presets.h"
 
 namespace sgs {

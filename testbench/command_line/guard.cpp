@@ -12,8 +12,8 @@
 #include <iostream>
 #include <new>
 
-#include "algorithm/input_error.h"
-#include "algorithm/part_files.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/part_files.h"
 
 namespace sgs {
 namespace {

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "algorithm/data_files.h"
-#include "algorithm/input_error.h"
-#include "algorithm/join.h"
+#include "algorithm/files/data_files.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 namespace {

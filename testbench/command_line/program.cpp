@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <systemc>
 
-#include "algorithm/data_files.h"
+#include "algorithm/files/data_files.h"
 
 namespace sgs {
 

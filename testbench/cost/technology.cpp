@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_json.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
 #include "modules/config/strict_json.h"
 
 namespace sgs {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "algorithm/input_error.h"
-#include "algorithm/input_json.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
 
 namespace sgs {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "algorithm/output_file.h"
+#include "algorithm/files/output_file.h"
 #include "modules/dram/dram_config.h"
 
 namespace sgs {

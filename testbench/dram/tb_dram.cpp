@@ -3,10 +3,9 @@
 
 #include <systemc>
 
-#include "algorithm/data_files.h"
-#include "algorithm/input_error.h"
-#include "algorithm/output_plan.h"
-#include "algorithm/output_set.h"
+#include "algorithm/files/data_files.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 #include "modules/config/strict_json.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/command_trace.h"

@@ -17,7 +17,7 @@
 #include <new>
 #include <utility>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 namespace {

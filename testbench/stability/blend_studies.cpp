@@ -1,7 +1,6 @@
 // Alpha, the light that is left, colour, and their derivatives.
 #include "algorithm/splat/blend.h"
-#include "algorithm/tune/blend_gradient.h"
-#include "testbench/stability/counted.h"
+#include "algorithm/tune/splat_gradient.h"
 #include "testbench/stability/study.h"
 
 namespace sgs {
@@ -22,17 +21,6 @@ Deviation alpha(double opacity, Random& random) {
   return deviation(alpha_of(exponent, exp2_of(exponent), o), capped, capped);
 }
 
-template <class T>
-using LightForm = T (*)(T alpha, T before);
-template <class T>
-T less_weight(T alpha, T before) {
-  return take_light(alpha, before).after;
-}
-template <class T>
-T times_rest(T alpha, T before) {
-  return T(before * T(T(1.0F) - alpha));
-}
-
 // 1/255 as the format holds it: the faintest layer that is blended.
 template <class T>
 T faint() {
@@ -51,30 +39,20 @@ Bounded<Format> through(Bounded<Format> light, int layers) {
 
 // The light behind so many layers of alpha 1/255; finishing is left out.
 template <class T>
-Deviation through_layers(double layers, LightForm<T> form) {
+Deviation through_layers(double layers) {
   const T alpha = faint<T>();
   T light(1.0F);
-  for (int i = 0; i < static_cast<int>(layers); ++i) light = through(form(alpha, light), i + 1);
+  for (int i = 0; i < static_cast<int>(layers); ++i) {
+    light = through(take_light(alpha, light).after, i + 1);
+  }
   const Exact truth = pow(1 - Exact(alpha.value), static_cast<int>(layers));
   return deviation(light, truth, truth);
 }
 template <class T>
-Deviation by_logarithms(double layers) {
-  const T alpha = faint<T>();
-  const T per_ln2 = constant<T>(kLog2E);
-  T sum(0.0F);
-  for (int i = 0; i < static_cast<int>(layers); ++i) {
-    sum = T(sum + T(log_of(T(T(1.0F) - alpha)) * per_ln2));
-  }
-  const Exact truth = pow(1 - Exact(alpha.value), static_cast<int>(layers));
-  return deviation(exp2_of(sum), truth, truth);
-}
-
-template <class T>
-Deviation behind_one(double rest, Random& random, LightForm<T> form) {
+Deviation behind_one(double rest, Random& random) {
   const T alpha(static_cast<float>(1 - rest)), before(static_cast<float>(random.uniform(0.1, 1)));
   const Exact truth = Exact(before.value) * (1 - Exact(alpha.value));
-  return deviation(form(alpha, before), truth, truth);
+  return deviation(take_light(alpha, before).after, truth, truth);
 }
 
 // A white pixel behind so many layers of alpha 1/255, until it is finished.
@@ -181,42 +159,15 @@ std::vector<Study> blend_studies() {
   out.push_back(s);
 
   s = study("light behind layers of 1/255", "T - alpha T", false, "layers", "of T", layers);
-  set_sample(s, [](double n) { return through_layers<F>(n, less_weight); });
+  set_sample(s, through_layers<F>);
   s.law = [](double place) { return place <= 10'000 ? 1.1 * u * place : INFINITY; };
   s.law_text = "u layers";
   s.why =
       "Right until float ends at 22,000 layers; the pixel was finished at 2,345 (T < 10^-4). "
       "The product alpha T is needed for the colour.";
-  s.operations = counted([](auto alpha, auto t) { return take_light(alpha, t).after; }, 0.3F, 0.7F);
   out.push_back(s);
-  s.form = "T (1 - alpha)";
-  s.taken = false;
-  set_sample(s, [](double n) { return through_layers<F>(n, times_rest); });
-  s.why = "No better over layers, and a product more, since alpha T is wanted as well.";
-  s.operations =
-      counted([](auto alpha, auto t) { return alpha * t + times_rest(alpha, t); }, 0.3F, 0.7F);
-  out.push_back(s);
-  s.form = "2^(sum of log2(1 - alpha))";
-  set_sample(s, by_logarithms<F>);
-  s.law = [](double place) {
-    return place <= 10'000 ? 3 * u * (1 + place * place / 255) : INFINITY;
-  };
-  s.law_text = "3 u layers^2 / 255";
-  s.why =
-      "The sum loses what the product keeps: each addition rounds at the size of the sum. And a "
-      "logarithm and a power of two for each splat and pixel.";
-  s.operations = counted(
-      [](auto alpha, auto sum) {
-        using T = Counting;
-        return exp2_of(T(sum + T(log_of(T(T(1.0F) - alpha)) * constant<T>(kLog2E))));
-      },
-      0.3F, -0.7F);
-  out.push_back(s);
-  s.form = "T - alpha T";
-  s.taken = true;
   s.arithmetic = "half";
-  s.operations.clear();
-  set_sample(s, [](double n) { return through_layers<H>(n, less_weight); });
+  set_sample(s, through_layers<H>);
   s.law = [](double place) { return place <= 1000 ? 1.1 * h * place : INFINITY; };
   s.law_text = "u layers";
   s.why =
@@ -226,19 +177,12 @@ std::vector<Study> blend_studies() {
       "still.";
   out.push_back(s);
 
-  for (const bool taken : {true, false}) {
-    s = study("light behind one splat", taken ? "T - alpha T" : "T (1 - alpha)", false, "1 - alpha",
-              "of T", rests);
-    s.taken = taken;
-    s.sample = [taken](double place, Random& r) {
-      return behind_one<F>(place, r, taken ? less_weight<F> : times_rest<F>);
-    };
-    s.law = [taken](double place) { return taken ? u * (1 + 1 / place) : 2.2 * u; };
-    s.law_text = taken ? "u / (1 - alpha)" : "2 u";
-    s.why = taken ? "100 u at the cap of 0.99: nothing beside the 1 % of light that is left."
-                  : "Better where a splat is opaque, for a product more; no picture shows it.";
-    out.push_back(s);
-  }
+  s = study("light behind one splat", "T - alpha T", false, "1 - alpha", "of T", rests);
+  s.sample = behind_one<F>;
+  s.law = [](double place) { return u * (1 + 1 / place); };
+  s.law_text = "u / (1 - alpha)";
+  s.why = "100 u at the cap of 0.99: nothing beside the 1 % of light that is left.";
+  out.push_back(s);
 
   s = study("colour of a pixel, layers of 1/255", "C + c (alpha T)", false, "layers", "of white",
             until_finished);

@@ -1,13 +1,12 @@
 // Activations and spherical harmonics, and their derivatives.
-#include "algorithm/tune/activation_gradient.h"
-#include "algorithm/tune/colour_gradient.h"
+#include "algorithm/tune/gaussian_gradient.h"
 #include "testbench/stability/exact_colour.h"
 #include "testbench/stability/study.h"
 
 namespace sgs {
 namespace {
 
-constexpr double u = Single::kRoundoff, h = Half::kRoundoff;
+constexpr double u = Single::kRoundoff;
 constexpr int kDegree = 3, kCoeffs = 16;
 
 // Computed in double and rounded once, as activate() does for a file's floats.
@@ -46,10 +45,8 @@ Deviation rotation(double length_of_quat, Random& random) {
   return worst;
 }
 
-enum class Slope { kOfLogit, kOfOpacity };
-
 // d sigmoid / d logit.
-Deviation opacity_slope(double logit, Random& random, Slope by) {
+Deviation opacity_slope(double logit, Random& random) {
   using T = BoundedFloat;
   const auto x = static_cast<float>(logit * random.uniform(0.9, 1));
   RawGaussian<T> raw{};
@@ -58,8 +55,7 @@ Deviation opacity_slope(double logit, Random& random, Slope by) {
   Gaussian<T> g{}, wanted{};
   wanted.opacity = T(1.0F);
   g.opacity = rounded_once(activate(raw_with(0, x)).opacity);
-  const T computed = by == Slope::kOfLogit ? activation_gradient(raw, g, wanted).opacity_logit
-                                           : T(g.opacity * T(T(1.0F) - g.opacity));
+  const T computed = activation_gradient(raw, g, wanted).opacity_logit;
   const Exact e = exp(-abs(Exact(x))), truth = e / ((1 + e) * (1 + e));
   return deviation(computed, truth, truth);
 }
@@ -100,8 +96,8 @@ std::vector<glm::vec<3, T>> given(const std::vector<glm::vec3>& all) {
   return out;
 }
 
-template <class T>
 Deviation colour(double distance, double size, Random& random) {
+  using T = BoundedFloat;
   const Seen s = seen(distance, size, random);
   const auto computed = sh_colour(kDegree, given<T>(s.coeffs).data(), given<T>(s.offset));
   const ExactVector truth = exact_colour(kDegree, s.exact_coeffs, exact(s.offset));
@@ -190,44 +186,23 @@ std::vector<Study> colour_studies() {
 
   s = study("derivative of the opacity", "e / (1 + e)^2, e = exp(-|o|)", "logit",
             "of the derivative", {-80, -40, -10, 1, 5, 10, 15, 20, 40, 80, 95});
-  s.sample = [](double place, Random& r) { return opacity_slope(place, r, Slope::kOfLogit); };
+  s.sample = opacity_slope;
   s.law = [](double place) { return std::abs(place) < 86 ? 8 * u : INFINITY; };
   s.law_text = "8 u";
   s.why = "exp is clamped at e^-87: nothing moves such an opacity anyway.";
   out.push_back(s);
-  s.form = "o (1 - o)";
-  s.taken = false;
-  s.sample = [](double place, Random& r) { return opacity_slope(place, r, Slope::kOfOpacity); };
-  s.law = [](double place) {
-    return place > -80 && place < 80 ? 4 * u * (1 + std::exp(place)) : INFINITY;
-  };
-  s.law_text = "4 u (1 + e^o)";
-  s.why = "1 - o has no digits: an opaque Gaussian would never fade again, from a logit of 17 on.";
-  out.push_back(s);
 
-  for (const bool in_half : {false, true}) {
-    s = study("colour, degree 3", "SH of the unit direction", "|p - c|", "of 0.5 + sum |coeff|",
-              in_half ? decades(-3, 6) : decades(-6, 20));
-    s.arithmetic = in_half ? "half" : "float";
-    s.taken = !in_half;
-    s.sample = [in_half](double place, Random& r) {
-      return in_half ? colour<BoundedHalf>(place, 0.5, r) : colour<BoundedFloat>(place, 0.5, r);
-    };
-    s.law = [in_half](double place) {
-      if (in_half) return place > 0.02 && place < 100 ? 32 * h : INFINITY;
-      return place < 1e18 ? 32 * u : INFINITY;
-    };
-    s.law_text = in_half ? "32 u from 0.02 to 100" : "32 u to 10^18";
-    s.why = in_half ? "|p - c|^2 leaves the range at 255 units, and its digits below 10^-2. "
-                      "Coefficients may "
-                      "be halves (an encoding), the direction may not."
-                    : "|p - c|^2 leaves float at 1.8 10^19; coordinates are refused from 10^18 on.";
-    out.push_back(s);
-  }
+  s = study("colour, degree 3", "SH of the unit direction", "|p - c|", "of 0.5 + sum |coeff|",
+            decades(-6, 20));
+  s.sample = [](double place, Random& r) { return colour(place, 0.5, r); };
+  s.law = [](double place) { return place < 1e18 ? 32 * u : INFINITY; };
+  s.law_text = "32 u to 10^18";
+  s.why = "|p - c|^2 leaves float at 1.8 10^19; coordinates are refused from 10^18 on.";
+  out.push_back(s);
 
   s = study("colour, degree 3", "SH of the unit direction", "coefficients", "of 0.5 + sum |coeff|",
             decades(0, 38));
-  s.sample = [](double place, Random& r) { return colour<BoundedFloat>(3, 3.4 * place, r); };
+  s.sample = [](double place, Random& r) { return colour(3, 3.4 * place, r); };
   s.law = [](double place) { return place < 1e37 ? 32 * u : INFINITY; };
   s.law_text = "32 u to 10^37";
   s.why = "A sum of sixteen 3 10^38 is infinite; coefficients are refused from 10^18 on.";

@@ -1,12 +1,9 @@
 // The exponent of a splat's falloff at a pixel, and its derivative.
 #include <algorithm>
 
-#include "algorithm/splat/lane_input.h"
-#include "algorithm/tune/blend_gradient.h"
-#include "testbench/stability/conic_by_covariance.h"
-#include "testbench/stability/counted.h"
+#include "algorithm/splat/blend.h"
+#include "algorithm/tune/splat_gradient.h"
 #include "testbench/stability/projected_case.h"
-#include "testbench/stability/quadratic_in_half.h"
 #include "testbench/stability/study.h"
 
 namespace sgs {
@@ -46,7 +43,7 @@ const Exact& exact_log2_e() {
 
 // Lane 0 of a sub-tile whose first pixel this is.
 template <class T, class Conic>
-T in_lane(const LaneInput<T, Conic>& in) {
+T in_lane(const BlendInput<T, Conic>& in) {
   return log2_falloff(in.conic, in.left, in.top);
 }
 
@@ -62,17 +59,10 @@ SplatOf<T> splat_of(const Projected<T>& p) {
 }
 
 BoundedFloat quadratic(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
-  return in_lane(lane_input(splat_of(p), dx, dy));
-}
-BoundedHalf quadratic_in_half(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
-  return in_lane(quadratic_lanes_in_half<BoundedHalf>(splat_of(p), dx, dy));
-}
-
-BoundedFloat completed(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
-  return log2_falloff(conic_by_covariance(p), dx, dy);
+  return in_lane(blend_input(splat_of(p), dx, dy));
 }
 BoundedHalf completed_in_half(const Projected<BoundedFloat>& p, BoundedFloat dx, BoundedFloat dy) {
-  return in_lane(lane_input_in_half<BoundedHalf>(square_splat(splat_of(p)), dx, dy));
+  return in_lane(blend_input_in_half<BoundedHalf>(square_splat(splat_of(p)), dx, dy));
 }
 
 template <class T>
@@ -102,28 +92,7 @@ std::array<T, 3> by_arms(const Projected<T>& p, const std::vector<Offset>& pixel
   return {g.cov_a, g.cov_b, g.cov_c};
 }
 
-// By way of the conic: D = sum f d d^T, then K D K / 2.
-template <class T>
-std::array<T, 3> by_conic(const Projected<T>& p, const std::vector<Offset>& pixels,
-                          const std::vector<float>& f) {
-  T xx = T(0.0F), xy = T(0.0F), yy = T(0.0F);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const T x = T(pixels[i].x), y = T(pixels[i].y), w = T(f[i]);
-    xx = T(xx + w * x * x);
-    xy = T(xy + w * x * y);
-    yy = T(yy + w * y * y);
-  }
-  const T &a = p.conic_a, &b = p.conic_b, &c = p.conic_c;
-  const T ax = T(a * xx + b * xy), ay = T(a * xy + b * yy);  // rows of K D
-  const T bx = T(b * xx + c * xy), by = T(b * xy + c * yy);
-  const T half = T(0.5F);
-  return {T(half * T(ax * a + ay * b)), T(ax * b + ay * c), T(half * T(bx * b + by * c))};
-}
-
-Deviation by_covariance(double condition, Random& random,
-                        std::array<BoundedFloat, 3> (*form)(const Projected<BoundedFloat>&,
-                                                            const std::vector<Offset>&,
-                                                            const std::vector<float>&)) {
+Deviation by_covariance(double condition, Random& random) {
   const ProjectedCase c = long_splat(condition, random);
   const ExactSplat e = c.exact_splat();
   std::vector<Offset> pixels;
@@ -140,7 +109,7 @@ Deviation by_covariance(double condition, Random& random,
     truth[2] += w * arm_y * arm_y / 2;
     unit += abs(w) * (arm_x * arm_x + arm_y * arm_y);
   }
-  const auto computed = form(c.projected<BoundedFloat>(), pixels, f);
+  const auto computed = by_arms(c.projected<BoundedFloat>(), pixels, f);
   Deviation worst;
   for (std::size_t k = 0; k < 3; ++k) worst.add(deviation(computed[k], truth[k], unit));
   return worst;
@@ -165,54 +134,17 @@ std::vector<Study> exponent_studies() {
       "on, "
       "noise from 2,000 px on (bounded: power > 0 is skipped). It is the original's form, to which "
       "pictures are held; cut needles where it shows.";
-  s.operations = counted(
-      [](auto a, auto b, auto c, auto x, auto y) {
-        return log2_falloff(Log2Conic<Counting>{a, b, c}, x, y);
-      },
-      1.1F, 1.3F, 1.7F, 1.9F, 2.9F);
-  out.push_back(s);
-
-  s.form = "A (dx + (B/A) dy)^2 + dy^2 / c";
-  s.taken = false;
-  s.sample = [](double place, Random& r) { return exponent(place, r, completed); };
-  s.law = [](double place) { return 400 * u * (1 + std::sqrt(place)); };
-  s.law_text = "400 u sqrt(condition)";
-  s.why =
-      "Nothing cancels but inside the square: the root of the condition, a product a pixel less, "
-      "as "
-      "many divisions a splat. Not taken: it moves the last places of every picture, and the ends "
-      "of "
-      "needles away from the original's.";
-  s.operations = counted(
-      [](auto a, auto b, auto c, auto x, auto y) {
-        return log2_falloff(SquareConic<Counting>{a, b, c}, x, y);
-      },
-      1.1F, 1.3F, 1.7F, 1.9F, 2.9F);
-  out.push_back(s);
-
-  s.form = "A dx^2 + C dy^2 + 2 B dx dy, lengths in units of 2^e px";
-  s.taken = false;
-  s.arithmetic = "half";
-  s.sample = [](double place, Random& r) { return exponent(place, r, quadratic_in_half); };
-  s.law = [](double place) { return place < 1e4 ? 100 * h * (1 + place) : INFINITY; };
-  s.law_text = "100 u condition";
-  s.why =
-      "A round splat is up to 0.7 % off where it is faintest, one 10 times as long as wide 16 % "
-      "far "
-      "out, one of 30 times noise, which cost pictures 26 dB and more.";
-  s.operations.clear();
   out.push_back(s);
 
   s.form = "A (dx + (B/A) dy)^2 + (C - B^2/A) dy^2, along x and y in units of their own";
-  s.taken = true;
+  s.arithmetic = "half";
   s.sample = [](double place, Random& r) { return exponent(place, r, completed_in_half); };
   s.law = [](double place) { return place < 1e6 ? 100 * h * (1 + std::sqrt(place)) : INFINITY; };
   s.law_text = "100 u sqrt(condition) to 10^6";
   s.why =
-      "Cancels no more: 5 % at a condition of 1,000, where the three terms are 240 % off; a "
-      "division a splat (B/A, in float) and 8 multiply-accumulates a sub-tile more. A needle of "
-      "170 px "
-      "of one sigma is still 37 % off at its far ends, where pictures hardly show it.";
+      "5 % at a condition of 1,000, for a division a splat (B/A, in float) and 8 "
+      "multiply-accumulates a sub-tile more than the three terms. A needle of 170 px of one sigma "
+      "is still 37 % off at its far ends, where pictures hardly show it.";
   out.push_back(s);
 
   s = {};
@@ -222,19 +154,12 @@ std::vector<Study> exponent_studies() {
   s.axis = "condition";
   s.unit = "of sum |f| |e|^2";
   s.places = decades(0, 20);
-  s.sample = [](double place, Random& r) { return by_covariance(place, r, by_arms); };
+  s.sample = by_covariance;
   s.law = [](double place) { return place <= 1e12 ? 100 * u * (1 + std::sqrt(place)) : INFINITY; };
   s.law_text = "100 u sqrt(condition) to 10^12";
   s.why =
       "e = K d cancels along a needle, once; from 10^5 px of sigma on a needle has no slope to "
       "tune by.";
-  out.push_back(s);
-  s.form = "K (sum f d d^T) K / 2";
-  s.taken = false;
-  s.sample = [](double place, Random& r) { return by_covariance(place, r, by_conic); };
-  s.law = [](double place) { return place <= 1e12 ? 100 * u * (1 + place) : INFINITY; };
-  s.law_text = "100 u condition to 10^12";
-  s.why = "d d^T is huge along a needle and has to cancel twice.";
   out.push_back(s);
   return out;
 }

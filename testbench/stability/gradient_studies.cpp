@@ -1,7 +1,7 @@
 // The derivatives of the projection, against differences of the exact one.
 #include <algorithm>
 
-#include "algorithm/tune/projection_gradient.h"
+#include "algorithm/tune/gaussian_gradient.h"
 #include "testbench/stability/projected_case.h"
 #include "testbench/stability/study.h"
 

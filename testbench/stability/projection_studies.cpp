@@ -1,6 +1,5 @@
 // Covariance on the screen, its determinant, inverse and eigenvalue, the reach of a splat.
 #include "algorithm/splat/footprint.h"
-#include "testbench/stability/counted.h"
 #include "testbench/stability/projected_case.h"
 #include "testbench/stability/study.h"
 
@@ -43,28 +42,19 @@ Deviation covariance(double place, Random& random) {
 }
 
 template <class T>
-T by_minors(const Projected<T>& p) {
-  return p.determinant;
-}
-template <class T>
-T by_difference(const Projected<T>& p) {
-  return T(p.cov_a * p.cov_c - p.cov_b * p.cov_b);
-}
-
-template <class T>
-Deviation determinant(double place, Random& random, T (*form)(const Projected<T>&)) {
+Deviation determinant(double place, Random& random) {
   return sampled<T>(
-      long_splat, [form](const Projected<T>& p) { return std::array<T, 1>{form(p)}; },
+      long_splat, [](const Projected<T>& p) { return std::array<T, 1>{p.determinant}; },
       [](const ExactSplat& e) { return std::array<Exact, 1>{e.determinant}; },
       [](const ExactSplat& e) { return e.determinant; })(place, random);
 }
 
 template <class T>
-Deviation conic(double place, Random& random, Case make, T (*form)(const Projected<T>&)) {
+Deviation conic(double place, Random& random, Case make) {
   return sampled<T>(
       make,
-      [form](const Projected<T>& p) {
-        const T d = form(p);
+      [](const Projected<T>& p) {
+        const T d = p.determinant;
         return std::array<T, 3>{T(p.cov_c / d), T(-p.cov_b / d), T(p.cov_a / d)};
       },
       [](const ExactSplat& e) {
@@ -74,7 +64,7 @@ Deviation conic(double place, Random& random, Case make, T (*form)(const Project
                                                                                          random);
 }
 
-// The larger eigenvalue; least: the floor of the discriminant, for splats that are round.
+// The larger eigenvalue; kMinDiscriminant is the floor for splats that are round.
 template <class T>
 T by_lean(const Projected<T>& p) {
   const T half = T(0.5F);
@@ -83,15 +73,9 @@ T by_lean(const Projected<T>& p) {
            sqrt_of(max_of(constant<T>(kMinDiscriminant), T(lean * lean + p.cov_b * p.cov_b))));
 }
 template <class T>
-T by_discriminant(const Projected<T>& p) {
-  const T mid = T(T(0.5F) * T(p.cov_a + p.cov_c));
-  return T(mid + sqrt_of(max_of(constant<T>(kMinDiscriminant), T(mid * mid - p.determinant))));
-}
-
-template <class T>
-Deviation eigenvalue(double place, Random& random, Case make, T (*form)(const Projected<T>&)) {
+Deviation eigenvalue(double place, Random& random, Case make) {
   return sampled<T>(
-      make, [form](const Projected<T>& p) { return std::array<T, 1>{form(p)}; },
+      make, [](const Projected<T>& p) { return std::array<T, 1>{by_lean(p)}; },
       [](const ExactSplat& e) { return std::array<Exact, 1>{e.lambda}; },
       [](const ExactSplat& e) { return e.lambda; })(place, random);
 }
@@ -112,11 +96,10 @@ Deviation cutoff(double over_least, Random& random) {
   return deviation(visible_cutoff(BoundedFloat(opacity)), q, 1);
 }
 
-Study along_condition(const char* formula, const char* form, bool taken, const char* unit) {
+Study along_condition(const char* formula, const char* form, const char* unit) {
   Study s;
   s.formula = formula;
   s.form = form;
-  s.taken = taken;
   s.arithmetic = "float";
   s.axis = "condition";
   s.unit = unit;
@@ -128,28 +111,18 @@ Study along_condition(const char* formula, const char* form, bool taken, const c
 
 std::vector<Study> projection_studies() {
   using F = BoundedFloat;
-  using H = BoundedHalf;
   std::vector<Study> out;
 
   Study s = along_condition("covariance J W Sigma W^T J^T + 0.3 I", "u_i . u_k, u = rows of J W M",
-                            true, "of its trace");
+                            "of its trace");
   s.sample = covariance<F>;
   s.law = [](double) { return 64 * u; };
   s.law_text = "64 u";
   s.why = "Does not break: scales are multiplied once, Sigma is never formed.";
   out.push_back(s);
-  s.arithmetic = "half";
-  s.taken = false;
-  s.sample = covariance<H>;
-  s.law = [](double place) { return place < 1e4 ? 64 * Half::kRoundoff : INFINITY; };
-  s.why =
-      "A splat wider than 256 px leaves the range (65,504 px^2) whatever the digits. In half, "
-      "lengths would have to be kept, not squares.";
-  out.push_back(s);
-
-  s = along_condition("determinant", "0.09 + 0.3 (|u1|^2 + |u2|^2) + |u1 x u2|^2", true,
+  s = along_condition("determinant", "0.09 + 0.3 (|u1|^2 + |u2|^2) + |u1 x u2|^2",
                       "of the determinant");
-  s.sample = [](double place, Random& r) { return determinant<F>(place, r, by_minors); };
+  s.sample = determinant<F>;
   s.law = [](double place) { return 32 * u + 64 * u * std::sqrt(place); };
   s.law_text = "32 u + 64 u sqrt(condition)";
   s.why =
@@ -157,44 +130,18 @@ std::vector<Study> projection_studies() {
       "at 10^5 px, where u1 x u2 is the rounding of two parallel lengths. 8 products and 7 sums "
       "more than a c - b^2, for 10^6 in condition; wider discs are cut by tiles alone.";
   out.push_back(s);
-  s = along_condition("determinant", "a c - b^2", false, "of the determinant");
-  s.sample = [](double place, Random& r) { return determinant<F>(place, r, by_difference); };
-  s.law = [](double place) { return place <= 1e18 ? 80 * u * place : INFINITY; };
-  s.law_text = "80 u condition to 10^18";
-  s.why =
-      "Cancels: a needle of 550 px of sigma is percents off, one of 5,000 px has lost its sign.";
-  s.operations = counted([](auto a, auto b, auto c) { return a * c - b * b; }, 1.1F, 1.3F, 1.7F);
-  out.push_back(s);
-  s.arithmetic = "half";
-  s.operations.clear();
-  s.form = "0.09 + 0.3 (|u1|^2 + |u2|^2) + |u1 x u2|^2";
-  s.sample = [](double place, Random& r) { return determinant<H>(place, r, by_minors); };
-  s.law = [](double place) {
-    return place < 1e4 ? 32 * Half::kRoundoff * (1 + 2 * std::sqrt(place)) : INFINITY;
-  };
-  s.law_text = "32 u + 64 u sqrt(condition)";
-  s.why = "As the covariance; at 16 px round |u1 x u2|^2 is 65,504. Projection stays in float.";
-  out.push_back(s);
-
-  s = along_condition("conic, the inverse", "by the minors", true, "of its largest entry");
-  s.sample = [](double place, Random& r) { return conic<F>(place, r, long_splat, by_minors); };
+  s = along_condition("conic, the inverse", "by the minors", "of its largest entry");
+  s.sample = [](double place, Random& r) { return conic<F>(place, r, long_splat); };
   s.law = [](double place) {
     return place <= 1e12 ? 96 * u + 64 * u * std::sqrt(place) : INFINITY;
   };
   s.law_text = "96 u + 64 u sqrt(condition) to 10^12";
   s.why = "As the determinant, by which it is divided.";
   out.push_back(s);
-  s = along_condition("conic, the inverse", "by a c - b^2", false, "of its largest entry");
-  s.sample = [](double place, Random& r) { return conic<F>(place, r, long_splat, by_difference); };
-  s.law = [](double place) { return place <= 1e4 ? 128 * u * place : INFINITY; };
-  s.law_text = "128 u condition to 10^4";
-  s.why = "As that determinant: what it draws of a long needle is too wide, too narrow or nothing.";
-  out.push_back(s);
-
-  s = along_condition("conic, the inverse", "by the minors", true, "of its largest entry");
+  s = along_condition("conic, the inverse", "by the minors", "of its largest entry");
   s.axis = "px of one sigma, discs";
   s.places = decades(0, 11);
-  s.sample = [](double place, Random& r) { return conic<F>(place, r, wide_disc, by_minors); };
+  s.sample = [](double place, Random& r) { return conic<F>(place, r, wide_disc); };
   s.law = [](double place) { return place <= 1e9 ? 1e3 * u : INFINITY; };
   s.law_text = "1000 u below 10^9 px";
   s.why =
@@ -202,48 +149,22 @@ std::vector<Study> projection_studies() {
       "which is right to a tenth of a sigma. Scales are refused from 10^7 units on.";
   out.push_back(s);
 
-  for (const bool taken : {true, false}) {
-    s = along_condition("larger eigenvalue, of the radius",
-                        taken ? "mid + sqrt(((a - c)/2)^2 + b^2)" : "mid + sqrt(mid^2 - det)",
-                        taken, "of itself");
-    s.axis = "part by which the axes differ";
-    s.places = decades(0, -10);
-    s.places.front() = 0.5;
-    s.sample = [taken](double place, Random& r) {
-      return eigenvalue<F>(place, r, nearly_round, taken ? by_lean<F> : by_discriminant<F>);
-    };
-    s.law = [taken](double) { return taken ? 64 * u : 8 * std::sqrt(u); };
-    s.law_text = taken ? "64 u" : "8 sqrt(u)";
-    s.why = taken
-                ? "Does not break; two products and a sum more than the other."
-                : "Cancels where a splat is round: half of the digits are gone, radii a pixel off "
-                  "from 1,500 px of sigma on.";
-    s.operations = taken ? counted(
-                               [](auto a, auto b, auto c) {
-                                 Projected<Counting> p{};
-                                 p.cov_a = a;
-                                 p.cov_b = b;
-                                 p.cov_c = c;
-                                 return by_lean(p);
-                               },
-                               1.1F, 1.3F, 1.7F)
-                         : counted(
-                               [](auto a, auto c, auto det) {
-                                 Projected<Counting> p{};
-                                 p.cov_a = a;
-                                 p.cov_c = c;
-                                 p.determinant = det;
-                                 return by_discriminant(p);
-                               },
-                               1.1F, 1.7F, 0.3F);
-    out.push_back(s);
-  }
+  s = along_condition("larger eigenvalue, of the radius", "mid + sqrt(((a - c)/2)^2 + b^2)",
+                      "of itself");
+  s.axis = "part by which the axes differ";
+  s.places = decades(0, -10);
+  s.places.front() = 0.5;
+  s.sample = [](double place, Random& r) { return eigenvalue<F>(place, r, nearly_round); };
+  s.law = [](double) { return 64 * u; };
+  s.law_text = "64 u";
+  s.why = "Does not break: nothing cancels where a splat is round.";
+  out.push_back(s);
 
-  s = along_condition("larger eigenvalue, of the radius", "mid + sqrt(((a - c)/2)^2 + b^2)", true,
+  s = along_condition("larger eigenvalue, of the radius", "mid + sqrt(((a - c)/2)^2 + b^2)",
                       "of itself");
   s.axis = "px of one sigma, discs";
   s.places = decades(0, 11);
-  s.sample = [](double place, Random& r) { return eigenvalue<F>(place, r, wide_disc, by_lean<F>); };
+  s.sample = [](double place, Random& r) { return eigenvalue<F>(place, r, wide_disc); };
   s.law = [](double place) { return place <= 1e9 ? 64 * u : INFINITY; };
   s.law_text = "64 u to 10^9 px";
   s.why =
@@ -251,14 +172,14 @@ std::vector<Study> projection_studies() {
       "they are.";
   out.push_back(s);
 
-  s = along_condition("footprint: half side sqrt(q a)", "as written", true, "of sqrt(a + c)");
+  s = along_condition("footprint: half side sqrt(q a)", "as written", "of sqrt(a + c)");
   s.sample = half_side;
   s.law = [](double) { return 256 * u; };
   s.law_text = "256 u";
   s.why = "Does not break; the footprint adds 10^-4 of it and 0.02 px.";
   out.push_back(s);
 
-  s = along_condition("footprint: cutoff 2 ln(255 opacity)", "as written, + 10^-4", true, "of q");
+  s = along_condition("footprint: cutoff 2 ln(255 opacity)", "as written, + 10^-4", "of q");
   s.axis = "255 opacity - 1";
   s.places = decades(2, -7);
   s.sample = cutoff;

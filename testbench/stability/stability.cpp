@@ -1,5 +1,5 @@
 // stability: how far each formula of one Gaussian is from what it is without rounding, as JSON on
-// standard output; scripts/stability_table.py makes the table of it.
+// standard output; scripts/results.py stability_table makes the table of it.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -31,13 +31,11 @@ Json measured(const Study& study, int samples, std::uint64_t seed) {
   }
   return {{"formula", study.formula},
           {"form", study.form},
-          {"taken", study.taken},
           {"arithmetic", study.arithmetic},
           {"axis", study.axis},
           {"unit", study.unit},
           {"law", study.law_text},
           {"breaks_at", number(breaks_at(results))},
-          {"operations", study.operations},
           {"why", study.why},
           {"places", places}};
 }

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/scene/gaussian_limits.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/train/own_pictures.h"
+#include "algorithm/train/photographs.h"
 #include "algorithm/train/scene_tuner.h"
 #include "testbench/builtin/builtin_scene.h"
 

@@ -1,4 +1,4 @@
-// A formula in one form and one arithmetic, along one axis of what makes it hard.
+// A formula as it is computed, in one arithmetic, along one axis of difficulty.
 #pragma once
 
 #include <functional>
@@ -35,19 +35,17 @@ Deviation deviation(const Bounded<Format>& computed, const Exact& exact, const E
 
 struct Study {
   std::string formula;
-  std::string form;        // which way it is computed
-  bool taken = true;       // by the units and renderers; else a form that was tried
+  std::string form;        // the way in which units and renderers compute it
   std::string arithmetic;  // float, half
   std::string axis;        // what the places are numbers of
   std::string unit;        // what errors are counted in
   std::vector<double> places;
   std::function<Deviation(double place, Random&)> sample;  // one random case at a place
   bool drawn = true;                                       // else all cases of a place are one
-  // What the error is by analysis: a function of the place, and in words. u: unit roundoff.
+  // The error by analysis: a function of the place, and in words. u: unit roundoff.
   std::function<double(double place)> law;
   std::string law_text;
-  std::string why;         // what breaks and why, and what to do; a sentence or two
-  std::string operations;  // one evaluation, counted; empty where forms are not compared by it
+  std::string why;  // a sentence or two: the part that breaks, the reason, and the remedy
 };
 
 struct PlaceResult {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/image/image_io.h"
 #include "algorithm/image/quality.h"
-#include "algorithm/input_error.h"
 #include "testbench/streaminggs/commands.h"
 
 namespace sgs {

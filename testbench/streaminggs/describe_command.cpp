@@ -15,7 +15,7 @@
 #include "testbench/result/sram_budget.h"
 #include "testbench/result/wire.h"
 #include "testbench/streaminggs/commands.h"
-#include "testbench/streaminggs/prepared_scene.h"
+#include "testbench/streaminggs/run/prepared_scene.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs {

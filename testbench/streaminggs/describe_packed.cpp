@@ -6,7 +6,7 @@
 #include <string>
 
 #include "algorithm/storage/storage_scheme.h"
-#include "testbench/streaminggs/numbers.h"
+#include "testbench/streaminggs/report/numbers.h"
 
 namespace sgs {
 namespace {

@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/output_file.h"
-#include "algorithm/output_plan.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/splat/activate.h"
 #include "modules/config/strict_json.h"
 #include "testbench/gpu/gpu_model.h"
 #include "testbench/streaminggs/commands.h"
-#include "testbench/streaminggs/numbers.h"
-#include "testbench/streaminggs/provenance.h"
-#include "testbench/streaminggs/scene_arguments.h"
+#include "testbench/streaminggs/report/numbers.h"
+#include "testbench/streaminggs/report/provenance.h"
+#include "testbench/streaminggs/run/scene_arguments.h"
 
 namespace sgs {
 namespace {

@@ -5,19 +5,19 @@
 #include <memory>
 #include <string>
 
-#include "algorithm/dataset/open_dataset.h"
-#include "algorithm/input_error.h"
+#include "algorithm/dataset/dataset.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/scene/describe.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/storage/storage_choices.h"
+#include "algorithm/storage/storage_scheme.h"
 #include "algorithm/voxel/voxel_grid.h"
 #include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
-#include "testbench/streaminggs/describe_dataset.h"
 #include "testbench/streaminggs/describe_packed.h"
-#include "testbench/streaminggs/numbers.h"
-#include "testbench/streaminggs/run_config.h"
-#include "testbench/streaminggs/scene_arguments.h"
+#include "testbench/streaminggs/fitting/describe_dataset.h"
+#include "testbench/streaminggs/report/numbers.h"
+#include "testbench/streaminggs/run/run_config.h"
+#include "testbench/streaminggs/run/scene_arguments.h"
 
 namespace sgs {
 namespace {

@@ -7,19 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/input_error.h"
-#include "algorithm/output_plan.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/scene/ply_writer.h"
-#include "algorithm/splat/deactivate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/activate.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/decoded_image.h"
 #include "algorithm/storage/image_file.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
 #include "testbench/streaminggs/describe_packed.h"
-#include "testbench/streaminggs/numbers.h"
-#include "testbench/streaminggs/prepared_scene.h"
-#include "testbench/streaminggs/scene_arguments.h"
+#include "testbench/streaminggs/report/numbers.h"
+#include "testbench/streaminggs/run/prepared_scene.h"
+#include "testbench/streaminggs/run/scene_arguments.h"
 
 namespace sgs {
 namespace {

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/image/image_io.h"
-#include "algorithm/input_error.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/storage/restore_scene.h"
+#include "algorithm/storage/stored_scene.h"
 #include "testbench/command_line/config_source.h"
 #include "testbench/streaminggs/commands.h"
-#include "testbench/streaminggs/prepared_scene.h"
-#include "testbench/streaminggs/scene_arguments.h"
+#include "testbench/streaminggs/run/prepared_scene.h"
+#include "testbench/streaminggs/run/scene_arguments.h"
 
 namespace sgs {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/command_line/program.h"
 #include "testbench/command_line/while_doing.h"
 #include "testbench/streaminggs/commands.h"
@@ -37,6 +37,14 @@ constexpr Help kHelp[] = {
     {"describe", "print the data sheets and the configuration of a machine"},
 };
 
+// The first word that is no option of the program itself, none of which has a value; else empty.
+std::string_view command_word(int argc, char* argv[]) {
+  for (int i = 1; i < argc; ++i) {
+    if (argv[i][0] != '-') return argv[i];
+  }
+  return {};
+}
+
 bool is_elsewhere(std::string_view word, const Commands& commands) {
   for (const Help& help : kHelp) {
     if (word == help.command) return commands.count(help.command) == 0;
@@ -46,15 +54,15 @@ bool is_elsewhere(std::string_view word, const Commands& commands) {
 
 // The process, its streams and its arguments become those of the other program. Throws where there
 // is none.
-int hand_over(int argc, char* argv[]) {
+int hand_over(std::string_view word, int argc, char* argv[]) {
   constexpr const char* kOther = "streaminggs-commands";
   const auto other = std::filesystem::read_symlink("/proc/self/exe").parent_path() / kOther;
   std::vector<char*> words(argv, argv + argc);
   words.push_back(nullptr);
   ::execv(other.c_str(), words.data());
   throw InputError(fmt::format(
-      "{}: is done by {} ({}), expected it beside this program: scripts/setup.sh release {}",
-      argv[1], other.string(), std::strerror(errno), kOther));
+      "{}: is done by {} ({}), expected it beside this program: scripts/setup.sh release {}", word,
+      other.string(), std::strerror(errno), kOther));
 }
 
 }  // namespace
@@ -63,8 +71,9 @@ int run_command_line(int argc, char* argv[], const Kinds& kinds, const Commands&
   CommandLine line("streaminggs",
                    "StreamingGS: a memory-centric 3D Gaussian Splatting accelerator in SystemC "
                    "TLM-2.0");
-  if (argc > 1 && is_elsewhere(argv[1], commands)) {
-    return run_guarded(line.name(), [&] { return hand_over(argc, argv); });
+  const std::string_view word = command_word(argc, argv);
+  if (is_elsewhere(word, commands)) {
+    return run_guarded(line.name(), [&] { return hand_over(word, argc, argv); });
   }
   std::vector<std::pair<const CommandLine*, SubCommand>> here;
   for (const Help& help : kHelp) {

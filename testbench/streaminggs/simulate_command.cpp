@@ -12,19 +12,19 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/data_files.h"
-#include "algorithm/input_error.h"
-#include "algorithm/input_json.h"
-#include "algorithm/output_plan.h"
+#include "algorithm/files/data_files.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
+#include "algorithm/files/output_file.h"
 #include "algorithm/render/group_state.h"
 #include "testbench/command_line/config_source.h"
-#include "testbench/streaminggs/camera_path.h"
 #include "testbench/streaminggs/commands.h"
-#include "testbench/streaminggs/path_run.h"
-#include "testbench/streaminggs/provenance.h"
-#include "testbench/streaminggs/result_folder.h"
-#include "testbench/streaminggs/scene_arguments.h"
-#include "testbench/streaminggs/view_run.h"
+#include "testbench/streaminggs/report/provenance.h"
+#include "testbench/streaminggs/report/result_folder.h"
+#include "testbench/streaminggs/run/camera_path.h"
+#include "testbench/streaminggs/run/path_run.h"
+#include "testbench/streaminggs/run/scene_arguments.h"
+#include "testbench/streaminggs/run/view_run.h"
 
 namespace sgs {
 namespace {
@@ -236,7 +236,7 @@ SubCommand add_simulate_command(CommandLine& line, const Kinds& kinds) {
   line.whole("--seed", build.stalls.seed, 0, kMostSeed, "of the random stalls");
   line.needs("--seed", "--stalls");
   line.whole(
-      "--process-order", build.process_order, 0, kMostSeed,
+      "--process-order", build.jitter_seed, 0, kMostSeed,
       "seed that shuffles in which order the processes of an instant act; changes no number");
   line.flag("--print-config", arguments->print_config,
             "show every key of the configuration: what --config takes; 0 where it is left open");

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "algorithm/output_file.h"
+#include "algorithm/files/output_file.h"
 
 namespace sgs {
 

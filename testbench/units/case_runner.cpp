@@ -9,7 +9,7 @@
 #include <optional>
 #include <systemc>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/command_line/program.h"
 #include "testbench/process/in_child.h"
 #include "tlm/no_banner.h"

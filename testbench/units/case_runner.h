@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/output_file.h"
+#include "algorithm/files/output_file.h"
 #include "testbench/units/checks.h"
 
 namespace sgs::tb {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "algorithm/splat/lane_macs.h"
-#include "algorithm/splat/reorder.h"
-#include "algorithm/voxel/chunk_work.h"
+#include "algorithm/splat/gaussian.h"
+#include "modules/datapath/lane_steps.h"
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
 #include "testbench/units/job_memory.h"
 
 namespace sgs::tb {
@@ -69,9 +69,11 @@ ExactVsuPlan plan_of(const TestScene& scene, std::uint32_t chunk) {
   return plan;
 }
 
-std::uint64_t macs_of_a_test() { return folded_macs(chunk_work(longest_chunk_case())); }
+std::uint64_t macs_of_a_test() { return folded_macs(chunk_flow(longest_chunk_case()).counts()); }
 
-std::uint64_t comparisons_of_a_test() { return comparisons(chunk_work(longest_chunk_case())); }
+std::uint64_t comparisons_of_a_test() {
+  return comparisons(chunk_flow(longest_chunk_case()).counts());
+}
 
 ExpectedWalk expect(const ExactVsuPlan& plan) {
   ExpectedWalk out;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "algorithm/memory/first_half_test.h"
+#include "algorithm/memory/record_split.h"
 #include "algorithm/splat/make_splat.h"
 
 namespace sgs::tb {

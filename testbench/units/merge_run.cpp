@@ -214,13 +214,14 @@ void add_reader(MergeRun& run, const MergePlan& plan) {
   });
 }
 
-MergeUnit::Counters run_plan(Case& test, const BenchConfig& config, const MergePlan& plan) {
+void run_plan(Case& test, const BenchConfig& config, const MergePlan& plan,
+              const std::function<void(MergeRun&)>& also) {
   MergeRun run(test, config, plan);
   add_sorters(run, plan);
   add_reader(run, plan);
   run.bench.run();
   check_counters(run, plan);
-  return run.unit.counters();
+  also(run);
 }
 
 BenchConfig still_bench(const MergePlan& plan) {

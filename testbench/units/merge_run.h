@@ -35,7 +35,9 @@ void add_reader(MergeRun& run, const MergePlan& plan);
 // A bench without stalls, with the memory that the plan needs.
 BenchConfig still_bench(const MergePlan& plan);
 
-// Simulates the plan and checks what comes out, cycles, bytes and accesses.
-MergeUnit::Counters run_plan(Case& test, const BenchConfig& config, const MergePlan& plan);
+// Simulates the plan and checks what comes out, cycles, bytes and accesses; then `also`.
+void run_plan(
+    Case& test, const BenchConfig& config, const MergePlan& plan,
+    const std::function<void(MergeRun&)>& also = [](MergeRun&) {});
 
 }  // namespace sgs::tb

@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/splat/lane_macs.h"
 #include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
-#include "algorithm/voxel/ray_work.h"
 #include "algorithm/voxel/voxel_cuts.h"
+#include "modules/datapath/lane_steps.h"
+#include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs::tb {
 namespace {
@@ -59,16 +59,18 @@ PaperVsuPlan paper_vsu_plan_of(TestScene scene) {
   return plan;
 }
 
-std::uint64_t macs_of_a_step() { return folded_macs(ray_step_work(longest_step_case())); }
-std::uint64_t macs_of_a_beginning() { return folded_macs(pixel_ray_work()); }
+std::uint64_t macs_of_a_step() { return folded_macs(ray_step_flow(longest_step_case()).counts()); }
+std::uint64_t macs_of_a_beginning() { return folded_macs(pixel_ray_flow().counts()); }
 
-std::uint64_t comparisons_of_a_step() { return comparisons(ray_step_work(longest_step_case())); }
-std::uint64_t comparisons_of_a_beginning() { return comparisons(pixel_ray_work()); }
+std::uint64_t comparisons_of_a_step() {
+  return comparisons(ray_step_flow(longest_step_case()).counts());
+}
+std::uint64_t comparisons_of_a_beginning() { return comparisons(pixel_ray_flow().counts()); }
 
 ExpectedVisits expect(const PaperVsuPlan& plan) {
   ExpectedVisits out;
   const VoxelGrid& grid = plan.scene.grid;
-  OrderingTable table(grid.voxels.size(), plan.config.table_bytes, plan.config.table_banks);
+  OrderingTable table(grid.voxels.size(), plan.config.table_bytes);
   for (const PixelRect& group : plan.scene.job.groups) {
     const RayPattern rays = plan.config.rays();
     const OrderingAccesses before = table.accesses();

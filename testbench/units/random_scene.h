@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "algorithm/memory/memory_image.h"
+#include "algorithm/memory/scene_layout.h"
 #include "algorithm/splat/gaussian.h"
 #include "algorithm/voxel/voxel_grid.h"
 #include "modules/streaminggs/streaming_job.h"

@@ -8,8 +8,8 @@
 
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/render/group_state.h"
-#include "algorithm/splat/lane_macs.h"
-#include "algorithm/splat/rendering_work.h"
+#include "modules/datapath/lane_steps.h"
+#include "modules/datapath/rendering_flows.h"
 #include "testbench/units/job_memory.h"
 #include "testbench/units/multiplexers.h"
 
@@ -45,7 +45,8 @@ std::uint64_t memories_of_a_place(const RenderingPlan& plan) {
 // and when it is known hangs on times: of splats and their rows there are these at most.
 struct Expected {
   std::vector<std::byte> frame;
-  RenderingUnit::Counters counters;
+  std::uint64_t groups = 0, groups_saturated = 0;
+  std::uint64_t splats = 0, splats_spanned = 0, spans = 0, contributors = 0;
   std::uint64_t functional_blends = 0;  // into unfinished sub-tiles
   std::uint64_t subtiles_finished = 0, rows = 0, begun_span_reads = 0;
   std::uint64_t drain_cycles = 0;
@@ -59,14 +60,14 @@ void blend(const RenderingPlan& plan, const Splat& splat, GroupState& state, Exp
   });
   out.rows += work.rows;
   out.functional_blends += work.blended;
-  out.counters.splats += work.blended > 0 ? 1 : 0;
+  out.splats += work.blended > 0 ? 1 : 0;
   // A footprint of at most four sub-tiles is blended as it is; of a larger one each row has a span.
   constexpr std::size_t kUntested = 4;
   const SubtileRect box = state.box_of(splat).subtiles;
   const std::uint64_t rows = box.y1 - box.y0;
   if (!plan.config.ellipse_test || rows * (box.x1 - box.x0) <= kUntested) return;
-  out.counters.spans += rows;
-  ++out.counters.splats_spanned;
+  out.spans += rows;
+  ++out.splats_spanned;
   out.begun_span_reads += ceil_div(rows, plan.config.spans_at_once());
 }
 
@@ -83,9 +84,9 @@ Expected expect(const RenderingPlan& plan) {
     for (const auto& visit : plan.groups[g]) {
       for (const Splat& splat : visit) blend(plan, splat, state, out);
     }
-    ++out.counters.groups;
-    out.counters.groups_saturated += state.saturated() ? 1 : 0;
-    out.counters.contributors += state.contributors();
+    ++out.groups;
+    out.groups_saturated += state.saturated() ? 1 : 0;
+    out.contributors += state.contributors();
     out.saturated.push_back(state.saturated());
     out.drain_cycles += static_cast<std::uint64_t>(pixels.height()) *
                             row_cycles(plan, static_cast<std::uint64_t>(pixels.width())) +
@@ -156,14 +157,14 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
               "the frame buffer differs from GroupState's pixels");
   checks.equal(bench.bytes_written(), frame.bytes, "bytes written");
   checks.equal(bench.bytes_read(), 0U, "bytes read");
-  const RenderingUnit::Counters& want = expected.counters;
-  bench.check_counter("groups", want.groups);
-  bench.check_counter("groups_saturated", want.groups_saturated);
-  bench.check_counter("splats", want.splats);
-  bench.check_counter("contributors", want.contributors);
-  checks.that(unit.schedule_counters().blends - unit.schedule_counters().late_blends ==
-                  expected.functional_blends,
-              "blends that change pixels");
+  bench.check_counter("groups", expected.groups);
+  bench.check_counter("groups_saturated", expected.groups_saturated);
+  bench.check_counter("splats", expected.splats);
+  bench.check_counter("contributors", expected.contributors);
+  checks.that(
+      unit.schedule_counters().subtile_blends - unit.schedule_counters().subtile_blends_late ==
+          expected.functional_blends,
+      "blends that change pixels");
   std::uint64_t pushed = 0;
   for (const auto& group : plan.groups) {
     for (const auto& visit : group) pushed += visit.size();
@@ -181,22 +182,23 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
   const std::uint64_t spanned = bench.counter("splats_spanned"), rows_sent = bench.counter("rows");
   const std::uint64_t begun_span_reads = bench.accesses("begun spans").first;
   for (const auto& [name, got, all] :
-       {std::tuple{"spans", spans, want.spans},
-        {"splats spanned", spanned, want.splats_spanned},
+       {std::tuple{"spans", spans, expected.spans},
+        {"splats spanned", spanned, expected.splats_spanned},
         {"rows", rows_sent, expected.rows},
         {"begun spans read", begun_span_reads, expected.begun_span_reads}}) {
     checks.that(got <= all && (taken < pushed || got == all), name);
   }
-  const RenderingWork work = rendering_work(plan.config.precision);
-  const std::uint64_t blend_macs = blends * folded_macs(work.subtile_blend);
+  const RenderingFlows flows = rendering_flows(plan.config.precision);
+  const OperationCounts conic = flows.conic.counts(), spans_begin = flows.spans_begin.counts(),
+                        span = flows.span.counts(), subtile_blend = flows.subtile_blend.counts();
+  const std::uint64_t blend_macs = blends * folded_macs(subtile_blend);
   std::uint64_t pixels = 0;
   for (const PixelRect& px : plan.job.groups) {
     pixels += static_cast<std::uint64_t>(px.width()) * static_cast<std::uint64_t>(px.height());
   }
-  const OperationCounts drained = pixel_work(plan.job.frame_format);
-  const std::uint64_t span_macs = pixels * folded_macs(drained) + taken * folded_macs(work.conic) +
-                                  spans * folded_macs(work.span) +
-                                  spanned * folded_macs(work.spans_begin);
+  const OperationCounts drained = pixel_flow(plan.job.frame_format).counts();
+  const std::uint64_t span_macs = pixels * folded_macs(drained) + taken * folded_macs(conic) +
+                                  spans * folded_macs(span) + spanned * folded_macs(spans_begin);
   // The mask is asked of every row for a splat, and of the row that is held for each cluster.
   const auto rows = static_cast<std::uint64_t>(plan.group.height / 4);
   const auto words = ceil_div(static_cast<std::uint64_t>(plan.group.width / 4), 32);
@@ -212,11 +214,10 @@ void run_plan(Case& test, const BenchConfig& bench_config, const RenderingPlan& 
                "bits of the mask written");
   const std::uint64_t dispatched =
       pushed * rows * words + row_cycles * plan.config.clusters * words + looks * in_loop;
-  bench.check_operations(
-      "rendering", "comparator",
-      dispatched + pixels * comparisons(drained) + taken * comparisons(work.conic) +
-          blends * comparisons(work.subtile_blend) + spans * comparisons(work.span) +
-          spanned * comparisons(work.spans_begin));
+  bench.check_operations("rendering", "comparator",
+                         dispatched + pixels * comparisons(drained) + taken * comparisons(conic) +
+                             blends * comparisons(subtile_blend) + spans * comparisons(span) +
+                             spanned * comparisons(spans_begin));
   const bool in_half = in_16_bits(plan.config.precision);
   bench.check_operations("rendering", in_half ? "exp2_table_half" : "exp2_table", blends * 16);
   bench.check_operations("rendering", "fp32_lane", span_macs + (in_half ? 0 : blend_macs));

@@ -154,16 +154,17 @@ void keys_behind_finished_subtiles(Case& test) {
 }
 
 void one_group(Case& test, std::uint32_t n, std::uint32_t entries, bool tied,
-               const std::function<void(Checks&, const MergeUnit::Counters&)>& also) {
+               const std::function<void(MergeRun&)>& also) {
   MergePlan plan;
   plan.slots = n;
   plan.config.entries = entries;
   plan.config.spill_runs = 3;
   plan.groups.push_back(one_visit(n, tied));
-  const MergeUnit::Counters counters = run_plan(test, still_bench(plan), plan);
-  // All of it waits before the first is final, as far as there is room.
-  test.checks.equal(counters.pending_max, std::uint64_t{std::min(n, entries)}, "keys that wait");
-  also(test.checks, counters);
+  run_plan(test, still_bench(plan), plan, [&](MergeRun& run) {
+    // All of it waits before the first is final, as far as there is room.
+    run.bench.check_counter("pending_keys_max", std::min(n, entries));
+    also(run);
+  });
 }
 
 }  // namespace
@@ -183,17 +184,18 @@ int sc_main(int argc, char* argv[]) {
   });
   runner.add_directed("final keys do not wait, tied ones do", final_keys_do_not_wait);
   runner.add_directed("keys behind finished sub-tiles are dropped", keys_behind_finished_subtiles);
-  const auto spills = [](Checks& checks, const MergeUnit::Counters& c) {
-    checks.that(c.runs_spilled > 0, "nothing was spilled");
+  const auto spills = [](MergeRun& run) {
+    run.bench.checks().that(run.bench.counter("runs_spilled") > 0, "nothing was spilled");
   };
-  const auto merges_runs = [](Checks& checks, const MergeUnit::Counters& c) {
-    checks.that(c.runs_spilled > 3, "runs were not merged");
-    checks.that(c.keys_spilled > c.keys / 2, "too few keys were spilled");
+  const auto merges_runs = [](MergeRun& run) {
+    const MergeUnit::Counters& c = run.unit.counters();
+    run.bench.checks().that(c.runs_spilled > 3, "runs were not merged");
+    run.bench.checks().that(c.keys_spilled > c.keys / 2, "too few keys were spilled");
   };
   runner.add_directed("keys that all fit", [](Case& test) {
-    one_group(test, 100, 100, false, [](Checks& checks, const MergeUnit::Counters& c) {
-      checks.equal(c.runs_spilled, std::uint64_t{0}, "runs spilled");
-      checks.equal(c.ties, std::uint64_t{0}, "ties");
+    one_group(test, 100, 100, false, [](MergeRun& run) {
+      run.bench.check_counter("runs_spilled", 0);
+      run.bench.check_counter("ties", 0);
     });
   });
   runner.add_directed("one key more than fits",
@@ -203,7 +205,7 @@ int sc_main(int argc, char* argv[]) {
   runner.add_directed("capacity of two keys",
                       [=](Case& test) { one_group(test, 60, 2, false, merges_runs); });
   runner.add_directed("all keys at one depth",
-                      [](Case& test) { one_group(test, 300, 300, true, [](auto&, auto&) {}); });
+                      [](Case& test) { one_group(test, 300, 300, true, [](MergeRun&) {}); });
   runner.add_directed("all keys at one depth, spilled",
                       [=](Case& test) { one_group(test, 300, 20, true, spills); });
   runner.add_directed("all keys at one depth, capacity of two keys",
@@ -225,8 +227,9 @@ int sc_main(int argc, char* argv[]) {
     plan.config.entries = 8;
     plan.config.on_overflow = OnOverflow::kBlendEarly;
     for (int g = 0; g < 3; ++g) plan.groups.push_back(random_group(test.random, plan, 16, 30));
-    const MergeUnit::Counters c = run_plan(test, still_bench(plan), plan);
-    test.checks.that(c.forced_early > 0, "nothing was forced out");
+    run_plan(test, still_bench(plan), plan, [](MergeRun& run) {
+      run.bench.checks().that(run.bench.counter("forced_early") > 0, "nothing was forced out");
+    });
   });
   runner.add_directed("bytes of a spill: keys out and back", [](Case& test) {
     MergePlan plan;
@@ -238,7 +241,7 @@ int sc_main(int argc, char* argv[]) {
     add_reader(run, plan);
     run.bench.run();
     // 64 wait: an eighth goes, 8 keys, and the other 6 fit.
-    test.checks.equal(run.unit.counters().keys_spilled, std::uint64_t{8}, "keys spilled");
+    run.bench.check_counter("keys_spilled", 8);
     run.bench.check_counter("runs_spilled", 1);
     test.checks.equal(run.bench.bytes_written(), std::uint64_t{8 * kBytesOfKey}, "bytes written");
     test.checks.equal(run.bench.bytes_read(), std::uint64_t{8 * kBytesOfKey}, "bytes read");

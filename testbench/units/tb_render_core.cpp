@@ -3,7 +3,7 @@
 // splat waits for another.
 #include <algorithm>
 
-#include "algorithm/render/tile_blend.h"
+#include "algorithm/render/tile_renderer.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 #include "modules/gscore/rendering/render_core.h"

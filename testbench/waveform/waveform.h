@@ -4,7 +4,7 @@
 #include <systemc>
 #include <thread>
 
-#include "algorithm/output_file.h"
+#include "algorithm/files/output_file.h"
 
 namespace sgs {
 

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs::test {
 

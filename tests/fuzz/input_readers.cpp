@@ -1,10 +1,7 @@
 // Readers of scenes, cameras, pictures and data sets.
-#include "algorithm/dataset/open_dataset.h"
-#include "algorithm/image/exr_file.h"
-#include "algorithm/image/jpeg_file.h"
-#include "algorithm/image/pfm_file.h"
-#include "algorithm/image/png_file.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/dataset/dataset.h"
+#include "algorithm/image/image_formats.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "tests/fuzz/few_views.h"
 #include "tests/fuzz/fuzzed_reader.h"

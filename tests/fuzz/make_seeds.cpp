@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/image/exr_file.h"
-#include "algorithm/image/pfm_file.h"
+#include "algorithm/image/image_formats.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/train/checkpoint.h"
 #include "tests/algorithm/image/jpeg_bytes.h"

@@ -5,29 +5,26 @@ import subprocess
 import unittest
 from unittest import mock
 
-from in_folder import COMMAND, REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
-import binding_check
-import boundary_study
-import compare_machines
-import compare_variants
-import design_point_seconds
-import energy_tables
-import error_against_time
+from in_folder import COMMAND, REPOSITORY, InFolder, file_of, nightly  # isort: skip (finds the scripts)
+from studies import binding_check
+from studies import boundary_study
+from studies import compare_machines
+from studies import compare_variants
+from studies import energy
+from studies import error_against_time
+from studies import fair_fight
 import explore
-import fair_fight
-import half_by_stage
-import paper_claims
-import published_figures
-import published_gpu
-import quality_table
-import simulations
-import smallest_machine
-import timing
-import training_curves
-import voxel_study
-import work_precision
-from scenes import find_scene
-
+import results
+from studies import half_by_stage
+from studies import paper_claims
+from studies import published_figures
+from studies import quality_table
+from runs import simulations
+from runs.scenes import find_scene
+from studies import timing
+from studies import training_curves
+from studies import voxel_study
+from studies import work_precision
 
 RENDERERS = pathlib.Path(COMMAND).with_name("bench_renderers") if COMMAND else ""
 SMALL_ERRORS = ("--size", "64x36", "--renderers", str(RENDERERS))
@@ -63,19 +60,19 @@ class WithTheCommand(InFolder):
                 compare_machines,
                 ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4")
                 + ("--machines", "gscore_lossless", "exact", "--view", "0"),
-                {"| truck | 64x36 | 25.6 | exact |": 2, "| 102.4 | GPU, modelled |": 1}
-                | {"| 25.6 | all | exact | gscore_lossless | fp32 | 62.3 | 62.3 | 1 | 1 |": 1}
-                | {"| 25.6 | all | exact | GPU, modelled | fp32 | 62.3 | not measured | 1 | 1 |": 1}
-                | {"| truck | 64x36 | GPU, modelled | 102.4 |": 1, "| frame_buffer |": 1},
+                {"| truck | 64x36 | 25.6 | exact |": 2, "| 102.4 | GPU, modelled |": 2}
+                | {"| exact | gscore_lossless | fp32 | 62.3 | 62.3 | 1 | 1 |": 1}
+                | {"| exact | GPU, modelled | fp32 | 62.3 |  | 1 | 1 |": 1}
+                | {"| frame_buffer |": 1},
             ),
             (
-                design_point_seconds,
-                ("--object-sizes", "64x36", "--machines", "exact"),
-                {"| truck | 64x36 | 25.6 | exact |": 1, "| 47.7 |": 1},
+                timing,
+                ("--object-sizes", "64x36", "--machines", "exact", "--repeats", "1"),
+                {"| truck | 64x36 | 25.6 | exact |": 2, "| 47.70 |": 1},
             ),
             (compare_variants, ("--size", "64x36"), {"| truck |": 8 + 1, "| StreamingGS |": 1}),
             (
-                energy_tables,
+                energy,
                 ("--groups", "16", "64x32"),
                 {"| exact | all |": 1, "| paper_no_vq | 64x32 |": 1} | {"View 0 at 640x360 px": 2},
             ),
@@ -90,20 +87,17 @@ class WithTheCommand(InFolder):
                 ("--config", "gscore", "--axis", "cores=1,2"),
                 {"| cores | cycles | dram_bytes | sram_bytes | mm2 |": 1, "\n| 1 |": 1},
             ),
+            (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, "| claim |": 1}),
             (
-                timing,
-                ("--repeats", "1", "--configs", "exact", "paper"),
-                {"| truck | 64x36 | 64 |": 2},
+                explore,
+                ("--recipe", "smallest", "--require", "min(fps) >= 100000", "--trials", "2"),
+                {"None holds: the nearest misses min(fps) >= 100000 by ": 1},
             ),
-            (paper_claims, ("--size", "64x36"), {"| area, mm2 | 5.37 |": 1, " dB; ": 1}),
             (
-                fair_fight,
-                ("--most-runs", "4", "--objectives", "cycles", "--budgets", "1")
-                + ("--view-sizes", "64x36"),
-                {"| exact | 1 x paper | cycles |": 1, "| paper | 1 x paper | cycles |": 1}
-                | {"| truck | preset paper |": 1, "| truck | exact, best cycles |": 1},
+                explore,
+                ("--recipe", "paper_in_area", "--size", "64x36", "--trials", "2"),
+                {"2 configurations, of which ": 1},
             ),
-            (smallest_machine, ("--sizes", "64x36", "--fps", "100000"), {"| truck 0 |": 1}),
             (half_by_stage, ("--size", "64x36"), {"| truck | 0 |": 1, "| depth keys |": 1}),
             (work_precision, (), {"| truck | 0 |": 21, "| 4,096 |": 2}),
             (
@@ -132,16 +126,38 @@ class WithTheCommand(InFolder):
         ):
             with self.subTest(script.__name__, arguments=arguments):
                 made = self.made(script, *arguments)
-                self.assertRegex(made, f"Made by `scripts/{script.__name__}.py ")
+                self.assertRegex(made, f"Made by `scripts/{file_of(script)} ")
                 for text, count in lines.items():
                     self.assertEqual(made.count(text), count, f"{text} in\n{made}")
+
+    @nightly
+    def test_both_orders_in_one_area(self):
+        """What explore.py found is drawn beside presets."""
+        found = []
+        for order in ("exact", "paper"):
+            status, line, _ = self.ended(
+                explore,
+                *(str(self.scene), "--streaminggs", COMMAND, "--recipe", f"{order}_in_area"),
+                *("--size", "64x36", "--trials", "3", "--require", "mm2 <= 1.2 x paper"),
+                *("--out", str(self.folder / order)),
+            )
+            self.assertEqual(status, 0, line)
+            found.append(f"{order}={self.folder / order}")
+        made = self.made(fair_fight, "--sizes", "64x36", "--found", *found)
+        names = [f"preset {name}" for name in fair_fight.PRESETS] + ["exact, found", "paper, found"]
+        for name in names:
+            self.assertEqual(made.count(f"| 64x36 | truck | {name} |"), 2, made)
+            self.assertEqual(made.count(f"| 64x36 | {name} |"), 1, made)
+        rows = results.read_rows(self.folder, "fair_fight_front")
+        self.assertEqual({row["order"] for row in rows}, {"exact", "paper"})
+        self.assertIn("yes", [row["on the front"] for row in rows])
 
     @nightly
     def test_figures_are_drawn_from_the_tables(self):
         small = ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4", "--view", "0")
         machines = ("--machines", "gscore", "exact_fp16")
         self.made(compare_machines, *small, *machines)
-        drawn = sorted((self.folder / "figures").glob("*.svg"))
+        drawn = sorted(self.folder.glob("*.svg"))
         names = ["compare_machines_rates", "compare_machines_ratios", "compare_machines_traffic"]
         self.assertEqual([path.stem for path in drawn], names)
         for path in drawn:
@@ -149,7 +165,8 @@ class WithTheCommand(InFolder):
             self.assertIn("exact_fp16", text)
             path.unlink()
         # Again, without a simulation, from the tables alone; and the last one from nothing.
-        script = [str(compare_machines.DRAWER), *names, "--from", str(self.folder)]
+        script = [str(REPOSITORY / "scripts" / "figures.py"), *names]
+        script += ["--from", str(self.folder), "--out", str(self.folder)]
         self.assertEqual(subprocess.run(script, check=False).returncode, 0)
         self.assertEqual(drawn[-1].read_text(), text)
         (self.folder / "compare_machines_bytes.csv").unlink()
@@ -159,9 +176,9 @@ class WithTheCommand(InFolder):
     def test_an_interruption_loses_no_simulation(self):
         small = ("--sizes", "64x36", "--object-sizes", "64x36", "--channels", "4", "--view", "0")
         self.made(compare_machines, *small, "--machines", "gscore", "exact")
-        kept = (self.folder / compare_machines.RUNS_FILE).read_text()
+        kept = (self.folder / "kept" / "compare_machines.jsonl").read_text()
         self.made(compare_machines, *small, "--machines", "gscore", "exact")
-        self.assertEqual((self.folder / compare_machines.RUNS_FILE).read_text(), kept)
+        self.assertEqual((self.folder / "kept" / "compare_machines.jsonl").read_text(), kept)
 
     def test_published_figures_stand_beside_ours(self):
         small = {
@@ -171,10 +188,9 @@ class WithTheCommand(InFolder):
             "RATES": {"64x36": (66.7, 1743)},
             "LEGO_SIZE": "64x36",
         }
-        gpu = (("builtin:object?n=300", "64x36", 4.9),)
+        small["GPU_CASES"] = (("builtin:object?n=300", "64x36", 4.9),)
         with mock.patch.multiple(published_figures, **small):
-            with mock.patch.object(published_gpu, "CASES", gpu):
-                made = self.made(published_figures)
+            made = self.made(published_figures)
         for text, count in {
             "| features in | Gaussians |": 2,
             "| lists out | pairs |": 2,
@@ -192,7 +208,7 @@ class WithTheCommand(InFolder):
             (
                 training_curves,
                 ("--seeds", "1", "2", "--same-bits", "5"),
-                {"| photographs | 1 |": 20, "| photographs | 2 |": 20 + 1}
+                {"| photographs | 1 |": 20 + 1, "| photographs | 2 |": 20 + 1}
                 | {"| after 5 steps |": 1},
             ),
             (
@@ -215,20 +231,8 @@ class WithTheCommand(InFolder):
                 for text, count in lines.items():
                     self.assertEqual(made.count(text), count, f"{text} in\n{made}")
         # Two seeds, one of them twice for fewer steps; then seven tunings of two, and no training.
-        self.assertEqual(len(list((self.folder / "out").glob("fittings/*_seed_*"))), 4)
-        self.assertEqual(len(list((self.folder / "out").glob("fittings/*/scene.*"))), 4 + 7)
-
-    def test_every_counter_of_a_report_is_described(self):
-        text = (REPOSITORY / "testbench" / "streaminggs" / "README.md").read_text()
-        scene = find_scene(str(self.scene))
-        for config in ("exact", "paper", "gscore"):
-            (view,) = simulations.simulate(
-                pathlib.Path(COMMAND), simulations.Run(scene, config=config)
-            ).accepted()
-            for path, unit in view["units"].items():
-                for name in (*unit["activities"], *unit["counters"]):
-                    with self.subTest(config, unit=path):
-                        self.assertIn(f"`{name}`", text)
+        self.assertEqual(len(list((self.folder / "kept").glob("fittings/*_seed_*"))), 4)
+        self.assertEqual(len(list((self.folder / "kept").glob("fittings/*/scene.*"))), 4 + 7)
 
     def test_memory_is_as_large_as_needed(self):
         scene = find_scene(str(self.scene))
@@ -257,21 +261,17 @@ class WithTheCommand(InFolder):
             (explore, ("--axis", "hfus=2", "--view", "99"), "--view: got '99'"),
             (explore, ("--axis", "group=0"), "group_width_px: got 0 with sram.shared_bytes 0"),
             (explore, ("--axis", "group=1x2x3"), "group: '1x2x3', expected"),
-            (energy_tables, ("--groups", "wide"), "group: 'wide', expected"),
+            (energy, ("--groups", "wide"), "group: 'wide', expected"),
             (explore, ("--axis", "hfu=2"), "--set hfu=2: "),
             (binding_check, ("--view", "7"), "--view: got '7'"),
-            (energy_tables, ("--size", "3"), "--size: got '3'"),
-            (fair_fight, ("--size", "3"), "--size: got '3'"),
-            (fair_fight, ("--view-sizes", "3"), "--size: got '3'"),
-            (fair_fight, ("--view", "99"), "--view: got '99'"),
-            (smallest_machine, ("--sizes", "3"), "--size: got '3'"),
+            (energy, ("--size", "3"), "--size: got '3'"),
             (compare_machines, ("--object-sizes", "3x"), "--object-sizes: got 3x, expected WIDTH"),
             (compare_machines, ("--sizes", "64x36"), "--sizes: got only this, expected --object-"),
             (compare_machines, ("--machines", "nope"), "--config nope: no file"),
             (compare_machines, ("--channels", "3"), "dram.channels: got 3, expected a power"),
-            (compare_variants, ("--view", "x"), "--view: got 'x'"),
+            (compare_variants, ("--view", "x"), "--view: 'x', expected numbers"),
             (timing, ("--view", "7"), "--view: got '7'"),
-            (timing, ("--configs", "nope"), "streaminggs: .*nope"),
+            (timing, ("--machines", "nope"), "--config nope: no file"),
             (work_precision, ("--view", "7"), "--view: got '7'"),
             (work_precision, ("--set", "nope=1"), "streaminggs: .*nope"),
             (error_against_time, ("--view", "7"), "--view: got '7'"),

@@ -6,18 +6,16 @@ import math
 import unittest
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
-import compare_machines
-import design_point_seconds
-import machine_cases
-import machine_measures
-import machine_ratios
-import machine_tables
-from scenes import Scene
+from studies import compare_machines, machines, timing
+from runs.scenes import Scene
+from studies.machines import Case, sizes_of
+
+NAMES = [column.name for column in compare_machines.RATIO_COLUMNS]
 
 
-def measured(*seconds: float, region: float = 0) -> machine_measures.Measured:
+def measured(*seconds: float, region: float = 0) -> machines.Measured:
     """Whose busiest resource works half of the time."""
-    return machine_measures.Measured(
+    return machines.Measured(
         seconds=seconds,
         busiest_seconds=tuple(s / 2 for s in seconds),
         joules=seconds,
@@ -40,48 +38,55 @@ class Machines(unittest.TestCase):
             ],
             "one": [{"own": measured(1), "other": measured(1)}],
         }
-        row = machine_ratios.row("25.6", "all", found, "own", "other")
-        of = dict(zip(machine_ratios.HEAD, row, strict=True))
-        self.assertEqual((of["scenes"], of["cases"], of["times as fast"]), (2, 3, "2.00"))
-        self.assertEqual((of["of views"], of["times less energy"]), ("1.00 .. 8.00", "2.00"))
-        self.assertEqual((of["published speed"], of["mm2 over mm2"]), ("", "1.00"))
+        row = compare_machines.ratio_row(25.6, "all", found, "own", "other")
+        of = dict(zip(NAMES, row, strict=True))
+        self.assertEqual((of["scenes"], of["cases"]), (2, 3))
+        self.assertAlmostEqual(of["times as fast"], 2)
+        self.assertEqual((of["times as fast, least"], of["times as fast, most"]), (1, 8))
+        self.assertAlmostEqual(of["times less energy"], 2)
+        self.assertEqual((of["published speed"], of["mm2 over mm2"]), ("", 1))
 
     def test_ratios_of_one_case(self):
         """Columns by what the two are; the other takes four times as long in either view."""
         own, other = measured(1, 2), measured(4, 8)
         for changed, by_other, columns in (
-            ({}, {}, {"times as fast": "4.00", "both overlapped": "4.00", "precision": "fp16"}),
+            ({}, {}, {"times as fast": 4, "both overlapped": 4, "precision": "fp16"}),
             # The machine that is never idle gains nothing from overlapped frames; the other twice.
             (
                 {"busiest_seconds": (1, 2)},
                 {},
                 {
-                    "times as fast": "4.00",
-                    "of views": "4.00 .. 4.00",
-                    "both overlapped": "2.00",
-                    "of views, both overlapped": "2.00 .. 2.00",
-                    "only the other overlapped": "2.00",
+                    "times as fast": 4,
+                    "times as fast, least": 4,
+                    "times as fast, most": 4,
+                    "both overlapped": 2,
+                    "both overlapped, least": 2,
+                    "both overlapped, most": 2,
+                    "only the other overlapped": 2,
                 },
             ),
             (
                 {},
                 {"busiest_seconds": (1, 8)},
                 {
-                    "both overlapped": "6.00",  # 4.5 s over 0.75 s
-                    "of views, both overlapped": "2.00 .. 8.00",
-                    "only the other overlapped": "3.00",
-                    "of views, only the other overlapped": "1.00 .. 4.00",
+                    "both overlapped": 6,  # 4.5 s over 0.75 s
+                    "both overlapped, least": 2,
+                    "both overlapped, most": 8,
+                    "only the other overlapped": 3,
+                    "only the other overlapped, least": 1,
+                    "only the other overlapped, most": 4,
                 },
             ),
             (
                 {"decibels": (41.26, 39.0)},
                 {"decibels": (math.inf, 58.0)},
-                {"dB": "39.0 .. 41.3", "its dB": "58.0 .. equal"},
+                {"dB, least": 39.0, "dB, most": 41.26, "its dB, least": 58.0}
+                | {"its dB, most": math.inf},
             ),
             (
                 {"decibels": (math.inf, math.inf)},
                 {},
-                {"dB": "equal", "its dB": "not measured", "the other is": "simulated"},
+                {"dB, least": math.inf, "its dB, least": None, "the other is": "simulated"},
             ),
             (
                 {"precision": "fp32"},
@@ -102,13 +107,15 @@ class Machines(unittest.TestCase):
                     "own": dataclasses.replace(own, **changed),
                     "other": dataclasses.replace(other, **by_other),
                 }
-                made = machine_ratios.row("25.6", "all", {"s": [of_case]}, "own", "other")
-                of = dict(zip(machine_ratios.HEAD, made, strict=True))
-                self.assertEqual({name: of[name] for name in columns}, columns)
+                made = compare_machines.ratio_row(25.6, "all", {"s": [of_case]}, "own", "other")
+                of = dict(zip(NAMES, made, strict=True))
+                for name, value in columns.items():
+                    check = self.assertAlmostEqual if type(value) is int else self.assertEqual
+                    check(of[name], value, msg=name)
 
     def test_what_is_published_stands_beside_all_sizes_and_says_what_is_derived(self):
         gpu = dataclasses.replace(measured(1, 2), joules=(5, 10), precision="fp32")
-        of_case = {"gscore": measured(1, 1), "paper": measured(1, 1), machine_ratios.GPU: gpu}
+        of_case = {"gscore": measured(1, 1), "paper": measured(1, 1), machines.GPU: gpu}
         for own, sizes, speed, joules in (
             ("paper", "all", "45.7", "62.9"),
             ("gscore", "all", "21.6", "27.3 derived"),
@@ -116,8 +123,8 @@ class Machines(unittest.TestCase):
         ):
             with self.subTest(own, sizes=sizes):
                 found = {"s": [of_case]}
-                made = machine_ratios.row("25.6", sizes, found, own, machine_ratios.GPU)
-                of = dict(zip(machine_ratios.HEAD, made, strict=True))
+                made = compare_machines.ratio_row(25.6, sizes, found, own, machines.GPU)
+                of = dict(zip(NAMES, made, strict=True))
                 self.assertEqual((of["published speed"], of["published energy"]), (speed, joules))
                 said = "modelled; joules derived: 5 W x its time"
                 self.assertEqual(of["the other is"], said)
@@ -135,8 +142,8 @@ class Machines(unittest.TestCase):
             name: dataclasses.replace(measured(1), precision=precision, encoding=encoding)
             for name, (precision, encoding) in kinds.items()
         }
-        pairs = machine_ratios.pairs_of(of, list(kinds))
-        self.assertEqual(pairs[: len(kinds)], [(name, machine_ratios.GPU) for name in kinds])
+        pairs = compare_machines.pairs_of(of, list(kinds))
+        self.assertEqual(pairs[: len(kinds)], [(name, machines.GPU) for name in kinds])
         self.assertEqual(
             pairs[len(kinds) :],
             [
@@ -146,43 +153,45 @@ class Machines(unittest.TestCase):
                 ("exact", "gscore"),
             ],
         )
-        few = machine_ratios.pairs_of(of, ["exact", "exact_vq", "gscore_lossless"])
+        few = compare_machines.pairs_of(of, ["exact", "exact_vq", "gscore_lossless"])
         self.assertEqual(few[3:], [("exact", "gscore_lossless")])
 
     def test_a_line_for_each_case_and_memory_of_pairs_that_lose_the_same(self):
-        case = machine_cases.Case(Scene("s", "a"), "4x2")
+        case = Case(Scene("s", "a"), "4x2")
         faster = dataclasses.replace(measured(1), peak_gb_s=51.2, binds="dram")
         entries = [
-            machine_tables.Entry(case, name, of)
+            machines.Entry(case, name, of)
             for name, of in (
                 ("gscore_lossless", measured(6, region=3e6)),
                 ("exact", measured(2, 2, region=1e6)),
                 ("exact_fp16", measured(1)),
                 ("gscore_lossless", dataclasses.replace(faster, seconds=(2.5,))),
                 ("exact_fast", faster),
-                (machine_ratios.GPU, measured(30)),
+                (machines.GPU, measured(30)),
             )
         ]
         place = ("s", "4x2")
-        self.assertEqual(
-            machine_ratios.case_rows(entries, [case]),
-            [
-                # fmt: off
-                (*place, "25.6", "exact", "gscore_lossless", "3.00", "3.00", "1.50", "3.00",
-                 "1.00", "3.00", "", ""),
-                (*place, "51.2", "exact_fast", "gscore_lossless", "2.50", "1.00", "0.50", "1.00",
-                 "0.00", "0.00", "dram", "dram"),
-                # fmt: on
-            ],
-        )
+        made = compare_machines.case_rows(entries, [case])
+        for row, expected in zip(
+            made,
+            (
+                (25.6, "exact", "gscore_lossless", 3, 3, 1.5, 3, 1, 3, "", ""),
+                (51.2, "exact_fast", "gscore_lossless", 2.5, 1, 0.5, 1, 0, 0, "dram", "dram"),
+            ),
+            strict=True,
+        ):
+            self.assertEqual(row[:2], place)
+            for found, value in zip(row[2:], expected, strict=True):
+                check = self.assertEqual if type(value) is str else self.assertAlmostEqual
+                check(found, value)
 
     def test_a_line_for_each_size_and_one_for_all(self):
         arguments = argparse.Namespace(sizes=["4x2", "8x4"], object_sizes=["4x2", "6x6"])
         scenes = [Scene("outside", "a"), Scene("truck", "b")]
         cases = [
-            machine_cases.Case(scene, size)
+            Case(scene, size)
             for scene in scenes
-            for size in machine_cases.sizes_of(scene.name, arguments)
+            for size in sizes_of(scene.name, arguments)
         ]
         groups = compare_machines.size_groups(cases, arguments)
         self.assertEqual(list(groups), ["4x2", "6x6, 8x4", "all"])
@@ -191,17 +200,17 @@ class Machines(unittest.TestCase):
             entry
             for case, seconds in zip(cases, times)
             for entry in (
-                machine_tables.Entry(case, "gscore", measured(seconds)),
-                machine_tables.Entry(case, "exact", measured(3)),
-                machine_tables.Entry(
+                machines.Entry(case, "gscore", measured(seconds)),
+                machines.Entry(case, "exact", measured(3)),
+                machines.Entry(
                     case,
-                    machine_ratios.GPU,
+                    machines.GPU,
                     dataclasses.replace(measured(30), peak_gb_s=102.4),
                 ),
             )
         ]
-        rows = machine_ratios.rows(entries, groups, ["gscore", "exact"])
-        head = machine_ratios.HEAD
+        rows = compare_machines.ratio_rows(entries, groups, ["gscore", "exact"])
+        head = NAMES
         found = [dict(zip(head, row, strict=True)) for row in rows]
         over_gscore = {
             row["sizes"]: (row["cases"], row["times as fast"])
@@ -209,40 +218,27 @@ class Machines(unittest.TestCase):
             if (row["machine"], row["than"]) == ("exact", "gscore")
         }
         # Outside 1 and 3, truck 4 and 3: by scene their geometric means.
-        self.assertEqual(
-            over_gscore, {"4x2": (2, "2.00"), "6x6, 8x4": (2, "3.00"), "all": (4, "2.45")}
-        )
+        for sizes, cases_of, times in (("4x2", 2, 2), ("6x6, 8x4", 2, 3), ("all", 4, 6**0.5)):
+            self.assertEqual(over_gscore[sizes][0], cases_of)
+            self.assertAlmostEqual(over_gscore[sizes][1], times)
         alone = argparse.Namespace(sizes=["4x2"], object_sizes=["6x6"])
         self.assertEqual(list(compare_machines.size_groups([cases[0]], alone)), ["all"])
 
     def test_how_long_the_busiest_works(self):
         view = {"frame": {"time_s": 4e-3}, "binding": {"utilisation": 0.75}}
-        self.assertAlmostEqual(machine_measures.busiest_seconds(view), 3e-3)
+        self.assertAlmostEqual(machines.busiest_seconds(view), 3e-3)
         stages = [("bytes", 2), ("instructions", 4), ("bytes", 3)]
         gpu = {"stages": [{"bound_by": bound, "seconds": s} for bound, s in stages]}
-        self.assertEqual(machine_measures.busiest_of_kernels(gpu), 5)
+        self.assertEqual(machines.busiest_of_kernels(gpu), 5)
         m = dataclasses.replace(measured(1, 3), busiest_seconds=(0.5, 1.5))
         self.assertEqual((m.frames_a_second(), m.most_frames_a_second()), (0.5, 1))
 
-    def test_seconds_add_up_as_they_are_printed(self):
-        case = machine_cases.Case(Scene("s", "a"), "4x2")
-        for seconds, simulating, printed in (
-            (1.86, 1.02, ("0.9", "1.0", "1.9")),
-            (0.34, 0.26, ("0.0", "0.3", "0.3")),
-            (12.94, 8.66, ("4.2", "8.7", "12.9")),
-        ):
-            with self.subTest(seconds):
-                timed = design_point_seconds.Timed(case, "exact", 25.6, seconds, simulating)
-                self.assertEqual(timed.row()[-3:], printed)
-
-    def test_parts_are_means_over_the_scenes(self):
-        a, b = Scene("a", "a"), Scene("b", "b")
-        entries = [
-            machine_tables.Entry(machine_cases.Case(scene, size), "m", measured(1, region=value))
-            for scene, size, value in ((a, "1x1", 1e6), (a, "2x2", 3e6), (b, "1x1", 6e6))
-        ]
-        rows = machine_tables.parts_rows(entries, ["m", "n"], lambda m: m.bytes_by_region, 1e6)
-        self.assertEqual(rows, [("25.6", "spill", "4.000", "")])
+    def test_the_quickest_and_the_slowest_of_a_machine(self):
+        case = Case(Scene("s", "a"), "4x2")
+        points = [timing.Timed(case, "exact", 25.6, seconds, 0.5) for seconds in (2, 1, 3)]
+        rows = timing.point_rows(points)
+        self.assertEqual([row[-1] for row in rows], [timing.PUBLISHED_SECONDS, 1, 3])
+        self.assertEqual(len(timing.point_rows(points[:1])), 2)
 
     def test_every_region_is_of_one_kind(self):
         m = measured(1, region=5)

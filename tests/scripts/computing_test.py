@@ -4,24 +4,13 @@ import math
 import pathlib
 import tempfile
 import unittest
-from unittest import mock
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
-import binding_check
-import energy_components
-import energy_tables
-import fill_readme
-import group_shapes
-import measures
-import run_arguments
-import search_space
-import simulations
-import stability_table
-import tables
-import view_numbers
-import work_precision
-from machine_axes import Axis
-from scenes import find_scene, find_scenes
+from exploring import measures, space
+from exploring.axes import Axis, of_scene
+from studies import binding_check, energy, stability_table, work_precision
+from runs import simulations
+from runs.scenes import find_scene, find_scenes
 
 
 class Pareto(unittest.TestCase):
@@ -89,8 +78,61 @@ class Measures(unittest.TestCase):
                 self.assertAlmostEqual(required.violation(views), violation)
                 self.assertEqual(required.is_lost(views), lost_at_once)
 
+    def scenes(self) -> list[dict]:
+        """One of two views, one of one."""
+        cycles = {("a", 0): 10, ("a", 1): 30, ("b", 0): 80}
+        views = [{**self.view(n, 1.5, n / 2), "view": v} for (_, v), n in cycles.items()]
+        return [{**view, "scene_name": name} for view, (name, _) in zip(views, cycles)]
+
+    def test_a_scene_counts_once(self):
+        self.assertAlmostEqual(measures.objective("geomean(cycles)").cost(self.scenes()), 40)
+        for text in ("20", "40", "50"):
+            with self.subTest(text):
+                required = measures.requirement(f"each(cycles) <= {text}")
+                # Of the means 20 and 80 the worst.
+                self.assertAlmostEqual(required.violation(self.scenes()[:2]), 20 / float(text) - 1)
+                self.assertAlmostEqual(required.violation(self.scenes()), 80 / float(text) - 1)
+
+    def test_what_is_required_beside_a_configuration(self):
+        reference = self.scenes()
+        slower = [
+            {**view, **self.view(2 * view["frame"]["cycles"], 3, view["image"]["psnr_db"] - 1)}
+            for view in reference
+        ]
+        for text, violation in (
+            ("mm2 <= 1 x paper", 1.0),
+            ("mm2 <= 2 x paper + 1", -0.25),
+            ("geomean(cycles) <= 1 x paper", 1.0),
+            # Of a: 9 dB for 10 less 0.5; of b 39 for 39.5.
+            ("each(psnr_db) >= 1 x paper - 0.5", 0.5 / 9.5),
+            ("each(psnr_db) >= 1 x paper - 1", 0.0),
+        ):
+            with self.subTest(text):
+                required = measures.requirement(text)
+                self.assertEqual(required.reference, "paper")
+                required = required.relative_to(reference)
+                self.assertAlmostEqual(required.violation(slower), violation)
+        equal = [{**view, "image": {"psnr_db": None}} for view in reference]
+        required = measures.requirement("each(psnr_db) >= 1 x paper - 0.1").relative_to(equal)
+        self.assertEqual((required.violation(equal), required.room(equal)), (0, 0))
+
+    def test_room(self):
+        views = [self.view(10, 1.5), self.view(40, 1.6)]
+        for text, room in (
+            ("min(fps) >= 12.5", math.log(2)),
+            ("min(fps) >= 50", -math.log(2)),
+            ("max(cycles) <= 80", math.log(2)),
+            ("max(cycles) <= 20", -math.log(2)),
+            ("min(fps) >= 0", 25),
+        ):
+            with self.subTest(text):
+                self.assertAlmostEqual(measures.requirement(text).room(views), room)
+
     def test_what_is_none(self):
         for text, what in (
+            ("min(fps) >= x paper", "--require: 'x paper', expected a number, or one x CONFIG"),
+            ("mm2 <= nan x paper", "--require: 'nan x paper', expected a number"),
+            ("mm2 <= 1 x paper - b", "--require: '1 x paper - b', expected a number"),
             ("fps", "--require: 'fps', expected MEASURE >= NUMBER"),
             ("min(fps) > 3", "--require: 'min\\(fps\\) > 3', expected"),
             ("avg(fps) >= 3", "--require: 'avg\\(fps\\)': avg, expected one of sum, mean"),
@@ -114,54 +156,68 @@ class Measures(unittest.TestCase):
 
 class Spaces(unittest.TestCase):
     def test_axis(self):
-        axis = search_space.parse_axis("hfus=2,4")
+        (axis,) = space.parse_axis("hfus=2,4")
         self.assertEqual(axis.settings, (("hfus=2",), ("hfus=4",)))
         for bad in ("hfus", "=2", "hfus=", "hfus=2,"):
             with self.assertRaises(ValueError):
-                search_space.parse_axis(bad)
+                space.parse_axis(bad)
 
     def test_points_of_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "points"
             path.write_text("hfus=2 group=64 # small\n\n# none\nhfus=4\n")
-            (axis,) = search_space.read_points(path)
+            (axis,) = space.read_points(path)
             group = ("group_width_px=64", "group_height_px=64")
             self.assertEqual(axis.settings, (("hfus=2", *group), ("hfus=4",)))
             path.write_text("hfus=2\nhfus 4\n")
             with self.assertRaisesRegex(ValueError, ":2: 'hfus'"):
-                search_space.read_points(path)
+                space.read_points(path)
             path.write_text("# none\n")
             with self.assertRaisesRegex(ValueError, "points: no configurations"):
-                search_space.read_points(path)
+                space.read_points(path)
 
     def test_of_axes(self):
-        axes = search_space.parse_axes(["hfus=2,4", "group=32,64x16,96"])
-        space = search_space.Space(axes)
-        self.assertEqual((space.size(), space.keys()), (6, ("hfus", "group")))
-        self.assertEqual(list(space.all())[:4], [(0, 0), (0, 1), (0, 2), (1, 0)])
-        self.assertEqual(set(space.neighbours((0, 1))), {(1, 1), (0, 0), (0, 2)})
+        axes = space.parse_axes(["hfus=2,4", "group=32,64x16,96"])
+        both = space.Space(axes)
+        self.assertEqual((both.size(), both.keys()), (6, ("hfus", "group")))
+        self.assertEqual(list(both.all())[:4], [(0, 0), (0, 1), (0, 2), (1, 0)])
+        self.assertEqual(set(both.neighbours((0, 1))), {(1, 1), (0, 0), (0, 2)})
         setting = ("hfus=4", "group_width_px=64", "group_height_px=16")
-        self.assertEqual(space.assignments((1, 1)), setting)
+        self.assertEqual(both.assignments((1, 1)), setting)
 
     def test_axes_of_a_machine_stand_behind_those_that_are_named(self):
         given = (Axis("hfus", (("hfus=1",),)), Axis("clusters", (("clusters=1",), ("clusters=2",))))
-        axes = search_space.parse_axes(["hfus=2,4"], given)
+        axes = space.parse_axes(["hfus=2,4"], given)
         self.assertEqual([axis.name for axis in axes], ["clusters", "hfus"])
+
+    def test_what_is_chosen_for_each_scene(self):
+        scopes = ("a", "b")
+        axes = space.parse_axes(["hfus=2,4", "storage.chunk@each=8,16"], (), scopes)
+        self.assertEqual(
+            [(a.name, a.scope) for a in axes[1:]], [(f"storage.chunk@{s}", s) for s in scopes]
+        )
+        both = space.Space(axes)
+        at = (1, 0, 1)
+        self.assertEqual(of_scene(both.assignments(at), "b"), ("hfus=4", "storage.chunk=16"))
+        self.assertEqual(both.machine(at), ("hfus=4", "storage.chunk=8"))
+        self.assertEqual(both.keys(), ("hfus", "storage.chunk@a", "storage.chunk@b"))
+        with self.assertRaisesRegex(ValueError, "storage.chunk@a: there are two"):
+            space.parse_axes(["storage.chunk@each=8,16", "storage.chunk@a=4,8"], (), scopes)
+        with self.assertRaisesRegex(ValueError, "storage.chunk@a: there are two"):
+            space.parse_axes(["storage.chunk=8,16", "storage.chunk@a=4,8"], (), scopes)
 
 
 class Configurations(unittest.TestCase):
     def test_shapes_of_groups(self):
         for shape, width, height in (("64", 64, 64), ("160x120", 160, 120), ("4x64", 4, 64)):
             both = (f"group_width_px={width}", f"group_height_px={height}")
-            self.assertEqual(group_shapes.assignments(shape), both)
-            self.assertEqual(group_shapes.expanded(("hfus=2", f"group={shape}")), ("hfus=2", *both))
-            self.assertEqual(group_shapes.setting_text(both), f"group={shape}")
+            self.assertEqual(simulations.group_assignments(shape), both)
+            self.assertEqual(simulations.expanded(("hfus=2", f"group={shape}")), ("hfus=2", *both))
             config = {"group_width_px": width, "group_height_px": height}
-            self.assertEqual(group_shapes.shape_of(config), shape)
-        self.assertEqual(group_shapes.setting_text(("hfus=2", "fetch=split")), "hfus=2")
+            self.assertEqual(simulations.shape_of(config), shape)
         for bad in ("", "x", "64x", "1x2x3", "-4", "big"):
             with self.assertRaises(ValueError):
-                group_shapes.assignments(bad)
+                simulations.group_assignments(bad)
 
     def test_one_axis_at_a_time_around_the_preset(self):
         merge = {"entries": 2048, "on_overflow": "spill"}
@@ -194,12 +250,10 @@ class Stability(unittest.TestCase):
     STUDY = {
         "formula": "x",
         "form": "as written",
-        "taken": True,
         "arithmetic": "float",
         "axis": "size",
         "unit": "of x",
         "law": "u",
-        "operations": "2 x",
         "why": "Too large.",
         "breaks_at": 1e6,
         "places": [
@@ -211,61 +265,19 @@ class Stability(unittest.TestCase):
 
     def test_a_row_tells_of_what_comes_before_it_breaks(self):
         row = stability_table.row_of(self.STUDY)
-        self.assertEqual(row[4:9], ("size 1 .. 10^6", "3.0e-03 of x", "nothing", "u", "10^6"))
+        self.assertEqual(row[3:9], ("size 1 .. 10^6", 3e-3, "of x", None, "u", "10^6"))
         whole = self.STUDY | {"breaks_at": None, "places": self.STUDY["places"][:1]}
         row = stability_table.row_of(whole)
-        self.assertEqual(row[4:9], ("size 1 .. 1", "1.0e-07 of x", "2.0e-07", "u", "nowhere"))
+        self.assertEqual(row[3:9], ("size 1 .. 1", 1e-7, "of x", 2e-7, "u", "nowhere"))
 
     def test_never_whole(self):
         broken = self.STUDY | {"breaks_at": 1000, "places": self.STUDY["places"][1:]}
-        self.assertEqual(stability_table.row_of(broken)[5], "3.0e-03 of x")
+        self.assertEqual(stability_table.row_of(broken)[4], 3e-3)
 
     def test_every_place_is_in_the_csv(self):
-        rows = stability_table.csv_rows(self.STUDY)
-        self.assertEqual(rows[1][6:], (1000, 3e-3, None, 0.1, None))
+        rows = stability_table.place_rows(self.STUDY)
+        self.assertEqual(rows[1][5:], (1000, 3e-3, None, 0.1, None))
         self.assertEqual(len(rows), 3)
-
-
-class Tables(unittest.TestCase):
-    def test_markdown(self):
-        table = tables.markdown(("name", "n"), [("a|b", 12345), ("c", 6)])
-        self.assertEqual(table, "| name | n |\n| --- | ---: |\n| a\\|b | 12,345 |\n| c | 6 |\n")
-
-    def test_fractions_stand_at_the_right_too(self):
-        table = tables.markdown(("J",), [(0.000123456789,), (1.5e-9,)])
-        self.assertEqual(table, "| J |\n| ---: |\n| 0.000123457 |\n| 1.5e-09 |\n")
-
-    def test_csv(self):
-        self.assertEqual(tables.csv_text(("a", "b"), [(1, "x, y")]), 'a,b\n1,"x, y"\n')
-
-    def test_places_in_the_readme(self):
-        readme = "A\n<!-- table: one -->\nold\n<!-- end -->\nB\n<!-- table: two -->\n<!-- end -->\n"
-        with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "one.md").write_text("new\n")
-            filled = fill_readme.filled(readme, pathlib.Path(folder))
-        self.assertEqual(filled, readme.replace("old", "new"))
-
-    def test_a_table_of_changed_sources_is_refused(self):
-        readme = "<!-- table: one -->\nold\n<!-- end -->\n"
-        made = "Made by `x`; commit {}.\n\nrows\n"
-        with tempfile.TemporaryDirectory() as folder:
-            for commit, refused in (("abc-dirty", True), ("abc, def-dirty", True), ("abc", False)):
-                (pathlib.Path(folder) / "one.md").write_text(made.format(commit))
-                with self.subTest(commit):
-                    if refused:
-                        with self.assertRaisesRegex(ValueError, "one.md: commit .*-dirty"):
-                            fill_readme.filled(readme, pathlib.Path(folder))
-                    else:
-                        self.assertIn("rows", fill_readme.filled(readme, pathlib.Path(folder)))
-
-    def test_readmes_of_sources_only(self):
-        with tempfile.TemporaryDirectory() as folder:
-            top = pathlib.Path(folder)
-            for name in ("", "modules/dram", "build/release", "out/x", ".git"):
-                (top / name).mkdir(parents=True, exist_ok=True)
-                (top / name / "README.md").write_text("text\n")
-            found = [str(path.relative_to(top)) for path in fill_readme.readmes(top)]
-        self.assertEqual(found, ["README.md", "modules/dram/README.md"])
 
 
 class Reports(unittest.TestCase):
@@ -283,7 +295,6 @@ class Reports(unittest.TestCase):
         self.assertEqual(simulations.region_bytes(self.VIEW, "spill"), 12)
         self.assertEqual(simulations.region_bytes(self.VIEW, "codebooks"), 0)
         self.assertEqual(simulations.work(self.VIEW, "keys"), 7)
-        self.assertEqual(simulations.psnr_text(self.VIEW), "equal")
 
     def test_the_worst_waiting_of_vsu(self):
         def activity(reads):
@@ -291,7 +302,7 @@ class Reports(unittest.TestCase):
 
         vsu = {"activities": {"walk": activity(7), "hand_out": activity(3)}}
         view = {"units": {"vsu": vsu}, "frame": {"cycles": 100}}
-        self.assertEqual(view_numbers.vsu_waits(view), 0.07)
+        self.assertEqual(simulations.vsu_waits(view), 0.07)
 
     def test_a_share_stands_beside_the_resource_that_it_is_of(self):
         def view(unit, share, holds):
@@ -310,7 +321,7 @@ class Reports(unittest.TestCase):
             ([view("vsu", 0.7, "vsu"), *fine], "fine 56% .. 70% -> hfu0 or vsu.memory, vsu 70%"),
         ):
             with self.subTest(text):
-                self.assertEqual(view_numbers.binders(views), text)
+                self.assertEqual(simulations.binders(views), text)
 
     def test_components_of_energy_hold_every_joule(self):
         keys = ("vsu_j", "merge_j", "pixel_state_j", "input_j", "clock_j", "sram_leakage_j")
@@ -319,20 +330,20 @@ class Reports(unittest.TestCase):
             "area_mm2": {"vsu": 1, "merge": 1, "sram": 1, "total": 3, "bands": {}},
             "energy": {**middles, "dram_by_region_j": {"spill": 1.0}, "bands": {}},
         }
-        rows = energy_components.components(view)
+        rows = energy.components(view)
         self.assertEqual(rows["SRAM: pixels"], ("pixel_state_j",))
         self.assertEqual(rows["SRAM: all else"], ("input_j",))
-        summed = [energy_components.joules(view, of) for name, of in rows.items() if name != "all"]
+        summed = [energy.joules(view, of) for name, of in rows.items() if name != "all"]
         self.assertEqual(sum(summed), 2.0**7 - 1)
 
     def test_the_ordering_table_grows_with_the_group(self):
         config = {"group_width_px": 64, "group_height_px": 64, "vsu": {"table_bytes": 4096}}
         for shape, expected in (("16", 4096), ("64", 4096), ("128", 16384), ("160x120", 19200)):
             with self.subTest(shape):
-                keys = group_shapes.assignments(shape)
-                made = energy_tables.table_bytes(config, keys)
+                keys = simulations.group_assignments(shape)
+                made = energy.table_bytes(config, keys)
                 self.assertEqual(made, (f"vsu.table_bytes={expected}",))
-                self.assertEqual(energy_tables.table_bytes({"vsu": {}}, keys), ())
+                self.assertEqual(energy.table_bytes({"vsu": {}}, keys), ())
 
     def test_whether_the_named_resource_gains_most(self):
         for gains, most in (((0.2, 0.1), True), ((0.1, 0.2), False)):
@@ -341,18 +352,9 @@ class Reports(unittest.TestCase):
             answer = {"view": 0, "base": base, "doubled": doubled}
             answer |= {"named_gains_most": most, "verdict": "why"}
             with self.subTest(gains):
-                row = binding_check.Answer("x", answer).row()
-                named, best = f"{gains[0]:.1%}", f"{max(gains):.1%}"
-                self.assertEqual(row[4], named)
-                self.assertEqual(row[6:], (best, *(("yes", "") if most else ("no", "why"))))
-
-    def test_where_a_table_comes_from(self):
-        words = ["explore.py", "truck", "--out", "x", "--side-by-side=1", "--streaminggs", "y"]
-        words.append("--cross")
-        views = [{"provenance": {"commit": "abc"}}, {"provenance": {}}]
-        with mock.patch("sys.argv", words):
-            made = run_arguments.how_made(views)
-        self.assertEqual(made, "Made by `scripts/explore.py truck --cross`; commit abc.\n\n")
+                row = binding_check.row("x", answer)
+                self.assertEqual(row[4], gains[0])
+                self.assertEqual(row[6:], (max(gains), most, "" if most else "why"))
 
 
 if __name__ == "__main__":

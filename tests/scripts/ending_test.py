@@ -9,29 +9,24 @@ import subprocess
 import unittest
 from unittest import mock
 
-from in_folder import REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
-import binding_check
-import boundary_study
-import compare_machines
-import compare_variants
-import design_point_seconds
-import energy_tables
-import error_against_time
-import error_renderers
+from in_folder import REPOSITORY, RESULTS, InFolder, file_of, nightly  # isort: skip (finds the scripts)
+from studies import binding_check
+from studies import boundary_study
+from studies import compare_machines
+from studies import compare_variants
+from studies import energy
+from studies import error_against_time
 import explore
-import fair_fight
-import fill_readme
-import half_by_stage
-import published_figures
-import quality_table
-import simulations
-import smallest_machine
-import stability_table
-import timing
-import training_curves
-import voxel_study
-import work_precision
-from scenes import Scene
+from studies import half_by_stage
+from studies import published_figures
+from studies import quality_table
+from runs import simulations
+from runs.scenes import Scene
+from studies import stability_table
+from studies import timing
+from studies import training_curves
+from studies import voxel_study
+from studies import work_precision
 
 SCENE = Scene("toy", "builtin:object")
 
@@ -70,12 +65,10 @@ SCRIPTS = (
     (binding_check, ()),
     (boundary_study, ()),
     (compare_variants, ()),
-    (energy_tables, ()),
+    (energy, ()),
     (explore, ("--axis", "hfus=2,4")),
-    (fair_fight, ()),
     (half_by_stage, ()),
     (quality_table, ()),
-    (smallest_machine, ()),
     (timing, ()),
     (voxel_study, ()),
     (work_precision, ()),
@@ -89,9 +82,9 @@ class Ends(InFolder):
 
     def check(self, script, arguments, expected_status, expected_line):
         status, line, _ = self.ended(script, str(self.scene), *arguments)
-        self.assertRegex(line, f"^{script.__name__}.py: {expected_line}")
+        self.assertRegex(line, f"^{file_of(script)}: {expected_line}")
         self.assertEqual(status, expected_status)
-        self.assertEqual(list(self.folder.glob("*/*.md")), [])
+        self.assertEqual(list(self.folder.glob("*/*.csv")), [])
 
     def test_of_every_script(self):
         file = self.folder / "file"
@@ -116,6 +109,13 @@ class Ends(InFolder):
                 with self.subTest(what, script=script.__name__):
                     self.check(script, (*needed, *program, *more), *expected)
 
+    def test_wall_times_are_of_codebooks_that_are_made(self):
+        keeping = self.stand_in("print(os.environ['STREAMINGGS_CACHE']); sys.exit(1)")
+        program = ("--streaminggs", str(keeping), "--out", str(self.folder / "out"))
+        with mock.patch.dict("os.environ"):
+            os.environ["STREAMINGGS_CACHE"] = "kept"
+            self.check(timing, program, 1, "truck .*: off$")
+
     def test_of_one_script(self):
         good = self.stand_in("finish()")
         fifo = self.folder / "fifo"
@@ -132,12 +132,6 @@ class Ends(InFolder):
                 ("--axis", "hfus=2", "--objectives", "joules"),
                 "report.json has no number at 'energy.total_j'$",
             ),
-            (fair_fight, ("--budgets", "1", "0"), "--budgets: 0, expected more than 0$"),
-            (fair_fight, ("--area", "-1"), "--area: -1, expected more than 0$"),
-            (fair_fight, ("--most-runs", "0"), "--most-runs: 0, expected more than 0$"),
-            (smallest_machine, ("--fps", "0"), "--fps: got 0.0, expected a number above 0$"),
-            (smallest_machine, ("--fps", "nan"), "--fps: got nan, expected a number above 0$"),
-            (smallest_machine, ("--fps", "inf"), "--fps: got inf, expected a number above 0$"),
             (explore, ("--axis", "hfus=2,4,2"), "--axis: 'hfus=2,4,2', expected different values"),
             (explore, ("--axis", "hfus=2", "--axis", "hfus=4"), "--axis: hfus: there are two$"),
             (
@@ -149,7 +143,7 @@ class Ends(InFolder):
             (training_curves, ("--minutes", "-1"), "--minutes, --same-bits: expected 0 or more$"),
             *(
                 (script, arguments, f"{line}$")
-                for script in (compare_machines, design_point_seconds)
+                for script in (compare_machines, timing)
                 for arguments, line in (
                     ((str(self.scene),), "truck: got it twice, expected each scene once"),
                     (("--object-sizes", "4x4", "8x4", "4x4"), "--object-sizes: got 4x4 twice, .*"),
@@ -170,14 +164,8 @@ class Ends(InFolder):
                     (error_against_time, "--threads", "1"),
                     (boundary_study, "--voxels", "0.5"),
                     (boundary_study, "--betas", "0.5"),
-                    (energy_tables, "--groups", "64"),
-                    (fair_fight, "--budgets", "1.5"),
-                    (fair_fight, "--objectives", "cycles"),
-                    (fair_fight, "--orders", "exact"),
-                    (fair_fight, "--view-sizes", "64x36"),
+                    (energy, "--groups", "64"),
                     (quality_table, "--prices", "0.5"),
-                    (smallest_machine, "--sizes", "64x36"),
-                    (timing, "--configs", "exact"),
                     (training_curves, "--seeds", "1"),
                     (voxel_study, "--voxels", "0.5"),
                 )
@@ -197,14 +185,16 @@ class Ends(InFolder):
         taking = [
             path.stem
             for path in sorted((REPOSITORY / "scripts").glob("*.py"))
-            if "parse_args()" in path.read_text()
+            if "parse_args()" in path.read_text() and path.stem != "results"
         ]
         self.assertIn("report", taking)
         cases = [
             *((name, ("x", "--nope"), "(unrecognized|the following) arg") for name in taking),
+            *(("results", (name, "--nope"), "unrecognized arg") for name in RESULTS.studies()),
+            ("results", ("x",), "STUDY: invalid choice: 'x'"),
+            ("results", ("error_against_time", "--view", "0,x"), "--view: got '0,x', expected num"),
+            ("results", ("error_against_time", "--diagrams", "x"), "--diagrams: invalid choice"),
             ("explore", ("-j", "x"), "-j: invalid int value: 'x'"),
-            ("error_against_time", ("--view", "0,x"), "--view: got '0,x', expected numbers of cam"),
-            ("error_against_time", ("--diagrams", "x"), "--diagrams: invalid choice: 'x'"),
             ("explore", ("--search", "x"), "--search: invalid choice: 'x'"),
             ("explore", ("--axis", "a=1", "--points", "x"), "--points: not allowed with"),
             ("report", (), "the following arguments are required: RESULTS"),
@@ -216,7 +206,7 @@ class Ends(InFolder):
                 words = [f"{name}.py", *arguments]
                 with mock.patch("sys.argv", words), contextlib.redirect_stderr(said):
                     with self.assertRaises(SystemExit) as ended:
-                        importlib.import_module(name).main()
+                        (RESULTS if name == "results" else importlib.import_module(name)).main()
                 self.assertEqual(ended.exception.code, 2)
                 self.assertRegex(said.getvalue(), rf"\A{name}\.py: {expected}.*\n\Z")
 
@@ -236,9 +226,9 @@ class Ends(InFolder):
         ):
             with self.subTest(program):
                 ended, line, _ = self.ended(stability_table, "--stability", program, "--out", out)
-                self.assertRegex(line, f"^stability_table.py: {said}")
+                self.assertRegex(line, f"^results.py: {said}")
                 self.assertEqual(ended, status)
-                self.assertEqual(list(self.folder.glob("*/*.md")), [])
+                self.assertEqual(list(self.folder.glob("*/*.csv")), [])
 
     def test_of_a_program_that_is_another_one(self):
         """Nothing waits for its answers."""
@@ -269,15 +259,15 @@ class Ends(InFolder):
                 program.chmod(0o755)
                 words = ("--diagrams", "renderers", "--renderers", str(program), "--out", out)
                 ended, line, _ = self.ended(error_against_time, str(self.scene), *words)
-                self.assertRegex(line, f"^error_against_time.py: {said}")
+                self.assertRegex(line, f"^results.py: {said}")
                 self.assertEqual(ended, status)
-                self.assertEqual(list(self.folder.glob("*/*.md")), [])
+                self.assertEqual(list(self.folder.glob("*/*.csv")), [])
 
     @nightly
     def test_what_is_drawn_and_timed(self):
         """Each view of each scene at the size, once, under the scene's whole name."""
         program = self.folder / "renderers"
-        head = ",".join(error_renderers.HEAD)
+        head = ",".join(column.name for column in error_against_time.RENDERER_COLUMNS)
         program.write_text(
             f"""#!/bin/sh
             echo "$@" >>{self.folder}/asked
@@ -330,13 +320,49 @@ class Ends(InFolder):
                 self.assertRegex(done.stdout, rf"\A{out}\Z")
                 self.assertRegex(done.stderr, rf"\A{said}\Z")
 
-    def test_unknown_scene_and_readme(self):
-        for script in (explore, fill_readme):
-            with self.subTest(script.__name__):
-                needed = ("--axis", "hfus=2") if script is explore else ()
-                status, line, _ = self.ended(script, "nowhere", *needed)
-                self.assertRegex(line, "nowhere: (no scene|No such file)")
-                self.assertEqual(status, 2)
+    def test_of_suites_of_tests(self):
+        scripts = self.folder / "scripts"
+        scripts.mkdir()
+        shutil.copy(REPOSITORY / "scripts" / "test.sh", scripts)
+        for name, body in (
+            ("debian_packages.sh", "install_missing() { :; }"),
+            ("tools.sh", ":"),
+            ("setup.sh", 'echo "$@"; exit 9'),
+        ):
+            (scripts / name).write_text(f"#!/bin/sh\n{body}\n")
+            (scripts / name).chmod(0o755)
+        for words, status, out in (
+            ((), 9, "release\n"),
+            (("release",), 9, "release\n"),
+            (("asan",), 9, "asan sanitized_tests\n"),
+            (("nightly",), 9, "release\n"),
+            (("full",), 2, ""),
+            (("release", "nightly"), 2, ""),
+        ):
+            with self.subTest(words):
+                command = ["bash", str(scripts / "test.sh"), *words]
+                done = subprocess.run(command, capture_output=True, text=True, check=False)
+                self.assertEqual((done.returncode, done.stdout), (status, out))
+                self.assertEqual(done.stderr.startswith("usage: test.sh "), status == 2)
+
+    def test_a_first_frame_leaves_no_older_program(self):
+        scripts = self.folder / "scripts"
+        others = self.folder / "build" / "release" / "bin" / "streaminggs-commands"
+        for folder in (scripts, others.parent):
+            folder.mkdir(parents=True)
+        shutil.copy(REPOSITORY / "scripts" / "run.sh", scripts)
+        (scripts / "setup.sh").write_text('#!/bin/sh\necho "$@"\nexit 9\n')
+        (scripts / "setup.sh").chmod(0o755)
+        for built in ("release streaminggs\n", "release streaminggs streaminggs-commands\n"):
+            command = ["bash", str(scripts / "run.sh")]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (9, built))
+            others.touch()
+
+    def test_unknown_scene(self):
+        status, line, _ = self.ended(explore, "nowhere", "--axis", "hfus=2")
+        self.assertRegex(line, "nowhere: no scene")
+        self.assertEqual(status, 2)
 
 
 class Starts(unittest.TestCase):
@@ -353,7 +379,7 @@ class Starts(unittest.TestCase):
             if file.is_file():  # not removed, which git has not been told yet
                 with self.subTest(name), file.open("rb") as content:
                     self.assertEqual(mode == "100755", content.read(2) == b"#!", mode)
-        self.assertIn("scripts/planted_faults.py", modes)
+        self.assertIn("scripts/report.py", modes)
 
 
 if __name__ == "__main__":

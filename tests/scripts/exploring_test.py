@@ -10,12 +10,12 @@ import sys
 import unittest
 
 from in_folder import REPOSITORY, InFolder  # isort: skip (finds the scripts)
-import debian_python
+from runs import run_arguments
 
 
 class Explorations(InFolder):
     # Another Python, which has Matplotlib, takes seconds to draw.
-    ENVIRONMENT = {**os.environ, debian_python.TRIED: "1"}
+    ENVIRONMENT = {**os.environ, run_arguments.TRIED: "1"}
 
     def explore(self, body: str, *arguments: str) -> subprocess.CompletedProcess[str]:
         program = self.stand_in(body)
@@ -105,8 +105,8 @@ class Exploring(Explorations):
                 self.assertNotIn("Traceback", done.stderr)
                 self.assertRegex(done.stderr.splitlines()[-1], line)
                 self.assertEqual(self.rows("explore_partial.csv"), [self.HEAD, *kept])
-                text = (self.folder / "explore_partial.md").read_text()
-                self.assertTrue(text.startswith("Not complete: "))
+                facts = json.loads((self.folder / "explore_partial.json").read_text())
+                self.assertTrue(facts["about"].startswith("Not complete: "))
                 self.assertFalse((self.folder / "explore.csv").exists())
 
     def test_what_is_required(self):
@@ -137,6 +137,55 @@ class Exploring(Explorations):
         # A view that none was drawn on comes first.
         self.assertEqual(drawn, ["drawn 1 0", "drawn 2 1", *both])
 
+    def test_what_any_frame_shows_to_have_lost_is_not_drawn(self):
+        body = """
+            # Any frame is asked at its own size.
+            if "64x36" not in sys.argv:
+                (HERE / f"drawn {SET.get('hfus', 'exact')}").touch()
+            finish()
+            """
+        words = ("--axis", "hfus=1,2,4", "--require", "mm2 <= 3", "--require", "min(fps) >= 1")
+        words += ("--require", "each(mm2) >= 0.1 x exact", "--require", "config.hfus >= 1")
+        done = self.explore(body, *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        head, *rows = self.rows("explore.csv")
+        columns = [
+            head.index(name) for name in ("hfus", "cycles", "mm2 <= 3", "min(fps) >= 1", "holds")
+        ]
+        self.assertEqual(
+            [[row[n] for n in columns] for row in rows],
+            [
+                ["1", "8", "2", "1", "yes"],
+                ["2", "4", "3", "2", "yes"],
+                ["4", "", "5", "", "not all views drawn"],
+            ],
+        )
+        drawn = sorted(path.name for path in self.folder.glob("drawn*"))
+        self.assertEqual(drawn, ["drawn 1", "drawn 2", "drawn exact"])
+
+    def test_where_none_holds_the_nearest_is_named(self):
+        done = self.explore("finish()", "--axis", "hfus=2,4", "--require", "min(fps) >= 5")
+        self.assertIn("None holds: the nearest misses min(fps) >= 5 by 20.0%.", done.stdout)
+        self.assertIn(
+            "[2/2] none holds yet, the nearest misses min(fps) >= 5 by 20.0%", done.stderr
+        )
+
+    def test_the_best_as_a_configuration(self):
+        """Memory is as large as any view needs; what is chosen for a scene is its own."""
+        cameras = self.scene.with_suffix(".json")
+        cameras.write_text(json.dumps(2 * json.loads(cameras.read_text())))
+        self.explore("finish()", "--axis", "hfus=2,4", "--view", "0,1")
+        best = json.loads((self.folder / "explore_best.json").read_text())
+        self.assertEqual((best["hfus"], best["sram"]["input_bytes"]), (4, 401))
+        done = self.explore("finish()", "--axis", "hfus@each=2,4")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.rows("explore.csv")[0][0], "hfus@truck")
+        best = json.loads((self.folder / "explore_best_truck.json").read_text())
+        self.assertEqual((best["hfus"], (self.folder / "explore_best.json").exists()), (4, False))
+        # Of several objectives there is no best, nor does an earlier one stay.
+        self.explore("finish()", "--axis", "hfus=2,4", "--objectives", "cycles,mm2")
+        self.assertEqual(list(self.folder.glob("explore_best*")), [])
+
     def test_what_is_beside_has_its_name(self):
         for text, name in (
             ("by hand: hfus=8", "by hand"),
@@ -165,6 +214,15 @@ class Exploring(Explorations):
             (("--points", str(points)), "--points: got nope, expected a key of --config exact"),
             ((*axis, "--set", "nope=1"), "--set: got nope, expected a key of --config exact"),
             ((*axis, "--beside", "nope=1"), "--beside: got nope, expected a key of --config exact"),
+            (("--axis", "hfus@b=2,4"), "--axis: got hfus@b, expected one of truck, or each, .*"),
+            (
+                (*axis, "--search", "steps", "--objectives", "cycles,mm2"),
+                "--search steps: got 2 objectives, expected one",
+            ),
+            (
+                (*axis, "--search", "steps", "--study", "a"),
+                "--study: has no effect with --search steps",
+            ),
             ((*axis, "--view", "0,9"), "--view: got '9', expected .* truck's cameras, 0 to 0"),
             ((*axis, "--size", "64"), "--size: got 64, expected WIDTHxHEIGHT in px"),
             ((*axis, "--set", "hfus=2"), "--set: got hfus, expected a key that not every .*"),
@@ -222,6 +280,14 @@ class Drawing(Explorations):
         for said in ("required: min(fps) &gt;= 3", "by hand", "area, mm²", "scripts/explore.py"):
             self.assertIn(said, text)
         self.assertTrue((self.folder / "exploration.png").exists())
+        # What is required of area is drawn across.
+        words = ("--axis", "hfus=2,4,8", "--require", "min(fps) >= 3", "--require", "mm2 <= 6")
+        done = self.explore("finish()", *words, "--objectives", "mean(cycles)")
+        self.assertEqual((done.returncode, "no figure" in done.stderr), (0, False), done.stderr)
+        text = (self.folder / "exploration.svg").read_text()
+        for said in ("required: min(fps) &gt;= 3", "area, mm²", "M cycles against area"):
+            self.assertIn(said, text)
+        self.assertNotIn("required: mm2", text)
         # One number alone has nothing to be drawn against; that is no failure.
         done = self.explore("finish()", "--axis", "hfus=2,4")
         self.assertEqual((done.returncode, list(self.folder.glob("exploration.*"))), (0, []))

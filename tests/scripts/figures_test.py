@@ -11,26 +11,22 @@ import unittest
 import xml.etree.ElementTree
 
 from in_folder import COMMAND, REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
-import boundary_study
-import compare_machines
-import compare_variants
-import debian_python
-import energy_tables
-import error_image
-import error_renderers
-import error_tuning
-import fair_fight_tables
-import machine_ratios
-import machine_tables
-import machine_views
-import simulations
-import tables
-import training_curves
-import voxel_study
-from scenes import find_scene
+from runs import run_arguments, simulations
+from runs.scenes import find_scene
+from studies import (
+    boundary_study,
+    compare_machines,
+    compare_variants,
+    energy,
+    error_against_time,
+    fair_fight,
+    training_curves,
+    voxel_study,
+)
+import results
 
 SCRIPT = REPOSITORY / "scripts" / "figures.py"
-PYTHONS = (sys.executable, str(debian_python.DEBIAN))
+PYTHONS = (sys.executable, str(run_arguments.DEBIAN))
 EXPLORE_HEAD = (
     "hfu.cfus",
     "hfu.ffu_lanes",
@@ -40,6 +36,10 @@ EXPLORE_HEAD = (
     "binding",
     "front",
 )
+
+
+def names(columns) -> list[str]:
+    return [column.name for column in columns]
 
 
 def has_matplotlib(python: str) -> bool:
@@ -65,7 +65,7 @@ def grid(key: str, values, other: str, others) -> list[dict]:
 TABLES = {
     "characterisation": (
         "characterisation",
-        compare_machines.CHARACTER_HEAD,
+        names(compare_machines.CHARACTER_COLUMNS),
         [
             {"scene": scene, "machine": machine, "GB/s": memory}
             for scene in ("truck", "yard")
@@ -75,13 +75,13 @@ TABLES = {
     ),
     "dram_by_stage": (
         "characterisation",
-        compare_machines.CHARACTER_HEAD,
+        names(compare_machines.CHARACTER_COLUMNS),
         [{"scene": "truck", "scene %": 20, "intermediate %": 70, "pixels %": 10}],
         ("intermediate", "truck"),
     ),
     "tuning_curve": (
         "boundary_study",
-        boundary_study.HEAD,
+        names(boundary_study.COLUMNS),
         [
             {
                 "scene": "truck",
@@ -97,7 +97,7 @@ TABLES = {
     ),
     "training_curve": (
         "training_curves",
-        training_curves.HEAD,
+        names(training_curves.COLUMNS),
         [
             {"data set": "lego", "seed": 2, "step": step, "seconds": step / 2, "PSNR dB": "20.1"}
             for step in (400, 800)
@@ -106,7 +106,7 @@ TABLES = {
     ),
     "variants": (
         "compare_variants",
-        compare_variants.VARIANT_HEAD,
+        names(compare_variants.COLUMNS),
         [
             {"scene": "yard", "variant": variant, "M cycles": cycles, "mJ": joules}
             for variant, cycles, joules in (
@@ -120,10 +120,10 @@ TABLES = {
     ),
     "voxel_size": (
         "voxel_study",
-        voxel_study.HEAD,
+        names(voxel_study.COLUMNS),
         [
             {"scene": "lego", "of the preset's": size, "scene is": state, "PSNR dB": quality}
-            for state, quality in (("as given", "equal"), ("tuned", "30.1"))
+            for state, quality in (("as given", "inf"), ("tuned", "30.1"))
             for size in ("0.5", "1", "2")
         ],
         ("lego, tuned", "size of a voxel"),
@@ -154,19 +154,19 @@ TABLES = {
     ),
     "fronts_of_orders": (
         "fair_fight_front",
-        fair_fight_tables.FRONT_HEAD,
+        names(fair_fight.FRONT),
         grid("order", ("exact", "paper"), "mm2", (4, 5)),
         ("exact", "paper", "area, mm²"),
     ),
     "equal_area": (
         "fair_fight_views",
-        machine_views.CSV_HEAD,
-        grid("machine", ("preset exact", "paper, best cycles"), "size_px", ("640x360", "1280x720")),
+        names(fair_fight.VIEWS),
+        grid("machine", ("preset exact", "paper, found"), "size", ("640x360", "1280x720")),
         ("preset exact", "1280x720 px"),
     ),
     "group_size": (
         "energy_groups",
-        energy_tables.GROUP_HEAD,
+        names(energy.GROUP_COLUMNS),
         grid("preset", ("exact", "paper_no_vq"), "group px", ("32", "64x32")),
         ("64x32", "clock and leakage"),
     ),
@@ -175,7 +175,7 @@ MACHINES = ("gscore", "exact", "GPU, modelled")
 TABLES |= {
     "compare_machines_rates": (
         "compare_machines",
-        machine_tables.HEAD,
+        names(compare_machines.COLUMNS),
         [
             {"scene": "truck", "size": "4x2", "GB/s": memory, "machine": machine}
             for machine, memory in zip(MACHINES, ("25.6", "25.6", "102.4"))
@@ -184,9 +184,9 @@ TABLES |= {
     ),
     "compare_machines_traffic": (
         "compare_machines_bytes",
-        compare_machines.PARTS_HEAD,
+        ("scene", "size", "GB/s", "machine", "region", "value"),
         [
-            {"scene": "truck", "GB/s": "25.6", "machine": machine, "part": part}
+            {"scene": "truck", "GB/s": "25.6", "machine": machine, "region": part}
             for machine in MACHINES
             for part in ("tile_lists", "frame_buffer")
         ],
@@ -194,15 +194,13 @@ TABLES |= {
     ),
     "compare_machines_ratios": (
         "compare_machines_ratios",
-        machine_ratios.HEAD,
+        names(compare_machines.RATIO_COLUMNS),
         [
             {
                 "GB/s": "25.6",
                 "sizes": sizes,
                 "machine": machine,
                 "than": than,
-                "of views": "0.5 .. 2",
-                "of views, energy": "0.5 .. 2",
                 "published speed": speed,
                 "published energy": "27.3 derived",
             }
@@ -218,11 +216,11 @@ TABLES |= {
 MADE_TOGETHER = {
     "error_image": (
         "error_image",
-        error_image.HEAD,
+        names(error_against_time.IMAGE_COLUMNS),
         [
             {"scene": "truck", "order": order, "moved": moved, "to": to, "PSNR dB": quality}
             for order, moved, to, quality in (
-                ("exact", "as the preset", "", "equal"),
+                ("exact", "as the preset", "", "inf"),
                 ("exact", "precision", "fp16", "63.1"),
                 ("paper", "voxel", "x 2", "30"),
                 ("tiles", "combined", "gscore", "46"),
@@ -232,7 +230,7 @@ MADE_TOGETHER = {
     ),
     "error_tuning": (
         "error_tuning",
-        error_tuning.HEAD,
+        names(error_against_time.TUNING_COLUMNS),
         [
             {"what": "tuning", "of": "truck", "moved": "rate", "to": rate, "seconds": seconds}
             for rate in ("0.5", "1")
@@ -242,7 +240,7 @@ MADE_TOGETHER = {
     ),
     "error_renderers": (
         "error_renderers",
-        error_renderers.HEAD,
+        names(error_against_time.RENDERER_COLUMNS),
         [
             {"scene": "truck", "view": view, "renderer": name, "finished below": below}
             | {"threads": threads}
@@ -268,11 +266,9 @@ class Figures(InFolder):
 
     def write(self, name: str) -> None:
         table, head, different, _ = TABLES[name]
-        tables.write_text(
-            self.folder / f"{table}.csv", tables.csv_text(head, rows(head, *different))
-        )
-        note = f"Made by `scripts/{table}.py truck`; commit 0123abc.\n\n| a |\n"
-        tables.write_text(self.folder / f"{table}.md", note)
+        by = results.Made(f"scripts/results.py {table} truck", ("0123abc",))
+        columns = [results.Column(name, "") for name in head]
+        results.save(self.folder, table, by, columns, rows(head, *different))
 
     def svg_text(self, name: str) -> str:
         root = xml.etree.ElementTree.parse(self.folder / "figures" / f"{name}.svg").getroot()
@@ -292,7 +288,7 @@ class Drawn(Figures):
                 self.assertEqual((status, errors), (0, ""))
                 self.assertIn("written to", said)
                 text = self.svg_text(name)
-                for word in (*words, f"scripts/{table}.py truck", "commit 0123abc"):
+                for word in (*words, f"scripts/results.py {table} truck", "commit 0123abc"):
                     self.assertIn(word, text)
                 png = (self.folder / "figures" / f"{name}.png").read_bytes()
                 self.assertGreater(len(png), 5000)
@@ -309,7 +305,7 @@ class Drawn(Figures):
         # What has no input is named, with who makes it.
         for name, (table, *_) in TABLES.items():
             self.assertRegex(
-                said, rf"skipped {name}: .*{table}.csv is not there; scripts/\w+.py makes it"
+                said, rf"skipped {name}: .*{table}.csv is not there; scripts/\w+.py .*makes it"
             )
         for name in OF_RUNS:
             text = self.svg_text(name)
@@ -323,8 +319,9 @@ class Drawn(Figures):
         for others in ((("4", "38.5", "dram", "", ""), ("5", "44", "dram", "yes", "")), ()):
             with self.subTest(others):
                 equal = ("6", "inf", "dram", "yes", "by hand")
-                csv = tables.csv_text(head, [*others, equal])
-                tables.write_text(self.folder / "explore.csv", csv)
+                columns = [results.Column(name, "") for name in head]
+                by = results.Made("scripts/explore.py", ("0123abc",))
+                results.save(self.folder, "explore", by, columns, [*others, equal])
                 status, _, errors = self.made("exploration")
                 self.assertEqual((status, errors), (0, ""))
                 text = self.svg_text("exploration")
@@ -342,7 +339,7 @@ class Drawn(Figures):
         (self.folder / "compare_variants.csv").write_text("scene,mJ\ntruck,1\n")
         (self.folder / "voxel_study.csv").write_text("scene\n")
         for words, said in (
-            (("nope",), "nope: no figure, expected characterisation"),
+            (("nope",), "nope: no figure, expected compare_machines_rates"),
             (("characterisation",), "nothing to draw"),
             (("variants",), "columns scene, mJ; expected variant"),
             (("voxel_size",), "expected of the preset's"),
@@ -359,7 +356,7 @@ class WithoutMatplotlib(Figures):
     def test_one_line_says_what_is_missing(self):
         # -S: no packages but Python's own; the scripts are found as ever. Debian's does not help.
         command = [sys.executable, "-S", str(SCRIPT), "--from", str(self.folder)]
-        tried = {**os.environ, debian_python.TRIED: "1"}
+        tried = {**os.environ, run_arguments.TRIED: "1"}
         done = subprocess.run(command, capture_output=True, text=True, env=tried)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         said = "^.*figures.py: needs python3-matplotlib, which scripts/tools.sh installs\n$"

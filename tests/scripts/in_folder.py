@@ -2,6 +2,7 @@
 the command does. $STREAMINGGS names the command; it is empty where there is none."""
 
 import contextlib
+import importlib.util
 import io
 import json
 import math
@@ -21,6 +22,18 @@ sys.path.insert(0, str(REPOSITORY / "scripts"))
 
 COMMAND = os.environ.get("STREAMINGGS", "")
 os.environ["STREAMINGGS_CACHE"] = "off"  # the user's is none of theirs
+
+
+def results_script():
+    """results.py, which as a module has the name of a package."""
+    path = REPOSITORY / "scripts" / "results.py"
+    spec = importlib.util.spec_from_file_location("results", path)
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    return script
+
+
+RESULTS = results_script()
 
 # Marks a test or a class that takes long. A shorter test enters the same code.
 nightly = unittest.skipUnless(os.environ.get("SGS_NIGHTLY"), "nightly: $SGS_NIGHTLY is not set")
@@ -94,7 +107,8 @@ class InFolder(unittest.TestCase):
                 memories = {{"input_bytes": 0, "codebook_bytes": 0, "shared_bytes": 0}}
                 sides = {{"group_width_px": 112, "group_height_px": 80}}
                 filters = {{"cfus": 4, "ffu_lanes": 16}}
-                print(json.dumps({{"hfus": 1, **sides, "hfu": filters, "sram": memories}}))
+                hfus = int(SET.get("hfus", 1))
+                print(json.dumps({{"hfus": hfus, **sides, "hfu": filters, "sram": memories}}))
                 sys.exit()
             if "describe" in sys.argv:
                 sys.exit()
@@ -102,14 +116,17 @@ class InFolder(unittest.TestCase):
                 hfus = int(SET.get("hfus", 1))
                 number = int(sys.argv[sys.argv.index("--view") + 1])
                 frame = {{"cycles": 8 // hfus, "time_s": 1e-9 * (8 // hfus), "fps": hfus}}
+                config = {{"hfus": hfus, "group_width_px": 112, "group_height_px": 80}}
+                config["sram"] = {{"input_bytes": 100 * hfus + number, "codebook_bytes": 0}}
                 view = {{"view": number, "frame": frame, "binding": {{"unit": "dram"}},
-                        "config": {{"hfus": hfus, "group_width_px": 112, "group_height_px": 80}},
+                        "config": config,
                         "area_mm2": {{"total": 1 + hfus}}, "provenance": {{}}}}
                 out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
                 (out / "report.json").write_text(json.dumps({{"views": [view]}}))
             def swept(point):
                 with tempfile.TemporaryDirectory() as out:
                     words = [__file__, "simulate", "--view", str(point["view"]), "--out", out]
+                    words += ["--size", point["size"]] if "size" in point else []
                     for key, value in point["set"].items():
                         words += ["--set", f"{{key}}={{value}}"]
                     environment = {{**os.environ, "SCRIPT": str(os.getppid())}}
@@ -142,10 +159,24 @@ class InFolder(unittest.TestCase):
         return program
 
     def ended(self, script, *arguments: str) -> tuple[int, str, str]:
-        """Exit status, last line of stderr and stdout of a script that gets these arguments."""
+        """Exit status, last line of stderr and stdout of a script that gets these arguments. A study
+        of results.py keeps in the test's folder what it simulates, trains and tunes."""
         out, said = io.StringIO(), io.StringIO()
         words = [f"{script.__name__}.py", *arguments]
+        if is_study(script):
+            name = script.__name__.removeprefix("studies.")
+            words = ["results.py", name, *arguments, "--kept", str(self.folder / "kept")]
+            script = RESULTS
         with mock.patch("sys.argv", words), contextlib.redirect_stdout(out):
             with contextlib.redirect_stderr(said):
                 status = script.main()
         return status, said.getvalue().rstrip().rpartition("\n")[2], out.getvalue()
+
+
+def is_study(script) -> bool:
+    return script.__name__.startswith("studies.")
+
+
+def file_of(script) -> str:
+    """That a user starts."""
+    return "results.py" if is_study(script) else f"{script.__name__}.py"

@@ -24,8 +24,8 @@ PUBLISHED = (
 OTHER_MEANINGS: dict[tuple[str, float], str] = {
     ("modules/streaminggs/rendering/rendering_config.h", 190): "counted operations of a blend",
     # Operands that a longest path is looked for with.
-    ("algorithm/voxel/ray_work.cpp", 2.1): "a position",
-    ("algorithm/voxel/ray_work.cpp", 3.1): "a position",
+    ("modules/streaminggs/vsu/vsu_datapaths.cpp", 2.1): "a position",
+    ("modules/streaminggs/vsu/vsu_datapaths.cpp", 3.1): "a position",
     # Places, sizes and colours in the built-in scenes.
     ("testbench/builtin/buildings.cpp", 1.15): "half of a flag's width",
     ("testbench/builtin/buildings.cpp", 3.1): "half of a house's length",

@@ -7,13 +7,9 @@ import unittest
 import zlib
 
 import in_folder  # noqa: F401, isort: skip (finds the scripts)
-import given_files
-import png_pictures
-import report_charts
-import report_pictures
-import report_tables
-import report_time
-from report_folder import Table
+from runs import files
+from reporting import charts, costs, tables, view
+from reporting.folder import Table
 
 
 def filtered_png(width: int, height: int, pixels: bytes) -> bytes:
@@ -28,11 +24,11 @@ def filtered_png(width: int, height: int, pixels: bytes) -> bytes:
             left,
             above,
             bytes((a + b) // 2 for a, b in zip(left, above)),
-            bytes(png_pictures.paeth(*three) for three in zip(left, above, corner)),
+            bytes(charts.paeth(*three) for three in zip(left, above, corner)),
         )
         rows += bytes([y % 5]) + bytes((a - b) & 255 for a, b in zip(row, guesses[y % 5]))
         above = row
-    made = png_pictures.write_png(width, height, pixels)
+    made = charts.write_png(width, height, pixels)
     begin, data = made.index(b"IDAT") - 4, zlib.compress(rows)
     chunk = b"IDAT" + data
     chunk = struct.pack(">I", len(data)) + chunk + struct.pack(">I", zlib.crc32(chunk))
@@ -42,7 +38,7 @@ def filtered_png(width: int, height: int, pixels: bytes) -> bytes:
 class Parts(unittest.TestCase):
     def test_pictures_are_read_by_every_filter(self):
         pixels = random.Random(1).randbytes(3 * 7 * 10)
-        width, height, rows = png_pictures.read_png(filtered_png(7, 10, pixels))
+        width, height, rows = charts.read_png(filtered_png(7, 10, pixels))
         self.assertEqual((width, height, b"".join(rows)), (7, 10, pixels))
 
     def test_pictures_are_halved(self):
@@ -52,29 +48,29 @@ class Parts(unittest.TestCase):
             for grey in row
             for channel in (grey, 0, 255 - grey)
         )
-        half = png_pictures.halved(png_pictures.write_png(3, 3, pixels))
-        self.assertEqual(png_pictures.read_png(half), (1, 1, [bytearray((25, 0, 230))]))
+        half = charts.halved(charts.write_png(3, 3, pixels))
+        self.assertEqual(charts.read_png(half), (1, 1, [bytearray((25, 0, 230))]))
 
     def test_what_is_no_picture_of_ours_is_refused(self):
-        whole = png_pictures.write_png(4, 4, bytes(48))
+        whole = charts.write_png(4, 4, bytes(48))
         for png, said in (
             (b"", "no PNG"),
             (b"GIF89a" + bytes(40), "no PNG"),
             (whole[:50], "PNG: "),
             (whole[:24] + b"\x10" + whole[25:], "8 bits"),
-            (png_pictures.write_png(1, 1, bytes(3)), "2 x 2"),
+            (charts.write_png(1, 1, bytes(3)), "2 x 2"),
         ):
             with self.subTest(said), self.assertRaisesRegex(ValueError, said):
-                png_pictures.halved(png)
+                charts.halved(png)
 
     def test_a_share_of_no_error(self):
         for share, text in ((None, "none"), (0, "0 %"), (0.5, "50 %"), (0.012, "1.2 %")):
-            self.assertEqual(report_pictures.share_text(share), text)
+            self.assertEqual(view.share_text(share), text)
 
     def test_levels_of_json(self):
         deep = json.loads("[" * 300 + "]" * 300)
         for found, count in ((1, 0), ({}, 1), ([1, {"a": [2]}], 3), (deep, 101)):
-            self.assertEqual(given_files.levels(found), count)
+            self.assertEqual(files.levels(found), count)
 
     def test_numbers(self):
         for value, text in (
@@ -83,16 +79,16 @@ class Parts(unittest.TestCase):
             (0.012345, "0.0123"),
             (0.0, "0"),
         ):
-            self.assertEqual(report_charts.number(value), text)
+            self.assertEqual(charts.number(value), text)
         for text, value in (("1,234.5", 1234.5), ("12%", 12), ("equal", None), ("", None)):
-            self.assertEqual(report_tables.value_of(text), value)
+            self.assertEqual(tables.value_of(text), value)
 
     def test_units_that_stand_several_times_become_one_line(self):
         spent = [(f"hfu{i}.fine fetch", "fetch", {"busy": i, "idle": 10 - i}) for i in range(3)] + [
             ("vsu walk", "vsu", {"busy": 4, "idle": 6})
         ]
         self.assertEqual(
-            report_time.by_kind(spent),
+            costs.by_kind(spent),
             [
                 ("hfu.fine fetch × 3", "fetch", {"busy": 3, "idle": 27}),
                 ("vsu walk", "vsu", {"busy": 4, "idle": 6}),
@@ -108,11 +104,11 @@ class Parts(unittest.TestCase):
             "bytes": [0, 5, 10, 10],
             "missed": [0] * 4,
         }
-        made = report_charts.heat_map("Bytes", "B", groups, "bytes")
+        made = charts.heat_map("Bytes", "B", groups, "bytes")
         self.assertIn('viewBox="0 0 40 36"', made)
         self.assertIn('width="64" height="64"', made)
         self.assertIn("most 10 B", made)
-        self.assertIn("none in any group", report_charts.heat_map("Missed", "", groups, "missed"))
+        self.assertIn("none in any group", charts.heat_map("Missed", "", groups, "missed"))
 
     def test_a_table_becomes_a_diagram_of_its_numbers(self):
         table = Table(
@@ -120,7 +116,7 @@ class Parts(unittest.TestCase):
             ("hfus", "group", "cycles", "mm2", "binding", "front"),
             (("2", "64", "1200", "5.5", "fine", "yes"), ("4", "64", "1000", "6.5", "dram", "")),
         )
-        made = report_tables.section(table, "explore.csv")
+        made = tables.section(table, "explore.csv")
         self.assertIn("<option value=2 selected>cycles", made)
         self.assertIn("<option value=3 selected>mm2", made)
         self.assertIn("&quot;best&quot;:[true,false]", made)

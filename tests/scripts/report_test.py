@@ -9,15 +9,14 @@ import unittest
 from unittest import mock
 
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
-import png_pictures
+from reporting import charts
 import report
-import report_charts
-import report_view
-import simulations
+
+from runs import simulations
+from runs.scenes import find_scene
 from chromium import Chromium
 from page_checks import NEEDS_BROWSER, PageChecks
-from report_folder import find_runs
-from scenes import find_scene
+from reporting.folder import find_runs, flat
 
 NEEDS_COMMAND = unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
 
@@ -54,13 +53,13 @@ class Page(WithFrames):
                 view = json.loads((folder / "report.json").read_text())["views"][0]
                 page = self.page(folder)
                 self.assertHolds(page, f"{view['frame']['cycles']:,} cycles")
-                self.assertHolds(page, report_charts.escaped(view["binding"]["explanation"]))
-                self.assertHolds(page, report_charts.escaped(view["provenance"]["command"]))
+                self.assertHolds(page, charts.escaped(view["binding"]["explanation"]))
+                self.assertHolds(page, charts.escaped(view["provenance"]["command"]))
                 for region in view["dram"]["bytes_by_region"]:
                     self.assertHolds(page, f"<th scope=row>{region.replace('_', ' ')}</th>")
                 for entry in view["left_out"]:
-                    self.assertHolds(page, report_charts.escaped(entry["saves"]))
-                for key, _ in report_view.flat(view["config"]):
+                    self.assertHolds(page, charts.escaped(entry["saves"]))
+                for key, _ in flat(view["config"]):
                     self.assertHolds(page, f"<td>{key}</td>")
                 self.assertEqual(page.count("<figure class=heat"), 0 if config == "gscore" else 5)
                 # One copy of each picture.
@@ -124,13 +123,13 @@ class Page(WithFrames):
         self.assertEqual(page.count("</script>"), 1)
         self.assertHolds(page, "view 3 failed")
         # Name, title, tab, heading and command; and why the other failed.
-        self.assertEqual(page.count(report_charts.escaped(hostile)), 6)
+        self.assertEqual(page.count(charts.escaped(hostile)), 6)
 
     def test_pictures_shrink_until_the_page_is_small_enough(self):
         folder = self.simulated("exact", "large")
         noise = random.Random(1).randbytes(3 * 320 * 180)  # no smaller when it is packed
         for picture in (folder / "view_0").glob("*.png"):
-            picture.write_bytes(png_pictures.write_png(320, 180, noise))
+            picture.write_bytes(charts.write_png(320, 180, noise))
         most = len(self.page(folder).encode())
         self.assertGreater(most, 3 * 4 / 3 * len(noise))
         pictures = 3 * 4 / 3 * len(noise)

@@ -1,50 +1,60 @@
-"""The search for machines: on a machine made up of formulas, and what it keeps of simulations."""
+"""The search for machines: on a machine made up of formulas, and of each recipe with the command."""
 
-import dataclasses
+import argparse
+import contextlib
+import csv
+import io
 import itertools
+import json
 import pathlib
-import tempfile
 import unittest
 
-from in_folder import InFolder  # isort: skip (finds the scripts)
-import fair_fight_tables
-import machine_axes
-import simulations
-from kept_runs import KeptRuns
-from machine_areas import SMALL, Areas
-from machine_descent import Descent, TooSlow
-from machine_search import Point, Search
-from scenes import Scene
+from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
+import explore
+from exploring import options
+from exploring.axes import ORDERS, axis, nearest
+from exploring.exploration import Exploration, Work
+from exploring.judging import SMALL, Judge, Judged, Task, relative_to
+from exploring.measures import objective, requirement, value_at
+from exploring.space import Space, keys_of, parse_axis
+from exploring.steps import Steps
+from runs import simulations
+from runs.scenes import Scene
+from studies import fair_fight
 
 AXES = (
-    machine_axes.axis("hfus", 1, 2, 4, 8),
-    machine_axes.axis("hfu.lanes", 4, 8, 16, 32),
-    machine_axes.axis("rendering.clusters", 1, 2, 4),
-    machine_axes.axis("merge.entries", 64, 128, 256),
+    axis("hfus", 1, 2, 4, 8),
+    axis("hfu.lanes", 4, 8, 16, 32),
+    axis("rendering.clusters", 1, 2, 4),
+    axis("merge.entries", 64, 128, 256),
 )
-ORDER = machine_axes.Order("toy", "toy", (), AXES, machine_axes.axis("storage.chunk", 8, 16, 32))
+SCENES = (Scene("a", ""), Scene("b", ""))
+SPACE = Space((*AXES, *parse_axis("storage.chunk@each=8,16,32", ("a", "b"))))
 # Work of two scenes for lanes and for clusters; the chunk that suits each.
 WORK = {"a": (900, 100, 16), "b": (100, 400, 32)}
+PRESET = {"hfus": 8, "hfu.lanes": 32, "rendering.clusters": 4, "merge.entries": 256}
+PRESET |= {"storage.chunk": 16}
 
 
 def settings(run: simulations.Run) -> dict[str, float]:
     pairs = (override.partition("=") for override in run.overrides)
-    return {key: float(value) for key, _, value in pairs}
+    return {**PRESET, **{key: float(value) for key, _, value in pairs}}
 
 
 def area(s: dict) -> float:
     return s["hfus"] * s["hfu.lanes"] * 0.02 + s["rendering.clusters"] + s["merge.entries"] / 256
 
 
-def cycles(scene: str, s: dict) -> float:
+def cycles(scene: str, view: int, s: dict) -> float:
     lanes, clusters, chunk = WORK[scene]
     filters = lanes / (s["hfus"] * s["hfu.lanes"])
     spills = 20 * 64 / s["merge.entries"]
-    return filters + clusters / s["rendering.clusters"] + spills + abs(s["storage.chunk"] - chunk)
+    drawn = clusters * (1 + view) / s["rendering.clusters"]
+    return filters + drawn + spills + abs(s["storage.chunk"] - chunk)
 
 
 class Formulas:
-    """In the place of KeptRuns. 4 HFUs of 32 lanes cannot be."""
+    """In the place of the server. 4 HFUs of 32 lanes cannot be."""
 
     def __init__(self):
         self.drawn = []
@@ -53,222 +63,304 @@ class Formulas:
         s = settings(run)
         if s["hfus"] == 4 and s["hfu.lanes"] == 32:
             return simulations.Outcome(run, refused="cannot be")
-        view = {"area_mm2": {"total": area(s)}, "binding": {"key": "hfu.lanes"}}
+        config = {"hfus": s["hfus"], "hfu": {"lanes": s["hfu.lanes"]}}
+        config |= {"rendering": {"clusters": s["rendering.clusters"]}}
+        config |= {
+            "merge": {"entries": s["merge.entries"]},
+            "storage": {"chunk": s["storage.chunk"]},
+        }
+        view = {"area_mm2": {"total": area(s)}, "binding": {"key": "hfu.lanes", "unit": "fine"}}
+        view |= {"view": int(run.view), "config": config, "scene": {}, "provenance": {}}
+        of = 1.0
         if run.scene != SMALL:
-            self.drawn.append((run.scene.name, run.overrides))
-            of = cycles(run.scene.name, s)
-            view |= {"view": 0, "frame": {"cycles": of, "fps": 1e4 / of}}
-            view["image"] = {"psnr_db": 20.0 + 100 / s["storage.chunk"]}
+            self.drawn.append((run.scene.name, run.view, run.overrides))
+            of = self.cycles(run.scene.name, int(run.view), s)
+        view |= {"frame": {"cycles": of, "time_s": of / 1e4, "fps": 1e4 / of}}
+        view |= {"image": {"psnr_db": 20.0 + 100 / s["storage.chunk"]}}
         return simulations.Outcome(run, views=(view,))
+
+    cycles = staticmethod(cycles)
 
     def outcomes(self, runs):
         return [self.outcome(run) for run in runs]
 
 
-class Searching(unittest.TestCase):
-    SCENES = (Scene("a", ""), Scene("b", ""))
+def searched(
+    formulas: Formulas,
+    objectives: str,
+    *required: str,
+    views: int = 1,
+    trials: int | None = None,
+    space: Space = SPACE,
+) -> Work:
+    task = Task(
+        views=tuple((scene, n) for scene in SCENES for n in range(views)),
+        keys=(),
+        size="",
+        config="toy",
+        base=(),
+        objectives=(objective(objectives),),
+        requirements=tuple(map(requirement, required)),
+    )
+    task = relative_to(task, formulas.outcomes)
+    arguments = argparse.Namespace(trials=trials, minutes=0)
+    work = Work(arguments, space, Judge(task, formulas.outcomes), Exploration(task, {}))
+    with contextlib.redirect_stderr(io.StringIO()):
+        Steps(work).search()
+    return work
 
-    def found(self, budget_mm2: float, most_runs: int):
-        formulas = Formulas()
-        search = Search(Areas(formulas), self.SCENES, "", budget_mm2, "cycles", most_runs)
-        largest = machine_axes.Machine(ORDER, (3, 3, 2, 2))
-        return search.best_from(largest, (1, 1)), formulas
+
+def stored(best: Judged) -> list[str]:
+    return [s.partition("=")[2] for s in best.assignments if "@" in s]
+
+
+def machines() -> list[dict]:
+    """All there can be."""
+    values = itertools.product((1, 2, 4, 8), (4, 8, 16, 32), (1, 2, 4), (64, 128, 256))
+    names = [a.name for a in AXES]
+    return [dict(zip(names, of)) for of in values if of[:2] != (4, 32)]
+
+
+class Within(unittest.TestCase):
+    """The machine that does best in an area."""
+
+    def found(self, budget_mm2: float, *required: str, formulas=None, **how) -> Judged | None:
+        required = (f"mm2 <= {budget_mm2}", *required)
+        work = searched(formulas or Formulas(), "geomean(cycles)", *required, **how)
+        return next(iter(work.made.front()), None)
 
     @staticmethod
     def best(budget_mm2: float) -> float:
-        """Of all machines: the smallest product of cycles, each scene stored as suits it."""
-        products = []
-        for values in itertools.product((1, 2, 4, 8), (4, 8, 16, 32), (1, 2, 4), (64, 128, 256)):
-            s = dict(zip(("hfus", "hfu.lanes", "rendering.clusters", "merge.entries"), values))
-            if area(s) <= budget_mm2 and values[:2] != (4, 32):
-                of = [cycles(n, {**s, "storage.chunk": WORK[n][2]}) for n in WORK]
-                products.append(of[0] * of[1])
-        return min(products)
+        """Of all machines, each scene stored as suits it."""
+        return min(
+            (
+                cycles("a", 0, {**s, "storage.chunk": 16})
+                * cycles("b", 0, {**s, "storage.chunk": 32})
+            )
+            ** 0.5
+            for s in machines()
+            if area(s) <= budget_mm2
+        )
 
     def test_finds_about_the_best_that_fits(self):
         for budget in (2, 3, 4, 6, 12):
             with self.subTest(budget):
-                point, _ = self.found(budget, 400)
-                self.assertLessEqual(point.area_mm2(), budget)
-                a, b = (view["frame"]["cycles"] for view in point.views)
-                self.assertLess((a * b / self.best(budget)) ** 0.5, 1.1)
-                stored = [point.stored(n) for n in (0, 1)]
-                self.assertEqual(stored, ["storage.chunk=16", "storage.chunk=32"])
+                best = self.found(budget)
+                self.assertTrue(best.holds())
+                self.assertLess(best.costs[0] / self.best(budget), 1.1)
+                self.assertEqual(stored(best), ["16", "32"])
+
+    def test_what_it_finds_holds_on_all_views(self):
+        """It looks at one view of each scene, and draws the best few on all."""
+        formulas = Formulas()
+        best = self.found(6, formulas=formulas, views=3)
+        self.assertEqual(best.drawn, 6)
+        others = {overrides for _, view, overrides in formulas.drawn if view != "0"}
+        self.assertLessEqual(len(others), 2 * 3)
 
     def test_the_storage_that_keeps_the_picture(self):
-        formulas, largest = Formulas(), machine_axes.Machine(ORDER, (3, 3, 2, 2))
-        # Chunks of 16 at most for a; chunks of 8 for b, whatever it would do best with.
-        for least_db, stored in (((26, 30), ["16", "8"]), ((26, 40), None)):
-            search = Search(
-                Areas(formulas), self.SCENES, "", 6, "cycles", 400, least_db=least_db
-            )
-            point = search.best_from(largest, (2, 2))
-            found = point and [point.stored(n).partition("=")[2] for n in (0, 1)]
-            self.assertEqual(found, stored)
+        # Chunks of 16 at most for both; chunks of 4 there are none.
+        for least_db, chunks in ((26, ["16", "16"]), (30, ["8", "8"]), (40, None)):
+            with self.subTest(least_db):
+                best = self.found(6, f"each(psnr_db) >= {least_db}")
+                self.assertEqual(best and stored(best), chunks)
+
+    def test_the_picture_of_another_configuration(self):
+        """The preset has chunks of 16."""
+        best = self.found(6, "each(psnr_db) >= 1 x toy - 0.1")
+        self.assertEqual(stored(best), ["16", "16"])
+        best = self.found(6, "each(psnr_db) >= 1 x toy - 4")
+        self.assertEqual(stored(best), ["16", "32"])
 
     def test_storage_one_beyond_a_worse_one(self):
         class Bumpy(Formulas):
-            def outcome(self, run):
-                found = super().outcome(run)
-                s = settings(run)
-                if found.views and "frame" in found.views[0]:
-                    by_chunk = {8: 50, 16: 100, 32: 80}[s["storage.chunk"]]
-                    found.views[0]["frame"]["cycles"] = by_chunk
-                return found
+            @staticmethod
+            def cycles(scene, view, s):
+                return {8: 50, 16: 100, 32: 80}[s["storage.chunk"]]
 
-        search = Search(Areas(Bumpy()), self.SCENES, "", 12, "cycles", 400)
-        machine = machine_axes.Machine(ORDER, (0, 0, 0, 0))
-        point = search.best_from(machine, (2, 2))
-        self.assertEqual(point.stored(0), "storage.chunk=8")
+        PRESET["storage.chunk"] = 32
+        self.addCleanup(PRESET.update, {"storage.chunk": 16})
+        self.assertEqual(stored(self.found(12, formulas=Bumpy())), ["8", "8"])
+
+    def test_ends_when_it_has_had_its_trials(self):
+        formulas = Formulas()
+        self.found(4, formulas=formulas, trials=15)
+        self.assertLessEqual(len(set(formulas.drawn)), 2 * 15)
+
+    def test_growing_until_what_frames_tell_holds(self):
+        before = dict(PRESET)
+        self.addCleanup(PRESET.update, before)
+        PRESET.update({"hfus": 1, "hfu.lanes": 4, "rendering.clusters": 1, "merge.entries": 64})
+        for required in ("min(fps) >= 40", "each(cycles) <= 250"):
+            with self.subTest(required):
+                best = self.found(6, required, views=2)
+                self.assertTrue(best.holds())
+        self.assertIsNone(self.found(6, "each(cycles) <= 1", views=2))
+
+    def test_a_start_that_cannot_be(self):
+        before = dict(PRESET)
+        self.addCleanup(PRESET.update, before)
+        PRESET.update({"hfus": 5, "hfu.lanes": 32})  # nearest to it are 4
+        work = searched(Formulas(), "geomean(cycles)", "mm2 <= 6")
+        self.assertEqual(work.made.told(), [])
+        self.assertRegex(work.made.not_told()[0], "^Refused: a toy .*: cannot be$")
+
+    def test_nothing_fits(self):
+        self.assertIsNone(self.found(0.5))
+
+
+class Smallest(unittest.TestCase):
+    """The smallest machine that holds what is required."""
+
+    SPACE = Space(AXES)
+
+    @staticmethod
+    def best(fps: float, views: int) -> float:
+        of = [(scene, view) for scene in WORK for view in range(views)]
+        return min(
+            area(s)
+            for s in machines()
+            if all(1e4 / cycles(*which, {**PRESET, **s}) >= fps for which in of)
+        )
+
+    def found(self, *required: str, formulas=None, **how) -> Work:
+        return searched(formulas or Formulas(), "mm2", *required, space=self.SPACE, **how)
+
+    def test_finds_about_the_smallest(self):
+        for fps, views in ((30, 1), (50, 1), (60, 1), (30, 2), (40, 2)):
+            with self.subTest(fps, views=views):
+                (best,) = self.found(f"min(fps) >= {fps}", views=views).made.front()
+                self.assertTrue(best.holds())
+                self.assertLess(best.costs[0] / self.best(fps, views), 1.1)
+
+    def test_one_hard_view_is_drawn_and_in_the_end_all(self):
+        formulas = Formulas()
+        work = self.found("min(fps) >= 30", formulas=formulas, views=2)
+        (best,) = work.made.front()
+        self.assertEqual(best.drawn, 4)
+        self.assertLess(len(formulas.drawn), 2 * len(set(formulas.drawn)))
+        easy = [of for of in formulas.drawn if of[:2] == ("a", "0")]
+        self.assertLessEqual(len(easy), 3)
 
     def test_growing_until_it_is_fast_enough(self):
         """Its binding names lanes, which are all there are from the start on."""
-        order = dataclasses.replace(ORDER, fixed=("storage.chunk=16",))
-        small = machine_axes.Machine(order, (0, 3, 0, 0))
-        descent = Descent(Formulas(), self.SCENES, "", 60)
-        before = descent.draw_all(small, "0")[0].fps()
-        grown, drawn = descent.grown(small, "0")
-        self.assertLess(before, 60)
-        self.assertGreaterEqual(drawn[0].fps(), 60)
-        self.assertEqual(grown.at[1], 3)
-        descent = Descent(Formulas(), self.SCENES, "", 1e9)
-        with self.assertRaisesRegex(TooSlow, "^none: . has .* fps, and one step on any axis"):
-            descent.grown(small, "0")
+        small = {"hfus": 1, "hfu.lanes": 32, "rendering.clusters": 1, "merge.entries": 64}
+        before = dict(PRESET)
+        self.addCleanup(PRESET.update, before)
+        PRESET.update(small)
+        (best,) = self.found("min(fps) >= 60").made.front()
+        self.assertLess(1e4 / cycles("b", 0, PRESET), 60)
+        self.assertGreaterEqual(best.values[0], 60)
+        work = self.found("min(fps) >= 1e9")
+        self.assertEqual(work.made.front(), [])
+        self.assertRegex(work.made.about(), "None holds: the nearest misses min.* by 100")
+        self.assertIn("One step on any axis gains less than 0.3% of what is", work.made.about())
 
-    def test_ends_when_it_has_had_its_runs(self):
-        _, formulas = self.found(4, 30)
-        self.assertLessEqual(len(formulas.drawn), 36)
+    def test_what_no_view_tells_alone(self):
+        (best,) = self.found("mean(cycles) <= 200").made.front()
+        self.assertLessEqual(best.values[0], 200)
 
-    def test_nothing_fits(self):
-        self.assertIsNone(self.found(0.5, 400)[0])
+    def test_with_nothing_required_nothing_is_left_to_take_away(self):
+        (best,) = self.found().made.front()
+        self.assertEqual(best.costs[0], min(map(area, machines())))
 
-    def test_of_points_that_are_alike_the_fastest_is_on_the_front(self):
-        def point(cycles, bus_bytes):
-            view = {"frame": {"cycles": cycles}, "dram": {"bus_bytes": bus_bytes}}
-            view |= {"energy": {"total_j": 1.0}, "area_mm2": {"total": 5.0}}
-            view |= {"image": {"psnr_db": 30.0}}
-            return Point(None, (), (), (view,))
+    def test_ends_when_it_has_had_its_trials(self):
+        """With the smallest that it has seen to hold."""
+        formulas = Formulas()
+        (best,) = self.found("min(fps) >= 30", formulas=formulas, trials=6).made.front()
+        self.assertLess(best.costs[0], area(PRESET))
+        self.assertLessEqual(len({overrides for *_, overrides in formulas.drawn}), 6)
 
-        points = [point(1010, 900), point(1005, 900), point(2000, 300), point(2000, 1000)]
-        self.assertEqual(fair_fight_tables.near_front(points), [False, True, True, False])
 
-    def test_a_machine_as_a_configuration(self):
-        view = {"config": {"sram": {"input_bytes": 7, "shared_bytes": 9}}}
-        order = machine_axes.Order(
-            "toy", "toy", ("x=0.5", "fetch=split"), (machine_axes.axis("hfu.lanes", 8),), None
-        )
-        with tempfile.TemporaryDirectory() as folder:
-            presets = pathlib.Path(folder, "share", "streaminggs", "presets")
-            presets.mkdir(parents=True)
-            pathlib.Path(folder, "bin").mkdir()
-            (presets / "toy.json").write_text('{"machine": "exact", "hfu": {"lanes": 2, "a": 1}}')
-            document = fair_fight_tables.assigned_document(
-                pathlib.Path(folder, "bin", "streaminggs"),
-                machine_axes.Machine(order, (0,)),
-                [view],
-            )
-        self.assertEqual(
-            document,
-            {
-                "machine": "exact",
-                "sram": {"input_bytes": 7, "shared_bytes": 9},
-                "hfu": {"lanes": 8, "a": 1},
-                "x": 0.5,
-                "fetch": "split",
-            },
-        )
-
-    def test_the_start_is_the_machine_nearest_to_a_preset(self):
+class Starting(unittest.TestCase):
+    def test_the_setting_nearest_to_a_preset(self):
         config = {"hfus": 3, "hfu": {"lanes": 16}}
         config |= {"rendering": {"clusters": 9}, "merge": {"entries": 128}}
-        self.assertEqual(ORDER.start(config).at, (2, 2, 2, 1))
+        self.assertEqual([nearest(a, config) for a in AXES], [2, 2, 2, 1])
 
 
-class Keeping(InFolder):
-    BODY = """
-        with (HERE / "calls").open("a") as file:
-            print("call", file=file)
-        if SET["hfus"] == "3":
-            print("hfus: 3 is odd", file=sys.stderr)
-            sys.exit(2)
-        if SET["hfus"] == "5":
-            print("the frame differs")
-            sys.exit(1)
-        finish()
-        """
+@unittest.skipUnless(COMMAND, "$STREAMINGGS is not set")
+class Recipes(InFolder):
+    """On few settings each finds the best of the grid of all of them, and draws fewer."""
 
-    def calls(self) -> int:
-        return len((self.folder / "calls").read_text().splitlines())
+    SCENES = ("builtin:object?n=300", "builtin:outdoor?n=300")
 
-    def run_all(self, body: str) -> list[simulations.Outcome]:
-        kept = KeptRuns(self.stand_in(body), self.folder / "runs.jsonl", 1)
-        runs = [
-            simulations.Run(Scene("toy", "toy"), overrides=(f"hfus={n}",)) for n in (1, 2, 3, 5)
+    def front(self, out: str, *words: str) -> tuple[dict[str, str], int]:
+        """The first on the front, and how many simulations it took."""
+        status, line, _ = self.ended(
+            explore,
+            *(*self.SCENES, "--streaminggs", COMMAND, "--out", str(self.folder / out)),
+            *("-j", "2", "--size", "64x36", *words),
+        )
+        self.assertEqual(status, 0, line)
+        rows = csv.DictReader((self.folder / out / "explore.csv").read_text().splitlines())
+        drawn = (self.folder / out / "explore_runs.jsonl").read_text()
+        return next(row for row in rows if row["front"]), drawn.count('"size":"64x36"')
+
+    def check(self, name: str, view: str, required: list[str], *free: str):
+        told = json.loads((options.RECIPES / f"{name}.json").read_text())
+        order = ORDERS[told["machine"]]
+        run = simulations.Run(SMALL, config=order.preset)
+        config = simulations.read_config(pathlib.Path(COMMAND), run)
+        words = [f"--require={text}" for text in required or told["require"]]
+        words += [f"--axis={text}" for text in free]
+        chosen = {key for text in free for a in parse_axis(text) for key in keys_of(a)}
+        keys = {key for a in order.axes for key in keys_of(a)} - chosen
+        words += [f"--axis={key}={value_at(config, key)}" for key in sorted(keys)]
+        found, drawn = self.front("found", f"--recipe={name}", "--view", view, *words)
+        words += [f"--machine={order.name}", f"--objectives={told['objectives']}"]
+        best, of_all = self.front("grid", "--view", view, *words)
+        shown = [told["objectives"], *chosen & found.keys()]
+        self.assertEqual([found[key] for key in shown], [best[key] for key in shown])
+        self.assertLess(drawn, of_all)
+
+    FREE = ("rendering.clusters=1,2,4", "hfus=2,4", "hfu.ffu_lanes=8,16")
+
+    def test_the_smallest(self):
+        fast = ["min(fps) >= 0.6 x exact"]
+        self.check("smallest", "0,1", fast, *self.FREE)
+
+    def test_the_best_in_an_area(self):
+        self.check("exact_in_area", "0", [], *self.FREE, "storage.chunk_gaussians@each=8,16")
+
+    @nightly
+    def test_the_best_of_paper_order_in_an_area(self):
+        self.check("paper_in_area", "0", [], *self.FREE, "storage.voxel_size@each=1,2")
+
+    def test_what_is_no_recipe(self):
+        path = self.folder / "mine.json"
+        for text, said in (
+            (
+                None,
+                "got .*mine.json, expected a JSON file or one of exact_in_area, paper_in_area, ",
+            ),
+            ("[]", ".*mine.json: expected options by name"),
+            ('{"axis": [2]}', ".*mine.json: axis: got 2, expected a text or a list of them"),
+        ):
+            with self.subTest(text):
+                if text:
+                    path.write_text(text)
+                with self.assertRaises(SystemExit) as ended:
+                    self.ended(explore, str(self.scene), "--recipe", str(path))
+                self.assertEqual(ended.exception.code, 2)
+
+    def test_the_command_line_counts(self):
+        path = self.folder / "mine.json"
+        path.write_text(json.dumps({"axis": ["hfus=2,4"], "require": ["mm2 <= 9"], "view": "0,1"}))
+        words = ("--recipe", str(path), "--require", "mm2 <= 8", "--objectives", "mm2")
+        found, _ = self.front("found", *words)
+        self.assertEqual(
+            (found["hfus"], "mm2 <= 8" in found, "mm2 <= 9" in found), ("2", True, False)
+        )
+
+
+class Fronts(unittest.TestCase):
+    def test_of_points_that_are_alike_the_fastest_is_on_the_front(self):
+        points = [
+            ("exact", 30.0, bus, cycles, 1.0, 5.0, "")
+            for cycles, bus in ((1010, 900), (1005, 900), (2000, 300), (2000, 1000))
         ]
-        outcomes = kept.outcomes(runs)
-        with self.assertRaisesRegex(simulations.Failure, "the frame differs"):
-            kept.end()
-        return outcomes
-
-    def test_what_was_simulated_is_not_simulated_again(self):
-        first = self.run_all(self.BODY)
-        self.assertEqual(self.calls(), 4)
-        second = self.run_all(self.BODY)
-        # What failed is not kept.
-        self.assertEqual(self.calls(), 4 + 1)
-        self.assertEqual([o.views for o in first], [o.views for o in second])
-        self.assertEqual([v["frame"]["cycles"] for o in second for v in o.views], [8, 4])
-        self.assertIn("3 is odd", second[2].refused)
-
-    def test_a_line_that_was_not_finished_is_left_out(self):
-        self.run_all(self.BODY)
-        path = self.folder / "runs.jsonl"
-        path.write_text(path.read_text()[:-20])
-        self.run_all(self.BODY)
-        self.assertEqual(self.calls(), 4 + 2)
-
-    def test_another_program_begins_anew(self):
-        self.run_all(self.BODY)
-        self.run_all(self.BODY + "\n        # changed\n")
-        self.assertEqual(self.calls(), 8)
-
-    def test_whatever_a_run_reads_belongs_to_it(self):
-        bin_folder, data = self.folder / "bin", self.folder / "share" / "streaminggs"
-        for folder in (bin_folder, data, self.folder / "presets"):
-            folder.mkdir(parents=True)
-        # As in a build tree: the program's folder of data holds links to the sources.
-        (data / "presets").symlink_to(self.folder / "presets")
-        preset = self.folder / "presets" / "exact.json"
-        cameras, config = self.scene.with_suffix(".json"), self.folder / "mine.json"
-        in_config, overriding = self.folder / "a_memspec.json", self.folder / "b_memspec.json"
-        config.write_text(f'{{"dram": {{"memspec": "{in_config}"}}}}')
-        read = (data / "technology.json", preset, cameras, in_config, overriding)
-        for path in read:
-            path.write_text("{}")
-        program = self.stand_in(self.BODY).rename(bin_folder / "streaminggs")
-        calls = bin_folder / "calls"
-
-        def made() -> int:
-            """How many simulations there were, after another start of the script."""
-            scene = Scene("truck", str(self.scene), str(cameras))
-            overrides = (("hfus=1",), ("hfus=3",), ("hfus=1", f"dram.memspec={overriding}"))
-            runs = [simulations.Run(scene, config=str(config), overrides=o) for o in overrides]
-            KeptRuns(program, self.folder / "runs.jsonl", 1).outcomes(runs)
-            return len(calls.read_text().splitlines())
-
-        self.assertEqual(made(), 3)
-        self.assertEqual(made(), 3)
-        (self.folder / "presets" / "README.md").write_text("For readers.")
-        self.assertEqual(made(), 3)
-        so_far = 3
-        for path, again in zip((*read, config, self.scene), (3, 3, 3, 3, 1, 3, 3)):
-            with self.subTest(path.name):
-                content = path.read_bytes()
-                path.write_bytes(content[:-1] + b"!")  # as long as before
-                so_far += again
-                self.assertEqual(made(), so_far)
-                path.write_bytes(content)
-                self.assertEqual(made(), so_far)
+        self.assertEqual(fair_fight.near_front(points), [False, True, True, False])
 
 
 if __name__ == "__main__":

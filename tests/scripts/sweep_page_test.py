@@ -12,10 +12,10 @@ from unittest import mock
 
 from in_folder import COMMAND, InFolder, nightly  # isort: skip (finds the scripts)
 import report
-import report_sweep
+from reporting import sweep
 from chromium import Chromium
 from page_checks import NEEDS_BROWSER, PageChecks
-from sweep_results import read_sweep
+from reporting.sweep import read_sweep
 
 
 def line(cycles, mm2, joules, status="done", technology="32 nm", **more) -> str:
@@ -71,7 +71,7 @@ class Read(InFolder):
         )
         path = self.folder / "sweep.jsonl"
         path.write_text(text)
-        panels = dict(report_sweep.panels(read_sweep(path)))
+        panels = dict(sweep.panels(read_sweep(path)))
         self.assertEqual(list(panels), ["all", "s, view 0", "s, view 1"])
         shown = {name: len(re.findall("data-open=", text)) for name, text in panels.items()}
         self.assertEqual(shown, {"all": 2, "s, view 0": 2, "s, view 1": 3})
@@ -104,7 +104,7 @@ class Read(InFolder):
         ):
             with self.subTest(what):
                 path.write_text(line(111, 1, 1) + line(222, 1, 1, **more))
-                panels = dict(report_sweep.panels(read_sweep(path)))
+                panels = dict(sweep.panels(read_sweep(path)))
                 self.assertEqual(list(panels), tabs)
                 for tab, cycles in zip(tabs[-2:], (111, 222)):
                     self.assertIn(f"<td class=n>{cycles}</td>", panels[tab])
@@ -118,7 +118,7 @@ class Read(InFolder):
     def test_of_many_points_the_front_is_shown(self):
         ones = [(at, v) for v in (0, 1) for at in range(30)]
         text = "".join(line(9 + at, 9 - at % 3, 1, set={"hfus": at}, view=v) for at, v in ones)
-        with mock.patch.object(report_sweep.report_tables, "MOST_ROWS", 30):
+        with mock.patch.object(sweep.tables, "MOST_ROWS", 30):
             status, page = self.page(text)
         self.assertEqual(status, 0)
         self.assertEqual(page.count("data-open="), 3 * 10)

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <string>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs::test {
 

@@ -257,6 +257,7 @@ TEST_CASE("bad input: numbers, keys and values that mean nothing") {
            {"$TB --table --set dram.channels=2", 2, {"--config, --set: got them with --table"}},
            {"$TB --check t --config exact", 2, {"--config, --set: got them with --check"}},
            {"$SG simulate $B --out o --cameras ''", 2, {"--cameras", "got nothing"}},
+           {"$SG simulate $B --out o --cache ''", 2, {"--cache", "got nothing"}},
            {"$TB --config ''", 2, {"--config", "got nothing"}},
            {"$TB --vcd ''", 2, {"--vcd", "got nothing"}},
            {"$TB --dram-trace ''", 2, {"--dram-trace", "got nothing"}},
@@ -293,7 +294,10 @@ TEST_CASE("bad input: messages are short, clean and begin with the program") {
           "simulate, what-if, sweep, diff, pack, train, tune, render"}});
   check({"$SG '' --help", 2, {"'': no such command"}});
   check({"$SG simulate", 2, {"SCENE"}});
-  check({"$SG simulate $B --no-such-option", 2, {"--no-such-option"}});
+  check({"$SG simulate $B --no-such-option",
+         2,
+         {"--no-such-option", "(streaminggs simulate --help lists what there is)"}});
+  check({"$TB --no-such-option", 2, {"--no-such-option", "(tb_dram --help lists"}});
   check({"$SG render $B --out a.png --ordering soon", 2, {"soon", "reference", "exact"}});
   check({"$SG simulate $B --out o --set group_width_px=$(head -c 100000 /dev/zero | tr '\\0' x)",
          2,

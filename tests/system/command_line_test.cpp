@@ -33,6 +33,7 @@ TEST_CASE("command line: options and their values") {
            {"$TB --version", {"tb_dram 0."}},
            {"$SG simulate --help", {"exact_vq_packed", "paper_no_cgf"}},
            {"$SG pack --help", {"exact_vq_packed", "paper_no_cgf"}},
+           {"$SG --help pack", {"exact_vq_packed", "paper_no_cgf"}},
            {"$TB --help", {"exact_vq_packed", "paper_no_cgf"}},
            {"$SG simulate --set group_width_px=32 --set group_height_px=32 $S --size 32x18 --out o "
             "&& ls -R o",

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "testbench/builtin/open_scene.h"
 #include "tests/system/frame_checks.h"
@@ -95,24 +95,32 @@ TEST_CASE("configuration: a machine's name alone is the preset of its name, or a
   }
 }
 
-// Units that are there several times have one row for each of their activities, of all of them.
+// Units that are there several times have one row for each of their activities and counters.
 TEST_CASE(
     "configuration: what describe lists of units are those of a frame, without their numbers") {
   const std::regex number("[0-9]+"), row(R"(\| `(\S+)` \| `(\S+)` \| .*)");
+  const auto begins = [](const std::string& line, const char* text) {
+    return line.rfind(text, 0) == 0;
+  };
   for (const char* preset : {"exact", "paper_no_vq", "gscore"}) {
     INFO(preset);
     const Simulation simulation({"builtin:object?n=50", "--size", "16x16", "--config", preset});
-    std::set<std::pair<std::string, std::string>> wanted, listed;
+    std::map<std::string, std::set<std::pair<std::string, std::string>>> wanted, listed;
     for (const auto& [unit, of] : simulation.views()[0]["units"].items()) {
-      for (const auto& [activity, cycles] : of["activities"].items()) {
-        wanted.insert({std::regex_replace(unit, number, "N"), activity});
+      for (const char* what : {"activities", "counters"}) {
+        for (const auto& [name, value] : of[what].items()) {
+          wanted[what].insert({std::regex_replace(unit, number, "N"), name});
+        }
       }
     }
     std::istringstream lines(run_streaminggs({"describe", "--config", preset}).out);
-    for (std::string line; std::getline(lines, line) && line.rfind("| unit | counter |", 0) != 0;) {
+    std::string what;
+    for (std::string line; std::getline(lines, line) && !begins(line, "| component |");) {
+      if (begins(line, "| unit | activity |")) what = "activities";
+      if (begins(line, "| unit | counter |")) what = "counters";
       std::smatch parts;
       if (!std::regex_match(line, parts, row)) continue;
-      CHECK(listed.insert({parts[1], parts[2]}).second);
+      CHECK(listed[what].insert({parts[1], parts[2]}).second);
     }
     CHECK(listed == wanted);
   }

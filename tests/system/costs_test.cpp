@@ -7,10 +7,10 @@
 #include <set>
 #include <string>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
-#include "algorithm/splat/filter_work.h"
-#include "algorithm/splat/lane_macs.h"
+#include "modules/datapath/filter_flows.h"
+#include "modules/datapath/lane_steps.h"
 #include "testbench/cost/technology.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/system/report_values.h"
@@ -37,7 +37,9 @@ double encoding_psnr(const Simulation& simulation) {
   return psnr.is_null() ? std::numeric_limits<double>::infinity() : psnr.get<double>();
 }
 
-std::uint64_t cycles_of(const Simulation& simulation) { return frame_cycles(simulation.views()[0]); }
+std::uint64_t cycles_of(const Simulation& simulation) {
+  return frame_cycles(simulation.views()[0]);
+}
 
 TEST_CASE("encodings: the same frame with and without stalls, in both orders") {
   for (const char* order : {"exact", "paper"}) {

@@ -5,10 +5,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/render/reference_renderer.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
+#include "algorithm/splat/activate.h"
 #include "tests/algorithm/voxel/hard_scenes.h"
 #include "tests/support/shared_inputs.h"
+#include "tests/system/frame_checks.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"
 
@@ -67,6 +70,8 @@ void fuzz_exact_frames(unsigned first_seed, unsigned scenes) {
     const Simulation simulation(arguments);
     simulation.check();
     const auto& view = simulation.views()[0];
+    check_reference(view, simulation.folder() + "/out",
+                    render_reference(make_view<float>(scene.camera), activate(scene.cloud)).image);
     blends += view["image"]["blends"].get<std::uint64_t>();
     spilled += counter(view, "merge", "keys_spilled");
     put_aside += counter(view, "vsu", "queue_entries_put_aside");

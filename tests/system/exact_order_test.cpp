@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "algorithm/render/group_state.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/extent_bound.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/scene/ply_writer.h"
 #include "tests/system/extreme_scenes.h"
@@ -75,7 +75,9 @@ void check_everything(const GaussianCloud& cloud) {
 TEST_CASE("largest extremes: a million at one point", "[nightly]") {
   check_everything(a_million_at_one_point());
 }
-TEST_CASE("largest extremes: 10^5 layers of 1/255", "[nightly]") { check_everything(layers_of_haze()); }
+TEST_CASE("largest extremes: 10^5 layers of 1/255", "[nightly]") {
+  check_everything(layers_of_haze());
+}
 TEST_CASE("largest extremes: details of 10^-3, extents of 10^5", "[nightly]") {
   check_everything(near_and_far());
 }

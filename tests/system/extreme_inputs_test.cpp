@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "tests/system/extreme_scenes.h"
 #include "tests/system/report_values.h"

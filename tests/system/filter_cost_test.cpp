@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/cost/technology.h"

@@ -1,10 +1,14 @@
 // Accounts, bytes, flow and bounds of a view.
 #include "tests/system/frame_checks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "algorithm/image/image_io.h"
+#include "algorithm/image/quality.h"
 #include "tests/system/report_values.h"
 
 namespace sgs::test {
@@ -325,6 +329,14 @@ void check_streaming_machine(const Json& view) {
   check_codebooks(view);
   check_bounds(view);
   check_flow(view);
+}
+
+void check_reference(const Json& view, const std::string& folder, const Image& reference) {
+  const Image held_against =
+      read_image(fmt::format("{}/view_{}/reference.exr", folder, view["view"].get<int>()));
+  const Json& in_file = view["image"]["file_order"];
+  CHECK(differing_pixels(held_against, reference) == in_file["pixels"]);
+  CHECK(max_abs_error(held_against, reference) == in_file["max_abs_error"]);
 }
 
 }  // namespace sgs::test

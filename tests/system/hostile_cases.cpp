@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "algorithm/scene/gaussian_limits.h"
+#include "algorithm/scene/gaussian_cloud.h"
 
 namespace sgs::test {
 namespace {

@@ -8,14 +8,16 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/decisions.h"
 #include "tests/algorithm/render/pixel_bounds.h"
+#include "tests/system/frame_checks.h"
 #include "tests/system/hostile_cases.h"
 #include "tests/system/hostile_settings.h"
 #include "tests/system/streaminggs_run.h"
@@ -95,12 +97,13 @@ class HostileRun {
   void check_against_double() {
     for (const Camera& camera : case_.cameras) {
       INFO("camera " << camera.id << " against double precision");
+      const RenderResult drawn = render_reference(make_view<float>(camera), activate(case_.cloud));
+      references_.emplace(camera.id, drawn.image);
       const Decisions decisions = compare_decisions(camera, case_.cloud);
       INFO(decisions.first_unexplained);
       CHECK(decisions.unexplained == 0);
       if (decisions.near_plane > 0) continue;  // pixels of other splats cannot be compared
-      const PixelBounds bounds = bound_pixels(
-          camera, case_.cloud, render_reference(make_view<float>(camera), activate(case_.cloud)));
+      const PixelBounds bounds = bound_pixels(camera, case_.cloud, drawn);
       INFO(bounds.first_outside);
       CHECK(bounds.outside == 0);
       totals_.pixels += bounds.pixels;
@@ -171,6 +174,8 @@ class HostileRun {
     if (outcome.status == 0) {
       for (const Json& view : views_of_report(folder_.path("out/report.json"))) {
         check_view(view);
+        const int camera = view["view"];
+        check_reference(view, folder_.path("out"), references_.at(camera));
         ++totals_.frames;
         totals_.blends += view["image"]["blends"].get<std::uint64_t>();
       }
@@ -263,6 +268,7 @@ class HostileRun {
   std::mt19937_64 random_;
   HostileTotals& totals_;
   ScratchFolder folder_;
+  std::map<int, Image> references_;  // [camera]
 };
 
 }  // namespace

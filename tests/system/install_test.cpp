@@ -90,5 +90,31 @@ TEST_CASE("install: no program names the data of the source tree") {
   }
 }
 
+TEST_CASE("install: another project draws a frame on its own bus, over the prefix's package") {
+  const Prefix prefix;
+  contains(
+      prefix.run("cp -r '" SGS_SOURCE_DIR "/testbench/embed' . && cd embed && " SGS_CMAKE
+                 " -B b -DCMAKE_PREFIX_PATH=$PWD/../moved && " SGS_CMAKE " --build b && b/embed"),
+      0, "frame equal to the golden picture");
+  contains(prefix.run("rm $P/" SGS_LIB_FOLDER "/streaminggs/libsgs_merge.a; " SGS_CMAKE
+                      " -S embed -B c -DCMAKE_PREFIX_PATH=$PWD/moved"),
+           1, "libsgs_merge.a");
+}
+
+TEST_CASE("install: another project has the libraries as a folder of its own", "[nightly]") {
+  ScratchFolder scratch;
+  scratch.write("CMakeLists.txt",
+                "cmake_minimum_required(VERSION 3.25)\nproject(over LANGUAGES CXX)\n"
+                "add_subdirectory(" SGS_SOURCE_DIR
+                " streaminggs)\nadd_executable(over over.cpp)\n"
+                "target_link_libraries(over PRIVATE streaminggs::tlm)\n");
+  scratch.write("over.cpp",
+                "#include \"tlm/time_resolution.h\"\n"
+                "int sc_main(int, char**) { sgs::use_femtosecond_resolution(); return 0; }\n");
+  contains(shell(scratch, SGS_CMAKE " -B b && " SGS_CMAKE " --build b --target over && b/over && "
+                                    "echo done"),
+           0, "done");
+}
+
 }  // namespace
 }  // namespace sgs::test

@@ -108,15 +108,15 @@ TEST_CASE("left out: what a tile-centric machine spares") {
   run.check();
   const Json& view = run.views()[0];
   const std::uint64_t pairs = total(view, "pairs"), sorted = total(view, "entries_sorted");
-  struct Counts {
+  struct Skipped {
     const char* what;
     std::uint64_t count;
   };
   for (const auto& [what, count] :
-       {Counts{"entries_of_finished_tiles", pairs - sorted},
-        Counts{"reads_of_finished_tiles",
+       {Skipped{"entries_of_finished_tiles", pairs - sorted},
+        Skipped{"reads_of_finished_tiles",
                pairs + total(view, "entries_split") - total(view, "entries_read")},
-        Counts{"records_of_finished_tiles",
+        Skipped{"records_of_finished_tiles",
                sorted - counter_of_all(view, "rendering", "records")}}) {
     INFO(what);
     CHECK(left_out(view, what) == count);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_writer.h"
 
 namespace sgs::test {

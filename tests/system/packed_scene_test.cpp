@@ -9,7 +9,7 @@
 
 #include "algorithm/image/image_io.h"
 #include "algorithm/image/quality.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/scene/ply_writer.h"
 #include "algorithm/splat/activate.h"
@@ -285,12 +285,12 @@ TEST_CASE("pack: what a packed scene cannot be used for is refused") {
   const Arguments simulate = joined({"simulate"}, scenes.view(file));
   const Arguments out = {"--out", scenes.path("out")};
   check_packed_refused(joined(joined(simulate, out), {"--config", "paper"}),
-                {file, "stored by chunks", "machine paper reads", "--config exact"});
-  check_packed_refused({"render", file, "--cameras", scenes.cameras(), "--ordering", "paper", "--out",
-                 scenes.path("out.png")},
-                {file, "stored by chunks", "machine paper reads"});
+                       {file, "stored by chunks", "machine paper reads", "--config exact"});
+  check_packed_refused({"render", file, "--cameras", scenes.cameras(), "--ordering", "paper",
+                        "--out", scenes.path("out.png")},
+                       {file, "stored by chunks", "machine paper reads"});
   check_packed_refused(joined(joined(simulate, out), {"--set", "sram.codebook_bytes=1000"}),
-                {"sram.codebook_bytes: 1000 bytes are there", "30 entries"});
+                       {"sram.codebook_bytes: 1000 bytes are there", "30 entries"});
   check_packed_refused(joined(joined(simulate, out), {"--weigh-by", "0"}), {"--weigh-by", file});
   check_packed_refused(joined(joined(simulate, out), {"--drop-invalid"}), {"--drop-invalid", file});
   check_packed_refused(joined({"simulate", file}, out), {file, "--cameras FILE is needed"});
@@ -355,7 +355,7 @@ TEST_CASE("pack: a scene that no reader would take is refused and leaves nothing
   const ScratchFolder scratch;
   write_ply(scratch.path("a.ply"), scene.cloud);
   check_packed_refused({"pack", scratch.path("a.ply"), "--out", scratch.path("a.sgs")},
-                {"a.ply: vertex 7, property scale_1: got 200, expected at most"});
+                       {"a.ply: vertex 7, property scale_1: got 200, expected at most"});
   CHECK(scratch.file_count() == 1);
 }
 

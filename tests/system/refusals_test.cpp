@@ -151,26 +151,28 @@ TEST_CASE("refusals: voxels so small that the grid has no numbers for them") {
 
 TEST_CASE("refusals: what every view refuses, in one line") {
   check_not_started({"simulate", "builtin:object?n=3000", "--size", "16x16", "--view", "all",
-                 "--config", "gscore", "--set", "lists.pool_bytes=4096"},
-                {"view 0: --set lists.pool_bytes=4096: lists.pool_bytes: got 4096",
-                 "none of 5 views can be drawn"});
+                     "--config", "gscore", "--set", "lists.pool_bytes=4096"},
+                    {"view 0: --set lists.pool_bytes=4096: lists.pool_bytes: got 4096",
+                     "none of 5 views can be drawn"});
 }
 
 TEST_CASE("refusals: scenes, cameras and sizes that are not there") {
   check_not_started({"simulate", "/no/such/scene.ply", "--cameras", "/no/such/cameras.json"},
-                {"/no/such/scene.ply"});
+                    {"/no/such/scene.ply"});
   check_not_started({"simulate", "builtin:castle"}, {"castle"});
   check_not_started({"simulate", "builtin:object?n=0"}, {"n="});
   check_not_started({"simulate", "builtin:object?n=100", "--cameras", "/no/such/cameras.json"},
-                {"/no/such/cameras.json"});
+                    {"/no/such/cameras.json"});
   check_not_started({"simulate", "builtin:object?n=100", "--view", "99"},
-                {"--view: got '99', expected all"});
+                    {"--view: got '99', expected all"});
   check_not_started({"simulate", "builtin:object?n=100", "--view", "0,99"},
-                {"--view 0,99: got '99', expected all"});
-  check_not_started({"simulate", SGS_TECHNOLOGY},
-                {"got the extension \".json\", expected a .ply file, builtin:NAME?n=COUNT, or a "
-                 ".sgs file made by pack"});
-  check_not_started({"simulate", "builtin:object?n=100", "--size", "64"}, {"--size", "WIDTHxHEIGHT"});
+                    {"--view 0,99: got '99', expected all"});
+  check_not_started(
+      {"simulate", SGS_TECHNOLOGY},
+      {"got the extension \".json\", expected a .ply file, builtin:NAME?n=COUNT, or a "
+       ".sgs file made by pack"});
+  check_not_started({"simulate", "builtin:object?n=100", "--size", "64"},
+                    {"--size", "WIDTHxHEIGHT"});
   check_not_started({"simulate", "builtin:object?n=100", "--size", "0x64"}, {"--size"});
 }
 

@@ -76,8 +76,8 @@ TEST_CASE("sweep: a result is simulate's report of that point, to the digit") {
     std::istringstream words(c.settings);
     for (std::string word; words >> word;) {
       const std::string value = word.substr(word.find('=') + 1);
-      const bool json = Json::accept(value);
-      set[word.substr(0, word.find('='))] = json ? Json::parse(value) : Json(value);
+      const bool is_json = Json::accept(value);
+      set[word.substr(0, word.find('='))] = is_json ? Json::parse(value) : Json(value);
     }
     points += Json{{"config", c.config}, {"set", set}, {"view", c.view}}.dump() + "\n";
   }

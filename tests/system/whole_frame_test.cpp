@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/system/report_values.h"
 #include "tests/system/streaminggs_run.h"

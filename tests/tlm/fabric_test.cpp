@@ -1,8 +1,8 @@
 // Pool and counters: reuse, sums.
 #include <catch2/catch.hpp>
 
-#include "tlm/counters.h"
 #include "tlm/payload_pool.h"
+#include "tlm/traffic_counters.h"
 
 namespace sgs {
 namespace {

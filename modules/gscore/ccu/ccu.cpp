@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "algorithm/splat/make_splat.h"
-#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 
@@ -286,12 +285,7 @@ void Ccu::publish(DataSheet& sheet) {
   sheet.activity(cull_, "ccu cull", "drops what cannot touch the frame");
   sheet.activity(fetch_, "ccu fetch", "asks for second halves");
   sheet.activity(convert_, "ccu convert", "projects and colours");
-  sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
-  sheet.counter("culled", "Gaussians", "of these, that cannot touch the frame", counters_.culled);
-  sheet.counter("second_halves", "Gaussians", "fetched", counters_.second_halves);
-  sheet.counter("runs", "reads", "of these, of neighbours in memory at once", counters_.runs);
-  sheet.counter("converted", "Gaussians", "projected and coloured", counters_.converted);
-  sheet.counter("unseen", "Gaussians", "of these on no tile", counters_.unseen);
+  sheet.counters(counters_);
   sheet.datapath(cull_path_, counters_.first_halves);
   sheet.datapath(convert_path_, counters_.converted);
   sheet.sram(sram_uses(config_));

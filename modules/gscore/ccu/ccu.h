@@ -11,7 +11,7 @@
 #include <systemc>
 #include <vector>
 
-#include "algorithm/splat/frame_sides.h"
+#include "algorithm/splat/coarse_bound.h"
 #include "modules/datapath/places_under_test.h"
 #include "modules/gscore/gscore_job.h"
 #include "modules/gscore/messages.h"
@@ -31,11 +31,14 @@ class Ccu : public sc_core::sc_module {
   // index: of all CCUs: slice s belongs to CCU s mod config.ccus.
   Ccu(const sc_core::sc_module_name& name, std::uint32_t index, const UnitContext& context);
 
-  struct Counters {
-    std::uint64_t first_halves = 0, culled = 0;
-    std::uint64_t second_halves = 0, converted = 0;
-    std::uint64_t gathered = 0, runs = 0;  // candidates and ends of slices; reads
-    std::uint64_t unseen = 0;              // converted, and on no tile
+  struct Counters : CounterSet {
+    Counter first_halves{*this, "first_halves", "Gaussians", "fetched"};
+    Counter culled{*this, "culled", "Gaussians", "of these, that cannot touch the frame"};
+    Counter second_halves{*this, "second_halves", "Gaussians", "fetched"};
+    Counter runs{*this, "runs", "reads", "of these, of neighbours in memory at once"};
+    Counter converted{*this, "converted", "Gaussians", "projected and coloured"};
+    Counter unseen{*this, "unseen", "Gaussians", "of these on no tile"};
+    std::uint64_t gathered = 0;  // candidates and ends of slices
   };
 
   static SramUses sram_uses(const GscoreConfig& config);

@@ -105,7 +105,7 @@ void TileLister::run_list() {
     pass.end = std::min(pass.first + most, job_.tile_count);
     ++counters_.passes;
     if (!project(pass)) {
-      ++counters_.overflowed;
+      ++counters_.passes_overflowed;
       most = (pass.end - pass.first + 1) / 2;
       continue;
     }
@@ -234,7 +234,7 @@ void TileLister::hand_out(const Pass& pass) {
     ++counters_.tiles;
     const ListEnd& end = ends_[tile - pass.first];
     counters_.tiles_empty += end.entries == 0 ? 1 : 0;
-    counters_.list_max = std::max<std::uint64_t>(counters_.list_max, end.entries);
+    counters_.list_entries_max.raise_to(end.entries);
     jobs[core]->push({TileMark::kTile, tile, tile - pass.first, end.entries}, list_);
   }
   const TileMark mark = pass.end == job_.tile_count ? TileMark::kEndOfFrame : TileMark::kEndOfPass;
@@ -285,32 +285,13 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(test_, "tile tests", "tests tiles and their parts");
   sheet.activity(list_, "listing", "lists Gaussians in tiles, then hands tiles out");
-  sheet.counter("passes", "passes", "over the scene", counters_.passes);
-  sheet.counter("passes_overflowed", "passes", "of these made again: the pool was too small",
-                counters_.overflowed);
-  sheet.counter("ends_alone", "slices", "whose last Gaussian is on no tile", counters_.ends_alone);
-  sheet.counter("tile_tests", "tiles", "tested, once for each Gaussian", counters_.tile_tests);
-  sheet.counter("tile_steps", "steps", "of neighbours in a row, tested together",
-                counters_.tile_steps);
-  sheet.counter("part_tests", "tiles", "touched, whose parts are tested", counters_.part_tests);
-  sheet.counter("gaussians", "Gaussians", "taken, once for each pass", counters_.gaussians);
-  sheet.counter("gaussians_off_pass", "Gaussians", "of these with tiles in other passes only",
-                counters_.off_pass);
-  sheet.counter("pairs", "entries", "a Gaussian in a tile each", counters_.pairs);
-  sheet.counter("records", "Gaussians", "projected, written", counters_.records);
-  sheet.counter("blocks", "blocks", "of lists begun", counters_.blocks);
-  sheet.counter("lines_full", "lines", "written when they were full", counters_.lines_full);
-  sheet.counter("lines_displaced", "lines", "written when another tile took their place",
-                counters_.lines_displaced);
-  sheet.counter("list_entries_max", "entries", "of the longest list", counters_.list_max);
-  sheet.counter("tiles", "tiles", "handed out", counters_.tiles);
-  sheet.counter("tiles_empty", "tiles", "of these without a Gaussian", counters_.tiles_empty);
+  sheet.counters(counters_);
   sheet.sram(sram_uses(config_));
   sheet.accesses(kEnds, counters_.table_reads, counters_.table_writes);
   sheet.accesses(kLines, counters_.line_reads, counters_.line_writes);
   sheet.accesses(kTags, counters_.line_looks, counters_.line_changes);
   sheet.accesses(kWaitingRecords, counters_.records, counters_.records);
-  const std::uint64_t tested = counters_.gaussians - counters_.off_pass;
+  const std::uint64_t tested = counters_.gaussians - counters_.gaussians_off_pass;
   sheet.accesses(kTestedRecords, counters_.records, tested);
   sheet.accesses(kTestedKeys, counters_.pairs, tested);
   if (part_path_) sheet.accesses(kTestedBoxes, counters_.part_tests, tested);

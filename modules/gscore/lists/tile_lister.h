@@ -94,13 +94,26 @@ class TileLister : public sc_core::sc_module {
   bool overflowed_ = false;
   std::uint32_t record_number_ = 0;  // of the next one
 
-  struct Counters {
-    std::uint64_t passes = 0, overflowed = 0;
-    std::uint64_t gaussians = 0, ends_alone = 0, tile_steps = 0, tile_tests = 0, part_tests = 0,
-                  off_pass = 0, pairs = 0, records = 0;
-    std::uint64_t lines_full = 0, lines_displaced = 0;
-    std::uint64_t blocks = 0;
-    std::uint64_t list_max = 0, tiles = 0, tiles_empty = 0;
+  struct Counters : CounterSet {
+    Counter passes{*this, "passes", "passes", "over the scene"};
+    Counter passes_overflowed{*this, "passes_overflowed", "passes",
+                              "of these made again: the pool was too small"};
+    Counter ends_alone{*this, "ends_alone", "slices", "whose last Gaussian is on no tile"};
+    Counter tile_tests{*this, "tile_tests", "tiles", "tested, once for each Gaussian"};
+    Counter tile_steps{*this, "tile_steps", "steps", "of neighbours in a row, tested together"};
+    Counter part_tests{*this, "part_tests", "tiles", "touched, whose parts are tested"};
+    Counter gaussians{*this, "gaussians", "Gaussians", "taken, once for each pass"};
+    Counter gaussians_off_pass{*this, "gaussians_off_pass", "Gaussians",
+                               "of these with tiles in other passes only"};
+    Counter pairs{*this, "pairs", "entries", "a Gaussian in a tile each"};
+    Counter records{*this, "records", "Gaussians", "projected, written"};
+    Counter blocks{*this, "blocks", "blocks", "of lists begun"};
+    Counter lines_full{*this, "lines_full", "lines", "written when they were full"};
+    Counter lines_displaced{*this, "lines_displaced", "lines",
+                            "written when another tile took their place"};
+    Counter list_entries_max{*this, "list_entries_max", "entries", "of the longest list"};
+    Counter tiles{*this, "tiles", "tiles", "handed out"};
+    Counter tiles_empty{*this, "tiles_empty", "tiles", "of these without a Gaussian"};
     std::uint64_t line_reads = 0, line_writes = 0;  // words
     std::uint64_t table_reads = 0, table_writes = 0;
     std::uint64_t line_looks = 0, line_changes = 0;

@@ -1,7 +1,6 @@
 // The testing thread of the tile lister: which tiles of the pass a Gaussian touches, which parts.
 #include <algorithm>
 
-#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/lists/tile_lister.h"
 
@@ -42,7 +41,7 @@ void TileLister::test_tiles(const Converted& gaussian, const Pass& pass) {
   const int end_row = static_cast<int>(cycles_for(pass.end, job_.columns));
   if (tiles.y0 >= end_row || tiles.y1 <= first_row) {
     test_.work(1);
-    ++counters_.off_pass;
+    ++counters_.gaussians_off_pass;
     return;
   }
   const auto at_once = static_cast<int>(config_.lists.tiles_at_once);

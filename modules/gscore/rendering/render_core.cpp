@@ -5,10 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "algorithm/render/tile_blend.h"
-#include "modules/datapath/counter_bits.h"
+#include "algorithm/render/tile_renderer.h"
 #include "modules/datapath/selection.h"
-#include "modules/datapath/wait_for_turn.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/gscore/gscore_datapaths.h"
 
@@ -279,22 +277,7 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.activity(fetch_, "record fetch", "asks for records of sorted entries");
   sheet.activity(blend_, "rendering", "blends them into a tile");
   sheet.activity(drain_, "drain", "writes finished pixels");
-  sheet.counter("tiles", "tiles", "rendered", n.tiles);
-  sheet.counter("tiles_finished", "tiles", "of these with every pixel finished early",
-                n.tiles_finished);
-  sheet.counter("records", "Gaussians", "fetched, once for each tile", n.records);
-  sheet.counter("dropped", "entries", "of finished tiles, without a record", n.dropped);
-  sheet.counter("dropped_fetched", "entries", "of finished tiles, with their record",
-                n.dropped_fetched);
-  sheet.counter("splats", "entries", "blended or looked at", n.splats);
-  sheet.counter("parts", "parts", "of tiles, blended", n.parts);
-  sheet.counter("parts_finished", "parts", "that were finished or outside the frame",
-                n.parts_finished);
-  sheet.counter("blocks", "blocks", "of 16 px, one for each VRU", n.blocks);
-  sheet.counter("hazard_cycles", "cycles", "waiting for the splat ahead on the same pixels",
-                n.hazard_cycles);
-  sheet.counter("contributors", "pixels", "blended with an alpha above 1/255", n.contributors);
-  sheet.counter("pixels", "pixels", "written", n.pixels);
+  sheet.counters(counters_);
   if (conic_path_) sheet.datapath(*conic_path_, n.splats);
   sheet.datapath(corner_path_, n.blocks);
   sheet.datapath(blend_path_, n.blocks);

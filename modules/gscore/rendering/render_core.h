@@ -82,11 +82,23 @@ class RenderCore : public sc_core::sc_module {
   std::vector<std::uint64_t> finished_from_;  // [16 px] cycle
   std::uint32_t tile_ = 0;                    // for the waveform too
 
-  struct Counters {
-    std::uint64_t tiles = 0, tiles_finished = 0;
-    std::uint64_t records = 0, dropped = 0, dropped_fetched = 0;
-    std::uint64_t splats = 0, parts = 0, parts_finished = 0, blocks = 0, hazard_cycles = 0;
-    std::uint64_t contributors = 0, pixels = 0;
+  struct Counters : CounterSet {
+    Counter tiles{*this, "tiles", "tiles", "rendered"};
+    Counter tiles_finished{*this, "tiles_finished", "tiles",
+                           "of these with every pixel finished early"};
+    Counter records{*this, "records", "Gaussians", "fetched, once for each tile"};
+    Counter dropped{*this, "dropped", "entries", "of finished tiles, without a record"};
+    Counter dropped_fetched{*this, "dropped_fetched", "entries",
+                            "of finished tiles, with their record"};
+    Counter splats{*this, "splats", "entries", "blended or looked at"};
+    Counter parts{*this, "parts", "parts", "of tiles, blended"};
+    Counter parts_finished{*this, "parts_finished", "parts",
+                           "that were finished or outside the frame"};
+    Counter blocks{*this, "blocks", "blocks", "of 16 px, one for each VRU"};
+    Counter hazard_cycles{*this, "hazard_cycles", "cycles",
+                          "waiting for the splat ahead on the same pixels"};
+    Counter contributors{*this, "contributors", "pixels", "blended with an alpha above 1/255"};
+    Counter pixels{*this, "pixels", "pixels", "written"};
   } counters_;
 };
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "modules/datapath/counter_bits.h"
+#include "modules/datapath/selection.h"
 #include "modules/gscore/sorting/bitonic_cost.h"
 
 namespace sgs::gscore {
@@ -92,7 +92,7 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
     return;
   }
   if (keys.single()) {
-    counters_.in_order += entries.size();
+    counters_.entries_in_order += entries.size();
     if (level > 0) counters_.places_read += entries.size();
     emit(tile, entries, level == 0 ? 1 : kReadsByPlace);
     return;
@@ -150,7 +150,7 @@ void TileSorter::emit(std::uint32_t tile, const std::vector<TileEntry>& entries,
     sort_.work(1);
     sorted->push({EntryMark::kEntry, tile, entry.record, entry.bitmap, entry.opacity}, sort_);
   }
-  counters_.emitted += entries.size();
+  counters_.entries_sorted += entries.size();
   counters_.list_reads += entries.size();
 }
 
@@ -192,22 +192,7 @@ void TileSorter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(load_, "list loading", "reads lists of tiles, splits what is too long");
   sheet.activity(sort_, "sorting", "splits lists into chunks and sorts these");
-  sheet.counter("tiles", "tiles", "taken", n.tiles);
-  sheet.counter("entries_read", "entries", "of lists and of subsets in memory", n.entries_read);
-  sheet.counter("entries_loaded", "entries", "that came to lists on chip", n.entries_loaded);
-  sheet.counter("lists_split", "lists", "too long for the chip, split in memory", n.lists_split);
-  sheet.counter("entries_split", "entries", "of these, written to subsets", n.entries_split);
-  sheet.counter("splits", "lists", "split on chip", n.splits);
-  sheet.counter("split_entries", "entries", "of these", n.split_entries);
-  sheet.counter("chunks", "chunks", "sorted by the network", n.chunks);
-  sheet.counter("chunk_entries", "entries", "of these", n.chunk_entries);
-  sheet.counter("entries_in_order", "entries", "of lists with one key", n.in_order);
-  sheet.counter("entries_sorted", "entries", "handed on", n.emitted);
-  sheet.counter("dropped_unread", "entries", "of finished tiles, still in memory",
-                n.dropped_unread);
-  sheet.counter("dropped_loaded", "entries", "of finished tiles, on chip", n.dropped_loaded);
-  sheet.counter("compare_exchanges", "operations", "of the network", n.compare_exchanges);
-  sheet.counter("merged", "entries", "once for each level of merging", n.merged);
+  sheet.counters(counters_);
 
   const double of_exchange = comparators_of_exchange(config_);
   const double there = kNetworkExchanges, done = static_cast<double>(n.compare_exchanges);

@@ -93,14 +93,24 @@ class TileSorter : public sc_core::sc_module {
   TimedFifo<Loaded> loaded_;
   TimedFifo<std::uint32_t> free_lists_;
 
-  struct Counters {
-    std::uint64_t tiles = 0, entries_read = 0, entries_loaded = 0, entries_split = 0;
-    std::uint64_t lists_split = 0;
-    std::uint64_t splits = 0, split_entries = 0;
-    std::uint64_t chunks = 0, chunk_entries = 0, in_order = 0;
-    std::uint64_t dropped_unread = 0, dropped_loaded = 0;
-    std::uint64_t emitted = 0;
-    std::uint64_t compare_exchanges = 0, merged = 0, places_emitted = 0;
+  struct Counters : CounterSet {
+    Counter tiles{*this, "tiles", "tiles", "taken"};
+    Counter entries_read{*this, "entries_read", "entries", "of lists and of subsets in memory"};
+    Counter entries_loaded{*this, "entries_loaded", "entries", "that came to lists on chip"};
+    Counter lists_split{*this, "lists_split", "lists", "too long for the chip, split in memory"};
+    Counter entries_split{*this, "entries_split", "entries", "of these, written to subsets"};
+    Counter splits{*this, "splits", "lists", "split on chip"};
+    Counter split_entries{*this, "split_entries", "entries", "of these"};
+    Counter chunks{*this, "chunks", "chunks", "sorted by the network"};
+    Counter chunk_entries{*this, "chunk_entries", "entries", "of these"};
+    Counter entries_in_order{*this, "entries_in_order", "entries", "of lists with one key"};
+    Counter entries_sorted{*this, "entries_sorted", "entries", "handed on"};
+    Counter dropped_unread{*this, "dropped_unread", "entries",
+                           "of finished tiles, still in memory"};
+    Counter dropped_loaded{*this, "dropped_loaded", "entries", "of finished tiles, on chip"};
+    Counter compare_exchanges{*this, "compare_exchanges", "operations", "of the network"};
+    Counter merged{*this, "merged", "entries", "once for each level of merging"};
+    std::uint64_t places_emitted = 0;
     std::uint64_t pivots_sampled = 0;   // from blocks
     std::uint64_t subset_accesses = 0;  // on chip: reads, and writes
     std::uint64_t stage_words = 0, line_reads = 0, line_writes = 0;

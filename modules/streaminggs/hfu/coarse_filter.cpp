@@ -130,8 +130,8 @@ void CoarseFilter::filter_slice(const Slice& slice) {
       places.add(cycle - 1);
       continue;
     }
-    counters_.passed += count_parts(parts);
-    ++counters_.candidates;
+    counters_.coarse_passed += count_parts(parts);
+    ++counters_.coarse_candidates;
     filter_.work(cycle - passed);
     FineCandidate candidate;
     candidate.group = slice.share.group;
@@ -157,8 +157,8 @@ void CoarseFilter::filter_slice(const Slice& slice) {
 std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t group,
                                  std::uint32_t open) {
   if (!config_.coarse_filter) return open;
-  ++counters_.tests;
-  counters_.tests_of_parts += count_parts(open);
+  ++counters_.coarse_tests;
+  counters_.coarse_tests_of_parts += count_parts(open);
   std::uint32_t parts = 0;
   for (std::uint32_t p = 0; p < part_count(); ++p) {
     const bool tested = (open >> p & 1U) != 0;
@@ -192,18 +192,7 @@ void CoarseFilter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(load_, "load", "fetches first halves into the input buffer");
   sheet.activity(filter_, "coarse", "puts them through the CFUs");
-  sheet.counter("shares", "shares", "of visits, empty ones and ends of groups included",
-                counters_.shares);
-  sheet.counter("first_halves", "Gaussians", "fetched", counters_.first_halves);
-  sheet.counter("coarse_tests", "Gaussians", "tested", counters_.tests);
-  sheet.counter("coarse_tests_of_parts", "Gaussians", "tested, once for each part of the group",
-                counters_.tests_of_parts);
-  sheet.counter("coarse_passed", "Gaussians", "of these, that may touch their part",
-                counters_.passed);
-  sheet.counter("coarse_candidates", "Gaussians", "that may touch a part of the group",
-                counters_.candidates);
-  sheet.counter("dropped_saturated", "Gaussians", "dropped: their group was finished",
-                counters_.dropped_saturated);
+  sheet.counters(counters_);
   if (has_cfus_) sheet.datapath(tests_, counters_.read);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated, "filtering and second halves");

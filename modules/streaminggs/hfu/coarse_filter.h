@@ -2,7 +2,7 @@
 // the CFUs, which know only what stands in a first half. With a shared fetch the CFUs of all HFUs
 // divide the Gaussians among themselves; a CFU bounds one once and compares the bound with every
 // part of the group. Timing: a Gaussian in each CFU at a time; the next slices are fetched while
-// this one is filtered. Function: algorithm/memory/first_half_test.h.
+// this one is filtered. Function: algorithm/memory/record_split.h.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <systemc>
 #include <vector>
 
-#include "algorithm/memory/first_half_test.h"
+#include "algorithm/memory/record_split.h"
 #include "modules/datapath/places_under_test.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
@@ -33,15 +33,19 @@ class CoarseFilter : public sc_core::sc_module {
   CoarseFilter(const sc_core::sc_module_name& name, const HfuConfig& config,
                const UnitContext& context);
 
-  struct Counters {
-    std::uint64_t shares = 0;             // of visits, empty ones and ends of groups included
-    std::uint64_t first_halves = 0;       // fetched
-    std::uint64_t read = 0;               // of these, from the input buffer
-    std::uint64_t tests = 0;              // of a Gaussian
-    std::uint64_t tests_of_parts = 0;     // of a Gaussian against a part
-    std::uint64_t passed = 0;             // of these
-    std::uint64_t candidates = 0;         // Gaussians that passed for one part or more
-    std::uint64_t dropped_saturated = 0;  // Gaussians: the group was finished
+  struct Counters : CounterSet {
+    Counter shares{*this, "shares", "shares", "of visits, empty ones and ends of groups included"};
+    Counter first_halves{*this, "first_halves", "Gaussians", "fetched"};
+    Counter coarse_tests{*this, "coarse_tests", "Gaussians", "tested"};
+    Counter coarse_tests_of_parts{*this, "coarse_tests_of_parts", "Gaussians",
+                                  "tested, once for each part of the group"};
+    Counter coarse_passed{*this, "coarse_passed", "Gaussians",
+                          "of these, that may touch their part"};
+    Counter coarse_candidates{*this, "coarse_candidates", "Gaussians",
+                              "that may touch a part of the group"};
+    Counter dropped_saturated{*this, "dropped_saturated", "Gaussians",
+                              "dropped: their group was finished"};
+    std::uint64_t read = 0;  // first halves, from the input buffer
   };
   const Counters& counters() const { return counters_; }
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for);

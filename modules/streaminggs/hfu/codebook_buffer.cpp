@@ -83,7 +83,7 @@ std::uint64_t CodebookBuffer::take_record(const CodebookIndices& indices, std::u
     if (format.entries[id] == 0) continue;
     cycle = take_lines(id, format.entry(static_cast<Codebook>(id), indices[id]), cycle);
   }
-  ++counters_.records;
+  ++counters_.records_decoded;
   return cycle;
 }
 
@@ -94,8 +94,8 @@ std::uint64_t CodebookBuffer::take_lines(std::size_t codebook, const EntryRange&
   const std::uint32_t last = (entry.begin + entry.bytes - 1) / config_.line_bytes;
   for (std::uint32_t line = first; line <= last; ++line) {
     const std::uint64_t taken = banks_.take(line % config_.banks, cycle);
-    counters_.conflict_cycles += taken - cycle;
-    ++counters_.lines;
+    counters_.bank_conflict_cycles += taken - cycle;
+    ++counters_.lines_read;
     ++counters_.lines_of[codebook];
     cycle = taken + 1;
   }
@@ -127,7 +127,7 @@ void CodebookBuffer::publish_readers(DataSheet& sheet, const SramUses& uses) con
   for (const SramUse& use : uses) banks += use.shape.banks;
   const double bits = 8.0 * config_.line_bytes;
   const auto readers = static_cast<double>(requests_.size());
-  const auto lines = static_cast<double>(counters_.lines);
+  const auto lines = static_cast<double>(counters_.lines_read);
   publish_selection(sheet, "codebooks", {banks, bits, readers}, lines);
   publish_selection(sheet, "codebooks", {config_.line_bytes / sizeof(float), bits, readers}, lines);
 }
@@ -135,16 +135,10 @@ void CodebookBuffer::publish_readers(DataSheet& sheet, const SramUses& uses) con
 void CodebookBuffer::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(load_, "codebook_load", "fills the buffer");
-  sheet.counter("bytes_loaded", "bytes", "of codebooks read from DRAM", counters_.bytes_loaded);
-  sheet.counter("loaded_at_cycle", "cycle", "in which the buffer was full",
-                counters_.loaded_at_cycle);
-  sheet.counter("records_decoded", "second halves", "whose entries were read", counters_.records);
-  sheet.counter("lines_read", "lines", "of the banks", counters_.lines);
-  sheet.counter("bank_conflict_cycles", "cycles", "that lines waited for a bank being read",
-                counters_.conflict_cycles);
+  sheet.counters(counters_);
   // An entry's place: its number times its bytes, and the lines from there.
   sheet.part("codebooks", "comparator", static_cast<double>(requests_.size()), 1);
-  sheet.operations("codebooks", "comparator", static_cast<double>(counters_.lines));
+  sheet.operations("codebooks", "comparator", static_cast<double>(counters_.lines_read));
   const SecondHalfFormat& format = job_.layout.second_half;
   const SramUses uses = sram_uses(config_, format);
   sheet.sram(uses);

@@ -32,13 +32,14 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
                     Activity& activity) override;
   const std::byte* bytes() const override { return bytes_.data(); }
 
-  struct Counters {
-    std::uint64_t bytes_loaded = 0;
-    std::uint64_t loaded_at_cycle = 0;  // the buffer was full
-    std::uint64_t records = 0;          // decoded
-    std::uint64_t lines = 0;            // read
-    std::uint64_t lines_of[kCodebookCount] = {};
-    std::uint64_t conflict_cycles = 0;  // a line waited because its bank was being read
+  struct Counters : CounterSet {
+    Counter bytes_loaded{*this, "bytes_loaded", "bytes", "of codebooks read from DRAM"};
+    Counter loaded_at_cycle{*this, "loaded_at_cycle", "cycle", "in which the buffer was full"};
+    Counter records_decoded{*this, "records_decoded", "second halves", "whose entries were read"};
+    Counter lines_read{*this, "lines_read", "lines", "of the banks"};
+    Counter bank_conflict_cycles{*this, "bank_conflict_cycles", "cycles",
+                                 "that lines waited for a bank being read"};
+    std::uint64_t lines_of[kCodebookCount] = {};  // of lines_read
   };
   const Counters& counters() const { return counters_; }
   // Codebooks of one scene.

@@ -3,11 +3,9 @@
 
 #include <cmath>
 
-#include "algorithm/splat/filter_work.h"
-#include "algorithm/splat/lane_macs.h"
 #include "algorithm/splat/visible_extents.h"
 #include "modules/datapath/counted_datapath.h"
-#include "modules/datapath/scheduled_datapath.h"
+#include "modules/datapath/filter_flows.h"
 
 namespace sgs {
 namespace {
@@ -19,9 +17,9 @@ std::uint32_t across(std::uint32_t parts) {
 }  // namespace
 
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts) {
-  OperationCounts in_parts = coarse_work(bound_by, longest_case(), across(parts));
+  OperationCounts in_parts = coarse_flow(bound_by, longest_case(), across(parts)).counts();
   if (bound_by == CoarseBoundBy::kExtents) in_parts.look_ups += kExtentLookUps;
-  const std::uint32_t whole = folded_macs(coarse_work(bound_by, longest_case()));
+  const std::uint32_t whole = folded_macs(coarse_flow(bound_by, longest_case()).counts());
   Datapath path = counted_datapath("coarse", "coarse", in_parts);
   path.lanes = config.cfu_lanes;
   path.copies = config.cfus;
@@ -31,7 +29,7 @@ Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::u
 }
 
 Datapath fine_datapath(const HfuConfig& config, const FineRecord& record) {
-  Datapath path = counted_datapath("fine", "fine", fine_work(longest_case(), record).total());
+  Datapath path = counted_datapath("fine", "fine", fine_flow(longest_case(), record).all.counts());
   path.lanes = config.ffu_lanes;
   path.used_macs = config.ffu_macs;
   path.published_macs = kPaperFfuMacs;
@@ -41,7 +39,7 @@ Datapath fine_datapath(const HfuConfig& config, const FineRecord& record) {
 Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts,
                          const OperationLatencies& latencies) {
   Datapath path = coarse_datapath(config, bound_by, parts);
-  const auto steps = coarse_steps(bound_by, longest_case(), across(parts), latencies);
+  const auto steps = coarse_flow(bound_by, longest_case(), across(parts)).steps(latencies);
   schedule(path, steps, latencies);
   set_by_group(path, steps);
   return path;
@@ -50,7 +48,7 @@ Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::u
 Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies) {
   Datapath path = fine_datapath(config, record);
-  const auto steps = fine_steps(longest_case(), record, latencies);
+  const auto steps = fine_flow(longest_case(), record).all.steps(latencies);
   schedule(path, steps, latencies);
   set_by_group(path, steps);
   return path;

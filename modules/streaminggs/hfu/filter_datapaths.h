@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "algorithm/splat/coarse_bound_by.h"
-#include "algorithm/splat/fine_record.h"
-#include "algorithm/splat/longest_path.h"
+#include "algorithm/memory/record_split.h"
+#include "algorithm/splat/coarse_bound.h"
+#include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/hfu/hfu_config.h"
 #include "tlm/datapath.h"
 

@@ -6,7 +6,7 @@
 #include "algorithm/memory/record_split.h"
 #include "algorithm/memory/splat_record.h"
 #include "algorithm/splat/make_splat.h"
-#include "modules/datapath/wait_for_turn.h"
+#include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/hfu/filter_datapaths.h"
 
 namespace sgs {
@@ -147,7 +147,7 @@ void FineFilter::run_decode(Part& part) {
       decode.work(1);
     } else {
       await(memory, decode, candidate.ticket);
-      ++counters_.taken;
+      ++counters_.second_halves_taken;
       if (finished[static_cast<int>(part.index)]->finished(candidate.group)) {
         decode.work(1);
       } else {
@@ -208,7 +208,7 @@ void FineFilter::filter_fetched(Part& part) {
     return;
   }
   await(memory, part.filter, next.candidate.ticket);
-  ++counters_.taken;
+  ++counters_.second_halves_taken;
   wait_for_place(part, next.candidate.visit);
   const bool wanted = is_wanted(part, next.candidate);
   if (wanted) wait_for_turn(part.filter, tests_.interval_cycles());
@@ -250,7 +250,7 @@ void FineFilter::drop(Part& part, const FineCandidate& candidate) {
 void FineFilter::test(Part& part, const Decoded& decoded) {
   const std::uint64_t began = part.filter.clock().now_cycles();
   part.filter.work(1);
-  ++counters_.tests;
+  ++counters_.fine_tests;
   hand_on(part, decoded, began);
   const std::uint64_t end = began + test_cycles_;
   while (part.filter.clock().now_cycles() < end) {

@@ -58,13 +58,16 @@ class FineFilter : public sc_core::sc_module {
              const CodebookConfig& codebook, const FineFilterPlace& place,
              const UnitContext& context);
 
-  struct Counters {
-    std::uint64_t second_halves = 0;  // fetched
-    std::uint64_t taken = 0;          // read from their slots, by each HFU that wants it
-    std::uint64_t tests = 0;
-    std::uint64_t splats = 0;             // passed on
-    std::uint64_t dropped_saturated = 0;  // candidates of a part: it was finished
-    std::uint64_t dropped_fetched = 0;    // of these, with their second half
+  struct Counters : CounterSet {
+    Counter second_halves{*this, "second_halves", "Gaussians", "fetched"};
+    Counter second_halves_taken{*this, "second_halves_taken", "Gaussians",
+                                "of these, once for each part of the group that wanted them"};
+    Counter fine_tests{*this, "fine_tests", "Gaussians", "tested, once for each part of the group"};
+    Counter splats{*this, "splats", "splats", "that touch their part, passed on"};
+    Counter dropped_saturated{*this, "dropped_saturated", "Gaussians",
+                              "dropped: their part was finished"};
+    Counter dropped_fetched{*this, "dropped_fetched", "Gaussians",
+                            "of these with their second half already fetched"};
   };
   const Counters& counters() const { return counters_; }
   // Of a second half out of its slot: a word a cycle.

@@ -57,19 +57,11 @@ void FineFilter::publish(DataSheet& sheet) {
     if (part->stage) sheet.activity(part->stage->decode, "decode", "reads their codebook entries");
     sheet.activity(part->filter, "fine", "puts them through the FFU");
   }
-  sheet.counter("second_halves", "Gaussians", "fetched", counters_.second_halves);
-  sheet.counter("second_halves_taken", "Gaussians",
-                "of these, once for each part of the group that wanted them", counters_.taken);
-  sheet.counter("fine_tests", "Gaussians", "tested, once for each part of the group",
-                counters_.tests);
-  sheet.counter("splats", "splats", "that touch their part, passed on", counters_.splats);
-  sheet.counter("dropped_saturated", "Gaussians", "dropped: their part was finished",
-                counters_.dropped_saturated);
-  sheet.counter("dropped_fetched", "Gaussians", "of these with their second half already fetched",
-                counters_.dropped_fetched);
-  sheet.datapath(tests_, counters_.tests);
+  sheet.counters(counters_);
+  sheet.datapath(tests_, counters_.fine_tests);
   const std::uint64_t words = read_cycles(record_bytes_);
-  sheet.accesses("second halves", counters_.taken * words, counters_.second_halves * words);
+  sheet.accesses("second halves", counters_.second_halves_taken * words,
+                 counters_.second_halves * words);
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",
                  counters_.dropped_saturated - counters_.dropped_fetched,
                  "filtering and second halves");

@@ -1,4 +1,4 @@
-// Parameters of one hierarchical filtering unit.
+// Keys of one hierarchical filtering unit.
 #pragma once
 
 #include <cstdint>
@@ -18,18 +18,18 @@ enum class FilterCost { kPaper, kCounted };
 
 struct HfuConfig {
   FilterCost cost = FilterCost::kCounted;
-  std::uint32_t cfus = 4;              // coarse filters in one HFU
-  std::uint32_t cfu_macs = 0;          // of a test; 0: as `cost` says
-  std::uint32_t cfu_lanes = 4;         // MAC lanes of one CFU
-  std::uint32_t cfu_depth_cycles = 0;  // from a test's beginning to its end; 0: by its schedule
-  std::uint32_t ffu_macs = 0;          // likewise
+  std::uint32_t cfus = 4;
+  std::uint32_t cfu_macs = 0;
+  std::uint32_t cfu_lanes = 4;
+  std::uint32_t cfu_depth_cycles = 0;
+  std::uint32_t ffu_macs = 0;
   std::uint32_t ffu_lanes = 16;
-  std::uint32_t ffu_depth_cycles = 0;         // likewise
-  bool coarse_filter = true;                  // off: every Gaussian goes to the fine filter
-  std::uint32_t input_slots = 2;              // slices in the input buffer: fetched and filtered
-  std::uint32_t slice_gaussians = 128;        // first halves in one half of the input buffer
-  std::uint32_t candidate_fifo_entries = 16;  // coarse -> fine, with what is under test
-  std::uint32_t second_half_slots = 6;        // second halves on their way or waiting
+  std::uint32_t ffu_depth_cycles = 0;
+  bool coarse_filter = true;
+  std::uint32_t input_slots = 2;
+  std::uint32_t slice_gaussians = 128;
+  std::uint32_t candidate_fifo_entries = 16;
+  std::uint32_t second_half_slots = 6;
 
   // Cycles that the lanes of a filter are busy with one test; its Gaussians are so far apart.
   static std::uint32_t lane_cycles(std::uint32_t macs, std::uint32_t lanes) {
@@ -39,7 +39,29 @@ struct HfuConfig {
   std::uint32_t ffu_interval_cycles() const { return lane_cycles(ffu_macs, ffu_lanes); }
 };
 
-void visit(ConfigVisitor& v, HfuConfig& config);
+inline void visit(ConfigVisitor& v, HfuConfig& c) {
+  v("cost", c.cost,
+    names<FilterCost>({{"paper", FilterCost::kPaper}, {"counted", FilterCost::kCounted}}),
+    "of a test: cfu_macs and ffu_macs, 55 and 427 where they are 0, or as counted on our filters");
+  v("cfus", c.cfus, in_range(1, 64), "coarse filters in one HFU");
+  v("cfu_macs", c.cfu_macs, in_range(0, 10000),
+    "multiply-accumulates of a coarse test; 0: by hfu.cost");
+  v("cfu_lanes", c.cfu_lanes, in_range(1, 10000), "MAC lanes of one CFU");
+  v("cfu_depth_cycles", c.cfu_depth_cycles, in_range(0, 10000),
+    "latency of a coarse test; 0: by its schedule");
+  v("ffu_macs", c.ffu_macs, in_range(0, 10000),
+    "multiply-accumulates of a fine test; 0: by hfu.cost");
+  v("ffu_lanes", c.ffu_lanes, in_range(1, 10000), "MAC lanes of one FFU");
+  v("ffu_depth_cycles", c.ffu_depth_cycles, in_range(0, 10000),
+    "latency of a fine test; 0: by its schedule");
+  v("coarse_filter", c.coarse_filter, "off: every Gaussian goes to the fine filter");
+  v("input_slots", c.input_slots, in_range(2, 1024), "slices in an HFU's input buffer");
+  v("slice_gaussians", c.slice_gaussians, in_range(2, 1 << 20), "first halves in one slice");
+  v("candidate_fifo_entries", c.candidate_fifo_entries, in_range(1, 4096),
+    "from coarse to fine, with what is under test");
+  v("second_half_slots", c.second_half_slots, in_range(1, 1024),
+    "second halves on their way or waiting");
+}
 
 // HFUs that share a fetch, at most: parts of a group are told by the bits of a word.
 constexpr std::uint32_t kMostParts = 16;

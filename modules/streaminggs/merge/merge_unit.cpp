@@ -80,7 +80,7 @@ void MergeUnit::take(const FineCandidate& key) {
   wait_for_heap();
   pending_.insert(key);
   note_pending();
-  counters_.pending_max = std::max<std::uint64_t>(counters_.pending_max, pending_.size());
+  counters_.pending_keys_max.raise_to(pending_.size());
   merge_.work(1);
 }
 

@@ -43,17 +43,20 @@ class MergeUnit : public sc_core::sc_module {
   MergeUnit(const sc_core::sc_module_name& name, const MergeConfig& config, const RegionSpan& spill,
             const UnitContext& context);
 
-  struct Counters {
-    std::uint64_t keys = 0;          // received
-    std::uint64_t released = 0;      // in final order, to the fine filters
-    std::uint64_t ties = 0;          // of these, at the depth of the key before
-    std::uint64_t forced_early = 0;  // of these, before they were final (blend_early)
-    std::uint64_t dropped_saturated = 0;
-    std::uint64_t due = 0;             // looked up in the mask of finished sub-tiles
-    std::uint64_t dropped_hidden = 0;  // of these, behind finished sub-tiles only
-    std::uint64_t pending_max = 0;     // keys on chip
-    std::uint64_t runs_spilled = 0;
-    std::uint64_t keys_spilled = 0;  // written to DRAM, over all passes
+  struct Counters : CounterSet {
+    Counter keys{*this, "keys", "keys", "received"};
+    Counter released{*this, "released", "keys", "in final order, to the fine filters"};
+    Counter ties{*this, "ties", "keys", "of these at the depth of the key before: ordered by slot"};
+    Counter forced_early{*this, "forced_early", "keys", "of these before they were final"};
+    Counter due{*this, "due", "keys", "looked up in the mask of finished sub-tiles"};
+    Counter dropped_hidden{
+        *this, "dropped_hidden", "keys",
+        "dropped when they were due: all sub-tiles that they reach were finished"};
+    Counter dropped_saturated{*this, "dropped_saturated", "keys",
+                              "dropped: their group was finished"};
+    Counter pending_keys_max{*this, "pending_keys_max", "keys", "most that waited on chip"};
+    Counter runs_spilled{*this, "runs_spilled", "runs", "written to DRAM"};
+    Counter keys_spilled{*this, "keys_spilled", "keys", "written to DRAM, over all passes"};
   };
   const Counters& counters() const { return counters_; }
   const HeapWork& heap_work() const { return pending_.work(); }

@@ -26,7 +26,8 @@ SramUses MergeUnit::sram_uses(const MergeConfig& config, const BuiltFor& built_f
                            {config.spill_block_entries, "keys"},
                            {kKeyBytes, "B"}},
                           {8 * kKeyBytes}, kOneOfEach));
-  // The first key of each has left it: depth and slot, which are compared all at once, and the rest.
+  // The first key of each has left it: depth and slot, which are compared all at once, and the
+  // rest.
   constexpr std::uint32_t kFrontBytes = 4 * kKeyWords;
   uses.push_back(sram_use(
       "fronts of runs", kSharedSram, {{config.spill_runs, "runs"}, {kFrontBytes, "B"}},
@@ -69,18 +70,7 @@ void MergeUnit::publish(DataSheet& sheet) {
   const HeapLevelWork below_root = heap.all_levels();
   sheet.unit(*this);
   sheet.activity(merge_, "merge", "takes keys, releases them in final order");
-  sheet.counter("keys", "keys", "received", counters_.keys);
-  sheet.counter("released", "keys", "in final order, to the fine filters", counters_.released);
-  sheet.counter("ties", "keys", "of these at the depth of the key before: ordered by slot",
-                counters_.ties);
-  sheet.counter("forced_early", "keys", "of these before they were final", counters_.forced_early);
-  sheet.counter("due", "keys", "looked up in the mask of finished sub-tiles", counters_.due);
-  sheet.counter("dropped_hidden", "keys",
-                "dropped when they were due: all sub-tiles that they reach were finished",
-                counters_.dropped_hidden);
-  sheet.counter("dropped_saturated", "keys", "dropped: their group was finished",
-                counters_.dropped_saturated);
-  sheet.counter("pending_keys_max", "keys", "most that waited on chip", counters_.pending_max);
+  sheet.counters(counters_);
   sheet.counter("inserts", "operations", "of the heap", heap.inserts);
   sheet.counter("delete_mins", "operations", "of the heap: released", heap.delete_mins);
   sheet.counter("delete_maxs", "operations", "of the heap: spilled", heap.delete_maxs);
@@ -91,12 +81,10 @@ void MergeUnit::publish(DataSheet& sheet) {
                 below_root.nodes_read_ahead);
   sheet.counter("heap_nodes_written", "nodes", "below the root", below_root.nodes_written);
   sheet.counter("heap_comparisons", "comparisons", "of two keys", heap.comparisons);
-  sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
-  sheet.counter("keys_spilled", "keys", "written to DRAM, over all passes", counters_.keys_spilled);
   publish_ledger(sheet);
   constexpr std::uint64_t kFewestEntries = 2;
   publish_spare(sheet, "spare_merge_entries", "merge.entries", config_.entries,
-                counters_.pending_max, kFewestEntries);
+                counters_.pending_keys_max, kFewestEntries);
   sheet.left_out("hidden_gaussians", "all sub-tiles that they reach were finished",
                  counters_.dropped_hidden, "second halves and fine filtering");
   sheet.left_out("saturated_gaussians", "the group finished while its visits were under way",

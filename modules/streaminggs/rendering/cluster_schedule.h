@@ -26,6 +26,7 @@
 #include "algorithm/render/group_state.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/rendering/rendering_config.h"
+#include "tlm/counter.h"
 
 namespace sgs {
 
@@ -36,16 +37,19 @@ constexpr std::size_t cluster_at(int x, int y, std::size_t clusters) {
 
 class ClusterSchedule {
  public:
-  struct Counters {
-    std::uint64_t blends = 0;         // sub-tiles blended
-    std::uint64_t late_blends = 0;    // of these into sub-tiles that were finished already
-    std::uint64_t hazard_cycles = 0;  // that a cluster waited for the splat ahead
-    std::uint64_t queue_cycles = 0;   // that a cluster's sub-tile of a row waited for room
-    std::uint64_t rows = 0;           // that the dispatcher took
-    std::uint64_t row_cycles = 0;     // that it held them
-    std::uint64_t finished = 0;       // sub-tiles
-    std::uint64_t begin_cycles = 0;   // that the lanes that begin spans were taken
-    std::uint64_t span_cycles = 0;    // that the lanes of the rows were
+  struct Counters : CounterSet {
+    Counter rows{*this, "rows", "rows", "of sub-tiles that the dispatcher took"};
+    Counter subtile_blends{*this, "subtile_blends", "sub-tiles", "blended"};
+    Counter subtile_blends_late{*this, "subtile_blends_late", "sub-tiles",
+                                "of these finished already, which was not known yet"};
+    Counter hazard_cycles{*this, "hazard_cycles", "cycles",
+                          "that clusters waited for the splat ahead on a sub-tile"};
+    Counter queue_cycles{*this, "queue_cycles", "cycles",
+                         "that sub-tiles waited for room at their cluster"};
+    std::uint64_t row_cycles = 0;    // that the dispatcher held rows
+    std::uint64_t finished = 0;      // sub-tiles
+    std::uint64_t begin_cycles = 0;  // that the lanes that begin spans were taken
+    std::uint64_t span_cycles = 0;   // that the lanes of the rows were
   };
 
   explicit ClusterSchedule(const RenderingConfig& config)
@@ -116,8 +120,8 @@ class ClusterSchedule {
       finished_from_[subtile.at] = taken + config_.depth_cycles;
       ++counters_.finished;
     }
-    ++counters_.blends;
-    counters_.late_blends += subtile.blends ? 0 : 1;
+    ++counters_.subtile_blends;
+    counters_.subtile_blends_late += subtile.blends ? 0 : 1;
   }
 
   // The cycle in which the next splat can be taken: this one has begun, and there is a slot. rows:
@@ -148,7 +152,8 @@ class ClusterSchedule {
   const Counters& counters() const { return counters_; }
   // That the mean cluster blended, or waited for the splat ahead.
   std::uint64_t cluster_cycles() const {
-    return (counters_.blends * cluster_interval_ + counters_.hazard_cycles) / config_.clusters;
+    return (counters_.subtile_blends * cluster_interval_ + counters_.hazard_cycles) /
+           config_.clusters;
   }
 
  private:

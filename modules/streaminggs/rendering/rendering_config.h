@@ -1,40 +1,36 @@
-// Parameters of the rendering unit.
+// Keys of the rendering unit, and the lanes that follow from them.
 #pragma once
 
 #include <cstdint>
 
 #include "algorithm/memory/frame_buffer.h"
 #include "algorithm/splat/blend.h"
-#include "algorithm/splat/longest_path.h"
 #include "modules/config/config_visitor.h"
+#include "modules/datapath/lane_steps.h"
 #include "tlm/datapath.h"
 
 namespace sgs {
 
 struct RenderingConfig {
-  std::uint32_t clusters = 4;         // each holds the pixels of its sub-tiles in a bank of its own
-  std::uint32_t cluster_lanes = 190;  // multiply-accumulates of one cluster: a sub-tile a cycle
-  BlendPrecision precision = BlendPrecision::kSingle;  // of blending and of the pixels on chip
-  std::uint32_t cluster_queue_entries = 8;             // sub-tiles waiting for each cluster
-  // Of a blend, from a splat's conic to the pixel written. Depths of 0: by schedules.
+  std::uint32_t clusters = 4;
+  std::uint32_t cluster_lanes = 190;
+  BlendPrecision precision = BlendPrecision::kSingle;
+  std::uint32_t cluster_queue_entries = 8;
   std::uint32_t depth_cycles = 0;
-  // Of these from reading a pixel to having it written: a splat behind another on the same sub-tile
-  // waits as long.
   std::uint32_t state_loop_cycles = 0;
-  std::uint32_t begin_depth_cycles = 0;  // of the beginning of a splat's spans
-  std::uint32_t span_depth_cycles = 0;   // of a row's span
-  std::uint32_t drain_depth_cycles = 0;  // of a finished pixel's conversion
-  std::uint32_t pixel_buffers = 2;       // groups whose pixels are on chip; 2: drain while blending
-  std::uint32_t drain_pixels_per_cycle = 8;  // conversion to the frame's format
-  bool ellipse_test = true;                  // skips sub-tiles that the ellipse cannot reach
-  // Multiply-accumulates that begin a splat's spans, and that give its rows theirs.
+  std::uint32_t begin_depth_cycles = 0;
+  std::uint32_t span_depth_cycles = 0;
+  std::uint32_t drain_depth_cycles = 0;
+  std::uint32_t pixel_buffers = 2;
+  std::uint32_t drain_pixels_per_cycle = 8;
+  bool ellipse_test = true;
   std::uint32_t begin_lanes = 24, span_lanes = 40;
-  std::uint32_t span_slots = 16;    // splats that have begun and are not dispatched yet
-  bool saturation_feedback = true;  // a finished group's visits are dropped upstream
+  std::uint32_t span_slots = 16;
+  bool saturation_feedback = true;
   // A register where it leaves, a wire over at most the side of the die (2.5 mm, below a cycle at
   // 32 nm), a register where it arrives.
   std::uint32_t feedback_latency_cycles = 2;
-  std::uint32_t input_fifo_entries = 8;  // sorted splats waiting, for each sorting unit
+  std::uint32_t input_fifo_entries = 8;
 
   // A cluster starts a sub-tile every so many cycles.
   std::uint32_t cluster_interval_cycles() const;
@@ -52,9 +48,50 @@ struct RenderingConfig {
   std::uint32_t pixel_state_bytes() const { return in_16_bits(precision) ? 8 : 16; }
 };
 
-// Counted by running the code (algorithm/splat/rendering_work.h): the lanes that every splat passes
-// ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile; those
-// that begin a splat's spans, an item a splat; those of its rows. Scheduled on lanes of these
+inline void visit(ConfigVisitor& v, RenderingConfig& c) {
+  v("clusters", c.clusters, in_range(1, 256),
+    "blend a 4x4 sub-tile at a time each; a bank each holds the pixels of its sub-tiles");
+  v("cluster_lanes", c.cluster_lanes, in_range(1, 4096),
+    "MAC lanes of one cluster: how often it starts a sub-tile follows");
+  v("precision", c.precision,
+    names<BlendPrecision>({{"fp32", BlendPrecision::kSingle},
+                           {"fp16", BlendPrecision::kHalf},
+                           {"fixed16", BlendPrecision::kFixed}}),
+    "of blending and of the pixels on chip");
+  v("cluster_queue_entries", c.cluster_queue_entries, in_range(1, 1024),
+    "sub-tiles waiting for each cluster");
+  v("state_loop_cycles", c.state_loop_cycles, in_range(0, 1000),
+    "until the next splat may be blended into the same sub-tile; 0: by its schedule");
+  v("depth_cycles", c.depth_cycles, in_range(0, 1000),
+    "latency of a blend, by which drain and news of a finished group come later; 0: by its "
+    "schedule");
+  v("begin_depth_cycles", c.begin_depth_cycles, in_range(0, 1000),
+    "latency of the beginning of a splat's spans; 0: by its schedule");
+  v("span_depth_cycles", c.span_depth_cycles, in_range(0, 1000),
+    "latency of a row's span; 0: by its schedule");
+  v("drain_depth_cycles", c.drain_depth_cycles, in_range(0, 1000),
+    "latency of a finished pixel's conversion; 0: by its schedule");
+  v("pixel_buffers", c.pixel_buffers, in_range(1, 2),
+    "groups whose pixels are on chip; 2: one drains while the next is blended");
+  v("drain_pixels_per_cycle", c.drain_pixels_per_cycle, in_range(1, 4096),
+    "finished pixels converted a cycle");
+  v("ellipse_test", c.ellipse_test, "sub-tiles that a splat's ellipse cannot reach are skipped");
+  v("begin_lanes", c.begin_lanes, in_range(1, 4096),
+    "MAC lanes that begin to find the sub-tiles of an ellipse");
+  v("span_lanes", c.span_lanes, in_range(1, 4096),
+    "MAC lanes that go on with it row by row, several rows at once where they are enough");
+  v("span_slots", c.span_slots, in_range(1, 1024),
+    "splats whose spans are under way or wait for the dispatcher");
+  v("feedback_latency_cycles", c.feedback_latency_cycles, in_range(1, 1000),
+    "until VSU and HFUs see that a group is finished");
+  v("saturation_feedback", c.saturation_feedback, "a finished group's visits are dropped upstream");
+  v("input_fifo_entries", c.input_fifo_entries, in_range(1, 4096),
+    "sorted splats waiting from each sorting unit");
+}
+
+// Counted by running the code (modules/datapath/rendering_flows.h): the lanes that every splat
+// passes ahead of the clusters' queues, one a cycle; the lanes of all clusters, an item a sub-tile;
+// those that begin a splat's spans, an item a splat; those of its rows. Scheduled on lanes of these
 // latencies.
 Datapath conic_pipeline(const RenderingConfig& config, const OperationLatencies& single);
 Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies);
@@ -63,7 +100,5 @@ Datapath span_pipeline(const RenderingConfig& config, const OperationLatencies& 
 // An item a finished pixel: as many lanes as drain_pixels_per_cycle of them take.
 Datapath drain_pipeline(const RenderingConfig& config, FrameFormat format,
                         const OperationLatencies& single);
-
-void visit(ConfigVisitor& v, RenderingConfig& config);
 
 }  // namespace sgs

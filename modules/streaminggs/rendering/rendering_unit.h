@@ -40,17 +40,22 @@ class RenderingUnit : public sc_core::sc_module {
   RenderingUnit(const sc_core::sc_module_name& name, const RenderingConfig& config, Arrival arrival,
                 const UnitContext& context, std::function<void()> on_done);
 
-  struct Counters {
-    std::uint64_t groups = 0;
-    std::uint64_t splats = 0;            // blended into at least one sub-tile
-    std::uint64_t splats_taken = 0;      // that found their group unfinished
-    std::uint64_t splats_saturated = 0;  // arrived when their group was finished
-    std::uint64_t splats_hidden = 0;     // when all sub-tiles of their footprint were
-    std::uint64_t splats_spanned = 0;    // on more sub-tiles than a few
-    std::uint64_t spans = 0;             // of rows of sub-tiles
-    std::uint64_t begun_span_reads = 0;  // for these, those that come at once sharing one
-    std::uint64_t contributors = 0;      // (splat, pixel) blends
-    std::uint64_t groups_saturated = 0;
+  struct Counters : CounterSet {
+    Counter groups{*this, "groups", "groups", "rendered"};
+    Counter groups_saturated{*this, "groups_saturated", "groups",
+                             "of these with every pixel finished early"};
+    Counter splats{*this, "splats", "splats", "blended into at least one sub-tile"};
+    Counter splats_taken{*this, "splats_taken", "splats",
+                         "sent on to the clusters, whether they reach any or not"};
+    Counter splats_saturated{*this, "splats_saturated", "splats",
+                             "that came when their group was finished"};
+    Counter splats_hidden{*this, "splats_hidden", "splats",
+                          "that came when all sub-tiles of their footprint were finished"};
+    Counter splats_spanned{*this, "splats_spanned", "splats",
+                           "on more sub-tiles than a few: rows got spans"};
+    Counter spans{*this, "spans", "rows", "of sub-tiles whose span in the ellipse was computed"};
+    Counter contributors{*this, "contributors", "pixels", "blended with an alpha above 1/255"};
+    std::uint64_t begun_span_reads = 0;  // for these spans, those that come at once sharing one
   };
   const Counters& counters() const { return counters_; }
   const ClusterSchedule::Counters& schedule_counters() const { return schedule_.counters(); }

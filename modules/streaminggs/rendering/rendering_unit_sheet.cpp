@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "algorithm/memory/splat_record.h"
-#include "algorithm/splat/rendering_work.h"
+#include "modules/datapath/rendering_flows.h"
 #include "modules/datapath/selection.h"
 #include "modules/datapath/work_rates.h"
 #include "modules/streaminggs/rendering/rendering_unit.h"
@@ -108,13 +108,13 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
   const bool in_half = in_16_bits(config_.precision);
   sheet.datapath(conic_pipeline(config_, built_for_.single), counters_.splats_taken);
   sheet.datapath(blend_pipeline(config_, in_half ? built_for_.half : built_for_.single),
-                 clusters.blends);
+                 clusters.subtile_blends);
   sheet.datapath(begin_pipeline(config_, built_for_.single), counters_.splats_spanned);
   sheet.datapath(span_pipeline(config_, built_for_.single), counters_.spans);
   sheet.accesses(kBegunSpans, counters_.begun_span_reads, counters_.splats_spanned);
   sheet.accesses("splats under way", counters_.splats_taken, counters_.splats_taken);
   sheet.accesses("spans", counters_.spans, counters_.spans);
-  sheet.accesses("cluster queues", clusters.blends, clusters.blends);
+  sheet.accesses("cluster queues", clusters.subtile_blends, clusters.subtile_blends);
   publish_dispatcher(sheet);
   publish_pixels(sheet);
   sheet.port(memory, "pixel writes");
@@ -132,7 +132,7 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   sheet.part("rendering", "register_bit", 8 * kSplatEntryBytes, 1);
   sheet.operations("rendering", "register_bit",
                    8 * kSplatEntryBytes * static_cast<double>(counters_.splats_taken));
-  const auto looks = clusters.blends + clusters.hazard_cycles;
+  const auto looks = clusters.subtile_blends + clusters.hazard_cycles;
   sheet.part("rendering", "comparator", of_splat + of_row + config_.clusters * of_loop, 1);
   sheet.operations("rendering", "comparator",
                    of_splat * static_cast<double>(counters_.splats_taken + dropped) +
@@ -142,7 +142,7 @@ void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   sheet.accesses("finished sub-tiles",
                  bits * (dropped + counters_.splats_taken + clusters.row_cycles),
                  clusters.finished + bits * counters_.groups);
-  sheet.accesses("sub-tiles in the loop", looks, clusters.blends);
+  sheet.accesses("sub-tiles in the loop", looks, clusters.subtile_blends);
 }
 
 // Each blend reads and writes a sub-tile. Draining reads it once for each row of pixels, and clears
@@ -157,7 +157,7 @@ void RenderingUnit::publish_pixels(DataSheet& sheet) {
     cleared += cycles_for(height, kSubtilePx) * cycles_for(width, kSubtilePx);
     pixels += width * height;
   }
-  const std::uint64_t blends = schedule_.counters().blends;
+  const std::uint64_t blends = schedule_.counters().subtile_blends;
   const auto passed = static_cast<double>(pixels);
   publish_selection(sheet, "rendering",
                     {drain_sources(config_, built_for_.group), 8.0 * config_.pixel_state_bytes(),
@@ -177,32 +177,9 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(blend_, "rendering", "blends sorted splats into the pixels of a group");
   sheet.activity(drain_, "drain", "writes finished pixels");
-  sheet.counter("groups", "groups", "rendered", counters_.groups);
-  sheet.counter("groups_saturated", "groups", "of these with every pixel finished early",
-                counters_.groups_saturated);
-  sheet.counter("splats", "splats", "blended into at least one sub-tile", counters_.splats);
-  sheet.counter("splats_taken", "splats", "sent on to the clusters, whether they reach any or not",
-                counters_.splats_taken);
-  sheet.counter("splats_saturated", "splats", "that came when their group was finished",
-                counters_.splats_saturated);
-  sheet.counter("splats_hidden", "splats",
-                "that came when all sub-tiles of their footprint were finished",
-                counters_.splats_hidden);
-  sheet.counter("rows", "rows", "of sub-tiles that the dispatcher took", schedule_.counters().rows);
-  sheet.counter("splats_spanned", "splats", "on more sub-tiles than a few: rows got spans",
-                counters_.splats_spanned);
-  sheet.counter("spans", "rows", "of sub-tiles whose span in the ellipse was computed",
-                counters_.spans);
+  sheet.counters(counters_);
+  sheet.counters(schedule_.counters());
   const ClusterSchedule::Counters& clusters = schedule_.counters();
-  sheet.counter("subtile_blends", "sub-tiles", "blended", clusters.blends);
-  sheet.counter("subtile_blends_late", "sub-tiles",
-                "of these finished already, which was not known yet", clusters.late_blends);
-  sheet.counter("hazard_cycles", "cycles", "that clusters waited for the splat ahead on a sub-tile",
-                clusters.hazard_cycles);
-  sheet.counter("queue_cycles", "cycles", "that sub-tiles waited for room at their cluster",
-                clusters.queue_cycles);
-  sheet.counter("contributors", "pixels", "blended with an alpha above 1/255",
-                counters_.contributors);
   sheet.by_part("cycles", "cycles", "of rendering, from the end of the group before",
                 cycles_of_groups_);
   publish_ledger(sheet);

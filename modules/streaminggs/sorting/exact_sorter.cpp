@@ -61,14 +61,7 @@ SramUses ExactSorter::sram_uses(const BuiltFor& built_for) {
 void ExactSorter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(sort_, "sorting", "takes, sorts and hands on the keys of one chunk");
-  sheet.counter("visits", "chunks", "sorted, once for each group", counters_.visits);
-  sheet.counter("visits_trivial", "chunks", "of these with one key: in order already",
-                counters_.visits_trivial);
-  sheet.counter("keys", "keys", "received", counters_.keys);
-  sheet.counter("compare_exchanges", "operations", "of the sorting network",
-                counters_.compare_exchanges);
-  sheet.counter("moves", "keys", "through the sorting network, once for each pass",
-                counters_.moves);
+  sheet.counters(counters_);
   publish_network(sheet, config_, built_for_.chunk_gaussians, counters_.compare_exchanges,
                   counters_.moves);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);

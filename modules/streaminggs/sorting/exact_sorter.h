@@ -23,12 +23,13 @@ class ExactSorter : public sc_core::sc_module {
   ExactSorter(const sc_core::sc_module_name& name, const SortingNetworkConfig& config,
               std::uint32_t first_visit, std::uint32_t visit_step, const UnitContext& context);
 
-  struct Counters {
-    std::uint64_t visits = 0;
-    std::uint64_t visits_trivial = 0;  // 1 key: nothing to sort
-    std::uint64_t keys = 0;
-    std::uint64_t compare_exchanges = 0;
-    std::uint64_t moves = 0;  // of entries through the network
+  struct Counters : CounterSet {
+    Counter visits{*this, "visits", "chunks", "sorted, once for each group"};
+    Counter visits_trivial{*this, "visits_trivial", "chunks",
+                           "of these with one key: in order already"};
+    Counter keys{*this, "keys", "keys", "received"};
+    Counter compare_exchanges{*this, "compare_exchanges", "operations", "of the sorting network"};
+    Counter moves{*this, "moves", "keys", "through the sorting network, once for each pass"};
   };
   const Counters& counters() const { return counters_; }
   static SramUses sram_uses(const BuiltFor& built_for);

@@ -92,7 +92,7 @@ SplatToken PaperSorter::collect(FifoSelector<SplatToken>& inputs) {
   ++counters_.visits;
   counters_.visits_trivial += received_ == 1 ? 1 : 0;
   counters_.splats += received_;
-  counters_.list_max = std::max(counters_.list_max, received_);
+  counters_.list_max.raise_to(received_);
   return end;
 }
 
@@ -221,20 +221,7 @@ SramUses PaperSorter::sram_uses(const PaperSorterConfig& config, const BuiltFor&
 void PaperSorter::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(sort_, "sorting", "takes, sorts and hands on the splats of one visit");
-  sheet.counter("visits", "voxels", "sorted, once for each group", counters_.visits);
-  sheet.counter("visits_trivial", "voxels", "of these with one splat: in order already",
-                counters_.visits_trivial);
-  sheet.counter("splats", "splats", "received", counters_.splats);
-  sheet.counter("splats_saturated", "splats", "dropped: their group was finished",
-                counters_.splats_saturated);
-  sheet.counter("compare_exchanges", "operations", "of the sorting network",
-                counters_.compare_exchanges);
-  sheet.counter("moves", "keys", "through the sorting network, once for each pass",
-                counters_.moves);
-  sheet.counter("runs_spilled", "runs", "written to DRAM", counters_.runs_spilled);
-  sheet.counter("entries_spilled", "splats", "written to DRAM, over all passes",
-                counters_.entries_spilled);
-  sheet.counter("list_max", "splats", "longest list of one visit", counters_.list_max);
+  sheet.counters(counters_);
   publish_network(sheet, config_, config_.buffer_entries, counters_.compare_exchanges,
                   counters_.moves, place_.lists_of_network);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);

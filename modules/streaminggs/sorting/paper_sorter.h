@@ -37,16 +37,18 @@ class PaperSorter : public sc_core::sc_module {
   PaperSorter(const sc_core::sc_module_name& name, const PaperSorterConfig& config,
               const PaperSorterPlace& place, const UnitContext& context);
 
-  struct Counters {
-    std::uint64_t visits = 0;
-    std::uint64_t visits_trivial = 0;    // 1 splat: nothing to sort
-    std::uint64_t splats = 0;            // received
-    std::uint64_t splats_saturated = 0;  // dropped: the group was finished
-    std::uint64_t compare_exchanges = 0;
-    std::uint64_t moves = 0;  // of entries through the network
-    std::uint64_t runs_spilled = 0;
-    std::uint64_t entries_spilled = 0;  // written to DRAM, over all passes
-    std::uint64_t list_max = 0;         // longest list of one visit
+  struct Counters : CounterSet {
+    Counter visits{*this, "visits", "voxels", "sorted, once for each group"};
+    Counter visits_trivial{*this, "visits_trivial", "voxels",
+                           "of these with one splat: in order already"};
+    Counter splats{*this, "splats", "splats", "received"};
+    Counter splats_saturated{*this, "splats_saturated", "splats",
+                             "dropped: their group was finished"};
+    Counter compare_exchanges{*this, "compare_exchanges", "operations", "of the sorting network"};
+    Counter moves{*this, "moves", "keys", "through the sorting network, once for each pass"};
+    Counter runs_spilled{*this, "runs_spilled", "runs", "written to DRAM"};
+    Counter entries_spilled{*this, "entries_spilled", "splats", "written to DRAM, over all passes"};
+    Counter list_max{*this, "list_max", "splats", "longest list of one visit"};
   };
   const Counters& counters() const { return counters_; }
   static SramUses sram_uses(const PaperSorterConfig& config, const BuiltFor& built_for);

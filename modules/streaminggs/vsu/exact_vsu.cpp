@@ -89,7 +89,7 @@ bool ExactVsu::read_node() {
     chunk_walk_.leave_out(entry);
     work_on_queues(1);
   } else if (on_chip) {
-    ++counters_.upper_reads;
+    ++counters_.upper_nodes_opened;
     work_on_queues(1);
     tester_.put({entry, upper_[entry.at]}, walk_);
   } else {

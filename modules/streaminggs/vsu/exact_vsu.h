@@ -43,17 +43,22 @@ class ExactVsu : public sc_core::sc_module {
   ExactVsu(const sc_core::sc_module_name& name, const ExactVsuConfig& config,
            const UnitContext& context, const RegionSpan& aside);
 
-  struct Counters {
-    std::uint64_t upper_reads = 0;       // nodes opened that were on chip
-    std::uint64_t nodes_read = 0;        // from DRAM, opened or not
-    std::uint64_t nodes_dropped = 0;     // of all: their group had ended before they were open
-    std::uint64_t looked_up = 0;         // chunks and nodes, in the mask of finished sub-tiles
-    std::uint64_t nodes_hidden = 0;      // not read: all sub-tiles that they reach were finished
-    std::uint64_t chunks_hidden = 0;     // not handed out, likewise
-    std::uint64_t visits = 0;            // handed out
-    std::uint64_t visits_dropped = 0;    // final, and their group was finished by then
-    std::uint64_t groups_saturated = 0;  // whose walk ended before the tree did
-    std::uint64_t groups_empty = 0;      // no chunk touches
+  struct Counters : CounterSet {
+    Counter upper_nodes_opened{*this, "upper_nodes_opened", "nodes",
+                               "opened that are kept on chip"};
+    Counter nodes_read{*this, "nodes_read", "nodes", "read from DRAM"};
+    Counter nodes_dropped{*this, "nodes_dropped", "nodes", "not opened: their group had finished"};
+    Counter looked_up{*this, "looked_up", "entries",
+                      "of the queues, in the mask of finished sub-tiles"};
+    Counter nodes_hidden{*this, "nodes_hidden", "nodes",
+                         "not opened: all sub-tiles that they reach were finished"};
+    Counter chunks_hidden{*this, "chunks_hidden", "chunks", "not handed out, likewise"};
+    Counter visits{*this, "visits", "chunks", "handed out, once for each group"};
+    Counter visits_dropped{*this, "visits_dropped", "chunks",
+                           "that were final when their group had finished"};
+    Counter groups_saturated{*this, "groups_saturated", "groups",
+                             "finished before their walk ended"};
+    Counter groups_empty{*this, "groups_empty", "groups", "that no chunk can touch"};
   };
   const Counters& counters() const { return counters_; }
   const WalkCounters& walk_counters() const { return chunk_walk_.counters(); }

@@ -55,22 +55,8 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.activity(tester_.activity(), "chunk_tests", "tests the children of nodes");
   sheet.activity(hand_out_, "visits", "hands out what is final");
   sheet.counter("nodes", "nodes", "of the chunk tree opened", walk.nodes);
-  sheet.counter("upper_nodes_opened", "nodes", "of these kept on chip", counters_.upper_reads);
-  sheet.counter("nodes_read", "nodes", "read from DRAM", counters_.nodes_read);
-  sheet.counter("nodes_dropped", "nodes", "not opened: their group had finished",
-                counters_.nodes_dropped);
-  sheet.counter("looked_up", "entries", "of the queues, in the mask of finished sub-tiles",
-                counters_.looked_up);
-  sheet.counter("nodes_hidden", "nodes", "not opened: all sub-tiles that they reach were finished",
-                counters_.nodes_hidden);
-  sheet.counter("chunks_hidden", "chunks", "not handed out, likewise", counters_.chunks_hidden);
+  sheet.counters(counters_);
   sheet.counter("tests", "children", "tested against a group", tester_.tests());
-  sheet.counter("visits", "chunks", "handed out, once for each group", counters_.visits);
-  sheet.counter("visits_dropped", "chunks", "that were final when their group had finished",
-                counters_.visits_dropped);
-  sheet.counter("groups_saturated", "groups", "finished before their walk ended",
-                counters_.groups_saturated);
-  sheet.counter("groups_empty", "groups", "that no chunk can touch", counters_.groups_empty);
   sheet.counter("chunk_queue_max", "entries", "most in the queue of chunks", chunk_queue.most());
   sheet.counter("node_queue_max", "entries", "most in the queue of nodes", node_queue.most());
   sheet.counter("chunk_queue_operations", "operations", "insertions and removals",
@@ -100,10 +86,10 @@ void ExactVsu::publish(DataSheet& sheet) {
   sheet.accesses("finished sub-tiles", mask_bits(built_for_.group) * counters_.looked_up,
                  mask->news());
   sheet.accesses("keys of open nodes", open_nodes(config_) * compared,
-                 counters_.upper_reads + counters_.nodes_read + walk.put_aside);
+                 counters_.upper_nodes_opened + counters_.nodes_read + walk.put_aside);
   // A node comes in and goes out whole, eight children and their common numbers.
   constexpr std::uint64_t kWords = sizeof(ChunkNode) / kPortBytes;
-  sheet.accesses("upper nodes", kWords * counters_.upper_reads, kWords * upper_.size());
+  sheet.accesses("upper nodes", kWords * counters_.upper_nodes_opened, kWords * upper_.size());
   sheet.accesses("nodes in flight", kWords * counters_.nodes_read, kWords * counters_.nodes_read);
   // A node goes in and its children come out as entries of the queues, in the same slot.
   const std::uint64_t in_test = 2 * kWords * tester_.nodes();

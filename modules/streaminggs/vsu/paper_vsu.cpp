@@ -36,7 +36,7 @@ PaperVsu::PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& co
              }}),
       records_(config.record_cache_bytes, job_.layout.voxel_table().voxels),
       cuts_(config.cut_cache_bytes, job_.layout.voxel_table().cuts),
-      table_(job_.layout.voxel_table().voxels.count, config.table_bytes, config.table_banks),
+      table_(job_.layout.voxel_table().voxels.count, config.table_bytes),
       ordered_("ordered", context.clock, config.groups_ahead) {
   SC_THREAD(run_traverse);
   SC_THREAD(run_arrivals);
@@ -57,7 +57,7 @@ void PaperVsu::run_traverse() {
     counters_.steps += visits.steps;
     counters_.edges += visits.edges_offered;
     counters_.overflows += visits.overflows;
-    counters_.table_bytes_max = std::max(counters_.table_bytes_max, visits.table_bytes);
+    counters_.ordering_table_bytes_max.raise_to(visits.table_bytes);
   }
   traverse_.idles();
 }
@@ -168,22 +168,7 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(traverse_, "vsu", "follows rays and orders the voxels of a group");
   sheet.activity(emit_, "visits", "hands out ordered voxels as visits");
-  sheet.counter("rays", "rays", "followed", counters_.rays);
-  sheet.counter("steps", "steps", "of rays through the voxel tree", counters_.steps);
-  sheet.counter("edges", "edges", "offered to the ordering table", counters_.edges);
-  sheet.counter("visits", "voxels", "or pieces of them handed out, once for each group",
-                counters_.visits);
-  sheet.counter("voxels", "voxels", "of these visits, whole or in pieces", counters_.voxels);
-  sheet.counter("cuts", "cuts", "of voxels into pieces", counters_.cuts);
-  sheet.counter("visits_saturated", "voxels", "left out: the group was finished",
-                counters_.visits_saturated);
-  sheet.counter("groups_empty", "groups", "with no voxel on any ray", counters_.groups_empty);
-  sheet.counter("ordering_table_bytes_max", "bytes", "ordering table of the worst group",
-                counters_.table_bytes_max);
-  sheet.counter("passes", "passes", "of a group's rays that were ordered, one or more a group",
-                counters_.passes);
-  sheet.counter("overflows", "passes", "of rays begun again because the ordering table was full",
-                counters_.overflows);
+  sheet.counters(counters_);
   sheet.counter("node_cache_misses", "nodes", "read from DRAM", rays_.nodes.misses());
   sheet.counter("cut_cache_misses", "planes", "of cut voxels read from DRAM", cuts_.misses());
   sheet.counter("record_cache_misses", "voxel records", "read from DRAM", records_.misses());
@@ -204,7 +189,7 @@ void PaperVsu::publish(DataSheet& sheet) {
   sheet.left_out("saturated_visits", "every pixel of the group was finished",
                  counters_.visits_saturated, "their Gaussians are not streamed");
   publish_spare(sheet, "spare_table_bytes", "vsu.table_bytes", config_.table_bytes,
-                counters_.table_bytes_max, config_.least_table_bytes());
+                counters_.ordering_table_bytes_max, config_.least_table_bytes());
   sheet.port(node_memory);
   sheet.port(record_memory);
   // Where the table is full a group's rays are followed again.

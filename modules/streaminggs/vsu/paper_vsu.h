@@ -33,16 +33,22 @@ class PaperVsu : public sc_core::sc_module {
   PaperVsu(const sc_core::sc_module_name& name, const PaperVsuConfig& config,
            const UnitContext& context);
 
-  struct Counters {
-    std::uint64_t rays = 0, steps = 0, edges = 0;
-    std::uint64_t passes = 0;            // of rays that were ordered, one or more a group
-    std::uint64_t overflows = 0;         // passes begun again because the table was full
-    std::uint64_t voxels = 0;            // handed out, whole or in pieces
-    std::uint64_t visits = 0;            // handed out
-    std::uint64_t cuts = 0;              // of voxels into pieces
-    std::uint64_t visits_saturated = 0;  // voxels left out: the group was finished
-    std::uint64_t groups_empty = 0;      // no voxel on any ray
-    std::uint64_t table_bytes_max = 0;   // ordering table of the worst group
+  struct Counters : CounterSet {
+    Counter rays{*this, "rays", "rays", "followed"};
+    Counter steps{*this, "steps", "steps", "of rays through the voxel tree"};
+    Counter edges{*this, "edges", "edges", "offered to the ordering table"};
+    Counter visits{*this, "visits", "voxels", "or pieces of them handed out, once for each group"};
+    Counter voxels{*this, "voxels", "voxels", "of these visits, whole or in pieces"};
+    Counter cuts{*this, "cuts", "cuts", "of voxels into pieces"};
+    Counter visits_saturated{*this, "visits_saturated", "voxels",
+                             "left out: the group was finished"};
+    Counter groups_empty{*this, "groups_empty", "groups", "with no voxel on any ray"};
+    Counter ordering_table_bytes_max{*this, "ordering_table_bytes_max", "bytes",
+                                     "ordering table of the worst group"};
+    Counter passes{*this, "passes", "passes",
+                   "of a group's rays that were ordered, one or more a group"};
+    Counter overflows{*this, "overflows", "passes",
+                      "of rays begun again because the ordering table was full"};
   };
   const Counters& counters() const { return counters_; }
   static SramUses sram_uses(const PaperVsuConfig& config, const BuiltFor& built_for);

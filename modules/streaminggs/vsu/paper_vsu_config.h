@@ -1,4 +1,4 @@
-// Parameters of the voxel sorting unit, paper order.
+// Keys of the voxel sorting unit, paper order.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,23 @@ namespace sgs {
 constexpr std::uint32_t kTableWordBytes = 8;  // of the ordering table: a record
 
 struct PaperVsuConfig {
-  std::uint32_t rays_in_flight = 80;  // of a group, side by side
-  std::uint32_t chain_entries = 3;    // voxels that a ray keeps until they are entered
-  std::uint32_t step_lanes = 24;      // multiply-accumulates a cycle of the rays' steps
-  std::uint32_t ray_lanes = 8;        // of their beginnings
-  // From a step's beginning to the ray's next, and of one out of a single cell, which moves along
-  // one axis only; 0: by its schedule.
+  std::uint32_t rays_in_flight = 80;
+  std::uint32_t chain_entries = 3;
+  std::uint32_t step_lanes = 24;
+  std::uint32_t ray_lanes = 8;
   std::uint32_t step_depth_cycles = 0, cell_step_depth_cycles = 0;
-  std::uint32_t ray_depth_cycles = 0;       // of a ray's beginning; 0: by its schedule
-  std::uint32_t table_banks = 2;            // of the ordering table: a record of each a cycle
-  std::uint32_t ray_step_px = 2;            // rays of every so-many-th pixel, and of the last ones
-  double sample_step_voxels = 0;            // 0: every cell of the ray; else distance of samples
-  std::uint32_t groups_ahead = 1;           // lists of ordered voxels
-  std::uint32_t table_bytes = 4096;         // ordering table of one group; fuller ones take passes
-  std::uint32_t node_cache_bytes = 2048;    // in front of the tree in DRAM
-  std::uint32_t node_fetches = 7;           // lines of it on their way to that cache
-  std::uint32_t record_cache_bytes = 1024;  // in front of the voxel records
-  std::uint32_t cut_cache_bytes = 256;      // in front of the planes of cut voxels
-  std::uint32_t visit_gaussians = 256;      // voxels with more are cut; 0: never
-  std::uint32_t min_share = 16;             // fewest Gaussians of a visit that one HFU is given
+  std::uint32_t ray_depth_cycles = 0;
+  std::uint32_t table_banks = 2;
+  std::uint32_t ray_step_px = 2;
+  double sample_step_voxels = 0;
+  std::uint32_t groups_ahead = 1;
+  std::uint32_t table_bytes = 4096;
+  std::uint32_t node_cache_bytes = 2048;
+  std::uint32_t node_fetches = 7;
+  std::uint32_t record_cache_bytes = 1024;
+  std::uint32_t cut_cache_bytes = 256;
+  std::uint32_t visit_gaussians = 256;
+  std::uint32_t min_share = 16;
 
   // From a step out of a block of 2^log2_block cells a side to the ray's next.
   std::uint32_t step_cycles(std::uint32_t log2_block) const {
@@ -42,6 +40,36 @@ struct PaperVsuConfig {
   }
 };
 
-void visit(ConfigVisitor& v, PaperVsuConfig& config);
+inline void visit(ConfigVisitor& v, PaperVsuConfig& c) {
+  v("rays_in_flight", c.rays_in_flight, in_range(1, 1024), "rays that are followed side by side");
+  v("chain_entries", c.chain_entries, in_range(1, 1024),
+    "voxels that a ray keeps until those of the rays before it are in the ordering table");
+  v("step_lanes", c.step_lanes, in_range(1, 10000), "MAC lanes of the rays' steps");
+  v("ray_lanes", c.ray_lanes, in_range(1, 10000), "MAC lanes of the rays' beginnings");
+  v("step_depth_cycles", c.step_depth_cycles, in_range(0, 1000),
+    "until a ray can step again; 0: by its schedule");
+  v("cell_step_depth_cycles", c.cell_step_depth_cycles, in_range(0, 1000),
+    "the same of a step out of a single cell, which moves along one axis only; 0: by its schedule");
+  v("ray_depth_cycles", c.ray_depth_cycles, in_range(0, 1000),
+    "until a ray that begins is there; 0: by its schedule");
+  v("table_banks", c.table_banks, in_range(1, 64),
+    "of the ordering table: of each a record a cycle is read and one written");
+  v("ray_step_px", c.ray_step_px, in_range(1, 1024),
+    "rays of every so-many-th pixel of a group are followed, and of its last row and column");
+  v("sample_step_voxels", c.sample_step_voxels, in_range(0, 10),
+    "distance of samples on a ray; 0: every cell is visited");
+  v("groups_ahead", c.groups_ahead, in_range(1, 64),
+    "lists of ordered voxels, in the making or being handed out");
+  v("table_bytes", c.table_bytes, in_range(kTableWordBytes, 1 << 30),
+    "ordering table of one group; one that needs more is ordered in passes");
+  v("node_cache_bytes", c.node_cache_bytes, in_range(64, 1 << 30), "cache of tree nodes");
+  v("node_fetches", c.node_fetches, in_range(1, 1024),
+    "lines of tree nodes on their way from DRAM");
+  v("record_cache_bytes", c.record_cache_bytes, in_range(64, 1 << 30), "cache of voxel records");
+  v("cut_cache_bytes", c.cut_cache_bytes, in_range(64, 1 << 30), "cache of cut voxels' planes");
+  v("visit_gaussians", c.visit_gaussians, in_range(0, 1 << 30),
+    "voxels with more are cut into pieces, each a visit; 0: never");
+  v("min_share", c.min_share, in_range(2, 1 << 20), "fewest Gaussians of a visit for one HFU");
+}
 
 }  // namespace sgs

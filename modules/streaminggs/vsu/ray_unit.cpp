@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "algorithm/order/ready_voxels.h"
-#include "algorithm/order/renaming.h"
+#include "algorithm/order/ordering_table.h"
 #include "modules/datapath/work_rates.h"
+#include "modules/streaminggs/vsu/ordering_cycles.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs {
@@ -71,10 +71,6 @@ std::uint64_t RayUnit::step(std::uint64_t cycle, std::uint32_t log2_block) {
 
 std::uint64_t RayUnit::look_up(std::uint64_t cycle) { return turn(look_ups_free_, cycle, 1); }
 
-std::uint64_t RayUnit::cycles_since(const OrderingAccesses& all) {
-  return all.cycles - std::exchange(work_.accesses, all).cycles;
-}
-
 std::uint64_t RayUnit::found(std::uint64_t cycle) {
   ++work_.found;
   return std::max(tree_free_, cycle) + first_of_rounds_cycles(config.rays_in_flight);
@@ -84,20 +80,22 @@ std::uint64_t RayUnit::give_context(std::uint64_t cycle) { return tree_free_ = f
 
 std::uint64_t RayUnit::enter(const OrderingTable& table, std::uint64_t cycle) {
   ++work_.entered;
-  tree_free_ = turn(table_free_, found(cycle), cycles_since(table.accesses()));
+  const OrderingAccesses before = std::exchange(work_.accesses, table.accesses());
+  tree_free_ = turn(table_free_, found(cycle), meeting_cycles(before, table.accesses()));
   table_free_ = std::max(table_free_, written_);
-  written_ = table_free_ + table.write_cycles();
+  written_ = table_free_ + writing_cycles(table, config.table_banks);
   return table_free_;
 }
 
 void RayUnit::order(const OrderingTable& table) {
   const std::uint64_t clearing = names_bytes(config) / kNamesWord;
   work_.names_cleared += clearing;
-  activity_.work(std::max(cycles_since(table.accesses()), clearing));
+  work_.accesses = table.accesses();
+  activity_.work(std::max(ordering_cycles(table, config.table_banks), clearing));
 }
 
 void RayUnit::clear(const OrderingTable& table) {
-  cycles_since(table.accesses());
+  work_.accesses = table.accesses();
   const std::uint64_t names = names_bytes(config) / kNamesWord, ready = ready_words(config);
   work_.names_cleared += names;
   work_.ready_cleared += ready;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algorithm/order/ordering_table.h"
-#include "algorithm/splat/longest_path.h"
+#include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/vsu/node_fetches.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
 #include "tlm/activity.h"
@@ -107,7 +107,6 @@ class RayUnit {
     std::uint64_t names_cleared = 0, ready_cleared = 0;  // words
   };
   std::uint64_t turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle);
-  std::uint64_t cycles_since(const OrderingAccesses& all);
   // From this cycle on a ray is the first: when the tree has found it.
   std::uint64_t found(std::uint64_t cycle);
 

@@ -1,7 +1,7 @@
 // What the rays' memories and lanes take.
 #include <algorithm>
 
-#include "modules/datapath/counter_bits.h"
+#include "modules/datapath/selection.h"
 #include "modules/streaminggs/built_for.h"
 #include "modules/streaminggs/vsu/ray_unit.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"

@@ -1,49 +1,152 @@
-// Counts and schedules of chunk tests and of rays.
+// The chunk test and the traversal run with the counting scalar, and their schedules.
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 
-#include "algorithm/voxel/chunk_work.h"
-#include "algorithm/voxel/ray_work.h"
+#include <memory>
+
+#include "algorithm/splat/counting.h"
+#include "algorithm/voxel/chunk_node.h"
+#include "algorithm/voxel/chunk_test.h"
+#include "algorithm/voxel/ray_path.h"
 #include "modules/datapath/counted_datapath.h"
-#include "modules/datapath/scheduled_datapath.h"
+#include "modules/datapath/filter_flows.h"
 
 namespace sgs {
+
+// Found by extent_value() through their arguments.
+static Counting extent_fraction(CountingIndex q) {
+  return recorded(extent_fraction(q.value), Operation::kLookUp, q);
+}
+static Counting scaled_by_exponent(Counting x, CountingIndex exponent) {
+  return recorded(scaled_by_exponent(x.value, exponent.value), Operation::kScale, x, exponent);
+}
+
+// Found by RayPath through its argument.
+static CountingIndex cell_of(Counting coordinate, Counting voxel_size) {
+  return static_cast<CountingIndex>(floor(coordinate / voxel_size));
+}
+
 namespace {
 
-Datapath pipeline(const char* name, const OperationCounts& work, std::uint32_t lanes,
-                  const std::vector<LaneStep>& steps, const OperationLatencies& latencies) {
-  Datapath path = counted_datapath(name, "vsu", work);
+constexpr VoxelFrame kTwoLevels = {0.7F, glm::ivec3(0), 2};
+
+Datapath pipeline(const char* name, const FlowPart& flow, std::uint32_t lanes,
+                  const OperationLatencies& latencies) {
+  Datapath path = counted_datapath(name, "vsu", flow.counts());
   path.lanes = lanes;
-  schedule(path, steps, latencies);
+  schedule(path, flow.steps(latencies), latencies);
   return path;
 }
 
 }  // namespace
 
+ChunkCase longest_chunk_case() {
+  const FilterCase gaussian = longest_case();
+  ChunkCase out;
+  out.camera = gaussian.camera;
+  out.group = gaussian.group;
+  out.bound.low = gaussian.gaussian.mean - glm::vec3(0.31F, 0.22F, 0.27F);
+  out.bound.high = gaussian.gaussian.mean + glm::vec3(0.29F, 0.33F, 0.25F);
+  out.bound.extent = {0.7F, 0.9F, 0.8F};
+  out.bound.scale_max = 0.35F;
+  return out;
+}
+
+FlowPart chunk_flow(const ChunkCase& tested) {
+  const auto recorded = std::make_shared<DataFlow>();
+  DataFlow& flow = *recorded;
+  const auto view = make_view<Counting>(tested.camera);
+  ChunkNode node;
+  node.children = 1;
+  quantise(&tested.bound, node);
+  const CountingIndex least = input_index(flow, least_extent_exponent(node.extent_exponent));
+  ChunkBoundOf<Counting> bound;
+  for (int k = 0; k < 3; ++k) {
+    const Counting origin = input(flow, node.origin[k]);
+    const Counting step = input(flow, std::ldexp(1.0F, node.step_exponent[k]));
+    bound.low[k] = box_bound(origin, step, input_index(flow, node.low[0][k]));
+    bound.high[k] = box_bound(origin, step, input_index(flow, node.high[0][k]));
+    bound.extent[k] = extent_value<Counting>(input_index(flow, node.extent[0][k]), least);
+  }
+  bound.scale_max = extent_value<Counting>(input_index(flow, node.scale[0]), least);
+  const ChunkTestOf<Counting> test = GroupFrustumOf<Counting>(view, tested.group).test(bound);
+  flow.pass_beside(1);  // which child of which node
+  // A child is no nearer than its parent.
+  if (test.touches) static_cast<void>(max_of(test.nearest, input(flow, 0.0F)));
+  return whole(recorded);
+}
+
+StepCase longest_step_case() { return {{2.1F, 4.3F, 3.9F}, {0.69F, 0.43F, 0.94F}, 0}; }
+StepCase cell_step_case() { return {{0.3F, 0.4F, 0.2F}, {0.61F, 0.53F, 0.59F}, ~std::uint64_t{0}}; }
+
+// Its cells are values: they lie in the ray's context.
+FlowPart ray_step_flow(const StepCase& step) {
+  const auto recorded = std::make_shared<DataFlow>();
+  DataFlow& flow = *recorded;
+  const Counting voxel_size = input(flow, kTwoLevels.voxel_size);
+  RayOf<Counting> ray{};
+  for (int axis = 0; axis < 3; ++axis) {
+    ray.origin[axis] = input(flow, step.origin[axis]);
+    ray.direction[axis] = input(flow, step.direction[axis]);
+    ray.inverse[axis] = input(flow, 1 / step.direction[axis]);
+    ray.step[axis] = step.direction[axis] > 0 ? 1 : -1;
+  }
+  RayPath<Counting> path(kTwoLevels, voxel_size);
+  path.begin(ray);
+  while (true) {
+    const std::size_t from = flow.size();
+    const RayEventOf event = path.next();
+    if (event.what == RayEvent::kStep) return {recorded, from, flow.size(), {}};
+    if (event.what == RayEvent::kLookUp) path.give({step.children});
+  }
+}
+
+FlowPart pixel_ray_flow() {
+  const auto recorded = std::make_shared<DataFlow>();
+  DataFlow& flow = *recorded;
+  const Counting voxel_size = input(flow, kTwoLevels.voxel_size);
+  View<Counting> view{};
+  // Looks along the diagonal of the root, which begins at 0.
+  const glm::vec3 rows[3] = {{0.71F, -0.71F, 0}, {0.41F, 0.41F, -0.82F}, {0.58F, 0.57F, 0.59F}};
+  const glm::vec3 eye{-3.1F, -2.9F, -3.3F};
+  for (int axis = 0; axis < 3; ++axis) {
+    view.position[axis] = input(flow, eye[axis]);
+    for (int row = 0; row < 3; ++row) {
+      view.cam_from_world[row][axis] = input(flow, rows[row][axis]);
+    }
+  }
+  view.focal_x = view.focal_y = Counting(300.0F);
+  view.centre_x = input(flow, 31.5F);
+  view.centre_y = input(flow, 23.5F);
+  const Counting x = input(flow, 33), y = input(flow, 22);
+  // The eye's cell is found once a frame, and so is the reciprocal of the voxel size.
+  for (int axis = 0; axis < 3; ++axis) {
+    static_cast<void>(number_of<Counting>(cell_of(view.position[axis], voxel_size) + 0));
+  }
+  const std::size_t from = flow.size();
+  RayPath<Counting> path(kTwoLevels, voxel_size);
+  path.begin(pixel_ray_of(view, x, y));
+  return {recorded, from, flow.size(), {}};
+}
+
 Datapath chunk_test_pipeline(const ExactVsuConfig& config, const OperationLatencies& latencies) {
-  const ChunkCase longest = longest_chunk_case();
-  const auto steps = chunk_steps(longest, latencies);
-  Datapath path = pipeline("chunk_test", chunk_work(longest), config.test_lanes, steps, latencies);
-  set_by_group(path, steps);
+  const FlowPart flow = chunk_flow(longest_chunk_case());
+  Datapath path = pipeline("chunk_test", flow, config.test_lanes, latencies);
+  set_by_group(path, flow.steps(latencies));
   return path;
 }
 
 Datapath pixel_ray_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies) {
-  return pipeline("pixel_ray", pixel_ray_work(), config.ray_lanes, pixel_ray_steps(latencies),
-                  latencies);
+  return pipeline("pixel_ray", pixel_ray_flow(), config.ray_lanes, latencies);
 }
 
 Datapath ray_step_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies) {
-  const StepCase step = longest_step_case();
-  return pipeline("ray_step", ray_step_work(step), config.step_lanes,
-                  ray_step_steps(step, latencies), latencies);
+  return pipeline("ray_step", ray_step_flow(longest_step_case()), config.step_lanes, latencies);
 }
 
 Datapath cell_step_pipeline(const PaperVsuConfig& config, const OperationLatencies& latencies) {
   Datapath block = ray_step_pipeline(config, latencies);
   if (block.interval_cycles() > 1) return block;
-  const StepCase step = cell_step_case();
-  return pipeline("ray_step", ray_step_work(step), config.step_lanes,
-                  ray_step_steps(step, latencies), latencies);
+  return pipeline("ray_step", ray_step_flow(cell_step_case()), config.step_lanes, latencies);
 }
 
 }  // namespace sgs

@@ -1,13 +1,58 @@
-// The lanes of the voxel sorting units, scheduled on lanes of such latencies.
+// The lanes of the voxel sorting units: what they compute, recorded by running it, and how it is
+// scheduled on lanes of given latencies.
 #pragma once
 
-#include "algorithm/splat/longest_path.h"
-#include "algorithm/voxel/ray_work.h"
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "algorithm/scene/camera.h"
+#include "algorithm/splat/rects.h"
+#include "algorithm/voxel/chunk_node.h"
+#include "modules/datapath/lane_steps.h"
 #include "modules/streaminggs/vsu/exact_vsu_config.h"
 #include "modules/streaminggs/vsu/paper_vsu_config.h"
 #include "tlm/datapath.h"
 
 namespace sgs {
+
+// A chunk, and the view and group it is tested against.
+struct ChunkCase {
+  Camera camera;
+  ChunkBound bound;
+  PixelRect group;
+};
+
+// A chunk that touches its group: all four sides are looked at. A unit that starts a test at fixed
+// intervals has to be built for this.
+ChunkCase longest_chunk_case();
+
+// Of one test, up to where it fails or to its end, with what the walk does to its result. The child
+// is decoded from its node: box bounds origin + q 2^e, extents by table. Values of the camera and
+// of the group are constants.
+FlowPart chunk_flow(const ChunkCase& tested);
+
+// The first step of a ray in a root of 16 cells of 0.7 a side, all of whose nodes have these
+// children. Origin: in the root; world units.
+struct StepCase {
+  glm::vec3 origin, direction;
+  std::uint64_t children;
+};
+
+// One that crosses an empty block of many cells: three planes to leave it by, and the cells of the
+// two axes that it is not left along, each with the planes before and behind it. A unit that takes
+// a step at fixed intervals has to be built for this.
+StepCase longest_step_case();
+// One out of a single cell, along one axis.
+StepCase cell_step_case();
+
+// The ray, its cell and the voxel size are values, the place of the root is a constant. Looking
+// into a node and climbing the tree are not counted: bits are compared and moved.
+FlowPart ray_step_flow(const StepCase& step);
+
+// Of a ray's beginning, the longest: its direction from its pixel, three reciprocals, and, from an
+// eye beyond the root along all axes, where it enters the root. The view is a value but for its
+// focal lengths, whose reciprocals are made once a frame.
+FlowPart pixel_ray_flow();
 
 // An item a child.
 Datapath chunk_test_pipeline(const ExactVsuConfig& config, const OperationLatencies& latencies);

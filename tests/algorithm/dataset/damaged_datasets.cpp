@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/dataset/dataset.h"
 #include "tests/support/scratch_folder.h"
 
 namespace sgs::test {

@@ -7,8 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "algorithm/dataset/load_view.h"
-#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/dataset/dataset.h"
 #include "tests/algorithm/dataset/made_datasets.h"
 #include "tests/support/scratch_folder.h"
 

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "algorithm/image/png_file.h"
+#include "algorithm/image/image_formats.h"
 #include "tests/algorithm/image/jpeg_bytes.h"
 
 namespace sgs::test {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/image/rgba_image.h"
+#include "algorithm/image/image.h"
 
 namespace sgs::test {
 

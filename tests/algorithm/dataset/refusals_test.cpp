@@ -3,8 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "algorithm/dataset/load_view.h"
-#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/dataset/dataset.h"
 #include "tests/algorithm/dataset/damaged_datasets.h"
 #include "tests/algorithm/dataset/made_datasets.h"
 #include "tests/support/scratch_folder.h"

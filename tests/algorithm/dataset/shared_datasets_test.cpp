@@ -6,8 +6,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
-#include "algorithm/dataset/load_view.h"
-#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/dataset/dataset.h"
 #include "tests/support/shared_inputs.h"
 
 using namespace sgs;
@@ -116,7 +115,8 @@ TEST_CASE("shared data sets: desk is what COLMAP says of it", "[shared]") {
   }
 }
 
-TEST_CASE("shared data sets: desk's points have the colours of the pixels where they are seen", "[shared]") {
+TEST_CASE("shared data sets: desk's points have the colours of the pixels where they are seen",
+          "[shared]") {
   const Dataset desk = open_dataset(test::shared_path("data/desk"));
   std::vector<RgbaImage> images;
   for (const DatasetView& view : desk.views) images.push_back(load_view(view));
@@ -129,7 +129,8 @@ TEST_CASE("shared data sets: desk's points have the colours of the pixels where 
   }
 }
 
-TEST_CASE("shared data sets: what all of lego's training views hold fills its test views", "[shared]") {
+TEST_CASE("shared data sets: what all of lego's training views hold fills its test views",
+          "[shared]") {
   const Dataset lego = open_dataset(test::shared_path("data/lego"));
   CHECK(lego.layout == "NeRF synthetic");
   CHECK(views_of(lego, Split::kTrain).size() == 100);

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "algorithm/dataset/open_dataset.h"
+#include "algorithm/dataset/dataset.h"
 #include "tests/algorithm/dataset/made_datasets.h"
 #include "tests/support/scratch_folder.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "tests/algorithm/image/test_images.h"
 
 using namespace sgs;

@@ -1,6 +1,4 @@
-// exr_file.h: the kinds of OpenEXR files that others write.
-#include "algorithm/image/exr_file.h"
-
+// image_formats.h: the kinds of OpenEXR files that others write.
 #include <ImathBox.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -11,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "algorithm/image/image_formats.h"
 #include "algorithm/image/image_io.h"
 #include "tests/support/scratch_folder.h"
 

@@ -1,12 +1,10 @@
-// jpeg_file.h and photograph.h: what is read, and what is refused.
-#include "algorithm/image/jpeg_file.h"
-
+// image_formats.h and image_io.h: what is read, and what is refused.
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <vector>
 
-#include "algorithm/image/photograph.h"
-#include "algorithm/image/png_file.h"
+#include "algorithm/image/image_formats.h"
+#include "algorithm/image/image_io.h"
 #include "tests/algorithm/image/jpeg_bytes.h"
 #include "tests/support/scratch_folder.h"
 

@@ -1,8 +1,7 @@
-// pfm_file.h: bytes by hand.
-#include "algorithm/image/pfm_file.h"
-
+// image_formats.h: bytes by hand.
 #include <catch2/catch.hpp>
 
+#include "algorithm/image/image_formats.h"
 #include "algorithm/image/image_io.h"
 #include "tests/support/scratch_folder.h"
 

@@ -1,6 +1,4 @@
-// png_file.h: rounding, and the kinds of PNG that others write.
-#include "algorithm/image/png_file.h"
-
+// image_formats.h: rounding, and the kinds of PNG that others write.
 #include <png.h>
 
 #include <catch2/catch.hpp>
@@ -11,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithm/image/image_formats.h"
 #include "algorithm/image/image_io.h"
 #include "tests/support/scratch_folder.h"
 

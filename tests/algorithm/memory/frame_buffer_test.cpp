@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
-#include "algorithm/input_error.h"
-#include "algorithm/splat/lane_macs.h"
+#include "algorithm/files/input_error.h"
+#include "modules/datapath/lane_steps.h"
 
 namespace sgs {
 namespace {
@@ -16,16 +16,6 @@ int level_of(float value) {
   std::byte out[3];
   encode_pixel(FrameFormat::kRgb8, {value, 0, 0}, out);
   return std::to_integer<int>(out[0]);
-}
-
-TEST_CASE("frame buffer: work of a pixel by hand") {
-  // A channel: background through the light that is left; times 255; two ends and a rounding.
-  const OperationCounts bytes = pixel_work(FrameFormat::kRgb8);
-  CHECK(folded_macs(bytes) == 3 * 2);
-  CHECK(comparisons(bytes) == 3 * (2 + kRoundingComparisons));
-  const OperationCounts floats = pixel_work(FrameFormat::kRgb32f);
-  CHECK(folded_macs(floats) == 3);
-  CHECK(comparisons(floats) == 0);
 }
 
 TEST_CASE("frame buffer: eight bits are clamped and rounded to nearest") {

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "algorithm/memory/short_quaternion.h"
+#include "algorithm/memory/records.h"
 #include "tests/algorithm/splat/random_gaussian.h"
 
 namespace sgs {

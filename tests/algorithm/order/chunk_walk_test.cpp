@@ -8,7 +8,6 @@
 #include <random>
 #include <tuple>
 
-#include "algorithm/order/tree_in_memory.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/voxel/chunk_tree.h"

@@ -6,10 +6,11 @@
 #include <map>
 
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/splat/activate.h"
 #include "testbench/builtin/open_scene.h"
 #include "tests/algorithm/order/order_checks.h"
+#include "tests/algorithm/voxel/ray_walk.h"
 #include "tests/algorithm/voxel/stored_clouds.h"
 
 namespace sgs {
@@ -52,7 +53,7 @@ struct Chains {
   std::vector<std::vector<std::uint32_t>> of_ray;
   Chains(const View<float>& view, const PixelRect& group, const VoxelGrid& grid) {
     const GridTable nodes{grid};
-    RayWalk walk(grid.frame, nodes);
+    RayWalk walk(RayPath<>(grid.frame), nodes);
     for (int y = group.y0; y < group.y1; ++y) {
       for (int x = group.x0; x < group.x1; ++x) {
         std::vector<std::uint32_t>& chain = of_ray.emplace_back();

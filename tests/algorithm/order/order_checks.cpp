@@ -9,9 +9,10 @@
 #include "algorithm/order/group_visits.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/paper_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/splat/activate.h"
 #include "testbench/builtin/open_scene.h"
+#include "tests/algorithm/voxel/ray_walk.h"
 #include "tests/algorithm/voxel/stored_clouds.h"
 #include "tests/support/shared_inputs.h"
 
@@ -59,7 +60,7 @@ Violations check_group(const View<float>& view, const PixelRect& group, const Vo
     return sum;
   };
   const GridTable nodes{grid};
-  RayWalk walk(grid.frame, nodes);
+  RayWalk walk(RayPath<>(grid.frame), nodes);
   for (int y = group.y0; y < group.y1; ++y) {
     for (int x = group.x0; x < group.x1; ++x) {
       std::int64_t last = -1;

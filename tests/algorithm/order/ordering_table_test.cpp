@@ -26,7 +26,7 @@ TEST_CASE("ordering table: one chain is its own order") {
   CHECK(table.order() == Voxels{42, 7, 99});
   CHECK(table.voxel_count() == 3);
   CHECK(table.edge_count() == 2);
-  CHECK(table.sram_bytes() == 3 * 8 + 2 * 4);
+  CHECK(table.bytes() == 3 * 8 + 2 * 4);
 }
 
 TEST_CASE("ordering table: nothing, and rays that meet nothing") {
@@ -81,7 +81,7 @@ TEST_CASE("ordering table: clear forgets voxels, edges and the chain before") {
   table.clear();
   add_chain(table, {2, 1});
   CHECK(table.order() == Voxels{2, 1});
-  CHECK(table.sram_bytes() == 2 * 8 + 4);
+  CHECK(table.bytes() == 2 * 8 + 4);
 }
 
 TEST_CASE("ordering table: a chain that does not fit is told, whatever it lacks room for") {
@@ -122,37 +122,6 @@ TEST_CASE("ordering table: what an edge reads and writes") {
   CHECK(table.accesses().reads == met.reads + 2 + 2);
   CHECK(table.accesses().writes == met.writes + 1);
   CHECK(table.accesses().ready_read >= met.ready_read + 2 * table.ready_levels());
-}
-
-TEST_CASE("ordering table: a chain of reads takes a cycle each, banks of one address give one") {
-  const auto cycles_of = [](OrderingTable& table, OrderingTable::Chain& chain,
-                            std::uint32_t voxel) {
-    const std::uint64_t before = table.accesses().cycles;
-    table.add(chain, voxel);
-    return table.accesses().cycles - before;
-  };
-  for (const std::uint32_t banks : {1U, 2U}) {
-    CAPTURE(banks);
-    OrderingTable table(30, OrderingTable::kUnlimited, banks);
-    OrderingTable::Chain chain, again, fork;
-    CHECK(cycles_of(table, chain, 5) == 1);  // its slot is free
-    CHECK(cycles_of(table, chain, 6) == 1);
-    // Numbers 0 and 1, edge 0: its record, the edge and the list's head, which lie in bank 0.
-    CHECK(table.write_cycles() == (banks == 1 ? 3 : 2));
-    CHECK(cycles_of(table, again, 5) == 2);  // slot, record
-    CHECK(cycles_of(table, again, 6) == 3);  // slot and the record before, record, edge
-    cycles_of(table, fork, 5);
-    cycles_of(table, fork, 7);  // number 2, edge 1, in front of edge 0
-    OrderingTable::Chain third;
-    cycles_of(table, third, 5);
-    CHECK(cycles_of(table, third, 6) == 4);  // behind two edges
-    const std::uint64_t before = table.accesses().cycles;
-    table.order();
-    // Of each voxel its record and two levels; two edges one behind the other, each beside the
-    // record that the one before names, and the last record. Edge 1 names number 2, which lies in
-    // bank 0 as both edges do.
-    CHECK(table.accesses().cycles - before == 3 * (table.ready_levels() + 1) + 1 + 2 + 1);
-  }
 }
 
 TEST_CASE("ordering table: every voxel of a full renaming is found") {

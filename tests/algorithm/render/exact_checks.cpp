@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/voxel/hard_scenes.h"

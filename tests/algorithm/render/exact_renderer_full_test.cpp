@@ -5,9 +5,13 @@
 
 using namespace sgs::test;
 
-TEST_CASE("exact order equals the reference: platform", "[nightly]") { check_exact_on_shared("platform"); }
+TEST_CASE("exact order equals the reference: platform", "[nightly]") {
+  check_exact_on_shared("platform");
+}
 TEST_CASE("exact order equals the reference: yard", "[nightly]") { check_exact_on_shared("yard"); }
-TEST_CASE("exact order equals the reference: garden", "[nightly]") { check_exact_on_shared("garden"); }
+TEST_CASE("exact order equals the reference: garden", "[nightly]") {
+  check_exact_on_shared("garden");
+}
 TEST_CASE("exact order equals the reference: park", "[nightly]") { check_exact_on_shared("park"); }
 TEST_CASE("exact order equals the reference: many hard scenes", "[nightly]") {
   fuzz_exact_order(1'000'000, 20'000);

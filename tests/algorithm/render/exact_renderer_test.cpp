@@ -128,7 +128,7 @@ TEST_CASE("exact order equals the reference: coordinates of 10^6") {
 TEST_CASE("exact order equals the reference: chunks that only the slack of their test keeps") {
   // Found by a search for the least margin between what rounding does to a Gaussian's place on the
   // screen and to the four sides of a group: one step of float is several px at these focal
-  // lengths. Without the slack of chunk_test.cpp each frame loses pixels.
+  // lengths. Without the slack of chunk_tree.cpp each frame loses pixels.
   struct Case {
     int side_px;
     float focal_px;

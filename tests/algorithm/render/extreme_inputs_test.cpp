@@ -7,7 +7,7 @@
 
 #include "algorithm/image/quality.h"
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/scene/gaussian_limits.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/against_double.h"
 #include "tests/algorithm/render/test_clouds.h"

@@ -10,7 +10,8 @@
 
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/make_splat.h"
-#include "algorithm/voxel/ray_walk.h"
+#include "algorithm/voxel/ray_path.h"
+#include "tests/algorithm/voxel/ray_walk.h"
 
 namespace sgs::test {
 namespace {
@@ -42,7 +43,7 @@ std::vector<std::uint32_t> order(const View<float>& view, const PixelRect& group
   std::map<std::uint32_t, std::set<std::uint32_t>> successors;
   std::map<std::uint32_t, std::uint32_t> in_degree;
   const GridTable table{grid};
-  RayWalk walk(grid.frame, table);
+  RayWalk walk(RayPath<>(grid.frame), table);
   std::vector<std::uint32_t> chain, chain_before;
   for (int y = group.y0; y < group.y1; ++y) {
     for (int x = group.x0; x < group.x1; ++x) {

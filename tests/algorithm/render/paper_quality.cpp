@@ -10,7 +10,7 @@
 #include "algorithm/image/quality.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/nearest_tie_renderer.h"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "algorithm/render/group_state.h"
+#include "algorithm/render/paper_losses.h"
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/render/visited_in_order.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/make_splat.h"
 #include "testbench/builtin/open_scene.h"

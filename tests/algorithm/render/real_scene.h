@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "algorithm/scene/ply_reader.h"
 #include "algorithm/splat/activate.h"
 #include "tests/algorithm/render/against_double.h"

@@ -8,7 +8,7 @@
 
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "tests/algorithm/render/test_clouds.h"
 
 using namespace sgs;

@@ -16,7 +16,7 @@
 #include "algorithm/image/quality.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/frame_sides.h"
+#include "algorithm/splat/coarse_bound.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/render/exact_checks.h"
 #include "tests/algorithm/render/test_clouds.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algorithm/scene/gaussian_limits.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/scene/ply_reader.h"
 #include "testbench/builtin/random.h"
 #include "tests/algorithm/scene/ply_bytes.h"
@@ -112,7 +112,7 @@ TEST_CASE("ply reader refuses: counts of f_rest that no degree has, and gaps in 
 
 TEST_CASE("ply reader refuses: lists among the vertex properties") {
   CHECK_THAT(ply_refusal(replaced(test::bytes_of(counting_table(1)), "property float nx",
-                              "property list uchar float nx")),
+                                  "property list uchar float nx")),
              Contains("property nx: got a list"));
 }
 
@@ -289,7 +289,8 @@ TEST_CASE("ply reader: values that are not finite do not matter in properties it
 TEST_CASE("ply reader refuses: quaternions of length zero") {
   PlyTable table = counting_table(5);
   for (int i = 0; i < 4; ++i) table.rows[3][13 + i] = i % 2 ? 0.0 : -0.0;
-  CHECK_THAT(ply_refusal(table), Contains("vertex 3, properties rot_0..3: got the quaternion 0 0 0 0"));
+  CHECK_THAT(ply_refusal(table),
+             Contains("vertex 3, properties rot_0..3: got the quaternion 0 0 0 0"));
   table.rows[3][15] = 1e-30;  // tiny is not zero
   const test::ScratchFolder scratch;
   CHECK(read_ply(scratch.write("a.ply", test::bytes_of(table))).cloud.quats[3][2] == 1e-30f);
@@ -336,7 +337,8 @@ TEST_CASE("ply reader refuses: text that is no number, by line") {
   }
   CHECK_THAT(ply_refusal(replaced(good, "-990 ", "")),
              Contains(line_of(1) + " got 16 values, expected 17"));
-  CHECK_THAT(ply_refusal(replaced(good, "-990 ", "-990 1 ")), Contains("got 18 values, expected 17"));
+  CHECK_THAT(ply_refusal(replaced(good, "-990 ", "-990 1 ")),
+             Contains("got 18 values, expected 17"));
   CHECK_THAT(ply_refusal(replaced(good, "-990 ", "1e99 ")),
              Contains("vertex 1, property scale_0: got inf"));
 }

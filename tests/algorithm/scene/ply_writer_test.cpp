@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "algorithm/scene/gaussian_limits.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/scene/ply_reader.h"
 #include "testbench/builtin/random.h"
 #include "tests/algorithm/scene/ply_bytes.h"

@@ -55,6 +55,8 @@ TEST_CASE("shared scenes: yard, there and back byte for byte", "[shared][nightly
   CHECK(test::bytes_of(scratch.path("yard.ply")) == test::bytes_of(path));
 }
 
-TEST_CASE("shared scenes: garden", "[shared][nightly]") { check_scene({"garden", 851'756, 0, 800}); }
+TEST_CASE("shared scenes: garden", "[shared][nightly]") {
+  check_scene({"garden", 851'756, 0, 800});
+}
 
 TEST_CASE("shared scenes: park", "[shared][nightly]") { check_scene({"park", 1'699'714, 0, 55}); }

@@ -1,4 +1,4 @@
-// The bounds of footprint.h, coarse_bound.h, extent_bound.h and frame_sides.h never remove a pixel
+// The bounds of footprint.h, coarse_bound.h and extent_bound.h never remove a pixel
 // whose computed alpha is visible: seeded random Gaussians, needles of ratio 10^10, giants and the
 // near plane among them.
 #include <catch2/catch.hpp>
@@ -7,8 +7,6 @@
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/extent_bound.h"
-#include "algorithm/splat/frame_sides.h"
-#include "algorithm/splat/group_reach.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/row_span.h"
 #include "algorithm/splat/visible_extents.h"

@@ -1,13 +1,12 @@
-// Within gaussian_limits.h nothing leaves float: no Gaussian in front of a camera is dropped for
+// Within gaussian_cloud.h nothing leaves float: no Gaussian in front of a camera is dropped for
 // want of range.
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "algorithm/input_error.h"
-#include "algorithm/scene/gaussian_limits.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/coarse_bound.h"
 #include "algorithm/splat/extent_bound.h"
-#include "algorithm/splat/frame_sides.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
 #include "tests/algorithm/splat/random_gaussian.h"

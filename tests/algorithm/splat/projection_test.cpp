@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "tests/algorithm/splat/random_gaussian.h"
 
 using namespace sgs;

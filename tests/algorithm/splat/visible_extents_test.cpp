@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "algorithm/scene/gaussian_limits.h"
+#include "algorithm/scene/gaussian_cloud.h"
 #include "tests/algorithm/splat/random_gaussian.h"
 
 namespace sgs {

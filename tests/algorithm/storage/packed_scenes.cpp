@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "algorithm/splat/activate.h"
-#include "algorithm/storage/store_scene.h"
+#include "algorithm/storage/stored_scene.h"
 #include "testbench/builtin/builtin_scene.h"
 
 namespace sgs::test {

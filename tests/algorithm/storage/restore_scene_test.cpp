@@ -1,6 +1,4 @@
 // Scenes out of their images: the same bits to golden renderers, and nothing impossible believed.
-#include "algorithm/storage/restore_scene.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -10,7 +8,8 @@
 #include "algorithm/render/exact_renderer.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/render/reference_renderer.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
+#include "algorithm/storage/stored_scene.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/storage/packed_scenes.h"
 #include "tests/support/scratch_folder.h"

@@ -1,16 +1,15 @@
 // Storing by configuration: what is asked for is stored, and what was left open is chosen by rule.
-#include "algorithm/storage/store_scene.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 
-#include "algorithm/input_error.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/splat/spherical_harmonics.h"
 #include "algorithm/storage/sh_bands.h"
 #include "algorithm/storage/storage_scheme.h"
+#include "algorithm/storage/stored_scene.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "tests/algorithm/storage/packed_scenes.h"
 #include "tests/support/scratch_folder.h"

@@ -8,13 +8,12 @@
 #include <cstring>
 
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/storage/image_file.h"
-#include "algorithm/storage/restore_scene.h"
 #include "algorithm/storage/storage_scheme.h"
-#include "algorithm/storage/store_scene.h"
-#include "algorithm/train/own_pictures.h"
-#include "algorithm/train/paper_quality.h"
+#include "algorithm/storage/stored_scene.h"
+#include "algorithm/train/evaluation.h"
+#include "algorithm/train/photographs.h"
 #include "algorithm/vq/image_weights.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/train/cameras_in_a_row.h"

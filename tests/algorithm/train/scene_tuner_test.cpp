@@ -6,13 +6,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/render/reference_renderer.h"
 #include "algorithm/render/splat_bins.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
-#include "algorithm/train/own_pictures.h"
-#include "algorithm/train/paper_quality.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/train/evaluation.h"
+#include "algorithm/train/photographs.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/train/cameras_in_a_row.h"
 

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 
 #include "algorithm/splat/spherical_harmonics.h"
-#include "algorithm/train/neighbour_distance.h"
 #include "tests/support/scratch_folder.h"
 
 namespace sgs::test {

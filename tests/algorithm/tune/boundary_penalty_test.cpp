@@ -7,9 +7,9 @@
 #include <cstring>
 
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/tune/scene_gradient.h"
-#include "algorithm/tune/visit_plan.h"
+#include "algorithm/tune/visited_sequences.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/splat/dual.h"
 
@@ -97,7 +97,7 @@ PaperScene paper_scene(const GaussianCloud& scene, float voxel_size) {
 }
 
 CloudGradient penalty_gradient(const PaperScene& scene, const View<float>& view,
-                          const GroupSequences& sequences) {
+                               const GroupSequences& sequences) {
   const RenderResult picture = draw(sequences);
   PixelGradient by_pixel{Image(view.width, view.height), {}};
   for (glm::vec3& pixel : by_pixel.colour.pixels) pixel = glm::vec3(1e-3F);

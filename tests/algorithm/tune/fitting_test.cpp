@@ -9,7 +9,7 @@
 #include "algorithm/image/quality.h"
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/tune/adam.h"
 #include "algorithm/tune/photometric_loss.h"
 #include "algorithm/tune/scene_gradient.h"
@@ -71,7 +71,8 @@ TEST_CASE("a scene moved off its picture finds back by gradients of the referenc
   const auto view = make_view<float>(camera);
   const GaussianCloud scene = random_cloud(1, 600, 1, {0, 0, 3}, 1, 0.02F, 0.3F);
   const Image target = draw(reference_sequences(view, activate(scene))).image;
-  const Fit fitted = fit(moved_off(scene, true), view, target, reference_sequences, kFittingRates, 120);
+  const Fit fitted =
+      fit(moved_off(scene, true), view, target, reference_sequences, kFittingRates, 120);
   CHECK(fitted.losses.back() < 0.2 * fitted.losses.front());
 }
 
@@ -110,7 +111,8 @@ TEST_CASE("a fit takes the same way, bit for bit, on 1, 2 and 3 threads") {
   std::vector<Fit> fits;
   for (const std::size_t threads : {1, 2, 3}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    fits.push_back(fit(moved_off(scene, true), view, target, reference_sequences, kFittingRates, 6));
+    fits.push_back(
+        fit(moved_off(scene, true), view, target, reference_sequences, kFittingRates, 6));
   }
   for (const std::size_t other : {1, 2}) {
     CHECK(fits[0].losses == fits[other].losses);

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <random>
 
+#include "algorithm/files/input_error.h"
 #include "algorithm/image/quality.h"
-#include "algorithm/input_error.h"
 
 namespace sgs::test {
 namespace {

@@ -12,9 +12,8 @@
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/blend.h"
 #include "algorithm/splat/make_splat.h"
-#include "algorithm/tune/activation_gradient.h"
-#include "algorithm/tune/blend_gradient.h"
 #include "algorithm/tune/gaussian_gradient.h"
+#include "algorithm/tune/splat_gradient.h"
 
 namespace sgs::test {
 

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "algorithm/splat/activate.h"
-#include "algorithm/tune/activation_gradient.h"
-#include "algorithm/tune/projection_gradient.h"
+#include "algorithm/tune/gaussian_gradient.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/splat/dual.h"
 #include "tests/algorithm/tune/hard_gaussians.h"

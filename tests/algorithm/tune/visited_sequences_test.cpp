@@ -7,7 +7,7 @@
 
 #include "algorithm/render/paper_renderer.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "tests/algorithm/tune/float_scenes.h"
 #include "tests/algorithm/tune/hard_gaussians.h"
 #include "tests/support/same_bytes.h"

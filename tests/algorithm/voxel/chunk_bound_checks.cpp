@@ -9,7 +9,7 @@
 #include "algorithm/render/group_state.h"
 #include "algorithm/splat/activate.h"
 #include "algorithm/splat/coarse_bound.h"
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
 #include "algorithm/splat/make_splat.h"
 #include "algorithm/splat/visible_extents.h"
 #include "algorithm/voxel/chunk_test.h"

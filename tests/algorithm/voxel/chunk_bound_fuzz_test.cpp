@@ -3,4 +3,6 @@
 
 #include "tests/algorithm/voxel/chunk_bound_checks.h"
 
-TEST_CASE("chunk test misses nothing: long", "[nightly]") { sgs::test::fuzz_chunk_bounds(1'000'000, 300'000); }
+TEST_CASE("chunk test misses nothing: long", "[nightly]") {
+  sgs::test::fuzz_chunk_bounds(1'000'000, 300'000);
+}

@@ -10,9 +10,7 @@
 
 using namespace sgs;
 
-TEST_CASE("chunk test misses nothing: random hard scenes") {
-  test::fuzz_chunk_bounds(0, 15000);
-}
+TEST_CASE("chunk test misses nothing: random hard scenes") { test::fuzz_chunk_bounds(0, 15000); }
 
 TEST_CASE("chunk test misses nothing: Gaussians that only just reach a group") {
   CHECK(test::check_bounds_at_the_edge(1, 50000) > 20000);
@@ -46,7 +44,7 @@ TEST_CASE("nearest depth of a box: its corners are not nearer") {
 
 TEST_CASE("nearest depth of a box: corners that only the slack for rounding keeps behind it") {
   // Found by a search for the least distance between the two; without the slack of the depth in
-  // chunk_test.cpp the box is said to begin one to four steps of float behind its corner.
+  // chunk_tree.cpp the box is said to begin one to four steps of float behind its corner.
   struct Case {
     glm::vec3 forward, low, high;
   };

@@ -1,11 +1,12 @@
 // The hierarchical walk and the sampling against stepping from cell to cell.
-#include "algorithm/voxel/ray_walk.h"
+#include "tests/algorithm/voxel/ray_walk.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <string>
 
+#include "algorithm/voxel/ray_path.h"
 #include "algorithm/voxel/ray_sampling.h"
 #include "tests/algorithm/voxel/cell_stepper.h"
 #include "tests/algorithm/voxel/stored_clouds.h"
@@ -88,7 +89,7 @@ void compare_with_stepping(unsigned seed, float half_side, float voxel_size,
   const OccupiedCells cells(cloud, grid);
   REQUIRE(cells.count() == grid.voxels.size());
   const GridTable table{grid};
-  RayWalk walk(grid.frame, table);
+  RayWalk walk(RayPath<>(grid.frame), table);
   std::size_t met = 0;
   for (int i = 0; i < rays; ++i) {
     const Ray ray = random_ray(random, half_side, voxel_size, centre);
@@ -134,7 +135,7 @@ VoxelGrid row_of_cells(int count) {
 TEST_CASE("ray walk: a row of cells, by hand") {
   const VoxelGrid grid = row_of_cells(6);
   const GridTable table{grid};
-  RayWalk walk(grid.frame, table);
+  RayWalk walk(RayPath<>(grid.frame), table);
   using Met = std::vector<std::uint32_t>;
   CHECK(traced(walk, ray_from({-3, 0.5F, 0.5F}, {1, 0, 0})) == Met{0, 1, 2, 3, 4, 5});
   CHECK(traced(walk, ray_from({9, 0.5F, 0.5F}, {-1, 0, 0})) == Met{5, 4, 3, 2, 1, 0});
@@ -167,7 +168,7 @@ TEST_CASE("ray walk: a ray along an edge of cells stays in the cells on one side
   const auto [cloud, grid] = test::by_voxels(cloud_of(means), 1.0F);
   const OccupiedCells cells(cloud, grid);
   const GridTable table{grid};
-  RayWalk walk(grid.frame, table);
+  RayWalk walk(RayPath<>(grid.frame), table);
   const Ray ray = ray_from({-1, 0, 0}, {1, 0, 0});
   const auto met = traced(walk, ray);
   CHECK(met.size() == 4);  // those at y, z in [0, 1)
@@ -213,7 +214,7 @@ TEST_CASE("ray walk: empty space is crossed in few steps") {
   const ActivatedCloud cloud = cloud_of({{0.5F, 0.5F, 0.5F}, {100000.5F, 0.5F, 0.5F}});
   const VoxelGrid grid = arrange_by_voxels(cloud, 1.0F).table;
   const GridTable table{grid};
-  RayWalk walk(grid.frame, table);
+  RayWalk walk(RayPath<>(grid.frame), table);
   std::vector<std::uint32_t> met;
   const std::uint32_t steps =
       walk.walk(ray_from({-1, 0.5F, 0.5F}, {1, 0, 0}), [&](std::uint32_t voxel, std::uint32_t) {
@@ -232,15 +233,15 @@ TEST_CASE("ray sampling: finds what the walk finds, in its order, and with fine 
   const ActivatedCloud cloud = cloud_of(means);
   const VoxelGrid grid = arrange_by_voxels(cloud, 1.0F).table;
   const GridTable table{grid};
-  RayWalk walk(grid.frame, table);
-  RaySampling coarse(grid.frame, table, 0.5F), fine(grid.frame, table, 0.01F);
+  RayWalk walk(RayPath<>(grid.frame), table);
+  RayWalk coarse(SamplePath(grid.frame, 0.5F), table), fine(SamplePath(grid.frame, 0.01F), table);
   std::size_t exact = 0, by_coarse = 0, by_fine = 0;
   for (int i = 0; i < 1000; ++i) {
     const glm::vec3 origin = in_cube(random, 20);
     const Ray ray = ray_from(origin, in_cube(random, 8) - origin);
     const auto all = traced(walk, ray);
     exact += all.size();
-    for (RaySampling<const GridTable>* sampling : {&coarse, &fine}) {
+    for (auto* sampling : {&coarse, &fine}) {
       const auto some = traced(*sampling, ray);
       (sampling == &coarse ? by_coarse : by_fine) += some.size();
       // A subsequence.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "algorithm/splat/reorder.h"
+#include "algorithm/splat/gaussian.h"
 #include "algorithm/voxel/chunk_tree.h"
 #include "algorithm/voxel/voxel_grid.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "algorithm/voxel/voxel_cuts.h"
 
 namespace sgs {

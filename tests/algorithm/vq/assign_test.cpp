@@ -1,9 +1,8 @@
 // Codebooks that are there, and who uses which of their entries.
-#include "algorithm/vq/assign.h"
-
 #include <catch2/catch.hpp>
 
 #include "algorithm/splat/activate.h"
+#include "algorithm/vq/quantise.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/vq/small_config.h"
 

@@ -11,7 +11,7 @@
 
 #include "algorithm/scene/gaussian_cloud.h"
 #include "algorithm/splat/activate.h"
-#include "algorithm/vq/canonical_shape.h"
+#include "algorithm/vq/vq_points.h"
 #include "tests/algorithm/render/test_clouds.h"
 #include "tests/algorithm/vq/small_config.h"
 

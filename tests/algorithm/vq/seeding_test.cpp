@@ -1,12 +1,12 @@
 // Seeding against a plain loop: the same points, whatever their number and weights.
-#include "algorithm/vq/seeding.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <random>
+
+#include "algorithm/vq/kmeans.h"
 
 namespace sgs {
 namespace {

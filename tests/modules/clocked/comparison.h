@@ -18,12 +18,12 @@ struct Preset {
   PixelSize group;
   MemoryPortConfig port;
 };
+PixelSize group_of_preset(const std::string& name);
 // name: of the preset, whose machine has this configuration.
 MemoryPortConfig port_of_preset(const std::string& name, MemoryPortConfig port);
 template <class Config>
-Preset preset_of(const std::string& name, const Config& config = {}) {
-  return {{static_cast<int>(config.group_width_px), static_cast<int>(config.group_height_px)},
-          port_of_preset(name, config.memory_port)};
+Preset preset_of(const std::string& name) {
+  return {group_of_preset(name), port_of_preset(name, Config{}.memory_port)};
 }
 
 // What the unit hands out, simulated in a process of its own. Throws std::runtime_error where a
@@ -38,8 +38,8 @@ Config changed(Config config, const Change& change) {
 }
 
 // Prints a line for each workload, and checks: the same things in the same order, each in the
-// reference's cycle but for as many as a workload is known for, and the last of them within
-// kMostDifferencePercent of it.
+// reference's cycle or as far from it, all together, as a workload is known for, and the last of
+// them within kMostDifferencePercent of it.
 class Comparison {
  public:
   explicit Comparison(std::string unit) : unit_(std::move(unit)) {}
@@ -48,20 +48,20 @@ class Comparison {
   Comparison& operator=(const Comparison&) = delete;
 
   // load: with a name. run(test, taken, load, seed), reference(load, seed): what is taken.
-  // most_elsewhere: that may come in another cycle, of all seeds.
+  // known_apart: cycles, of all items and seeds.
   template <class Load, class Run, class Reference>
   void workload(const Load& load, const Run& run, const Reference& reference,
-                std::size_t most_elsewhere = 0) {
+                std::uint64_t known_apart = 0) {
     compare(
         load.name,
         [&](tb::Case& test, Takings& taken, std::uint64_t seed) { run(test, taken, load, seed); },
-        [&](std::uint64_t seed) { return reference(load, seed); }, most_elsewhere);
+        [&](std::uint64_t seed) { return reference(load, seed); }, known_apart);
   }
 
  private:
   void compare(const std::string& name,
                const std::function<void(tb::Case&, Takings&, std::uint64_t)>& run,
-               const std::function<Takings(std::uint64_t)>& reference, std::size_t most_elsewhere);
+               const std::function<Takings(std::uint64_t)>& reference, std::uint64_t known_apart);
 
   const std::string unit_;
   double sum_ = 0, worst_ = 0;  // per cent

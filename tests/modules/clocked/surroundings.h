@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "algorithm/splat/group_reach.h"
+#include "algorithm/splat/extent_bound.h"
 #include "modules/streaminggs/finished_groups.h"
 #include "modules/streaminggs/finished_subtiles.h"
 #include "testbench/units/unit_bench.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/config/strict_json.h"
 #include "modules/dram/address_mapping.h"
 #include "modules/dram/dram_config.h"

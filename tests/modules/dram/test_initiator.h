@@ -51,7 +51,8 @@ class Initiator : public sc_core::sc_module {
     body_(*this);
     finished = true;
   }
-  tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& p, tlm::tlm_phase& phase, sc_core::sc_time&) {
+  tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& p, tlm::tlm_phase& phase,
+                                     sc_core::sc_time&) {
     if (phase == tlm::END_REQ) {
       end_requests.push_back(sc_core::sc_time_stamp());
       return tlm::TLM_ACCEPTED;

@@ -4,7 +4,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 
 namespace sgs::gscore {
 namespace {

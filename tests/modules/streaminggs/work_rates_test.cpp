@@ -8,9 +8,8 @@
 #include <random>
 #include <tuple>
 
-#include "algorithm/splat/folded_pipeline.h"
-#include "algorithm/voxel/ray_work.h"
-#include "modules/datapath/scheduled_datapath.h"
+#include "modules/datapath/counted_datapath.h"
+#include "modules/datapath/folded_pipeline.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"
 
 namespace sgs::test {
@@ -57,7 +56,7 @@ TEST_CASE("turns: steps of rays out of blocks and out of cells meet on no lane")
     std::map<std::tuple<StepBy, std::uint32_t>, std::array<std::uint32_t, 2>> taken;
     int kind = 0;
     for (const StepCase& step : {longest_step_case(), cell_step_case()}) {
-      const auto steps = ray_step_steps(step, latencies);
+      const auto steps = ray_step_flow(step).steps(latencies);
       const FoldedSchedule schedule = folded_pipeline(steps, parts, latencies).schedule;
       for (std::size_t i = 0; i < steps.size(); ++i) {
         if (steps[i].by != StepBy::kOutside) ++taken[{steps[i].by, schedule.begins[i]}][kind];

@@ -15,8 +15,8 @@
 #include "tests/support/scratch_folder.h"
 
 using namespace sgs;
-using sgs::test::same_bytes;
 using Catch::Matchers::Contains;
+using sgs::test::same_bytes;
 
 namespace {
 

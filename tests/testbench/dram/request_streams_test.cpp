@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/dram/request_generator.h"
 
 namespace sgs {

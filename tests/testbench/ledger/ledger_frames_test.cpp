@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "algorithm/order/chunk_walk.h"
-#include "algorithm/order/tree_in_memory.h"
 #include "algorithm/render/exact_renderer.h"
 #include "algorithm/render/group_state.h"
 #include "algorithm/render/paper_renderer.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "testbench/streaminggs/frame_run.h"
-#include "testbench/streaminggs/prepared_scene.h"
+#include "testbench/streaminggs/run/frame_run.h"
+#include "testbench/streaminggs/run/prepared_scene.h"
 
 namespace sgs::test {
 

@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "testbench/process/child_process.h"
 
 namespace sgs {

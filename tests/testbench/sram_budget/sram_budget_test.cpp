@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "modules/machines.h"
 #include "modules/streaminggs/exact_machine.h"
 #include "testbench/builtin/open_scene.h"
 #include "testbench/process/in_child.h"
 #include "testbench/result/collect.h"
 #include "testbench/result/wire.h"
-#include "testbench/streaminggs/prepared_scene.h"
+#include "testbench/streaminggs/run/prepared_scene.h"
 #include "tlm/time_resolution.h"
 
 namespace sgs::test {

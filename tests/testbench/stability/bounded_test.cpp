@@ -4,9 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "algorithm/splat/blend.h"
-#include "algorithm/splat/lane_input.h"
 #include "algorithm/splat/spherical_harmonics.h"
-#include "algorithm/tune/projection_gradient.h"
+#include "algorithm/tune/gaussian_gradient.h"
 #include "testbench/stability/projected_case.h"
 
 using namespace sgs;
@@ -76,9 +75,9 @@ TEST_CASE("the bounding scalar gives the half's bits: the exponent, and 2 to it"
     b.conic_c = BoundedFloat(s.conic_c);
     const auto left = static_cast<float>(random.normal() / std::sqrt(s.conic_a));
     const auto top = static_cast<float>(random.normal() / std::sqrt(s.conic_c));
-    const auto plain = lane_input_in_half<HalfScalar>(square_splat(s), left, top);
+    const auto plain = blend_input_in_half<HalfScalar>(square_splat(s), left, top);
     const auto bounded =
-        lane_input_in_half<BoundedHalf>(square_splat(b), BoundedFloat(left), BoundedFloat(top));
+        blend_input_in_half<BoundedHalf>(square_splat(b), BoundedFloat(left), BoundedFloat(top));
     const HalfScalar exponent = log2_falloff(plain.conic, plain.left, plain.top);
     const BoundedHalf exponent_bounded = log2_falloff(bounded.conic, bounded.left, bounded.top);
     REQUIRE(same_bits(exponent.value(), exponent_bounded.value));

@@ -1,4 +1,4 @@
-// Every formula in every form: below its proven bound, below its law, and broken where it is said
+// Every formula: below its proven bound, below its law, and broken where it is said
 // to break.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -60,7 +60,7 @@ TEST_CASE("stability: no row without its unit, its law and its reason") {
   }
 }
 
-TEST_CASE("stability: where each form breaks, and how near its law it comes before") {
+TEST_CASE("stability: where each formula breaks, and how near its law it comes before") {
   struct Row {
     const char* name;
     double first, last;  // it breaks between these places; 0: nowhere
@@ -70,34 +70,20 @@ TEST_CASE("stability: where each form breaks, and how near its law it comes befo
   };
   const std::vector<Row> rows{
       {"v = R^T (p - c) | p - c, c as two floats | float | coordinates", 0, 0, 0.079},
-      {"v = R^T (p - c) | p - c, c as one float | float | coordinates", 1e5, 1e7, 0.1},
-      {"v = R^T (p - c) | R^T p + t | float | coordinates", 1e5, 1e6, 0.048},
-      {"v = R^T (p - c) | p - c, c as two halves | half | coordinates", 1e1, 1e3, 0.078},
       {"depth key v_z | bits of v_z | float | distance from the near plane", 0, 0, 0.07},
       {"depth key v_z | bits of v_z | half | distance from the near plane", 1e5, 1e5, 0.062},
       {"v_z > 0.2 | as the key | float | distance from the near plane", 1e-6, 1e-5, 0.053},
       {"centre x = f v_x / v_z + c_x | as written | float | distance from the near plane", 0, 0,
        0.19},
-      {"centre x = f v_x / v_z + c_x | as written | half | distance from the near plane", 1e-6,
-       1e-6, 0.17},
       {"covariance J W Sigma W^T J^T + 0.3 I | u_i . u_k, u = rows of J W M | float | condition", 0,
        0, 0.034},
-      {"covariance J W Sigma W^T J^T + 0.3 I | u_i . u_k, u = rows of J W M | half | condition",
-       1e5, 1e6, 0.038},
       {"determinant | 0.09 + 0.3 (|u1|^2 + |u2|^2) + |u1 x u2|^2 | float | condition", 1e12, 1e14,
        0.023},
-      {"determinant | a c - b^2 | float | condition", 1e5, 1e7, 0.018},
-      {"determinant | 0.09 + 0.3 (|u1|^2 + |u2|^2) + |u1 x u2|^2 | half | condition", 1e3, 1e5,
-       0.015},
       {"conic, the inverse | by the minors | float | condition", 1e12, 1e14, 0.008},
-      {"conic, the inverse | by a c - b^2 | float | condition", 1e5, 1e7, 0.007},
       {"conic, the inverse | by the minors | float | px of one sigma, discs", 1e9, 1e10, 0.0045},
       {"larger eigenvalue, of the radius | mid + sqrt(((a - c)/2)^2 + b^2) | float | part by which "
        "the axes differ",
        0, 0, 0.035},
-      {"larger eigenvalue, of the radius | mid + sqrt(mid^2 - det) | float | part by which the "
-       "axes differ",
-       0, 0, 0.11},
       {"larger eigenvalue, of the radius | mid + sqrt(((a - c)/2)^2 + b^2) | float | px of one "
        "sigma, discs",
        1e9, 1e10, 0.044},
@@ -106,25 +92,16 @@ TEST_CASE("stability: where each form breaks, and how near its law it comes befo
        0.084},
       {"exponent of the falloff | A dx^2 + C dy^2 + 2 B dx dy | float | condition", 1e5, 1e6,
        0.0059},
-      {"exponent of the falloff | A (dx + (B/A) dy)^2 + dy^2 / c | float | condition", 1e9, 1e11,
-       0.0057},
-      {"exponent of the falloff | A dx^2 + C dy^2 + 2 B dx dy, lengths in units of 2^e px | half | "
-       "condition",
-       1e0, 1e2, 0.014},
       {"exponent of the falloff | A (dx + (B/A) dy)^2 + (C - B^2/A) dy^2, along x and y in "
        "units of their own | half | condition",
        1e1, 1e3, 0.014},
       {"derivative of the falloff by the covariance | sum f e e^T / 2, e = K d | float | condition",
        1e12, 1e14, 0.0045},
-      {"derivative of the falloff by the covariance | K (sum f d d^T) K / 2 | float | condition",
-       1e5, 1e7, 0.0037},
       {"scale = exp(s) | in double, rounded once | float | log-scale", -110, -100, 0.48},
       {"opacity = sigmoid(o) | in double, rounded once | float | logit", -110, -95, 0.48},
       {"q / |q| | in double, rounded once | float | |q|", 0, 0, 0.24},
       {"derivative of the opacity | e / (1 + e)^2, e = exp(-|o|) | float | logit", 95, 95, 0.19},
-      {"derivative of the opacity | o (1 - o) | float | logit", 10, 20, 0.23},
       {"colour, degree 3 | SH of the unit direction | float | |p - c|", 1e20, 1e20, 0.011},
-      {"colour, degree 3 | SH of the unit direction | half | |p - c|", 1e3, 1e3, 0.0093},
       {"colour, degree 3 | SH of the unit direction | float | coefficients", 1e38, 1e38, 0.01},
       {"derivative of the colour by p | by x, y, z of the direction, then tangential | float | |p "
        "- c|",
@@ -132,12 +109,8 @@ TEST_CASE("stability: where each form breaks, and how near its law it comes befo
       {"alpha = min(0.99, opacity 2^t) | table of 64 parabolas | float | opacity", 0, 0, 0.18},
       {"alpha = min(0.99, opacity 2^t) | table of 64 lines | half | opacity", 0, 0, 0.15},
       {"light behind layers of 1/255 | T - alpha T | float | layers", 22'000, 100'000, 0.019},
-      {"light behind layers of 1/255 | T (1 - alpha) | float | layers", 22'000, 100'000, 0.014},
-      {"light behind layers of 1/255 | 2^(sum of log2(1 - alpha)) | float | layers", 22'000,
-       100'000, 0.034},
       {"light behind layers of 1/255 | T - alpha T | half | layers", 300, 1000, 0.051},
       {"light behind one splat | T - alpha T | float | 1 - alpha", 0, 0, 0.41},
-      {"light behind one splat | T (1 - alpha) | float | 1 - alpha", 0, 0, 0.26},
       {"colour of a pixel, layers of 1/255 | C + c (alpha T) | float | layers", 0, 0, 0.0075},
       {"colour of a pixel, layers of 1/255 | C + c (alpha T) | half | layers", 500, 1000, 0.01},
       {"dL/dalpha | back to front: T (g c) - behind / (1 - alpha) | float | layers", 0, 0, 0.009},

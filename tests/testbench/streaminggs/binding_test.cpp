@@ -1,6 +1,6 @@
 // The binding resource is the busiest, and the next is the one after it; where none is busy most of
 // the time, the waiting leads to what holds the frame.
-#include "testbench/streaminggs/binding.h"
+#include "testbench/streaminggs/report/binding.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // Paths from files and built-in scenes, frames between their keys, what frames come to, and the
 // sheet that shows them.
-#include "testbench/streaminggs/camera_path.h"
+#include "testbench/streaminggs/run/camera_path.h"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "algorithm/scene/camera_between.h"
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/builtin/camera_rig.h"
-#include "testbench/streaminggs/contact_sheet.h"
-#include "testbench/streaminggs/path_summary.h"
+#include "testbench/streaminggs/report/contact_sheet.h"
+#include "testbench/streaminggs/run/path_summary.h"
 #include "tests/support/scratch_folder.h"
 
 namespace sgs::test {

@@ -1,5 +1,5 @@
 // What is taken out of the folder is what was put in, and nothing else ever is.
-#include "testbench/streaminggs/codebook_cache.h"
+#include "testbench/streaminggs/run/codebook_cache.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -103,13 +103,16 @@ TEST_CASE("codebook cache: a damaged entry is made anew") {
     CHECK(same(kept.get(), first));
     CHECK(kept.made == expected);
   }
-  // One of another scene under this name.
-  Kept other;
-  other.cloud = activate(test::random_cloud(2, 300, 2, {0, 0, 0}, 3, 0.01F, 1));
-  other.get();
-  fs::copy_file(other.files().front(), entry, fs::copy_options::overwrite_existing);
-  CHECK(same(kept.get(), first));
-  CHECK(kept.made == ++expected);
+  // Of another scene, or of the same one with another seed, under this name.
+  Kept others[2];
+  others[0].cloud = activate(test::random_cloud(2, 300, 2, {0, 0, 0}, 3, 0.01F, 1));
+  others[1].config.seed += 1;
+  for (Kept& other : others) {
+    CHECK_FALSE(same(other.get(), first));
+    fs::copy_file(other.files().front(), entry, fs::copy_options::overwrite_existing);
+    CHECK(same(kept.get(), first));
+    CHECK(kept.made == ++expected);
+  }
 }
 
 TEST_CASE("codebook cache: what cannot be kept is made all the same") {
@@ -138,15 +141,19 @@ TEST_CASE("codebook cache: the oldest give way beyond the most bytes, other file
     fs::last_write_time(folder / name,
                         fs::file_time_type::clock::now() - std::chrono::hours(hours));
   };
-  put("codebooks-old.sgs", 1 << 20, 3);
-  put("codebooks-older.sgs", CodebookCache::kMostBytes - (1 << 20), 4);
-  put("scene of the user.sgs", 1 << 20, 5);
+  const char *old = "codebooks-00000000000000a1.sgs", *oldest = "codebooks-00000000000000a3.sgs",
+             *part = "codebooks-00000000000000a2.sgs.17-0.part";  // of a process that was killed
+  put(old, 1 << 20, 3);
+  put(part, CodebookCache::kMostBytes - (1 << 20), 4);
+  put(oldest, 1, 5);
+  put("codebooks-garden.sgs", 1 << 20, 6);  // the user's
   fs::remove(entry);
   kept.get();
   CHECK(fs::exists(entry));
-  CHECK(fs::exists(folder / "codebooks-old.sgs"));
-  CHECK_FALSE(fs::exists(folder / "codebooks-older.sgs"));
-  CHECK(fs::exists(folder / "scene of the user.sgs"));
+  CHECK(fs::exists(folder / old));
+  CHECK_FALSE(fs::exists(folder / part));
+  CHECK_FALSE(fs::exists(folder / oldest));
+  CHECK(fs::exists(folder / "codebooks-garden.sgs"));
 }
 
 }  // namespace

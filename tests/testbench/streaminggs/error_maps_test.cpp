@@ -1,5 +1,5 @@
 // error_maps.h: which maps a view has, and what they show.
-#include "testbench/streaminggs/error_maps.h"
+#include "testbench/streaminggs/report/error_maps.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // order_loss.h with the designs of both orders: each loss is charged with what it costs.
-#include "testbench/streaminggs/order_loss.h"
+#include "testbench/streaminggs/run/order_loss.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 #include "algorithm/render/reference_renderer.h"
 #include "modules/machines.h"
 #include "testbench/builtin/open_scene.h"
-#include "testbench/streaminggs/prepared_scene.h"
+#include "testbench/streaminggs/run/prepared_scene.h"
 
 namespace sgs {
 namespace {

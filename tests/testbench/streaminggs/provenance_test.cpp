@@ -1,5 +1,5 @@
 // provenance.h: what tells that two runs were fed the same bytes.
-#include "testbench/streaminggs/provenance.h"
+#include "testbench/streaminggs/report/provenance.h"
 
 #include <catch2/catch.hpp>
 #include <string>

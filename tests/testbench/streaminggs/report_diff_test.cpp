@@ -1,5 +1,5 @@
 // What diff makes of two reports: pairs, weights, and what it refuses.
-#include "testbench/streaminggs/report_diff.h"
+#include "testbench/streaminggs/report/report_diff.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -23,37 +23,36 @@ json view_of(int number) {
     return json{{"busy_cycles", busy}, {"waits", waits}};
   };
   const json idle = {{"for", "idle"}, {"cycles", 100}};
-  return {
-      {"schema_version", 2},
-      {"view", number},
-      {"scene", {{"name", "s"}, {"gaussians", 5}, {"sh_degree", 3}, {"dropped_invalid", 0}}},
-      {"camera", {{"id", 7}, {"img_name", "front"}}},
-      {"frame", {{"cycles", 1000}, {"width_px", 64}, {"height_px", 36}}},
-      {"image", {{"psnr_db", nullptr}, {"equals_streaming_renderer", true}}},
-      {"binding", {{"holds", "dram"}}},
-      {"units",
-       {{"hfu0",
-         {{"activities",
-           {{"filter", activity(500, json::array({wait("input", "to_hfu0", 400), idle}))},
-            {"load", activity(10, json::array())}}}}},
-        {"hfu1",
-         {{"activities",
-           {{"filter", activity(300, json::array({wait("input", "to_hfu1", 700)}))}}}}}}},
-      {"dram",
-       {{"bytes", 4000},
-        {"bytes_by_region",
-         {{"first", {{"hfu0", {{"read", 1500}}}, {"hfu1", {{"read", 2500}}}}}}}}},
-      {"energy",
-       {{"fine_j", 3.0},
-        {"total_j", 4.0},
-        {"dram_j", 1.0},
-        {"mean_power_w", 9.0},
-        {"bands", {{"fine_j", {}}, {"dram_j", {}}, {"total_j", {}}}}}},
-      {"area_mm2", {{"fine", 2.0}, {"total", 2.0}, {"bands", {{"fine", {}}, {"total", {}}}}}},
-      {"provenance",
-       {{"technology", "32 nm"}, {"technology_xxh64", "0"}, {"version", "1"}, {"commit", "c"}}},
-      {"chosen", json::array({{{"key", "hfus"}, {"value", 2}}})},
-      {"config", {{"hfus", 2}, {"dram", {{"channels", 4}}}}}};
+  return {{"schema_version", 2},
+          {"view", number},
+          {"scene", {{"name", "s"}, {"gaussians", 5}, {"sh_degree", 3}, {"dropped_invalid", 0}}},
+          {"camera", {{"id", 7}, {"img_name", "front"}}},
+          {"frame", {{"cycles", 1000}, {"width_px", 64}, {"height_px", 36}}},
+          {"image", {{"psnr_db", nullptr}, {"equals_streaming_renderer", true}}},
+          {"binding", {{"holds", "dram"}}},
+          {"units",
+           {{"hfu0",
+             {{"activities",
+               {{"filter", activity(500, json::array({wait("input", "to_hfu0", 400), idle}))},
+                {"load", activity(10, json::array())}}}}},
+            {"hfu1",
+             {{"activities",
+               {{"filter", activity(300, json::array({wait("input", "to_hfu1", 700)}))}}}}}}},
+          {"dram",
+           {{"bytes", 4000},
+            {"bytes_by_region",
+             {{"first", {{"hfu0", {{"read", 1500}}}, {"hfu1", {{"read", 2500}}}}}}}}},
+          {"energy",
+           {{"fine_j", 3.0},
+            {"total_j", 4.0},
+            {"dram_j", 1.0},
+            {"mean_power_w", 9.0},
+            {"bands", {{"fine_j", {}}, {"dram_j", {}}, {"total_j", {}}}}}},
+          {"area_mm2", {{"fine", 2.0}, {"total", 2.0}, {"bands", {{"fine", {}}, {"total", {}}}}}},
+          {"provenance",
+           {{"technology", "32 nm"}, {"technology_xxh64", "0"}, {"version", "1"}, {"commit", "c"}}},
+          {"chosen", json::array({{{"key", "hfus"}, {"value", 2}}})},
+          {"config", {{"hfus", 2}, {"dram", {{"channels", 4}}}}}};
 }
 
 json run_of(const std::vector<json>& views) {
@@ -92,8 +91,9 @@ TEST_CASE("diff: the folder of a camera path is told to be one") {
   json path = view_of(0);
   path["summary"] = {{"frames", 2}};
   scratch.write("path.json", path.dump());
-  CHECK(input_error_of([&] { read_reported_run(scratch.path(".")); }).find("path.json: got frames") !=
-        std::string::npos);
+  CHECK(input_error_of([&] {
+          read_reported_run(scratch.path("."));
+        }).find("path.json: got frames") != std::string::npos);
 }
 
 TEST_CASE("diff: one value changed, by table") {

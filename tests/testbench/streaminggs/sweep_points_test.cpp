@@ -1,5 +1,5 @@
 // sweep_points.h: grids, lists, JSON lines; and lines that come in pieces.
-#include "testbench/streaminggs/sweep_points.h"
+#include "testbench/streaminggs/sweep/sweep_points.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "testbench/streaminggs/point_stream.h"
+#include "testbench/streaminggs/sweep/point_stream.h"
 #include "tests/support/scratch_folder.h"
 
 namespace sgs {

@@ -1,5 +1,5 @@
 // sweep_record.h: what a result says of its point, to people.
-#include "testbench/streaminggs/sweep_record.h"
+#include "testbench/streaminggs/sweep/sweep_record.h"
 
 #include <catch2/catch.hpp>
 #include <string>

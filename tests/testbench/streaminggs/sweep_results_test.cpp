@@ -1,5 +1,5 @@
 // sweep_results.h: a file of results from one sweep to the next.
-#include "testbench/streaminggs/sweep_results.h"
+#include "testbench/streaminggs/sweep/sweep_results.h"
 
 #include <catch2/catch.hpp>
 #include <chrono>

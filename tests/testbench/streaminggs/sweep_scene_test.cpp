@@ -1,13 +1,13 @@
 // sweep_scene.h: what a scene makes once for all points.
-#include "testbench/streaminggs/sweep_scene.h"
+#include "testbench/streaminggs/sweep/sweep_scene.h"
 
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
 
-#include "algorithm/storage/store_scene.h"
+#include "algorithm/storage/stored_scene.h"
 #include "modules/machines.h"
-#include "testbench/streaminggs/recently_used.h"
+#include "testbench/streaminggs/run/recently_used.h"
 
 namespace sgs {
 namespace {

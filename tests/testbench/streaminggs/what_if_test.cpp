@@ -1,5 +1,5 @@
 // Gains of doubled resources: their order, and what is said of the resource that binding names.
-#include "testbench/streaminggs/what_if.h"
+#include "testbench/streaminggs/what_if/what_if.h"
 
 #include <catch2/catch.hpp>
 
@@ -52,9 +52,13 @@ TEST_CASE("what-if: more of it, or half the cycles") {
 }
 
 TEST_CASE("what-if: what is saved is a change, and nothing has no sign") {
-  for (const auto& [saved, says] :
-       {std::pair{0.114, "-11.4 %"}, {-0.5, "+50.0 %"}, {0.0, "0.0 %"}, {-0.0, "0.0 %"},
-        {0.0004, "0.0 %"}, {-0.0004, "0.0 %"}, {0.0006, "-0.1 %"}}) {
+  for (const auto& [saved, says] : {std::pair{0.114, "-11.4 %"},
+                                    {-0.5, "+50.0 %"},
+                                    {0.0, "0.0 %"},
+                                    {-0.0, "0.0 %"},
+                                    {0.0004, "0.0 %"},
+                                    {-0.0004, "0.0 %"},
+                                    {0.0006, "-0.1 %"}}) {
     INFO(saved);
     CHECK(change_in_words(saved) == says);
   }

@@ -37,7 +37,7 @@ void FetchUnit::run_ask() {
     next.ticket = start_read(memory, ask_, job_.layout.first_halves.address(next.block.first),
                              slot(next.slot), next.block.count * kFirstHalfBytes,
                              job_.layout.first_halves.region);
-    gaussians_ += next.block.count;
+    counters_.gaussians += next.block.count;
     fetched_.push(next, ask_);
   }
   ask_.idles();
@@ -69,13 +69,13 @@ void FetchUnit::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(ask_, "fetching", "asks for blocks of first halves");
   sheet.activity(add_, "adding", "adds their centres up");
-  sheet.counter("gaussians", "Gaussians", "fetched and added up", gaussians_);
+  sheet.counters(counters_);
   Datapath adder;
   adder.name = adder.component = "adder";
   adder.lane = "fp32_lane";
   adder.lanes = adder.used_macs = 3;
-  sheet.datapath(adder, gaussians_);
-  sheet.accesses("blocks", gaussians_, gaussians_);
+  sheet.datapath(adder, counters_.gaussians);
+  sheet.accesses("blocks", counters_.gaussians, counters_.gaussians);
   sheet.port(memory);
   sheet.sram(sram_uses(config_));
   sheet.queue(fetched_, "fetched");

@@ -53,7 +53,9 @@ class FetchUnit : public sc_core::sc_module {
   std::vector<std::byte> buffer_;  // [buffer_blocks, block_gaussians] first halves
   TimedFifo<Fetched> fetched_;
   TimedFifo<std::uint32_t> free_slots_;
-  std::uint64_t gaussians_ = 0;
+  struct Counters : CounterSet {
+    Counter gaussians{*this, "gaussians", "Gaussians", "fetched and added up"};
+  } counters_;
   std::uint32_t current_group_ = 0;  // for the waveform
 };
 

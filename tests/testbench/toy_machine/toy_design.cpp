@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "algorithm/input_error.h"
+#include "algorithm/files/input_error.h"
 #include "tests/testbench/toy_machine/toy_machine.h"
 #include "tests/testbench/toy_machine/toy_picture.h"
 

@@ -1,7 +1,6 @@
 // A machine of two units: fetch -> write.
 #pragma once
 
-#include <memory>
 #include <systemc>
 
 #include "modules/machine.h"
@@ -23,8 +22,8 @@ class ToyMachine : public Machine {
   const FrameJob job_;
   const ClockDomain clock_;
   TimedFifo<GroupColour> colours_;
-  std::unique_ptr<FetchUnit> fetch_;
-  std::unique_ptr<WriteUnit> write_;
+  FetchUnit fetch_;
+  WriteUnit write_;
 };
 
 }  // namespace sgs::toy

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "algorithm/scene/cameras.h"
+#include "algorithm/scene/camera.h"
 #include "testbench/builtin/builtin_scene.h"
 #include "testbench/cost/technology.h"
 #include "tests/support/scratch_folder.h"
@@ -230,8 +230,7 @@ TEST_CASE("toy machine: its golden picture, and a scene packed for it") {
   const Json packed = views_of_report(scratch.path("out/report.json"))[0];
   CHECK(packed["scene"]["stored_by"] == "file");
   CHECK(packed["scene"] == toy.view["scene"]);
-  CHECK(packed["provenance"]["memory_image_xxh64"] ==
-        toy.view["provenance"]["memory_image_xxh64"]);
+  CHECK(packed["provenance"]["memory_image_xxh64"] == toy.view["provenance"]["memory_image_xxh64"]);
   CHECK(bytes_of(scratch.path("out/view_0/frame.png")) == bytes_of(scratch.path("toy.png")));
   const Outcome stranger = run_streaminggs(joined({"simulate"}, view));
   CHECK(stranger.status == 2);

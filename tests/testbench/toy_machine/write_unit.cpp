@@ -39,7 +39,7 @@ void WriteUnit::fill(const PixelRect& group, const glm::vec3& colour) {
     write_.work((width + at_once - 1) / at_once);
     start_write(memory, write_, job_.pixel_address(group.x0, y), row.data(),
                 static_cast<std::uint32_t>(row.size()), job_.frame_buffer.region);
-    pixels_ += width;
+    counters_.pixels += width;
   }
 }
 
@@ -52,9 +52,9 @@ SramUses WriteUnit::sram_uses(const ToyConfig& config) {
 void WriteUnit::publish(DataSheet& sheet) {
   sheet.unit(*this);
   sheet.activity(write_, "writing", "fills groups with their colour");
-  sheet.counter("pixels", "pixels", "written", pixels_);
+  sheet.counters(counters_);
   sheet.part("writer", "comparator", config_.write.pixels_per_cycle, 1);
-  sheet.operations("writer", "comparator", static_cast<double>(pixels_));
+  sheet.operations("writer", "comparator", static_cast<double>(counters_.pixels));
   sheet.sram(sram_uses(config_));
   sheet.port(memory, "pixels");
 }

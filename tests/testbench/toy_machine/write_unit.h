@@ -30,7 +30,9 @@ class WriteUnit : public sc_core::sc_module {
   const FrameJob& job_;
   std::function<void()> on_done_;
   Activity write_;
-  std::uint64_t pixels_ = 0;
+  struct Counters : CounterSet {
+    Counter pixels{*this, "pixels", "pixels", "written"};
+  } counters_;
 };
 
 }  // namespace sgs::toy

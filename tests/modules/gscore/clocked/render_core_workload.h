@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "algorithm/render/tile_blend.h"
+#include "algorithm/render/tile_renderer.h"
 #include "modules/gscore/gscore_datapaths.h"
 #include "testbench/units/gscore_bench.h"
 #include "testbench/units/random_splats.h"

@@ -9,8 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "algorithm/order/ready_voxels.h"
-#include "algorithm/order/renaming.h"
+#include "algorithm/order/ordering_table.h"
 
 namespace sgs::test {
 

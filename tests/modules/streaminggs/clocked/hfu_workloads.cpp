@@ -1,7 +1,7 @@
 // Messages and items of the visits of a scene.
 #include "tests/modules/streaminggs/clocked/hfu_workloads.h"
 
-#include "algorithm/memory/first_half_test.h"
+#include "algorithm/memory/record_split.h"
 #include "testbench/units/job_memory.h"
 
 namespace sgs::test {

@@ -1,0 +1,107 @@
+// From a configuration to encoded, laid-out scenes, and from an image back to its scene.
+#include "algorithm/storage/stored_scene.h"
+
+#include <optional>
+#include <utility>
+
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/storage/decoded_image.h"
+#include "algorithm/storage/sh_bands.h"
+#include "algorithm/storage/storage_scheme.h"
+#include "algorithm/vq/image_weights.h"
+
+namespace sgs {
+namespace {
+
+// The bands of a scene's colours that are stored, and the scene whole where that is not all.
+struct KeptBands {
+  KeptBands(ActivatedCloud&& cloud, const StorageConfig& config)
+      : bands(bands_to_store(cloud, config)),
+        left_out(cloud.sh_degree - bands.degree),
+        stored(left_out > 0 ? with_bands(cloud, bands.degree) : std::move(cloud)) {
+    if (left_out > 0) whole = std::move(cloud);
+  }
+  ShBands bands;
+  int left_out;
+  ActivatedCloud stored;
+  std::optional<ActivatedCloud> whole;
+};
+
+// original: what was encoded, where something was lost.
+StoredScene arranged(EncodedCloud encoded, std::optional<ActivatedCloud> original,
+                     const KeptBands& kept, const StorageConfig& config) {
+  const StorageScheme& scheme = scheme_of(config.order);
+  StoredScene out;
+  out.storage = config;
+  out.gaussians = encoded.decoded.size();
+  out.sh_bands_left_out = kept.left_out;
+  out.sh_error = kept.bands.most_error;
+  // From here on there is no other order than that of storage.
+  Arrangement<StoredTable> arrangement = scheme.arrange(encoded.decoded, config);
+  const std::vector<std::uint32_t>& order = arrangement.storage_order;
+  encoded = reordered(std::move(encoded), order);
+  if (original) out.original = reordered(*original, order);
+  out.image = scheme.image_of(encoded, arrangement.table);
+  out.table = std::move(arrangement.table);
+  out.decoded = std::move(encoded.decoded);
+  out.file_indices = std::move(arrangement.storage_order);
+  return out;
+}
+
+// encode(cloud): its second halves, with a loss.
+template <class Encode>
+StoredScene store_with_loss(KeptBands kept, const StorageConfig& config, Encode&& encode) {
+  EncodedCloud encoded = encode(std::as_const(kept.stored));
+  std::optional<ActivatedCloud> original = std::move(kept.whole ? *kept.whole : kept.stored);
+  return arranged(std::move(encoded), std::move(original), kept, config);
+}
+
+}  // namespace
+
+StoredScene store_scene(ActivatedCloud cloud, const StorageConfig& config,
+                        const std::vector<Camera>& weighing, const VqProgress& progress) {
+  scheme_of(config.order).check(config);  // before the work
+  KeptBands kept(std::move(cloud), config);
+  switch (config.encoding) {
+    case SecondHalfEncoding::kRaw: {
+      EncodedCloud encoded = encode_raw(std::move(kept.stored));
+      return arranged(std::move(encoded), std::move(kept.whole), kept, config);
+    }
+    case SecondHalfEncoding::kHalf:
+      return store_with_loss(std::move(kept), config, encode_half);
+    default:
+      return store_with_loss(std::move(kept), config, [&](const ActivatedCloud& stored) {
+        return encode_quantised(stored, quantise_scene(stored, config.vq, weighing, progress),
+                                config.encoding);
+      });
+  }
+}
+
+QuantisedCloud quantise_scene(const ActivatedCloud& cloud, const VqConfig& config,
+                              const std::vector<Camera>& weighing, const VqProgress& progress) {
+  return quantise(cloud, image_weights(cloud, weighing), pixel_sizes(cloud, weighing), config,
+                  progress);
+}
+
+StoredScene store_quantised(ActivatedCloud cloud, const QuantisedCloud& quantised,
+                            const StorageConfig& config) {
+  scheme_of(config.order).check(config);
+  return store_with_loss(KeptBands(std::move(cloud), config), config,
+                         [&](const ActivatedCloud& stored) {
+                           return encode_quantised(stored, quantised, config.encoding);
+                         });
+}
+
+StoredScene restore_scene(PackedScene packed, const std::string& source) {
+  StoredScene out;
+  out.gaussians = packed.facts.gaussians;
+  out.decoded = decode_image(packed.image, source);
+  out.table = scheme_of(packed.storage.order).restore(packed, out.decoded, source);
+  out.storage = packed.storage;
+  out.sh_bands_left_out = packed.facts.sh_bands_left_out;
+  out.sh_error = out.sh_bands_left_out > 0 ? packed.storage.sh_tolerance : 0;  // at most
+  out.image = std::move(packed.image);
+  return out;
+}
+
+}  // namespace sgs

@@ -1,0 +1,23 @@
+
+#include "algorithm/train/fitting.h"
+
+#include <numeric>
+#include <utility>
+
+#include "algorithm/train/counter_random.h"
+
+namespace sgs {
+
+std::size_t ViewOrder::at(int step, std::size_t count) {
+  const int views = static_cast<int>(count);
+  if (step / views != order_of_) {
+    order_of_ = step / views;
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), 0);
+    CounterRandom random{seed_, RandomUse::kOrderOfViews, static_cast<std::uint64_t>(order_of_)};
+    for (std::size_t i = count; i > 1; --i) std::swap(order_[i - 1], order_[random.below(i)]);
+  }
+  return order_[static_cast<std::size_t>(step % views)];
+}
+
+}  // namespace sgs

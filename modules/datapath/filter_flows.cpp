@@ -1,0 +1,108 @@
+// The filters run with the counting scalar.
+#include "modules/datapath/filter_flows.h"
+
+#include <array>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "algorithm/splat/coarse_bound.h"
+#include "algorithm/splat/counting.h"
+#include "algorithm/splat/extent_bound.h"
+#include "algorithm/splat/make_splat.h"
+#include "algorithm/splat/visible_extents.h"
+
+namespace sgs {
+namespace {
+
+Gaussian<Counting> input(DataFlow& flow, const Gaussian<float>& g) {
+  Gaussian<Counting> out{};
+  out.mean = input(flow, g.mean);
+  out.scale = input(flow, g.scale);
+  for (std::size_t k = 0; k < g.quat.size(); ++k) out.quat[k] = input(flow, g.quat[k]);
+  out.opacity = input(flow, g.opacity);
+  return out;
+}
+
+// Words that go along with an item.
+constexpr std::size_t kBesideCoarse = 3;  // storage slot, two words of the first half
+constexpr std::size_t kBesideFine = 2;    // storage slot, visit
+}  // namespace
+
+// No two values of the camera are equal and none is 0, so that no two operations coincide.
+FilterCase longest_case() {
+  FilterCase out;
+  out.camera.width = 256;
+  out.camera.height = 192;
+  out.camera.focal_x = 250;
+  out.camera.focal_y = 240;
+  out.camera.position = {1, 2, 3};
+  const glm::dvec3 z = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
+  const glm::dvec3 x = glm::normalize(glm::cross(z, glm::dvec3(0.2, 0.9, 0.1)));
+  out.camera.world_from_camera = glm::dmat3(x, glm::cross(z, x), z);
+  // In the middle of the frame, some 20 px wide; the group begins 10 px farther right and below.
+  const glm::dvec3 mean = out.camera.position + 4.0 * z;
+  out.gaussian = {glm::vec3(mean), {0.3F, 0.25F, 0.35F}, {0.8F, 0.36F, 0.48F, 0}, 0.9F};
+  out.group = {138, 106, 170, 138};
+  return out;
+}
+
+FlowPart coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across) {
+  const auto flow = std::make_shared<DataFlow>();
+  const auto view = make_view<Counting>(tested.camera);
+  const auto mean = input(*flow, tested.gaussian.mean);
+  const VisibleExtents known = visible_extents(tested.gaussian);
+  // Recorded whatever it says.
+  const auto run = [&](const auto& bound) {
+    if (!bound.in_front) return;
+    keep(*flow, {bound.depth});
+    const PixelRect& group = tested.group;
+    const int parts = static_cast<int>(across);
+    const int width = (group.x1 - group.x0) / parts, height = (group.y1 - group.y0) / parts;
+    for (int part = 0; part < parts * parts; ++part) {
+      const int x = group.x0 + part % parts * width, y = group.y0 + part / parts * height;
+      static_cast<void>(touches(bound, PixelRect{x, y, x + width, y + height}));
+    }
+  };
+  if (bound_by == CoarseBoundBy::kLargestScale) {
+    run(coarse_bound(view, mean, input(*flow, known.scale_max)));
+  } else {
+    const auto extent = input(*flow, known.extent);
+    const auto bound = extent_bound(view, mean, extent, input(*flow, known.scale_max));
+    run(bound);
+    if (bound.in_front) static_cast<void>(group_reach(bound, tested.group));
+  }
+  keep(*flow, {mean.x, mean.y, mean.z});
+  flow->pass_beside(kBesideCoarse);
+  return whole(flow);
+}
+
+FineFlow fine_flow(const FilterCase& tested, const FineRecord& record) {
+  const auto flow = std::make_shared<DataFlow>();
+  const auto view = make_view<Counting>(tested.camera);
+  Gaussian<Counting> gaussian = input(*flow, tested.gaussian);
+  std::array<glm::vec<3, Counting>, 16> sh;
+  for (auto& coefficient : sh) coefficient = input(*flow, glm::vec3(1.0F));
+  flow->pass_beside(kBesideFine);
+  if (record.quaternion_words < gaussian.quat.size()) {
+    auto& [largest, x, y, z] = gaussian.quat;
+    largest = moved_by_units(largest_component<Counting>({x, y, z}), input_index(*flow, 0));
+  }
+  const std::size_t decoded = flow->size();
+
+  SplatOf<Counting> splat{};
+  const bool on_screen = make_geometry(view, gaussian, splat);
+  const std::size_t geometry_end = flow->size();
+  const bool kept = on_screen && reaches_group(splat, tested.group);
+  const std::size_t test_end = flow->size();
+  if (kept) add_colour(view, record.sh_degree, gaussian.mean, sh.data(), splat);
+  keep(*flow, {splat.x, splat.y, splat.depth, splat.conic_a, splat.conic_b, splat.conic_c,
+               splat.opacity, splat.rgb.x, splat.rgb.y, splat.rgb.z});
+  return {whole(flow),
+          {flow, 0, decoded, {}},
+          {flow, decoded, geometry_end, {}},
+          {flow, geometry_end, test_end, {}},
+          {flow, test_end, flow->size(), {}}};
+}
+
+}  // namespace sgs

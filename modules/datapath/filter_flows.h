@@ -1,0 +1,43 @@
+// What one test of the coarse and of the fine filter executes, recorded by running it.
+// Values of the camera and of the group are constants: what depends on them alone is computed once
+// a frame or a group and kept. Of the decoding of records only that of a quaternion is included.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/memory/record_split.h"
+#include "algorithm/scene/camera.h"
+#include "algorithm/splat/gaussian.h"
+#include "algorithm/splat/rects.h"
+#include "modules/datapath/lane_steps.h"
+
+namespace sgs {
+
+// A Gaussian, and the view and group it is tested against.
+struct FilterCase {
+  Camera camera;
+  Gaussian<float> gaussian;
+  PixelRect group;
+};
+
+// A case that passes every test of both filters and takes the longest way: its centre lies off a
+// corner of the group, so that two edges are to be looked at. A unit that starts a test at fixed
+// intervals has to be built for this.
+FilterCase longest_case();
+
+// Of the coarse test, up to where it fails or to its end: a bound, and whether it touches the
+// group, or each of across x across parts of it; with what a candidate carries on.
+FlowPart coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across = 1);
+
+// Of the fine test, up to where it fails or to its end. An operation that two parts need counts
+// with the first.
+struct FineFlow {
+  FlowPart all;
+  FlowPart decode;      // the quaternion's largest component, where it is not stored
+  FlowPart geometry;    // to the screen, footprint
+  FlowPart group_test;  // visible ellipse against the group
+  FlowPart colour;      // spherical harmonics
+};
+FineFlow fine_flow(const FilterCase& tested, const FineRecord& record);
+
+}  // namespace sgs

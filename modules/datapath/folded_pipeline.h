@@ -1,0 +1,45 @@
+// A computation on the lanes that a unit has for it: when its steps are done, and what stands
+// between the parts: registers that hold values until they are taken, and the multiplexers by which
+// an input of a part, or of a register, takes now this, now that.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "modules/datapath/folded_schedule.h"
+
+namespace sgs {
+
+// Of values of one width. A multiplexer of n words is n - 1 that select between two bits, for each
+// bit of a word.
+struct LaneWiring {
+  std::uint32_t register_words = 0, select_words = 0;  // that stand there
+  // Of one item: words written into registers, and words passed by a multiplexer of two.
+  std::uint32_t words_written = 0, words_selected = 0;
+};
+
+// A value is in a register from the cycle in which it is there until the last step that takes it
+// begins, or until the end if it is wanted then; so is one from outside, whole. Where it lasts
+// longer than an interval, the next item's pushes it on into another register. Registers that are
+// taken for a part of the interval are shared. An answer of a comparison, a bit, is left out, and
+// so are a lane's own stages. A constant, which may be of the frame or of the group, has its place.
+LaneWiring lane_wiring(const std::vector<LaneStep>& steps, const FoldedSchedule& schedule,
+                       const FoldedParts& parts, const OperationLatencies& latencies);
+
+// The most values that are alive in one cycle, of all items that are under way: no wiring has fewer
+// registers.
+std::uint32_t most_alive(const std::vector<LaneStep>& steps, const FoldedSchedule& schedule,
+                         std::uint32_t interval_cycles, const OperationLatencies& latencies);
+
+struct FoldedPipeline {
+  FoldedParts parts;
+  FoldedSchedule schedule;
+  LaneWiring wiring;
+};
+
+// On these parts, or on as many as the steps take at this interval if that is more: so where a
+// machine charges less than was counted.
+FoldedPipeline folded_pipeline(const std::vector<LaneStep>& steps, const FoldedParts& parts,
+                               const OperationLatencies& latencies);
+
+}  // namespace sgs

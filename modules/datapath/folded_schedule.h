@@ -1,0 +1,47 @@
+// A computation on fewer lanes than it has steps: which step begins when, so that the next item can
+// begin `interval` cycles later and the same lanes do for it the same steps (a modulo schedule).
+// Its end is the depth of the pipeline; the longest path, which has a lane for each step, bounds it
+// from below.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "modules/datapath/lane_steps.h"
+
+namespace sgs {
+
+// Each part begins a step a cycle.
+struct FoldedParts {
+  std::uint32_t lanes = 1, comparators = 0, tables = 0;
+  std::uint32_t interval_cycles = 1;  // between items
+
+  std::uint32_t of(StepBy by) const {
+    return by == StepBy::kLane ? lanes : by == StepBy::kComparator ? comparators : tables;
+  }
+};
+
+struct FoldedSchedule {
+  std::vector<std::uint32_t> begins;  // [step], cycle; a value from outside: when it comes
+  std::uint32_t cycles = 0;           // until all is done
+  // Longest from the arrival of values that come together to the end of what depends on them.
+  std::uint32_t loop_cycles = 0;
+};
+
+// Greedy: the step with the longest way to the end first, at the first cycle in which a part is
+// free for it in all items; and the same backward; the shorter of the two. Throws std::logic_error
+// where the parts have fewer turns in an interval than there are steps.
+FoldedSchedule folded_schedule(const std::vector<LaneStep>& steps, const FoldedParts& parts,
+                               const OperationLatencies& latencies);
+
+// The same with fewer values that wait: one step after the other goes to where it makes the lives
+// of its sources and of its own value shortest together, as long as a part is free for it there.
+// The end comes no later; steps that depend on what comes when it is needed stay. An early sum lets
+// two values go for one; a late quotient lets none wait.
+void shorten_lives(const std::vector<LaneStep>& steps, const FoldedParts& parts,
+                   const OperationLatencies& latencies, FoldedSchedule& schedule);
+
+// Parts that are enough for these steps at this interval.
+FoldedParts at_least(FoldedParts parts, const std::vector<LaneStep>& steps);
+
+}  // namespace sgs

@@ -1,0 +1,298 @@
+// From operations to steps, each by its routine.
+#include "modules/datapath/lane_steps.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace sgs {
+namespace {
+
+using Operand = DataFlow::Operand;
+
+constexpr Operand literal(float value) { return {true, __builtin_bit_cast(std::uint32_t, value)}; }
+
+class Expansion {
+ public:
+  Expansion(const FlowPart& part, const OperationLatencies& latencies)
+      : flow_(*part.flow),
+        first_(part.first),
+        last_(part.last),
+        latencies_(latencies),
+        at_(part.flow->size()) {
+    for (std::size_t i = 0; i < part.together.size(); ++i) {
+      for (const std::uint32_t node : part.together[i]) {
+        comes_with_[node] = static_cast<std::uint32_t>(i + 1);
+      }
+    }
+  }
+
+  std::vector<LaneStep> run() {
+    for (std::size_t i = first_; i < last_; ++i) {
+      const auto node = static_cast<std::uint32_t>(i);
+      if (is_wanted(node) && !is_deferred(node)) static_cast<void>(value_of(node));
+    }
+    // Products that a sum behind `last` takes.
+    for (std::size_t i = first_; i < last_; ++i) {
+      const auto node = static_cast<std::uint32_t>(i);
+      if (is_deferred(node) && !at_[i] && fused_.count(node) == 0) {
+        static_cast<void>(value_of(node));
+      }
+    }
+    for (std::size_t i = 0; i < last_; ++i) {
+      const DataFlow::Node& node = flow_.nodes()[i];
+      const bool wanted = node.kept || (i >= first_ && node.uses == 0);
+      if (!wanted || !at_[i] || at_[i]->is_constant) continue;
+      LaneStep& step = steps_[at_[i]->of];
+      step.kept = !step.answers;
+    }
+    return std::move(steps_);
+  }
+
+ private:
+  // An input that nothing takes is none.
+  bool is_wanted(std::uint32_t node) const {
+    const DataFlow::Node& of = flow_.nodes()[node];
+    return of.operation != Operation::kInput || of.kept;
+  }
+  // Made when it is known whether the sum that takes it makes it in its own lane.
+  bool is_deferred(std::uint32_t node) const {
+    return node >= first_ && flow_.is_lone_product({false, node});
+  }
+
+  Operand value_of(Operand operand) { return operand.is_constant ? operand : value_of(operand.of); }
+  Operand value_of(std::uint32_t node) {
+    if (!at_[node]) at_[node] = made(node);
+    return *at_[node];
+  }
+
+  Operand push(StepBy by, const std::vector<LaneStep::Source>& sources) {
+    LaneStep step;
+    step.by = by;
+    std::uint32_t ready = 0;
+    for (const LaneStep::Source& source : sources) {
+      step.sources.push_back(source);
+      if (!source.value.is_constant) ready = std::max(ready, ready_[source.value.of]);
+    }
+    steps_.push_back(std::move(step));
+    ready_.push_back(ready + cycles_of(by, latencies_));
+    return {false, static_cast<std::uint32_t>(steps_.size() - 1)};
+  }
+  Operand product(Operand a, Operand b) { return push(StepBy::kLane, {{0, a}, {1, b}}); }
+  Operand sum(Operand a, Operand b) { return push(StepBy::kLane, {{0, a}, {2, b}}); }
+  Operand fused(Operand a, Operand b, Operand c) {
+    return push(StepBy::kLane, {{0, a}, {1, b}, {2, c}});
+  }
+  Operand look_up(Operand of) { return push(StepBy::kTable, {{0, of}}); }
+  Operand compared(Operand a) { return push(StepBy::kComparator, {{0, a}}); }
+  Operand compared(Operand a, Operand b) { return push(StepBy::kComparator, {{0, a}, {1, b}}); }
+  Operand compared_in_a_row(Operand a, std::uint32_t times) {
+    for (std::uint32_t i = 0; i < times; ++i) a = compared(a);
+    return a;
+  }
+
+  Operand from_outside(std::uint32_t node) {
+    const Operand value = push(StepBy::kOutside, {});
+    if (const auto at = comes_with_.find(node); at != comes_with_.end()) {
+      steps_.back().comes_with = at->second;
+    }
+    return value;
+  }
+
+  std::uint32_t ready(Operand operand) {
+    if (operand.is_constant) return 0;
+    const Operand value = value_of(operand);
+    return value.is_constant ? 0 : ready_[value.of];
+  }
+
+  // The later of two lone products is made in the sum's own lane.
+  Operand added(const DataFlow::Node& node) {
+    const auto deferred = [&](Operand operand) {
+      return !operand.is_constant && is_deferred(operand.of);
+    };
+    const auto factors_ready = [&](Operand product) {
+      const DataFlow::Node& of = flow_.nodes()[product.of];
+      return std::max(ready(of.a), ready(of.b));
+    };
+    const bool a = deferred(node.a), b = deferred(node.b);
+    if (!a && !b) return sum(value_of(node.a), value_of(node.b));
+    const bool takes_a = a && (!b || factors_ready(node.a) >= factors_ready(node.b));
+    const Operand in_lane = takes_a ? node.a : node.b, addend = takes_a ? node.b : node.a;
+    const DataFlow::Node& of = flow_.nodes()[in_lane.of];
+    fused_.insert(in_lane.of);
+    const Operand x = value_of(of.a), y = value_of(of.b), z = value_of(addend);
+    return fused(x, y, z);
+  }
+
+  // The reciprocal: r += r (1 - d r), twice; what was taken before `first` comes from outside.
+  Operand reciprocal(const DataFlow::Node& node) {
+    auto [at, is_new] = reciprocals_.try_emplace(node.first_division);
+    if (!is_new) return at->second;
+    if (node.first_division < first_) return at->second = push(StepBy::kOutside, {});
+    const Operand d = value_of(node.b);
+    Operand r = look_up(d);
+    for (int i = 0; i < 2; ++i) r = fused(r, fused(d, r, literal(1)), r);
+    return at->second = r;
+  }
+  Operand divided(const DataFlow::Node& node) {
+    const Operand r = node.b.is_constant ? literal(0) : reciprocal(node);
+    const Operand n = value_of(node.a), d = value_of(node.b);
+    const Operand q = product(n, r);
+    return fused(fused(q, d, n), r, q);
+  }
+  // g = x y and h = y / 2, which is a matter of its exponent; twice r = 1/2 - g h, g += g r, h += h
+  // r.
+  Operand root(Operand x) {
+    Operand h = look_up(x);
+    Operand g = product(x, h);
+    for (int i = 0; i < 2; ++i) {
+      const Operand r = fused(g, h, literal(0.5F));
+      g = fused(g, r, g);
+      h = fused(h, r, h);
+    }
+    return fused(fused(g, g, x), h, g);
+  }
+  // The exponent apart, to float; z / c - 1 = r; log c + k ln2; the cubic in r.
+  Operand logarithm(Operand x) {
+    const Operand apart = compared(x);
+    const Operand row = look_up(apart);
+    const Operand r = fused(apart, row, literal(-1));
+    const Operand log_c = fused(push(StepBy::kLane, {{2, apart}}), literal(0.6931F), row);
+    const Operand r2 = product(r, r);
+    const Operand high = fused(r, literal(0.3333F), literal(-0.5F));
+    return fused(fused(r2, literal(-0.25F), high), r2, sum(log_c, r));
+  }
+  // The ends of its range; n = x / ln2, rounded; x - n ln2 in two parts; polynomial; 2^n.
+  Operand exponential(Operand x) {
+    for (const float end : {88.0F, -88.0F}) {
+      compared(x, literal(end));
+      steps_.back().answers = true;
+    }
+    const Operand n = compared_in_a_row(product(x, literal(1.4427F)), kRoundingComparisons);
+    const Operand rest = fused(n, literal(1e-6F), fused(n, literal(0.6931F), x));
+    Operand p = fused(rest, literal(0.001F), literal(0.01F));
+    for (int i = 0; i < 6; ++i) p = fused(p, rest, literal(static_cast<float>(i)));
+    return compared(p, n);
+  }
+
+  Operand made(std::uint32_t number) {
+    const DataFlow::Node& node = flow_.nodes()[number];
+    if (number < first_) return from_outside(number);
+    switch (node.operation) {
+      case Operation::kInput:
+        return from_outside(number);
+      case Operation::kNegate:
+      case Operation::kAbsolute:
+      case Operation::kMoveBits:
+      case Operation::kMaskBits:
+        return value_of(node.a);
+      case Operation::kMultiply: {
+        const Operand a = value_of(node.a), b = value_of(node.b);
+        return product(a, b);
+      }
+      case Operation::kAdd:
+      case Operation::kSubtract:
+        return added(node);
+      case Operation::kDivide:
+        return divided(node);
+      case Operation::kSquareRoot:
+        return root(value_of(node.a));
+      case Operation::kLogarithm:
+        return logarithm(value_of(node.a));
+      case Operation::kExponential:
+        return exponential(value_of(node.a));
+      case Operation::kLookUp:
+        return look_up(value_of(node.a));
+      case Operation::kSplit:
+        return compared_in_a_row(value_of(node.a), kSplitComparisons);
+      case Operation::kCompare: {
+        const Operand a = value_of(node.a), b = value_of(node.b);
+        return answer(compared(a, b));
+      }
+      case Operation::kIsFinite:
+        return answer(compared(value_of(node.a)));
+      case Operation::kMinimum:
+      case Operation::kMaximum:
+      case Operation::kScale:
+      case Operation::kAddIndex: {
+        const Operand a = value_of(node.a), b = value_of(node.b);
+        return compared(a, b);
+      }
+      case Operation::kCeil:
+      case Operation::kFloor:
+      case Operation::kTruncate:
+      case Operation::kRound:
+        return compared_in_a_row(value_of(node.a), kRoundingComparisons);
+      case Operation::kFromIndex:
+        return compared_in_a_row(value_of(node.a), kConversionComparisons);
+    }
+    return {};
+  }
+  Operand answer(Operand of) {
+    steps_[of.of].answers = true;
+    return of;
+  }
+
+  const DataFlow& flow_;
+  const std::size_t first_, last_;
+  const OperationLatencies latencies_;
+  std::map<std::uint32_t, std::uint32_t> comes_with_;
+  std::vector<std::optional<Operand>> at_;        // [node]: its value
+  std::set<std::uint32_t> fused_;                 // products in the lane of a sum
+  std::map<std::uint32_t, Operand> reciprocals_;  // [first division]
+  std::vector<LaneStep> steps_;
+  std::vector<std::uint32_t> ready_;  // [step], with lanes for all
+};
+
+LongestPath one_by(StepBy by) {
+  return {by == StepBy::kLane ? 1U : 0U, by == StepBy::kComparator ? 1U : 0U,
+          by == StepBy::kTable ? 1U : 0U};
+}
+
+// Of those that begin with a step for which this holds.
+template <class Begins>
+LongestPath longest_from(const std::vector<LaneStep>& steps, const OperationLatencies& latencies,
+                         const Begins& begins) {
+  std::vector<std::optional<LongestPath>> paths;  // [step], to its value
+  LongestPath longest;
+  for (const LaneStep& step : steps) {
+    std::optional<LongestPath> path;
+    if (begins(step)) path = LongestPath{};
+    for (const LaneStep::Source& source : step.sources) {
+      if (source.value.is_constant) continue;
+      const auto& before = paths[source.value.of];
+      if (before && (!path || path->cycles(latencies) < before->cycles(latencies))) path = before;
+    }
+    if (path) path = *path + one_by(step.by);
+    if (path && longest.cycles(latencies) < path->cycles(latencies)) longest = *path;
+    paths.push_back(path);
+  }
+  return longest;
+}
+
+}  // namespace
+
+std::vector<LaneStep> FlowPart::steps(const OperationLatencies& latencies) const {
+  return Expansion(*this, latencies).run();
+}
+
+std::uint32_t constants_of(const std::vector<LaneStep>& steps) {
+  std::set<std::uint32_t> bits;
+  for (const LaneStep& step : steps) {
+    for (const LaneStep::Source& source : step.sources) {
+      if (source.value.is_constant) bits.insert(source.value.of);
+    }
+  }
+  return static_cast<std::uint32_t>(bits.size());
+}
+
+LongestPath longest_path(const std::vector<LaneStep>& steps, const OperationLatencies& latencies) {
+  return longest_from(steps, latencies, [](const LaneStep&) { return true; });
+}
+
+LongestPath longest_loop(const std::vector<LaneStep>& steps, const OperationLatencies& latencies) {
+  return longest_from(steps, latencies, [](const LaneStep& step) { return step.comes_with > 0; });
+}
+
+}  // namespace sgs

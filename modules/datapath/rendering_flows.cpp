@@ -1,0 +1,176 @@
+// Rendering runs with the counting scalar.
+#include "modules/datapath/rendering_flows.h"
+
+#include <cstddef>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "algorithm/splat/blend.h"
+#include "algorithm/splat/counting.h"
+#include "algorithm/splat/row_span.h"
+#include "algorithm/splat/square_conic.h"
+
+namespace sgs {
+namespace {
+
+constexpr std::size_t kBesideBlend = 1;  // a word that goes along: the sub-tile's number
+
+// An ellipse that leans, some 20 px wide, and a row through its middle: every step is taken.
+SplatOf<Counting> leaning_splat(DataFlow& flow) {
+  SplatOf<Counting> splat{};
+  splat.x = input(flow, 101.5F);
+  splat.y = input(flow, 57.25F);
+  splat.conic_a = input(flow, 0.03F);
+  splat.conic_b = input(flow, 0.01F);
+  splat.conic_c = input(flow, 0.05F);
+  splat.opacity = input(flow, 0.9F);
+  splat.rgb = input(flow, glm::vec3(0.1F, 0.2F, 0.3F));
+  return splat;
+}
+constexpr int kFirstRowPx = 52;
+constexpr float kSubtileLeftPx = 96, kSubtileTopPx = 52;
+
+constexpr std::size_t kEdgeWords = 2;  // the last of RowSpans::carried()
+
+// A splat's beginning alone: what its rows take is what it is for.
+FlowPart spans_begin_flow() {
+  const auto flow = std::make_shared<DataFlow>();
+  RowSpans<Counting> spans(leaning_splat(*flow));
+  spans.start(kFirstRowPx);
+  const auto carried = spans.carried();
+  static_assert(std::tuple_size_v<decltype(spans.carried())> == kBegunSpanWords);
+  for (const Counting& value : carried) keep(*flow, {value});
+  return whole(flow);
+}
+
+// Where a sub-tile's first pixel is from the splat's centre, alone: the sums are what it is for.
+FlowPart corner_flow() {
+  const auto flow = std::make_shared<DataFlow>();
+  static_cast<void>(input(*flow, 101.5F) - Counting(kSubtileLeftPx));
+  static_cast<void>(input(*flow, 57.25F) - Counting(kSubtileTopPx));
+  return whole(flow);
+}
+
+// Of each pixel the numbers that come together, when the first of them is taken.
+class PixelStates {
+ public:
+  explicit PixelStates(DataFlow& flow) : flow_(flow) {}
+  // The next number of the pixel, or the first of the next pixel.
+  Counting operator()(float value) {
+    constexpr std::size_t kOfPixel = 4;  // transmittance, red, green, blue
+    if (pixels_.empty() || pixels_.back().size() == kOfPixel) pixels_.emplace_back();
+    const Counting of_pixel = input(flow_, value);
+    pixels_.back().push_back(of_pixel.node);
+    return of_pixel;
+  }
+  const std::vector<std::vector<std::uint32_t>>& pixels() const { return pixels_; }
+
+ private:
+  DataFlow& flow_;
+  std::vector<std::vector<std::uint32_t>> pixels_;
+};
+
+// What blending does for 16 pixels, in the arithmetic T.
+template <class T, class Conic>
+void blend_pixels(const BlendInput<T, Conic>& in, PixelStates& state) {
+  for (int lane = 0; lane < kSubtilePixels; ++lane) {
+    const T dx = in.left - T(static_cast<float>(lane % kSubtilePx) * in.pixel_x);
+    const T dy = in.top - T(static_cast<float>(lane / kSubtilePx) * in.pixel_y);
+    const T exponent = log2_falloff(in.conic, dx, dy);
+    const T alpha = alpha_of(exponent, exp2_of(exponent), in.opacity);
+    const LightShare<T> light = take_light(alpha, T(state(0.5F)));
+    static_cast<void>(light.after < constant<T>(kTransmittanceMin));
+    for (const T& colour : {in.red, in.green, in.blue}) {
+      static_cast<void>(T(state(0.25F)) + colour * light.weight);
+    }
+  }
+}
+
+}  // namespace
+
+RenderingFlows rendering_flows(BlendPrecision precision) {
+  const auto flow = std::make_shared<DataFlow>();
+  const SplatOf<Counting> splat = leaning_splat(*flow);
+  RowSpans<Counting> spans(splat);
+  // The edge above is that of another line, or the graph would find there where the row's top lies.
+  spans.start(kFirstRowPx - 1);
+  const std::size_t spans_begun = flow->size();
+  const auto above = spans.carried();
+  std::vector<std::uint32_t> edge;
+  for (std::size_t i = above.size() - kEdgeWords; i < above.size(); ++i) {
+    if (above[i].flow != nullptr) edge.push_back(above[i].node);
+  }
+  static_cast<void>(spans.next(kFirstRowPx, kFirstRowPx + kSubtilePx));
+  const auto below = spans.carried();
+  for (std::size_t i = below.size() - kEdgeWords; i < below.size(); ++i) keep(*flow, {below[i]});
+  const std::size_t spanned = flow->size();
+  if (in_16_bits(precision)) {
+    static_cast<void>(square_conic(splat.conic_a, splat.conic_b, splat.conic_c));
+  } else {
+    static_cast<void>(log2_conic(splat.conic_a, splat.conic_b, splat.conic_c));
+  }
+  const std::size_t in_base_2 = flow->size();
+  flow->pass_beside(kBesideBlend);
+  const Counting left = splat.x - Counting(kSubtileLeftPx);
+  const Counting top = splat.y - Counting(kSubtileTopPx);
+  const std::size_t cornered = flow->size();
+  PixelStates state(*flow);
+  if (in_16_bits(precision)) {
+    blend_pixels(blend_input_in_half<CountingHalf>(square_splat(splat), left, top), state);
+  } else {
+    blend_pixels(blend_input(splat, left, top), state);
+  }
+  RenderingFlows out;
+  out.conic = {flow, spanned, in_base_2, {}};
+  out.spans_begin = spans_begin_flow();
+  out.span = {flow, spans_begun, spanned, {edge}};
+  out.subtile_blend = {flow, in_base_2, flow->size(), state.pixels()};
+  out.corner = corner_flow();
+  out.blend_from_corner = {flow, cornered, flow->size(), state.pixels()};
+  return out;
+}
+
+FlowPart blend_of_halves_flow() {
+  const auto flow = std::make_shared<DataFlow>();
+  constexpr AxisUnits kUnits = {0.125F, 0.25F};
+  const auto half = [&](float value) { return CountingHalf(input(*flow, value)); };
+  const Counting left = input(*flow, 5.5F), top = input(*flow, 5.25F);
+  flow->pass_beside(kBesideBlend);
+  PixelStates state(*flow);
+  blend_pixels(
+      BlendInput<CountingHalf, SquareConic<CountingHalf>>{{half(-0.7F), half(0.6F), half(-0.6F)},
+                                                          half(0.9F),
+                                                          half(0.1F),
+                                                          half(0.2F),
+                                                          half(0.3F),
+                                                          CountingHalf(scaled_by(left, kUnits.x)),
+                                                          CountingHalf(scaled_by(top, kUnits.y)),
+                                                          kUnits.x,
+                                                          kUnits.y},
+      state);
+  return {flow, 0, flow->size(), state.pixels()};
+}
+
+FlowPart terms_of_square_flow() {
+  const auto flow = std::make_shared<DataFlow>();
+  const SquareConic<Counting> square = {input(*flow, -0.02F), input(*flow, 0.3F),
+                                        input(*flow, -0.03F)};
+  const ConicTerms<Counting> terms = conic_terms(square);
+  const Log2Conic<Counting> conic = log2_conic(terms.a, terms.b, terms.c);
+  keep(*flow, {conic.a, conic.b, conic.c});
+  return whole(flow);
+}
+
+FlowPart pixel_flow(FrameFormat format) {
+  const auto flow = std::make_shared<DataFlow>();
+  const Counting transmittance = input(*flow, 0.25F);
+  for (const float background : {0.5F, 0.25F, 0.125F}) {
+    const Counting channel =
+        over_background(input(*flow, 0.5F), transmittance, Counting(background));
+    if (format == FrameFormat::kRgb8) static_cast<void>(level_of(channel));
+  }
+  return whole(flow);
+}
+
+}  // namespace sgs

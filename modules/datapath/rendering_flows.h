@@ -1,0 +1,39 @@
+// What rendering does for a splat, recorded by running it.
+#pragma once
+
+#include <cstdint>
+
+#include "algorithm/memory/frame_buffer.h"
+#include "algorithm/splat/blend.h"
+#include "modules/datapath/lane_steps.h"
+
+namespace sgs {
+
+// Words that a splat's rows take of its beginning.
+constexpr std::uint32_t kBegunSpanWords = 10;
+
+// A splat's spans are begun once, to the words that its rows take; each row of sub-tiles adds one,
+// the edge above it coming when it is needed, its own kept for the next; each sub-tile is blended,
+// each pixel's state coming at once when it is needed. What its 16 pixels share (a column's A dx^2,
+// a row's C dy^2) counts once. Ahead of all log2(e) goes into the splat's conic, in single
+// precision; for blending in half its square is completed there.
+struct RenderingFlows {
+  FlowPart conic, spans_begin, span, subtile_blend;
+  // The blend with lanes of its own for where the splat's centre is beside the sub-tile: always in
+  // single precision, as the centre is.
+  FlowPart corner, blend_from_corner;
+};
+RenderingFlows rendering_flows(BlendPrecision precision);
+
+// The blend from the corner on of a splat whose numbers come as halves, its square completed
+// (algorithm/memory/tile_records.h): nothing is rounded but where its centre is.
+FlowPart blend_of_halves_flow();
+
+// Such a splat for blending in single: its conic's terms come back, and log2(e) into them.
+FlowPart terms_of_square_flow();
+
+// Of a finished pixel on its way to the frame: the background through what light is left, then its
+// bytes.
+FlowPart pixel_flow(FrameFormat format);
+
+}  // namespace sgs

@@ -1,0 +1,241 @@
+"""What figures are made from: tables that scripts wrote, and reports of `simulate`; and how they
+look: readable on paper and in grey, since colours differ in lightness and every series has a hatch
+or a marker of its own. Needs Matplotlib, which figures.py asks for first."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import os
+import pathlib
+import textwrap
+from collections.abc import Iterable, Sequence
+
+import matplotlib
+from matplotlib import pyplot
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+
+from reporting.folder import Run, find_runs
+from results import facts_of, made_sentence
+from runs.files import read_text
+
+
+class Missing(Exception):
+    """An input that is not there, or holds nothing to draw; the text says which."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Data:
+    """A CSV table: its rows by column, and the sentence of who made it."""
+
+    rows: tuple[dict[str, str], ...]
+    made: str
+
+    def different(self, column: str) -> list[str]:
+        """Values of a column, in the order in which they come."""
+        return list(dict.fromkeys(row[column] for row in self.rows))
+
+    def where(self, **wanted: str) -> list[dict[str, str]]:
+        return [row for row in self.rows if all(row[key] == value for key, value in wanted.items())]
+
+
+def number(text: str) -> float | None:
+    """None where it is none, as `equal`."""
+    try:
+        return float(text.replace(",", "").removesuffix("%"))
+    except ValueError:
+        return None
+
+
+class Results:
+    """Folders of tables, and of what `simulate` wrote."""
+
+    def __init__(self, tables: pathlib.Path, folder: pathlib.Path):
+        self.tables, self.folder = tables, folder
+
+    def table(self, name: str, maker: str, columns: Iterable[str]) -> Data:
+        """Raises Missing; ValueError where the table has not these columns."""
+        path = self.tables / f"{name}.csv"
+        if not path.exists():
+            raise Missing(f"{path} is not there; scripts/{maker} makes it")
+        head, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
+        for column in columns:
+            if column not in head:
+                raise ValueError(f"{path}: columns {', '.join(head)}; expected {column}")
+        for number_of_line, row in enumerate(rows, start=2):
+            if len(row) != len(head):
+                raise ValueError(
+                    f"{path}:{number_of_line}: got {len(row)} cells, expected {len(head)}"
+                )
+        if not rows:
+            raise Missing(f"{path} has no rows")
+        made = made_sentence(facts_of(self.tables, name)).replace("`", "").strip()
+        return Data(tuple(dict(zip(head, row)) for row in rows), f"{path}. {made}")
+
+    def runs(self) -> list[Run]:
+        """Raises Missing."""
+        found = [run for run in find_runs(self.folder) if run.views]
+        if not found:
+            raise Missing(f"{self.folder} has no report.json of `streaminggs simulate` below it")
+        return found
+
+
+def how_simulated(runs: Iterable[Run]) -> str:
+    """Commits and commands of the runs' first views."""
+    facts = [run.views[0].report["provenance"] for run in runs]
+    commits = ", ".join(dict.fromkeys(fact["commit"] for fact in facts))
+    commands = "; ".join(dict.fromkeys(fact["command"] for fact in facts))
+    return f"Made by {commands}; commit {commits}."
+
+
+matplotlib.use("Agg")
+# From dark to light and back, told apart in grey and by those who see no red or green.
+COLOURS = ("#1f4e8c", "#f0a830", "#7fc4b0", "#a63d57", "#c9c4e8", "#6b6f78", "#e9e2c8", "#3d7a52")
+HATCHES = ("", "///", "...", "xxx", "\\\\\\", "", "++", "ooo")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<")
+LINES = ("-", "--", "-.", ":")
+INK, SOFT = "#20242c", "#626a78"
+ON_PAPER = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
+CAPTION_PER_INCH = 15.5  # characters
+
+Made = tuple[Figure, str]  # a figure with its caption
+
+pyplot.rcParams.update(
+    {
+        "font.family": "DejaVu Sans",
+        "font.size": 9,
+        "axes.titlesize": 10,
+        "axes.titleweight": "bold",
+        "axes.titlelocation": "left",
+        "axes.edgecolor": SOFT,
+        "axes.labelcolor": INK,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.axisbelow": True,
+        "axes.grid": True,
+        "grid.color": "#dde1e7",
+        "grid.linewidth": 0.6,
+        "xtick.color": INK,
+        "ytick.color": INK,
+        "hatch.linewidth": 0.6,
+        "hatch.color": "#ffffff",
+        "legend.frameon": False,
+        "legend.fontsize": 8.5,
+        "lines.linewidth": 1.6,
+        "lines.markersize": 5,
+        "savefig.dpi": 160,
+        "svg.hashsalt": "streaminggs",  # the same numbers give the same file
+        "svg.fonttype": "none",
+    }
+)
+
+
+def panels(
+    count: int,
+    width: float = 4.2,
+    height: float = 3.1,
+    across: int = 2,
+    heights: Sequence[float] | None = None,
+):
+    """A figure of so many axes side by side, `across` in a row; sizes of one, in inches. heights:
+    of the rows to each other, where they are not alike."""
+    rows = -(-count // across)
+    columns = min(count, across)
+    size = (columns * width, rows * height)
+    figure, axes = pyplot.subplots(
+        rows, columns, figsize=size, squeeze=False, height_ratios=heights
+    )
+    flat = list(axes.flat)
+    for unused in flat[count:]:
+        unused.set_visible(False)
+    return figure, flat[:count]
+
+
+def bar_style(at: int) -> dict:
+    colour = COLOURS[at % len(COLOURS)]
+    light = sum(int(colour[i : i + 2], 16) for i in (1, 3, 5)) > 420
+    return {
+        "color": colour,
+        "hatch": HATCHES[(at + at // len(COLOURS)) % len(HATCHES)],  # a ninth is not like the first
+        "edgecolor": INK if light else "white",
+        "linewidth": 0.5,
+    }
+
+
+def line_style(at: int) -> dict:
+    # The lightest colours are for areas, not for lines.
+    colours = [c for c in COLOURS if c not in ("#e9e2c8", "#c9c4e8")]
+    return {
+        "color": colours[at % len(colours)],
+        "marker": MARKERS[at % len(MARKERS)],
+        "linestyle": LINES[at % len(LINES)],
+    }
+
+
+def note(axes: Axes, x: float, y: float, text: str, **more: object) -> None:
+    """A remark in the diagram, such as a published figure."""
+    axes.annotate(text, (x, y), fontsize=8, color=SOFT, bbox=ON_PAPER, **more)
+
+
+def case_label(scene: str, size: str) -> str:
+    """Below a group of bars, on lines short enough not to meet the next one's."""
+    return "\n".join([*scene.replace("?", ":").split(":"), size])
+
+
+def from_zero(axes: Axes) -> None:
+    """The axis of values begins at 0, with room above what is drawn."""
+    axes.set_ylim(0, 1.08 * axes.dataLim.y1 or 1)
+
+
+def plain_logarithmic(axis: Axis) -> None:
+    """1, 2, 5, 10 and so on, as written, in place of powers with minor marks between."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(NullLocator())
+
+
+def published(axes: Axes, value: float, text: str, vertical: bool = False) -> None:
+    """A published figure as a dotted line across."""
+    draw = axes.axvline if vertical else axes.axhline
+    draw(value, color=INK, linestyle=(0, (1, 1.5)), linewidth=1.2)
+    where = (value, 0.99) if vertical else (0.995, value)
+    axes.annotate(
+        text,
+        where,
+        xycoords=("data", "axes fraction") if vertical else ("axes fraction", "data"),
+        xytext=(3, -2) if vertical else (-2, 2),
+        textcoords="offset points",
+        ha="left" if vertical else "right",
+        va="top" if vertical else "bottom",
+        fontsize=8,
+        color=INK,
+        bbox=ON_PAPER,
+    )
+
+
+def legend_above(figure: Figure, axes: Axes, columns: int = 4) -> None:
+    """Of one of the axes, for all of them, above the figure."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=columns)
+
+
+def save(figure: Figure, out: pathlib.Path, name: str, caption: str) -> None:
+    """As NAME.svg and NAME.png, each whole or not at all, with the caption below the axes."""
+    figure.tight_layout()
+    width = figure.get_size_inches()[0]
+    lines = textwrap.wrap(caption, int(width * CAPTION_PER_INCH))
+    figure.text(0.01, -0.02, "\n".join(lines), fontsize=7.5, color=SOFT, va="top", ha="left")
+    out.mkdir(parents=True, exist_ok=True)
+    for kind, about in (("svg", {"Date": None}), ("png", {"Software": None})):
+        path = out / f"{name}.{kind}"
+        part = out / f"{name}.{kind}.part"
+        try:
+            figure.savefig(part, format=kind, bbox_inches="tight", pad_inches=0.12, metadata=about)
+            os.replace(part, path)
+        except BaseException:
+            part.unlink(missing_ok=True)
+            raise
+    pyplot.close(figure)

@@ -1,0 +1,177 @@
+"""What a search may change in the machine of each order."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from runs.simulations import GROUP, group_assignments
+
+Assignments = tuple[str, ...]
+# How many there are of what other axes make larger, and what excludes what: a step on another axis
+# takes about the same area wherever these are alike.
+STRUCTURE = ("hfus", "fetch", "rendering.clusters")
+# KEY@SCENE=VALUE holds for one scene, such as how it is stored; KEY@each=... is an axis for each.
+EACH = "each"
+
+
+@dataclasses.dataclass(frozen=True)
+class Axis:
+    """Settings from little to much hardware, each of them one assignment or several that go
+    together."""
+
+    name: str
+    settings: tuple[Assignments, ...]
+
+    @property
+    def scope(self) -> str:
+        """The label of the scene that it is for; empty: all of them."""
+        return scope_of(self.name)
+
+
+def label(scene: str) -> str:
+    """Of a scene's name, as it stands in a key: what ends a key is not in it."""
+    return scene.replace("=", ":")
+
+
+def key_of(assignment: str) -> str:
+    """As the configuration has it."""
+    return assignment.partition("=")[0].partition("@")[0]
+
+
+def scope_of(assignment: str) -> str:
+    """The label of the scene that it is for; empty: all of them."""
+    return assignment.partition("=")[0].partition("@")[2]
+
+
+def scoped(assignment: str, scope: str) -> str:
+    key, _, value = assignment.partition("=")
+    return f"{key}@{scope}={value}"
+
+
+def unscoped(assignment: str) -> str:
+    return f"{key_of(assignment)}={assignment.partition('=')[2]}"
+
+
+def of_scene(assignments: Assignments, scope: str) -> Assignments:
+    """What holds for a scene, as the command takes it."""
+    return tuple(unscoped(a) for a in assignments if scope_of(a) in ("", scope))
+
+
+def axis(key: str, *values: object) -> Axis:
+    return Axis(key, tuple((f"{key}={value}",) for value in values))
+
+
+@dataclasses.dataclass(frozen=True)
+class Order:
+    """A preset with the axes of its machine, and what is the same in all of these."""
+
+    name: str
+    preset: str
+    fixed: Assignments
+    axes: tuple[Axis, ...]
+
+    def with_blend(self, macs: int) -> Order:
+        """With as many lanes in a cluster as blend a sub-tile in 8, 6, ... 1 cycles; what lies
+        between would be idle."""
+        lanes = axis("rendering.cluster_lanes", *(-(-macs // n) for n in (8, 6, 4, 3, 2, 1)))
+        return dataclasses.replace(
+            self, axes=tuple(lanes if a.name == lanes.name else a for a in self.axes)
+        )
+
+
+def number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def distance(assignment: str, config: dict) -> float:
+    """0: the configuration has this value; of numbers their ratio, less 1."""
+    wanted = assignment.partition("=")[2]
+    value: object = config
+    for part in key_of(assignment).split("."):
+        value = value.get(part) if isinstance(value, dict) else None
+    if isinstance(value, str) or number(wanted) is None:
+        return 0 if value == wanted else 1000
+    a, b = float(value or 0) + 1, number(wanted) + 1
+    return max(a, b) / min(a, b) - 1
+
+
+def nearest(a: Axis, config: dict) -> int:
+    distances = [sum(distance(s, config) for s in setting) for setting in a.settings]
+    return distances.index(min(distances))
+
+
+def groups(*shapes: object) -> Axis:
+    return Axis(GROUP, tuple(group_assignments(shape) for shape in shapes))
+
+
+# Beside them shapes that cut a frame of 640 x 360 evenly.
+SQUARES = (32, 48, 64, 80, 96, 112, 128)
+SHAPES = (*SQUARES, "160x120", "216x120", "160x180", "320x180")
+
+COMMON = (
+    axis("hfus", 1, 2, 3, 4, 6, 8, 9),
+    axis("rendering.clusters", 1, 2, 4, 8),
+    axis("rendering.cluster_lanes", 480),
+    # As many as give an interval of whole cycles, or several rows at once.
+    axis("rendering.begin_lanes", 6, 8, 11, 16, 25, 40, 76),
+    axis("rendering.span_lanes", 5, 8, 10, 20, 40, 60),
+    axis("hfu.ffu_lanes", 4, 8, 12, 16, 20, 24, 32, 48, 64),
+    axis("hfu.cfu_lanes", 1, 2, 3, 4, 6, 8, 12),
+    axis("hfu.second_half_slots", 4, 6, 8, 16, 24, 32, 48),
+    axis("hfu.candidate_fifo_entries", 7, 10, 16, 24, 32),
+    axis("memory_port.max_outstanding", 4, 8, 16, 32),
+    axis("sorting_units", 1, 2, 4),
+    axis("rendering.span_slots", 8, 16, 32, 48, 64),
+)
+# In both orders second halves are raw, since what codebooks cost and gain is a matter of its own,
+# and a filter's test takes what was counted on the code that runs it.
+ALIKE = ("storage.encoding=raw", "sram.codebook_bytes=0", "hfu.cost=counted")
+
+EXACT = Order(
+    "exact",
+    "exact",
+    ALIKE,
+    (
+        groups(*SHAPES),
+        axis("merge.entries", 128, 256, 512, 768, 1024, 1536, 2048, 3072),
+        axis("vsu.test_lanes", 16, 32, 64, 128),
+        axis("vsu.nodes_in_flight", 1, 2, 4, 8),
+        axis("vsu.queue_entries", 128, 256, 512, 768),
+        axis("hfu.input_slots", 2, 3, 5, 8),
+        axis("rendering.input_fifo_entries", 8, 14, 20, 32, 64),
+        *COMMON,
+    ),
+)
+
+
+def lists(gaussians: int, entries: int) -> Assignments:
+    return (f"sorting.buffer_entries={entries}", f"vsu.visit_gaussians={gaussians}")
+
+
+PAPER = Order(
+    "paper",
+    "paper_no_vq",
+    ALIKE,
+    (
+        groups(*SHAPES),
+        axis("fetch", "split", "shared"),
+        axis("hfu.slice_gaussians", 16, 32, 64, 128, 256, 512),
+        axis("hfu.input_slots", 2, 3, 4),
+        axis("sorting.input_fifo_entries", 4, 7, 12, 20, 32),
+        Axis(
+            "lists",
+            (lists(64, 64), lists(128, 128), lists(256, 256), lists(512, 512), lists(0, 1024)),
+        ),
+        axis("vsu.rays_in_flight", 16, 32, 48, 64, 96, 128, 192),
+        axis("vsu.step_lanes", 8, 12, 24),
+        axis("vsu.ray_step_px", 4, 2, 1),
+        axis("vsu.table_bytes", 2048, 4096, 8192, 16384, 32768),
+        axis("vsu.node_fetches", 3, 7, 15, 31),
+        axis("vsu.node_cache_bytes", 2048, 4096, 8192, 16384, 32768),
+        *COMMON,
+    ),
+)
+ORDERS = {order.name: order for order in (EXACT, PAPER)}

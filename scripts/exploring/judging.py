@@ -1,0 +1,276 @@
+"""A configuration judged: what it costs, by how much it misses what is required, and which of its
+views told."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+import threading
+from collections.abc import Callable, Sequence
+
+from exploring.axes import Assignments, Axis, key_of, label, nearest, of_scene, scope_of
+from exploring.measures import EACH, Measure, Objective, Requirement, value_at
+from exploring.space import At, Space
+from runs.scenes import Scene
+from runs.simulations import GROUP, Outcome, Run, shape_of
+
+Simulate = Callable[[Sequence[Run]], Sequence[Outcome]]  # called from several threads
+View = tuple[Scene, int]
+
+# Area is that of the machine, whatever it draws: the smallest frame there is tells it.
+SMALL = Scene("area", "builtin:object?n=500")
+SMALL_SIZE = "64x36"
+NOT_DRAWN = "is lost by any frame"
+
+
+@dataclasses.dataclass(frozen=True)
+class Judged:
+    """costs: of the objectives, each to be small; values: of the measures that the requirements are
+    about, and violations of these, as far as the views that were drawn tell; shown: of what else is
+    to be shown. settings: what was simulated, by key. dropped: why not all views were drawn;
+    refused, failed: what the command said. Nothing but what JSON can hold, since others read it out
+    of a study."""
+
+    assignments: Assignments
+    costs: tuple[float, ...] = ()
+    values: tuple[float, ...] = ()
+    violations: tuple[float, ...] = ()
+    shown: tuple[float, ...] = ()
+    settings: dict[str, object] = dataclasses.field(default_factory=dict)
+    drawn: int = 0
+    slowest: str = ""  # view of those drawn
+    binding: str = ""
+    provenance: dict[str, str] = dataclasses.field(default_factory=dict)
+    dropped: str = ""
+    refused: str = ""
+    failed: str = ""
+
+    def is_told(self) -> bool:
+        """Whether it has numbers."""
+        return not self.refused and not self.failed
+
+    def holds(self) -> bool:
+        """Whether it was judged to the end, and all that is required holds."""
+        return self.is_told() and not self.dropped and all(v <= 0 for v in self.violations)
+
+
+@dataclasses.dataclass(frozen=True)
+class Task:
+    """What a configuration is judged by. base: what all of them have set, which a configuration
+    may set anew."""
+
+    views: tuple[View, ...]
+    keys: tuple[str, ...]  # of the settings to be shown
+    size: str
+    config: str
+    base: Assignments
+    objectives: tuple[Objective, ...]
+    requirements: tuple[Requirement, ...]
+    shown: tuple[Measure, ...] = ()  # that nothing is judged by
+
+    def run(self, scene: Scene, view: int, assignments: Assignments) -> Run:
+        own = (*self.base, *of_scene(assignments, label(scene.name)))
+        return Run(scene, str(view), self.size, self.config, own)
+
+    def small_run(self, assignments: Assignments) -> Run:
+        return Run(SMALL, "0", SMALL_SIZE, self.config, (*self.base, *assignments))
+
+    def of_the_machine(self) -> bool:
+        """Whether everything that is to be made small is known without a frame."""
+        return all(o.measure.is_of_the_machine() for o in self.objectives)
+
+    def of_machines(self) -> list[Requirement]:
+        """Bounds that any frame may show to be missed: no other frame has less."""
+        return [
+            r
+            for r in self.requirements
+            if r.measure.is_of_the_machine() and not r.least and r.measure.aggregate != EACH
+        ]
+
+
+def relative_to(task: Task, simulate: Simulate) -> Task:
+    """With the bounds of requirements that are relative to a configuration. Raises ValueError where
+    that is refused, Failure."""
+
+    def resolved(required: Requirement) -> Requirement:
+        if not required.reference:
+            return required
+        runs = [Run(s, str(n), task.size, required.reference) for s, n in task.views]
+        drawn = zip(task.views, simulate(runs))
+        return required.relative_to([named(o.accepted()[0], scene) for (scene, _), o in drawn])
+
+    return dataclasses.replace(task, requirements=tuple(map(resolved, task.requirements)))
+
+
+def named(view: dict, scene: Scene) -> dict:
+    return {**view, "scene_name": scene.name}
+
+
+@dataclasses.dataclass(frozen=True)
+class Drawn:
+    """Reports of views, in the order in which they were asked for; refused, failed: why there are
+    not all."""
+
+    views: tuple[dict, ...] = ()
+    refused: str = ""
+    failed: str = ""
+
+
+class Judge:
+    """Draws a configuration's views until one shows that a requirement is lost: those first which
+    took longest of the configurations before. For several threads."""
+
+    def __init__(self, task: Task, simulate: Simulate):
+        self.task, self.simulate = task, simulate
+        self.lock = threading.Lock()
+        self.seconds = {(scene.name, view): math.inf for scene, view in task.views}
+
+    def hardest_first(self) -> list[View]:
+        with self.lock:
+            return sorted(self.task.views, key=lambda v: -self.seconds[v[0].name, v[1]])
+
+    def machine(self, assignments: Assignments) -> tuple[dict, ...]:
+        """The smallest frame that there is, once for each way of storing scenes; none where there
+        is no such machine."""
+        scopes = dict.fromkeys([*filter(None, map(scope_of, assignments))] or [""])
+        ways = dict.fromkeys(of_scene(assignments, scope) for scope in scopes)
+        outcomes = self.simulate([self.task.small_run(way) for way in ways])
+        found = [named(view, SMALL) for outcome in outcomes for view in outcome.views]
+        return tuple(found) if len(found) == len(ways) else ()
+
+    def machine_costs(self, assignments: Assignments) -> tuple[float, ...] | None:
+        """What the objectives come to where any frame tells them; none where there is no such
+        machine."""
+        views = self.machine(assignments)
+        return tuple(o.cost(views) for o in self.task.objectives) if views else None
+
+    def lost_by_any_frame(self, assignments: Assignments) -> str:
+        """What is required of a machine and this one has not; empty where there is none."""
+        required = self.task.of_machines()
+        views = self.machine(assignments) if required else ()
+        return next((r.text for r in required if views and r.violation(views) > 0), "")
+
+    def draw(self, assignments: Assignments, views: Sequence[View]) -> Drawn:
+        """Views side by side, and all of them."""
+        found: list[dict] = []
+        runs = [self.task.run(scene, number, assignments) for scene, number in views]
+        for (scene, number), outcome in zip(views, self.simulate(runs)):
+            if outcome.failure:
+                return Drawn(failed=str(outcome.failure))
+            if outcome.refused:
+                return Drawn(refused=f"{outcome.run.label()}: {outcome.refused}")
+            found += [named(view, scene) for view in outcome.views]
+            with self.lock:
+                self.seconds[scene.name, number] = outcome.views[0]["frame"]["time_s"]
+        return Drawn(tuple(found))
+
+    def lost(self, views: Sequence[dict]) -> str:
+        """What is required and no further view can mend; empty where there is none. A scene's mean
+        is told by all its views together."""
+        names = [scene.name for scene, _ in self.task.views]
+        drawn = [view["scene_name"] for view in views]
+        whole = [v for v in views if drawn.count(v["scene_name"]) == names.count(v["scene_name"])]
+        for required in self.task.requirements:
+            of = whole if required.measure.aggregate == EACH else views
+            if of and required.is_lost(of):
+                return required.text
+        return ""
+
+    def judged(self, assignments: Assignments) -> Judged:
+        """Raises ValueError where a report has no number that is asked for."""
+        if lost := self.lost_by_any_frame(assignments):
+            return self.not_drawn(assignments, f"{lost}: {NOT_DRAWN}")
+        views: list[dict] = []
+        for scene, number in self.hardest_first():
+            drawn = self.draw(assignments, [(scene, number)])
+            if not drawn.views:
+                return Judged(assignments, refused=drawn.refused, failed=drawn.failed)
+            views += drawn.views
+            lost = self.lost(views)
+            if lost and len(views) < len(self.task.views):
+                return self.summed(assignments, views, f"{lost}: lost on {scene.name} {number}")
+        return self.summed(assignments, views)
+
+    def not_drawn(self, assignments: Assignments, why: str) -> Judged:
+        """With what any frame tells; what only frames tell has no number."""
+        views = self.machine(assignments)
+
+        def told(measure: Measure) -> float:
+            return measure.of(views) if measure.is_of_the_machine() else math.nan
+
+        required, bounds = self.task.requirements, self.task.of_machines()
+        return Judged(
+            assignments,
+            costs=tuple(
+                -told(o.measure) if o.large else told(o.measure) for o in self.task.objectives
+            ),
+            values=tuple(r.value(views) if r in bounds else math.nan for r in required),
+            violations=tuple(r.violation(views) if r in bounds else 0.0 for r in required),
+            shown=tuple(map(told, self.task.shown)),
+            settings=self.settings(views),
+            provenance=provenance(views[0]),
+            dropped=why,
+        )
+
+    def summed(self, assignments: Assignments, views: Sequence[dict], dropped: str = "") -> Judged:
+        # Sums are the same however views were drawn.
+        order = {(scene.name, n): i for i, (scene, n) in enumerate(self.task.views)}
+        views = sorted(views, key=lambda view: order[view["scene_name"], view["view"]])
+        slowest = max(views, key=lambda view: view["frame"]["time_s"])
+        return Judged(
+            assignments,
+            costs=tuple(o.cost(views) for o in self.task.objectives),
+            values=tuple(r.value(views) for r in self.task.requirements),
+            violations=tuple(r.violation(views) for r in self.task.requirements),
+            shown=tuple(measure.of(views) for measure in self.task.shown),
+            settings=self.settings(views),
+            drawn=len(views),
+            slowest=f"{slowest['scene_name']} {slowest['view']}",
+            binding="+".join(sorted({view["binding"]["unit"] for view in views})),
+            provenance=provenance(views[0]),
+            dropped=dropped,
+        )
+
+    def settings(self, views: Sequence[dict]) -> dict[str, object]:
+        """A scene's own off a view of it."""
+        of = {label(view["scene_name"]): view["config"] for view in views}
+        of[""] = views[0]["config"]
+        return {key: setting(of.get(scope_of(key), {}), key_of(key)) for key in self.task.keys}
+
+    def start(self, space: Space) -> At:
+        """The configuration that the preset is nearest to. A view tells how its scene is stored and
+        what memory it takes, any frame the rest."""
+        first = {label(scene.name): (scene, number) for scene, number in reversed(self.task.views)}
+
+        @functools.cache
+        def config(scope: str) -> dict:
+            if not scope:
+                (outcome,) = self.simulate([self.task.small_run(())])
+                return outcome.accepted()[0]["config"]
+            (outcome,) = self.simulate([self.task.run(*first[scope], ())])
+            (view,) = outcome.accepted()
+            stored = {
+                k: v for k, v in view["scene"].items() if v and k in view["config"]["storage"]
+            }
+            return {**view["config"], "storage": {**view["config"]["storage"], **stored}}
+
+        def scope(axis: Axis) -> str:
+            memory = any(s.startswith("sram.") for setting in axis.settings for s in setting)
+            return axis.scope or (label(self.task.views[0][0].name) if memory else "")
+
+        return tuple(nearest(axis, config(scope(axis))) for axis in space.axes)
+
+
+def provenance(view: dict) -> dict[str, str]:
+    return {key: view["provenance"].get(key, "") for key in ("commit", "version")}
+
+
+def setting(config: dict, key: str) -> object:
+    """The value that was simulated; empty where its machine has no such key."""
+    if key == GROUP and config:
+        return shape_of(config)
+    value = value_at(config, key)
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "" if value is None else value

@@ -1,0 +1,300 @@
+"""Numbers that an exploration reads off the reports of a configuration's views: what it makes small
+or large, what it requires and what it shows beside.
+
+  MEASURE      PATH or AGGREGATE(PATH)
+  AGGREGATE    sum, mean, min, max, p99: the value that 99 of 100 views are below or at; geomean:
+               the geometric mean over the scenes of the means over their views
+  PATH         of a number in a view's report.json, such as dram.row_conflicts, or a name of NAMES
+  OBJECTIVE    MEASURE, min:MEASURE or max:MEASURE
+  REQUIREMENT  MEASURE >= BOUND or MEASURE <= BOUND; each(PATH): the mean over the views of each
+               scene
+  BOUND        NUMBER, or so many times what a preset or file comes to on the same views, and some
+               more or less: NUMBER x CONFIG, NUMBER x CONFIG - NUMBER
+
+A PATH alone is the sum over the views, but for what an accelerator has or is (`config`, `sram`,
+`area_mm2`), which is as large for each scene as that scene's storage makes it: the largest counts.
+worst(PATH) in an objective is the largest of what should be small, the smallest of what should be
+large.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+import statistics
+from collections.abc import Callable, Mapping, Sequence
+
+from runs.simulations import sram_bytes
+
+Views = Sequence[dict]
+
+
+def filter_lanes(view: dict) -> int:
+    """Multiply-accumulate lanes of coarse and fine filters."""
+    hfu = view["config"]["hfu"]
+    return view["config"]["hfus"] * (hfu["cfus"] * hfu["cfu_lanes"] + hfu["ffu_lanes"])
+
+
+# Names of what is asked for most, and of what no number of the report says.
+NAMES = {
+    "fps": "frame.fps",
+    "cycles": "frame.cycles",
+    "seconds": "frame.time_s",
+    "dram_bytes": "dram.bytes",
+    "joules": "energy.total_j",
+    "watts": "energy.mean_power_w",
+    "mm2": "area_mm2.total",
+    "psnr_db": "image.psnr_db",
+}
+COMPUTED: dict[str, Callable[[dict], float]] = {
+    "sram_bytes": sram_bytes,
+    "filter_lanes": filter_lanes,
+}
+OF_THE_MACHINE = ("config", "sram", "area_mm2")
+
+
+def nearest_rank_99(values: Sequence[float]) -> float:
+    return sorted(values)[math.ceil(0.99 * len(values)) - 1]
+
+
+AGGREGATES: dict[str, Callable[[Sequence[float]], float]] = {
+    "sum": math.fsum,
+    "mean": statistics.fmean,
+    "min": min,
+    "max": max,
+    "p99": nearest_rank_99,
+}
+GEOMEAN, EACH, WORST = "geomean", "each", "worst"
+
+
+def value_at(report: object, path: str) -> object:
+    """What the report has at a path; None when there is nothing."""
+    for key in path.split("."):
+        report = report.get(key) if isinstance(report, dict) else None
+    return report
+
+
+def number_at(view: dict, path: str) -> float:
+    """A number of the report; a picture that is equal has PSNR without end. Raises ValueError."""
+    if path in COMPUTED:
+        return COMPUTED[path](view)
+    value = value_at(view, path)
+    if value is None and path == NAMES["psnr_db"] and "image" in view:
+        return math.inf
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(f"report.json has no number at '{path}'")
+    return value
+
+
+def by_scene(views: Views) -> dict[str, list[dict]]:
+    found: dict[str, list[dict]] = {}
+    for view in views:
+        found.setdefault(view["scene_name"], []).append(view)
+    return found
+
+
+@dataclasses.dataclass(frozen=True)
+class Measure:
+    text: str
+    aggregate: str
+    path: str
+
+    def of(self, views: Views) -> float:
+        """Raises ValueError where the reports have no such number."""
+        if self.aggregate == GEOMEAN:
+            return statistics.geometric_mean(self.of_scenes(views).values())
+        return AGGREGATES[self.aggregate]([number_at(view, self.path) for view in views])
+
+    def of_scenes(self, views: Views) -> dict[str, float]:
+        return {
+            scene: statistics.fmean(number_at(view, self.path) for view in of_scene)
+            for scene, of_scene in by_scene(views).items()
+        }
+
+    def is_of_the_machine(self) -> bool:
+        """Whether any frame tells it."""
+        return self.path in COMPUTED or self.path.partition(".")[0] in OF_THE_MACHINE
+
+
+FORM = re.compile(r"\s*(?:([a-z0-9]+)\(\s*([\w.]+)\s*\)|([\w.]+))\s*")
+
+
+def measure(text: str, more: Mapping[str, str] = {}) -> Measure:
+    """more: aggregates by names that have a meaning only where it stands. Raises ValueError."""
+    found = FORM.fullmatch(text)
+    if not found:
+        raise ValueError(f"'{text.strip()}', expected PATH or AGGREGATE(PATH)")
+    aggregate, inner, alone = found.groups()
+    path = NAMES.get(inner or alone, inner or alone)
+    if alone:
+        machine = path in COMPUTED or path.partition(".")[0] in OF_THE_MACHINE
+        aggregate = "max" if machine else "sum"
+    elif aggregate in more:
+        aggregate = more[aggregate]
+    elif aggregate not in AGGREGATES and aggregate != GEOMEAN:
+        known = ", ".join([*AGGREGATES, GEOMEAN, *more])
+        raise ValueError(f"'{text.strip()}': {aggregate}, expected one of {known}")
+    return Measure(text.strip(), aggregate, path)
+
+
+@dataclasses.dataclass(frozen=True)
+class Objective:
+    measure: Measure
+    large: bool  # to be made large
+
+    @property
+    def name(self) -> str:
+        return self.measure.text
+
+    def cost(self, views: Views) -> float:
+        """What is to be made small."""
+        return -self.measure.of(views) if self.large else self.measure.of(views)
+
+    def worse(self, views: Views, than: Views) -> float:
+        """The logarithm of how many times worse it is; of values that have none the difference."""
+        a, b = self.cost(views), self.cost(than)
+        return math.copysign(math.log(a / b), a - b) if a * b > 0 else a - b
+
+
+def objective(text: str) -> Objective:
+    """Raises ValueError."""
+    direction, colon, rest = text.partition(":")
+    if colon and direction.strip() not in ("min", "max"):
+        raise ValueError(f"--objectives: '{text}', expected min:MEASURE or max:MEASURE")
+    large = bool(colon) and direction.strip() == "max"
+    try:
+        return Objective(
+            measure(rest if colon else text, {WORST: "min" if large else "max"}), large
+        )
+    except ValueError as error:
+        raise ValueError(f"--objectives: {error}") from error
+
+
+def shown(text: str) -> tuple[Measure, ...]:
+    """Of --show; none of an empty text. Raises ValueError."""
+    try:
+        return tuple(map(measure, text.split(","))) if text else ()
+    except ValueError as error:
+        raise ValueError(f"--show: {error}") from error
+
+
+@dataclasses.dataclass(frozen=True)
+class Requirement:
+    """reference: the configuration that the bound is relative to; by_view: what that comes to,
+    where each scene has a bound of its own."""
+
+    text: str
+    measure: Measure
+    least: bool  # a lower bound
+    bound: float
+    reference: str = ""
+    times: float = 1
+    by_view: Mapping[tuple[str, int], float] = dataclasses.field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """Of the column with what was measured: it says what was required, too."""
+        if self.by_view:
+            return self.text
+        return f"{self.measure.text} {'>=' if self.least else '<='} {self.bound:g}"
+
+    def relative_to(self, views: Views) -> Requirement:
+        """With its bound, by what the reference came to."""
+        if self.measure.aggregate == EACH:
+            path = self.measure.path
+            found = {(v["scene_name"], v["view"]): number_at(v, path) for v in views}
+            return dataclasses.replace(self, by_view=found)
+        bound = self.times * self.measure.of(views) + self.bound
+        return dataclasses.replace(self, bound=bound)
+
+    def pairs(self, views: Views) -> list[tuple[float, float]]:
+        """What was measured and what it is to keep to, of each scene where each is asked for."""
+        if self.measure.aggregate != EACH:
+            return [(self.measure.of(views), self.bound)]
+        measured = self.measure.of_scenes(views)
+        bounds = dict.fromkeys(measured, self.bound)
+        if self.by_view:
+            for scene, of_scene in by_scene(views).items():
+                of_views = [self.by_view[scene, view["view"]] for view in of_scene]
+                bounds[scene] = self.times * statistics.fmean(of_views) + self.bound
+        return [(measured[scene], bounds[scene]) for scene in measured]
+
+    def missed(self, value: float, bound: float) -> float:
+        """By how much of the bound; 0 or less where it holds."""
+        if value == bound:
+            return 0
+        missed = bound - value if self.least else value - bound
+        return missed / abs(bound) if bound and math.isfinite(bound) else missed
+
+    def worst(self, views: Views) -> tuple[float, float]:
+        return max(self.pairs(views), key=lambda pair: self.missed(*pair))
+
+    def value(self, views: Views) -> float:
+        return self.worst(views)[0]
+
+    def violation(self, views: Views) -> float:
+        return self.missed(*self.worst(views))
+
+    def room(self, views: Views) -> float:
+        """What is left until it is missed, as the logarithm of a ratio where there is one."""
+        value, bound = self.worst(views)
+        if value == bound or value * bound <= 0 or math.isinf(bound):
+            return -self.missed(value, bound)
+        ratio = math.log(abs(value / bound))
+        return ratio if self.least == (bound > 0) else -ratio
+
+    def is_of_single_views(self) -> bool:
+        """Whether it holds for several views where it holds for each of them."""
+        return self.measure.aggregate == ("min" if self.least else "max")
+
+    def is_lost(self, views: Views) -> bool:
+        """Whether no further view can mend it; of each scene's mean all views are there."""
+        one_way = ("min", EACH) if self.least else ("max", "sum", EACH)
+        return self.measure.aggregate in one_way and self.violation(views) > 0
+
+
+def number(text: str) -> float:
+    """Raises ValueError."""
+    if math.isfinite(value := float(text)):
+        return value
+    raise ValueError
+
+
+RELATIVE = re.compile(r"(\S+)\s+x\s+(\S+)(?:\s+([+-])\s+(\S+))?")
+
+
+def bound_of(text: str) -> dict[str, object]:
+    """Raises ValueError."""
+    text = text.strip()
+    try:
+        if not (found := RELATIVE.fullmatch(text)):
+            return {"bound": number(text)}
+        times, reference, sign, more = found.groups()
+        bound = number(f"{sign or ''}{more or 0}")
+        return {"bound": bound, "reference": reference, "times": number(times)}
+    except ValueError as error:
+        expected = "a number, or one x CONFIG, also + or - another one"
+        raise ValueError(f"'{text}', expected {expected}") from error
+
+
+def requirement(text: str) -> Requirement:
+    """Raises ValueError."""
+    left, relation, right = re.fullmatch(r"(.*?)(>=|<=|$)(.*)", text, re.DOTALL).groups()
+    try:
+        if not relation:
+            raise ValueError(f"'{text}', expected MEASURE >= NUMBER or MEASURE <= NUMBER")
+        of = measure(left, {EACH: EACH})
+        return Requirement(text.strip(), of, relation == ">=", **bound_of(right))
+    except ValueError as error:
+        raise ValueError(f"--require: {error}") from error
+
+
+def dominates(a: Sequence[float], b: Sequence[float]) -> bool:
+    """a is nowhere worse than b, and somewhere better. Costs, all to be small."""
+    return all(x <= y for x, y in zip(a, b)) and any(x < y for x, y in zip(a, b))
+
+
+def pareto_front(points: Sequence[Sequence[float]]) -> list[bool]:
+    """For each point, whether no other one dominates it."""
+    return [not any(dominates(other, point) for other in points) for point in points]

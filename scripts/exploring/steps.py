@@ -1,0 +1,404 @@
+"""A search by steps along the axes, for one objective. Nothing in it is left to chance.
+
+Where any frame tells the objective (area), resources are taken away a step at a time, that step
+first which frees most for the room that it costs under what is required, on the hardest view. A
+step after which that is missed is not tried again. When none is left every view is drawn; one that
+misses what is required becomes a hardest view beside the first, and it begins again.
+
+Where frames tell it (cycles), the search tries each setting of the first axis, then moves along one
+axis at a time. What is required of the machine is a budget: what takes more is paid for by steps
+back on other axes, those first that were seen to harm least for what they free. It looks at one
+view of each scene, two at a time, and gives up what is clearly worse; the best few are drawn on all
+views.
+
+Either begins at the preset. Where that misses what is required, it first gets more of what the
+hardest view's binding names, or where that gains nothing, of what gains most for its area.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator, Sequence
+
+from exploring.axes import STRUCTURE, Assignments, label
+from exploring.exploration import Work
+from exploring.judging import Drawn, Judged, View
+from exploring.space import At
+
+LEAST_GAIN = math.log(1.003)  # in what is required: what a step is worth taking for
+MOST_ROOM = 100.0  # where nothing is required of frames, or what is has no end
+BETTER = 0.001  # of the objective's logarithm, to be taken for a gain
+FREED = 0.003  # of the budget, to be taken where nothing is lost
+UNKNOWN_HARM = 0.02
+GIVEN_UP = 0.06  # worse on the views drawn, over their number: others may still make up for it
+AT_ONCE = 2  # views side by side
+PATIENCE = 2  # settings in a row that are no better, of what is chosen for one scene
+FINALISTS = 3
+
+
+class NoTime(Exception):
+    """--trials or --minutes are over."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Point:
+    at: At
+    views: tuple[dict, ...]
+
+
+class Steps:
+    """looked: configurations drawn so far, each with how many views."""
+
+    def __init__(self, work: Work):
+        self.work, self.space, self.judge = work, work.space, work.judge
+        self.task = work.judge.task
+        (self.objective,) = self.task.objectives
+        self.of_machines = self.task.of_machines()
+        self.of_frames = [r for r in self.task.requirements if r not in self.of_machines]
+        self.single = all(r.is_of_single_views() for r in self.of_frames)
+        self.sizes: dict[Assignments, float | None] = {}
+        self.backs: dict[tuple, tuple[int, float] | None] = {}
+        self.looked: dict[At, int] = {}
+        self.harm: dict[int, float] = {}
+        self.seen: set[At] = set()
+        self.points: list[Point] = []
+
+    def search(self) -> None:
+        """Into work.made. Raises ValueError where the preset is refused."""
+        start = self.judge.start(self.space)
+        try:
+            if self.size(start) is None:  # a view says why
+                self.look(start, self.task.views[:1])
+                return
+            if self.task.of_the_machine():
+                self.smallest(start)
+                return
+            self.best(start)
+        except NoTime:
+            pass
+        self.draw_finalists()
+
+    # What a machine takes: of what is to be small, or of what is allowed.
+
+    def size(self, at: At) -> float | None:
+        """None: there is no such machine."""
+        machine = self.space.machine(at)
+        if machine not in self.sizes:
+            views = self.judge.machine(machine)
+            if self.task.of_the_machine():
+                self.sizes[machine] = self.objective.cost(views) if views else None
+            else:
+                missed = (r.violation(views) for r in self.of_machines if views)
+                self.sizes[machine] = 1 + max(missed, default=-1) if views else None
+        return self.sizes[machine]
+
+    def neighbour(self, at: At, which: int, step: int) -> At | None:
+        """The next one along an axis that there can be."""
+        moved = self.space.moved(at, which, step)
+        while moved and self.size(moved) is None:
+            moved = self.space.moved(moved, which, step)
+        return moved
+
+    def back(self, at: At, which: int) -> tuple[At, float] | None:
+        """The next one with less on an axis, and about how much that frees: as much as it did for
+        the last one that was alike in structure."""
+        alike = [n for axis, n in zip(self.space.axes, at) if axis.name in STRUCTURE]
+        key = (which, at[which], *alike)
+        if key not in self.backs:
+            back = self.neighbour(at, which, -1)
+            self.backs[key] = back and (back[which], self.size(at) - self.size(back))
+        if not (known := self.backs[key]):
+            return None
+        return self.space.moved(at, which, known[0] - at[which]), known[1]
+
+    # Drawing.
+
+    def draw(self, at: At, views: Sequence[View]) -> Drawn:
+        """Raises NoTime."""
+        if at not in self.looked:
+            if not self.work.has_time() or len(self.looked) >= self.work.most():
+                raise NoTime
+            self.looked[at] = 0
+        return self.judge.draw(self.space.assignments(at), views)
+
+    def tell(self, at: At, drawn: Drawn, views: Sequence[dict]) -> None:
+        """What was seen of it."""
+        assignments = self.space.assignments(at)
+        if not drawn.views:
+            judged = Judged(assignments, refused=drawn.refused, failed=drawn.failed)
+        else:
+            part = f"{len(views)} of {len(self.task.views)} views were looked at"
+            dropped = part if len(views) < len(self.task.views) else ""
+            judged = self.judge.summed(assignments, views, dropped)
+        if len(views) < self.looked[at]:
+            return
+        self.work.made.add(judged)
+        if not self.looked[at]:
+            self.work.progress(len(self.looked), self.work.most())
+        self.looked[at] = max(len(views), 1)
+
+    def room(self, views: Sequence[dict]) -> float:
+        """Under all that frames tell of what is required; below 0 it is missed."""
+        return min([MOST_ROOM, *(r.room(views) for r in self.of_frames)])
+
+    def look(self, at: At, views: Sequence[View]) -> tuple[dict, ...]:
+        """All these views; none where one is refused."""
+        drawn = self.draw(at, views)
+        self.tell(at, drawn, drawn.views)
+        return drawn.views
+
+    def look_until_missed(self, at: At, watched: Sequence[View]) -> tuple[dict, ...]:
+        """Views one after the other to the first that misses what is required by itself; none where
+        one is refused."""
+        views: tuple[dict, ...] = ()
+        for some in ([view] for view in watched) if self.single else [watched]:
+            drawn = self.draw(at, some)
+            views = drawn.views and (*views, *drawn.views)
+            self.tell(at, drawn, views)
+            if not views or self.room(views) < 0:
+                break
+        return views
+
+    def hardest(self, views: Sequence[dict], watched: Sequence[View]) -> list[View]:
+        """The view with least room; all that are watched where they are judged together only."""
+        if not self.single:
+            return list(watched)
+        worst = min(views, key=lambda view: self.room([view]))
+        of = (worst["scene_name"], worst["view"])
+        return [view for view in watched if (view[0].name, view[1]) == of]
+
+    # What holds what is required, and is small.
+
+    def smallest(self, at: At) -> None:
+        start, watched = at, []
+        while views := self.look(at, self.task.views):
+            hardest = self.hardest(views, self.task.views)
+            if watched and (self.room(views) >= 0 or set(hardest) <= set(watched)):
+                return
+            watched += hardest
+            if not (start := self.grown(start, watched)):
+                return
+            at = self.shrunk(start, watched)
+
+    def grown(self, at: At, watched: Sequence[View]) -> At | None:
+        """With more of what gains room on the hardest view, until there is enough; None where that
+        is never."""
+        while True:
+            views = self.look_until_missed(at, watched)
+            if views and self.room(views) >= 0:
+                return at
+            more = views and self.roomier(at, self.hardest(views, watched), views)
+            if not more:
+                self.work.made.remarks.append(
+                    f"One step on any axis gains less than {math.expm1(LEAST_GAIN):.1%} of what is "
+                    f"required from {' '.join(self.space.assignments(at))}."
+                )
+                return None
+            at = more
+
+    def roomier(self, at: At, hardest: Sequence[View], views: Sequence[dict]) -> At | None:
+        """One step further: on the axis that the view's binding names, or where that has no more or
+        gains nothing, on the one that gains most for what it takes."""
+        worst = min(views, key=lambda view: self.room([view]))
+        room = self.room([worst] if len(hardest) == 1 else views)
+        names = [axis.name for axis in self.space.axes]
+        ahead = {name: more for n, name in enumerate(names) if (more := self.neighbour(at, n, 1))}
+        key = worst["binding"].get("key", "")
+        for tried in ([key] if key in ahead else [], [name for name in ahead if name != key]):
+            worth = {}
+            for name in tried:
+                further = self.look(ahead[name], hardest)
+                gain = self.room(further) - room if further else 0
+                if gain >= LEAST_GAIN:
+                    worth[name] = gain / max(self.size(ahead[name]) - self.size(at), 1e-3)
+            if worth:
+                return ahead[max(worth, key=lambda name: worth[name])]
+        return None
+
+    def shrunk(self, at: At, watched: Sequence[View]) -> At:
+        """No step back holds what is required on the views watched."""
+        room = self.room(self.look_until_missed(at, watched))
+        # Freed for the room lost, by axis, as last seen: it is looked at again before a step.
+        worth = {which: math.inf for which in range(len(at))}
+        while worth:
+            which = max(worth, key=lambda w: worth[w])
+            back = self.back(at, which)
+            views = self.look_until_missed(back[0], watched) if back and back[1] > 0 else ()
+            left = self.room(views) if views else -math.inf
+            if left < 0:
+                del worth[which]
+                continue
+            now = back[1] / max(room - left, 1e-4)
+            if now >= max((w for other, w in worth.items() if other != which), default=0):
+                at, room = back[0], left
+                self.points.append(Point(at, views))
+            worth[which] = now
+        return at
+
+    # What does best within what is allowed.
+
+    def best(self, start: At) -> None:
+        first = {scene.name: (scene, number) for scene, number in reversed(self.task.views)}
+        self.views = list(reversed(first.values()))
+        for n, view in enumerate(self.look(start, self.views)):
+            if stored := self.stored_to_hold(start, n, view):
+                start = stored[0]
+        if start := self.grown(start, self.views):
+            self.look_back(start)
+            if point := self.best_of_first_axis(start):
+                self.descend(self.stored_better(point))
+
+    def draw_finalists(self) -> None:
+        """The best of those that were looked at, on all views."""
+        distinct = {point.at: point for point in self.points}.values()
+        ranked = sorted(distinct, key=lambda point: self.objective.cost(point.views))
+        for point in ranked[:FINALISTS]:
+            if self.looked[point.at] < len(self.task.views):
+                drawn = self.judge.draw(self.space.assignments(point.at), self.task.views)
+                self.tell(point.at, drawn, drawn.views)
+
+    def look_back(self, at: At) -> None:
+        """What a step back on each axis harms, on the first two scenes."""
+        few = self.views[:AT_ONCE]
+        now = self.look(at, few)
+        for which, axis in enumerate(self.space.axes):
+            if not axis.scope and (back := self.back(at, which)):
+                views = self.look(back[0], few)
+                self.harm[which] = self.objective.worse(views, now) if views else math.inf
+
+    def best_of_first_axis(self, at: At) -> Point | None:
+        """The best within what is allowed, of one for each setting of the first axis: the memory
+        that a group takes decides what is left for all else, so that single steps do not lead from
+        one to another."""
+        best: Point | None = None
+        settings = range(len(self.space.axes[0].settings))
+        # From the start's own outward, so that what is hopeless is given up early.
+        for to in sorted(settings, key=lambda n: abs(n - at[0])):
+            moved = self.space.moved(at, 0, to - at[0])
+            if fits := self.fitted(moved, 0):
+                worse, point = self.measure(fits, best)
+                best = point if point and (best is None or worse < 0) else best
+        return best
+
+    def fitted(self, at: At, raised: int) -> At | None:
+        """With steps back until it is within what is allowed; None where that is not enough."""
+        while (size := self.size(at)) is not None and size > 1:
+            prices: list[tuple[float, int, At]] = []
+            for which in range(len(at)):
+                back = self.back(at, which) if which != raised else None
+                if back and back[1] > 0:
+                    harm = max(self.harm.get(which, UNKNOWN_HARM), BETTER)
+                    # More than what is needed is worth nothing.
+                    prices.append((harm / min(back[1], size - 1), which, back[0]))
+            if not prices:
+                return None
+            at = min(prices, key=lambda price: price[:2])[2]
+        return None if size is None else at
+
+    def measure(self, at: At, against: Point | None) -> tuple[float, Point | None]:
+        """How much worse it is than another point on the views drawn before it was given up; and
+        the point, if it was not. Infinite where a view is refused, or misses what is required
+        however its scene is stored."""
+        views: tuple[dict, ...] = ()
+        worse = 0.0
+        for first in range(0, len(self.views), AT_ONCE):
+            some = self.views[first : first + AT_ONCE]
+            drawn = self.draw(at, some)
+            views += drawn.views
+            self.tell(at, drawn, views)
+            if not drawn.views or any(r.violation(views) > 0 for r in self.of_machines):
+                return math.inf, None
+            for n in range(first, len(views)):
+                stored = self.stored_to_hold(at, n, views[n])
+                if not stored:
+                    return math.inf, None
+                at, view = stored
+                views = (*views[:n], view, *views[n + 1 :])
+            if against:
+                worse = self.objective.worse(views, against.views[: len(views)])
+                if len(views) < len(self.views) and worse > GIVEN_UP / len(views):
+                    return worse, None
+        if self.room(views) < 0:
+            return math.inf, None
+        self.looked.setdefault(at, 0)
+        self.tell(at, drawn, views)
+        self.points.append(Point(at, views))
+        return worse, self.points[-1]
+
+    def stored_to_hold(self, at: At, n: int, view: dict) -> tuple[At, dict] | None:
+        """The n-th view as it was drawn or, where it misses what is required, with what is chosen
+        for its scene as near to that as holds it."""
+
+        def holds(view: dict) -> bool:
+            return not any(r.is_lost([view]) for r in self.of_frames)
+
+        if holds(view):
+            return at, view
+        for which in self.axes_of(view["scene_name"]):
+            settings = range(len(self.space.axes[which].settings))
+            for to in sorted(settings, key=lambda to: abs(to - at[which]))[1:]:
+                trial = self.space.moved(at, which, to - at[which])
+                drawn = self.draw(trial, [self.views[n]])
+                self.tell(trial, drawn, drawn.views)
+                if drawn.views and holds(drawn.views[0]):
+                    return trial, drawn.views[0]
+        return None
+
+    def axes_of(self, scene: str) -> list[int]:
+        return [n for n, axis in enumerate(self.space.axes) if axis.scope == label(scene)]
+
+    def descend(self, best: Point) -> Point:
+        """The point from which no move is better."""
+        while True:
+            before = best
+            for which, step in self.moves(best):
+                best = self.along(best, which, step)
+            best = self.stored_better(best)
+            if best is before:
+                return best
+
+    def moves(self, point: Point) -> Iterator[tuple[int, int]]:
+        """Axes and steps: back where that was seen to gain; on, what holds most scenes first; then
+        back."""
+        axes = [n for n, axis in enumerate(self.space.axes) if not axis.scope]
+        gains = [which for which in axes if self.harm.get(which, 0) < -BETTER]
+        yield from ((which, -1) for which in sorted(gains, key=lambda w: self.harm[w]))
+        held_by = [view["binding"].get("key", "") for view in point.views]
+        named = {which: held_by.count(self.space.axes[which].name) for which in axes}
+        yield from ((which, 1) for which in sorted(axes, key=lambda w: -named[w]))
+        yield from ((which, -1) for which in axes)
+
+    def along(self, best: Point, which: int, step: int) -> Point:
+        """As far along an axis as it gets better."""
+        while moved := self.neighbour(best.at, which, step):
+            fits = self.fitted(moved, which)
+            worse, point = self.taken(fits, best) if fits else (math.inf, None)
+            if step < 0 and math.isfinite(worse):
+                self.harm[which] = worse
+            if not point:
+                break
+            best = point
+        return best
+
+    def taken(self, at: At, best: Point) -> tuple[float, Point | None]:
+        """What is better, or as good and smaller; it is not looked at twice."""
+        if at in self.seen:
+            return math.inf, None
+        self.seen.add(at)
+        worse, point = self.measure(at, best)
+        smaller = self.size(best.at) - self.size(at) > FREED
+        return worse, point if point and worse < (BETTER if smaller else -BETTER) else None
+
+    def stored_better(self, best: Point) -> Point:
+        """With what does best for each scene on this machine. Each way it is given up where some
+        settings in a row are no better."""
+        for n, (scene, _) in enumerate(self.views):
+            for which in self.axes_of(scene.name):
+                for step in (-1, 1):
+                    at, misses = best.at, 0
+                    while misses < PATIENCE and (at := self.space.moved(at, which, step)):
+                        worse, point = self.measure(at, best)
+                        better = point and worse < -BETTER / len(self.views)
+                        best, misses = (point, 0) if better else (best, misses + 1)
+        return best

@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+"""Writes the tables of keys, activities and counters that stand beside the sources as KEYS.md, as
+`streaminggs describe` prints them. With --check nothing is written, and a table that differs from
+the program is an error."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import difflib
+import os
+import pathlib
+import re
+import subprocess
+import sys
+from typing import NoReturn
+
+REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
+KEY = re.compile(r"(?P<key>[\w.]+) = (?P<value>.*?)  \((?P<allowed>[^()]*)\)  (?P<meaning>.*)")
+WRITTEN_BY = "<!-- Written by scripts/reference_tables.py from `streaminggs describe`. -->\n\n"
+# Keys with pages of their own.
+MEMORY, STORAGE = "dram.", "storage."
+
+
+@dataclasses.dataclass
+class Described:
+    """What `describe` prints of one configuration: rows of its tables, in their order."""
+
+    keys: dict[str, tuple[str, str, str]]  # value, allowed, meaning
+    activities: list[tuple[str, ...]]
+    counters: list[tuple[str, ...]]
+
+
+def described(command: str, configuration: str) -> Described:
+    run = subprocess.run(
+        [command, "describe", "--config", configuration], capture_output=True, text=True, check=True
+    )
+    out = Described({}, [], [])
+    tables = {"| unit | activity |": out.activities, "| unit | counter |": out.counters}
+    rows: list[tuple[str, ...]] = []
+    for line in run.stdout.splitlines():
+        if found := KEY.fullmatch(line):
+            out.keys[found["key"]] = (found["value"], found["allowed"], found["meaning"])
+        elif line.startswith("| unit |"):
+            rows = next(rows for head, rows in tables.items() if line.startswith(head))
+        elif line.startswith("| `"):
+            rows.append(tuple(cell.strip() for cell in line.strip("| ").split(" | ")))
+    if not out.keys or not out.activities or not out.counters:
+        raise ValueError(f"{command} describe --config {configuration}: a table is empty")
+    return out
+
+
+def table(head: list[str], rows: list[list[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines) + "\n"
+
+
+def union(of: list[list]) -> list:
+    """All rows once. What the first lists lack stands before the row that follows it in its own."""
+    merged: list = []
+    for rows in of:
+        at = len(merged)
+        for row in reversed(rows):
+            if row in merged:
+                at = merged.index(row)
+            else:
+                merged.insert(at, row)
+    return merged
+
+
+def key_table(presets: dict[str, Described], belongs) -> str:
+    rows = []
+    for key in union([[k for k in d.keys if belongs(k)] for d in presets.values()]):
+        of = {name: d.keys[key] for name, d in presets.items() if key in d.keys}
+        (allowed, meaning), *others = dict.fromkeys(row[1:] for row in of.values())
+        if others:
+            raise ValueError(f"{key}: {allowed}, {meaning} in one machine, {others} in another")
+        values = [f"`{of[name][0]}`" if name in of and of[name][0] else "" for name in presets]
+        rows.append([f"`{key}`", *values, allowed, meaning])
+    return table(["key", *presets, "allowed", "meaning"], rows)
+
+
+def unit_table(presets: dict[str, Described], rows_of, head: list[str]) -> str:
+    rows = []
+    for row in union([rows_of(d) for d in presets.values()]):
+        within = [name for name, d in presets.items() if row in rows_of(d)]
+        rows.append([*([", ".join(within)] if len(presets) > 1 else []), *row])
+    return table([*(["machine"] if len(presets) > 1 else []), *head], rows)
+
+
+def machine_page(title: str, presets: dict[str, Described]) -> str:
+    named = " and ".join(f"`{name}`" for name in presets)
+    return (
+        f"# {title}: keys, activities and counters\n\n{WRITTEN_BY}## Keys\n\n"
+        f"Values are those of {named}; 0 is left to the model where the meaning says so.\n"
+        "Of the memory: [dram](../dram/KEYS.md). How scenes are stored:\n"
+        "[storage](../../algorithm/memory/KEYS.md).\n\n"
+        + key_table(presets, lambda key: not key.startswith((MEMORY, STORAGE)))
+        + "## Activities\n\nA resource is as busy as its busiest activity.\n\n"
+        + unit_table(
+            presets, lambda d: d.activities, ["unit", "activity", "resource", "what it does"]
+        )
+        + "## Counters\n\n"
+        + unit_table(
+            presets, lambda d: d.counters, ["unit", "counter", "unit of measure", "meaning"]
+        )
+    ).rstrip("\n") + "\n"
+
+
+def pages(command: str) -> dict[str, str]:
+    """[path below the repository] what stands there."""
+    exact, paper, gscore = (described(command, name) for name in ("exact", "paper", "gscore"))
+    return {
+        "modules/streaminggs/KEYS.md": machine_page(
+            "The streaming machines", {"exact": exact, "paper": paper}
+        ),
+        "modules/gscore/KEYS.md": machine_page("The tile-centric machine", {"gscore": gscore}),
+        "modules/dram/KEYS.md": f"# The memory: keys\n\n{WRITTEN_BY}"
+        + key_table({"default": exact}, lambda key: key.startswith(MEMORY)).rstrip("\n")
+        + "\n",
+        "algorithm/memory/KEYS.md": f"# How scenes are stored: keys\n\n{WRITTEN_BY}"
+        + key_table(
+            {"exact": exact, "paper": paper, "gscore": gscore},
+            lambda key: key.startswith(STORAGE),
+        ).rstrip("\n")
+        + "\n",
+    }
+
+
+def outdated(made: dict[str, str]) -> dict[str, list[str]]:
+    """[path] what differs from the page that is there, as lines."""
+    out = {}
+    for name, text in made.items():
+        path = REPOSITORY / name
+        there = path.read_text() if path.exists() else ""
+        if there != text:
+            out[name] = list(
+                difflib.unified_diff(
+                    there.splitlines(), text.splitlines(), name, "describe", lineterm="", n=0
+                )
+            )
+    return out
+
+
+class Parser(argparse.ArgumentParser):
+    """Refuses in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
+def main() -> int:
+    parser = Parser(description=__doc__)
+    parser.add_argument("--check", action="store_true", help="write nothing, only compare")
+    parser.add_argument(
+        "--streaminggs",
+        default=os.environ.get("STREAMINGGS") or str(REPOSITORY / "build/release/bin/streaminggs"),
+        help="the command; default: $STREAMINGGS, or what a release build makes",
+    )
+    arguments = parser.parse_args()
+    try:
+        made = pages(arguments.streaminggs)
+    except subprocess.CalledProcessError as error:
+        print(f"reference_tables.py: {error.stderr.strip()}", file=sys.stderr)
+        return 2
+    except (OSError, ValueError) as error:
+        print(f"reference_tables.py: {error}", file=sys.stderr)
+        return 2
+    differences = outdated(made)
+    if not arguments.check:
+        for name in differences:
+            (REPOSITORY / name).write_text(made[name])
+            print(name)
+        return 0
+    for lines in differences.values():
+        print("\n".join(lines), file=sys.stderr)
+    if differences:
+        print("reference_tables.py: run it without --check", file=sys.stderr)
+    return 1 if differences else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

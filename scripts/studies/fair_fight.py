@@ -1,0 +1,233 @@
+"""Both orders in one area, each with the machine that explore.py found for it, beside presets. For
+each order its recipe comes first:
+
+  scripts/explore.py SCENE... --recipe exact_in_area --out out/exact
+  scripts/explore.py SCENE... --recipe paper_in_area --out out/paper
+  scripts/results.py fair_fight SCENE... --found exact=out/exact paper=out/paper
+
+Makes
+
+  fair_fight_views    of each size, scene, machine and view
+  fair_fight_scenes   of each size, scene and machine: means over the views; the worst frame rate
+                      and waiting
+  fair_fight_summary  of each size and machine: geometric means over the scenes of these
+  fair_fight_front    of all that was tried for both orders what no other one beats in picture,
+                      bytes, time, energy and area, compared in steps of 5 % and 1 dB
+
+Frames are of 8-bit pixels; the dB of scenes and of the summary are of frames in floats where 8 bits
+would hide them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import math
+import pathlib
+import statistics
+from collections.abc import Sequence
+
+import results
+from exploring.exploration import SETTING
+from exploring.measures import pareto_front
+from results import SCENE, SIZE, VIEW, Column
+from runs import run_arguments
+from runs.scenes import Scene, find_scenes
+from runs.simulations import Outcome, Run, binders, decibels, numbers, vsu_waits
+from runs.sweep_server import swept
+
+PRESETS = ("exact", "paper", "exact_wide")
+BESIDE = "paper"  # whose cycles those of all others are held against
+ROUNDING_DB = 50  # above it the rounding to 8 bits decides
+# Points that are this close in everything count as one; no picture in 8 bits is nearer than
+# MOST_DB.
+ALIKE, ALIKE_DB, MOST_DB = 1.05, 1.0, 59.0
+
+MACHINE = Column("machine", "preset, or what was found for an order")
+BUS = Column("bus bytes", "on the bus, a frame", "B", ",.0f")
+CYCLES = Column("cycles", "of a frame", "cycles", ",.0f")
+FPS = Column("fps", "frames a second; of several views the slowest", "1/s", ".1f")
+JOULES = Column("joules", "of a frame", "J", ".4g")
+MM2 = Column("mm2", "area, where it is largest", "mm2", ".2f")
+WAITS = Column("VSU waits", "most of the frame that an activity of it waits for reads", "", ".1%")
+DECIBELS = (
+    Column("least dB", "PSNR of the worst view; inf: equal", "dB", ".1f"),
+    Column("most dB", "PSNR of the best view; inf: equal", "dB", ".1f"),
+)
+VIEWS = (
+    *(SIZE, SCENE, MACHINE, VIEW, BUS),
+    Column("asked bytes", "that units asked for", "B", ",.0f"),
+    Column("read once bytes", "if each Gaussian that contributes were read once", "B", ",.0f"),
+    *(CYCLES, FPS, JOULES, MM2),
+    Column("PSNR dB", "of the frame in 8 bits; inf: equal", "dB", ".2f"),
+    Column("binds", "what holds the frame"),
+    Column("key", "that would give it more"),
+    WAITS,
+)
+SCENES = (
+    *(SIZE, SCENE, MACHINE, BUS),
+    Column("asked / once", "bytes asked for over the least possible", "", ".2f"),
+    Column("bus / asked", "bytes on the bus over those asked for", "", ".2f"),
+    *(CYCLES, FPS, JOULES, MM2, *DECIBELS),
+    Column("binds", "the busiest of the views, its share of the frame, and what holds it"),
+    WAITS,
+)
+SUMMARY = (
+    *(SIZE, MACHINE, MM2, BUS, CYCLES, JOULES, FPS, *DECIBELS, WAITS),
+    Column("least times faster", f"than {BESIDE}, of all views", "", ".2f"),
+    Column("most times faster", f"than {BESIDE}, of all views", "", ".2f"),
+)
+FRONT = (
+    Column("order", "of what it was found for"),
+    *(Column("least dB", "PSNR of the worst view", "dB", ".1f"), BUS, CYCLES, JOULES, MM2),
+    Column("setting", "by key"),
+    Column("on the front", "whether no other one beats it"),
+)
+# Columns of explore.csv, as the recipes ask for them.
+EXPLORED = ("min(psnr_db)", "geomean(dram.bus_bytes)", "geomean(cycles)", "geomean(joules)", "mm2")
+
+
+@dataclasses.dataclass(frozen=True)
+class Machine:
+    """folder: of an exploration, which may have a configuration for each scene."""
+
+    name: str
+    preset: str = ""
+    folder: pathlib.Path = pathlib.Path()
+
+    def config(self, scene: Scene) -> str:
+        """Raises ValueError."""
+        own = self.folder / f"explore_best_{scene.name}.json"
+        path = own if own.exists() else self.folder / "explore_best.json"
+        if not self.preset and not path.exists():
+            raise ValueError(f"--found {self.name}: {path} is not there; explore.py makes it")
+        return self.preset or str(path)
+
+
+def view_row(size: str, scene: str, machine: str, view: dict) -> tuple:
+    dram, frame = view["dram"], view["frame"]
+    return (
+        *(size, scene, machine, view["view"], dram["bus_bytes"], dram["bytes"]),
+        *(view["limit"]["bytes_read_once"], frame["cycles"], frame["fps"]),
+        *(view["energy"]["total_j"], view["area_mm2"]["total"], decibels(view)),
+        *(view["binding"]["holds"], view["binding"].get("key", ""), vsu_waits(view)),
+    )
+
+
+def scene_row(size: str, scene: str, machine: str, views: Sequence[dict], db: Sequence) -> tuple:
+    bus, asked, wasted, cycles, fps, joules, mm2, waits = numbers(views)
+    # Once what a quantised scene holds would be another once.
+    quantised = any(v["config"]["storage"]["encoding"].startswith("vq") for v in views)
+    return (
+        *(size, scene, machine, bus, None if quantised else asked, wasted, cycles, fps, joules),
+        *(mm2, min(db), max(db), binders(views), waits),
+    )
+
+
+def summary_row(size: str, machine: str, of: Sequence, beside: Sequence, db: Sequence) -> tuple:
+    """of, beside: views of each scene, of the machine and of what it is held against."""
+    found = [numbers(views) for views in of]
+    bus, cycles, joules = (statistics.geometric_mean(n[i] for n in found) for i in (0, 3, 5))
+    faster = [
+        theirs["frame"]["cycles"] / ours["frame"]["cycles"]
+        for views, others in zip(of, beside)
+        for ours, theirs in zip(views, others)
+    ]
+    return (
+        *(size, machine, max(n[6] for n in found), bus, cycles, joules, min(n[4] for n in found)),
+        *(min(db), max(db), max(n[7] for n in found)),
+        *((min(faster), max(faster)) if faster else (None, None)),
+    )
+
+
+def in_floats(outcome: Outcome) -> Run:
+    """The views whose PSNR says what the order costs, not what 8 bits do."""
+    return dataclasses.replace(outcome.run, overrides=("framebuffer=rgb32f",))
+
+
+def tried(order: str, folder: pathlib.Path) -> list[tuple]:
+    """What was drawn on all views, without the last column. Raises ValueError, OSError."""
+    rows = results.read_rows(folder, "explore")
+    columns = results.facts_of(folder, "explore")["columns"]
+    keys = [column["name"] for column in columns if column["meaning"] == SETTING]
+    for name in EXPLORED:
+        if rows and name not in rows[0]:
+            raise ValueError(f"{folder}/explore.csv: no column {name}; the recipe --show has it")
+    return [
+        (order, *(float(row[n]) for n in EXPLORED), " ".join(f"{k}={row[k]}" for k in keys))
+        for row in rows
+        if row[EXPLORED[0]]
+    ]
+
+
+def near_front(points: Sequence[tuple]) -> list[bool]:
+    """For each point whether it is on the front; of those that are alike, the fastest is."""
+
+    def box(point: tuple) -> tuple[int, ...]:
+        least_db, *others = point[1:6]
+        lost = -min(least_db, MOST_DB)
+        steps = (math.floor(math.log(value) / math.log(ALIKE)) for value in others)
+        return (math.floor(lost / ALIKE_DB), *steps)
+
+    boxes = [box(point) for point in points]
+    slowest_first = sorted(range(len(points)), key=lambda n: -points[n][3])
+    first = {boxes[n]: n for n in slowest_first}
+    return [best and first[of] == n for n, (best, of) in enumerate(zip(pareto_front(boxes), boxes))]
+
+
+def add_arguments(to: run_arguments.Parser) -> None:
+    run_arguments.add_scenes(to)
+    run_arguments.add_view(to, "all")
+    run_arguments.add_side_by_side(to)
+    to.add_argument(
+        "--found",
+        nargs="+",
+        default=[],
+        metavar="ORDER=FOLDER",
+        help="--out of an exploration; the best of it is drawn",
+    )
+    to.add_argument("--presets", nargs="+", default=list(PRESETS), metavar="PRESET")
+    to.add_argument("--sizes", nargs="+", default=["640x360", "1280x720"], metavar="WxH")
+
+
+def make(arguments: argparse.Namespace) -> None:
+    for option in ("found", "presets", "sizes"):
+        run_arguments.check_once(f"--{option}", getattr(arguments, option))
+    scenes = find_scenes(arguments.scenes)
+    folders = dict(text.partition("=")[::2] for text in arguments.found)
+    machines = [Machine(f"preset {name}", preset=name) for name in arguments.presets]
+    machines += [
+        Machine(f"{order}, found", folder=pathlib.Path(folder)) for order, folder in folders.items()
+    ]
+    points = [
+        point for order, folder in folders.items() for point in tried(order, pathlib.Path(folder))
+    ]
+    asked = [(size, m, s) for size in arguments.sizes for m in machines for s in scenes]
+    runs = [Run(s, arguments.view, size, m.config(s)) for size, m, s in asked]
+    outcomes = swept(arguments, "fair_fight", runs)
+    again = [o for o in outcomes if max(map(decibels, o.accepted())) >= ROUNDING_DB]
+    floats = swept(arguments, "fair_fight", [in_floats(o) for o in again])
+    views = {(size, m.name, s.name): o.views for (size, m, s), o in zip(asked, outcomes)}
+    exact = {o.run: f.accepted() for o, f in zip(again, floats)}
+    db = {
+        key: [decibels(view) for view in exact.get(o.run, o.views)]
+        for key, o in zip(views, outcomes)
+    }
+    every = [view for of in views.values() for view in of]
+    by = results.made_of(arguments.streaminggs, every, scenes)
+    keys = [(size, s.name, m.name) for size in arguments.sizes for s in scenes for m in machines]
+    rows = [view_row(*key, view) for key in keys for view in views[key[0], key[2], key[1]]]
+    results.write(arguments.out, "fair_fight_views", by, VIEWS, rows)
+    rows = [scene_row(*k, views[k[0], k[2], k[1]], db[k[0], k[2], k[1]]) for k in keys]
+    results.write(arguments.out, "fair_fight_scenes", by, SCENES, rows)
+    rows = []
+    for size in arguments.sizes:
+        for machine in machines:
+            names = [(size, machine.name, s.name) for s in scenes]
+            beside = [views.get((size, f"preset {BESIDE}", s.name), ()) for s in scenes]
+            all_db = [value for name in names for value in db[name]]
+            rows.append(summary_row(size, machine.name, [views[n] for n in names], beside, all_db))
+    results.write(arguments.out, "fair_fight_summary", by, SUMMARY, rows)
+    rows = [(*point, best) for point, best in zip(points, near_front(points))]
+    only = {"on the front": "yes"}
+    results.write(arguments.out, "fair_fight_front", by, FRONT, rows, only=only)

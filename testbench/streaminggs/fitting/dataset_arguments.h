@@ -1,0 +1,24 @@
+// The data set that a command reads, and how small.
+#pragma once
+
+#include <string>
+
+#include "algorithm/dataset/dataset.h"
+#include "algorithm/files/output_file.h"
+#include "testbench/command_line/command_line.h"
+
+namespace sgs {
+
+struct DatasetArguments {
+  std::string folder;
+  double downscale = 1;
+
+  void add_downscale_to(CommandLine& line);
+  // What a checkpoint must have been made with.
+  std::string work() const;
+  // Reads it and checks that `plan`, to which its files are added as inputs, writes over none of
+  // them. Throws InputError, also where there is no view to test with.
+  Dataset open(OutputPlan& plan) const;
+};
+
+}  // namespace sgs

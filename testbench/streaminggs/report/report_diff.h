@@ -1,0 +1,49 @@
+// What differs between two runs of `simulate`, and how much of the whole that is.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "testbench/streaminggs/report/reported_run.h"
+
+namespace sgs {
+
+// A key of both configurations; "(chosen)" behind a value that the model chose.
+struct ConfigChange {
+  std::string key, a, b;
+};
+
+// Of a part that stands several times: busy and waited cycles are the mean of its copies, all else
+// their sum.
+struct PartChange {
+  std::string name;
+  double a = 0, b = 0;
+  double copies_a = 0, copies_b = 0;
+  double of_whole = 0;  // b - a, over the whole of A's quantity: of cycles, the frame's
+};
+
+// The mean of a view, over those that both runs have.
+struct QuantityChange {
+  Quantity quantity = Quantity::kBusy;
+  double a = 0, b = 0;
+  std::vector<PartChange> parts;  // what changes the whole most comes first
+  std::size_t equal = 0;          // parts that are alike in both
+
+  double ratio() const { return a > 0 ? b / a - 1 : 0; }  // of the whole, as a share of A's
+};
+
+struct ReportDiff {
+  std::vector<std::string> unlike;  // what makes them runs of something else, a sentence each
+  std::vector<std::pair<const ReportedView*, const ReportedView*>> views;  // that both have
+  std::vector<ConfigChange> config;
+  std::vector<std::string> keys_of_a, keys_of_b;  // that only one of them has: of other machines
+  std::size_t equal_keys = 0;
+  std::vector<QuantityChange> quantities;  // what changes most comes first
+};
+
+// Both outlive it. Throws InputError where they have no view in common.
+ReportDiff diff_runs(const ReportedRun& a, const ReportedRun& b);
+
+}  // namespace sgs

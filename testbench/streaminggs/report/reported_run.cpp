@@ -1,0 +1,199 @@
+// Reading of report.json.
+#include "testbench/streaminggs/report/reported_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "algorithm/files/input_error.h"
+#include "testbench/streaminggs/report/json_place.h"
+#include "testbench/streaminggs/report/report.h"
+
+namespace sgs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void add(ReportedQuantity& to, const std::string& name, double amount) {
+  ReportedPart& part = to.parts[without_numbers(name)];
+  part.sum += amount;
+  part.copies += 1;
+}
+
+// A text as it is, all else as JSON has it.
+std::string in_words(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void flatten(const JsonPlace& place, const std::string& path,
+             std::map<std::string, std::string>& into) {
+  place.each([&](const std::string& key, const JsonPlace& value) {
+    const std::string name = path.empty() ? key : path + "." + key;
+    if (value.json().is_object()) {
+      flatten(value, name, into);
+    } else {
+      into[name] = value.json().dump();
+    }
+  });
+}
+
+void add_activity(const std::string& name, const JsonPlace& activity, ReportedView& view) {
+  add(view.of(Quantity::kBusy), name, activity.at("busy_cycles").number());
+  const JsonPlace waits = activity.at("waits");
+  for (std::size_t i = 0; i < waits.entries(); ++i) {
+    const JsonPlace wait = waits.at(i);
+    const std::string what = wait.at("for").text();
+    const double cycles = wait.at("cycles").number();
+    if (what == "idle") continue;
+    view.of(Quantity::kWaits).whole += cycles;
+    const std::string at = wait.has("on") ? " at " + wait.at("on").text() : "";
+    add(view.of(Quantity::kWaits), name + ": " + what + at, cycles);
+  }
+}
+
+void add_units(const JsonPlace& units, ReportedView& view) {
+  units.each([&](const std::string& unit, const JsonPlace& of_unit) {
+    of_unit.at("activities").each([&](const std::string& name, const JsonPlace& activity) {
+      add_activity(unit + "." + name, activity, view);
+    });
+  });
+  ReportedQuantity& waits = view.of(Quantity::kWaits);
+  double activities = 0;
+  for (const auto& [name, part] : view.of(Quantity::kBusy).parts) activities += part.copies;
+  if (activities > 0) waits.whole /= activities;
+  // Who waits at several places of one kind stands there once.
+  for (auto& [name, wait] : waits.parts) {
+    wait.copies = view.of(Quantity::kBusy).parts.at(name.substr(0, name.find(": "))).copies;
+  }
+}
+
+void add_bytes(const JsonPlace& dram, ReportedQuantity& to) {
+  to.whole = dram.at("bytes").number();
+  dram.at("bytes_by_region").each([&](const std::string& region, const JsonPlace& requesters) {
+    requesters.each([&](const std::string& requester, const JsonPlace& directions) {
+      directions.each([&](const std::string& direction, const JsonPlace& bytes) {
+        add(to, region + ": " + requester + " " + direction, bytes.number());
+      });
+    });
+  });
+}
+
+// Keys of a section of costs: components, their total, and beside them what is none of these.
+void add_costs(const JsonPlace& section, const std::string& suffix, ReportedQuantity& to) {
+  const std::string total = "total" + suffix;
+  to.whole = section.at(total).number();
+  section.at("bands").each([&](const std::string& key, const JsonPlace&) {
+    if (key == total) return;
+    add(to, key.substr(0, key.size() - std::min(suffix.size(), key.size())),
+        section.at(key).number());
+  });
+}
+
+void add_facts(const JsonPlace& report, ReportedView& view) {
+  const auto fact = [&](const char* kind, std::string what) {
+    view.facts.emplace_back(kind, std::move(what));
+  };
+  const auto plain = [](const JsonPlace& place) { return in_words(place.json()); };
+  const JsonPlace scene = report.at("scene"), camera = report.at("camera");
+  const JsonPlace frame = report.at("frame"), provenance = report.at("provenance");
+  fact("scene", fmt::format("{}, {} Gaussians, SH degree {}, {} dropped", plain(scene.at("name")),
+                            plain(scene.at("gaussians")), plain(scene.at("sh_degree")),
+                            plain(scene.at("dropped_invalid"))));
+  fact("camera", fmt::format("{} ({})", plain(camera.at("id")), plain(camera.at("img_name"))));
+  // Reports of earlier programs do not say what follows.
+  if (camera.has("position")) {
+    fact("camera stands at", plain(camera.at("position")));
+    fact("camera is turned", plain(camera.at("rotation")));
+    fact("focal lengths, px",
+         fmt::format("{} {}", plain(camera.at("fx_px")), plain(camera.at("fy_px"))));
+  }
+  fact("size, px", fmt::format("{}x{}", plain(frame.at("width_px")), plain(frame.at("height_px"))));
+  fact("technology", plain(provenance.at("technology")));
+  // Reports of earlier programs have a hash of another kind.
+  if (provenance.has("technology_xxh64")) {
+    fact("technology's hash", plain(provenance.at("technology_xxh64")));
+  }
+  fact("program",
+       fmt::format("{} {}", plain(provenance.at("version")), plain(provenance.at("commit"))));
+}
+
+ReportedView read_view(const JsonPlace& report) {
+  ReportedView view;
+  view.view = static_cast<int>(report.at("view").number());
+  add_facts(report, view);
+  view.cycles = report.at("frame").at("cycles").number();
+  const JsonPlace psnr_db = report.at("image").at("psnr_db");
+  view.psnr_db = psnr_db.json().is_null() ? "equal" : fmt::format("{:.2f}", psnr_db.number());
+  view.model = report.at("image").at("equals_streaming_renderer").json() == true;
+  view.holds = report.at("binding").at("holds").text();
+  add_units(report.at("units"), view);
+  view.of(Quantity::kBusy).whole = view.cycles;
+  add_bytes(report.at("dram"), view.of(Quantity::kBytes));
+  add_costs(report.at("energy"), "_j", view.of(Quantity::kJoules));
+  add_costs(report.at("area_mm2"), "", view.of(Quantity::kArea));
+  return view;
+}
+
+void check_version(const JsonPlace& report) {
+  const JsonPlace version = report.at("schema_version");
+  if (version.json() != kReportVersion) version.fail(fmt::format("{}", kReportVersion));
+}
+
+}  // namespace
+
+std::string without_numbers(const std::string& name) {
+  std::string out;
+  bool in_number = false;
+  for (const char c : name) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+    if (!digit) {
+      out += c;
+    } else if (!in_number) {
+      out += 'N';
+    }
+    in_number = digit;
+  }
+  return out;
+}
+
+ReportedRun read_reported_run(const std::string& path) {
+  std::error_code unknown;
+  ReportedRun run;
+  run.path = path;
+  if (std::filesystem::is_directory(path, unknown)) {
+    const std::filesystem::path folder(path), of_path = folder / "path.json";
+    run.path = (folder / "report.json").string();
+    if (!std::filesystem::exists(run.path, unknown) && std::filesystem::exists(of_path, unknown)) {
+      run.path = of_path.string();
+    }
+  }
+  const Json json = read_json(run.path);
+  const JsonPlace report(run.path, json);
+  check_version(report);
+  if (report.has("summary")) {
+    throw InputError(fmt::format(
+        "{}: got frames of a camera path, expected the report of simulate without --path",
+        run.path));
+  }
+  flatten(report.at("config"), "", run.config);
+  JsonPlace first = report;
+  if (report.has("views")) {
+    const JsonPlace views = report.at("views");
+    for (std::size_t i = 0; i < views.entries(); ++i) run.views.push_back(read_view(views.at(i)));
+    if (run.views.empty()) views.fail("a finished view or more");
+    first = views.at(std::size_t{0});
+  } else {
+    run.views.push_back(read_view(report));
+  }
+  const JsonPlace chosen = first.at("chosen");
+  for (std::size_t i = 0; i < chosen.entries(); ++i) {
+    run.chosen.insert(chosen.at(i).at("key").text());
+  }
+  std::sort(run.views.begin(), run.views.end(),
+            [](const ReportedView& a, const ReportedView& b) { return a.view < b.view; });
+  return run;
+}
+
+}  // namespace sgs

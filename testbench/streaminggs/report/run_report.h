@@ -1,0 +1,49 @@
+// report.json of a run: that of each view, with what is the same for all of them, and all of them.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "testbench/streaminggs/run/run_config.h"
+#include "testbench/streaminggs/run/view_result.h"
+
+namespace sgs {
+
+struct RunFacts {
+  std::string technology, technology_path;
+  std::uint64_t technology_hash = 0;  // of the file
+  std::uint64_t seed = 0;             // of the random stalls
+  std::string configuration;          // what it is called, with how many values are set over it
+  std::string command;                // the whole command line
+  std::chrono::steady_clock::time_point began;
+};
+
+class RunReport {
+ public:
+  // config: resolved.
+  RunReport(RunConfig& config, RunFacts facts);
+  ~RunReport();
+
+  std::shared_ptr<const nlohmann::ordered_json> of_view(const ViewResult& view,
+                                                        const PreparedScene& scene) const;
+  // One of a view that was finished.
+  void add(const nlohmann::ordered_json& view);
+
+  // Of all views. failed: those that were not finished, and why.
+  std::string text(const std::vector<std::pair<int, std::string>>& failed) const;
+
+ private:
+  struct Content;
+  const RunFacts facts_;
+  std::unique_ptr<Content> content_;
+};
+
+// As it stands in the file.
+std::string report_text(const nlohmann::ordered_json& report);
+
+}  // namespace sgs

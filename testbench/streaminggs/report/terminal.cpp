@@ -1,0 +1,107 @@
+// Tables of numbers for people.
+#include "testbench/streaminggs/report/terminal.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "testbench/streaminggs/report/numbers.h"
+
+namespace sgs {
+namespace {
+
+// 0.1234 -> "12.3 %"
+std::string percent(double share) {
+  return std::isnan(share) ? "none" : fmt::format("{:.1f} %", 100 * share);
+}
+
+// Of what the machine does, and of what is stored.
+void print_order_loss(const OrderLoss& loss, const GoldenFrame& golden) {
+  fmt::print("  squared error: ");
+  if (golden.missed > 0) fmt::print("missed splats {}, ", percent(loss.missed.share));
+  if (loses_order(golden)) fmt::print("misordered blends {}, ", percent(loss.misordered.share));
+  if (loss.arithmetic) fmt::print("arithmetic {}, ", percent(loss.arithmetic->share));
+  fmt::print("encoding {}, pixel format {}\n",
+             loss.encoding ? percent(loss.encoding->share) : "not known: packed",
+             percent(loss.pixel_format.share));
+}
+
+}  // namespace
+
+void print_table_head() {
+  fmt::print("{:>4} {:>8} {:>8} {:>7} {:>13} {:>7} {:>8} {:>6} {:>8} {:>7} {:>10} {:>5} {:>7}\n",
+             "view", "PSNR dB", "SSIM", "= model", "cycles", "fps", "DRAM MB", "x once", "mJ", "W",
+             "binding", "busy", "wall s");
+}
+
+void print_table_line(const ViewResult& v) {
+  fmt::print(
+      "{:>4} {:>8} {:>8.5f} {:>7} {:>13} {:>7} {:>8.2f} {:>6.2f} {:>8.3f} {:>7.3f} {:>10} "
+      "{:>4.0f}% "
+      "{:>7.2f}\n",
+      v.view, std::isinf(v.psnr_db) ? "equal" : fmt::format("{:.2f}", v.psnr_db), v.ssim,
+      v.equals_golden ? "yes" : "NO", grouped(v.run.cycles),
+      grouped(static_cast<std::uint64_t>(std::llround(1 / v.run.time_s()))),
+      static_cast<double>(v.run.memory.bytes) / 1e6, v.once_ratio(), v.energy_j.total.middle * 1e3,
+      v.mean_power_w(), v.binding.unit, 100 * v.binding.utilisation, v.run.wall_s);
+}
+
+void print_details(const ViewResult& v) {
+  fmt::print("\nview {}: {}\n", v.view, v.binding.sentence());
+  const Band& energy = v.energy_j.total;
+  fmt::print("view {}: energy {:.3f} ({:.3f} .. {:.3f}) mJ\n", v.view, energy.middle * 1e3,
+             energy.low * 1e3, energy.high * 1e3);
+  if (v.golden.contributing == 0) {
+    fmt::print("view {}: no Gaussian contributes to the picture\n", v.view);
+  }
+  if (v.file_order && v.file_order->pixels > 0) {
+    fmt::print(
+        "  ties of depth in the file's order: {} pixels of the reference picture differ, {:.2f} "
+        "dB, by at most {:.2g}\n",
+        grouped(v.file_order->pixels), v.file_order->psnr_db, v.file_order->max_abs_error);
+  }
+  if (v.order_loss) print_order_loss(*v.order_loss, v.golden);
+  fmt::print("  {:<14} {:>14} {:>14}\n", "DRAM region", "B asked for", "B on the bus");
+  for (const auto& [region, bus_bytes] : v.run.memory.bus_bytes_by_region) {
+    std::uint64_t asked = 0;
+    for (const RegionTraffic& t : v.run.memory.traffic) {
+      if (t.region == region) asked += t.read_bytes + t.written_bytes;
+    }
+    if (asked == 0 && bus_bytes == 0) continue;
+    fmt::print("  {:<14} {:>14} {:>14}\n", region, grouped(asked), grouped(bus_bytes));
+  }
+}
+
+void print_scene(const PreparedScene& scene, const RunConfig& config, bool dropping) {
+  if (dropping || scene.dropped_invalid > 0) {
+    fmt::print("\ndropped invalid: {} Gaussians, {} are left\n", grouped(scene.dropped_invalid),
+               grouped(scene.stored.gaussians));
+  }
+  if (!config.storage_source.empty()) fmt::print("\n{}\n", config.storage_source);
+  if (!scene.stored.original_known()) {
+    fmt::print(
+        "PSNR and SSIM are against the decoded scene: what its encoding costs is not known\n");
+  }
+}
+
+void print_machine(const ViewResult& v, const std::vector<AutoChoice>& chosen,
+                   const std::string& technology) {
+  std::string parts;
+  for (const auto& [component, mm2] : v.area_mm2.by_component) {
+    parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", component, mm2.middle);
+  }
+  const Band& area = v.area_mm2.total;
+  fmt::print("\narea {:.2f} ({:.2f} .. {:.2f}) mm2 at {}: {}\n", area.middle, area.low, area.high,
+             technology, parts);
+  for (const auto& [d, items, busiest] : v.run.machine.datapaths) {
+    const std::string published =
+        d.published_macs > 0 ? fmt::format(" {} published,", d.published_macs) : "";
+    fmt::print("{}: {} lanes ({}); multiply-accumulates each: {} counted,{} {} charged\n", d.name,
+               d.all_lanes(), d.lane, d.counted_macs, published, d.used_macs);
+  }
+  for (const AutoChoice& choice : chosen) {
+    fmt::print("chosen: {} {:g}: {}\n", choice.key, choice.value, choice.why);
+  }
+}
+
+}  // namespace sgs

@@ -1,0 +1,118 @@
+// Machine and memory put together, and time.
+#include "testbench/streaminggs/run/frame_run.h"
+
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <systemc>
+
+#include "algorithm/files/output_file.h"
+#include "modules/dram/command_trace.h"
+#include "modules/dram/dram_controller.h"
+#include "testbench/process/in_child.h"
+#include "testbench/process/sc_errors.h"
+#include "testbench/result/collect.h"
+#include "testbench/result/collect_memory.h"
+#include "testbench/result/memory_path.h"
+#include "testbench/result/sram_budget.h"
+#include "testbench/result/waveform_sheet.h"
+#include "testbench/result/wire.h"
+#include "testbench/streaminggs/run/seconds_since.h"
+#include "testbench/timeline/timeline.h"
+#include "testbench/waveform/waveform.h"
+#include "tlm/run_simulation.h"
+#include "tlm/time_resolution.h"
+
+namespace sgs {
+namespace {
+
+// Null: not wanted.
+struct Outputs {
+  OutputFile* vcd = nullptr;
+  OutputFile* timeline = nullptr;
+  GroupRange timeline_groups;
+  OutputFile* dram_trace = nullptr;
+};
+
+FrameResult simulate(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
+                     const DramConfig& dram, const BuildOptions& build, const Outputs& outputs) {
+  use_femtosecond_resolution();
+  sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
+  fail_child_on_sc_error();
+  DramController memory("dram", dram);
+  memory.load(0, image.bytes.data(), image.bytes.size());
+  const std::unique_ptr<Machine> machine = design.build("accelerator", job, build);
+  check_sram_budget(*machine);
+  for (auto& socket : machine->memory) socket.bind(memory.socket);
+  std::optional<CommandTraceWriter> dram_trace;
+  if (outputs.dram_trace != nullptr) {
+    dram_trace.emplace(*outputs.dram_trace, CommandTraceHeader::of(dram), memory);
+  }
+  std::optional<Waveform> waveform;
+  if (outputs.vcd != nullptr) {
+    waveform.emplace(*outputs.vcd);
+    WaveformSheet sheet(waveform->file());
+    machine->publish(sheet);
+    memory.trace(waveform->file());
+  }
+  std::unique_ptr<Timeline> timeline;
+  if (outputs.timeline != nullptr) {
+    timeline =
+        std::make_unique<Timeline>(*outputs.timeline, *machine, memory, outputs.timeline_groups);
+  }
+  // Until nothing can happen any more: the frame ends when its last posted write is in the memory.
+  run_simulation();
+  if (dram_trace) dram_trace->close();
+  if (!machine->done()) {
+    throw std::runtime_error("the simulation ran out of events before the frame was finished");
+  }
+  FrameResult result;
+  result.cycles = machine->clock().now_cycles();
+  result.clock_mhz = machine->clock().mhz();
+  result.drained = drained(*machine) && memory.idle();
+  result.machine = collect(*machine);
+  if (timeline) timeline->close();
+  add_memory_path(*machine, dram.channels, result.machine);
+  result.memory = collect_memory(memory.stats(), job.layout.regions, machine->requesters());
+  result.frame.resize(job.frame_buffer.bytes);
+  memory.read_back(job.frame_buffer.base, result.frame.data(), result.frame.size());
+  if (waveform) {
+    // The kernel writes what changed in a moment when time goes on.
+    sc_core::sc_start(sc_core::sc_get_time_resolution());
+    waveform->close();
+  }
+  return result;
+}
+
+}  // namespace
+
+FrameResult simulate_frame(const MachineDesign& design, const FrameJob& job,
+                           const MemoryImage& image, const DramConfig& dram,
+                           const BuildOptions& build) {
+  const auto began = std::chrono::steady_clock::now();
+  FrameResult result = simulate(design, job, image, dram, build, {});
+  result.wall_s = seconds_since(began);
+  return result;
+}
+
+FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
+                      const DramConfig& dram, const RunOptions& options) {
+  const auto began = std::chrono::steady_clock::now();
+  // Made here, so that nothing is left of them whatever becomes of the child.
+  OutputSet files;
+  Outputs outputs;
+  if (!options.vcd_path.empty()) outputs.vcd = &files.add(options.vcd_path);
+  if (!options.timeline_path.empty()) outputs.timeline = &files.add(options.timeline_path);
+  outputs.timeline_groups = options.timeline_groups;
+  if (!options.dram_trace_path.empty()) outputs.dram_trace = &files.add(options.dram_trace_path);
+  const std::string bytes =
+      in_child([&] { return to_wire(simulate(design, job, image, dram, options.build, outputs)); });
+  files.commit();
+  FrameResult result = from_wire(bytes);
+  result.wall_s = seconds_since(began);
+  return result;
+}
+
+}  // namespace sgs

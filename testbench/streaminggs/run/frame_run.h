@@ -1,0 +1,34 @@
+// One frame through a SystemC machine and memory, in a process of its own: the kernel elaborates
+// once a process, and a scene is loaded once for all views.
+#pragma once
+
+#include <string>
+
+#include "algorithm/memory/scene_layout.h"
+#include "modules/dram/dram_config.h"
+#include "modules/machine_design.h"
+#include "testbench/result/frame_result.h"
+#include "testbench/timeline/group_range.h"
+
+namespace sgs {
+
+struct RunOptions {
+  std::string vcd_path;         // empty: no waveform
+  std::string timeline_path;    // empty: none
+  GroupRange timeline_groups;   // that it is bound to
+  std::string dram_trace_path;  // empty: no trace of the DRAM commands
+  BuildOptions build;
+};
+
+// Throws InputError when the machine takes more on-chip memory than it has, before its time begins;
+// std::runtime_error, with the reason, when the simulation fails.
+FrameResult run_frame(const MachineDesign& design, const FrameJob& job, const MemoryImage& image,
+                      const DramConfig& dram, const RunOptions& options);
+
+// The same in this process, which can do so once, and without files. For a child of its own kind
+// (testbench/process/child_process.h): an error of SystemC ends it.
+FrameResult simulate_frame(const MachineDesign& design, const FrameJob& job,
+                           const MemoryImage& image, const DramConfig& dram,
+                           const BuildOptions& build);
+
+}  // namespace sgs

@@ -1,0 +1,29 @@
+// A camera path through a machine: every frame simulated, with the codebooks that the first one
+// loads.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "algorithm/scene/camera.h"
+#include "testbench/streaminggs/report/result_folder.h"
+#include "testbench/streaminggs/run/run_setting.h"
+
+namespace sgs {
+
+struct PathJob {
+  std::string name;            // of the path
+  std::vector<Camera> frames;  // at least one
+  double frame_rate = 0;       // at which energy a second is told
+};
+
+// Every file that run_path() writes.
+std::vector<std::filesystem::path> files_of_path(const PathJob& job, const ResultFolder& out);
+
+// What the folder holds of an earlier run is removed once the first frame is done. Returns the exit
+// status: 1 where a frame is not the golden renderer's. Throws std::runtime_error, which names the
+// frame, when one cannot be finished.
+int run_path(const PathJob& job, RunSetting& setting, const ResultFolder& out);
+
+}  // namespace sgs

@@ -1,0 +1,39 @@
+#include "testbench/streaminggs/run/path_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sgs {
+namespace {
+
+// quickest_first: not empty.
+double fps_at(const std::vector<double>& quickest_first, double share) {
+  const double place = std::ceil(share * static_cast<double>(quickest_first.size()));
+  return 1 / quickest_first[static_cast<std::size_t>(std::max(place, 1.0)) - 1];
+}
+
+}  // namespace
+
+PathSummary summarise(const std::vector<PathFrame>& frames, double rate) {
+  PathSummary out;
+  std::vector<double> times;
+  double frames_j = 0, idle_j = 0, all_s = 0;
+  for (const PathFrame& frame : frames) {
+    if (frame.time_s > frames[out.worst_frame].time_s) out.worst_frame = times.size();
+    times.push_back(frame.time_s);
+    const double slot_s = std::max(frame.time_s, 1 / rate);
+    out.late += frame.time_s > 1 / rate ? 1 : 0;
+    frames_j += frame.energy_j;
+    idle_j += frame.idle_w * (slot_s - frame.time_s);
+    all_s += slot_s;
+  }
+  std::sort(times.begin(), times.end());
+  out.worst_fps = 1 / times.back();
+  out.p99_fps = fps_at(times, 0.99);
+  out.median_fps = fps_at(times, 0.5);
+  out.frames_w = frames_j / all_s;
+  out.idle_w = idle_j / all_s;
+  return out;
+}
+
+}  // namespace sgs

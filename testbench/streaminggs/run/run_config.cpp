@@ -1,0 +1,190 @@
+// Reading and resolving of the three configurations.
+#include "testbench/streaminggs/run/run_config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/input_json.h"
+#include "algorithm/storage/storage_scheme.h"
+#include "modules/dram/address_mapping.h"
+#include "modules/dram/memspec.h"
+#include "modules/storage_keys.h"
+
+namespace sgs {
+
+std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order) {
+  std::string names;
+  for (const MachineKind& kind : kinds) {
+    if (kind.design()->storage_order() != order) continue;
+    names += fmt::format("{}{}", names.empty() ? "" : " or ", kind.name);
+  }
+  return names;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// key: below `storage`. A size left open is whatever the file holds; real ones have that of a
+// float.
+bool agree(const StorageScheme& scheme, const std::string& key, const Json& said,
+           const Json& held) {
+  for (const StorageSize& size : scheme.sizes()) {
+    if (key == size.key && said == 0) return true;
+  }
+  return said.is_number_float() ? said.get<float>() == held.get<float>() : said == held;
+}
+
+// "vq, voxels of 0.4"
+std::string in_words(const StorageConfig& storage) {
+  return fmt::format("{}, {}", kEncodingNames[static_cast<std::size_t>(storage.encoding)],
+                     scheme_of(storage.order).in_words(storage));
+}
+
+// The line of RunConfig::storage_source. Throws InputError when somebody but the preset disagrees.
+std::string compared(const RunConfig& config, const PackedScene& packed, const std::string& path,
+                     const std::string& preset) {
+  const Json said = {{"storage", parse_json(config_to_json(config.storage), "the configuration")}};
+  const Json held = {{"storage", parse_json(config_to_json(packed.storage), path)}};
+  std::string differs;
+  for (const ConfigOrigin& value : config.origins) {
+    if (value.path.rfind("storage.", 0) != 0) continue;
+    std::string pointer = "/" + value.path;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    const Json &a = said.at(Json::json_pointer(pointer)), &b = held.at(Json::json_pointer(pointer));
+    const std::string key = value.path.substr(value.path.find('.') + 1);
+    if (agree(scheme_of(packed.storage.order), key, a, b)) continue;
+    const std::string got = a.is_string() ? a.get<std::string>() : a.dump();
+    if (value.origin != preset) {
+      throw InputError(fmt::format("{}: {}: got {}, expected {}: {} is stored so", value.origin,
+                                   value.path, got, b.is_string() ? b.get<std::string>() : b.dump(),
+                                   path));
+    }
+    differs += (differs.empty() ? "" : ", ") + (key == "encoding" ? got : key + " " + got);
+  }
+  return fmt::format("storage from {}: {}{}", std::filesystem::path(path).filename().string(),
+                     in_words(packed.storage),
+                     differs.empty() ? "" : fmt::format(" ({}: {})", preset, differs));
+}
+
+bool is_override(const ConfigOrigin& value) { return value.origin.rfind("--set ", 0) == 0; }
+
+// Where a value is from that does not go with the others: what stands in a file was right before
+// the overrides.
+std::string place_of(const ConfigOrigin& value, const RunConfig& config) {
+  if (is_override(value)) return value.origin;
+  std::string overrides;
+  for (const ConfigOrigin& other : config.origins) {
+    if (is_override(other)) overrides += " " + other.origin;
+  }
+  return value.origin + (overrides.empty() ? "" : " with") + overrides;
+}
+
+void resolve_machine(RunConfig& config) {
+  naming_origins(config, [&] {
+    config.dram.validate();
+    const AddressMapping mapping(config.dram, load_memspec(config.dram.memspec));
+    config.add_choices(scheme_of(config.storage.order).choose(config.storage, mapping.run_bytes()));
+    config.design->resolve(config.storage, config.chosen);
+  });
+}
+
+// A file may be of many encodings, as --print-config's are.
+void check_codebook_keys(const RunConfig& config) {
+  if (SecondHalfFormat{config.storage.encoding, 0, {}}.quantised()) return;
+  for (const ConfigOrigin& value : config.origins) {
+    const bool of_codebooks =
+        value.path.rfind("storage.vq.", 0) == 0 || value.path.rfind("codebook.", 0) == 0;
+    if (!of_codebooks || !is_override(value)) continue;
+    throw InputError(fmt::format(
+        "{}: got it with storage.encoding {}, which has no codebooks, expected vq or "
+        "vq_packed",
+        value.origin, kEncodingNames[static_cast<std::size_t>(config.storage.encoding)]));
+  }
+}
+
+}  // namespace
+
+void naming_origins(const RunConfig& config, const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const std::string key = message.substr(0, message.find(": "));
+    for (const char* section : {"", "storage."}) {
+      for (const ConfigOrigin& value : config.origins) {
+        if (value.path != section + key) continue;
+        throw InputError(fmt::format("{}: {}{}", place_of(value, config), section, message));
+      }
+    }
+    throw;
+  }
+}
+
+void RunConfig::add_choices(const std::vector<StorageChoice>& choices) {
+  for (const StorageChoice& choice : choices) {
+    chosen.push_back({fmt::format("storage.{}", choice.key), choice.value, choice.why});
+  }
+}
+
+void visit(ConfigVisitor& v, RunConfig& c) {
+  std::vector<const char*> names;
+  for (const MachineKind& kind : *c.kinds) names.push_back(kind.name);
+  const std::size_t before = c.kind;
+  v.choice("machine", c.kind, names, "which accelerator; its keys stand beside this one");
+  if (!c.design || c.kind != before) {
+    c.design = (*c.kinds)[c.kind].design();
+    c.storage.order = c.design->storage_order();
+  }
+  c.design->visit(v);
+  v.section("storage", c.storage, "how the scene is stored");
+  v.section("dram", c.dram, "memory");
+}
+
+RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds) {
+  RunConfig config;
+  config.kinds = &kinds;
+  document.read_into(config);
+  config.origins = document.origins();
+  return config;
+}
+
+void resolve(RunConfig& config) {
+  check_codebook_keys(config);
+  resolve_machine(config);
+}
+
+void adapt(RunConfig& config, const SecondHalfFormat& format) {
+  naming_origins(config, [&] { config.design->adapt(format, config.chosen); });
+}
+
+void resolve(RunConfig& config, const PackedScene& packed, const std::string& path,
+             const std::string& preset) {
+  const StorageOrder order = packed.storage.order;
+  if (order != config.design->storage_order()) {
+    const std::string readers = readers_of(*config.kinds, order);
+    throw InputError(fmt::format(
+        "{}: stored by {}; machine {} reads scenes stored by {}: {}pack the scene again with this "
+        "configuration",
+        path, scheme_of(order).name(), config.machine(),
+        scheme_of(config.design->storage_order()).name(),
+        readers.empty() ? "" : fmt::format("take --config {}, or ", readers)));
+  }
+  config.storage_source = compared(config, packed, path, preset);
+  config.storage = packed.storage;
+  check_codebook_keys(config);
+  resolve_machine(config);
+}
+
+std::string to_json(RunConfig& config) {
+  const std::unique_ptr<ConfigWriter> writer = make_json_writer();
+  visit(static_cast<ConfigVisitor&>(*writer), config);
+  return writer->text();
+}
+
+}  // namespace sgs

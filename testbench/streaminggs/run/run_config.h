@@ -1,0 +1,61 @@
+// The three configurations of a run: the machine, how the scene is stored, the memory. One JSON
+// document holds them: `machine` names the kind, whose keys stand beside it; `storage`; `dram`.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algorithm/memory/storage_config.h"
+#include "algorithm/storage/image_file.h"
+#include "algorithm/storage/storage_scheme.h"
+#include "modules/config/strict_json.h"
+#include "modules/dram/dram_config.h"
+#include "modules/machine_design.h"
+
+namespace sgs {
+
+struct RunConfig {
+  const std::vector<MachineKind>* kinds = nullptr;
+  std::size_t kind = 0;  // number in `kinds`
+  std::unique_ptr<MachineDesign> design;
+  StorageConfig storage;
+  DramConfig dram;
+  std::vector<AutoChoice> chosen;     // what was left to the model
+  std::vector<ConfigOrigin> origins;  // where the document says what
+  std::string storage_source;  // of a packed scene, a line: the file, what it holds, who differs
+
+  const char* machine() const { return (*kinds)[kind].name; }
+  void add_choices(const std::vector<StorageChoice>& choices);
+};
+
+void visit(ConfigVisitor& v, RunConfig& config);
+
+// The kinds that read scenes stored in this order: "a or b"; empty where there is none.
+std::string readers_of(const std::vector<MachineKind>& kinds, StorageOrder order);
+
+// As the document says; what is left to the model is not resolved yet. Throws InputError.
+RunConfig read_run_config(const ConfigDocument& document, const std::vector<MachineKind>& kinds);
+
+// Does it. What refuses a key, by its path or by that below `storage`, then also says where its
+// value is from.
+void naming_origins(const RunConfig& config, const std::function<void()>& act);
+
+// Makes it the resolved, valid configuration. Throws InputError, also for what --set says of
+// codebooks, or of their buffer, that the encoding has not.
+void resolve(RunConfig& config);
+
+// Fits the machine to the scene's records. Throws InputError.
+void adapt(RunConfig& config, const SecondHalfFormat& format);
+
+// The same for a packed scene, which brings its storage. path: what errors name. preset: the origin
+// that is a shipped configuration, whose storage gives way; empty for none. Throws InputError when
+// the machine cannot read the scene, and when whatever else was said of storage is not as the file
+// has it.
+void resolve(RunConfig& config, const PackedScene& packed, const std::string& path,
+             const std::string& preset);
+
+std::string to_json(RunConfig& config);
+
+}  // namespace sgs

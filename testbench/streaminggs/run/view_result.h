@@ -1,0 +1,86 @@
+// Everything that is known of one simulated view. The terminal and report.json are made from it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algorithm/image/image.h"
+#include "algorithm/scene/camera.h"
+#include "modules/auto_choice.h"
+#include "modules/golden_frame.h"
+#include "testbench/cost/cost.h"
+#include "testbench/result/frame_result.h"
+#include "testbench/streaminggs/report/binding.h"
+#include "testbench/streaminggs/run/file_order.h"
+#include "testbench/streaminggs/run/frame_run.h"
+#include "testbench/streaminggs/run/order_loss.h"
+#include "testbench/streaminggs/run/prepared_scene.h"
+
+namespace sgs {
+
+// A view of a scene, as a machine is to draw it.
+struct ViewJob {
+  int view = 0;   // index of the camera
+  Camera camera;  // as the frame has it: in its size
+  FrameJob frame;
+};
+
+// Throws InputError when scene and frame do not fit the memory.
+ViewJob view_job(const PreparedScene& scene, int view, const Camera& camera,
+                 const RunConfig& config);
+
+// What is drawn of a view by the scene, the camera and the background, whatever machine it is for.
+struct ReferencePictures {
+  Image reference;                                // of the scene as given, in storage order
+  Image decoded_reference;                        // of the scene as encoded
+  std::optional<FileOrderDifference> file_order;  // of `reference`; none where it is not known
+};
+
+// drawn: that of the scene as encoded, where it is known; null: it is drawn.
+ReferencePictures reference_pictures(const PreparedScene& scene, const FrameJob& job,
+                                     const Image* drawn);
+
+// A frame out of the modelled DRAM as a picture, against those.
+struct JudgedFrame {
+  Image frame;
+  double psnr_db = 0, ssim = 0;         // against `reference`; infinite where they are equal
+  std::optional<OrderLoss> order_loss;  // where splats were missed or blended out of order
+};
+
+// bytes: of the frame buffer.
+JudgedFrame judge_frame(const PreparedScene& scene, const ViewJob& job,
+                        const ReferencePictures& pictures, const GoldenFrame& golden,
+                        const std::vector<std::byte>& bytes);
+
+struct ViewResult : ReferencePictures, JudgedFrame {
+  int view = 0;   // index of the camera
+  Camera camera;  // as the frame has it: in its size
+  GoldenFrame golden;
+  bool equals_golden = false;  // bytes of the frame buffer against the golden renderer's
+  FrameResult run;
+  std::vector<LeftOut> left_out;
+  Binding binding;
+  CostResult energy_j, area_mm2;
+  SramModel sram_model;          // that they were made with
+  std::uint64_t image_hash = 0;  // of the bytes loaded into the memory
+  std::uint64_t once_bytes = 0;  // each contributing Gaussian read once, each pixel written
+  double once_ratio() const {
+    return static_cast<double>(run.memory.bytes) / static_cast<double>(once_bytes);
+  }
+  double mean_power_w() const { return run.cycles > 0 ? energy_j.total.middle / run.time_s() : 0; }
+};
+
+// What follows from all of that and a simulation; `left_out` and `equals_golden` are not filled in.
+ViewResult view_result(const PreparedScene& scene, const ViewJob& job, ReferencePictures pictures,
+                       GoldenFrame golden, JudgedFrame judged, FrameResult run,
+                       const Technology& technology);
+
+// Simulates one view and judges it: golden picture, costs, binding unit. Throws InputError when
+// scene and frame do not fit the memory, std::runtime_error when the simulation fails.
+ViewResult simulate_view(const PreparedScene& scene, int number, const Camera& camera,
+                         const RunConfig& config, const Technology& technology,
+                         const RunOptions& options);
+
+}  // namespace sgs

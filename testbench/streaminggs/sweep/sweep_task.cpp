@@ -1,0 +1,133 @@
+// From points to tasks, and their keys.
+#include "testbench/streaminggs/sweep/sweep_task.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "algorithm/files/input_error.h"
+#include "modules/dram/memspec.h"
+#include "testbench/streaminggs/report/provenance.h"
+
+namespace sgs {
+namespace {
+
+PointInWords in_words(const SceneArguments& scene, const ConfigSource& config) {
+  return {scene.scene, scene.cameras_path, scene.view, scene.size, config.config, config.overrides};
+}
+
+const std::string& either(const std::string& said, const std::string& otherwise) {
+  return said.empty() ? otherwise : said;
+}
+
+}  // namespace
+
+SweepPlan::SweepPlan(SweepDefaults defaults, const Kinds& kinds)
+    : defaults_(std::move(defaults)),
+      kinds_(kinds),
+      program_hash_(xxh64_of_file("/proc/self/exe")) {}
+
+SweepScene& SweepPlan::scene_of(const SceneArguments& arguments) {
+  std::unique_ptr<SweepScene>& scene = scenes_[arguments.scene + "\n" + arguments.cameras_path];
+  if (!scene) scene = std::make_unique<SweepScene>(arguments);
+  return *scene;
+}
+
+std::vector<SceneArguments> SweepPlan::scenes_of(const SweepPoint& point) const {
+  std::vector<SceneArguments> scenes = defaults_.scenes;
+  if (!point.scene.empty()) {
+    SceneArguments named = defaults_.any_scene;
+    // One of the command line's brings its cameras.
+    for (const SceneArguments& known : scenes) {
+      if (known.scene == point.scene) named = known;
+    }
+    named.scene = point.scene;
+    scenes = {named};
+  }
+  if (scenes.empty()) throw InputError("scene: got none, expected one here or on the command line");
+  for (SceneArguments& scene : scenes) {
+    scene.cameras_path = either(point.cameras, scene.cameras_path);
+    scene.view = either(point.view, defaults_.view);
+    scene.size = either(point.size, defaults_.size);
+  }
+  return scenes;
+}
+
+std::vector<std::string> SweepPlan::check_scenes() {
+  std::vector<std::string> notes;
+  for (const SceneArguments& scene : defaults_.scenes) {
+    const ChosenCameras& chosen = scene_of(scene).cameras(defaults_.view, defaults_.size);
+    if (!chosen.stretch.empty()) notes.push_back(chosen.stretch);
+  }
+  return notes;
+}
+
+RunConfig SweepPlan::resolved(const SweepTask& task) const {
+  RunConfig config = read_run_config(task.config.document(), kinds_);
+  config.design->fit_frames([&] {
+    return std::vector<PixelSize>{{task.camera.width, task.camera.height}};
+  });
+  task.scene->resolve(config, task.config.preset_in_words());
+  return config;
+}
+
+void SweepPlan::resolve_and_name(SweepTask& task) const {
+  const SceneArguments& scene = task.scene->arguments();
+  std::string all =
+      fmt::format("{:016x} {:016x} {:016x} {} {} {}\n", program_hash_, defaults_.technology_hash,
+                  task.scene->digest(), scene.drop_invalid, task.view, text_of(task.camera));
+  try {
+    RunConfig config = resolved(task);
+    task.storage = task.scene->storage_key(config);
+    const std::string text = to_json(config), golden = config.design->golden_key();
+    task.picture = golden.empty() ? text : fmt::format("{} {}", config.machine(), golden);
+    all += fmt::format("{:016x} {}\n{}", xxh64_of_file(memspec_path(config.dram.memspec)),
+                       task.storage, text);
+    for (const AutoChoice& choice : config.chosen) all += "\n" + choice.key;
+  } catch (const InputError& error) {
+    task.refused = error.what();
+    all += task.refused + "\n" + task.config.config;
+    for (const std::string& assignment : task.config.overrides) all += "\n" + assignment;
+  }
+  task.key = fmt::format("{:016x}", xxh64_of_text(all));
+}
+
+std::vector<SweepTask> SweepPlan::tasks_of(const SweepPoint& point) {
+  SweepTask base;
+  base.id = point.id;
+  base.config = {either(point.config, defaults_.config.config), defaults_.config.overrides};
+  base.config.overrides.insert(base.config.overrides.end(), point.overrides.begin(),
+                               point.overrides.end());
+  const auto refused = [&](const SceneArguments& scene, const std::string& why) {
+    SweepTask task = base;
+    task.words = in_words(scene, base.config);
+    task.refused = why;
+    return task;
+  };
+  if (!point.refused.empty()) return {refused({}, point.refused)};
+  std::vector<SweepTask> tasks;
+  try {
+    for (const SceneArguments& arguments : scenes_of(point)) {
+      try {
+        SweepScene& scene = scene_of(arguments);
+        for (const auto& [view, camera] : scene.cameras(arguments.view, arguments.size).views) {
+          SweepTask task = base;
+          task.words = in_words(arguments, base.config);
+          task.words.view = std::to_string(view);
+          task.scene = &scene;
+          task.view = view;
+          task.camera = camera;
+          resolve_and_name(task);
+          tasks.push_back(std::move(task));
+        }
+      } catch (const InputError& error) {
+        tasks.push_back(refused(arguments, error.what()));
+      }
+    }
+  } catch (const InputError& error) {
+    tasks.push_back(refused({}, error.what()));
+  }
+  return tasks;
+}
+
+}  // namespace sgs

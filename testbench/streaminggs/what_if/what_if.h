@@ -1,0 +1,52 @@
+// What a frame would gain from twice as much of one thing, one thing after the other; of what takes
+// cycles, from half as many.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "testbench/cost/cost.h"
+#include "testbench/result/frame_result.h"
+#include "testbench/streaminggs/report/binding.h"
+
+namespace sgs {
+
+// A frame's time and price.
+struct Outcome {
+  std::uint64_t cycles = 0;
+  double joules = 0, mm2 = 0;
+  Binding binding;
+};
+
+struct Doubling {
+  Doubling(const Remedy& remedy, double value);
+
+  std::string key;
+  double from = 0, to = 0;  // twice, or half where the remedy turns down
+  std::string refused;      // why it cannot be; empty: it was simulated
+  Outcome outcome;
+};
+
+// What the machine's data sheets and the memory name as remedies, each key once, in their order.
+std::vector<Remedy> remedies_of(const FrameResult& frame);
+
+// Shares of the base's time and energy that are saved; negative: it takes more.
+double time_saved(const Outcome& base, const Outcome& doubled);
+double energy_saved(const Outcome& base, const Outcome& doubled);
+
+// "-11.4 %" of what 0.114 is saved of, "0.0 %" of what stays.
+std::string change_in_words(double saved);
+
+// Most time saved first, the cheaper of equals; what was refused comes last.
+void rank(const Outcome& base, std::vector<Doubling>& doublings);
+
+// Whether no other one gains more than that which the base's binding names, but for a thousandth of
+// the frame.
+bool named_gains_most(const Outcome& base, const std::vector<Doubling>& doublings);
+
+// Whether the resource that the base's binding names is the one that gains most, with the numbers;
+// where it is not, what holds the frame once it is doubled. doublings: ranked.
+std::string verdict(const Outcome& base, const std::vector<Doubling>& doublings);
+
+}  // namespace sgs

@@ -1,0 +1,241 @@
+// streaminggs what-if SCENE: the frame as configured, then with twice as much of each thing.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "algorithm/files/data_files.h"
+#include "algorithm/files/input_error.h"
+#include "algorithm/files/output_file.h"
+#include "algorithm/memory/frame_buffer.h"
+#include "testbench/command_line/config_source.h"
+#include "testbench/result/collect.h"
+#include "testbench/streaminggs/commands.h"
+#include "testbench/streaminggs/run/frame_run.h"
+#include "testbench/streaminggs/run/prepared_scene.h"
+#include "testbench/streaminggs/run/scene_arguments.h"
+#include "testbench/streaminggs/what_if/what_if.h"
+
+namespace sgs {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct WhatIfArguments : SceneArguments {
+  ConfigSource config;
+  std::string technology = data_file("technology_32nm.json");
+  std::string out;  // JSON; empty: the terminal alone
+};
+
+// What stays as it was decided for the frame. All else that the configuration leaves open follows
+// anew from what is doubled: on-chip memories, depths of pipelines.
+constexpr const char* kDecided[] = {"/group_width_px", "/group_height_px", "/storage"};
+
+// A scene, and a machine for it.
+struct Base {
+  std::string document;  // the configuration, with what is decided
+  std::string resolved;  // and with all that was chosen
+  PreparedScene scene;
+  Technology technology;
+  const Kinds* kinds = nullptr;
+
+  // The configuration with one value changed; empty: as it is. Throws InputError where it cannot
+  // be.
+  RunConfig variant(const std::string& assignment) const {
+    ConfigDocument changed;
+    changed.add_text(document, "the configuration");
+    if (!assignment.empty()) changed.add_override(assignment);
+    RunConfig config = read_run_config(changed, *kinds);
+    config.design->fit_memories();
+    resolve(config);
+    adapt(config, scene.stored.image.layout.second_half);
+    return config;
+  }
+};
+
+class NothingLeftOut : public DataSheet {};
+
+GoldenFrame golden_of(const Base& base, const RunConfig& config, const FrameJob& job) {
+  NothingLeftOut sheet;
+  return config.design->golden(base.scene.stored, job, sheet);
+}
+
+// One frame of a variant. golden: the picture of the machine as it is. Few keys make another one
+// (of paper order the rays in flight, which break ties): the variant's own is drawn for these only.
+FrameResult run(const Base& base, const RunConfig& config, const Camera& camera,
+                const std::vector<std::byte>& golden, const std::string& what) {
+  const FrameJob job = config.design->job(base.scene.stored, camera);
+  FrameResult frame = run_frame(*config.design, job, base.scene.stored.image, config.dram, {});
+  if (frame.frame != golden &&
+      frame.frame != encode_frame(job.frame_format, golden_of(base, config, job).image)) {
+    throw std::runtime_error(what + ": the frame differs from the golden renderer's");
+  }
+  return frame;
+}
+
+Outcome outcome_of(const FrameResult& frame, const Technology& technology) {
+  return {frame.cycles, energy_of(frame, technology).total.middle,
+          area_of(frame, technology).total.middle, find_binding(frame)};
+}
+
+// The number at "key.path" of a document.
+double value_at(const Json& document, std::string key) {
+  for (char& c : key) c = c == '.' ? '/' : c;
+  return document.at(Json::json_pointer("/" + key)).get<double>();
+}
+
+void print(const Outcome& base, const std::vector<Doubling>& doublings) {
+  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9} {:>10} {:>10}   then holds\n", "doubled",
+             "from", "to", "cycles", "time", "energy", "mm2", "time/mm2", "energy/mm2");
+  fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>9.3f} {:>10} {:>10}   {}\n", "nothing", "",
+             "", base.cycles, "", "", base.mm2, "", "", base.binding.holds);
+  for (const Doubling& d : doublings) {
+    if (!d.refused.empty()) continue;
+    const double time = time_saved(base, d.outcome);
+    const double energy = energy_saved(base, d.outcome);
+    const double mm2 = d.outcome.mm2 - base.mm2;
+    // Of the memory most stands beside the chip, where its area is not counted.
+    const bool counted = d.key.rfind("dram.", 0) != 0;
+    const auto per_mm2 = [&](double gain) {
+      return counted && mm2 > 0 ? change_in_words(gain / mm2) : std::string("-");
+    };
+    fmt::print("{:<34} {:>8} {:>8} {:>12} {:>8} {:>8} {:>+9.3f} {:>10} {:>10}   {}\n", d.key,
+               d.from, d.to, d.outcome.cycles, change_in_words(time), change_in_words(energy), mm2,
+               per_mm2(time), per_mm2(energy), d.outcome.binding.holds);
+  }
+  for (const Doubling& d : doublings) {
+    if (!d.refused.empty()) fmt::print("{}={}: cannot be: {}\n", d.key, d.to, d.refused);
+  }
+}
+
+Json to_json(const Outcome& outcome) {
+  return {{"cycles", outcome.cycles},
+          {"energy_j", outcome.joules},
+          {"area_mm2", outcome.mm2},
+          {"holds", outcome.binding.holds},
+          {"holds_key", outcome.binding.remedy.key}};
+}
+
+Json to_json(int view, const Outcome& base, const std::vector<Doubling>& doublings,
+             const std::string& verdict) {
+  Json out = {{"view", view},
+              {"base", to_json(base)},
+              {"named_gains_most", named_gains_most(base, doublings)},
+              {"verdict", verdict},
+              {"doubled", Json::array()}};
+  for (const Doubling& d : doublings) {
+    Json row = {{"key", d.key}, {"from", d.from}, {"to", d.to}};
+    if (d.refused.empty()) {
+      row.update(to_json(d.outcome), true);
+      row["time_saved"] = time_saved(base, d.outcome);
+      row["energy_saved"] = energy_saved(base, d.outcome);
+    } else {
+      row["refused"] = d.refused;
+    }
+    out["doubled"].push_back(std::move(row));
+  }
+  return out;
+}
+
+Json run_view(const Base& base, int number, const Camera& camera) {
+  const RunConfig config = base.variant("");
+  const FrameJob job = config.design->job(base.scene.stored, camera);
+  const GoldenFrame drawn = golden_of(base, config, job);
+  const std::vector<std::byte> golden = encode_frame(job.frame_format, drawn.image);
+  const FrameResult frame = run(base, config, camera, golden, "nothing doubled");
+  Outcome outcome = outcome_of(frame, base.technology);
+  if (drawn.contributing == 0) {
+    outcome.binding = without_advice(outcome.binding);
+    fmt::print("\nview {}: {}\n", number, outcome.binding.sentence());
+    return to_json(number, outcome, {}, outcome.binding.advice);
+  }
+  const Json resolved = Json::parse(base.resolved);
+  std::vector<Doubling> doublings;
+  for (const Remedy& remedy : remedies_of(frame)) {
+    Doubling doubling(remedy, value_at(resolved, remedy.key));
+    if (doubling.to == doubling.from) continue;  // it is as short as it can be
+    try {
+      const std::string what = fmt::format("{}={}", doubling.key, doubling.to);
+      const RunConfig doubled = base.variant(what);
+      doubling.outcome = outcome_of(run(base, doubled, camera, golden, what), base.technology);
+    } catch (const InputError& error) {
+      doubling.refused = error.what();
+    }
+    doublings.push_back(std::move(doubling));
+  }
+  rank(outcome, doublings);
+  fmt::print("\nview {}: {}\n", number, outcome.binding.sentence());
+  print(outcome, doublings);
+  const std::string says = verdict(outcome, doublings);
+  fmt::print("{}\n", says);
+  std::fflush(stdout);
+  return to_json(number, outcome, doublings, says);
+}
+
+int run(const WhatIfArguments& arguments, const Kinds& kinds) {
+  Base base;
+  base.kinds = &kinds;
+  RunConfig config = read_run_config(arguments.config.document(), kinds);
+  std::optional<PackedScene> packed = arguments.load_packed();
+  Json document = Json::parse(to_json(config));
+  config.design->fit_frames([&] { return arguments.frame_sizes(); });
+  if (packed) {
+    resolve(config, *packed, arguments.scene, arguments.config.preset_in_words());
+  } else {
+    resolve(config);
+  }
+  base.technology = load_technology(arguments.technology);
+  Scene scene;
+  if (!packed) scene = arguments.load();
+  const auto views = arguments.cameras(scene.cameras);
+  if (!arguments.out.empty()) {
+    OutputPlan plan;
+    arguments.add_inputs_to(plan);
+    plan.add_input(arguments.config.path());
+    plan.add_input(arguments.technology);
+    plan.add_output(arguments.out);
+    plan.check();
+  }
+  if (packed) {
+    base.scene = prepare(std::move(*packed), arguments.scene, config);
+  } else {
+    const std::vector<Camera> weighing =
+        arguments.weighing_cameras(scene.cameras, config.storage.encoding);
+    base.scene = prepare(std::move(scene), config, weighing, CodebookCache(arguments.cache));
+  }
+  base.resolved = to_json(config);
+  const Json resolved = Json::parse(base.resolved);
+  for (const char* at : kDecided) {
+    const Json::json_pointer key(at);
+    if (resolved.contains(key)) document[key] = resolved[key];
+  }
+  base.document = document.dump();
+  Json report = Json::array();
+  for (const auto& [number, camera] : views) report.push_back(run_view(base, number, camera));
+  if (!arguments.out.empty()) {
+    const std::string text = report.dump(2) + "\n";
+    write_whole_file(arguments.out, text.data(), text.size());
+  }
+  return 0;
+}
+
+}  // namespace
+
+SubCommand add_what_if_command(CommandLine& line, const Kinds& kinds) {
+  auto arguments = std::make_shared<WhatIfArguments>();
+  arguments->add_scene_to(line);
+  arguments->add_views_to(line);
+  arguments->add_weighing_to(line);
+  arguments->add_cache_to(line);
+  arguments->config.config = kinds.front().name;
+  arguments->config.add_to(line);
+  line.file("--technology", arguments->technology, "table of energy and area");
+  line.file("--out", arguments->out, "write the table as JSON");
+  return [arguments, &kinds] { return run(*arguments, kinds); };
+}
+
+}  // namespace sgs
