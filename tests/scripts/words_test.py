@@ -45,7 +45,6 @@ BUDGETS = {
 # Not rewritten yet: the words that each has today are its budget, and no other rule holds it.
 NOT_REWRITTEN = {
     "README.md": 4059,
-    "modules/README.md": 1778,
     "modules/streaminggs/README.md": 11031,
     "scripts/README.md": 11370,
 }
