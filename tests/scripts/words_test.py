@@ -50,7 +50,6 @@ BUDGETS = {
 # Not rewritten yet: the words that each has today are its budget, and no other rule holds it.
 NOT_REWRITTEN = {
     "README.md": 4059,
-    "modules/streaminggs/README.md": 11031,
     "scripts/README.md": 11370,
 }
 LONGEST = 25  # words of a sentence
