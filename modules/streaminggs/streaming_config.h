@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "algorithm/memory/frame_buffer.h"
+#include "algorithm/memory/splat_record.h"
 #include "algorithm/memory/storage_config.h"
 #include "algorithm/splat/constants.h"
 #include "modules/config/config_visitor.h"
