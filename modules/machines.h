@@ -7,7 +7,7 @@
 
 namespace sgs {
 
-// The first is the default.
+// The first is the default: the exact machine.
 const std::vector<MachineKind>& machine_kinds();
 
 }  // namespace sgs

@@ -4,7 +4,7 @@ numbers where it has any, and ours. Captions name the file, the command and the 
 numbers are from. A figure whose input is not there is skipped by name, with the script that makes
 it.
 
-  figures.py                      all that can be made from out/, into out/figures/
+  figures.py                      all that traces/results and out/ have, into out/figures/
   figures.py variants roofline    these two
 
 The paper's: characterisation, dram_by_stage, tuning_curve, variants, voxel_size, filter_units.
@@ -43,7 +43,7 @@ def make_figures(arguments: argparse.Namespace) -> None:
             raise ValueError(f"{name}: no figure, expected {', '.join(known)}")
     runs = arguments.folder or REPOSITORY / "out"
     results = Results(arguments.folder or REPOSITORY / "traces" / "results", runs)
-    if not runs.is_dir():
+    if arguments.folder and not runs.is_dir():
         raise ValueError(f"--from: {runs}: no folder, expected one with results")
     out = arguments.out or runs / "figures"
     made = 0

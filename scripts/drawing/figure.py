@@ -77,7 +77,8 @@ class Results:
 
     def runs(self) -> list[Run]:
         """Raises Missing."""
-        found = [run for run in find_runs(self.folder) if run.views]
+        below = find_runs(self.folder) if self.folder.is_dir() else ()
+        found = [run for run in below if run.views]
         if not found:
             raise Missing(f"{self.folder} has no report.json of `streaminggs simulate` below it")
         return found

@@ -82,7 +82,7 @@ sgs::Camera camera_at(double distance) {
 
 int sc_main(int, char*[]) {
   sgs::use_femtosecond_resolution();
-  // The machine: its defaults, but for one key.
+  // The first kind is the exact machine. Its defaults, but for one key.
   const std::unique_ptr<sgs::MachineDesign> design = sgs::machine_kinds().front().design();
   sgs::ConfigDocument keys;
   keys.add_override("hfus=2");

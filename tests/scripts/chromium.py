@@ -3,7 +3,6 @@ opened, keys are pressed, and what it says on its console or asks of the network
 
 from __future__ import annotations
 
-import base64
 import json
 import os
 import pathlib
@@ -142,11 +141,6 @@ class Chromium:
             "Emulation.setEmulatedMedia",
             features=[{"name": "prefers-color-scheme", "value": scheme}],
         )
-
-    def photograph(self, out: pathlib.Path) -> None:
-        """The whole page, below the window's edge too."""
-        taken = self.ask("Page.captureScreenshot", captureBeyondViewport=True)
-        out.write_bytes(base64.b64decode(taken["data"]))
 
     def complaints(self) -> list[str]:
         """What stood on the console since open(), and exceptions."""

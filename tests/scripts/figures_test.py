@@ -9,6 +9,7 @@ import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree
+from unittest import mock
 
 from in_folder import COMMAND, REPOSITORY, InFolder, nightly  # isort: skip (finds the scripts)
 from runs import run_arguments, simulations
@@ -23,6 +24,7 @@ from studies import (
     training_curves,
     voxel_study,
 )
+import figures
 import results
 
 SCRIPT = REPOSITORY / "scripts" / "figures.py"
@@ -334,6 +336,19 @@ class Drawn(Figures):
         svg = self.folder / "figures" / "variants.svg"
         first, second = ((self.made("variants"), svg.read_bytes())[1] for _ in range(2))
         self.assertEqual(first, second)
+
+    @unittest.skipUnless(has_matplotlib(sys.executable), "matplotlib is not installed")
+    def test_before_anything_was_simulated_tables_are_drawn(self):
+        tables = self.folder / "traces" / "results"
+        tables.mkdir(parents=True)
+        self.write("variants")
+        for path in self.folder.glob("compare_variants.*"):
+            path.rename(tables / path.name)
+        with mock.patch.object(figures, "REPOSITORY", self.folder):
+            status, said, out = self.ended(figures, "variants", "waits")
+        self.assertEqual((status, said), (0, ""))
+        self.assertIn("skipped waits", out)
+        self.assertTrue((self.folder / "out" / "figures" / "variants.svg").exists())
 
     def test_what_is_refused(self):
         (self.folder / "compare_variants.csv").write_text("scene,mJ\ntruck,1\n")

@@ -324,17 +324,28 @@ TEST_CASE("sweep: a result file that cannot grow is an error, and whole lines st
   CHECK(results_in(scratch, "r.jsonl").size() == 4);
 }
 
-TEST_CASE("sweep: what was simulated of another memspec of the same name counts no more") {
+TEST_CASE("sweep: what was simulated of another file of the same name counts no more") {
   const ScratchFolder scratch;
   require_done(
       shell(scratch,
-            "mkdir bin share; cp $SG $SG-commands bin; cp -rL ${SG%/*}/../share/streaminggs share\n"
-            "sweep() { bin/streaminggs sweep $B --axis hfus=2 --out r.jsonl; }\n"
-            "sweep && sweep && echo >>share/streaminggs/memspecs/lpddr3_1600_4gb.json && "
-            "sweep"));
-  const std::vector<Json> results = results_in(scratch, "r.jsonl");
-  REQUIRE(results.size() == 2);
-  CHECK(results[0]["key"] != results[1]["key"]);
+            "mkdir bin; cp $SG $SG-commands bin; cp -rL ${SG%/*}/../share .\n"
+            "$SG pack $S --out s.ply; echo '[{\"id\": 0, \"img_name\": \"v\", \"width\": 32, "
+            "\"height\": 18, \"position\": [0, -1, -5], \"rotation\": [[1, 0, 0], [0, 1, 0], "
+            "[0, 0, 1]], \"fx\": 30, \"fy\": 30}]' >c.json"));
+  std::set<Json> keys;
+  for (const char* change :
+       {"true", "echo >>share/streaminggs/memspecs/lpddr3_1600_4gb.json",
+        "echo >>share/streaminggs/technology_32nm.json", "sed -i s/-5/-6/ c.json",
+        "$SG pack 'builtin:object?n=301' --out s.ply",
+        R"(sed -i 's/"entries": 512/"entries": 256/' share/streaminggs/presets/exact.json)"}) {
+    INFO(change);
+    const std::string sweep =
+        "bin/streaminggs sweep s.ply --cameras c.json --axis hfus=2 --out r.jsonl; ";
+    require_done(shell(scratch, change + ("; " + sweep + sweep)));
+    const std::vector<Json> results = results_in(scratch, "r.jsonl");
+    CHECK(keys.insert(results.back()["key"]).second);
+    CHECK(results.size() == keys.size());
+  }
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 // reaches finished sub-tiles only is dropped: its second half is never fetched.
 // Keys wait in an interval heap, which gives its nearest and its farthest key.
 // Timing: a key in or out and a mark take a cycle each, and the heap begins an insert or delete
-// every `cycles_per_operation` cycles: what is no operation passes beside it.
+// every `cycles_per_operation` cycles: what is no operation passes beside it. `latency_cycles` pass
+// in the FIFO ahead (exact_config.cpp). Area and energy: merge_unit_sheet.cpp.
 #pragma once
 
 #include <cstdint>

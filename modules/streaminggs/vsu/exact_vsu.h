@@ -61,7 +61,6 @@ class ExactVsu : public sc_core::sc_module {
     Counter groups_empty{*this, "groups_empty", "groups", "that no chunk can touch"};
   };
   const Counters& counters() const { return counters_; }
-  const WalkCounters& walk_counters() const { return chunk_walk_.counters(); }
   static SramUses sram_uses(const ExactVsuConfig& config, const BuiltFor& built_for);
   void publish(DataSheet& sheet);
 
