@@ -103,17 +103,22 @@ def html(folder: pathlib.Path) -> str:
 
 
 def question_html(folder: pathlib.Path, of: Question) -> str:
-    head, _, *rows = (
+    head, rule, *rows = (
         [cell.replace("\\|", "|") for cell in line[2:-2].split(" | ")]
         for line in shown_rows(folder, of).splitlines()
     )
-    caveats = "".join(f"<li>{escaped(caveat)}" for caveat in of.caveats)
+    numeric = [at for at, cell in enumerate(rule) if cell.endswith(":")]
+    caveats = "".join(f"<li>{with_code(caveat)}" for caveat in of.caveats)
     return (
-        f"<section class=wide><h3>{escaped(of.question)}</h3><p>{escaped(of.finding)}</p>"
-        f"{table(head, rows)}<ul>{caveats}</ul>{figure_html(folder, of)}"
+        f"<section class=wide><h3>{with_code(of.question)}</h3><p>{with_code(of.finding)}</p>"
+        f"{table(head, rows, numeric)}<ul>{caveats}</ul>{figure_html(folder, of)}"
         f"<p class=small>All rows: {escaped(of.table)}. <code>{escaped(of.command)}</code></p>"
         "</section>"
     )
+
+
+def with_code(text: str) -> str:
+    return re.sub("`([^`]*)`", r"<code>\1</code>", escaped(text))
 
 
 def figure_html(folder: pathlib.Path, of: Question) -> str:
