@@ -2,10 +2,12 @@
 """Makes tables of results: a study each, whose table NAME.csv has a row a measurement and NAME.json
 says what its columns mean and what made it; and puts tables into the README.md files.
 
-  results.py --list              names the studies
+  results.py --list              names the studies, and minutes that each takes where they are known
   results.py STUDY --help        what it measures and takes
   results.py STUDY [ARGUMENTS]   makes its tables
   results.py --fill [README...]  tables into places in READMEs; all of them without any
+  results.py --pages             writes README.md beside the tables, and out/results.html
+  results.py --check             says what of these is out of date, and tables of several releases
 
 What was simulated, trained or tuned is kept in a folder: started again, a study goes on where it
 ended, and takes what another one had made.
@@ -15,13 +17,14 @@ from __future__ import annotations
 
 import argparse
 import ast
+import dataclasses
 import importlib
 import pathlib
 import re
 import sys
 from collections.abc import Iterator
 
-from results import facts_of, markdown_of
+from results import facts_of, markdown_of, page
 from runs import run_arguments
 from runs.files import write_text
 from runs.scenes import REPOSITORY
@@ -35,15 +38,27 @@ CHANGED = re.compile(r"\w+-dirty\b")
 NOT_SOURCES = ("build", "out")
 
 
-def studies() -> dict[str, str]:
-    """By name, how what each says of itself begins; without what they share."""
+@dataclasses.dataclass(frozen=True)
+class Study:
+    """about: how what it says of itself begins. minutes: of wall time with its default arguments,
+    its MINUTES; None: nobody has timed it."""
+
+    about: str
+    minutes: int | None
+
+
+def studies() -> dict[str, Study]:
+    """By name; without what they share."""
     found = {}
     for path in sorted(STUDIES.glob("*.py")):
         source = ast.parse(path.read_text())
         functions = {node.name for node in source.body if isinstance(node, ast.FunctionDef)}
         if {"add_arguments", "make"} <= functions:
             about = " ".join((ast.get_docstring(source) or "").split())
-            found[path.stem] = re.split(r"[.:] ", about)[0]
+            minutes = re.search(r"^MINUTES = (\d+)", path.read_text(), re.MULTILINE)
+            found[path.stem] = Study(
+                re.split(r"[.:] ", about)[0], int(minutes.group(1)) if minutes else None
+            )
     return found
 
 
@@ -102,9 +117,37 @@ def fill(arguments: argparse.Namespace) -> None:
             print(path.relative_to(REPOSITORY) if path.is_relative_to(REPOSITORY) else path)
 
 
+def write_pages(tables: pathlib.Path) -> None:
+    for path, text in (
+        (tables / page.README, page.readme(tables)),
+        (REPOSITORY / "out" / "results.html", page.html(tables)),
+    ):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_text(path, text)
+        print(path.relative_to(REPOSITORY) if path.is_relative_to(REPOSITORY) else path)
+
+
+def out_of_date(tables: pathlib.Path) -> list[str]:
+    """READMEs that are not what the tables give."""
+    texts = {path: filled(path.read_text(), tables) for path in readmes(REPOSITORY)}
+    texts[tables / page.README] = page.readme(tables)
+    return [
+        f"{path}: not what its tables give, --fill or --pages writes it"
+        for path, text in texts.items()
+        if not path.exists() or path.read_text() != text
+    ]
+
+
+def check(tables: pathlib.Path) -> None:
+    """Raises ValueError with all that is wrong."""
+    if faults := [*out_of_date(tables), *page.faults(tables)]:
+        raise ValueError("\n  ".join(faults))
+
+
 def list_studies() -> int:
-    for name, sentence in studies().items():
-        print(f"{name:22}{sentence}")
+    for name, study in studies().items():
+        minutes = "not timed" if study.minutes is None else f"{study.minutes} min"
+        print(f"{name:22}{minutes:>9}  {study.about}")
     return 0
 
 
@@ -116,7 +159,13 @@ def main() -> int:
     parser.add_argument(
         "study", nargs="?", choices=studies(), metavar="STUDY", help="one that --list names"
     )
-    parser.add_argument("--list", action="store_true", help="name the studies")
+    parser.add_argument("--list", action="store_true", help="name the studies, and their minutes")
+    parser.add_argument(
+        "--pages", action="store_true", help="write README.md beside the tables and the page of all"
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="fail where READMEs or releases do not fit the tables"
+    )
     parser.add_argument(
         "--fill",
         nargs="*",
@@ -130,6 +179,9 @@ def main() -> int:
     arguments = parser.parse_args()
     if arguments.fill is not None:
         return run_arguments.main(lambda: fill(arguments))
+    if arguments.pages or arguments.check:
+        work = write_pages if arguments.pages else check
+        return run_arguments.main(lambda: work(arguments.tables))
     return list_studies()
 
 

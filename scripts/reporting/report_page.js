@@ -110,7 +110,7 @@ for (const table of all("table.sortable")) {
     head.querySelector("button").onclick = () => {
       const down = head.getAttribute("aria-sort") === "ascending";
       const key = (row) => row.cells[column].textContent;
-      const value = (row) => parseFloat(key(row).replaceAll(",", ""));
+      const value = (row) => parseFloat(key(row).replaceAll(",", "").replace("inf", "Infinity"));
       const numbers = head.classList.contains("n");
       const rows = [...body.rows].sort((a, b) => numbers
         ? (value(a) || 0) - (value(b) || 0) : key(a).localeCompare(key(b)));

@@ -183,17 +183,32 @@ def markdown_of(folder: pathlib.Path, name: str) -> str:
     """What a README has of a table: who made it, what to know, its rows. Raises ValueError,
     OSError."""
     facts = facts_of(folder, name)
+    about = f"{facts['about']}\n\n" if facts["about"] else ""
+    return made_sentence(facts) + about + table_of(folder, name)
+
+
+def table_of(
+    folder: pathlib.Path,
+    name: str,
+    chosen: Mapping[str, Sequence[str]] | None = None,
+    shown: Sequence[str] = (),
+) -> str:
+    """Its rows alone. chosen: values of columns, which rows that are shown have. shown: columns;
+    without, all of them. Raises ValueError, OSError."""
+    facts = facts_of(folder, name)
     columns = {of["name"]: Column(**of) for of in facts["columns"]}
+    wanted = {key: (value,) for key, value in facts["only"].items()} | dict(chosen or {})
+    if unknown := {*wanted, *shown} - columns.keys():
+        raise ValueError(f"{folder / name}.csv: no column {', '.join(sorted(unknown))}")
     rows = [
         row
         for row in read_rows(folder, name)
-        if all(row[key] == value for key, value in facts["only"].items())
+        if all(row[key] in values for key, values in wanted.items())
     ]
-    text = made_sentence(facts) + (f"{facts['about']}\n\n" if facts["about"] else "")
     if facts["spread"]:
-        return text + spread_out(columns, rows, Spread(**facts["spread"]))
-    shown = [name for name in columns if name not in facts["only"]]
-    return text + markdown(*ranges(shown, [[columns[n].shown(r[n]) for n in shown] for r in rows]))
+        return spread_out(columns, rows, Spread(**facts["spread"]))
+    named = shown or [name for name in columns if name not in facts["only"]]
+    return markdown(*ranges(named, [[columns[n].shown(r[n]) for n in named] for r in rows]))
 
 
 def ranges(

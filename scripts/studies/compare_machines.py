@@ -54,6 +54,7 @@ from studies.machines import (
 Found = Mapping[str, Sequence[Mapping[str, Measured]]]
 OfViews = Callable[[Measured], Sequence[float]]
 
+MINUTES = 120  # on two cores
 ALL_SIZES = "all"  # sizes
 PAIR = (
     Column("machine", "preset"),

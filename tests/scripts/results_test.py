@@ -9,7 +9,7 @@ from unittest import mock
 
 from in_folder import RESULTS, InFolder  # isort: skip (finds the scripts)
 import results
-from results import Column, Made, Spread
+from results import Column, Made, Spread, page
 
 BY = Made("scripts/results.py one truck", ("abc",))
 COLUMNS = (
@@ -155,6 +155,100 @@ class Places(InFolder):
             with self.assertRaises(OSError):
                 results.write_text(self.folder / "one", "text")
         self.assertEqual(list(self.folder.glob("one*")), [])
+
+
+class Pages(InFolder):
+    """What is written of tables: by question, and all of them on one page."""
+
+    def setUp(self):
+        super().setUp()
+        self.tables = self.folder / "tables"
+        self.tables.mkdir()
+        self.write_table("one", Made("x", ("abc",), ("0.2.0",)))
+        self.ask()
+
+    def write_table(self, name: str, by: Made):
+        results.save(self.tables, name, by, COLUMNS, ROWS, "What to know.")
+
+    def ask(self, **more):
+        asked = {"question": "Which?", "finding": "This one.", "table": "one", "command": "make it"}
+        (self.tables / "questions.json").write_text(json.dumps([asked | more]))
+
+    def test_a_question(self):
+        self.ask(
+            columns=["scene", "cycles"], rows={"scene": ["a|b", "c"]}, caveats=["It is small."]
+        )
+        text = page.readme(self.tables)
+        self.assertIn("\n## Which?\n\nThis one.\n\n<!-- rows: one -->\nMade by `x`;", text)
+        self.assertIn("| scene | cycles |\n| --- | ---: |\n| a\\|b | 12,345 |\n| c | 6 |\n", text)
+        self.assertIn("\nAll rows: [one.csv](one.csv). Made again by `make it`.\n<!-- end -->", text)
+        self.assertIn("<!-- end -->\n\n- It is small.\n\n## All tables\n", text)
+        self.assertIn("| [one](one.csv) | `x` |", text)
+
+    def test_no_number_in_a_finding(self):
+        self.ask(finding="It takes 31.2 dB.")
+        with self.assertRaisesRegex(ValueError, "Which.: a finding with a number: 31.2"):
+            page.readme(self.tables)
+
+    def test_what_does_not_fit_the_table(self):
+        for more, said in (
+            ({"rows": {"scene": ["z"]}}, "0 rows of one, expected 1 to 10"),
+            ({"columns": ["joules"]}, "no column joules"),
+            ({"picture": "x"}, "unexpected keyword argument 'picture'"),
+        ):
+            self.ask(**more)
+            with self.subTest(said), self.assertRaisesRegex(ValueError, said):
+                page.readme(self.tables)
+        self.ask()
+        results.save(self.tables, "one", BY, COLUMNS, ROWS * 4)
+        with self.assertRaisesRegex(ValueError, "12 rows of one"):
+            page.readme(self.tables)
+
+    def test_the_page_of_all(self):
+        (self.tables / "one.svg").write_text("<svg/>")
+        self.ask(figure="one.svg")
+        text = page.html(self.tables)
+        for part in (
+            *("<h3>Which?</h3>", "This one.", "a|b", "12,345", "31.25", "sortable", "What to know."),
+            *("against the reference picture", "data:image/svg+xml;base64,PHN2Zy8+", "make it"),
+        ):
+            self.assertIn(part, text)
+
+    def test_tables_of_several_releases(self):
+        self.write_table("two", Made("y", ("abc",), ("0.2.0",)))
+        self.assertEqual(page.faults(self.tables), [])
+        for by in (Made("y", ("abc",), ("0.1.0",)), Made("y", ("d",), ("0.2.0",)), Made("y", ())):
+            self.write_table("two", by)
+            with self.subTest(by):
+                first, *named = page.faults(self.tables)
+                self.assertEqual(first, "tables of 2 releases")
+                self.assertIn("0.2.0, abc: one", named)
+        self.write_table("two", Made("y", ("abc", "d"), ("0.2.0",)))
+        self.assertIn("0.2.0, d: two", page.faults(self.tables))
+
+    def test_check_from_the_command_line(self):
+        words = ("--check", "--tables", str(self.tables))
+        with mock.patch.object(RESULTS, "REPOSITORY", self.folder):
+            status, said, _ = self.ended(RESULTS, *words)
+            self.assertEqual(status, 2)
+            self.assertIn("tables/README.md: not what its tables give", said)
+            status, _, out = self.ended(RESULTS, "--pages", "--tables", str(self.tables))
+            self.assertEqual((status, out), (0, "tables/README.md\nout/results.html\n"))
+            self.assertEqual(self.ended(RESULTS, *words), (0, "", ""))
+            self.write_table("two", Made("y", ("d",), ("0.2.0",)))
+            self.ended(RESULTS, "--pages", "--tables", str(self.tables))
+            self.assertIn("0.2.0, d: two", self.ended(RESULTS, *words)[1])
+
+    def test_pages_of_this_repository(self):
+        """What --check says of releases is not asked here."""
+        with contextlib.redirect_stderr(io.StringIO()):
+            self.assertEqual(RESULTS.out_of_date(RESULTS.TABLES), [])
+
+    def test_minutes_of_studies(self):
+        status, _, out = self.ended(RESULTS, "--list")
+        self.assertEqual(status, 0)
+        self.assertRegex(out, r"compare_machines +120 min  Machines beside each other\n")
+        self.assertRegex(out, r"binding_check +not timed  Whether")
 
 
 if __name__ == "__main__":

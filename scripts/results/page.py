@@ -1,0 +1,159 @@
+"""Results as they are read: by question in a README, and on one page with every row of every table.
+
+questions.json beside the tables has what a person says of them, so that a table made again leaves
+it as it is: of each question the finding, the table with the columns and rows that show it, what
+limits it, a figure and the command that makes it again.
+"""
+
+from __future__ import annotations
+
+import base64
+import dataclasses
+import itertools
+import pathlib
+import re
+from collections.abc import Mapping, Sequence
+
+import results
+from reporting import tables
+from reporting.charts import details, escaped, table
+from reporting.folder import read_table
+from report import Panel, page
+from results import facts_of, made_sentence, table_of
+from runs.files import read_bytes, read_json
+
+README, QUESTIONS = "README.md", "questions.json"
+MOST_ROWS = 10  # of a table in the README
+UNKNOWN = "unknown"
+
+
+@dataclasses.dataclass(frozen=True)
+class Question:
+    """rows: values of columns that are shown. figure: a file, by its path from the tables."""
+
+    question: str
+    finding: str
+    table: str
+    command: str
+    caveats: Sequence[str] = ()
+    columns: Sequence[str] = ()
+    rows: Mapping[str, Sequence[str]] = dataclasses.field(default_factory=dict)
+    figure: str = ""
+
+
+def questions(folder: pathlib.Path) -> list[Question]:
+    """Raises ValueError for a finding with a number, which belongs into a table, OSError."""
+    path = folder / QUESTIONS
+    try:
+        found = [Question(**each) for each in read_json(path)]
+    except TypeError as error:
+        raise ValueError(f"{path}: {error}") from error
+    for each in found:
+        if number := re.search(r"\d[\d.,]*", each.finding):
+            raise ValueError(f"{path}: {each.question}: a finding with a number: {number.group()}")
+    return found
+
+
+def names(folder: pathlib.Path) -> list[str]:
+    return sorted(path.stem for path in folder.glob("*.csv"))
+
+
+def shown_rows(folder: pathlib.Path, of: Question) -> str:
+    """As Markdown. Raises ValueError where there are none, or too many for a README."""
+    text = table_of(folder, of.table, of.rows, of.columns)
+    count = text.count("\n") - 2  # without its head
+    if not 1 <= count <= MOST_ROWS:
+        raise ValueError(f"{of.question}: {count} rows of {of.table}, expected 1 to {MOST_ROWS}")
+    return text
+
+
+def readme(folder: pathlib.Path) -> str:
+    text = (
+        "# Results\n\n`scripts/results.py --pages` writes this file from the tables beside it. It also "
+        "writes `out/results.html`, which has every row of every table.\n"
+    )
+    for of in questions(folder):
+        made = made_sentence(facts_of(folder, of.table))
+        figure = f"; [figure]({of.figure})" if of.figure else ""
+        text += (
+            f"\n## {of.question}\n\n{of.finding}\n\n"
+            f"<!-- rows: {of.table} -->\n{made}{shown_rows(folder, of)}\n"
+            f"All rows: [{of.table}.csv]({of.table}.csv){figure}. Made again by `{of.command}`.\n"
+            "<!-- end -->\n"
+        )
+        caveats = "".join(f"- {caveat}\n" for caveat in of.caveats)
+        text += f"\n{caveats}" if caveats else ""
+    listed = [(f"[{name}]({name}.csv)", command(folder, name)) for name in names(folder)]
+    return (
+        text
+        + "\n## All tables\n\nUnits, meanings and what limits a table stand in its `.json`.\n\n"
+        + f"<!-- rows: all -->\n{results.markdown(('table', 'made by'), listed)}<!-- end -->\n"
+    )
+
+
+def command(folder: pathlib.Path, name: str) -> str:
+    return f"`{facts_of(folder, name)['made']['command'].split(' ')[0]}`"
+
+
+def html(folder: pathlib.Path) -> str:
+    asked = "".join(question_html(folder, of) for of in questions(folder))
+    every = "".join(table_html(folder, name) for name in names(folder))
+    panels = [Panel("questions", text=asked), Panel("all tables", text=every)]
+    return page("Results", f"{len(names(folder))} tables, every row", panels)
+
+
+def question_html(folder: pathlib.Path, of: Question) -> str:
+    head, rule, *rows = (
+        [cell.replace("\\|", "|") for cell in line[2:-2].split(" | ")]
+        for line in shown_rows(folder, of).splitlines()
+    )
+    numeric = [at for at, cell in enumerate(rule) if cell.endswith(":")]
+    caveats = "".join(f"<li>{with_code(caveat)}" for caveat in of.caveats)
+    return (
+        f"<section class=wide><h3>{with_code(of.question)}</h3><p>{with_code(of.finding)}</p>"
+        f"{table(head, rows, numeric)}<ul>{caveats}</ul>{figure_html(folder, of)}"
+        f"<p class=small>All rows: {escaped(of.table)}. <code>{escaped(of.command)}</code></p>"
+        "</section>"
+    )
+
+
+def with_code(text: str) -> str:
+    return re.sub("`([^`]*)`", r"<code>\1</code>", escaped(text))
+
+
+def figure_html(folder: pathlib.Path, of: Question) -> str:
+    """An SVG in the page itself."""
+    if not of.figure:
+        return ""
+    svg = base64.b64encode(read_bytes(folder / of.figure)).decode()
+    source = f"data:image/svg+xml;base64,{svg}"
+    return f'<img alt="{escaped(of.question)}" src="{source}" style="max-width:100%">'
+
+
+def table_html(folder: pathlib.Path, name: str) -> str:
+    facts = facts_of(folder, name)
+    meanings = [(of["name"], of["unit"], of["meaning"]) for of in facts["columns"]]
+    made = made_sentence(facts).replace("`", "")
+    return details(
+        name,
+        f"<p>{escaped(facts['about'])}</p><p class=small>{escaped(made)}</p>"
+        + tables.table_html(read_table(folder / f"{name}.csv"))
+        + details("columns", table(("column", "unit", "meaning"), meanings)),
+    )
+
+
+def releases(folder: pathlib.Path) -> dict[str, list[str]]:
+    """Tables by what made them: version and commit of the program."""
+    found: dict[str, list[str]] = {}
+    for name in names(folder):
+        made = facts_of(folder, name)["made"]
+        for each in itertools.product(made["releases"] or [UNKNOWN], made["commits"] or [UNKNOWN]):
+            found.setdefault(", ".join(each), []).append(name)
+    return found
+
+
+def faults(folder: pathlib.Path) -> list[str]:
+    """Why these tables are no results of one release."""
+    found = releases(folder)
+    several = [f"{label}: {', '.join(of)}" for label, of in sorted(found.items())]
+    return [f"tables of {len(found)} releases", *several] if len(found) > 1 else []
