@@ -31,8 +31,8 @@ class ClockDomain {
     jitter();
   }
 
-  // Blocks until the next edge; at an edge no time passes. What comes from another clock domain
-  // (memory) is taken over here.
+  // Blocks until the next edge; at an edge no time passes. Values from another clock domain
+  // (memory) are taken over here.
   void align() const {
     const std::uint64_t past = sc_core::sc_time_stamp().value() % period_.value();
     if (past != 0) {

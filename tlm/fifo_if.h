@@ -32,7 +32,7 @@ class FifoReadIf : public virtual sc_core::sc_interface {
   virtual T pop(Activity& reader, WaitFor what) = 0;
   T pop(Activity& reader) { return pop(reader, WaitFor::kInput); }
 
-  // Whether pop() would return at once.
+  // True if pop() would return at once.
   virtual bool can_pop() const = 0;
   virtual bool empty() const = 0;
   // When the oldest entry can be taken; only for a FIFO that is not empty.

@@ -15,8 +15,8 @@ class InstantEnd : public sc_core::sc_module {
  public:
   class Arbiter {
    public:
-    // Decides on all that was asked for up to now. What follows at the same time gets an end of its
-    // own.
+    // Decides on all that was asked for up to now. Requests that follow at the same time get an end
+    // of their own.
     virtual void decide() = 0;
 
    protected:

@@ -10,8 +10,8 @@
 
 namespace sgs {
 
-// What the activity does from now on, and what it asks the port for, is for this group; for
-// timelines and the bytes of groups.
+// Charges the activity's cycles and the port's requests to this group from now on, for timelines
+// and the bytes of groups.
 inline void take_up_group(Activity& activity, MemoryPort& port, std::uint32_t group,
                           std::uint32_t visit = Activity::kNoVisit) {
   activity.takes_up_group(group, visit);

@@ -51,7 +51,7 @@ class Router : public sc_core::sc_module, private InstantEnd::Arbiter {
   struct Range {
     std::uint64_t begin;
     std::uint64_t last;
-    std::size_t first_socket;  // that of initiator 0; the others follow
+    std::size_t first_socket;  // socket of initiator 0; the others follow
   };
   // A response on its way back.
   struct Response {

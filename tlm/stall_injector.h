@@ -8,7 +8,7 @@
 namespace sgs {
 
 struct StallConfig {
-  double probability = 0;  // of a stall at each draw
+  double probability = 0;  // chance of a stall at each draw
   std::uint32_t longest_cycles = 20;
   std::uint64_t seed = 1;
 };

@@ -24,8 +24,8 @@ template <class T>
 struct EntryBytes<T, std::void_t<decltype(T::kSramBytes)>>
     : std::integral_constant<std::uint32_t, T::kSramBytes> {};
 
-// What a FIFO of so many entries takes. entry_bytes: where a configuration keeps more of one than T
-// says.
+// SRAM of a FIFO of so many entries. entry_bytes: where a configuration keeps more of an entry than
+// T says.
 template <class T>
 SramUse fifo_use(const char* name, const char* memory, std::uint32_t entries,
                  const char* what_they_are, std::uint32_t entry_bytes = EntryBytes<T>::value) {
@@ -34,7 +34,7 @@ SramUse fifo_use(const char* name, const char* memory, std::uint32_t entries,
                   kOneOfEach);
 }
 
-// What can be said of a FIFO whatever it holds.
+// The part of a FIFO that does not depend on the type of its entries.
 class FifoChannel : public sc_core::sc_prim_channel {
  public:
   std::uint32_t fill() const { return fill_; }
