@@ -12,7 +12,7 @@ namespace sgs {
 
 // Where a value of a document was said: what add_file() and the like call the origin.
 struct ConfigOrigin {
-  std::string path;  // of the key, from the document's root: "dram.channels"
+  std::string path;  // path of the key from the document's root: "dram.channels"
   std::string origin;
 };
 

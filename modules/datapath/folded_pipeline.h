@@ -10,11 +10,11 @@
 
 namespace sgs {
 
-// Of values of one width. A multiplexer of n words is n - 1 that select between two bits, for each
-// bit of a word.
+// Registers and multiplexers, for values of one width. A multiplexer of n words is n - 1 two-way
+// selections for each bit of a word.
 struct LaneWiring {
-  std::uint32_t register_words = 0, select_words = 0;  // that stand there
-  // Of one item: words written into registers, and words passed by a multiplexer of two.
+  std::uint32_t register_words = 0, select_words = 0;  // words that are built
+  // Words that one item writes into registers and passes through two-way multiplexers.
   std::uint32_t words_written = 0, words_selected = 0;
 };
 

@@ -52,7 +52,7 @@ FlowPart corner_flow() {
   return whole(flow);
 }
 
-// Of each pixel the numbers that come together, when the first of them is taken.
+// The numbers of each pixel's state, which come together when the first of them is taken.
 class PixelStates {
  public:
   explicit PixelStates(DataFlow& flow) : flow_(flow) {}
@@ -71,7 +71,7 @@ class PixelStates {
   std::vector<std::vector<std::uint32_t>> pixels_;
 };
 
-// What blending does for 16 pixels, in the arithmetic T.
+// Blends a splat into 16 pixels, in the arithmetic T.
 template <class T, class Conic>
 void blend_pixels(const BlendInput<T, Conic>& in, PixelStates& state) {
   for (int lane = 0; lane < kSubtilePixels; ++lane) {
