@@ -1,4 +1,5 @@
-// What a test of the filters costs: by the paper, or as counted on our filters.
+// Multiply-accumulates of a test of the filters: as the paper states them, or as counted on our
+// filters.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What paper order needs, must give, and is built from.
+// Design of paper order: requirements on the scene, golden frame, and the machine that is built.
 #include "modules/streaminggs/paper_design.h"
 
 #include <fmt/format.h>

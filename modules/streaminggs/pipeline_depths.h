@@ -23,10 +23,10 @@ void resolve_depth(const char* key, std::uint32_t& depth_cycles, const Datapath&
                    const LongestPath& path, const OperationLatencies& latencies,
                    std::uint32_t beside, std::vector<AutoChoice>& chosen);
 
-// Of rendering: what its memories are large enough for depends on them. Throws likewise.
+// Depths of rendering; the sizes that its memories allow depend on them. Throws likewise.
 void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& chosen);
-// Of the filters, on records of this split and SH degree; each reads its record first, a word a
-// cycle. Throws likewise.
+// Depths of the filters, on records of this split and SH degree; each reads its record first, a
+// word a cycle. Throws likewise.
 void resolve_filter_depths(StreamingConfig& config, const RecordSplit& split, int sh_degree,
                            std::vector<AutoChoice>& chosen);
 

@@ -1,5 +1,5 @@
-// What the machines of both orders have in common: filtering units, codebooks, rendering. The two
-// tops bind them in their own ways.
+// Units that the machines of both orders share: filtering units, codebooks, rendering. The two tops
+// bind them in their own ways.
 #pragma once
 
 #include <fmt/format.h>

@@ -39,7 +39,7 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
     Counter lines_read{*this, "lines_read", "lines", "of the banks"};
     Counter bank_conflict_cycles{*this, "bank_conflict_cycles", "cycles",
                                  "that lines waited for a bank being read"};
-    std::uint64_t lines_of[kCodebookCount] = {};  // of lines_read
+    std::uint64_t lines_of[kCodebookCount] = {};  // [codebook] share of lines_read
   };
   const Counters& counters() const { return counters_; }
   // Codebooks of one scene.

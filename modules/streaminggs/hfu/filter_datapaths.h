@@ -11,8 +11,8 @@
 
 namespace sgs {
 
-// Whether there are CFUs: a machine of exact order has them whether they filter or not, since they
-// find the depth that is a Gaussian's key.
+// True if there are CFUs. A machine of exact order has them whether they filter or not: they
+// compute the depth that is a Gaussian's key.
 inline bool has_cfus(const HfuConfig& config, CoarseBoundBy bound_by) {
   return config.coarse_filter || bound_by == CoarseBoundBy::kExtents;
 }

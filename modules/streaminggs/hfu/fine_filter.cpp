@@ -120,7 +120,7 @@ void FineFilter::drop_saturated(const FineCandidate& candidate) {
   for (const auto& part : parts_) part->fetched.push(rejected, fetch_);
 }
 
-// What a slot holds, with what the first half had of it.
+// Decodes the record in a slot, with the words that the first half carried for it.
 DecodedGaussian FineFilter::read_slot(const Part& part, const FineCandidate& candidate) const {
   return read_record(job_.layout.split, job_.layout.second_half,
                      {candidate.mean_x, candidate.mean_y, candidate.mean_z}, candidate.carried,
@@ -282,7 +282,7 @@ void FineFilter::work_lanes(Part& part, std::uint64_t end) {
   clock.jitter();
 }
 
-// What becomes of a test, from its first cycle on on the way through the pipeline.
+// Hands on the result of a test that began in cycle `began`.
 void FineFilter::hand_on(Part& part, const Decoded& decoded, std::uint64_t began) {
   const FineCandidate& candidate = decoded.candidate;
   SplatToken token;

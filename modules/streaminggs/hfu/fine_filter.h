@@ -29,8 +29,8 @@
 
 namespace sgs {
 
-// What becomes of a candidate without a splat: nothing, or a token that says so, where the order of
-// the tokens tells which filter the next splat comes from.
+// Treatment of a candidate without a splat: dropped, or reported by a token where the order of the
+// tokens tells which filter the next splat comes from.
 enum class Rejects { kDropped, kReported };
 
 // Which of the fine filters this is, and how the machine around it wants to be told.
@@ -39,7 +39,7 @@ struct FineFilterPlace {
   Rejects rejects = Rejects::kDropped;
 };
 
-// Of those whose second halves are on their way or waiting, and a mark.
+// Entries for candidates whose second halves are on their way or waiting, and one for a mark.
 inline std::uint32_t fetched_entries(const HfuConfig& config) {
   return config.second_half_slots + 1;
 }
@@ -70,7 +70,7 @@ class FineFilter : public sc_core::sc_module {
                             "of these with their second half already fetched"};
   };
   const Counters& counters() const { return counters_; }
-  // Of a second half out of its slot: a word a cycle.
+  // Cycles to read a second half out of its slot: a word a cycle.
   static std::uint32_t read_cycles(std::uint32_t record_bytes);
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                             std::uint32_t parts);
@@ -91,7 +91,7 @@ class FineFilter : public sc_core::sc_module {
         : decode(("decode" + number).c_str(), clock),
           decoded(("decoded" + number).c_str(), clock, kDecodedEntries, config.latency_cycles) {}
   };
-  // What each HFU has behind the fetch. number: behind the names, where there are several.
+  // Parts of each HFU behind the fetch. number: suffix of the names, where there are several.
   struct Part {
     const std::uint32_t index;
     Activity filter;
@@ -99,7 +99,7 @@ class FineFilter : public sc_core::sc_module {
     std::unique_ptr<DecodeStage> stage;   // null where second halves are not quantised
     std::vector<PlacesUnderTest> places;  // in each FIFO of its splats
     sc_core::sc_event arrived;            // something that its FFU takes
-    // What takes second halves out of their slots.
+    // Activity that takes second halves out of their slots.
     Activity& taker() { return stage ? stage->decode : filter; }
     Part(std::uint32_t at, const std::string& number, const ClockDomain& clock,
          std::uint32_t fetched_entries)

@@ -126,7 +126,7 @@ FineCandidate MergeUnit::take_nearest() {
   return key;
 }
 
-// Looked up beside the heap's work, which takes as long.
+// The look-up runs beside the heap's operation, which takes as long.
 void MergeUnit::emit(const FineCandidate& key) {
   ++counters_.due;
   if (!mask->any_unfinished(key.group, key.reach)) {

@@ -108,10 +108,10 @@ class MergeUnit : public sc_core::sc_module {
   std::list<RunReader> runs_;                    // none of them exhausted
   std::uint32_t spill_area_ = 0;                 // which half new runs go to
   std::uint64_t spill_used_ = 0;                 // bytes of it
-  std::uint32_t spills_ = 0;                     // of this group
+  std::uint32_t spills_ = 0;                     // spills of this group so far
   std::uint64_t sequence_ = 0;                   // keys and marks released
   std::uint64_t heap_free_ = 0;                  // cycle from which on it begins another operation
-  float last_depth_ = -1;                        // of the key released last in this group
+  float last_depth_ = -1;                        // depth of the key released last in this group
   std::uint32_t group_ = 0, pending_count_ = 0;  // for the waveform
   Counters counters_;
 };

@@ -13,7 +13,7 @@
 // neighbours lie in different banks. A cluster takes one sub-tile in each of its turns, every
 // `cluster_interval_cycles()`, out of its queue, in order, and not before the splat ahead of it on
 // the same sub-tile has left the loop through the pixel state: a scoreboard says which sub-tiles
-// are in it. That a sub-tile is finished is known when the blend that finished it has left the
+// are in it. A sub-tile is known to be finished when the blend that finished it has left the
 // pipeline; until then splats go on being blended into it, which changes nothing and costs the
 // same.
 #pragma once
@@ -46,10 +46,10 @@ class ClusterSchedule {
                           "that clusters waited for the splat ahead on a sub-tile"};
     Counter queue_cycles{*this, "queue_cycles", "cycles",
                          "that sub-tiles waited for room at their cluster"};
-    std::uint64_t row_cycles = 0;    // that the dispatcher held rows
+    std::uint64_t row_cycles = 0;    // in which the dispatcher held rows
     std::uint64_t finished = 0;      // sub-tiles
-    std::uint64_t begin_cycles = 0;  // that the lanes that begin spans were taken
-    std::uint64_t span_cycles = 0;   // that the lanes of the rows were
+    std::uint64_t begin_cycles = 0;  // in which the lanes that begin spans were taken
+    std::uint64_t span_cycles = 0;   // in which the lanes of the rows were taken
   };
 
   explicit ClusterSchedule(const RenderingConfig& config)
@@ -68,7 +68,7 @@ class ClusterSchedule {
     columns_ = columns;
   }
 
-  // Whether some sub-tile of the box is not known to be finished in cycle `now`.
+  // True if some sub-tile of the box is not known to be finished in cycle `now`.
   bool any_unfinished(const SubtileRect& box, std::uint64_t now) const {
     for (std::size_t y = box.y0; y < box.y1; ++y) {
       for (std::size_t x = box.x0; x < box.x1; ++x) {
@@ -150,7 +150,7 @@ class ClusterSchedule {
     return last == finished_from_.end() ? 0 : *last;
   }
   const Counters& counters() const { return counters_; }
-  // That the mean cluster blended, or waited for the splat ahead.
+  // Cycles in which the mean cluster blended, or waited for the splat ahead.
   std::uint64_t cluster_cycles() const {
     return (counters_.subtile_blends * cluster_interval_ + counters_.hazard_cycles) /
            config_.clusters;
@@ -186,7 +186,7 @@ class ClusterSchedule {
   std::vector<Cluster> clusters_;
   std::vector<std::uint64_t> free_from_;      // [sub-tile] its state can be read again
   std::vector<std::uint64_t> finished_from_;  // [sub-tile] it is known to be finished
-  std::size_t columns_ = 0;                   // of the group's sub-tiles
+  std::size_t columns_ = 0;                   // columns of sub-tiles in the group
   std::vector<std::uint64_t> slot_free_;      // ring: from when on, of the last splats
   std::uint64_t splats_ = 0;
   // dispatched_: from when on the dispatcher is free for the next splat.
@@ -194,7 +194,7 @@ class ClusterSchedule {
   std::uint64_t begins_free_ = 0, spans_free_ = 0;  // the lanes
   std::uint64_t spans_from_ = 0;                    // the splat's first row begins
   std::uint64_t row_begin_ = 0, row_end_ = 0;       // first and last cycle of the row that is held
-  std::uint32_t rows_ = 0;                          // of the splat, taken so far
+  std::uint32_t rows_ = 0;                          // rows of the splat taken so far
   bool spanned_ = false;
   Counters counters_;
 };

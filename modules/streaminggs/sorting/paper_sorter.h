@@ -23,7 +23,7 @@ namespace sgs {
 struct PaperSorterPlace {
   std::uint32_t first_visit, visit_step;
   RegionSpan spill;
-  std::uint32_t lists_of_network = 1;  // that its sorting network serves in turn
+  std::uint32_t lists_of_network = 1;  // lists that its sorting network serves in turn
 };
 
 class PaperSorter : public sc_core::sc_module {

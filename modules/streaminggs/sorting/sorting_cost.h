@@ -15,11 +15,11 @@ constexpr std::uint32_t kNetworkWidth = 16;
 constexpr std::uint32_t kMergeWidth = kNetworkWidth / 2;
 constexpr std::uint32_t kSortStages = 10;  // log2(16) (log2(16) + 1) / 2
 constexpr std::uint32_t kMergeStages = 4;  // log2(16)
-// Of a merge: read, through the stages, written. A level of the tree begins when the last merge of
-// the one before is written.
+// Latency of a merge, in cycles: read, through the stages, written. A level of the tree begins when
+// the last merge of the one before is written.
 constexpr std::uint32_t kMergeLatency = 1 + kMergeStages + 1;
 
-// What is compared: depth, then slot. A comparator of the technology table has 32 bits.
+// The key that is compared: depth, then slot. A comparator of the technology table has 32 bits.
 constexpr std::uint32_t kSortKeyBytes = 8;
 constexpr std::uint32_t kSortKeyComparators = 8 * kSortKeyBytes / 32;
 
@@ -77,7 +77,7 @@ constexpr std::uint32_t network_comparators(const SortingNetworkConfig& config) 
 struct SortingCost {
   std::uint64_t cycles = 0;
   std::uint64_t compare_exchanges = 0;
-  std::uint64_t moves = 0;  // of entries through the network: keys read, places written
+  std::uint64_t moves = 0;  // entries moved through the network: keys read, places written
 };
 
 // Sorting n entries on chip; each of the other lists that share the network has a turn before every
@@ -99,14 +99,14 @@ constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_
           blocks * kNetworkWidth + merges * kMergeWidth};
 }
 
-// Of one of so many entries on chip.
+// Bits of the place of one of so many entries on chip.
 constexpr std::uint32_t place_bits(std::uint64_t entries) {
   std::uint32_t bits = 1;
   while ((std::uint64_t{1} << bits) < entries) ++bits;
   return bits;
 }
 
-// What a compare-exchange moves of each of its two entries: the key and its place.
+// Bits that a compare-exchange moves of each of its two entries: the key and its place.
 constexpr std::uint32_t exchanged_bits(std::uint64_t entries) {
   return 8 * kSortKeyBytes + place_bits(entries);
 }
@@ -165,7 +165,7 @@ inline void publish_sort_accesses(DataSheet& sheet, const char* rest, std::uint6
   sheet.accesses(kSortedPlaces, entries + moves, moves);
 }
 
-// What lists of one entry spare, for the data sheet.
+// Publishes the passes that lists of one entry spare.
 inline void publish_trivial_sorts(DataSheet& sheet, const SortingNetworkConfig& config,
                                   std::uint64_t lists) {
   sheet.left_out("trivial_sorts", "a visit with one splat", config.skip_trivial ? lists : 0,

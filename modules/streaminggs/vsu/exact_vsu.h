@@ -100,17 +100,17 @@ class ExactVsu : public sc_core::sc_module {
   NodeBuffer nodes_;
   ChunkTester tester_;
   const QueueRoom node_room_{"node_queue"}, chunk_room_{"chunk_queue"};
-  WalkAside aside_;  // what the queues have no room for
+  WalkAside aside_;  // entries that the queues have no room for
   ChunkWalk<WalkAside> chunk_walk_;
   TimedFifo<VisitShare> ready_;         // final visits
-  TimedFifo<std::uint32_t> taken_;      // of these, room that hand_out has given back
+  TimedFifo<std::uint32_t> taken_;      // places of ready_ that hand_out has given back
   sc_core::sc_event news_;              // for the walk: a node has come, or room
   std::uint32_t room_;                  // in ready_, as the walk knows it
   std::uint32_t group_ = 0;             // whose chunks are given out
   std::uint32_t next_group_ = 0;        // whose walk has not begun
   std::optional<WalkEntry> held_;       // goes when what follows it is known
-  bool any_chunk_ = false;              // of group_
-  std::uint64_t queue_operations_ = 0;  // that have taken their time
+  bool any_chunk_ = false;              // a chunk of group_ was found
+  std::uint64_t queue_operations_ = 0;  // operations that have taken their time
   std::vector<bool> saturated_;         // [group]
   Counters counters_;
   std::uint32_t next_visit_ = 0;

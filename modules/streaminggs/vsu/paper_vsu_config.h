@@ -8,7 +8,7 @@
 
 namespace sgs {
 
-constexpr std::uint32_t kTableWordBytes = 8;  // of the ordering table: a record
+constexpr std::uint32_t kTableWordBytes = 8;  // a record of the ordering table
 
 struct PaperVsuConfig {
   std::uint32_t rays_in_flight = 80;

@@ -51,8 +51,8 @@ void RayUnit::begin_pass() {
       now();
 }
 
-// Of lanes, the same in their turns. No ray is under way when a pass begins, so that they count
-// from there.
+// The first cycle from `cycle` on in which the lanes are free, in their turns. Turns count from the
+// beginning of the pass, when no ray is under way.
 std::uint64_t RayUnit::turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle) {
   const std::uint64_t interval = lanes.interval_cycles();
   const std::uint64_t of_pass = next_turn(std::max(free, cycle) - pass_from_, interval);

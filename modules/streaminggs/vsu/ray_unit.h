@@ -1,6 +1,6 @@
-// What a group's rays share: lanes, look-ups in the cache of tree nodes, the ordering table, each
-// free again from some cycle on; and the tree's nodes, in their cache and on their way from DRAM.
-// The kernel's time follows where a cycle matters to somebody else.
+// Resources that a group's rays share: lanes, look-ups in the cache of tree nodes, the ordering
+// table, each free again from some cycle on; and the tree's nodes, in their cache and on their way
+// from DRAM. The kernel's time follows where a cycle matters to another unit.
 #pragma once
 
 #include <cstdint>
@@ -83,7 +83,7 @@ class RayUnit {
   std::vector<NodeFetches::Waiting>& ask(std::uint64_t tag, std::uint64_t cycle);
   // Until the oldest line has come, at the latest until `cycle`; kNever: however long it takes.
   void wait_for_nodes(std::uint64_t cycle);
-  // What is still on its way when a pass is given up.
+  // Takes the nodes that are still on their way when a pass is given up.
   void take_what_comes();
 
   // The table has been ordered; it is cleared meanwhile. Or it is cleared because it was full.
@@ -97,13 +97,13 @@ class RayUnit {
   Remedy remedy() const;
 
  private:
-  // Of a frame.
+  // Operations and accesses of a frame.
   struct Work {
     std::uint64_t rays = 0, steps = 0, met = 0, entered = 0;
     std::uint64_t joined = 0, without_place = 0;         // look-ups that missed
     std::uint64_t called = 0;                            // look-ups for which there was no place
     std::uint64_t found = 0;                             // first of all rounds
-    OrderingAccesses accesses;                           // of the table so far
+    OrderingAccesses accesses;                           // accesses to the table so far
     std::uint64_t names_cleared = 0, ready_cleared = 0;  // words
   };
   std::uint64_t turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle);

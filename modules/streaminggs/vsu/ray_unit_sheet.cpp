@@ -1,4 +1,4 @@
-// What the rays' memories and lanes take.
+// Data sheet of the rays: their memories and lanes.
 #include <algorithm>
 
 #include "modules/datapath/selection.h"
@@ -9,17 +9,17 @@
 namespace sgs {
 namespace {
 
-// Of a ray: direction and its reciprocals, which only steps read; its cell, its level and its
-// signs, its pixel, the ends of its chain; a node; a voxel that it met, with its distance and its
-// round.
+// Bytes kept of a ray: direction and its reciprocals, which only steps read; position: its cell,
+// level, signs, pixel and the ends of its chain; a node; a voxel that it met, with its distance and
+// its round.
 constexpr std::uint32_t kDirectionBytes = 24, kPositionBytes = 16;
 constexpr std::uint32_t kNodeBytes = 12, kMetBytes = 8;
 constexpr std::uint32_t kRoundBytes = 2;
-constexpr std::uint32_t kRayBanks = 4;  // of what steps and look-ups share: by the ray's number
-constexpr std::uint32_t kTagBytes = 4;  // of a line on its way
+constexpr std::uint32_t kRayBanks = 4;  // banks of memories shared by steps and look-ups, by ray
+constexpr std::uint32_t kTagBytes = 4;  // tag of a line on its way
 constexpr std::uint32_t kReadyWord = 4;
 
-// Of a ray that waits: its line, or its place among those that found none for theirs.
+// Bytes kept of a ray that waits: its line, or its place among those that found none for theirs.
 std::uint32_t waiting_bytes(const PaperVsuConfig& config) {
   const std::uint32_t places = std::max(config.node_fetches, config.rays_in_flight);
   return (1 + counter_bits(places - 1) + 7) / 8;
@@ -116,10 +116,10 @@ void RayUnit::publish(DataSheet& sheet) const {
                  work_.accesses.names_written + work_.names_cleared);
   sheet.accesses("ready voxels", work_.accesses.ready_read,
                  work_.accesses.ready_written + work_.ready_cleared);
-  // What is read of the table is compared with the voxel; a voxel that is met with the bounds of
-  // the window, one that is entered with the nearest and the farthest; the round of the first ray
-  // with those of the others; a miss with all lines on their way; a line that has come with what
-  // the rays wait for; a look-up with the tags of a set.
+  // Comparisons: words read of the table with the voxel; a voxel that is met with the bounds of the
+  // window; one that is entered with the nearest and the farthest; the round of the first ray with
+  // those of the others; a miss with all lines on their way; a line that has come with the lines
+  // that rays wait for; a look-up with the tags of a set.
   sheet.part(
       "vsu", "comparator",
       config.table_banks + 4.0 + 2.0 * config.rays_in_flight + config.node_fetches + kCacheWays, 1);

@@ -90,7 +90,7 @@ class RaysInFlight {
     explicit Context(const Path& p) : path(p) {}
     Path path;
     State state = State::kFree;
-    std::uint64_t round = 0;           // that it is in
+    std::uint64_t round = 0;           // round that it is in
     std::deque<Met> met;               // voxels that wait to be entered
     std::deque<std::uint64_t> leaves;  // cycles at which those that are being entered leave
     OrderingTable::Chain chain;
@@ -235,7 +235,7 @@ class RaysInFlight {
     if (called) call_next(cycle + 1);
   }
 
-  // Whether there is room for a voxel; a ray that has none is called again when there is.
+  // True if there was room for the voxel; a ray that has none is called again when there is.
   bool meet(std::uint32_t c, std::uint64_t place, std::uint64_t cycle) {
     Context& context = contexts_[c];
     while (!context.leaves.empty() && context.leaves.front() <= cycle) context.leaves.pop_front();
@@ -261,7 +261,8 @@ class RaysInFlight {
 
   void compare(std::uint32_t c) { first_.set(c, earliest(contexts_[c])); }
 
-  // What is next in the order of rounds: a voxel into the table, or a ray's context to another ray.
+  // Does what comes next in the order of rounds: enters a voxel into the table, or gives a ray's
+  // context to another ray.
   void enter_in_turn(std::uint64_t cycle) {
     end_ = std::max(end_, cycle);
     while (pass_->fits) {
@@ -295,12 +296,12 @@ class RaysInFlight {
   const View<float>& view_;
   RayUnit& unit_;
   std::vector<Context> contexts_;
-  FirstOf first_;  // of the contexts, in what is earliest for them
+  FirstOf first_;  // the context whose next entry has the earliest round
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
   std::deque<std::uint32_t> without_place_;  // contexts, for a line that they miss
-  std::uint32_t called_ = 0;                 // of them, that have not looked up yet
+  std::uint32_t called_ = 0;  // contexts called for a place that have not looked up yet
   Pass* pass_ = nullptr;
-  std::uint64_t end_ = 0;  // of the pass, as far as it is known
+  std::uint64_t end_ = 0;  // end of the pass, as far as it is known
 };
 
 }  // namespace sgs
