@@ -44,7 +44,7 @@ class TileLister : public sc_core::sc_module {
  private:
   struct Line {
     LineBuffer buffer;
-    std::uint32_t tile = 0;  // of the pass, from 1 on; 0: none
+    std::uint32_t tile = 0;  // tile of the pass, from 1 on; 0: none
   };
 
   // Kept from a Gaussian's first test on until the last of its tiles is listed.
@@ -56,7 +56,7 @@ class TileLister : public sc_core::sc_module {
   // pass.
   struct ListedTile {
     static constexpr std::uint32_t kSramBytes = 6;  // the Gaussian's number, tile, bitmap, marks
-    std::uint32_t gaussian = 0;                     // of those that are kept
+    std::uint32_t gaussian = 0;  // number of the Gaussian among those that are kept
     std::uint32_t tile = 0, bitmap = 0;
     bool first = false, end = false;
   };
@@ -64,7 +64,7 @@ class TileLister : public sc_core::sc_module {
   void run_test();  // thread
   void run_list();  // thread
   void test_tiles(const Converted& gaussian, const Pass& pass);
-  // Whether all lists of the pass are in memory; if not, the pool was too small.
+  // True if all lists of the pass are in memory; if not, the pool was too small.
   bool project(const Pass& pass);
   void take(const ListedTile& tile, const Pass& pass);
   void put_record(const Splat& splat);
@@ -88,11 +88,11 @@ class TileLister : public sc_core::sc_module {
   std::unique_ptr<FifoSelector<TileRequest>> asked_;  // made by the thread
   std::vector<ListEnd> ends_;                         // [tile of the pass]
   std::vector<Line> lines_;
-  std::vector<std::byte> records_;  // that wait until there are enough for a transaction
+  std::vector<std::byte> records_;  // records that wait until there are enough for a transaction
   std::uint32_t waiting_records_ = 0;
   std::uint32_t next_block_ = 0;  // free pointer
   bool overflowed_ = false;
-  std::uint32_t record_number_ = 0;  // of the next one
+  std::uint32_t record_number_ = 0;  // number of the next record
 
   struct Counters : CounterSet {
     Counter passes{*this, "passes", "passes", "over the scene"};

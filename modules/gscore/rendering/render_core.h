@@ -48,7 +48,7 @@ class RenderCore : public sc_core::sc_module {
     std::shared_ptr<GroupState> state;
     std::uint32_t tile = 0;
   };
-  static constexpr int kBlocks = kSubtilesPerTile * kSubtilesPerTile;  // of 16 px
+  static constexpr int kBlocks = kSubtilesPerTile * kSubtilesPerTile;  // blocks of 16 px in a tile
 
   void run_fetch();  // thread
   void run_blend();  // thread
@@ -76,7 +76,7 @@ class RenderCore : public sc_core::sc_module {
   TimedFifo<Finished> finished_states_;
   TimedFifo<std::uint32_t> free_pixels_;
 
-  std::shared_ptr<GroupState> state_;  // of the tile that is blended
+  std::shared_ptr<GroupState> state_;  // state of the tile that is blended
   bool in_tile_ = false;
   std::vector<std::uint64_t> free_from_;      // [16 px] cycle
   std::vector<std::uint64_t> finished_from_;  // [16 px] cycle
