@@ -1,4 +1,4 @@
-// The bytes of the modelled memory, in blocks made when first written. What was never written is 0.
+// The bytes of the modelled memory, in blocks made when first written. Bytes never written are 0.
 #pragma once
 
 #include <cstddef>

@@ -37,7 +37,7 @@ struct CommandRecord {
   std::uint8_t channel;
   std::uint8_t rank;
   std::uint8_t bank;
-  std::uint8_t region;  // of the request that it serves
+  std::uint8_t region;  // region of the request that it serves
   std::uint32_t row;    // activate
   std::uint32_t burst;  // read, write: which burst of the row
 };

@@ -24,7 +24,7 @@
 
 namespace sgs {
 
-// What a checker must know besides the commands.
+// Configuration that a checker needs besides the commands.
 struct CommandTraceHeader {
   std::string memspec;
   std::uint32_t channels = 1;

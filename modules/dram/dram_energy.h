@@ -39,7 +39,7 @@ struct DramEnergy {
   double total_pj() const { return vdd1.total_pj() + vdd2.total_pj(); }
 };
 
-// What a rank did: counts, and cycles in each state.
+// Activity of a rank: counts of commands, and cycles in each state.
 struct RankActivity {
   std::uint64_t activates = 0;
   std::uint64_t reads = 0;   // bursts
