@@ -118,7 +118,7 @@ class Activity : public sc_core::sc_object {
   std::uint64_t busy_cycles() const { return busy_cycles_; }
   // Each (what, at) that was ever waited for, in the order in which they first were.
   const std::vector<Wait>& waits() const { return waits_; }
-  // Over all places.
+  // Cycles spent waiting for `what`, over all places.
   std::uint64_t waited_for(WaitFor what) const {
     std::uint64_t sum = 0;
     for (const Wait& wait : waits_) sum += wait.what == what ? wait.cycles : 0;

@@ -41,8 +41,8 @@ class ClockDomain {
     jitter();
   }
 
-  // For threads that have waited for something else: other processes of this instant may overtake
-  // the calling one. Nothing where no jitter was asked for.
+  // Lets other processes of this instant overtake the calling thread, after it has waited for
+  // something else. Does nothing where no jitter was asked for.
   void jitter() const {
     if (jitter_) jitter_->wait();
   }

@@ -11,9 +11,9 @@
 //     sheet.accesses("key sorters", counters_.keys, counters_.keys);
 //   }
 //
-// It is a ledger: what is done is done by something that stands there. Arithmetic by the lanes of a
-// datapath, other operations by parts of their kind, reads and writes by the memory of a use; so
-// area, energy and a bound on time follow from the same lines (testbench/result/ledger.h).
+// It is a ledger of hardware and of its use. Arithmetic is done by the lanes of a datapath, other
+// operations by parts of their kind, reads and writes by the memory of a use. So area, energy and a
+// bound on time follow from the same lines (testbench/result/ledger.h).
 #pragma once
 
 #include <cstdint>
@@ -125,8 +125,8 @@ class DataSheet {
   // the unit's SramUse that keeps unanswered writes; none for a port that only reads.
   virtual void port(MemoryPort&, const char* writes) { (void)writes; }
   void port(MemoryPort& reads_only) { port(reads_only, ""); }
-  // How much there is of something at a time, for the waveform and for timelines: keys that wait.
-  // unit: of the value.
+  // A fill that changes over time, for the waveform and for timelines: keys that wait. unit: of the
+  // value.
   virtual void level(const char* name, const char* unit, const std::uint32_t& value) {
     (void)unit;
     signal(name, value);

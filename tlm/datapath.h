@@ -1,6 +1,5 @@
-// A datapath: lanes of one precision that stand in a unit with what they need beside them, and what
-// one item takes of each. Time, area and energy of the unit's arithmetic all follow from this one
-// struct.
+// A datapath: lanes of one precision with the parts beside them, and the operations that one item
+// takes of each. Time, area and energy of the unit's arithmetic all follow from this one struct.
 #pragma once
 
 #include <algorithm>
@@ -65,7 +64,7 @@ struct Datapath {
            std::max<std::uint64_t>(of.built_for, (at_full_rate + used_macs - 1) / used_macs);
   }
 
-  // The same machine also takes items of another kind: what stands there is enough for both.
+  // Builds the datapath so that it also takes items of another kind: the larger need of each part.
   void build_also_for(const Datapath& other) {
     for (const BesideLanes& of : other.beside) {
       BesideLanes& own = part_of(of.kind);

@@ -18,7 +18,8 @@ class FifoWriteIf : public virtual sc_core::sc_interface {
 
   // Entries that there is room for now.
   virtual std::uint32_t room() const = 0;
-  // Until there is room for so many or, whatever comes first, cycle `until`; charged as push().
+  // Blocks until there is room for so many or, whatever comes first, cycle `until`; charged as
+  // push().
   static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
   virtual void wait_for_room(std::uint32_t entries, std::uint64_t until, Activity& writer) = 0;
 };

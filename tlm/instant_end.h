@@ -1,8 +1,8 @@
 // The end of an instant: when everything that happens at the present simulated time has happened.
 //
-// An arbiter that took requests in the order in which they are made would let results depend on the
-// order in which the kernel runs the processes of one instant, which the standard leaves open.
-// Arbiters therefore collect what is asked for and decide here, in an order of their own.
+// The standard leaves open in which order the kernel runs the processes of one instant. An arbiter
+// that took requests as they are made would let results depend on that order. Arbiters therefore
+// collect all requests and decide here, in an order of their own.
 #pragma once
 
 #include <systemc>

@@ -111,7 +111,7 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t words_written() const { return words_written_; }
   const MemoryPortConfig& config() const { return config_; }
 
-  // Those of its transactions; when it is idle, none is in use.
+  // Payloads of its transactions; when it is idle, none is in use.
   const PayloadPool& payloads() const { return pool_; }
 
   // Adds the bytes outstanding to a waveform.
@@ -141,7 +141,7 @@ class MemoryPort : public sc_core::sc_module {
   tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                      sc_core::sc_time& delay);
 
-  // On the way to the target; due: not earlier at its end.
+  // A request on the way to the target; due: not earlier at its end.
   struct Leaving {
     PooledPayload* payload;
     sc_core::sc_time due;
@@ -156,8 +156,8 @@ class MemoryPort : public sc_core::sc_module {
   PayloadPool pool_;
   std::deque<Leaving> leaving_;
   sc_core::sc_event at_target_;  // for launch()
-  // On the way back, by when it ends and by ticket and address: answers of one instant come in no
-  // order of their own.
+  // Answers on the way back, by when they end and by ticket and address: answers of one instant
+  // come in no order of their own.
   std::map<std::tuple<sc_core::sc_time, Ticket, std::uint64_t>, tlm::tlm_generic_payload*> answers_;
   sc_core::sc_event at_port_;                              // for take_answers()
   sc_core::sc_time last_arrived_;                          // the last word of the answer before

@@ -13,7 +13,7 @@ enum class SramPorts : std::uint8_t {
   kReadAndWrite  // a read and a write a cycle
 };
 
-// How one memory of a use is built; area, energy of an access and accesses a cycle follow from it.
+// Shape of one memory of a use; area, energy of an access and accesses a cycle follow from it.
 struct SramShape {
   std::uint32_t width_bits;                    // bits of one access
   SramPorts ports = SramPorts::kReadAndWrite;  // ports of each bank
@@ -73,7 +73,7 @@ constexpr std::uint64_t sram_words(std::uint64_t bytes, const SramShape& shape) 
 void add(SramUses& to, const SramUse& use, std::uint64_t count = 1);
 void add(SramUses& to, const SramUses& uses, std::uint64_t count = 1);
 
-// Bytes of SRAM of all uses of one memory: what is in registers takes none of it.
+// Bytes of SRAM of all uses of one memory; registers take none of it.
 std::uint64_t sram_bytes(const SramUses& uses, const std::string& memory);
 
 // "a 12 (3 x 4 B) + b 8 (8 B)": the uses of one memory that sram_bytes() adds up.

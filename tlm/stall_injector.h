@@ -1,4 +1,4 @@
-// Random stalls for tests: what comes out must not depend on when.
+// Random stalls for tests: results must not depend on when they occur.
 #pragma once
 
 #include <cstdint>

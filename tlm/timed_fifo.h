@@ -56,8 +56,8 @@ class FifoChannel : public sc_core::sc_prim_channel {
   // Who puts entries in and who takes them out; null before the first did.
   const Activity* writer() const { return writer_; }
   const Activity* reader() const { return reader_; }
-  // Where several put entries in, which was the last depends on the kernel: says who stands for
-  // all.
+  // Names the writer that stands for all where several put entries in: which was the last depends
+  // on the kernel.
   void name_writer(const Activity& writer) { writer_ = &writer; }
 
   void trace(sc_core::sc_trace_file* file) const override {
@@ -68,7 +68,7 @@ class FifoChannel : public sc_core::sc_prim_channel {
  protected:
   explicit FifoChannel(const char* name) : sc_prim_channel(name) {}
 
-  // How many things happen at the same time.
+  // Number of events at the same time.
   struct AtOnce {
     sc_core::sc_time at;
     std::uint32_t now = 0, most = 0;
@@ -88,7 +88,7 @@ class FifoChannel : public sc_core::sc_prim_channel {
 };
 
 // One writer thread, one reader thread; several writers only where there is always room, since each
-// gives back what was taken out. The waiting times are charged to the Activity that waits:
+// gives back an entry that was taken out. The waiting times are charged to the Activity that waits:
 // the writer for room, the reader for input.
 template <class T>
 class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T> {
@@ -150,8 +150,8 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
     return value;
   }
 
-  // For a reader that leaves the oldest entry where it is until it has its turn: blocks as pop()
-  // does; the entry stays, and is valid, until remove_front().
+  // Blocks as pop() does, for a reader that leaves the oldest entry where it is until its turn. The
+  // entry stays, and is valid, until remove_front().
   const T& front(Activity& reader) {
     wait_for_front(reader, WaitFor::kInput);
     return entries_[head_].value;
