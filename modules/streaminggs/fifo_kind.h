@@ -1,5 +1,5 @@
-// The FIFOs of one arrow of the pipeline, before they are made: what the budget adds up and the
-// top makes.
+// The FIFOs of one arrow of the pipeline, before they are made: the budget adds them up and the top
+// makes them.
 #pragma once
 
 #include <cstdint>

@@ -31,7 +31,7 @@
 
 namespace sgs {
 
-// From one operation to the next, at least.
+// Cycles from one operation to the next, at least.
 constexpr std::uint32_t kFewestHeapCycles = 2;
 // Banks of a level, where an operation begins every so many cycles.
 constexpr std::uint32_t heap_banks_of_level(std::uint32_t cycles_per_operation) {

@@ -1,5 +1,5 @@
-// How long a result takes through each pipeline: the end of a schedule of what its unit computes on
-// the lanes that it has (modules/datapath/folded_schedule.h), at their latency.
+// Latency of a result through each pipeline: the end of its unit's schedule
+// (modules/datapath/folded_schedule.h) on the lanes that the unit has.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@
 
 namespace sgs {
 
-// Beside a schedule: the word that it begins with is read, what it gives is written back.
+// Cycles beside a schedule: its first word is read, its result is written back.
 constexpr std::uint32_t kReadCycles = 1, kWriteCycles = 1;
 
-// A depth that is 0 becomes that of the pipeline and `beside` more, and is said in `chosen`, with
-// the longest path that bounds it; one that is given stays. beside: cycles of what is not in the
+// Fills in a depth that is 0: the pipeline's depth and `beside` more, listed in `chosen` with the
+// longest path that bounds it. A depth that is given stays. beside: cycles that are not in the
 // schedule, as reading and writing. Throws InputError for one that is less than that.
 void resolve_depth(const char* key, std::uint32_t& depth_cycles, const Datapath& pipeline,
                    const LongestPath& path, const OperationLatencies& latencies,

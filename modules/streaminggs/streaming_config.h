@@ -32,7 +32,7 @@ inline void visit(ConfigVisitor& v, SramConfig& c) {
     "everything between the stages; 0: as large as the other parameters need");
 }
 
-// Who fetches what the HFUs filter.
+// Way in which the HFUs' Gaussians are fetched.
 enum class Fetch {
   kShared,  // one fetch feeds all: each HFU tests every Gaussian against its part of the group
   kSplit    // each HFU fetches its share of a visit and tests it against the whole group

@@ -1,7 +1,7 @@
 // Codebook buffer: the on-chip memory that quantised second halves are decoded from.
-// Timing: filled once from DRAM; then every HFU reads one line a cycle, and two that want a line of
-// the same bank in the same cycle get it one after the other: before goes the one that began its
-// record before, of those that began in one cycle the lower number.
+// Timing: filled once from DRAM; then every HFU reads one line a cycle. Two that want a line of the
+// same bank in the same cycle get it one after the other. The one that began its record earlier
+// goes first, of those that began in one cycle the lower number.
 #pragma once
 
 #include <cstddef>

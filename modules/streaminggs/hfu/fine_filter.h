@@ -2,10 +2,10 @@
 // candidate, decodes it and puts it through the FFU: projection, exact test against the group,
 // colour. With a shared fetch a second half is read once and taken by the HFU of each part of the
 // group that the candidate may touch; its slot is free when all have it.
-// Timing: one candidate every ffu_interval_cycles in each FFU, marks beside what its lanes do,
-// whatever begins with a place in the FIFO behind its pipeline; second_half_slots fetches ahead;
-// quantised second halves pass a stage before the FFU that reads the codebook buffer, a record once
-// there is a place for what is decoded. Function: algorithm/splat/make_splat.h.
+// Timing: one candidate every ffu_interval_cycles in each FFU; marks pass beside its lanes. Each
+// begins only with a place in the FIFO behind its pipeline. second_half_slots fetches run ahead.
+// Quantised second halves pass a stage before the FFU that reads the codebook buffer, each once
+// there is a place for the decoded record. Function: algorithm/splat/make_splat.h.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ namespace sgs {
 // tokens tells which filter the next splat comes from.
 enum class Rejects { kDropped, kReported };
 
-// Which of the fine filters this is, and how the machine around it wants to be told.
+// Place of a fine filter in its machine, and its treatment of rejects.
 struct FineFilterPlace {
   std::uint32_t reader = 0;  // number of its first HFU at the codebook buffer
   Rejects rejects = Rejects::kDropped;
@@ -47,7 +47,8 @@ inline std::uint32_t fetched_entries(const HfuConfig& config) {
 class FineFilter : public sc_core::sc_module {
  public:
   FifoIn<FineCandidate> candidates{"candidates"};
-  // As many for each part, part by part; of a part's, visit v goes to v modulo their number.
+  // As many FIFOs for each part, part by part; within a part, visit v goes to v modulo their
+  // number.
   FifoOuts<SplatToken> splats{"splats"};
   CodebookIn codebooks{"codebooks"};       // open where second halves are not quantised
   FinishedGroupsIns finished{"finished"};  // one a part
@@ -139,7 +140,8 @@ class FineFilter : public sc_core::sc_module {
   Activity fetch_;
   const Datapath tests_;
   const std::uint32_t record_bytes_;
-  // From a test to the next: its lanes', or until its record is read where nobody does that ahead.
+  // Cycles from a test to the next: of its lanes, or until its record is read where no stage reads
+  // it ahead.
   const std::uint64_t test_cycles_;
   std::vector<std::byte> second_halves_;  // [second_half_slots] records
   std::vector<std::uint32_t> wanted_;     // [second_half_slots] parts that have not yet taken it

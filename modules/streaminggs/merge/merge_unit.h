@@ -3,8 +3,8 @@
 // keys go to DRAM as a sorted run and are merged back; the order stays exact. A key that is due and
 // reaches finished sub-tiles only is dropped: its second half is never fetched.
 // Keys wait in an interval heap, which gives its nearest and its farthest key.
-// Timing: a key in or out and a mark take a cycle each, and the heap begins an insert or delete
-// every `cycles_per_operation` cycles: what is no operation passes beside it.
+// Timing: a key in or out and a mark take a cycle each. The heap begins an insert or delete every
+// `cycles_per_operation` cycles; all else passes beside it.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
-// Voxel sorting unit (VSU), exact order: for each pixel group it walks the chunk tree front to back
-// and hands out the chunks that can touch the group, each with the depth below which nothing
+// Voxel sorting unit (VSU), exact order. For each pixel group it walks the chunk tree front to
+// back. It hands out the chunks that can touch the group, each with the depth below which nothing
 // follows. Nodes are read ahead, several at a time, as long as their children are sure to fit the
 // queues; when a group's nodes have all been read the next group's walk begins. A node or chunk
-// that reaches finished sub-tiles only is left out when it is taken from its queue. Timing: a
-// node's children pass the tests' lanes and come out of their pipeline test_depth_cycles later,
-// nodes_in_test nodes at a time, while the walk goes on; each operation of a queue takes
+// that reaches finished sub-tiles only is left out when it is taken from its queue.
+// Timing: a node's children pass the tests' lanes and come out of their pipeline test_depth_cycles
+// later, nodes_in_test nodes at a time, while the walk goes on. Each operation of a queue takes
 // cycles_per_queue_operation; a visit leaves a cycle.
 // Function: algorithm/order/chunk_walk.h.
 #pragma once
@@ -66,7 +66,7 @@ class ExactVsu : public sc_core::sc_module {
   void publish(DataSheet& sheet);
 
  private:
-  // Where the walk waits for room in one of its queues.
+  // Place at which the walk waits for room in one of its queues.
   struct QueueRoom : sc_core::sc_object {
     explicit QueueRoom(const char* name) : sc_object(name) {}
     const char* kind() const override { return "sgs::QueueRoom"; }

@@ -1,6 +1,6 @@
-// Voxel sorting unit (VSU), paper order: for each pixel group it follows the pixels' rays through
-// the voxel tree, orders the voxels that they meet, and hands each out as a visit to the HFUs; one
-// with more Gaussians than a list holds in pieces, the nearest first.
+// Voxel sorting unit (VSU), paper order. For each pixel group it follows the pixels' rays through
+// the voxel tree and orders the voxels that they meet. Each voxel is handed out as a visit to the
+// HFUs; one with more Gaussians than a list holds in pieces, the nearest first.
 // Timing: rays_in_flight.h, ray_unit.h; one cycle a visit and a cut; table misses wait for DRAM.
 // Function: algorithm/order/group_visits.h, algorithm/voxel/voxel_cuts.h.
 #pragma once

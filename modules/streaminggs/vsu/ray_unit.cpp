@@ -1,4 +1,4 @@
-// Turns at what the rays share, and nodes of the tree in the kernel's time.
+// Turns of the resources that rays share, and nodes of the tree in the kernel's time.
 #include "modules/streaminggs/vsu/ray_unit.h"
 
 #include <algorithm>

@@ -17,7 +17,7 @@
 
 namespace sgs {
 
-// Where lists of ordered voxels go: until one can be written, and one that has been.
+// Receiver of lists of ordered voxels: waits until one can be written, and takes one.
 struct ListsOut {
   std::function<void()> wait_for_room;
   std::function<void(const std::vector<std::uint32_t>& voxels, bool last)> hand_over;
@@ -30,9 +30,9 @@ class RayUnit {
   static constexpr std::uint64_t kLookUpCycles = 3, kMaskCycles = 1;
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
-  // The round of each ray is compared with the others', in a tree, before a voxel is entered or the
-  // context of a ray that has ended is given to another; what is found first changes its round, so
-  // that the next comparison begins then. Three levels of comparators a cycle.
+  // Cycles to find the earliest round: the rounds of all rays are compared in a tree before a voxel
+  // is entered or the context of an ended ray is given to another. The ray found first changes its
+  // round, so that the next comparison begins then. Three levels of comparators a cycle.
   static constexpr std::uint32_t first_of_rounds_cycles(std::uint32_t rays) {
     constexpr std::uint32_t kLevelsOfCycle = 3;
     std::uint32_t levels = 1;
@@ -57,8 +57,8 @@ class RayUnit {
   void begin_pass();
 
   // Each takes the cycle from which on a ray wants something, and returns when it has it: its
-  // beginning, a step, the turn of a look-up, that of one whose line found no place, the result of
-  // one whose node has come only now.
+  // beginning, a step, or the turn of a look-up. look_up_called: of one whose line found no place.
+  // look_up_again: the result of one whose node has come only now.
   std::uint64_t begin_ray(std::uint64_t cycle);
   std::uint64_t step(std::uint64_t cycle, std::uint32_t log2_block);
   std::uint64_t look_up(std::uint64_t cycle);
@@ -81,7 +81,8 @@ class RayUnit {
   // Asks in this cycle for a line that is neither in the cache nor on its way. Whoever is added
   // waits for it.
   std::vector<NodeFetches::Waiting>& ask(std::uint64_t tag, std::uint64_t cycle);
-  // Until the oldest line has come, at the latest until `cycle`; kNever: however long it takes.
+  // Waits until the oldest line has come, at the latest until `cycle`; kNever: however long it
+  // takes.
   void wait_for_nodes(std::uint64_t cycle);
   // Takes the nodes that are still on their way when a pass is given up.
   void take_what_comes();
@@ -92,8 +93,8 @@ class RayUnit {
 
   static SramUses sram_uses(const PaperVsuConfig& config);
   void publish(DataSheet& sheet) const;
-  // To follow the rays of a frame faster: more of what they share, where the cycles that more lanes
-  // can take away are more than a third of the time, else more rays.
+  // Parameter that lets the rays of a frame be followed faster. It is more of a shared resource
+  // where more lanes can save more than a third of the time, else more rays.
   Remedy remedy() const;
 
  private:
@@ -107,7 +108,7 @@ class RayUnit {
     std::uint64_t names_cleared = 0, ready_cleared = 0;  // words
   };
   std::uint64_t turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle);
-  // From this cycle on a ray is the first: when the tree has found it.
+  // Cycle from which on a ray is the first: when the tree has found it.
   std::uint64_t found(std::uint64_t cycle);
 
   const ClockDomain& clock_;

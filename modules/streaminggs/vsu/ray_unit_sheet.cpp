@@ -47,7 +47,8 @@ SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
   of_rays("ray nodes", {{kNodesOfRay, "nodes"}, {kNodeBytes, "B"}}, {8 * kNodeBytes}, kOneOfEach);
   of_rays("ray chains", {{config.chain_entries, "voxels"}, {kMetBytes, "B"}},
           {8 * kMetBytes, SramPorts::kReadAndWrite, banks}, {1, std::min(banks, 3U)});
-  // In registers: the first of all is found at once, and who waits for a line that has come.
+  // Kept in registers: the first round of all is found at once, and so is a ray that waits for a
+  // line that has come.
   of_rays("rounds of rays", {{kRoundBytes, "B"}}, {8 * kRoundBytes, SramPorts::kReadAndWrite, rays},
           {rays, rays});
   of_rays("rays that wait for nodes", {{waiting_bytes(config), "B"}},
@@ -59,7 +60,7 @@ SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
   uses.push_back(sram_use("node fetches", kSharedSram,
                           {{lines, "lines"}, {TableCache<VoxelNode>::kCacheLineBytes, "B"}},
                           {8 * kPortBytes}, kOneOfEach));
-  // In order() an edge is read beside the record that the one before it names.
+  // order() reads an edge beside the record that the edge before it names.
   uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
                           {8 * kTableWordBytes, SramPorts::kReadAndWrite, config.table_banks},
                           {std::min(config.table_banks, 2U), config.table_banks}));

@@ -1,5 +1,5 @@
-// The lanes of the voxel sorting units: what they compute, recorded by running it, and how it is
-// scheduled on lanes of given latencies.
+// The lanes of the voxel sorting units: their operations, recorded by running them, and the
+// schedule on lanes of given latencies.
 #pragma once
 
 #include <cstdint>
