@@ -15,7 +15,7 @@ namespace sgs::gscore {
 
 constexpr int kMostDegree = 3;  // largest SH degree
 
-// How a Gaussian comes to its tiles, and in which numbers.
+// Rules that assign a Gaussian to its tiles, and the number formats of its record.
 struct TilesConfig {
   TileReach reach = TileReach::kThreeSigma;
   TileTest test = TileTest::kOriented;

@@ -1,4 +1,4 @@
-// Where a frame's working regions lie.
+// Layout of a frame's working regions.
 #include "modules/gscore/gscore_job.h"
 
 #include <fmt/format.h>

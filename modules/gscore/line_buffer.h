@@ -13,8 +13,8 @@
 
 namespace sgs::gscore {
 
-// Where the end of a list is: two numbers of blocks, a count. Hardware counts blocks, lines of the
-// block and entries of the line, so that nothing is divided.
+// End of a list: two numbers of blocks, a count. Hardware counts blocks, lines of the block and
+// entries of the line, so that nothing is divided.
 struct ListEnd {
   std::uint32_t block = 0, next = 0;  // the block that it writes in, and the next when that is full
   std::uint32_t entries = 0;

@@ -1,5 +1,5 @@
-// How the on-chip memory is shared between what depends on the frame's tiles and what on the length
-// of their lists, where the configuration leaves that open.
+// Division of the on-chip memory, where the configuration leaves it open: between parts sized by
+// the frame's tiles and parts sized by the length of their lists.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ std::uint32_t most_second_half_bytes() {
   return split_of(StorageOrder::kFile, {SecondHalfEncoding::kRaw, kMostDegree, {}}).second_bytes;
 }
 
-// Behind a pipeline a FIFO has room for what is in it.
+// Entries of the FIFO of candidates, with room for the items in the pipeline before it.
 std::uint32_t candidates_of(const GscoreConfig& config, const Datapath& cull) {
   return static_cast<std::uint32_t>(config.ccu.candidates +
                                     cycles_for(cull.depth_cycles, cull.interval_cycles()));
@@ -229,7 +229,7 @@ void Ccu::convert() {
   keep_lanes(until);
 }
 
-// Until a cycle in which they are free; ends of slices pass beside them.
+// Keeps the lanes busy until a cycle in which they are free; ends of slices pass beside them.
 void Ccu::keep_lanes(std::uint64_t until) {
   while (comes_before(until)) {
     const Candidate& next = fetched_.front(convert_);

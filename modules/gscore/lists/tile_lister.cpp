@@ -47,7 +47,7 @@ TestPipelines test_pipelines(const GscoreConfig& config) {
   return out;
 }
 
-// With room for what is in the pipelines.
+// Entries of the FIFO of listed tiles, with room for the items in the pipelines.
 std::uint32_t listed_entries(const GscoreConfig& config) {
   const TestPipelines tests = test_pipelines(config);
   return static_cast<std::uint32_t>(config.lists.tested_entries +
@@ -306,7 +306,7 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.operations("lists", "register_bit",
                    kTestedBits * static_cast<double>(counters_.gaussians) +
                        end_bits * static_cast<double>(counters_.pairs));
-  // Whose Gaussian it is, one of the CCUs' in turn: multiplexers of two.
+  // Selection of the CCU whose Gaussian it is: two-way multiplexers.
   publish_selection(sheet, "lists", {config_.ccus, kTestedBits},
                     static_cast<double>(counters_.gaussians));
   sheet.datapath(tile_path_, counters_.tile_steps);

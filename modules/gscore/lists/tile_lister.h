@@ -1,10 +1,10 @@
-// Tile lister and control: tests the tiles of projected Gaussians, in the order of the scene,
-// numbers and writes those that touch any, enters them in the lists of their tiles, and when a pass
-// is projected hands its tiles out to the cores.
-// Timing: neighbours of a row of tiles are tested in a turn of their lanes, then each that is
-// touched in a turn of the parts' lanes, and listed in a cycle; entries of a tile are combined in a
-// line, which is written when it is full or another tile takes its place. Tiles are handed out one
-// a cycle, as they are asked for.
+// Tile lister and control. It tests the tiles of projected Gaussians, in the order of the scene.
+// Those that touch any are numbered, written, and entered in the lists of their tiles. When a pass
+// is projected it hands its tiles out to the cores.
+// Timing: neighbours of a row of tiles are tested in a turn of their lanes. Each that is touched is
+// then tested in a turn of the parts' lanes, and listed in a cycle. Entries of a tile are combined
+// in a line, which is written when it is full or another tile takes its place. Tiles are handed out
+// one a cycle, as they are asked for.
 #pragma once
 
 #include <cstddef>

@@ -173,7 +173,7 @@ void RenderCore::take(const Fetched& next) {
   free_records_.push(next.slot, blend_);
 }
 
-// In its turn.
+// Blends a splat whose turn it is.
 template <class AnySplat>
 void RenderCore::blend(const SortedEntry& entry, const AnySplat& splat) {
   const std::uint64_t now = blend_.clock().now_cycles();
@@ -295,8 +295,8 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.part("rendering", "register_bit", double{kBlocks} * (flight_bits + 1) + next_bits, 1);
   sheet.operations("rendering", "register_bit",
                    static_cast<double>(n.blocks) * static_cast<double>(loop + 1 + next_bits));
-  // A place of those that are converted at once meets so many of the four columns of a block, in
-  // any of its rows and in each buffer.
+  // Each place among the pixels converted at once meets so many of a block's four columns, in any
+  // row and in each buffer.
   const std::uint32_t at_once = config_.rendering.drain_pixels_per_cycle;
   const std::uint32_t columns = kSubtilePx / std::gcd(kSubtilePx, at_once);
   publish_selection(sheet, "rendering",

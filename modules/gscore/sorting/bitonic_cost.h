@@ -24,8 +24,8 @@ struct BitonicCost {
   std::uint64_t merged = 0;  // entries, once for each level
 };
 
-// From the first block or turn of a level to its last entry's write: a cycle to read, one a stage,
-// one to write.
+// Cycles from the first block or turn of a level to its last entry's write: a cycle to read, one a
+// stage, one to write.
 constexpr std::uint64_t network_cycles(std::uint64_t last_begin, std::uint32_t stages) {
   return last_begin + 1 + stages + 1;
 }

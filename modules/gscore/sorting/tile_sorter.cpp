@@ -177,7 +177,7 @@ SramUses TileSorter::sram_uses(const GscoreConfig& c) {
           sram_use(kSubsetsOnChip, kBuffer,
                    {{levels, "levels"}, {kSubsets, "subsets"}, {subset_bytes(c), "B"}},
                    {8 * subset_bytes(c)}, kOneOfEach),
-          // From one to the other: 8 are read and at most 16 written at once.
+          // Merging goes from one list to the other: 8 are read and at most 16 written at once.
           sram_use(kChunk, kBuffer,
                    {{2, "lists"}, {c.sorting.chunk_entries, "keys"}, {key_bits / 8, "B"}},
                    {key_bits, kPorts, kNetworkWidth}, {kMergeWidth, kNetworkWidth}),
