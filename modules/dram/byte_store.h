@@ -20,8 +20,8 @@ class ByteStore {
   void write(std::uint64_t address, const std::uint8_t* from, std::size_t bytes);
 
  private:
-  // Large zeroed allocations come from the kernel page by page as they are touched, so a block
-  // costs no more than what is written of it, and the table of blocks stays small enough for the
+  // Large zeroed allocations come from the kernel page by page as they are touched. So a block
+  // costs no more than the bytes written of it, and the table of blocks stays small enough for the
   // cache.
   static constexpr std::size_t kBlockBytes = 1 << 20;
 

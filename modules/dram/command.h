@@ -24,7 +24,7 @@ enum class Command : std::uint8_t {
 };
 constexpr std::size_t kCommands = 13;
 
-// As they are written in command traces.
+// Names of the commands in command traces.
 constexpr std::array<const char*, kCommands> kCommandNames = {
     "ACT", "RD", "RDA", "WR", "WRA", "PRE", "PREA", "REFA", "REFB", "PDE", "PDX", "SRE", "SRX"};
 

@@ -49,7 +49,7 @@ class DeviceTiming {
     const auto c = static_cast<std::size_t>(command);
     return std::max(bank_of(rank, bank).earliest[c], ranks_[rank].earliest[c]);
   }
-  // The same for a bank counted over all ranks.
+  // As earliest(), for a bank counted over all ranks.
   std::uint64_t earliest_flat(RequestCommand command, std::uint32_t rank,
                               std::uint32_t flat_bank) const {
     const auto c = static_cast<std::size_t>(command);

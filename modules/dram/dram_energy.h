@@ -67,7 +67,7 @@ class ActivityMeter {
   // Commands of a channel in the order of their cycles.
   void on_command(const CommandRecord& record);
 
-  // Up to `cycle`, not before any command; by channel * ranks + rank.
+  // Activity up to `cycle`, not before any command; by channel * ranks + rank.
   std::vector<RankActivity> ranks(std::uint64_t cycle) const;
   const std::array<RegionActivity, 256>& regions() const { return regions_; }
 

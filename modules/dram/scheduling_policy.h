@@ -1,4 +1,5 @@
-// Which request of a bank is served next. One policy a file; see fr_fcfs.h and fcfs.h.
+// Policy that chooses which request of a bank is served next. One policy a file; see fr_fcfs.h and
+// fcfs.h.
 #pragma once
 
 #include <cstdint>
