@@ -24,7 +24,7 @@
 
 namespace sgs {
 
-// How a machine is put together, for tests.
+// Options of building a machine, for tests.
 struct BuildOptions {
   StallConfig stalls;  // random waits at both sides of every FIFO
   // A seed of the delta jitter, by which the processes of an instant overtake each other; 0: none.
@@ -39,7 +39,7 @@ class MachineDesign {
   // Its keys of the configuration.
   virtual void visit(ConfigVisitor& v) = 0;
 
-  // How scenes must be stored for it.
+  // Storage order that scenes must have for it.
   virtual StorageOrder storage_order() const = 0;
 
   // frames(): sizes of the pictures that are going to be drawn, to be called once and only where
@@ -55,7 +55,7 @@ class MachineDesign {
   // in.
   virtual void fit_memories() {}
 
-  // The same once the scene is known. Throws InputError when the scene does not fit.
+  // As resolve(), once the scene is known. Throws InputError when the scene does not fit.
   virtual void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) = 0;
 
   // The registers of a frame; regions that the frame writes stand behind the scene's.

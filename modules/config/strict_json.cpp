@@ -54,7 +54,7 @@ class JsonReader : public ConfigVisitor {
 
   void check_root() const { check_all_used(levels_.front()); }
 
-  // After the visit to a section alone.
+  // Refuses misplaced keys, after the visit to a section alone.
   void check_misplaced(const char* section) const {
     for (const auto& item : levels_.front().json->items()) {
       if (section_keys_.count(item.key()) == 0) continue;

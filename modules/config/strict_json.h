@@ -10,7 +10,7 @@
 
 namespace sgs {
 
-// Where a value of a document was said: what add_file() and the like call the origin.
+// Origin of a value of a document, as named by add_file() and the like.
 struct ConfigOrigin {
   std::string path;  // path of the key from the document's root: "dram.channels"
   std::string origin;
@@ -36,7 +36,7 @@ class ConfigDocument {
   // The text at a key of the top level; empty where there is none.
   std::string text_at(const std::string& key) const;
 
-  // Of all values (not objects), by path.
+  // Origins of all values (not objects), by path.
   std::vector<ConfigOrigin> origins() const;
 
   // Fills `config` (whose present values are the defaults) by visit(v, config). Keys of the
@@ -48,8 +48,8 @@ class ConfigDocument {
     finish(*reader);
   }
 
-  // The same from the section `key` alone. The rest of the document is for others to read; only
-  // keys of this section that stand outside of it are refused.
+  // Reads the section `key` alone. The rest of the document is for others to read; only keys of
+  // this section that stand outside of it are refused.
   template <class Struct>
   void read_section_into(const char* key, Struct& config) const {
     const std::unique_ptr<ConfigVisitor> reader = make_reader();

@@ -19,10 +19,11 @@ struct LaneWiring {
 };
 
 // A value is in a register from the cycle in which it is there until the last step that takes it
-// begins, or until the end if it is wanted then; so is one from outside, whole. Where it lasts
-// longer than an interval, the next item's pushes it on into another register. Registers that are
-// taken for a part of the interval are shared. An answer of a comparison, a bit, is left out, and
-// so are a lane's own stages. A constant, which may be of the frame or of the group, has its place.
+// begins. A value wanted at the end stays until then; one from outside is there as a whole. Where
+// it lasts longer than an interval, the next item's pushes it on into another register. Registers
+// that are taken for a part of the interval are shared. An answer of a comparison, a bit, is left
+// out, and so are a lane's own stages. A constant, which may be of the frame or of the group, has
+// its place.
 LaneWiring lane_wiring(const std::vector<LaneStep>& steps, const FoldedSchedule& schedule,
                        const FoldedParts& parts, const OperationLatencies& latencies);
 
@@ -37,7 +38,7 @@ struct FoldedPipeline {
   LaneWiring wiring;
 };
 
-// On these parts, or on as many as the steps take at this interval if that is more: so where a
+// Uses these parts, or as many as the steps take at this interval if that is more: so where a
 // machine charges less than was counted.
 FoldedPipeline folded_pipeline(const std::vector<LaneStep>& steps, const FoldedParts& parts,
                                const OperationLatencies& latencies);

@@ -222,7 +222,7 @@ class Mover {
     ++busy_of(of.by, begin);
   }
 
-  // At its first port and again at its last.
+  // True if a step takes a value twice: at its first port and again at its last.
   static bool takes_twice(const LaneStep& of) {
     const DataFlow::Operand &a = of.sources.front().value, &b = of.sources.back().value;
     return of.sources.size() > 1 && !a.is_constant && !b.is_constant && a.of == b.of;

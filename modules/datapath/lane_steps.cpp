@@ -1,4 +1,4 @@
-// From operations to steps, each by its routine.
+// Expansion of operations into steps, each by its routine.
 #include "modules/datapath/lane_steps.h"
 
 #include <algorithm>

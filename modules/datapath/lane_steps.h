@@ -15,10 +15,10 @@
 
 namespace sgs {
 
-// Multiply-accumulates by which a lane makes what it has no hardware for. Each starts from a table
-// of 8 bits, which two steps of Newton's iteration make 24 and more, and ends with the exact
-// remainder, so that the result is the correctly rounded one that the source computes with
-// (Markstein, "IA-64 and Elementary Functions", 2000; Goldschmidt's form for the root).
+// Multiply-accumulates of operations that a lane has no hardware for. Each starts from a table of 8
+// bits, which two steps of Newton's iteration make 24 and more. It ends with the exact remainder,
+// so that the result is the correctly rounded one that the source computes with (Markstein, "IA-64
+// and Elementary Functions", 2000; Goldschmidt's form for the root).
 constexpr std::uint32_t kReciprocalMacs = 4;  // e = 1 - d r, r += r e; twice
 constexpr std::uint32_t kQuotientMacs = 3;    // q = n r, rest = n - d q, q += rest r
 constexpr std::uint32_t kSquareRootMacs = 9;  // g = x y; 2 (r = 1/2 - g h, g += g r, h += h r);
@@ -98,8 +98,8 @@ struct LaneStep {
   std::vector<Source> sources;
   bool answers = false;  // a comparison's answer, which is no value
   bool kept = false;     // its value is wanted at the end
-  // For a value from outside: 0 if it is there at the beginning, else the number of the list of
-  // values that come together, when the first of them is taken.
+  // For a value from outside: 0 if it is there at the beginning, else the number of its list.
+  // Values of a list come together, when the first of them is taken.
   std::uint32_t comes_with = 0;
 };
 
@@ -121,9 +121,9 @@ struct LongestPath {
   }
 };
 
-// From the beginning; all that comes from outside is there.
+// Longest path from the beginning, with all values from outside there.
 LongestPath longest_path(const std::vector<LaneStep>& steps, const OperationLatencies& latencies);
-// From values that come when they are needed, as if all else were there.
+// Longest path from values that come when they are needed, with all others there.
 LongestPath longest_loop(const std::vector<LaneStep>& steps, const OperationLatencies& latencies);
 
 // Nodes [first, last) of a data flow: the computation of one datapath. Values of earlier nodes come

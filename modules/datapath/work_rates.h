@@ -18,7 +18,7 @@ constexpr std::uint64_t next_turn(std::uint64_t now, std::uint64_t interval) {
   return cycles_for(now, interval) * interval;
 }
 
-// The same of `copies` that have their turns a cycle after each other, the first in cycle 0.
+// The next turn of any of `copies`, whose turns follow each other by a cycle, the first in cycle 0.
 // interval: `copies` or more.
 constexpr std::uint64_t next_turn_of_one(std::uint64_t now, std::uint64_t interval,
                                          std::uint64_t copies) {
