@@ -1,5 +1,5 @@
-// Configurations as JSON, read without mercy: an unknown or doubled key, a wrong type, a value out
-// of range or an unknown name is an InputError that says where, what was found and what is allowed.
+// Configurations as JSON, read strictly. Refused are unknown or doubled keys, wrong types, values
+// out of range and unknown names. The InputError says where, what was found and what is allowed.
 #pragma once
 
 #include <memory>

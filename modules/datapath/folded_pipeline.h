@@ -1,6 +1,6 @@
-// A computation on the lanes that a unit has for it: when its steps are done, and what stands
-// between the parts: registers that hold values until they are taken, and the multiplexers by which
-// an input of a part, or of a register, takes now this, now that.
+// A computation on the lanes that a unit has for it: when its steps are done, and the hardware
+// between the parts. That hardware is registers that hold values until they are taken, and
+// multiplexers at the inputs of parts and registers.
 #pragma once
 
 #include <cstdint>

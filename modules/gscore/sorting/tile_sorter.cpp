@@ -125,7 +125,7 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
   }
 }
 
-// A list's keys lie side by side, and so do those of a subset with their places, so that 16 come to
+// The keys of a list lie side by side, and so do those of a subset with their places: 16 come to
 // the network at once.
 void TileSorter::sort_chunk(std::uint32_t tile, std::vector<TileEntry>& entries,
                             std::uint32_t level) {

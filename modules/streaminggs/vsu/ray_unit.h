@@ -30,9 +30,9 @@ class RayUnit {
   static constexpr std::uint64_t kLookUpCycles = 3, kMaskCycles = 1;
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
-  // Cycles to find the earliest round: the rounds of all rays are compared in a tree before a voxel
-  // is entered or the context of an ended ray is given to another. The ray found first changes its
-  // round, so that the next comparison begins then. Three levels of comparators a cycle.
+  // Cycles to find the earliest round, before a voxel is entered or the context of an ended ray is
+  // given to another. The rounds of all rays are compared in a tree. The ray found first changes
+  // its round, so that the next comparison begins then. Three levels of comparators a cycle.
   static constexpr std::uint32_t first_of_rounds_cycles(std::uint32_t rays) {
     constexpr std::uint32_t kLevelsOfCycle = 3;
     std::uint32_t levels = 1;
@@ -118,7 +118,7 @@ class RayUnit {
   std::uint64_t pass_from_ = 0;
   std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, tree_free_ = 0,
                 table_free_ = 0;
-  std::uint64_t written_ = 0;  // until when the table writes what it found last
+  std::uint64_t written_ = 0;  // until when the table writes the voxel that it found last
   Work work_;
 };
 
