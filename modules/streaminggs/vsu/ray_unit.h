@@ -63,7 +63,7 @@ class RayUnit {
   std::uint64_t step(std::uint64_t cycle, std::uint32_t log2_block);
   std::uint64_t look_up(std::uint64_t cycle);
   std::uint64_t look_up_called(std::uint64_t cycle) {
-    ++work_.called;
+    ++counts_.called;
     return look_up(cycle);
   }
   std::uint64_t look_up_again(std::uint64_t cycle) { return look_up(cycle) + kLookUpCycles; }
@@ -73,10 +73,10 @@ class RayUnit {
   std::uint64_t give_context(std::uint64_t cycle);
   // Its voxel was added to the table: when it is done.
   std::uint64_t enter(const OrderingTable& table, std::uint64_t cycle);
-  void met_voxel() { ++work_.met; }
+  void met_voxel() { ++counts_.met; }
   // A look-up missed, and its line is on its way already, or finds no place.
-  void joined() { ++work_.joined; }
-  void found_no_place() { ++work_.without_place; }
+  void joined() { ++counts_.joined; }
+  void found_no_place() { ++counts_.without_place; }
 
   // Asks in this cycle for a line that is neither in the cache nor on its way. Whoever is added
   // waits for it.
@@ -99,7 +99,7 @@ class RayUnit {
 
  private:
   // Operations and accesses of a frame.
-  struct Work {
+  struct Counts {
     std::uint64_t rays = 0, steps = 0, met = 0, entered = 0;
     std::uint64_t joined = 0, without_place = 0;         // look-ups that missed
     std::uint64_t called = 0;                            // look-ups for which there was no place
@@ -119,7 +119,7 @@ class RayUnit {
   std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, tree_free_ = 0,
                 table_free_ = 0;
   std::uint64_t written_ = 0;  // until when the table writes the voxel that it found last
-  Work work_;
+  Counts counts_;
 };
 
 // Memories of the ordering table beside it: names of voxels, words of ready ones.

@@ -80,8 +80,8 @@ Remedy RayUnit::remedy() const {
     const char* key;
     std::uint64_t times, cycles;
   };
-  const Shared all[] = {{"vsu.step_lanes", work_.steps, work_.steps * steps_.interval_cycles()},
-                        {"vsu.ray_lanes", work_.rays, work_.rays * begins_.interval_cycles()}};
+  const Shared all[] = {{"vsu.step_lanes", counts_.steps, counts_.steps * steps_.interval_cycles()},
+                        {"vsu.ray_lanes", counts_.rays, counts_.rays * begins_.interval_cycles()}};
   const char* key = "vsu.rays_in_flight";
   std::uint64_t most = activity_.busy_cycles() / 3;
   for (const Shared& shared : all) {
@@ -93,30 +93,30 @@ Remedy RayUnit::remedy() const {
 }
 
 void RayUnit::publish(DataSheet& sheet) const {
-  sheet.datapath(begins_, work_.rays);
-  sheet.datapath(steps_, work_.steps);
+  sheet.datapath(begins_, counts_.rays);
+  sheet.datapath(steps_, counts_.steps);
   nodes.publish_accesses(sheet, "node cache", "node cache tags");
-  const std::uint64_t lookups = nodes.lookups(), results = lookups - work_.called;
-  sheet.accesses("ray directions", work_.steps, work_.rays);
-  sheet.accesses("ray positions", work_.steps + lookups, work_.rays + work_.steps + results);
-  sheet.accesses("rounds of rays", work_.found * config.rays_in_flight,
-                 work_.rays + work_.steps + work_.entered);
-  sheet.accesses("ray nodes", work_.steps, results);
-  sheet.accesses("ray chains", work_.entered, work_.entered);
+  const std::uint64_t lookups = nodes.lookups(), results = lookups - counts_.called;
+  sheet.accesses("ray directions", counts_.steps, counts_.rays);
+  sheet.accesses("ray positions", counts_.steps + lookups, counts_.rays + counts_.steps + results);
+  sheet.accesses("rounds of rays", counts_.found * config.rays_in_flight,
+                 counts_.rays + counts_.steps + counts_.entered);
+  sheet.accesses("ray nodes", counts_.steps, results);
+  sheet.accesses("ray chains", counts_.entered, counts_.entered);
   const std::uint64_t misses = nodes.misses();
   const std::uint64_t line = sram_words(TableCache<VoxelNode>::kCacheLineBytes, {8 * kPortBytes});
   // A look-up that misses is looked for among the lines on their way, and its ray waits; who waits
   // is looked for when a line comes, and when a place is free.
-  const std::uint64_t missed = misses + work_.joined + work_.without_place;
-  sheet.accesses("rays that wait for nodes", (misses + work_.called) * config.rays_in_flight,
+  const std::uint64_t missed = misses + counts_.joined + counts_.without_place;
+  sheet.accesses("rays that wait for nodes", (misses + counts_.called) * config.rays_in_flight,
                  missed);
   sheet.accesses("tags of node fetches", missed * config.node_fetches, misses);
   sheet.accesses("node fetches", misses * line, misses * line);
-  sheet.accesses("ordering table", work_.accesses.reads, work_.accesses.writes);
-  sheet.accesses("renamed voxels", work_.accesses.names_read,
-                 work_.accesses.names_written + work_.names_cleared);
-  sheet.accesses("ready voxels", work_.accesses.ready_read,
-                 work_.accesses.ready_written + work_.ready_cleared);
+  sheet.accesses("ordering table", counts_.accesses.reads, counts_.accesses.writes);
+  sheet.accesses("renamed voxels", counts_.accesses.names_read,
+                 counts_.accesses.names_written + counts_.names_cleared);
+  sheet.accesses("ready voxels", counts_.accesses.ready_read,
+                 counts_.accesses.ready_written + counts_.ready_cleared);
   // Comparisons: words read of the table with the voxel; a voxel that is met with the bounds of the
   // window; one that is entered with the nearest and the farthest; the round of the first ray with
   // those of the others; a miss with all lines on their way; a line that has come with the lines
@@ -126,8 +126,8 @@ void RayUnit::publish(DataSheet& sheet) const {
       config.table_banks + 4.0 + 2.0 * config.rays_in_flight + config.node_fetches + kCacheWays, 1);
   sheet.operations(
       "vsu", "comparator",
-      static_cast<double>(work_.accesses.reads + 2 * work_.met + 2 * work_.entered +
-                          (misses + work_.called + work_.found) * config.rays_in_flight +
+      static_cast<double>(counts_.accesses.reads + 2 * counts_.met + 2 * counts_.entered +
+                          (misses + counts_.called + counts_.found) * config.rays_in_flight +
                           missed * config.node_fetches + kCacheWays * lookups));
 }
 
