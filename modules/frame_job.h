@@ -1,4 +1,4 @@
-// What the host writes into an accelerator's registers before a frame.
+// The registers that the host writes into an accelerator before a frame.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,10 +12,9 @@ namespace sgs {
 struct FrameJob {
   View<float> view{};
   glm::vec3 background{0.0F};
-  SceneLayout
-      layout;  // its regions: the scene's, and behind them those that the machine works with
+  SceneLayout layout;  // the scene's regions, then those that the machine uses
   FrameFormat frame_format = FrameFormat::kRgb8;
-  RegionSpan spill;         // what the machine puts aside during the frame; may be empty
+  RegionSpan spill;         // for data that the machine puts aside during the frame; may be empty
   RegionSpan frame_buffer;  // rows from the top, pixels without padding
 
   std::uint64_t pixel_address(int x, int y) const {

@@ -10,7 +10,7 @@
 
 namespace sgs {
 
-// What happened in one group of pixels, where a machine has groups.
+// Counts of one group of pixels, where a machine has groups.
 struct GoldenGroup {
   PixelRect pixels;
   std::uint64_t blends = 0, misordered = 0, missed = 0;  // as of the frame
@@ -24,10 +24,10 @@ struct GoldenFrame {
   std::uint64_t missed = 0;         // (group, splat) pairs that touch and were not looked at
   std::vector<GoldenGroup> groups;  // [group, row by row]; they add up to the frame's
 
-  // The picture that the same work would give in right order: each pixel blends all that was looked
-  // at for it by depth, so that only missed splats keep it from the reference picture of the
-  // decoded scene. Wanted only where `missed` is not 0; empty where an order misses nothing. May
-  // read the scene that the frame is of.
+  // The picture that the same blends would give in right order: each pixel blends, by depth, all
+  // splats looked at for it. Only missed splats keep it from the reference picture of the decoded
+  // scene. Wanted only where `missed` is not 0; empty where an order misses nothing. May read the
+  // scene that the frame is of.
   std::function<Image()> in_order;
 
   // The picture of the same order in the reference's arithmetic, with every splat reaching as far

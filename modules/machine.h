@@ -44,7 +44,7 @@ class Machine : public sc_core::sc_module {
   // order. The last thing that the constructor of a machine does.
   void connect_memory();
 
-  // Where units that share something decide who gets it.
+  // Arbiter of units that share something: decides who gets it.
   InstantEnd& instant_end() { return instant_end_; }
 
  private:

@@ -24,7 +24,7 @@
 
 namespace sgs {
 
-// How a machine is put together, for tests.
+// Options of building a machine, for tests.
 struct BuildOptions {
   StallConfig stalls;  // random waits at both sides of every FIFO
   // A seed of the delta jitter, by which the processes of an instant overtake each other; 0: none.
@@ -39,7 +39,7 @@ class MachineDesign {
   // Its keys of the configuration.
   virtual void visit(ConfigVisitor& v) = 0;
 
-  // How scenes must be stored for it.
+  // Storage order that scenes must have for it.
   virtual StorageOrder storage_order() const = 0;
 
   // frames(): sizes of the pictures that are going to be drawn, to be called once and only where
@@ -55,14 +55,15 @@ class MachineDesign {
   // in.
   virtual void fit_memories() {}
 
-  // The same once the scene is known. Throws InputError when the scene does not fit.
+  // As resolve(), once the scene is known. Throws InputError when the scene does not fit.
   virtual void adapt(const SecondHalfFormat& format, std::vector<AutoChoice>& chosen) = 0;
 
   // The registers of a frame; regions that the frame writes stand behind the scene's.
   virtual FrameJob job(const StoredScene& scene, const Camera& camera) const = 0;
 
-  // What the machine must render of this job. What else its golden renderer knows belongs to this
-  // machine alone: published in `sheet`, by name, as the work that the frame left out.
+  // The frame that the machine must render of this job. Whatever else its golden renderer knows
+  // belongs to this machine alone: published in `sheet`, by name, as operations that the frame left
+  // out.
   virtual GoldenFrame golden(const StoredScene& scene, const FrameJob& job,
                              DataSheet& sheet) const = 0;
 
@@ -70,15 +71,15 @@ class MachineDesign {
   // machine and one text draw the same, and count the same of it. Empty: that is not known.
   virtual std::string golden_key() const { return {}; }
 
-  // What scenes can be tuned for: how it renders, where that is in paper order; whether it draws
-  // the reference picture of a scene as it is stored, bit for bit; the group of pixels that a
+  // Properties that scenes can be tuned for: how it renders, where that is in paper order; whether
+  // it draws the reference picture of a stored scene, bit for bit; the group of pixels that a
   // Gaussian is fetched for, 0 x 0 where there are none.
   virtual std::optional<PaperOrderConfig> paper_order() const { return {}; }
   virtual bool draws_reference() const { return false; }
   virtual PixelSize group() const { return {}; }
 
-  // What it draws at a time, by which its activities are numbered in rows from the top: that group,
-  // or a tile. 0 x 0 where there is no such thing.
+  // Size of the piece that it draws at a time, by which activities are numbered in rows from the
+  // top: that group, or a tile. 0 x 0 where there is no such thing.
   virtual PixelSize piece() const { return group(); }
 
   virtual std::unique_ptr<Machine> build(const sc_core::sc_module_name& name, const FrameJob& job,

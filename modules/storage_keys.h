@@ -1,4 +1,5 @@
-// How a scene is stored, as keys of the configuration: those of its storage order, and of every.
+// Storage of a scene, as keys of the configuration: those of its storage order, and those of every
+// order.
 #pragma once
 
 #include <variant>

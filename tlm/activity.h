@@ -1,5 +1,5 @@
-// Where the cycles of one hardware activity go: it works, or it waits, and then for what and at
-// which channel or port. All together they add up to the time since the start.
+// Cycles of one hardware activity: it is busy, or it waits for something at a channel or port. All
+// together they add up to the time since the start.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace sgs {
 
 enum class WaitFor : std::uint8_t {
-  kIdle,     // nothing to do: before its first work, after its last
+  kIdle,     // nothing to do: before its first item, after its last
   kInput,    // an entry of a FIFO that is empty, or whose oldest entry is still on its way
   kReads,    // answers to reads of its own
   kWrites,   // answers to writes of its own
@@ -36,7 +36,7 @@ class Activity : public sc_core::sc_object {
   static constexpr std::size_t kIdling = 0;  // index in waits()
   static constexpr std::uint32_t kNoVisit = UINT32_MAX;
 
-  // What its cycles are spent on: a group of pixels or a tile, and maybe a visit of it.
+  // The item that cycles are spent on: a group of pixels or a tile, and maybe a visit of it.
   struct Item {
     const char* what = nullptr;  // "group", "tile"; null before it has taken up the first
     std::uint32_t number = 0, visit = kNoVisit;
@@ -57,21 +57,22 @@ class Activity : public sc_core::sc_object {
 
   const ClockDomain& clock() const { return clock_; }
 
-  // From now on the activity works, waits, or has nothing to do. Called at clock edges, from its
+  // From now on the activity is busy, waits, or has nothing to do. Called at clock edges, from its
   // own thread.
   void works() { enter(kWorking); }
   void waits_for(WaitFor what, const sc_core::sc_object& at) { enter(place_of(what, &at)); }
   void idles() { enter(kIdling); }
-  // What it is for from now on, until it takes up another: for timelines; costs no cycle.
+  // Names the item that the activity serves until it takes up another: for timelines; costs no
+  // cycle.
   void takes_up_group(std::uint32_t group, std::uint32_t visit = kNoVisit) {
     item_ = {"group", group, visit};
   }
   void takes_up_tile(std::uint32_t tile) { item_ = {"tile", tile, kNoVisit}; }
-  // What it waits for now turns out to come from `at`.
+  // The present wait turns out to be at `at`.
   void waits_at(const sc_core::sc_object& at) { now_ = place_of(waits_[now_].what, &at); }
 
-  // Between the two it does not wait for what it is said to wait for, but for its phase; what work
-  // there is, is work. Idle it stays.
+  // Between these two calls all waiting counts as waiting for the phase. Busy and idle cycles count
+  // as they are.
   void leaves_phase() {
     close();
     in_phase_ = false;
@@ -83,7 +84,7 @@ class Activity : public sc_core::sc_object {
     show();
   }
 
-  // Works for so many cycles; what it did before is taken up again.
+  // Busy for so many cycles; then its former state returns.
   void work(std::uint64_t cycles) {
     if (cycles == 0) return;
     const std::size_t before = now_;
@@ -92,7 +93,7 @@ class Activity : public sc_core::sc_object {
     enter(before);
   }
 
-  // Its lanes work until that cycle, whatever its thread waits for meanwhile.
+  // Its lanes are busy until that cycle, whatever its thread waits for meanwhile.
   void works_until(std::uint64_t cycle) {
     close();
     works_until_ = cycle;
@@ -111,13 +112,13 @@ class Activity : public sc_core::sc_object {
     since_ = now;
   }
 
-  // What the counters below cover: [0, closed_at).
+  // End of the interval [0, closed_at) that the counters below cover.
   std::uint64_t closed_at() const { return since_; }
   const Item& item() const { return item_; }
   std::uint64_t busy_cycles() const { return busy_cycles_; }
   // Each (what, at) that was ever waited for, in the order in which they first were.
   const std::vector<Wait>& waits() const { return waits_; }
-  // Over all places.
+  // Cycles spent waiting for `what`, over all places.
   std::uint64_t waited_for(WaitFor what) const {
     std::uint64_t sum = 0;
     for (const Wait& wait : waits_) sum += wait.what == what ? wait.cycles : 0;
@@ -129,7 +130,7 @@ class Activity : public sc_core::sc_object {
     return sum;
   }
 
-  // busy, and the WaitFor as a number, for which 0 also stands while it works.
+  // Traces busy, and the WaitFor as a number, for which 0 also stands while it is busy.
   void trace(sc_core::sc_trace_file* file) const override {
     constexpr int kWidth = 3;
     sc_core::sc_trace(file, busy_, std::string(name()) + ".busy");
@@ -147,7 +148,7 @@ class Activity : public sc_core::sc_object {
     show();
   }
 
-  // What it is charged with: outside its phase all waiting is for that.
+  // State that cycles are charged to: outside its phase all waiting is for the phase.
   std::size_t seen() {
     if (in_phase_ || now_ == kWorking || now_ == kIdling) return now_;
     return place_of(WaitFor::kPhase, nullptr);

@@ -31,8 +31,8 @@ class ClockDomain {
     jitter();
   }
 
-  // Blocks until the next edge; at an edge no time passes. What comes from another clock domain
-  // (memory) is taken over here.
+  // Blocks until the next edge; at an edge no time passes. Values from another clock domain
+  // (memory) are taken over here.
   void align() const {
     const std::uint64_t past = sc_core::sc_time_stamp().value() % period_.value();
     if (past != 0) {
@@ -41,8 +41,8 @@ class ClockDomain {
     jitter();
   }
 
-  // For threads that have waited for something else: other processes of this instant may overtake
-  // the calling one. Nothing where no jitter was asked for.
+  // Lets other processes of this instant overtake the calling thread, after it has waited for
+  // something else. Does nothing where no jitter was asked for.
   void jitter() const {
     if (jitter_) jitter_->wait();
   }

@@ -17,7 +17,7 @@ namespace sgs {
 
 class Counter;
 
-// What the counters of one unit register with, in the order of their declaration.
+// The counters of one unit, in the order of their declaration.
 class CounterSet {
  public:
   CounterSet(const CounterSet&) = delete;

@@ -1,5 +1,5 @@
-// What a unit says of itself, once: its data sheet. Reports, energy, area, waveforms and the tables
-// of the documentation are visitors of it.
+// The data sheet of a unit: everything it publishes about itself, said once. Reports, energy, area,
+// waveforms and the tables of the documentation are visitors of it.
 //
 //   void ExactSorter::publish(DataSheet& sheet) {
 //     sheet.unit(*this);
@@ -11,9 +11,9 @@
 //     sheet.accesses("key sorters", counters_.keys, counters_.keys);
 //   }
 //
-// It is a ledger: what is done is done by something that stands there. Arithmetic by the lanes of a
-// datapath, other operations by parts of their kind, reads and writes by the memory of a use; so
-// area, energy and a bound on time follow from the same lines (testbench/result/ledger.h).
+// It is a ledger of hardware and of its use. Arithmetic is done by the lanes of a datapath, other
+// operations by parts of their kind, reads and writes by the memory of a use. So area, energy and a
+// bound on time follow from the same lines (testbench/result/ledger.h).
 #pragma once
 
 #include <cstdint>
@@ -43,14 +43,15 @@ class DataSheet {
     (void)resource;
     (void)meaning;
   }
-  // What lets the activity work for fewer cycles; or wait for fewer, for something at a FIFO, a
-  // port or a unit.
+  // A parameter that reduces the activity's busy cycles; or its waiting cycles, for something at a
+  // FIFO, a port or a unit.
   virtual void remedy(const Activity&, const Remedy&) {}
   virtual void remedy(const sc_core::sc_object& at, WaitFor what, const Remedy&) {
     (void)at;
     (void)what;
   }
-  // What may help the unit as well, though nothing names it: for a search that tries all.
+  // A parameter that may help the unit as well, though no wait points to it: for a search that
+  // tries all.
   virtual void may_help(const Remedy&) {}
   // The unit's own counters, and a value that something else has counted for it. unit: of the
   // value.
@@ -64,8 +65,8 @@ class DataSheet {
     (void)meaning;
     (void)value;
   }
-  // A value for each part of the unit's work, numbered as MemoryPort::charge_to(): of several units
-  // with one name they are added up.
+  // A value for each part of the frame, numbered as in MemoryPort::charge_to(). The values of
+  // several units with one name are added up.
   virtual void by_part(const char* name, const char* unit, const char* meaning,
                        const std::vector<std::uint64_t>& values) {
     (void)name;
@@ -76,15 +77,15 @@ class DataSheet {
   // Lanes that stand there, and how many items have passed them: area and leakage of the lanes,
   // energy of the items, and items x macs / lanes as a bound on the cycles.
   virtual void datapath(const Datapath&, std::uint64_t items) { (void)items; }
-  // What stands there beside lanes and SRAM. component: whose square millimetres; kind: a row of
-  // the technology table; per_cycle: operations that each can do a cycle.
+  // Hardware beside lanes and SRAM. component: whose square millimetres; kind: a row of the
+  // technology table; per_cycle: operations that each can do a cycle.
   virtual void part(const char* component, const char* kind, double count, double per_cycle) {
     (void)component;
     (void)kind;
     (void)count;
     (void)per_cycle;
   }
-  // Work done so far by the parts of this component and kind.
+  // Operations done so far by the parts of this component and kind.
   virtual void operations(const char* component, const char* kind, double count) {
     (void)component;
     (void)kind;
@@ -107,7 +108,8 @@ class DataSheet {
     (void)memory;
     (void)bytes;
   }
-  // Work that was not needed. what: key of the saving, the same for every unit that knows it.
+  // Operations or accesses that were not needed. what: key of the saving, the same for every unit
+  // that knows it.
   virtual void left_out(const char* what, const char* why, std::uint64_t count,
                         const std::string& saves) {
     (void)what;
@@ -123,8 +125,8 @@ class DataSheet {
   // the unit's SramUse that keeps unanswered writes; none for a port that only reads.
   virtual void port(MemoryPort&, const char* writes) { (void)writes; }
   void port(MemoryPort& reads_only) { port(reads_only, ""); }
-  // How much there is of something at a time, for the waveform and for timelines: keys that wait.
-  // unit: of the value.
+  // A fill that changes over time, for the waveform and for timelines: keys that wait. unit: of the
+  // value.
   virtual void level(const char* name, const char* unit, const std::uint32_t& value) {
     (void)unit;
     signal(name, value);

@@ -1,6 +1,5 @@
-// A datapath: lanes of one precision that stand in a unit with what they need beside them, and what
-// one item takes of each. Time, area and energy of the unit's arithmetic all follow from this one
-// struct.
+// A datapath: lanes of one precision with the parts beside them, and the operations that one item
+// takes of each. Time, area and energy of the unit's arithmetic all follow from this one struct.
 #pragma once
 
 #include <algorithm>
@@ -13,25 +12,25 @@ namespace sgs {
 
 // Operations of an item that no lane does: comparisons, look-ups.
 struct BesideLanes {
-  std::string kind;  // of the part that does them: a row of the technology table
+  std::string kind;  // part that does them: a row of the technology table
   std::uint32_t operations = 0;
   std::uint32_t built_for = 0;  // parts that stand in a copy at least: for items of other kinds
 };
 
-// What stands between the lanes of one copy and what is beside them: registers that hold values
-// until they are taken, multiplexers of two bits by which an input takes one of several; and what
-// an item writes and passes of them. Bits.
+// Hardware between the lanes of one copy and the parts beside them, in bits: registers that hold
+// values until they are taken, and two-way multiplexers at the inputs. `written` and `selected` are
+// the bits that one item writes and passes.
 struct BetweenLanes {
   std::uint32_t registers = 0, multiplexers = 0;
   std::uint32_t written = 0, selected = 0;
 };
 
 struct Datapath {
-  std::string name;       // of what it does to an item: "coarse", "chunk_test"
+  std::string name;       // what it does to an item: "coarse", "chunk_test"
   std::string component;  // whose square millimetres and joules
   std::string lane;       // row of the technology table: "fp32_lane", "fp16_lane"
-  // Lanes that work on one item, each a multiply-accumulate a cycle, and how often these stand
-  // there, side by side.
+  // Lanes that serve one item, each a multiply-accumulate a cycle, and how often these stand there,
+  // side by side.
   std::uint32_t lanes = 1, copies = 1;
   // Multiply-accumulates of an item: charged, in time and energy; counted by running it, and
   // published by the paper (0: not).
@@ -39,12 +38,12 @@ struct Datapath {
   std::vector<std::pair<std::string, std::uint64_t>> counts;  // by class of operation
   std::vector<BesideLanes> beside;
   BetweenLanes between;
-  std::uint32_t set_bits = 0;  // of registers that all copies read: numbers of frame and group
-  // From the beginning of an item to its end; of these from what is read when it is needed to the
-  // end of what depends on it.
+  std::uint32_t set_bits = 0;  // bits of registers that all copies read: numbers of frame, group
+  // Latency of an item from beginning to end; and latency of its loop, from a value that is read
+  // when it is needed to the end of what depends on it.
   std::uint32_t depth_cycles = 0, loop_cycles = 0;
 
-  // That which does this kind; a new one without operations where there is none yet.
+  // The part of this kind; a new one without operations where there is none yet.
   BesideLanes& part_of(const std::string& kind) {
     for (BesideLanes& part : beside) {
       if (part.kind == kind) return part;
@@ -65,7 +64,7 @@ struct Datapath {
            std::max<std::uint64_t>(of.built_for, (at_full_rate + used_macs - 1) / used_macs);
   }
 
-  // The same machine also takes items of another kind: what stands there is enough for both.
+  // Builds the datapath so that it also takes items of another kind: the larger need of each part.
   void build_also_for(const Datapath& other) {
     for (const BesideLanes& of : other.beside) {
       BesideLanes& own = part_of(of.kind);

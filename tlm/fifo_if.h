@@ -18,7 +18,8 @@ class FifoWriteIf : public virtual sc_core::sc_interface {
 
   // Entries that there is room for now.
   virtual std::uint32_t room() const = 0;
-  // Until there is room for so many or, whatever comes first, cycle `until`; charged as push().
+  // Blocks until there is room for so many or, whatever comes first, cycle `until`; charged as
+  // push().
   static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
   virtual void wait_for_room(std::uint32_t entries, std::uint64_t until, Activity& writer) = 0;
 };
@@ -32,7 +33,7 @@ class FifoReadIf : public virtual sc_core::sc_interface {
   virtual T pop(Activity& reader, WaitFor what) = 0;
   T pop(Activity& reader) { return pop(reader, WaitFor::kInput); }
 
-  // Whether pop() would return at once.
+  // True if pop() would return at once.
   virtual bool can_pop() const = 0;
   virtual bool empty() const = 0;
   // When the oldest entry can be taken; only for a FIFO that is not empty.

@@ -11,7 +11,7 @@ namespace sgs {
 template <class T>
 class FifoSelector {
  public:
-  // To be made once the ports are bound: by the thread that reads them.
+  // Made once the ports are bound: by the thread that reads them.
   explicit FifoSelector(FifoIns<T>& fifos) : fifos_(fifos) {
     for (int i = 0; i < fifos.size(); ++i) fifos[i]->announce_to(arrival_);
   }

@@ -1,8 +1,8 @@
 // The end of an instant: when everything that happens at the present simulated time has happened.
 //
-// An arbiter that took requests in the order in which they are made would let results depend on the
-// order in which the kernel runs the processes of one instant, which the standard leaves open.
-// Arbiters therefore collect what is asked for and decide here, in an order of their own.
+// The standard leaves open in which order the kernel runs the processes of one instant. An arbiter
+// that took requests as they are made would let results depend on that order. Arbiters therefore
+// collect all requests and decide here, in an order of their own.
 #pragma once
 
 #include <systemc>
@@ -15,8 +15,8 @@ class InstantEnd : public sc_core::sc_module {
  public:
   class Arbiter {
    public:
-    // Decides on all that was asked for up to now. What follows at the same time gets an end of its
-    // own.
+    // Decides on all that was asked for up to now. Requests that follow at the same time get an end
+    // of their own.
     virtual void decide() = 0;
 
    protected:

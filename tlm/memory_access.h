@@ -10,8 +10,8 @@
 
 namespace sgs {
 
-// What the activity does from now on, and what it asks the port for, is for this group; for
-// timelines and the bytes of groups.
+// Charges the activity's cycles and the port's requests to this group from now on, for timelines
+// and the bytes of groups.
 inline void take_up_group(Activity& activity, MemoryPort& port, std::uint32_t group,
                           std::uint32_t visit = Activity::kNoVisit) {
   activity.takes_up_group(group, visit);
@@ -38,7 +38,7 @@ inline MemoryPort::Ticket start_write(MemoryPort& port, Activity& activity, std:
   return ticket;
 }
 
-// Until what the ticket of a read asked for is there.
+// Blocks until the data of a read has come.
 inline void await(MemoryPort& port, Activity& activity, MemoryPort::Ticket ticket) {
   if (port.done(ticket)) return;
   activity.waits_for(WaitFor::kReads, port);
@@ -47,8 +47,8 @@ inline void await(MemoryPort& port, Activity& activity, MemoryPort::Ticket ticke
   activity.works();
 }
 
-// Until everything that the port has in flight is answered. Writes are charged before reads: who
-// waits for all has reads besides only where they are no longer wanted.
+// Blocks until everything that the port has in flight is answered. Writes are charged before reads:
+// a caller that waits for all has reads besides only where they are no longer wanted.
 inline void await_all(MemoryPort& port, Activity& activity) {
   activity.waits_for(port.writing() ? WaitFor::kWrites : WaitFor::kReads, port);
   port.wait_all();

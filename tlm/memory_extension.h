@@ -1,4 +1,4 @@
-// What a memory transaction says about itself beyond the generic payload: who asks, and for what.
+// Extension of a memory transaction beyond the generic payload: who asks, and for what.
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,8 @@
 
 namespace sgs {
 
-// What the memories behind a port, and its buffer of writes, take in or give out at once: a burst.
+// Bytes that the memories behind a port, and its write buffer, take in or give out at once: a
+// burst.
 constexpr std::uint32_t kPortBytes = 32;
 
 struct MemoryPortConfig {
@@ -32,7 +33,7 @@ struct MemoryPortConfig {
   std::uint32_t max_writes = 2;
   // Wires of some millimetres and multiplexers of all ports and channels take a cycle.
   std::uint32_t path_cycles = 1;
-  // Of the path in each direction: a transaction takes it for as many cycles as it has words.
+  // Width of the path in each direction: a transaction takes it for as many cycles as it has words.
   // No key: the memories behind a port are as wide.
   std::uint32_t width_bytes = kPortBytes;
 };
@@ -49,12 +50,12 @@ void visit(Visitor& v, MemoryPortConfig& c) {
     "their width");
 }
 
-// What a port keeps of writes that are at most so long.
+// Buffer of a port for unanswered writes that are at most so long.
 SramUse unanswered_writes(const char* name, const char* memory, const MemoryPortConfig& config,
                           std::uint32_t longest_bytes);
 
-// What a port keeps of each transaction that is on its way: where its bytes go on chip, how many
-// they are, and whose they are. All ports of a machine have it under the one name.
+// Table of a port's outstanding transactions: where the bytes of each go on chip, how many they
+// are, and whose they are. All ports of a machine use this one name.
 constexpr const char* kOutstandingTable = "outstanding transactions";
 SramUse outstanding_table(const char* memory, const MemoryPortConfig& config);
 
@@ -83,8 +84,8 @@ class MemoryPort : public sc_core::sc_module {
   // Blocks as read() does, and while max_writes are unanswered.
   Ticket write(std::uint64_t address, const void* from, std::uint32_t bytes, std::uint8_t region);
 
-  // What is asked for from now on is for part `part` of the unit's work, numbered from 0; before
-  // the first call it is for none. Who asks knows; no time depends on it.
+  // Charges all later requests to part `part` of the frame, numbered from 0; requests before the
+  // first call are charged to none. Costs no time.
   void charge_to(std::size_t part) {
     if (bytes_of_parts_.size() <= part) bytes_of_parts_.resize(part + 1);
     part_ = part;
@@ -110,7 +111,7 @@ class MemoryPort : public sc_core::sc_module {
   std::uint64_t words_written() const { return words_written_; }
   const MemoryPortConfig& config() const { return config_; }
 
-  // Those of its transactions; when it is idle, none is in use.
+  // Payloads of its transactions; when it is idle, none is in use.
   const PayloadPool& payloads() const { return pool_; }
 
   // Adds the bytes outstanding to a waveform.
@@ -140,7 +141,7 @@ class MemoryPort : public sc_core::sc_module {
   tlm::tlm_sync_enum nb_transport_bw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                      sc_core::sc_time& delay);
 
-  // On the way to the target; due: not earlier at its end.
+  // A request on the way to the target; due: not earlier at its end.
   struct Leaving {
     PooledPayload* payload;
     sc_core::sc_time due;
@@ -155,8 +156,8 @@ class MemoryPort : public sc_core::sc_module {
   PayloadPool pool_;
   std::deque<Leaving> leaving_;
   sc_core::sc_event at_target_;  // for launch()
-  // On the way back, by when it ends and by ticket and address: answers of one instant come in no
-  // order of their own.
+  // Answers on the way back, by when they end and by ticket and address: answers of one instant
+  // come in no order of their own.
   std::map<std::tuple<sc_core::sc_time, Ticket, std::uint64_t>, tlm::tlm_generic_payload*> answers_;
   sc_core::sc_event at_port_;                              // for take_answers()
   sc_core::sc_time last_arrived_;                          // the last word of the answer before
@@ -185,7 +186,7 @@ class MemoryPort : public sc_core::sc_module {
 
   std::uint64_t transactions_ = 0, bytes_read_ = 0, bytes_written_ = 0, words_written_ = 0;
   std::vector<std::uint64_t> bytes_of_parts_;
-  std::optional<std::size_t> part_;  // that what is asked for from now on is for
+  std::optional<std::size_t> part_;  // part that requests are charged to
 };
 
 }  // namespace sgs

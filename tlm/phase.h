@@ -1,5 +1,5 @@
-// A part of a frame in which some activities work and the others cannot: of parts that follow each
-// other, as one makes in memory all that the next one reads.
+// A part of a frame in which some activities run and the others cannot. Parts follow each other
+// where one makes in memory all that the next one reads.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What to change in the configuration for less of some work or waiting.
+// A change of the configuration that shortens the busy or waiting cycles of an activity.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@
 namespace sgs {
 namespace {
 
-// Whether the call with which a response was passed back has ended it.
+// True if the call that passed a response back has ended it.
 bool ends_response(tlm::tlm_sync_enum status, const tlm::tlm_phase& phase) {
   return status == tlm::TLM_COMPLETED || (status == tlm::TLM_UPDATED && phase == tlm::END_RESP);
 }
@@ -99,7 +99,7 @@ tlm::tlm_sync_enum Router::nb_transport_fw(int initiator, tlm::tlm_generic_paylo
   return status;
 }
 
-// What waits to be passed on goes, in the order of the initiators.
+// Passes on the responses and requests that wait, in the order of the initiators.
 void Router::decide() {
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     Path& path = paths_[i];

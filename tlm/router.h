@@ -1,11 +1,11 @@
 // Address router: N initiators to targets by address range. No time of its own.
 //
-// Each initiator has its own path to each target, so that the base protocol's exclusion rule (one
-// request at a time) holds for each initiator by itself and nobody waits behind another's request;
-// who goes first is the target's decision. Requests of one instant reach the targets at its end, in
+// Each initiator has its own path to each target. So the base protocol's exclusion rule (one
+// request at a time) holds for each initiator by itself, and nobody waits behind another's request.
+// Who goes first is the target's decision. Requests of one instant reach the targets at its end, in
 // the order of the initiators' numbers: in which order their processes ran makes no difference.
-// The initiator believes such a request to be under way, so what the target returns at once goes
-// back as a call; a response waits until the initiator has ended the one before.
+// The initiator believes such a request to be under way, so an answer that the target returns at
+// once goes back as a call; a response waits until the initiator has ended the one before.
 // Addresses are passed on unchanged; a request carries its initiator's number as its requester.
 #pragma once
 
@@ -51,7 +51,7 @@ class Router : public sc_core::sc_module, private InstantEnd::Arbiter {
   struct Range {
     std::uint64_t begin;
     std::uint64_t last;
-    std::size_t first_socket;  // that of initiator 0; the others follow
+    std::size_t first_socket;  // socket of initiator 0; the others follow
   };
   // A response on its way back.
   struct Response {

@@ -12,7 +12,7 @@ namespace sgs {
 namespace {
 
 // SystemC 2.3.4 tells AddressSanitizer of each switch to another stack, but not where the first one
-// lies. Left so, an exception would not clear the marks of the frames that it leaves, and the next
+// lies. An exception would then not clear the marks of the frames that it leaves. The next
 // functions there would be taken for writers out of bounds.
 void declare_main_stack() {
 #ifdef __SANITIZE_ADDRESS__

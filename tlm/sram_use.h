@@ -13,10 +13,10 @@ enum class SramPorts : std::uint8_t {
   kReadAndWrite  // a read and a write a cycle
 };
 
-// How one memory of a use is built; area, energy of an access and accesses a cycle follow from it.
+// Shape of one memory of a use; area, energy of an access and accesses a cycle follow from it.
 struct SramShape {
-  std::uint32_t width_bits;                    // of an access
-  SramPorts ports = SramPorts::kReadAndWrite;  // of each bank
+  std::uint32_t width_bits;                    // bits of one access
+  SramPorts ports = SramPorts::kReadAndWrite;  // ports of each bank
   std::uint32_t banks = 1;                     // the bytes are spread over them
 };
 constexpr bool operator==(const SramShape& a, const SramShape& b) {
@@ -30,7 +30,7 @@ struct SramPeak {
 constexpr bool operator==(const SramPeak& a, const SramPeak& b) {
   return a.reads == b.reads && a.writes == b.writes;
 }
-// What most uses ask of their memory: as much as a bank of two ports gives.
+// Accesses a cycle, at most, of most uses: as many as a bank of two ports gives.
 constexpr SramPeak kOneOfEach{1, 1};
 
 // Banks of at most so many rows are flip-flops, not SRAM: shorter than the row of words that a
@@ -42,11 +42,11 @@ constexpr std::uint32_t register_rows(SramPorts ports) { return ports == SramPor
 struct SramUse {
   std::string name;
   std::string memory;       // which one: "input", "codebook", "shared"
-  std::uint64_t bytes = 0;  // of one
+  std::uint64_t bytes = 0;  // bytes of one memory
   std::string arithmetic;   // how they come about: "8 slots x 256 B"
   std::uint64_t count = 1;
   SramShape shape{32};
-  SramPeak peak = kOneOfEach;  // of one
+  SramPeak peak = kOneOfEach;  // accesses of one memory in a cycle, at most
 
   std::uint64_t total_bytes() const { return count * bytes; }
   bool in_registers() const {
@@ -73,13 +73,13 @@ constexpr std::uint64_t sram_words(std::uint64_t bytes, const SramShape& shape) 
 void add(SramUses& to, const SramUse& use, std::uint64_t count = 1);
 void add(SramUses& to, const SramUses& uses, std::uint64_t count = 1);
 
-// Bytes of SRAM of all uses of one memory: what is in registers takes none of it.
+// Bytes of SRAM of all uses of one memory; registers take none of it.
 std::uint64_t sram_bytes(const SramUses& uses, const std::string& memory);
 
 // "a 12 (3 x 4 B) + b 8 (8 B)": the uses of one memory that sram_bytes() adds up.
 std::string sram_sum(const SramUses& uses, const std::string& memory);
 
-// Of a memory that is too small, for a line that people read: the four largest, and how many more.
+// One line of text for a memory that is too small: its four largest uses, and how many more.
 std::string largest_uses(const SramUses& uses, const std::string& memory);
 
 }  // namespace sgs

@@ -1,4 +1,4 @@
-// Random stalls for tests: what comes out must not depend on when.
+// Random stalls for tests: results must not depend on when they occur.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace sgs {
 
 struct StallConfig {
-  double probability = 0;  // of a stall at each draw
+  double probability = 0;  // chance of a stall at each draw
   std::uint32_t longest_cycles = 20;
   std::uint64_t seed = 1;
 };

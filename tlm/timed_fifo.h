@@ -24,8 +24,8 @@ template <class T>
 struct EntryBytes<T, std::void_t<decltype(T::kSramBytes)>>
     : std::integral_constant<std::uint32_t, T::kSramBytes> {};
 
-// What a FIFO of so many entries takes. entry_bytes: where a configuration keeps more of one than T
-// says.
+// SRAM of a FIFO of so many entries. entry_bytes: where a configuration keeps more of an entry than
+// T says.
 template <class T>
 SramUse fifo_use(const char* name, const char* memory, std::uint32_t entries,
                  const char* what_they_are, std::uint32_t entry_bytes = EntryBytes<T>::value) {
@@ -34,7 +34,7 @@ SramUse fifo_use(const char* name, const char* memory, std::uint32_t entries,
                   kOneOfEach);
 }
 
-// What can be said of a FIFO whatever it holds.
+// The part of a FIFO that does not depend on the type of its entries.
 class FifoChannel : public sc_core::sc_prim_channel {
  public:
   std::uint32_t fill() const { return fill_; }
@@ -56,8 +56,8 @@ class FifoChannel : public sc_core::sc_prim_channel {
   // Who puts entries in and who takes them out; null before the first did.
   const Activity* writer() const { return writer_; }
   const Activity* reader() const { return reader_; }
-  // Where several put entries in, which was the last depends on the kernel: says who stands for
-  // all.
+  // Names the writer that stands for all where several put entries in: which was the last depends
+  // on the kernel.
   void name_writer(const Activity& writer) { writer_ = &writer; }
 
   void trace(sc_core::sc_trace_file* file) const override {
@@ -68,7 +68,7 @@ class FifoChannel : public sc_core::sc_prim_channel {
  protected:
   explicit FifoChannel(const char* name) : sc_prim_channel(name) {}
 
-  // How many things happen at the same time.
+  // Number of events at the same time.
   struct AtOnce {
     sc_core::sc_time at;
     std::uint32_t now = 0, most = 0;
@@ -88,7 +88,7 @@ class FifoChannel : public sc_core::sc_prim_channel {
 };
 
 // One writer thread, one reader thread; several writers only where there is always room, since each
-// gives back what was taken out. The waiting times are charged to the Activity that waits:
+// gives back an entry that was taken out. The waiting times are charged to the Activity that waits:
 // the writer for room, the reader for input.
 template <class T>
 class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T> {
@@ -150,8 +150,8 @@ class TimedFifo : public FifoChannel, public FifoReadIf<T>, public FifoWriteIf<T
     return value;
   }
 
-  // For a reader that leaves the oldest entry where it is until it has its turn: blocks as pop()
-  // does; the entry stays, and is valid, until remove_front().
+  // Blocks as pop() does, for a reader that leaves the oldest entry where it is until its turn. The
+  // entry stays, and is valid, until remove_front().
   const T& front(Activity& reader) {
     wait_for_front(reader, WaitFor::kInput);
     return entries_[head_].value;

@@ -19,7 +19,8 @@
 
 namespace sgs {
 
-// Closed interval of what a number may be. long double holds every 64-bit integer exactly.
+// Closed interval of the values that a number may take. long double holds every 64-bit integer
+// exactly.
 struct ConfigRange {
   long double lo;
   long double hi;
@@ -119,8 +120,7 @@ class ConfigVisitor {
                          const std::vector<const char*>& allowed, const char* doc) = 0;
   virtual void begin_section(const char* key, const char* doc) = 0;
   virtual void end_section() = 0;
-  // Which keys the section that has begun holds: a writer's are the struct's, a reader adds its
-  // own.
+  // Keys of the section that has begun: a writer's are the struct's, a reader adds its own.
   virtual std::vector<std::string> free_keys(const std::vector<std::string>& present) = 0;
 
  private:

@@ -26,7 +26,7 @@ Json object_of(Json json, const std::string& origin) {
 
 struct ConfigDocument::Content {
   Json root = Json::object();
-  std::map<std::string, std::string> origins;  // of each leaf's path
+  std::map<std::string, std::string> origins;  // by path of the value
 
   void merge(Json& into, const Json& from, const std::string& path, const std::string& origin) {
     for (const auto& [key, value] : from.items()) {
@@ -54,7 +54,7 @@ class JsonReader : public ConfigVisitor {
 
   void check_root() const { check_all_used(levels_.front()); }
 
-  // After the visit to a section alone.
+  // Refuses misplaced keys, after the visit to a section alone.
   void check_misplaced(const char* section) const {
     for (const auto& item : levels_.front().json->items()) {
       if (section_keys_.count(item.key()) == 0) continue;
@@ -190,7 +190,7 @@ class JsonReader : public ConfigVisitor {
 
   const std::map<std::string, std::string>& origins_;
   std::vector<Level> levels_;
-  std::set<std::string> section_keys_;  // of the last section of the top level
+  std::set<std::string> section_keys_;  // known keys of the last section of the top level
 };
 
 }  // namespace

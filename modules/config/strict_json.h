@@ -1,5 +1,5 @@
-// Configurations as JSON, read without mercy: an unknown or doubled key, a wrong type, a value out
-// of range or an unknown name is an InputError that says where, what was found and what is allowed.
+// Configurations as JSON, read strictly. Refused are unknown or doubled keys, wrong types, values
+// out of range and unknown names. The InputError says where, what was found and what is allowed.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace sgs {
 
-// Where a value of a document was said: what add_file() and the like call the origin.
+// Origin of a value of a document, as named by add_file() and the like.
 struct ConfigOrigin {
-  std::string path;  // of the key, from the document's root: "dram.channels"
+  std::string path;  // path of the key from the document's root: "dram.channels"
   std::string origin;
 };
 
@@ -36,7 +36,7 @@ class ConfigDocument {
   // The text at a key of the top level; empty where there is none.
   std::string text_at(const std::string& key) const;
 
-  // Of all values (not objects), by path.
+  // Origins of all values (not objects), by path.
   std::vector<ConfigOrigin> origins() const;
 
   // Fills `config` (whose present values are the defaults) by visit(v, config). Keys of the
@@ -48,8 +48,8 @@ class ConfigDocument {
     finish(*reader);
   }
 
-  // The same from the section `key` alone. The rest of the document is for others to read; only
-  // keys of this section that stand outside of it are refused.
+  // Reads the section `key` alone. The rest of the document is for others to read; only keys of
+  // this section that stand outside of it are refused.
   template <class Struct>
   void read_section_into(const char* key, Struct& config) const {
     const std::unique_ptr<ConfigVisitor> reader = make_reader();

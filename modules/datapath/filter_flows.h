@@ -1,6 +1,6 @@
-// What one test of the coarse and of the fine filter executes, recorded by running it.
-// Values of the camera and of the group are constants: what depends on them alone is computed once
-// a frame or a group and kept. Of the decoding of records only that of a quaternion is included.
+// Operations of one test of the coarse and of the fine filter, recorded by running it. Values of
+// the camera and of the group are constants: results that depend on them alone are computed once a
+// frame or a group and kept. The decoding of records is left out, but for that of a quaternion.
 #pragma once
 
 #include <cstdint>
@@ -25,12 +25,13 @@ struct FilterCase {
 // intervals has to be built for this.
 FilterCase longest_case();
 
-// Of the coarse test, up to where it fails or to its end: a bound, and whether it touches the
-// group, or each of across x across parts of it; with what a candidate carries on.
+// Operations of the coarse test, up to where it fails or to its end: a bound, and whether it
+// touches the group, or each of across x across parts of it; with the values that a candidate
+// carries on.
 FlowPart coarse_flow(CoarseBoundBy bound_by, const FilterCase& tested, std::uint32_t across = 1);
 
-// Of the fine test, up to where it fails or to its end. An operation that two parts need counts
-// with the first.
+// Operations of the fine test, up to where it fails or to its end. An operation that two parts need
+// counts with the first.
 struct FineFlow {
   FlowPart all;
   FlowPart decode;      // the quaternion's largest component, where it is not stored

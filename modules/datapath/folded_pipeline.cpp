@@ -212,7 +212,7 @@ class Wiring {
   const std::uint32_t interval_;
   const std::vector<Life> lives_;
   std::vector<std::vector<std::uint32_t>> chains_;  // [step]: registers that its value passes
-  std::vector<Selection> registers_;                // what each is written from
+  std::vector<Selection> registers_;                // [register] sources that it is written from
   LaneWiring out_;
 };
 

@@ -1,6 +1,6 @@
-// A computation on the lanes that a unit has for it: when its steps are done, and what stands
-// between the parts: registers that hold values until they are taken, and the multiplexers by which
-// an input of a part, or of a register, takes now this, now that.
+// A computation on the lanes that a unit has for it: when its steps are done, and the hardware
+// between the parts. That hardware is registers that hold values until they are taken, and
+// multiplexers at the inputs of parts and registers.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,20 @@
 
 namespace sgs {
 
-// Of values of one width. A multiplexer of n words is n - 1 that select between two bits, for each
-// bit of a word.
+// Registers and multiplexers, for values of one width. A multiplexer of n words is n - 1 two-way
+// selections for each bit of a word.
 struct LaneWiring {
-  std::uint32_t register_words = 0, select_words = 0;  // that stand there
-  // Of one item: words written into registers, and words passed by a multiplexer of two.
+  std::uint32_t register_words = 0, select_words = 0;  // words that are built
+  // Words that one item writes into registers and passes through two-way multiplexers.
   std::uint32_t words_written = 0, words_selected = 0;
 };
 
 // A value is in a register from the cycle in which it is there until the last step that takes it
-// begins, or until the end if it is wanted then; so is one from outside, whole. Where it lasts
-// longer than an interval, the next item's pushes it on into another register. Registers that are
-// taken for a part of the interval are shared. An answer of a comparison, a bit, is left out, and
-// so are a lane's own stages. A constant, which may be of the frame or of the group, has its place.
+// begins. A value wanted at the end stays until then; one from outside is there as a whole. Where
+// it lasts longer than an interval, the next item's pushes it on into another register. Registers
+// that are taken for a part of the interval are shared. An answer of a comparison, a bit, is left
+// out, and so are a lane's own stages. A constant, which may be of the frame or of the group, has
+// its place.
 LaneWiring lane_wiring(const std::vector<LaneStep>& steps, const FoldedSchedule& schedule,
                        const FoldedParts& parts, const OperationLatencies& latencies);
 
@@ -37,7 +38,7 @@ struct FoldedPipeline {
   LaneWiring wiring;
 };
 
-// On these parts, or on as many as the steps take at this interval if that is more: so where a
+// Uses these parts, or as many as the steps take at this interval if that is more: so where a
 // machine charges less than was counted.
 FoldedPipeline folded_pipeline(const std::vector<LaneStep>& steps, const FoldedParts& parts,
                                const OperationLatencies& latencies);

@@ -107,7 +107,8 @@ std::uint32_t most(const std::vector<std::uint32_t>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }
 
-// What is read when it is needed comes when the first of it is taken.
+// Sets the arrival of values from outside: 0, or for values that come together the cycle in which
+// the first of them is taken.
 void arrive(const std::vector<LaneStep>& steps, FoldedSchedule& schedule) {
   std::uint32_t lists = 0;
   for (const LaneStep& step : steps) lists = std::max(lists, step.comes_with);
@@ -194,7 +195,7 @@ class Mover {
     for (const std::uint32_t to : taken_by_[step]) {
       last = std::min(last, schedule_.begins[to] - latency);
     }
-    std::array<std::uint32_t, 3> others_last{};  // of each source: when others take it last
+    std::array<std::uint32_t, 3> others_last{};  // [source] when other steps take it last
     std::size_t sources = 0;
     for (const LaneStep::Source& source : of.sources) {
       if (source.value.is_constant) continue;
@@ -221,7 +222,7 @@ class Mover {
     ++busy_of(of.by, begin);
   }
 
-  // At its first port and again at its last.
+  // True if a step takes a value twice: at its first port and again at its last.
   static bool takes_twice(const LaneStep& of) {
     const DataFlow::Operand &a = of.sources.front().value, &b = of.sources.back().value;
     return of.sources.size() > 1 && !a.is_constant && !b.is_constant && a.of == b.of;

@@ -1,7 +1,7 @@
-// A computation on fewer lanes than it has steps: which step begins when, so that the next item can
-// begin `interval` cycles later and the same lanes do for it the same steps (a modulo schedule).
-// Its end is the depth of the pipeline; the longest path, which has a lane for each step, bounds it
-// from below.
+// A computation on fewer lanes than it has steps: the cycle in which each step begins. The next
+// item can begin `interval` cycles later, and the same lanes do the same steps for it (a modulo
+// schedule). Its end is the depth of the pipeline; the longest path, which has a lane for each
+// step, bounds it from below.
 #pragma once
 
 #include <cstdint>
@@ -34,10 +34,10 @@ struct FoldedSchedule {
 FoldedSchedule folded_schedule(const std::vector<LaneStep>& steps, const FoldedParts& parts,
                                const OperationLatencies& latencies);
 
-// The same with fewer values that wait: one step after the other goes to where it makes the lives
-// of its sources and of its own value shortest together, as long as a part is free for it there.
-// The end comes no later; steps that depend on what comes when it is needed stay. An early sum lets
-// two values go for one; a late quotient lets none wait.
+// The same with fewer values that wait. Each step in turn goes to where its sources' lives and its
+// own value's are shortest together, as long as a part is free there. The end comes no later; steps
+// that depend on values that come when they are needed stay. An early sum lets two values go for
+// one; a late quotient lets none wait.
 void shorten_lives(const std::vector<LaneStep>& steps, const FoldedParts& parts,
                    const OperationLatencies& latencies, FoldedSchedule& schedule);
 

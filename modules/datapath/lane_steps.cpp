@@ -1,4 +1,4 @@
-// From operations to steps, each by its routine.
+// Expansion of operations into steps, each by its routine.
 #include "modules/datapath/lane_steps.h"
 
 #include <algorithm>
@@ -250,7 +250,7 @@ LongestPath one_by(StepBy by) {
           by == StepBy::kTable ? 1U : 0U};
 }
 
-// Of those that begin with a step for which this holds.
+// The longest path among those that begin with a step for which `begins` holds.
 template <class Begins>
 LongestPath longest_from(const std::vector<LaneStep>& steps, const OperationLatencies& latencies,
                          const Begins& begins) {

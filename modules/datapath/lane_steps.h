@@ -1,9 +1,9 @@
-// What a computation takes of the parts of a datapath: by its counts, and step by step.
+// Cycles and parts of a datapath that a computation takes: by its counts, and step by step.
 //
 // A lane is one multiplier followed by one adder, fully pipelined: it starts one multiply-add a
-// cycle. What it has no hardware for is made of such steps. A comparator's operation and a look-up
-// take a cycle each. An answer of a comparison is no value: where it selects, it is the write
-// enable of what is computed beside it, and is there before that is.
+// cycle. Operations without hardware of their own are made of such steps. A comparator's operation
+// and a look-up take a cycle each. An answer of a comparison is no value: where it selects, it is
+// the write enable of the value computed beside it, and is there before that is.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@
 
 namespace sgs {
 
-// Multiply-accumulates by which a lane makes what it has no hardware for. Each starts from a table
-// of 8 bits, which two steps of Newton's iteration make 24 and more, and ends with the exact
-// remainder, so that the result is the correctly rounded one that the source computes with
-// (Markstein, "IA-64 and Elementary Functions", 2000; Goldschmidt's form for the root).
+// Multiply-accumulates of operations that a lane has no hardware for. Each starts from a table of 8
+// bits, which two steps of Newton's iteration make 24 and more. It ends with the exact remainder,
+// so that the result is the correctly rounded one that the source computes with (Markstein, "IA-64
+// and Elementary Functions", 2000; Goldschmidt's form for the root).
 constexpr std::uint32_t kReciprocalMacs = 4;  // e = 1 - d r, r += r e; twice
 constexpr std::uint32_t kQuotientMacs = 3;    // q = n r, rest = n - d q, q += rest r
 constexpr std::uint32_t kSquareRootMacs = 9;  // g = x y; 2 (r = 1/2 - g h, g += g r, h += h r);
@@ -38,9 +38,9 @@ constexpr std::uint32_t folded_macs(const OperationCounts& c) {
          c.logarithms * kLogarithmMacs + c.exponentials * kExponentialMacs;
 }
 
-// What comparators do beside the lanes: each compares or adds two integers of 32 bits a cycle, or
-// shifts one (five rows of selections: as many gates as a fast adder). A number's bits compare as
-// its magnitude does.
+// Operations of comparators beside the lanes: each compares or adds two integers of 32 bits a
+// cycle, or shifts one (five rows of selections: as many gates as a fast adder). A number's bits
+// compare as its magnitude does.
 constexpr std::uint32_t kRoundingComparisons = 3;  // shifted to its last place, rounded, back
 constexpr std::uint32_t kSplitComparisons = 4;  // shifted, rounded; leading zeros of the rest, back
 constexpr std::uint32_t kScalingComparisons = 1;     // an addition to the exponent
@@ -88,7 +88,7 @@ constexpr std::uint32_t cycles_of(StepBy by, const OperationLatencies& latencies
 }
 
 struct LaneStep {
-  // What one of its inputs takes: a constant's bits, or the value of a step before it.
+  // Source of one of its inputs: a constant's bits, or the value of a step before it.
   struct Source {
     std::uint32_t port;  // 0, 1: the factors of a lane, which can change places; 2: what it adds
     DataFlow::Operand value;
@@ -98,8 +98,8 @@ struct LaneStep {
   std::vector<Source> sources;
   bool answers = false;  // a comparison's answer, which is no value
   bool kept = false;     // its value is wanted at the end
-  // Of a value from outside: 0 if it is there at the beginning, else the number of those that come
-  // together, when the first of them is taken.
+  // For a value from outside: 0 if it is there at the beginning, else the number of its list.
+  // Values of a list come together, when the first of them is taken.
   std::uint32_t comes_with = 0;
 };
 
@@ -121,13 +121,13 @@ struct LongestPath {
   }
 };
 
-// From the beginning; all that comes from outside is there.
+// Longest path from the beginning, with all values from outside there.
 LongestPath longest_path(const std::vector<LaneStep>& steps, const OperationLatencies& latencies);
-// From values that come when they are needed, as if all else were there.
+// Longest path from values that come when they are needed, with all others there.
 LongestPath longest_loop(const std::vector<LaneStep>& steps, const OperationLatencies& latencies);
 
-// Nodes [first, last) of a data flow: what one datapath computes. What lies before them comes from
-// outside.
+// Nodes [first, last) of a data flow: the computation of one datapath. Values of earlier nodes come
+// from outside.
 struct FlowPart {
   std::shared_ptr<const DataFlow> flow;
   std::size_t first = 0, last = 0;

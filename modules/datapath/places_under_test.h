@@ -1,7 +1,7 @@
-// The places of what is under test in the FIFO behind a pipeline that drops some. Whether it will
-// pass nobody knows when it begins, so that it begins only where there is a place for it; what does
-// not pass gives it back when it leaves the pipeline. What passes is an entry of the FIFO from its
-// beginning on.
+// Places reserved in the FIFO behind a pipeline that drops some items. An item begins only where
+// there is a place for it, since its result is not known yet. One that fails gives its place back
+// when it leaves the pipeline. One that passes counts as an entry of the FIFO from its beginning
+// on.
 #pragma once
 
 #include <algorithm>

@@ -33,7 +33,7 @@ constexpr float kSubtileLeftPx = 96, kSubtileTopPx = 52;
 
 constexpr std::size_t kEdgeWords = 2;  // the last of RowSpans::carried()
 
-// A splat's beginning alone: what its rows take is what it is for.
+// The beginning of a splat's spans alone: its results are the words that its rows take.
 FlowPart spans_begin_flow() {
   const auto flow = std::make_shared<DataFlow>();
   RowSpans<Counting> spans(leaning_splat(*flow));
@@ -44,7 +44,7 @@ FlowPart spans_begin_flow() {
   return whole(flow);
 }
 
-// Where a sub-tile's first pixel is from the splat's centre, alone: the sums are what it is for.
+// Offset of a sub-tile's first pixel from the splat's centre, alone: its results are the sums.
 FlowPart corner_flow() {
   const auto flow = std::make_shared<DataFlow>();
   static_cast<void>(input(*flow, 101.5F) - Counting(kSubtileLeftPx));
@@ -52,7 +52,7 @@ FlowPart corner_flow() {
   return whole(flow);
 }
 
-// Of each pixel the numbers that come together, when the first of them is taken.
+// The numbers of each pixel's state, which come together when the first of them is taken.
 class PixelStates {
  public:
   explicit PixelStates(DataFlow& flow) : flow_(flow) {}
@@ -71,7 +71,7 @@ class PixelStates {
   std::vector<std::vector<std::uint32_t>> pixels_;
 };
 
-// What blending does for 16 pixels, in the arithmetic T.
+// Blends a splat into 16 pixels, in the arithmetic T.
 template <class T, class Conic>
 void blend_pixels(const BlendInput<T, Conic>& in, PixelStates& state) {
   for (int lane = 0; lane < kSubtilePixels; ++lane) {

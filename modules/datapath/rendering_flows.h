@@ -1,4 +1,4 @@
-// What rendering does for a splat, recorded by running it.
+// Operations of rendering a splat, recorded by running it.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace sgs {
 // Words that a splat's rows take of its beginning.
 constexpr std::uint32_t kBegunSpanWords = 10;
 
-// A splat's spans are begun once, to the words that its rows take; each row of sub-tiles adds one,
-// the edge above it coming when it is needed, its own kept for the next; each sub-tile is blended,
-// each pixel's state coming at once when it is needed. What its 16 pixels share (a column's A dx^2,
-// a row's C dy^2) counts once. Ahead of all log2(e) goes into the splat's conic, in single
-// precision; for blending in half its square is completed there.
+// A splat's spans are begun once, to the words that its rows take. Each row of sub-tiles adds one:
+// the edge above it comes when it is needed, its own is kept for the next. Each sub-tile is
+// blended, each pixel's state coming at once when it is needed. Terms that its 16 pixels share (a
+// column's A dx^2, a row's C dy^2) count once. Ahead of all, log2(e) goes into the splat's conic,
+// in single precision; for blending in half its square is completed there.
 struct RenderingFlows {
   FlowPart conic, spans_begin, span, subtile_blend;
   // The blend with lanes of its own for where the splat's centre is beside the sub-tile: always in
@@ -32,8 +32,8 @@ FlowPart blend_of_halves_flow();
 // Such a splat for blending in single: its conic's terms come back, and log2(e) into them.
 FlowPart terms_of_square_flow();
 
-// Of a finished pixel on its way to the frame: the background through what light is left, then its
-// bytes.
+// Operations on a finished pixel on its way to the frame: the background through the light that is
+// left, then its bytes.
 FlowPart pixel_flow(FrameFormat format);
 
 }  // namespace sgs

@@ -16,8 +16,8 @@ constexpr std::uint32_t counter_bits(std::uint64_t most) {
 }
 
 struct Selection {
-  std::uint64_t sources = 1;  // of which one is taken
-  double bits = 0;            // of a word
+  std::uint64_t sources = 1;  // words of which one is taken
+  double bits = 0;            // of one word
   double at_once = 1;         // words in a cycle
 };
 

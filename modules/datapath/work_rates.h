@@ -1,4 +1,4 @@
-// From work to cycles: rules that several units share.
+// From counts to cycles: rules that several units share.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ constexpr std::uint64_t cycles_for(std::uint64_t count, std::uint64_t per_cycle)
   return (count + per_cycle - 1) / per_cycle;
 }
 
-// What works by a fixed schedule begins an item only in its turn, every so many cycles, or items
-// under way would want the same parts at once. The first cycle from `now` on that is one's turn.
+// The first cycle from `now` on in which an item may begin: a multiple of the interval. A fixed
+// schedule begins items only in these turns, or two of them would want the same parts at once.
 constexpr std::uint64_t next_turn(std::uint64_t now, std::uint64_t interval) {
   return cycles_for(now, interval) * interval;
 }
 
-// The same of `copies` that have their turns a cycle after each other, the first in cycle 0.
+// The next turn of any of `copies`, whose turns follow each other by a cycle, the first in cycle 0.
 // interval: `copies` or more.
 constexpr std::uint64_t next_turn_of_one(std::uint64_t now, std::uint64_t interval,
                                          std::uint64_t copies) {

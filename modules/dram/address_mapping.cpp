@@ -1,4 +1,4 @@
-// Where an address lies, by a string of fields.
+// Place of an address, by a string of fields.
 #include "modules/dram/address_mapping.h"
 
 #include <fmt/format.h>

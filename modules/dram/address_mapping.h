@@ -1,4 +1,4 @@
-// Where an address lies: channel, rank, bank, row and burst, by a string of fields.
+// Place of an address: channel, rank, bank, row and burst, by a string of fields.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,10 @@
 // A channel that serves requests in the order of their arrival: each reserves its commands on the
 // device's tables when it comes. The timing of blocking transport.
 //
-// Rows are opened ahead of the columns before them, as a queue would; columns keep to the order of
-// arrival, so reads and writes are not grouped, hits do not overtake, and a bank conflict holds up
-// what comes behind it: sequential streams take as long as in queues, random ones up to a third
-// longer. Rows stay open; refreshes are not postponed.
+// Rows are opened ahead of the columns before them, as a queue would. Columns keep to the order of
+// arrival: reads and writes are not grouped, hits do not overtake, and a bank conflict delays all
+// later requests. Sequential streams take as long as in queues, random ones up to a third longer.
+// Rows stay open; refreshes are not postponed.
 #pragma once
 
 #include <cstdint>

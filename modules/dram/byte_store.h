@@ -1,4 +1,4 @@
-// The bytes of the modelled memory, in blocks made when first written. What was never written is 0.
+// The bytes of the modelled memory, in blocks made when first written. Bytes never written are 0.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ class ByteStore {
   void write(std::uint64_t address, const std::uint8_t* from, std::size_t bytes);
 
  private:
-  // Large zeroed allocations come from the kernel page by page as they are touched, so a block
-  // costs no more than what is written of it, and the table of blocks stays small enough for the
+  // Large zeroed allocations come from the kernel page by page as they are touched. So a block
+  // costs no more than the bytes written of it, and the table of blocks stays small enough for the
   // cache.
   static constexpr std::size_t kBlockBytes = 1 << 20;
 

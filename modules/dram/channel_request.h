@@ -1,4 +1,4 @@
-// What a channel is asked to do: a run of bursts in one row of one bank.
+// A request to a channel: a run of bursts in one row of one bank.
 #pragma once
 
 #include <cstdint>

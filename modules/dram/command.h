@@ -24,7 +24,7 @@ enum class Command : std::uint8_t {
 };
 constexpr std::size_t kCommands = 13;
 
-// As they are written in command traces.
+// Names of the commands in command traces.
 constexpr std::array<const char*, kCommands> kCommandNames = {
     "ACT", "RD", "RDA", "WR", "WRA", "PRE", "PREA", "REFA", "REFB", "PDE", "PDX", "SRE", "SRX"};
 
@@ -37,7 +37,7 @@ struct CommandRecord {
   std::uint8_t channel;
   std::uint8_t rank;
   std::uint8_t bank;
-  std::uint8_t region;  // of the request that it serves
+  std::uint8_t region;  // region of the request that it serves
   std::uint32_t row;    // activate
   std::uint32_t burst;  // read, write: which burst of the row
 };

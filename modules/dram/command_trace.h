@@ -1,4 +1,4 @@
-// Command traces as text: what a simulation did, for the checker and for people.
+// Command traces as text: the commands of a simulation, for the checker and for people.
 //
 //   # streaminggs dram command trace, version 2
 //   # memspec lpddr3_1600_4gb
@@ -24,7 +24,7 @@
 
 namespace sgs {
 
-// What a checker must know besides the commands.
+// Configuration that a checker needs besides the commands.
 struct CommandTraceHeader {
   std::string memspec;
   std::uint32_t channels = 1;

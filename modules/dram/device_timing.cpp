@@ -39,7 +39,7 @@ DeviceTiming::DeviceTiming(const Memspec& memspec, const DerivedTiming& derived,
 
 std::uint64_t DeviceTiming::earliest_precharge_all(std::uint32_t rank) const {
   std::uint64_t earliest = ranks_[rank].earliest[kPre];
-  // Of closed banks too: one that closes by auto-precharge still has its recovery to wait for.
+  // Closed banks count too: one that closes by auto-precharge still has its recovery to wait for.
   for (std::uint32_t b = 0; b < banks_; ++b)
     earliest = std::max(earliest, bank_of(rank, b).earliest[kPre]);
   return earliest;

@@ -18,7 +18,7 @@ struct DerivedTiming {
   DerivedTiming(const Memspec& memspec, WriteLatencySet set, ReadStrobe strobe);
 
   std::uint32_t burst;                     // BL/2 on the data bus
-  std::uint32_t write_latency;             // of the chosen set
+  std::uint32_t write_latency;             // WL of the chosen set
   std::uint32_t read_data_end;             // RL + tDQSCK + BL/2: command to last datum
   std::uint32_t write_data_end;            // WL + 1 + BL/2; the 1 is tDQSS
   std::uint32_t read_to_write;             // RL + tDQSCKmax + BL/2 + 1 - WL
@@ -44,12 +44,12 @@ class DeviceTiming {
   }
   std::uint32_t open_banks(std::uint32_t rank) const { return ranks_[rank].open_banks; }
 
-  // Of the four commands that requests need; `rank` and `bank` as everywhere.
+  // Earliest cycle of one of the four commands that requests need; `rank` and `bank` as everywhere.
   std::uint64_t earliest(RequestCommand command, std::uint32_t rank, std::uint32_t bank) const {
     const auto c = static_cast<std::size_t>(command);
     return std::max(bank_of(rank, bank).earliest[c], ranks_[rank].earliest[c]);
   }
-  // The same for a bank counted over all ranks.
+  // As earliest(), for a bank counted over all ranks.
   std::uint64_t earliest_flat(RequestCommand command, std::uint32_t rank,
                               std::uint32_t flat_bank) const {
     const auto c = static_cast<std::size_t>(command);
@@ -67,7 +67,7 @@ class DeviceTiming {
   std::uint64_t earliest_self_refresh(std::uint32_t rank) const {
     return std::max(earliest_refresh_all(rank), earliest_power_down(rank));
   }
-  // Of the state that the rank is in.
+  // Earliest cycle to leave the power state that the rank is in.
   std::uint64_t earliest_exit(std::uint32_t rank) const { return ranks_[rank].exit; }
 
   // Applies a command, auto-precharge included, at its cycle.

@@ -1,4 +1,4 @@
-// What can be chosen about the memory system: device, channels, mapping, policies, queues.
+// Parameters of the memory system: device, channels, mapping, policies, queues.
 #pragma once
 
 #include <cstdint>

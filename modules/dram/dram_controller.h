@@ -105,7 +105,7 @@ class DramController : public sc_core::sc_module, public CommandSource {
         : queued(config, memspec, index, sink), arrival_order(config, memspec, index, sink) {}
   };
 
-  // Where commands go: counters, energy, and whoever else listens.
+  // Receiver of commands: counters, energy, and whoever else listens.
   class Commands : public CommandSink {
    public:
     Commands(const Memspec& memspec, const DramConfig& config);

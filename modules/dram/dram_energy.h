@@ -39,7 +39,7 @@ struct DramEnergy {
   double total_pj() const { return vdd1.total_pj() + vdd2.total_pj(); }
 };
 
-// What a rank did: counts, and cycles in each state.
+// Activity of a rank: counts of commands, and cycles in each state.
 struct RankActivity {
   std::uint64_t activates = 0;
   std::uint64_t reads = 0;   // bursts
@@ -67,7 +67,7 @@ class ActivityMeter {
   // Commands of a channel in the order of their cycles.
   void on_command(const CommandRecord& record);
 
-  // Up to `cycle`, not before any command; by channel * ranks + rank.
+  // Activity up to `cycle`, not before any command; by channel * ranks + rank.
   std::vector<RankActivity> ranks(std::uint64_t cycle) const;
   const std::array<RegionActivity, 256>& regions() const { return regions_; }
 

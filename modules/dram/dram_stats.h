@@ -1,4 +1,4 @@
-// What the memory did up to a moment. Counts are integers; rates are derived when asked for.
+// Statistics of the memory up to a moment. Counts are integers; rates are derived when asked for.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace sgs {
 struct DramChannelStats {
   RowCounts rows;                                   // bursts by outcome
   std::array<std::uint64_t, kCommands> commands{};  // by Command
-  std::uint64_t busy_cycles = 0;                    // of the data bus
+  std::uint64_t busy_cycles = 0;                    // busy cycles of the data bus
 
   std::uint64_t count(Command c) const { return commands[static_cast<std::size_t>(c)]; }
   std::uint64_t activates() const { return count(Command::kActivate); }
@@ -33,7 +33,7 @@ struct DramChannelStats {
 
 struct DramStats {
   double clock_period_ns = 0;
-  double peak_gb_per_s = 0;  // of all channels
+  double peak_gb_per_s = 0;  // peak of all channels together
   std::uint32_t burst_bytes = 0;
   std::uint32_t burst_cycles = 0;
   std::uint64_t elapsed_cycles = 0;

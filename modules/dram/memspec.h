@@ -15,9 +15,9 @@ struct Memspec {
   struct Organisation {
     std::uint32_t width_bits = 0;    // data bus of a channel
     std::uint32_t burst_length = 0;  // beats; two a clock
-    std::uint32_t banks = 0;         // of a rank
-    std::uint32_t rows = 0;          // of a bank
-    std::uint32_t columns = 0;       // of a row, each width_bits wide
+    std::uint32_t banks = 0;         // banks of a rank
+    std::uint32_t rows = 0;          // rows of a bank
+    std::uint32_t columns = 0;       // columns of a row, each width_bits wide
   };
 
   // Clock cycles. Names follow JESD209-3 (tRCD is rcd).
@@ -69,7 +69,7 @@ struct Memspec {
   Timing timing_cycles;
   std::string default_currents;                // which set is used when none is asked for
   std::map<std::string, Currents> currents;    // by the name of the published set
-  std::map<std::string, std::string> sources;  // of each number, by key
+  std::map<std::string, std::string> sources;  // [key] source of each number
 
   std::uint32_t burst_bytes() const {
     return organisation.width_bits / 8 * organisation.burst_length;

@@ -13,12 +13,12 @@ class PagePolicy {
  public:
   virtual ~PagePolicy() = default;
 
-  // Whether the column command about to be sent to `bank` (counted over ranks) closes its row.
+  // True if the column command about to be sent to `bank` (counted over ranks) closes its row.
   // `more_hits`: requests for the row are waiting besides this one.
   virtual bool close_after(std::uint32_t bank, bool more_hits) const = 0;
 
-  // What happened: a request found its row open; a row was opened, `conflict`: after another one
-  // had to be closed for it.
+  // Events: a request found its row open; a row was opened. `conflict`: another row had to be
+  // closed for it.
   virtual void on_hit(std::uint32_t bank) = 0;
   virtual void on_activate(std::uint32_t bank, std::uint32_t row, bool conflict) = 0;
 };

@@ -1,4 +1,4 @@
-// What a generic payload asks of a store of bytes.
+// Access of a generic payload to a store of bytes.
 #include "modules/dram/payload_bytes.h"
 
 namespace sgs {

@@ -1,4 +1,4 @@
-// What a generic payload asks of a store of bytes, and the response it deserves.
+// Access of a generic payload to a store of bytes, and the response it deserves.
 #pragma once
 
 #include <tlm>

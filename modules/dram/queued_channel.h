@@ -57,7 +57,7 @@ class QueuedChannel {
   std::uint64_t forwarded_reads() const { return forwarded_reads_; }
 
  private:
-  // What a bank works on for one direction; kept until the bank's requests or row change.
+  // The request that a bank serves for one direction; kept until the bank's requests or row change.
   struct Work {
     std::int32_t entry = RequestQueue::kNone;
     RequestCommand command = RequestCommand::kActivate;
@@ -112,9 +112,10 @@ class QueuedChannel {
   RequestQueue writes_;
 
   Direction direction_ = Direction::kRead;   // of the last request's command
-  Direction considered_ = Direction::kRead;  // of the choice at hand; a look must change nothing
+  Direction considered_ = Direction::kRead;  // for the choice at hand; a look must change nothing
   std::uint64_t clock_ = 0;                  // the command bus is free from here on
-  // Of the last request: what it changes, as the wanted direction, is not decided before.
+  // Arrival of the last request: state that it changes, as the wanted direction, is not decided
+  // before.
   std::uint64_t arrived_ = 0;
   std::uint64_t next_order_ = 0;
   std::vector<std::uint32_t> waiting_;      // requests by rank
@@ -124,7 +125,7 @@ class QueuedChannel {
   bool best_known_ = false;
   Candidate best_;
   std::int32_t best_entry_ = RequestQueue::kNone;  // none: maintenance
-  Choice best_choice_;                             // of requests
+  Choice best_choice_;                             // choice among requests
   RingQueue<Completion> read_completions_;
   RingQueue<Completion> write_completions_;
   RingQueue<Completion> forwarded_;

@@ -1,4 +1,4 @@
-// What a rank needs besides requests: refresh and the low-power states.
+// Maintenance of a rank besides requests: refresh and the low-power states.
 #include "modules/dram/rank_maintenance.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a rank needs besides requests: refresh, and the low-power states while it is idle.
+// Maintenance of a rank besides requests: refresh, and the low-power states while it is idle.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ class RankMaintenance {
   // wait for this rank, kNever when none does.
   Candidate next(const DeviceTiming& device, std::uint64_t wanted_from) const;
 
-  // Whether next() could come up with a command up to `cycle`; cheap.
+  // True if next() could come up with a command up to `cycle`; cheap.
   bool may_act_by(std::uint64_t cycle, bool wanted) const {
     return !wanted || state_ != State::kUp || urgent_from_ <= cycle;
   }

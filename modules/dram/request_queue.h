@@ -19,7 +19,7 @@ class RequestQueue {
     ChannelRequest request;     // `burst` and `bursts` are what is left of it
     std::uint64_t arrival = 0;  // cycle
     std::uint64_t ready = 0;    // cycle from which it may have commands
-    std::uint64_t order = 0;    // of arrival, over both directions of the channel
+    std::uint64_t order = 0;    // order of arrival, over both directions of the channel
     bool begun = false;         // had a column command
     std::int32_t next = kNone;  // younger one of the same bank
     std::int32_t previous = kNone;
@@ -49,8 +49,8 @@ class RequestQueue {
   void remove(std::int32_t index, std::uint32_t bank);
   void on_row(std::uint32_t bank, std::uint32_t open_row);  // a row was opened, or kNoRow: closed
 
-  // Of waiting writes, what a read meets: whether one of the bank holds every byte of it, and the
-  // order after the last that holds any; 0: none does.
+  // Waiting writes that a read meets: whether one of the bank holds every byte of it, and the order
+  // after the last that holds any; 0: none does.
   struct Met {
     bool whole = false;
     std::uint64_t order_end = 0;

@@ -1,4 +1,4 @@
-// Request traces as text: what was asked of the memory, to be asked again by tb_dram --replay.
+// Request traces as text: requests to the memory, to be replayed by tb_dram --replay.
 //
 // One request a line, "ADDRESS R|W [NANOSECONDS [BYTES]]": address in decimal or 0x hexadecimal,
 // the time not before which it is sent, not decreasing. Lines that begin with # are comments.
@@ -19,7 +19,7 @@ struct MemoryRequest {
   std::uint32_t bytes = 0;   // 0: whoever sends it decides
 };
 
-// InputError with file and line for what is no request.
+// Throws InputError with file and line for a line that is no request.
 std::vector<MemoryRequest> read_request_trace(const std::string& path);
 
 class RequestTraceWriter {

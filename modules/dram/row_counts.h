@@ -1,4 +1,4 @@
-// How bursts found their rows.
+// Counts of bursts by the state in which they found their rows.
 #pragma once
 
 #include <array>

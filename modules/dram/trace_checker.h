@@ -32,7 +32,7 @@ class TraceChecker : public CommandSink {
   // The violation of this command, if any; the command counts as sent either way.
   std::optional<TraceViolation> check(const CommandRecord& record);
 
-  // As a sink it remembers the first violation.
+  // Checks a command, as a sink; remembers the first violation.
   void on_command(const CommandRecord& record) override;
   const std::optional<TraceViolation>& first() const { return first_; }
   std::uint64_t checked() const { return checked_; }

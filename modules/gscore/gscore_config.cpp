@@ -1,4 +1,4 @@
-// On-chip memory of the tile-centric machine, and what cannot be built.
+// On-chip memory of the tile-centric machine, and combinations that cannot be built.
 #include "modules/gscore/gscore_config.h"
 
 #include <fmt/format.h>

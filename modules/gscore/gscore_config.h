@@ -1,4 +1,4 @@
-// What can be chosen about the tile-centric machine.
+// Parameters of the tile-centric machine.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 
 namespace sgs::gscore {
 
-constexpr int kMostDegree = 3;  // of SH
+constexpr int kMostDegree = 3;  // largest SH degree
 
-// How a Gaussian comes to its tiles, and in which numbers.
+// Rules that assign a Gaussian to its tiles, and the number formats of its record.
 struct TilesConfig {
   TileReach reach = TileReach::kThreeSigma;
   TileTest test = TileTest::kOriented;
@@ -185,7 +185,7 @@ inline void visit(ConfigVisitor& v, GscoreConfig& c) {
 // The one on-chip memory.
 constexpr const char* kBuffer = "buffer";
 
-// Of the whole machine.
+// SRAM of the whole machine.
 SramUses sram_uses(const GscoreConfig& config);
 
 // Combinations that cannot be built. Throws InputError.

@@ -41,7 +41,7 @@ Datapath convert_of_degree(const GscoreConfig& config, int sh_degree) {
   return path;
 }
 
-// What a record holds is what the lanes of blending take.
+// True if the lanes of blending take a record's numbers as they are stored.
 bool blends_its_records(const GscoreConfig& config) {
   return config.tiles.features == NumberFormat::kHalf && in_16_bits(config.rendering.precision);
 }
@@ -51,7 +51,7 @@ FlowPart blend_flow(const GscoreConfig& config) {
   return rendering_flows(config.rendering.precision).blend_from_corner;
 }
 
-// Of a block of pixels to the next.
+// Cycles from the beginning of one block of pixels to that of the next.
 std::uint64_t blend_interval(const GscoreConfig& config) {
   const std::uint32_t lanes = config.rendering.core_lanes;
   return lanes == 0 ? 1 : cycles_for(folded_macs(blend_flow(config).counts()), lanes);
@@ -137,7 +137,7 @@ Datapath blend_pipeline(const GscoreConfig& config) {
   return path;
 }
 
-// Of pixels in halves colour and transmittance are widened.
+// Colour and transmittance of pixels in halves are widened first.
 Datapath drain_pipeline(const GscoreConfig& config) {
   const FlowPart flow = pixel_flow(config.framebuffer);
   Datapath path = counted_datapath("drain", "rendering", flow.counts());

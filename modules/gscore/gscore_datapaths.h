@@ -8,18 +8,20 @@
 
 namespace sgs::gscore {
 
-// Of one CCU. convert: built for every SH degree, items of this one.
+// Datapaths of one CCU. convert: built for every SH degree, items of this one.
 Datapath cull_pipeline(const GscoreConfig& config);
 Datapath convert_pipeline(const GscoreConfig& config, int sh_degree);
-// Of all CCUs, before the lists: neighbours in a row of tiles; the parts of one that is touched,
-// where tiles have parts.
+// Datapaths of all CCUs, before the lists: they test neighbours in a row of tiles, and the parts of
+// a touched tile where tiles have parts.
 Datapath tile_test_pipeline(const GscoreConfig& config);
 Datapath part_test_pipeline(const GscoreConfig& config);
 
-// Of the VRUs of one core: log2(e) into a splat's conic, and its square completed for blending in
-// half, once a splat, none where the record in half holds what blending in half takes (the CCU has
-// made it); where its centre is beside a block of 16 pixels; both in single precision whatever
-// follows; the block, a pixel for each VRU; finished pixels to the frame's format.
+// Datapaths of the VRUs of one core.
+// conic: log2(e) into a splat's conic, and its square completed for blending in half, once a splat;
+// none where a record in half holds these already (the CCU has made them).
+// corner: a splat whose centre is beside a block of 16 pixels; like conic in single precision
+// whatever follows.
+// blend: the block, a pixel for each VRU. drain: finished pixels to the frame's format.
 std::optional<Datapath> conic_pipeline(const GscoreConfig& config);
 Datapath corner_pipeline(const GscoreConfig& config);
 Datapath blend_pipeline(const GscoreConfig& config);

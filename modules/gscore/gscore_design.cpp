@@ -1,4 +1,5 @@
-// What the tile-centric machine needs, must give, and is built from.
+// Design of the tile-centric machine: requirements on the scene, golden frame, and the machine that
+// is built.
 #include "modules/gscore/gscore_design.h"
 
 #include <fmt/format.h>

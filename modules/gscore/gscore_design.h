@@ -25,7 +25,7 @@ class GscoreDesign : public MachineDesign {
 
  private:
   GscoreConfig config_;
-  std::uint32_t tiles_ = 0;  // of the largest frame; 0: not known
+  std::uint32_t tiles_ = 0;  // tiles of the largest frame; 0: not known
 };
 
 }  // namespace sgs::gscore

@@ -1,4 +1,4 @@
-// Where a frame's working regions lie.
+// Layout of a frame's working regions.
 #include "modules/gscore/gscore_job.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr const char *kProjected = "projected", *kTileLists = "tile_lists",
                      *kSubsetLists = "subsets";
 
-// Of lists that hold so many entries together, `lists` of them: a link is taken ahead.
+// Blocks of `lists` lists that hold so many entries together: a link is taken ahead.
 std::uint64_t blocks_for(const BlockFormat& format, std::uint64_t entries, std::uint64_t lists) {
   return entries / format.block_entries() + 2 * lists;
 }

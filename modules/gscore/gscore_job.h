@@ -34,13 +34,13 @@ void add_regions(const GscoreConfig& config, FrameJob& job);
 // Tiles and regions of a job that has passed as a FrameJob.
 GscoreJob gscore_job(const FrameJob& job);
 
-// Clock and job outlive the units.
-// Of a pass, one after the other.
+// Phases of a pass, one after the other.
 struct Phases {
   Phase projecting;  // Gaussians, into lists of tiles
   Phase drawing;     // tiles are sorted and rendered
 };
 
+// Clock and job outlive the units.
 struct UnitContext {
   const ClockDomain& clock;
   const GscoreJob& job;

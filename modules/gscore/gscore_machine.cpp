@@ -13,12 +13,12 @@ constexpr const char *kPasses = "passes", *kConverted = "converted Gaussians",
                      *kRequests = "tile requests", *kJobs = "tile jobs",
                      *kSorted = "sorted entries", *kDone = "passes done";
 
-// With room for what is in the conversion's pipeline.
+// Entries of the FIFO of converted Gaussians, with room for the items in the pipeline.
 std::uint32_t converted_entries(const GscoreConfig& c, const Datapath& conversion) {
   return static_cast<std::uint32_t>(
       c.ccu.output_entries + cycles_for(conversion.depth_cycles, conversion.interval_cycles()));
 }
-// For scenes of any SH degree.
+// The most such entries, over all SH degrees.
 std::uint32_t most_converted_entries(const GscoreConfig& c) {
   std::uint32_t most = 0;
   for (int degree = 0; degree <= kMostDegree; ++degree) {

@@ -20,7 +20,7 @@
 
 namespace sgs::gscore {
 
-// Of the FIFOs between the units.
+// SRAM of the FIFOs between the units.
 SramUses queue_uses(const GscoreConfig& config);
 
 class GscoreMachine : public Machine {

@@ -13,21 +13,21 @@
 
 namespace sgs::gscore {
 
-// Where the end of a list is: two numbers of blocks, a count. Hardware counts blocks, lines of the
-// block and entries of the line, so that nothing is divided.
+// End of a list: two numbers of blocks, a count. Hardware counts blocks, lines of the block and
+// entries of the line, so that nothing is divided.
 struct ListEnd {
-  std::uint32_t block = 0, next = 0;  // that it writes in, and will when that is full
+  std::uint32_t block = 0, next = 0;  // the block that it writes in, and the next when that is full
   std::uint32_t entries = 0;
 };
 
-// What hardware keeps of a ListEnd where there are so many blocks.
+// Bytes that hardware keeps of a ListEnd where there are so many blocks.
 inline std::uint32_t list_end_bytes(const BlockFormat& format, std::uint64_t blocks) {
   const std::uint32_t bits = 3 * counter_bits(blocks - 1) + counter_bits(format.block_lines - 1) +
                              counter_bits(format.line_entries());
   return (bits + 7) / 8;
 }
 
-// What of a line is not in memory yet.
+// The bytes of a line that are not in memory yet.
 class LineBuffer {
  public:
   // line: its number from the beginning of the region on.
@@ -64,7 +64,7 @@ constexpr std::uint32_t line_words(std::uint32_t begin, std::uint32_t bytes) {
 
 // Places of a list's entries, for whoever appends.
 struct EntryPlace {
-  std::uint64_t line;  // of the region
+  std::uint64_t line;  // number of the line in the region
   std::uint32_t at;    // in the line
   bool begins_line, begins_block, ends_line;
 };

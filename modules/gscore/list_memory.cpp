@@ -22,7 +22,7 @@ struct ListLength {
 constexpr std::array<ListLength, 3> kLengths = {{{1024, 2}, {768, 4}, {512, 8}}};
 // With a line for more tiles than that a pass takes fewer tiles.
 constexpr std::uint32_t kMostTilesOfLine = kLengths.back().tiles_of_line;
-constexpr std::uint32_t kMostEntries = 8192;  // of a list on chip
+constexpr std::uint32_t kMostEntries = 8192;  // entries of the longest list on chip
 
 // The most in [least, most] that fits, in steps; 0 if not even `least` does.
 std::uint32_t most_that_fits(std::uint32_t least, std::uint32_t most, std::uint32_t step,

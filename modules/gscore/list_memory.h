@@ -1,5 +1,5 @@
-// How the on-chip memory is shared between what depends on the frame's tiles and what on the length
-// of their lists, where the configuration leaves that open.
+// Division of the on-chip memory, where the configuration leaves it open: between parts sized by
+// the frame's tiles and parts sized by the length of their lists.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ namespace sgs::gscore {
 
 // Fills in `lists.tiles`, `lists.lines` and `sorting.list_entries` where they are 0, and says why.
 // First as few passes over the scene as leave a pass's tiles enough lines to combine their entries
-// in; then as many lines, up to one a tile; then lists on chip as long as what is left allows. In a
-// memory without a limit of its own: one pass and a line a tile. What does not fit whatever is
-// chosen stays so, for the sum to show. tiles: of the largest frame that is going to be drawn.
+// in. Then as many lines, up to one a tile; then lists on chip as long as the rest allows. In a
+// memory without a limit of its own: one pass and a line a tile. A choice that fits in no case
+// stays so, for the sum to show. tiles: of the largest frame that is going to be drawn.
 void choose_list_memory(GscoreConfig& config, std::uint32_t tiles, std::vector<AutoChoice>& chosen);
 
 }  // namespace sgs::gscore

@@ -1,5 +1,5 @@
-// What travels between the units of the tile-centric machine. kSramBytes: what hardware keeps of
-// one that waits.
+// Messages between the units of the tile-centric machine. kSramBytes: bytes that hardware keeps of
+// a message that waits.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ struct Pass {
 struct Candidate {
   static constexpr std::uint32_t kSramBytes = 20;  // slot, centre, largest scale
   bool there = false;                              // a Gaussian
-  bool last = false;                               // of its slice
+  bool last = false;                               // last of its slice
   bool over = false;                               // no more slices
   std::uint32_t slot = 0;
   SplitFirstHalf first{};
-  std::uint64_t ticket = 0;  // of the second half's read
+  std::uint64_t ticket = 0;  // read of the second half
   std::uint32_t buffer = 0;  // where it lands
 };
 
@@ -47,9 +47,9 @@ enum class TileMark : std::uint8_t { kTile, kEndOfPass, kEndOfFrame };
 struct TileJob {
   static constexpr std::uint32_t kSramBytes = 12;
   TileMark mark = TileMark::kTile;
-  std::uint32_t tile = 0;         // of the frame
-  std::uint32_t first_block = 0;  // of the pool
-  std::uint32_t entries = 0;      // of its list
+  std::uint32_t tile = 0;         // tile of the frame
+  std::uint32_t first_block = 0;  // first block in the pool
+  std::uint32_t entries = 0;      // entries of its list
 };
 
 // Sorter -> rendering: entries of a tile in order, then its end.

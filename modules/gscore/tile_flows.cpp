@@ -34,7 +34,7 @@ FilterCase longest_tile_case() {
   return out;
 }
 
-// Of a box along the ellipse's axes, without its limits.
+// Inputs of a box along the ellipse's axes, without its limits.
 TileBoxesOf<Counting> boxes_from_outside(DataFlow& flow) {
   constexpr int kFar = 100;
   TileBoxesOf<Counting> boxes{};

@@ -1,5 +1,5 @@
-// What projecting a Gaussian for lists of tiles executes, and testing a tile, recorded by running
-// it. Values of the camera are constants, as in modules/datapath/filter_flows.h.
+// Operations of projecting a Gaussian for lists of tiles and of testing a tile, recorded by running
+// them. Values of the camera are constants, as in modules/datapath/filter_flows.h.
 #pragma once
 
 #include "algorithm/splat/tile_boxes.h"
@@ -7,19 +7,19 @@
 
 namespace sgs::gscore {
 
-// What drops a Gaussian that cannot touch the frame, of one that may.
+// Operations that drop a Gaussian that cannot touch the frame, counted for one that may.
 FlowPart cull_flow();
 
-// From a record to the screen, boxes, colour; with half_records rounded to what its record and key
-// hold. Of the longest way: a Gaussian whose box along its axes is asked.
+// From a record to the screen, boxes, colour; with half_records rounded to the formats of its
+// record and key. Counts the longest way: a Gaussian whose box along its axes is asked.
 FlowPart convert_flow(const TileRules& rules, int sh_degree, bool half_records);
 
-// Of so many neighbours in a row of tiles, and where the next ones are, by a box along the
-// ellipse's axes: the tester is the same where a Gaussian, or the machine, has none. What parts are
-// tested by does not go along: it is read by the Gaussian's number.
+// Tests so many neighbours in a row of tiles, and finds the next ones, by a box along the ellipse's
+// axes. The tester is the same where a Gaussian, or the machine, has no such box. Numbers for the
+// test of parts do not go along: they are read by the Gaussian's number.
 FlowPart tile_test_flow(int tiles_at_once);
 
-// Of the parts of one tile, two or four in a row, all of which are touched.
+// Tests the parts of one tile, two or four in a row, all of which are touched.
 FlowPart part_test_flow(const TileRules& rules);
 
 }  // namespace sgs::gscore

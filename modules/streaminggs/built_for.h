@@ -1,4 +1,5 @@
-// What the buffers of a streaming machine are made for, whatever the scene and the frame.
+// Parameters that the buffers of a streaming machine are sized for, whatever the scene and the
+// frame.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,10 @@ struct BuiltFor {
   FrameFormat frame_format = FrameFormat::kRgb8;
   SecondHalfFormat second_half;                               // the widest
   std::uint32_t first_half_bytes = 0, second_half_bytes = 0;  // the largest of any degree
-  std::vector<FineRecord> fine_records;                       // of every degree
+  std::vector<FineRecord> fine_records;                       // one of each SH degree
   std::uint32_t chunk_gaussians = 0;                          // exact order: most in one chunk
-  MemoryPortConfig memory_port;                               // of each unit's port
-  OperationLatencies single, half{2, 1, 1};                   // of lanes of each precision
+  MemoryPortConfig memory_port;                               // port of each unit
+  OperationLatencies single, half{2, 1, 1};                   // lanes of each precision
 };
 
 // The on-chip memories.

@@ -1,4 +1,4 @@
-// What can be chosen about the machine of exact order.
+// Parameters of the machine of exact order.
 #pragma once
 
 #include "algorithm/memory/storage_config.h"
@@ -52,7 +52,7 @@ struct ExactFifos {
   explicit ExactFifos(const ExactConfig& config);
 };
 
-// What its units and the FIFOs between them say that they take, for any scene that is stored so.
+// SRAM of its units and of the FIFOs between them, enough for any scene that is stored so.
 SramUses sram_uses(const ExactConfig& config, const StorageConfig& storage);
 
 }  // namespace sgs

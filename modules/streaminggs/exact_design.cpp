@@ -1,4 +1,4 @@
-// What exact order needs, must give, and is built from.
+// Design of exact order: requirements on the scene, golden frame, and the machine that is built.
 #include "modules/streaminggs/exact_design.h"
 
 #include <fmt/format.h>

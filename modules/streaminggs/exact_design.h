@@ -34,7 +34,7 @@ class ExactDesign : public MachineDesign {
 
   ExactConfig config_;
   std::vector<PixelSize> frames_;
-  StorageConfig storage_;  // of the scenes that it is built for
+  StorageConfig storage_;  // storage of the scenes that it is built for
 };
 
 }  // namespace sgs

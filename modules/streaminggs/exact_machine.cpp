@@ -6,7 +6,8 @@
 namespace sgs {
 namespace {
 
-// Of the spill region: what VSU's queue puts aside comes first, runs of keys behind it.
+// Bytes at the beginning of the spill region for entries of VSU's queues; runs of keys lie behind
+// them.
 std::uint64_t aside_bytes(const SceneLayout& layout) {
   const ChunkTableLayout& table = layout.chunk_table();
   return (table.chunk_count + table.nodes.count) * kWalkEntryBytes;

@@ -1,5 +1,5 @@
-// The FIFOs of one arrow of the pipeline, before they are made: what the budget adds up and the
-// top makes.
+// The FIFOs of one arrow of the pipeline, before they are made: the budget adds them up and the top
+// makes them.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace sgs {
 
 template <class T>
 struct FifoKind {
-  const char* name;  // of the SRAM use
+  const char* name;  // name of the SRAM use
   const char* what;  // the entries are
   std::uint32_t count, entries, latency_cycles;
-  const char* key = nullptr;  // of the configuration that says how many entries; null: fixed
-  std::uint32_t entry_bytes = EntryBytes<T>::value;  // that hardware keeps of an entry here
+  const char* key = nullptr;  // configuration key of the number of entries; null: fixed
+  std::uint32_t entry_bytes = EntryBytes<T>::value;  // bytes that hardware keeps of an entry here
 
   SramUse each() const {
     return sram_use(name, kSharedSram, {{entries, what}, {entry_bytes, "B"}}, {8 * entry_bytes},

@@ -1,4 +1,5 @@
-// What a test of the filters costs: by the paper, or as counted on our filters.
+// Multiply-accumulates of a test of the filters: as the paper states them, or as counted on our
+// filters.
 #pragma once
 
 #include <vector>
@@ -9,11 +10,11 @@
 
 namespace sgs {
 
-// Makes hfu.cfu_macs and hfu.ffu_macs, where they are 0, what a test costs. With hfu.cost counted
-// that is what the filters execute on records of this split and SH degree
-// (modules/datapath/filter_flows.h), and is said; with paper what the paper states. Throws
-// InputError where they are counted and the configuration says other numbers: nothing would come of
-// those.
+// Fills in hfu.cfu_macs and hfu.ffu_macs where they are 0. With hfu.cost paper they become the
+// numbers that the paper states. With counted they become the operations that the filters execute
+// on records of this split and SH degree (modules/datapath/filter_flows.h), and the choice is
+// returned. Throws InputError where they are counted and the configuration gives other numbers:
+// those would have no effect.
 std::vector<AutoChoice> resolve_filter_cost(HfuConfig& config, const RecordSplit& split,
                                             int sh_degree);
 

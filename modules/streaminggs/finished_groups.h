@@ -59,7 +59,7 @@ using FinishedGroupsIn = sc_core::sc_port<FinishedGroupsIf>;
 using FinishedGroupsIns = sc_core::sc_port<FinishedGroupsIf, 0>;
 using FinishGroupOut = sc_core::sc_port<FinishGroupIf>;
 
-// How many parts are in a set of them, a bit each.
+// Number of parts in a set of them, a bit each.
 inline std::uint32_t count_parts(std::uint32_t parts) {
   return static_cast<std::uint32_t>(std::bitset<32>(parts).count());
 }

@@ -21,7 +21,7 @@ namespace sgs {
 
 class FinishedSubtilesIf : public virtual sc_core::sc_interface {
  public:
-  // Whether any sub-tile of `reach` is not known to be finished.
+  // True if any sub-tile of `reach` is not known to be finished.
   virtual bool any_unfinished(std::uint32_t group, const GroupReach& reach) const = 0;
   // Sub-tiles of which the news was sent.
   virtual std::uint64_t news() const = 0;
@@ -102,10 +102,10 @@ inline SramUse mask_use(const PixelSize& group) {
   return sram_use("finished sub-tiles", kSharedSram, {{rows, "rows"}, {row_bytes, "B"}},
                   {1, SramPorts::kReadAndWrite, bits}, {bits, bits});
 }
-// Of a look-up.
+// Bits that a look-up reads.
 inline std::uint64_t mask_bits(const PixelSize& group) { return mask_use(group).shape.banks; }
-// What asks it: of each row the columns of a reach, and whether one of them is unfinished. About
-// what a comparator of 32 bits does.
+// Comparators of a look-up: it selects the columns of a reach in each row, and tests whether one of
+// them is unfinished. That costs about as much as a comparison of 32 bits.
 inline std::uint32_t mask_comparators(const PixelSize& group) {
   const auto columns = static_cast<std::uint32_t>(group.width / kSubtilePx);
   const auto rows = static_cast<std::uint32_t>(group.height / kSubtilePx);

@@ -1,22 +1,22 @@
-// What an interval heap (algorithm/order/interval_heap.h) is made of and does, for the data sheet
-// of the unit that has one. A level is a use of on-chip memory by itself, the root's is 0; a node
-// of two keys and its two counts is a word. Two comparisons of keys a level, each of key_words
+// Parts and accesses of an interval heap (algorithm/order/interval_heap.h), for the data sheet of
+// its unit. Each level is a use of on-chip memory by itself; the root's level is 0. A word is a
+// node: two keys and its two counts. Each level compares two pairs of keys, each with key_words
 // comparators of 32 bits.
 //
 // Between the memories, a level, with keys of K bits and nodes of N:
 //   - registers for the key that sinks and for the node that waits to be written: K + N
-//   - what an insert swaps at either end and what a hole takes: 7 K of multiplexers
-//   - of what is read: a word that is written in the same cycle passes by each bank, two of the
-//     four that are read ahead go on, and one of the two that are compared rises
+//   - multiplexers for keys that an insert swaps at either end and that a hole takes: 7 K
+//   - multiplexers for words read: a word written in the same cycle passes by each bank; two of the
+//     four that are read ahead go on; one of the two that are compared rises
 //
 // Level l is a memory of its own of at most 2^l nodes, spread over banks of a read and a write port
-// each. A hole is filled from the level below, so two neighbouring levels work on one operation.
+// each. A hole is filled from the level below, so two neighbouring levels serve one operation.
 //   - Another may begin every second cycle if a hole sinks a level a cycle. While the candidates
 //     for it are compared, the children of both are read, up to four nodes of one level: four
 //     banks, by the side of the candidate and that of its child. The operation before writes that
 //     level in the same cycle, so a node that is read as it is written is what is written.
-//   - With two banks, left and right children, what is read waits for the comparison: a hole sinks
-//     a level in two cycles, and another operation may begin every third.
+//   - With two banks, left and right children, reads wait for the comparison: a hole sinks a level
+//     in two cycles, and another operation may begin every third.
 // tests/modules/streaminggs/stepped_heap.h goes through both cycle by cycle. The heap is emptied in
 // one.
 #pragma once
@@ -31,7 +31,7 @@
 
 namespace sgs {
 
-// From one operation to the next, at least.
+// Cycles from one operation to the next, at least.
 constexpr std::uint32_t kFewestHeapCycles = 2;
 // Banks of a level, where an operation begins every so many cycles.
 constexpr std::uint32_t heap_banks_of_level(std::uint32_t cycles_per_operation) {
@@ -42,7 +42,7 @@ struct HeapLedger {
   const char* keys;  // the uses are named so, and by their level
   const char* component;
   std::uint32_t key_bytes;
-  std::uint32_t key_words;  // that are compared
+  std::uint32_t key_words;  // words of a key that are compared
 
   SramUses sram_uses(std::uint32_t entries, std::uint32_t cycles_per_operation) const {
     SramUses uses;

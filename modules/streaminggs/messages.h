@@ -1,5 +1,5 @@
-// What travels between the units, one bounded FIFO each arrow of the pipeline. kSramBytes: what
-// hardware keeps of one that waits.
+// Messages between the units, one bounded FIFO each arrow of the pipeline. kSramBytes: bytes that
+// hardware keeps of a message that waits.
 #pragma once
 
 #include <cstdint>
@@ -36,10 +36,10 @@ struct FineCandidate {
   float depth = 0;          // v_z: with the slot the key of exact order
   float release_below = 0;  // with kEndOfVisit, in exact order
   float mean_x = 0, mean_y = 0, mean_z = 0;
-  CarriedWords carried{};    // of the first half, for the second
-  std::uint64_t ticket = 0;  // of the second half's read
+  CarriedWords carried{};    // words of the first half that the second half needs
+  std::uint64_t ticket = 0;  // read of the second half
   std::uint32_t buffer = 0;  // where it lands
-  std::uint32_t parts = 1;   // of the group that it may touch, a bit each
+  std::uint32_t parts = 1;   // parts of the group that it may touch, a bit each
   GroupReach reach{};        // in exact order, while it is a key (kKeyBytes)
   Mark mark = Mark::kNone;   // with a mark there is no Gaussian
 };

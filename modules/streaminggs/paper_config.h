@@ -1,4 +1,4 @@
-// What can be chosen about the machine of paper order.
+// Parameters of the machine of paper order.
 #pragma once
 
 #include <algorithm>
@@ -59,7 +59,7 @@ struct PaperFifos {
   explicit PaperFifos(const PaperConfig& config);
 };
 
-// What its units and the FIFOs between them say that they take, for any scene that is stored so.
+// SRAM of its units and of the FIFOs between them, enough for any scene that is stored so.
 SramUses sram_uses(const PaperConfig& config, const StorageConfig& storage);
 
 }  // namespace sgs

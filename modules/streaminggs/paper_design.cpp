@@ -1,4 +1,4 @@
-// What paper order needs, must give, and is built from.
+// Design of paper order: requirements on the scene, golden frame, and the machine that is built.
 #include "modules/streaminggs/paper_design.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace sgs {
 namespace {
 
-// For each list that is being sorted two copies of the longest; none where every list fits.
+// Bytes for two copies of the longest list, for each list being sorted; none where every list fits.
 std::uint64_t spill_bytes(const PaperConfig& config, const VoxelGrid& grid) {
   const std::uint32_t most = config.vsu.visit_gaussians;
   if (most > 0 && std::max(most, kLeastCut) <= config.sorting.buffer_entries) return 0;

@@ -33,7 +33,7 @@ class PaperDesign : public MachineDesign {
 
   PaperConfig config_;
   std::vector<PixelSize> frames_;
-  StorageConfig storage_;  // of the scenes that it is built for
+  StorageConfig storage_;  // storage of the scenes that it is built for
 };
 
 }  // namespace sgs

@@ -50,13 +50,13 @@ void resolve_rendering_depths(StreamingConfig& config, std::vector<AutoChoice>& 
   const RenderingFlows flows = rendering_flows(rendering.precision);
   const bool in_half = in_16_bits(rendering.precision);
   const OperationLatencies& blending = in_half ? half : single;
-  // What begins a splat's spans is written to its slot, and read for its first row.
+  // The begun spans of a splat are written to its slot, and read for its first row.
   resolve_depth("rendering.begin_depth_cycles", rendering.begin_depth_cycles,
                 begin_pipeline(part, single), flows.spans_begin.longest_path(single), single,
                 kWriteCycles + kReadCycles, chosen);
   resolve_depth("rendering.span_depth_cycles", rendering.span_depth_cycles,
                 span_pipeline(part, single), flows.span.longest_path(single), single, 0, chosen);
-  // The conic's lanes stand ahead of the queues: what they take comes on top.
+  // The conic's lanes stand ahead of the queues: their latency comes on top.
   const Datapath blend = blend_pipeline(part, blending);
   resolve_depth("rendering.depth_cycles", rendering.depth_cycles, blend,
                 flows.subtile_blend.longest_path(blending), blending,

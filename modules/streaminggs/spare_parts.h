@@ -1,4 +1,4 @@
-// What a machine has and a frame never fed, with the number that would do: the same pixels, as
+// Parts of a machine that a frame never fed, with the number that would do: the same pixels, as
 // fast as before or nearly so, for less area.
 #pragma once
 
@@ -22,7 +22,7 @@ inline void publish_spare(DataSheet& sheet, const char* what, const char* key, s
                  fmt::format("{}={} would do, if every frame is like this one", key, enough));
 }
 
-// Units that take work in turn, the first of them first. fed(unit): whether any came to it.
+// Units that take jobs in turn, the first of them first. fed(unit): true if any job came to it.
 template <class Units, class Fed>
 std::uint64_t units_fed(const Units& units, Fed&& fed) {
   std::uint64_t enough = 0;

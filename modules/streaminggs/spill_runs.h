@@ -16,7 +16,7 @@ struct SpillRun {
   std::uint64_t entries = 0;
 };
 
-// Where spilled bytes go and in what pieces.
+// Port, region and block size for spilled entries.
 struct SpillPort {
   MemoryPort& port;
   Activity& activity;
@@ -24,7 +24,7 @@ struct SpillPort {
   RegionId region;
 };
 
-// Codec: `Entry` is what a run holds, kBytes its size in DRAM, encode(entry, bytes) and
+// Codec: `Entry` is the entry of a run, kBytes its size in DRAM, encode(entry, bytes) and
 // decode(bytes) go between the two.
 template <class Codec>
 class SpillWriter {

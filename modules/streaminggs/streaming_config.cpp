@@ -1,4 +1,4 @@
-// What both orders build, and what neither can.
+// Checks and derived parameters of a streaming machine that both orders share.
 #include "modules/streaminggs/streaming_config.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What can be chosen about a streaming machine of either order; the defaults are the paper's
+// Parameters of a streaming machine of either order; the defaults are the paper's
 // (StreamingGS, DAC 2025) or, where it leaves a parameter open, stated with a reason.
 #pragma once
 
@@ -33,7 +33,7 @@ inline void visit(ConfigVisitor& v, SramConfig& c) {
     "everything between the stages; 0: as large as the other parameters need");
 }
 
-// Who fetches what the HFUs filter.
+// Way in which the HFUs' Gaussians are fetched.
 enum class Fetch {
   kShared,  // one fetch feeds all: each HFU tests every Gaussian against its part of the group
   kSplit    // each HFU fetches its share of a visit and tests it against the whole group
@@ -94,12 +94,11 @@ inline void visit_tail(ConfigVisitor& v, StreamingConfig& c) {
   v.section("memory_port", c.memory_port, "how units talk to memory");
 }
 
-// What buffers are made for that hold any scene that is stored so: second halves of degree 3, with
-// full codebooks.
+// Sizes of buffers that hold any scene that is stored so: second halves of degree 3, with full
+// codebooks.
 BuiltFor built_for(const StreamingConfig& config, const StorageConfig& storage);
 
-// What one part of the groups has of it: its share of the rendering unit, and buffers for its
-// pixels.
+// Share of one part of the groups: its share of the rendering unit, and buffers for its pixels.
 RenderingConfig rendering_of_part(const StreamingConfig& config);
 BuiltFor built_for_part(const StreamingConfig& config, BuiltFor built_for);
 

@@ -1,4 +1,4 @@
-// What the designs of both orders have in common.
+// The part of the designs that both orders share.
 #pragma once
 
 #include "algorithm/render/render_result.h"
@@ -20,19 +20,19 @@ void adapt(StreamingConfig& config, StorageOrder order, const SecondHalfFormat& 
 // A frame of the scene, without regions of the machine's own.
 FrameJob scene_job(const StreamingConfig& config, const StoredScene& scene, const Camera& camera);
 
-// Regions behind those that the job has. What depends on the configuration belongs behind what does
-// not: a machine of other parameters then finds everything where it was.
+// Adds regions behind those that the job has. Add those that depend on the configuration last: a
+// machine of other parameters then finds everything else where it was.
 void add_spill(FrameJob& job, std::uint64_t bytes);
 void add_frame_buffer(FrameJob& job);
 
-// Of a job that has passed as a FrameJob: its groups.
+// The job of a streaming machine from a FrameJob: adds its groups.
 StreamingJob streaming_job(const StreamingConfig& config, const FrameJob& job);
 
-// What any machine tells of its golden picture, and nothing of streaming. groups: that it was
+// The golden frame of any machine, without the details of streaming. groups: those that it was
 // rendered by.
 GoldenFrame golden_frame(StreamingResult&& result, const std::vector<PixelRect>& groups);
 
-// What the format of second halves and an earlier frame's codebooks spared.
+// Publishes the bytes that the format of second halves and an earlier frame's codebooks spared.
 void publish_left_out(const StreamingConfig& config, const StoredScene& scene, DataSheet& sheet);
 
 }  // namespace sgs

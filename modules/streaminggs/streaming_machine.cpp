@@ -117,7 +117,7 @@ void StreamingMachine::publish_spare_units(DataSheet& sheet) {
                                    0;
                           }),
                 1);
-  // Those of the sub-tiles of any group: (x + 2 y) modulo clusters.
+  // Clusters that the sub-tiles of any group can use: (x + 2 y) modulo clusters.
   std::uint64_t most = 1;
   for (const PixelRect& px : job_.groups) {
     const std::uint64_t columns = cycles_for(static_cast<std::uint64_t>(px.width()), kSubtilePx);

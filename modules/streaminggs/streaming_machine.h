@@ -1,5 +1,5 @@
-// What the machines of both orders have in common: filtering units, codebooks, rendering. The two
-// tops bind them in their own ways.
+// Units that the machines of both orders share: filtering units, codebooks, rendering. The two tops
+// bind them in their own ways.
 #pragma once
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ class StreamingMachine : public Machine {
   template <class T>
   using Fifos = std::vector<std::unique_ptr<TimedFifo<T>>>;
 
-  // How the order wants its tokens: candidates without a splat reported or not, and splats spread
+  // Handling of tokens in an order: candidates without a splat reported or not, and splats spread
   // over the FIFOs that rendering reads.
   struct Tokens {
     Rejects rejects;
@@ -70,7 +70,7 @@ class StreamingMachine : public Machine {
   }
 
   UnitContext context() const { return {clock_, job_, built_for_}; }
-  // For units that have one part of the groups: its pixels are their groups.
+  // Context of units that have one part of the groups: its pixels are their groups.
   UnitContext part_context(std::uint32_t part) const {
     return {clock_, part_jobs_[part], built_for_part(config_, built_for_)};
   }

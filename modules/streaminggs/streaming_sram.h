@@ -16,7 +16,7 @@ namespace sgs {
 // FIFOs between VSU and the HFUs.
 FifoKind<VisitShare> visit_fifos(const StreamingConfig& config);
 
-// Of the units that both orders have, and the FIFOs between VSU and the HFUs.
+// SRAM of the units that both orders have, and of the FIFOs between VSU and the HFUs.
 SramUses streaming_sram_uses(const StreamingConfig& config, const BuiltFor& built_for);
 
 // Sizes and checks that depend on each other: a group left to the model (0 px x 0 px) takes what
@@ -27,7 +27,7 @@ void resolve_sram(StreamingConfig& config, const StorageConfig& storage,
                   const std::vector<PixelSize>& frames, const std::function<SramUses()>& uses,
                   std::vector<AutoChoice>& chosen);
 
-// What resolve_sram() needs to know of the frames: nothing where the group is given.
+// Frame sizes that resolve_sram() needs: none where the group is given.
 inline std::vector<PixelSize> frames_for(const StreamingConfig& config,
                                          const std::function<std::vector<PixelSize>()>& frames) {
   return config.group_open() ? frames() : std::vector<PixelSize>{};

@@ -1,4 +1,4 @@
-// What every unit of a streaming machine is built with, beside its own parameters.
+// Arguments that every unit of a streaming machine is built with, beside its own parameters.
 #pragma once
 
 #include "modules/streaminggs/built_for.h"

@@ -18,12 +18,12 @@ std::uint32_t words_of(std::uint32_t bytes) {
   return static_cast<std::uint32_t>(cycles_for(bytes, kPortBytes));
 }
 
-// Of any scene that it takes.
+// Bytes of the largest second half of any scene that it takes.
 std::uint32_t most_second_half_bytes() {
   return split_of(StorageOrder::kFile, {SecondHalfEncoding::kRaw, kMostDegree, {}}).second_bytes;
 }
 
-// Behind a pipeline a FIFO has room for what is in it.
+// Entries of the FIFO of candidates, with room for the items in the pipeline before it.
 std::uint32_t candidates_of(const GscoreConfig& config, const Datapath& cull) {
   return static_cast<std::uint32_t>(config.ccu.candidates +
                                     cycles_for(cull.depth_cycles, cull.interval_cycles()));
@@ -185,7 +185,7 @@ void Ccu::run_convert() {
   convert_.idles();
 }
 
-// Of a slice whose last Gaussian was dropped; there is a place for it.
+// Passes on the end of a slice whose last Gaussian was dropped; there is a place for it.
 void Ccu::pass_end() {
   fetched_.remove_front();
   convert_.work(1);
@@ -194,7 +194,7 @@ void Ccu::pass_end() {
   converted->push(end, convert_);
 }
 
-// What waits for its turn stays where it is until then. A record leaves its buffer a word a cycle.
+// A candidate stays where it is until its turn. A record leaves its buffer a word a cycle.
 void Ccu::convert() {
   const Candidate candidate = fetched_.front(convert_);
   await(second_memory, convert_, candidate.ticket);
@@ -229,7 +229,7 @@ void Ccu::convert() {
   keep_lanes(until);
 }
 
-// Until a cycle in which they are free; ends of slices pass beside them.
+// Keeps the lanes busy until a cycle in which they are free; ends of slices pass beside them.
 void Ccu::keep_lanes(std::uint64_t until) {
   while (comes_before(until)) {
     const Candidate& next = fetched_.front(convert_);
@@ -241,7 +241,7 @@ void Ccu::keep_lanes(std::uint64_t until) {
   if (now < until) convert_.work(until - now);
 }
 
-// Whether a candidate can be taken before that cycle; waits for it or the cycle.
+// True if a candidate can be taken before that cycle; waits for it or the cycle.
 bool Ccu::comes_before(std::uint64_t cycle) {
   const ClockDomain& clock = convert_.clock();
   while (clock.now_cycles() < cycle) {
@@ -259,7 +259,7 @@ bool Ccu::comes_before(std::uint64_t cycle) {
 SramUses Ccu::sram_uses(const GscoreConfig& config) {
   const CcuConfig& c = config.ccu;
   const Datapath cull = cull_pipeline(config);
-  // What comes from memory in a cycle, of one read: so many banks take it.
+  // First halves that come from memory in a cycle, of one read: so many banks take them.
   const std::uint32_t come = std::min(
       static_cast<std::uint32_t>(cycles_for(kPortBytes, kFirstHalfBytes)), c.slice_gaussians);
   SramUses uses = {

@@ -1,6 +1,6 @@
-// Culling and conversion unit: fetches the first halves of its share of the scene, drops what
-// cannot touch the frame, fetches the second halves of what is left, projects and colours it, with
-// the boxes that say which tiles it may touch.
+// Culling and conversion unit. It fetches the first halves of its share of the scene and drops
+// Gaussians that cannot touch the frame. It fetches the second halves of the others, projects and
+// colours them, and finds the boxes that say which tiles they may touch.
 // Timing: both datapaths begin an item in their turns, where it has a place behind their pipelines;
 // ends of slices pass beside the lanes; slices in turn over the CCUs.
 // Function: may_touch_frame(), make_tile_geometry().

@@ -15,14 +15,15 @@ constexpr const char *kEnds = "ends of lists", *kLines = "lines of lists",
                      *kListWrites = "list writes", *kTestPasses = "passes to test",
                      *kListed = "listed tiles", *kTestedRecords = "records under test",
                      *kTestedKeys = "keys under test", *kTestedBoxes = "boxes under test";
-// Of a box, its parts along the screen, place and axes along the ellipse, and its limits there.
+// Bytes of a box: its parts along the screen, place and axes along the ellipse, and its limits
+// there.
 constexpr std::uint32_t kTestedBoxBytes = 4 * 2 + 4 * 4 + 4 * 4;
-// Beside the memories: whose line it is, whether line and block are full, whether the pool is; by
-// three subtractions of powers of two of the lines a tile's place among them.
+// Comparators beside the memories: whose line it is, whether line and block are full, whether the
+// pool is. Three subtractions of powers of two of the lines give a tile's place among them.
 constexpr std::uint32_t kComparators = 4 + 3;
 
-// Of a line: its tile, what of it is new, and its number in the pool, where it is written when
-// another tile takes its place.
+// Bytes of a line's tag: its tile, the range of its new entries, and its number in the pool, where
+// it is written when another tile takes its place.
 std::uint32_t tag_bytes(const GscoreConfig& config) {
   const BlockFormat blocks = config.blocks();
   const std::uint64_t lines = std::uint64_t{config.pool_blocks()} * blocks.block_lines;
@@ -33,7 +34,7 @@ std::uint32_t tag_bytes(const GscoreConfig& config) {
 
 bool has_parts(const GscoreConfig& config) { return config.tiles.subtiles_across > 1; }
 
-// Of a tile and its parts.
+// Pipelines that test a tile and its parts.
 struct TestPipelines {
   std::uint64_t depth_cycles, part_interval_cycles;
 };
@@ -46,7 +47,7 @@ TestPipelines test_pipelines(const GscoreConfig& config) {
   return out;
 }
 
-// With room for what is in the pipelines.
+// Entries of the FIFO of listed tiles, with room for the items in the pipelines.
 std::uint32_t listed_entries(const GscoreConfig& config) {
   const TestPipelines tests = test_pipelines(config);
   return static_cast<std::uint32_t>(config.lists.tested_entries +
@@ -59,12 +60,12 @@ std::uint32_t tested_gaussians(const GscoreConfig& config) {
   return config.lists.tested_entries +
          static_cast<std::uint32_t>(test_pipelines(config).depth_cycles) + 2;
 }
-// What of it each of its entries takes: key, what there is of the opacity.
+// Bytes of the key under test of one entry: its key, and its opacity where there is one.
 std::uint32_t tested_key_bytes(const EntryFormat& entry) {
   return entry.key_bytes() + (entry.opacity_bits() + 7) / 8;
 }
 
-// Of records that are written at once: what a transaction takes, at least one.
+// Records that are written at once: as many as a transaction takes, at least one.
 std::uint32_t records_at_once(const GscoreConfig& config) {
   return std::max(1U, config.memory_port.max_transaction_bytes / kRecordPlaceBytes);
 }
@@ -176,8 +177,8 @@ void TileLister::flush_records() {
   waiting_records_ = 0;
 }
 
-// Of the first block of tile t the number is t; the link to the next must be there when the first
-// line leaves, so that block is taken now.
+// Puts an entry behind a tile's list. The first block of tile t has the number t. The link to the
+// next block must be there when the first line leaves, so that block is taken now.
 void TileLister::put_entry(std::uint32_t tile, const TileEntry& entry) {
   ListEnd& end = ends_[tile];
   ++counters_.table_reads;
@@ -305,7 +306,7 @@ void TileLister::publish(DataSheet& sheet) {
   sheet.operations("lists", "register_bit",
                    kTestedBits * static_cast<double>(counters_.gaussians) +
                        end_bits * static_cast<double>(counters_.pairs));
-  // Whose Gaussian it is, one of the CCUs' in turn: multiplexers of two.
+  // Selection of the CCU whose Gaussian it is: two-way multiplexers.
   publish_selection(sheet, "lists", {config_.ccus, kTestedBits},
                     static_cast<double>(counters_.gaussians));
   sheet.datapath(tile_path_, counters_.tile_steps);

@@ -1,10 +1,10 @@
-// Tile lister and control: tests the tiles of projected Gaussians, in the order of the scene,
-// numbers and writes those that touch any, enters them in the lists of their tiles, and when a pass
-// is projected hands its tiles out to the cores.
-// Timing: neighbours of a row of tiles are tested in a turn of their lanes, then each that is
-// touched in a turn of the parts' lanes, and listed in a cycle; entries of a tile are combined in a
-// line, which is written when it is full or another tile takes its place. Tiles are handed out one
-// a cycle, as they are asked for.
+// Tile lister and control. It tests the tiles of projected Gaussians, in the order of the scene.
+// Those that touch any are numbered, written, and entered in the lists of their tiles. When a pass
+// is projected it hands its tiles out to the cores.
+// Timing: neighbours of a row of tiles are tested in a turn of their lanes. Each that is touched is
+// then tested in a turn of the parts' lanes, and listed in a cycle. Entries of a tile are combined
+// in a line, which is written when it is full or another tile takes its place. Tiles are handed out
+// one a cycle, as they are asked for.
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,7 @@ class TileLister : public sc_core::sc_module {
  private:
   struct Line {
     LineBuffer buffer;
-    std::uint32_t tile = 0;  // of the pass, from 1 on; 0: none
+    std::uint32_t tile = 0;  // tile of the pass, from 1 on; 0: none
   };
 
   // Kept from a Gaussian's first test on until the last of its tiles is listed.
@@ -56,7 +56,7 @@ class TileLister : public sc_core::sc_module {
   // pass.
   struct ListedTile {
     static constexpr std::uint32_t kSramBytes = 6;  // the Gaussian's number, tile, bitmap, marks
-    std::uint32_t gaussian = 0;                     // of those that are kept
+    std::uint32_t gaussian = 0;  // number of the Gaussian among those that are kept
     std::uint32_t tile = 0, bitmap = 0;
     bool first = false, end = false;
   };
@@ -64,7 +64,7 @@ class TileLister : public sc_core::sc_module {
   void run_test();  // thread
   void run_list();  // thread
   void test_tiles(const Converted& gaussian, const Pass& pass);
-  // Whether all lists of the pass are in memory; if not, the pool was too small.
+  // True if all lists of the pass are in memory; if not, the pool was too small.
   bool project(const Pass& pass);
   void take(const ListedTile& tile, const Pass& pass);
   void put_record(const Splat& splat);
@@ -88,11 +88,11 @@ class TileLister : public sc_core::sc_module {
   std::unique_ptr<FifoSelector<TileRequest>> asked_;  // made by the thread
   std::vector<ListEnd> ends_;                         // [tile of the pass]
   std::vector<Line> lines_;
-  std::vector<std::byte> records_;  // that wait until there are enough for a transaction
+  std::vector<std::byte> records_;  // records that wait until there are enough for a transaction
   std::uint32_t waiting_records_ = 0;
   std::uint32_t next_block_ = 0;  // free pointer
   bool overflowed_ = false;
-  std::uint32_t record_number_ = 0;  // of the next one
+  std::uint32_t record_number_ = 0;  // number of the next record
 
   struct Counters : CounterSet {
     Counter passes{*this, "passes", "passes", "over the scene"};

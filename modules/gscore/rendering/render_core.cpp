@@ -156,7 +156,7 @@ void RenderCore::begin_tile(std::uint32_t tile) {
   }
 }
 
-// What waits for its turn stays where it is until then.
+// An entry stays where it is until its turn.
 void RenderCore::take(const Fetched& next) {
   await(record_memory, blend_, next.ticket);
   if (finished_.finished(next.entry.tile)) {
@@ -173,7 +173,7 @@ void RenderCore::take(const Fetched& next) {
   free_records_.push(next.slot, blend_);
 }
 
-// In its turn.
+// Blends a splat whose turn it is.
 template <class AnySplat>
 void RenderCore::blend(const SortedEntry& entry, const AnySplat& splat) {
   const std::uint64_t now = blend_.clock().now_cycles();
@@ -287,15 +287,16 @@ void RenderCore::publish(DataSheet& sheet) {
   sheet.accesses(kPixels, kSubtilePixels * n.blocks + n.pixels,
                  kSubtilePixels * n.blocks + n.pixels);
   sheet.accesses(kMask, n.splats, n.splats);
-  // Of each block: until when a splat is in the loop through its pixels, a counter that is set when
-  // one begins, and whether all are finished. Of the splat: which of its parts and blocks is next.
+  // For each block: a counter of cycles until a splat leaves the loop through its pixels, set when
+  // the splat begins; and whether all are finished. For the splat: which of its parts and blocks is
+  // next.
   const std::uint32_t loop = blend_path_.loop_cycles + kReadCycles + kWriteCycles;
   const std::uint32_t flight_bits = counter_bits(loop), next_bits = counter_bits(kBlocks) + kBlocks;
   sheet.part("rendering", "register_bit", double{kBlocks} * (flight_bits + 1) + next_bits, 1);
   sheet.operations("rendering", "register_bit",
                    static_cast<double>(n.blocks) * static_cast<double>(loop + 1 + next_bits));
-  // A place of those that are converted at once meets so many of the four columns of a block, in
-  // any of its rows and in each buffer.
+  // Each place among the pixels converted at once meets so many of a block's four columns, in any
+  // row and in each buffer.
   const std::uint32_t at_once = config_.rendering.drain_pixels_per_cycle;
   const std::uint32_t columns = kSubtilePx / std::gcd(kSubtilePx, at_once);
   publish_selection(sheet, "rendering",

@@ -1,7 +1,7 @@
 // 16 volume rendering units: fetch the records of sorted entries, blend them into a tile, write its
 // pixels.
-// Timing: 16 pixels begin in each turn of the blending lanes, so a part of 8 x 8 px takes 4, each
-// not before the splat ahead of it on the same pixels has left the loop through their state; a
+// Timing: 16 pixels begin in each turn of the blending lanes, so a part of 8 x 8 px takes 4. None
+// begins before the splat ahead of it on the same pixels has left the loop through their state. A
 // splat takes a cycle at least. Function: GroupState.
 #pragma once
 
@@ -48,7 +48,7 @@ class RenderCore : public sc_core::sc_module {
     std::shared_ptr<GroupState> state;
     std::uint32_t tile = 0;
   };
-  static constexpr int kBlocks = kSubtilesPerTile * kSubtilesPerTile;  // of 16 px
+  static constexpr int kBlocks = kSubtilesPerTile * kSubtilesPerTile;  // blocks of 16 px in a tile
 
   void run_fetch();  // thread
   void run_blend();  // thread
@@ -59,7 +59,7 @@ class RenderCore : public sc_core::sc_module {
   void blend(const SortedEntry& entry, const AnySplat& splat);
   // The cycle from which it is known that all blocks of a part are finished.
   std::uint64_t finished_from(int part) const;
-  // From a splat's turn to the pixels behind its first block.
+  // Latency from a splat's turn to the pixels behind its first block.
   std::uint64_t depth_cycles() const;
   void write_tile(const GroupState& state);
 
@@ -76,7 +76,7 @@ class RenderCore : public sc_core::sc_module {
   TimedFifo<Finished> finished_states_;
   TimedFifo<std::uint32_t> free_pixels_;
 
-  std::shared_ptr<GroupState> state_;  // of the tile that is blended
+  std::shared_ptr<GroupState> state_;  // state of the tile that is blended
   bool in_tile_ = false;
   std::vector<std::uint64_t> free_from_;      // [16 px] cycle
   std::vector<std::uint64_t> finished_from_;  // [16 px] cycle

@@ -16,7 +16,7 @@
 namespace sgs::gscore {
 
 constexpr std::uint32_t kNetworkWidth = 16, kMergeWidth = kNetworkWidth / 2;
-constexpr std::uint32_t kSortStages = 10, kMergeStages = 4;  // of 8 compare-exchanges
+constexpr std::uint32_t kSortStages = 10, kMergeStages = 4;  // stages of 8 compare-exchanges
 constexpr std::uint32_t kNetworkExchanges = kSortStages * kMergeWidth;
 
 struct BitonicCost {
@@ -24,13 +24,13 @@ struct BitonicCost {
   std::uint64_t merged = 0;  // entries, once for each level
 };
 
-// From the first block or turn of a level to its last entry's write: a cycle to read, one a stage,
-// one to write.
+// Cycles from the first block or turn of a level to its last entry's write: a cycle to read, one a
+// stage, one to write.
 constexpr std::uint64_t network_cycles(std::uint64_t last_begin, std::uint32_t stages) {
   return last_begin + 1 + stages + 1;
 }
 
-// Of a chunk; of one entry nothing.
+// Cost of a chunk; one entry costs nothing.
 constexpr BitonicCost bitonic_cost(std::uint64_t entries) {
   BitonicCost cost;
   if (entries < 2) return cost;

@@ -53,9 +53,9 @@ inline Pivots ranged_pivots(const KeyRange& range) {
 constexpr std::uint32_t kPivotAdders = 2;
 // A pivot is read or computed a cycle; a subset's place follows from those before it, one a cycle.
 constexpr std::uint32_t kPivotCycles = kPivots, kSubsetPlaceCycles = kSubsets;
-// In a cycle an entry is read, in the next its subset is found and that one's row read, in the
+// An entry is read in one cycle; in the next its subset is found and the subset's row read; in the
 // third the row and the entry's place are written. So the places follow from the rows one cycle
-// behind the last entry's reading, and what comes behind the last entry waits for two.
+// behind the last entry's reading, and the step behind the last entry waits for two.
 constexpr std::uint32_t kSubsetRowCycles = 1, kSubsetWriteCycles = 2;
 
 // Levels of splitting at most: one by samples, then three bits of the range each.

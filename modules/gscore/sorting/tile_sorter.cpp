@@ -14,7 +14,7 @@ constexpr const char *kStages = "list blocks", *kLists = "lists on chip",
                      *kPlaces = "keys of subsets", *kSubsetLines = "lines of subsets",
                      *kSubsetEnds = "subsets in memory", *kSubsetsOnChip = "subsets on chip",
                      *kChunk = "chunk", *kSubsetWrites = "subset writes", *kLoaded = "loaded lists";
-constexpr std::uint32_t kPlaceBytes = 2;    // of an entry in a list
+constexpr std::uint32_t kPlaceBytes = 2;    // place of an entry in a list
 constexpr std::uint32_t kLoadedBytes = 16;  // tile, count, keys
 
 // Each QSU compares with the pivots, the least and the greatest key, and counts.
@@ -22,8 +22,8 @@ constexpr std::uint32_t kEntryComparisons = kPivots + 2 + 1;
 constexpr std::uint32_t kQsuComparators = kEntryComparisons + kPivotAdders;
 constexpr std::uint32_t kSplitAdditions = kPivotAdders * kPivots + kSubsets;
 
-// Of a subset, at each level of splitting: its keys, and where it begins and how many entries it
-// has; in memory its first block, and where it ends.
+// Bytes of a subset, at each level of splitting: its keys, and where it begins and how many entries
+// it has; in memory its first block, and where it ends.
 std::uint32_t subset_bytes(const GscoreConfig& config) {
   return 2 * config.entries().key_bytes() + 2 * kPlaceBytes;
 }
@@ -38,7 +38,7 @@ std::uint32_t subset_in_memory_bytes(const GscoreConfig& config) {
 // One for the place of an entry that does not lie where it comes out, one for the entry.
 constexpr std::uint32_t kReadsByPlace = 2;
 
-// What a compare-exchange compares and moves: key and place.
+// Bits that a compare-exchange compares and moves: key and place.
 std::uint32_t compared_bits(const GscoreConfig& config) {
   return 8 * (config.entries().key_bytes() + kPlaceBytes);
 }
@@ -125,7 +125,7 @@ void TileSorter::sort(std::uint32_t tile, std::vector<TileEntry> entries, std::u
   }
 }
 
-// A list's keys lie side by side, and so do those of a subset with their places, so that 16 come to
+// The keys of a list lie side by side, and so do those of a subset with their places: 16 come to
 // the network at once.
 void TileSorter::sort_chunk(std::uint32_t tile, std::vector<TileEntry>& entries,
                             std::uint32_t level) {
@@ -177,7 +177,7 @@ SramUses TileSorter::sram_uses(const GscoreConfig& c) {
           sram_use(kSubsetsOnChip, kBuffer,
                    {{levels, "levels"}, {kSubsets, "subsets"}, {subset_bytes(c), "B"}},
                    {8 * subset_bytes(c)}, kOneOfEach),
-          // From one to the other: 8 are read and at most 16 written at once.
+          // Merging goes from one list to the other: 8 are read and at most 16 written at once.
           sram_use(kChunk, kBuffer,
                    {{2, "lists"}, {c.sorting.chunk_entries, "keys"}, {key_bits / 8, "B"}},
                    {key_bits, kPorts, kNetworkWidth}, {kMergeWidth, kNetworkWidth}),
@@ -210,8 +210,9 @@ void TileSorter::publish(DataSheet& sheet) {
   sheet.operations("bsu", "select_bit",
                    compared_bits(config_) * (kRotation * static_cast<double>(n.chunk_entries) +
                                              kOfMerge * static_cast<double>(n.merged)));
-  // Of each pair that is merged: the last entries taken of its runs, where both go on and end, and
-  // where it is written. The entries that were read are in registers before the first stage.
+  // Registers for each pair that is merged: the last entries taken of its runs, where both go on
+  // and end, and where it is written. The entries that were read are in registers before the first
+  // stage.
   const std::uint32_t place_bits = counter_bits(config_.sorting.chunk_entries);
   const double turn_bits = kMergeStages * (2.0 * compared_bits(config_) + 5.0 * place_bits) +
                            double{kNetworkWidth} * compared_bits(config_);

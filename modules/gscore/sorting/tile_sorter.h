@@ -1,10 +1,10 @@
 // Sorter of one core: reads a tile's list, splits it into ordered subsets until these are chunks,
-// and sorts chunk by chunk, nearest first. What is left of a finished tile is dropped.
-// Timing: an entry a cycle through each QSU (the one where lists come in, which also splits lists
-// that are too long for the chip, and the one at the lists on chip), before it a cycle for each
-// pivot, on chip one for each subset's place, and what its pipeline takes to run empty (pivots.h);
-// a chunk through the network as bitonic_cost() says; an entry a cycle out, the first of a chunk
-// behind its place. Blocks of a list are asked for one ahead.
+// and sorts chunk by chunk, nearest first. The rest of a finished tile is dropped.
+// Timing: an entry a cycle through each QSU. One is where lists come in, and also splits lists that
+// are too long for the chip; the other is at the lists on chip. Each also takes a cycle for each
+// pivot, before the entries; on chip one for each subset's place; and the cycles in which its
+// pipeline runs empty (pivots.h). A chunk takes bitonic_cost() in the network; an entry leaves a
+// cycle, the first of a chunk behind its place. Blocks of a list are asked for one ahead.
 #pragma once
 
 #include <cstddef>
@@ -86,10 +86,10 @@ class TileSorter : public sc_core::sc_module {
   const GscoreJob& job_;
   const FinishedTiles& finished_;
   const BlockFormat blocks_;
-  const RegionSpan stack_;  // of blocks for subsets
+  const RegionSpan stack_;  // blocks for subsets
   Activity load_, sort_;
   std::vector<std::byte> stages_;  // [2] blocks
-  std::uint32_t next_block_ = 0;   // of the stack
+  std::uint32_t next_block_ = 0;   // next free block of the stack
   TimedFifo<Loaded> loaded_;
   TimedFifo<std::uint32_t> free_lists_;
 

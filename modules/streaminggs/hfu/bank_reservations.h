@@ -26,7 +26,7 @@ class BankReservations {
 
  private:
   struct Slot {
-    std::uint64_t cycle = 0;  // that `taken` speaks of, plus 1
+    std::uint64_t cycle = 0;  // cycle that `taken` is for, plus 1
     std::uint64_t taken = 0;  // a bit for each bank
   };
   static constexpr std::size_t kWindowCycles = 1U << 14;  // no reader looks so far ahead

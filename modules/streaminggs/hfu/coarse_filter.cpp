@@ -168,7 +168,7 @@ std::uint32_t CoarseFilter::test(const FirstHalfBound& bound, std::uint32_t grou
   return parts;
 }
 
-// What a key of exact order says; nothing else looks at it.
+// Sub-tiles that a Gaussian may reach; used only in the key of exact order.
 GroupReach CoarseFilter::reach(const FirstHalfBound& bound, std::uint32_t group) const {
   const auto* by_extents = std::get_if<ExtentBound>(&bound);
   const bool known = by_extents != nullptr && by_extents->in_front && config_.coarse_filter;
@@ -176,7 +176,7 @@ GroupReach CoarseFilter::reach(const FirstHalfBound& bound, std::uint32_t group)
 }
 
 SramUses CoarseFilter::sram_uses(const HfuConfig& config, const BuiltFor& built_for) {
-  // What comes from memory in a cycle may be more than one.
+  // First halves that come from memory in one cycle, at most; may be more than one.
   const auto come =
       static_cast<std::uint32_t>(cycles_for(kPortBytes, std::max(1U, built_for.first_half_bytes)));
   return {sram_use("input", kInputSram,

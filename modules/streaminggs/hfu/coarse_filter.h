@@ -57,7 +57,7 @@ class CoarseFilter : public sc_core::sc_module {
     static constexpr std::uint32_t kSramBytes = VisitShare::kSramBytes;  // slots are used in turn
     VisitShare share;  // mark: only with the last slice of a share
     std::uint64_t ticket = 0;
-    std::uint32_t slot = 0;  // of the input buffer
+    std::uint32_t slot = 0;  // slot of the input buffer
   };
 
   void run_load();    // thread: first halves into the input buffer

@@ -23,7 +23,7 @@ CodebookBuffer::CodebookBuffer(const sc_core::sc_module_name& name, const Codebo
   SC_THREAD(run_load);
 }
 
-// What an earlier frame left costs neither traffic nor time.
+// Codebooks left by an earlier frame cost neither traffic nor time.
 void CodebookBuffer::start_of_simulation() {
   if (!config_.preloaded) return;
   ::tlm::tlm_generic_payload payload;

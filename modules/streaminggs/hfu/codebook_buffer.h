@@ -1,7 +1,7 @@
 // Codebook buffer: the on-chip memory that quantised second halves are decoded from.
-// Timing: filled once from DRAM; then every HFU reads one line a cycle, and two that want a line of
-// the same bank in the same cycle get it one after the other: before goes the one that began its
-// record before, of those that began in one cycle the lower number.
+// Timing: filled once from DRAM; then every HFU reads one line a cycle. Two that want a line of the
+// same bank in the same cycle get it one after the other. The one that began its record earlier
+// goes first, of those that began in one cycle the lower number.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ class CodebookBuffer : public sc_core::sc_module, public CodebookIf, private Ins
     Counter lines_read{*this, "lines_read", "lines", "of the banks"};
     Counter bank_conflict_cycles{*this, "bank_conflict_cycles", "cycles",
                                  "that lines waited for a bank being read"};
-    std::uint64_t lines_of[kCodebookCount] = {};  // of lines_read
+    std::uint64_t lines_of[kCodebookCount] = {};  // [codebook] share of lines_read
   };
   const Counters& counters() const { return counters_; }
   // Codebooks of one scene.

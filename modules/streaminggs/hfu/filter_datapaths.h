@@ -1,4 +1,4 @@
-// The lanes of the coarse and of the fine filter of one HFU, and what a test takes of them.
+// The lanes of the coarse and of the fine filter of one HFU, and the operations of a test on them.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace sgs {
 
-// Whether there are CFUs: a machine of exact order has them whether they filter or not, since they
-// find the depth that is a Gaussian's key.
+// True if there are CFUs. A machine of exact order has them whether they filter or not: they
+// compute the depth that is a Gaussian's key.
 inline bool has_cfus(const HfuConfig& config, CoarseBoundBy bound_by) {
   return config.coarse_filter || bound_by == CoarseBoundBy::kExtents;
 }
@@ -21,18 +21,17 @@ inline bool has_cfus(const HfuConfig& config, CoarseBoundBy bound_by) {
 Datapath coarse_datapath(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts);
 Datapath fine_datapath(const HfuConfig& config, const FineRecord& record);
 
-// The same, scheduled on lanes of such latencies.
+// The same datapaths, scheduled on lanes of such latencies.
 Datapath coarse_pipeline(const HfuConfig& config, CoarseBoundBy bound_by, std::uint32_t parts,
                          const OperationLatencies& latencies);
 Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies);
-// In a machine that takes any of `records`, each by its own schedule: registers and comparators of
-// the one that wants most; of multiplexers the same, as if the schedules chose alike where they
-// can.
+// For a machine that takes any of `records`, each by its own schedule: registers and comparators of
+// the one that needs most. Multiplexers likewise, as if the schedules chose alike where they can.
 Datapath fine_pipeline(const HfuConfig& config, const FineRecord& record,
                        const OperationLatencies& latencies, const std::vector<FineRecord>& records);
 
-// That of several HFUs.
+// The datapath of several HFUs.
 inline Datapath side_by_side(Datapath of_one, std::uint32_t hfus) {
   of_one.copies *= hfus;
   return of_one;

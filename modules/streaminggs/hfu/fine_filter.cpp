@@ -12,7 +12,7 @@
 namespace sgs {
 namespace {
 
-// Until the oldest entry can be taken; at_most where it can, or there is none.
+// Time until the oldest entry can be taken; at_most where it can, or there is none.
 template <class T>
 sc_core::sc_time until_ready(const TimedFifo<T>& from, const sc_core::sc_time& at_most) {
   if (from.empty() || from.can_pop()) return at_most;
@@ -80,13 +80,13 @@ void FineFilter::run_fetch() {
   }
 }
 
-// Behind the merge unit those of several visits are mixed: there it is the group alone.
+// Behind the merge unit candidates of several visits are mixed, so only the group is named there.
 void FineFilter::take_up(const FineCandidate& candidate, Activity& activity) const {
   const bool by_visit = place_.rejects == Rejects::kDropped;
   activity.takes_up_group(candidate.group, by_visit ? candidate.visit : Activity::kNoVisit);
 }
 
-// For those parts that still want it.
+// Fetches the second half for those parts that still want it.
 void FineFilter::fetch(FineCandidate candidate) {
   const std::uint32_t all = candidate.parts;
   candidate.parts &= unfinished_parts(finished, candidate.group);
@@ -120,7 +120,7 @@ void FineFilter::drop_saturated(const FineCandidate& candidate) {
   for (const auto& part : parts_) part->fetched.push(rejected, fetch_);
 }
 
-// What a slot holds, with what the first half had of it.
+// Decodes the record in a slot, with the words that the first half carried for it.
 DecodedGaussian FineFilter::read_slot(const Part& part, const FineCandidate& candidate) const {
   return read_record(job_.layout.split, job_.layout.second_half,
                      {candidate.mean_x, candidate.mean_y, candidate.mean_z}, candidate.carried,
@@ -128,8 +128,8 @@ DecodedGaussian FineFilter::read_slot(const Part& part, const FineCandidate& can
                      part.stage ? codebooks->bytes() : nullptr);
 }
 
-// By one of the parts that want what is in it: when it begins to read the record, or has read its
-// codebook entries, and so the record.
+// Called for each part that wants the record of the slot: when it begins to read it, or has read
+// its codebook entries, and so the record. The last gives the slot back.
 void FineFilter::free_slot(std::uint32_t slot, Activity& activity) {
   if (--wanted_[slot] == 0) free_slots_.push(slot, activity);
 }
@@ -141,7 +141,7 @@ void FineFilter::run_decode(Part& part) {
     next.candidate = part.fetched.front(decode);
     const FineCandidate& candidate = next.candidate;
     take_up(candidate, decode);
-    // Where lines of its entries go as they are read.
+    // Room for the decoded record is needed first: lines of its entries go there as they are read.
     part.stage->decoded.wait_for_room(1, TimedFifo<Decoded>::kNever, decode);
     if (candidate.mark != Mark::kNone) {
       decode.work(1);
@@ -262,7 +262,7 @@ void FineFilter::test(Part& part, const Decoded& decoded) {
   }
 }
 
-// It passes beside what the lanes do.
+// A mark passes beside the lanes.
 bool FineFilter::mark_is_next(Part& part) {
   if (part.stage) {
     auto& from = part.stage->decoded;
@@ -271,7 +271,7 @@ bool FineFilter::mark_is_next(Part& part) {
   return part.fetched.can_pop() && part.fetched.front(part.filter).mark != Mark::kNone;
 }
 
-// Up to cycle `end`, or until there may be a mark that passes beside it.
+// Keeps the lanes busy up to cycle `end`, or until there may be a mark that passes beside them.
 void FineFilter::work_lanes(Part& part, std::uint64_t end) {
   const ClockDomain& clock = part.filter.clock();
   const sc_core::sc_time left = static_cast<double>(end - clock.now_cycles()) * clock.period();
@@ -282,7 +282,7 @@ void FineFilter::work_lanes(Part& part, std::uint64_t end) {
   clock.jitter();
 }
 
-// What becomes of a test, from its first cycle on on the way through the pipeline.
+// Hands on the result of a test that began in cycle `began`.
 void FineFilter::hand_on(Part& part, const Decoded& decoded, std::uint64_t began) {
   const FineCandidate& candidate = decoded.candidate;
   SplatToken token;

@@ -2,10 +2,10 @@
 // candidate, decodes it and puts it through the FFU: projection, exact test against the group,
 // colour. With a shared fetch a second half is read once and taken by the HFU of each part of the
 // group that the candidate may touch; its slot is free when all have it.
-// Timing: one candidate every ffu_interval_cycles in each FFU, marks beside what its lanes do,
-// whatever begins with a place in the FIFO behind its pipeline; second_half_slots fetches ahead;
-// quantised second halves pass a stage before the FFU that reads the codebook buffer, a record once
-// there is a place for what is decoded. Function: algorithm/splat/make_splat.h.
+// Timing: one candidate every ffu_interval_cycles in each FFU; marks pass beside its lanes. Each
+// begins only with a place in the FIFO behind its pipeline. second_half_slots fetches run ahead.
+// Quantised second halves pass a stage before the FFU that reads the codebook buffer, each once
+// there is a place for the decoded record. Function: algorithm/splat/make_splat.h.
 #pragma once
 
 #include <cstddef>
@@ -29,17 +29,17 @@
 
 namespace sgs {
 
-// What becomes of a candidate without a splat: nothing, or a token that says so, where the order of
-// the tokens tells which filter the next splat comes from.
+// Treatment of a candidate without a splat: dropped, or reported by a token where the order of the
+// tokens tells which filter the next splat comes from.
 enum class Rejects { kDropped, kReported };
 
-// Which of the fine filters this is, and how the machine around it wants to be told.
+// Place of a fine filter in its machine, and its treatment of rejects.
 struct FineFilterPlace {
   std::uint32_t reader = 0;  // number of its first HFU at the codebook buffer
   Rejects rejects = Rejects::kDropped;
 };
 
-// Of those whose second halves are on their way or waiting, and a mark.
+// Entries for candidates whose second halves are on their way or waiting, and one for a mark.
 inline std::uint32_t fetched_entries(const HfuConfig& config) {
   return config.second_half_slots + 1;
 }
@@ -47,7 +47,8 @@ inline std::uint32_t fetched_entries(const HfuConfig& config) {
 class FineFilter : public sc_core::sc_module {
  public:
   FifoIn<FineCandidate> candidates{"candidates"};
-  // As many for each part, part by part; of a part's, visit v goes to v modulo their number.
+  // As many FIFOs for each part, part by part; within a part, visit v goes to v modulo their
+  // number.
   FifoOuts<SplatToken> splats{"splats"};
   CodebookIn codebooks{"codebooks"};       // open where second halves are not quantised
   FinishedGroupsIns finished{"finished"};  // one a part
@@ -70,7 +71,7 @@ class FineFilter : public sc_core::sc_module {
                             "of these with their second half already fetched"};
   };
   const Counters& counters() const { return counters_; }
-  // Of a second half out of its slot: a word a cycle.
+  // Cycles to read a second half out of its slot: a word a cycle.
   static std::uint32_t read_cycles(std::uint32_t record_bytes);
   static SramUses sram_uses(const HfuConfig& config, const BuiltFor& built_for,
                             std::uint32_t parts);
@@ -91,7 +92,7 @@ class FineFilter : public sc_core::sc_module {
         : decode(("decode" + number).c_str(), clock),
           decoded(("decoded" + number).c_str(), clock, kDecodedEntries, config.latency_cycles) {}
   };
-  // What each HFU has behind the fetch. number: behind the names, where there are several.
+  // Parts of each HFU behind the fetch. number: suffix of the names, where there are several.
   struct Part {
     const std::uint32_t index;
     Activity filter;
@@ -99,7 +100,7 @@ class FineFilter : public sc_core::sc_module {
     std::unique_ptr<DecodeStage> stage;   // null where second halves are not quantised
     std::vector<PlacesUnderTest> places;  // in each FIFO of its splats
     sc_core::sc_event arrived;            // something that its FFU takes
-    // What takes second halves out of their slots.
+    // Activity that takes second halves out of their slots.
     Activity& taker() { return stage ? stage->decode : filter; }
     Part(std::uint32_t at, const std::string& number, const ClockDomain& clock,
          std::uint32_t fetched_entries)
@@ -139,7 +140,8 @@ class FineFilter : public sc_core::sc_module {
   Activity fetch_;
   const Datapath tests_;
   const std::uint32_t record_bytes_;
-  // From a test to the next: its lanes', or until its record is read where nobody does that ahead.
+  // Cycles from a test to the next: of its lanes, or until its record is read where no stage reads
+  // it ahead.
   const std::uint64_t test_cycles_;
   std::vector<std::byte> second_halves_;  // [second_half_slots] records
   std::vector<std::uint32_t> wanted_;     // [second_half_slots] parts that have not yet taken it

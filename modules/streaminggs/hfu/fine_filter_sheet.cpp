@@ -1,4 +1,4 @@
-// What the fine filter says of itself: its on-chip memory, counters and costs.
+// Data sheet of the fine filter: its on-chip memory, counters and costs.
 #include <algorithm>
 
 #include "modules/streaminggs/hfu/fine_filter.h"
@@ -6,7 +6,7 @@
 namespace sgs {
 namespace {
 
-// Of second halves: as wide as the port, or as a record that is narrower.
+// Word of the slots for second halves: as wide as the port, or as a record that is narrower.
 SramShape word_of(std::uint32_t record_bytes) {
   return {8 * std::clamp(record_bytes, 1U, kPortBytes)};
 }

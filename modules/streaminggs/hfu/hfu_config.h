@@ -11,8 +11,8 @@ namespace sgs {
 constexpr std::uint32_t kPaperCfuMacs = 55;
 constexpr std::uint32_t kPaperFfuMacs = 427;
 
-// Which multiply-accumulates a test costs: cfu_macs and ffu_macs as they are given, the paper's
-// where they are not, or those that our filters execute on the scene
+// Source of the multiply-accumulates of a test: cfu_macs and ffu_macs as given, the paper's where
+// they are not; or counted, as our filters execute them on the scene
 // (modules/streaminggs/filter_cost.h).
 enum class FilterCost { kPaper, kCounted };
 

@@ -111,7 +111,8 @@ void MergeUnit::force_out() {
   }
 }
 
-// Until its last operation has left the root far enough behind; then that of this cycle begins.
+// Waits until the heap's last operation has left the root far enough behind; begins this cycle's
+// then.
 void MergeUnit::wait_for_heap() {
   const std::uint64_t now = merge_.clock().now_cycles();
   if (now < heap_free_) merge_.work(heap_free_ - now);
@@ -126,7 +127,7 @@ FineCandidate MergeUnit::take_nearest() {
   return key;
 }
 
-// Looked up beside the heap's work, which takes as long.
+// The look-up runs beside the heap's operation, which takes as long.
 void MergeUnit::emit(const FineCandidate& key) {
   ++counters_.due;
   if (!mask->any_unfinished(key.group, key.reach)) {
@@ -186,8 +187,8 @@ void MergeUnit::merge_shortest_runs() {
   merge_runs(fits_spill_area(keys) ? end : runs_.end());
 }
 
-// Runs before `end` become one: behind all others or, when there are no others, in the other half
-// of the spill area, which has room for all keys of a group.
+// Merges the runs before `end` into one, which goes behind all others. When there are no others it
+// goes to the other half of the spill area, which has room for all keys of a group.
 void MergeUnit::merge_runs(std::list<RunReader>::iterator end) {
   if (end == runs_.end()) {
     spill_area_ ^= 1U;

@@ -3,9 +3,9 @@
 // keys go to DRAM as a sorted run and are merged back; the order stays exact. A key that is due and
 // reaches finished sub-tiles only is dropped: its second half is never fetched.
 // Keys wait in an interval heap, which gives its nearest and its farthest key.
-// Timing: a key in or out and a mark take a cycle each, and the heap begins an insert or delete
-// every `cycles_per_operation` cycles: what is no operation passes beside it. `latency_cycles` pass
-// in the FIFO ahead (exact_config.cpp). Area and energy: merge_unit_sheet.cpp.
+// Timing: a key in or out and a mark take a cycle each. The heap begins an insert or delete every
+// `cycles_per_operation` cycles; all else passes beside it. `latency_cycles` pass in the FIFO ahead
+// (exact_config.cpp). Area and energy: merge_unit_sheet.cpp.
 #pragma once
 
 #include <cstdint>
@@ -109,10 +109,10 @@ class MergeUnit : public sc_core::sc_module {
   std::list<RunReader> runs_;                    // none of them exhausted
   std::uint32_t spill_area_ = 0;                 // which half new runs go to
   std::uint64_t spill_used_ = 0;                 // bytes of it
-  std::uint32_t spills_ = 0;                     // of this group
+  std::uint32_t spills_ = 0;                     // spills of this group so far
   std::uint64_t sequence_ = 0;                   // keys and marks released
   std::uint64_t heap_free_ = 0;                  // cycle from which on it begins another operation
-  float last_depth_ = -1;                        // of the key released last in this group
+  float last_depth_ = -1;                        // depth of the key released last in this group
   std::uint32_t group_ = 0, pending_count_ = 0;  // for the waveform
   Counters counters_;
 };

@@ -1,4 +1,4 @@
-// What the merge unit says of itself: its on-chip memories, counters and costs.
+// Data sheet of the merge unit: its on-chip memories, counters and costs.
 #include "modules/streaminggs/heap_ledger.h"
 #include "modules/streaminggs/merge/merge_unit.h"
 #include "modules/streaminggs/spare_parts.h"
@@ -6,7 +6,7 @@
 namespace sgs {
 namespace {
 
-constexpr std::uint32_t kKeyWords = 2;  // that are compared: depth and slot
+constexpr std::uint32_t kKeyWords = 2;  // words compared: depth and slot
 constexpr HeapLedger kHeap{"waiting keys", "merge", kKeyBytes, kKeyWords};
 
 }  // namespace

@@ -1,21 +1,20 @@
-// When the clusters of the rendering unit blend which sub-tile.
+// Schedule of the rendering unit: which cluster blends which sub-tile in which cycle.
 //
 // A splat's spans are begun on `begin_lanes`, `begin_depth_cycles` late; then its rows of sub-tiles
 // get theirs on `span_lanes`, `span_depth_cycles` late; both in their turns. As many splats as
 // there are `span_slots` are under way or wait there for a dispatcher. It takes them in order, one
 // row a cycle at most, with or without sub-tiles in it. It ands the row's span with that row of the
-// mask of finished sub-tiles, and each cluster's queue takes at most one sub-tile a cycle of what
-// is left: the first of its own. The row stands, and is anded again, until nothing is left of it. A
-// splat whose whole footprint is finished when it comes, which the mask says at once, takes one
-// cycle of the lanes, no spans and no slot.
+// mask of finished sub-tiles. Each cluster's queue takes at most one of the remaining sub-tiles a
+// cycle: the first of its own. The row stands, and is anded again, until none remains. The mask
+// says at once if a splat's whole footprint is finished when it comes; it then takes one cycle of
+// the lanes, no spans and no slot.
 //
 // Sub-tile (x, y) belongs to cluster (x + 2 y) mod clusters, whose bank holds its pixels:
-// neighbours lie in different banks. A cluster takes one sub-tile in each of its turns, every
-// `cluster_interval_cycles()`, out of its queue, in order, and not before the splat ahead of it on
-// the same sub-tile has left the loop through the pixel state: a scoreboard says which sub-tiles
-// are in it. That a sub-tile is finished is known when the blend that finished it has left the
-// pipeline; until then splats go on being blended into it, which changes nothing and costs the
-// same.
+// neighbours lie in different banks. A cluster takes one sub-tile from its queue, in order, in each
+// of its turns, every `cluster_interval_cycles()`. It waits until the splat ahead on the same
+// sub-tile has left the loop through the pixel state: a scoreboard says which sub-tiles are in it.
+// A sub-tile is known to be finished when the blend that finished it has left the pipeline; until
+// then splats go on being blended into it, which changes nothing and costs the same.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +29,7 @@
 
 namespace sgs {
 
-// Which of so many clusters has the pixels of a sub-tile of a group.
+// The cluster, of so many, that has the pixels of a sub-tile of a group.
 constexpr std::size_t cluster_at(int x, int y, std::size_t clusters) {
   return static_cast<std::size_t>(x + 2 * y) % clusters;
 }
@@ -46,10 +45,10 @@ class ClusterSchedule {
                           "that clusters waited for the splat ahead on a sub-tile"};
     Counter queue_cycles{*this, "queue_cycles", "cycles",
                          "that sub-tiles waited for room at their cluster"};
-    std::uint64_t row_cycles = 0;    // that the dispatcher held rows
+    std::uint64_t row_cycles = 0;    // in which the dispatcher held rows
     std::uint64_t finished = 0;      // sub-tiles
-    std::uint64_t begin_cycles = 0;  // that the lanes that begin spans were taken
-    std::uint64_t span_cycles = 0;   // that the lanes of the rows were
+    std::uint64_t begin_cycles = 0;  // in which the lanes that begin spans were taken
+    std::uint64_t span_cycles = 0;   // in which the lanes of the rows were taken
   };
 
   explicit ClusterSchedule(const RenderingConfig& config)
@@ -68,7 +67,7 @@ class ClusterSchedule {
     columns_ = columns;
   }
 
-  // Whether some sub-tile of the box is not known to be finished in cycle `now`.
+  // True if some sub-tile of the box is not known to be finished in cycle `now`.
   bool any_unfinished(const SubtileRect& box, std::uint64_t now) const {
     for (std::size_t y = box.y0; y < box.y1; ++y) {
       for (std::size_t x = box.x0; x < box.x1; ++x) {
@@ -142,15 +141,15 @@ class ClusterSchedule {
 
   // The cycle in which every splat is dispatched and every cluster is free again.
   std::uint64_t all_done() const { return std::max(done_, dispatched_); }
-  // From which cycle on it is known that this one is.
+  // Cycle from which on this sub-tile is known to be finished.
   std::uint64_t subtile_finished_from(std::size_t at) const { return finished_from_[at]; }
-  // From which cycle on it is known that every sub-tile of the group is finished; 0 for none.
+  // Cycle from which on every sub-tile of the group is known to be finished; 0 for none.
   std::uint64_t group_finished_from() const {
     const auto last = std::max_element(finished_from_.begin(), finished_from_.end());
     return last == finished_from_.end() ? 0 : *last;
   }
   const Counters& counters() const { return counters_; }
-  // That the mean cluster blended, or waited for the splat ahead.
+  // Cycles in which the mean cluster blended, or waited for the splat ahead.
   std::uint64_t cluster_cycles() const {
     return (counters_.subtile_blends * cluster_interval_ + counters_.hazard_cycles) /
            config_.clusters;
@@ -186,7 +185,7 @@ class ClusterSchedule {
   std::vector<Cluster> clusters_;
   std::vector<std::uint64_t> free_from_;      // [sub-tile] its state can be read again
   std::vector<std::uint64_t> finished_from_;  // [sub-tile] it is known to be finished
-  std::size_t columns_ = 0;                   // of the group's sub-tiles
+  std::size_t columns_ = 0;                   // columns of sub-tiles in the group
   std::vector<std::uint64_t> slot_free_;      // ring: from when on, of the last splats
   std::uint64_t splats_ = 0;
   // dispatched_: from when on the dispatcher is free for the next splat.
@@ -194,7 +193,7 @@ class ClusterSchedule {
   std::uint64_t begins_free_ = 0, spans_free_ = 0;  // the lanes
   std::uint64_t spans_from_ = 0;                    // the splat's first row begins
   std::uint64_t row_begin_ = 0, row_end_ = 0;       // first and last cycle of the row that is held
-  std::uint32_t rows_ = 0;                          // of the splat, taken so far
+  std::uint32_t rows_ = 0;                          // rows of the splat taken so far
   bool spanned_ = false;
   Counters counters_;
 };

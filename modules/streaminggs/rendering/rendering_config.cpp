@@ -51,9 +51,9 @@ Datapath conic_pipeline(const RenderingConfig& config, const OperationLatencies&
 }
 
 Datapath blend_pipeline(const RenderingConfig& config, const OperationLatencies& latencies) {
-  const OperationCounts& work = counted(config.precision).subtile_blend;
+  const OperationCounts& counts = counted(config.precision).subtile_blend;
   const bool in_half = in_16_bits(config.precision);
-  Datapath path = counted_datapath("subtile_blend", "rendering", work,
+  Datapath path = counted_datapath("subtile_blend", "rendering", counts,
                                    in_half ? "exp2_table_half" : "exp2_table");
   if (in_half) path.lane = "fp16_lane";
   path.lanes = config.cluster_lanes;

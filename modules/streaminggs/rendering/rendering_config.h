@@ -27,22 +27,22 @@ struct RenderingConfig {
   std::uint32_t begin_lanes = 24, span_lanes = 40;
   std::uint32_t span_slots = 16;
   bool saturation_feedback = true;
-  // A register where it leaves, a wire over at most the side of the die (2.5 mm, below a cycle at
-  // 32 nm), a register where it arrives.
+  // Latency of the feedback: a register where it leaves, a wire over at most the side of the die, a
+  // register where it arrives. The wire (2.5 mm) takes below a cycle at 32 nm.
   std::uint32_t feedback_latency_cycles = 2;
   std::uint32_t input_fifo_entries = 8;
 
   // A cluster starts a sub-tile every so many cycles.
   std::uint32_t cluster_interval_cycles() const;
-  // From one splat's beginning to the next one's.
+  // Cycles from one splat's beginning to the next one's.
   std::uint32_t begin_interval_cycles() const;
-  // Rows that begin at once, and from these to the next: several a cycle, or one in several.
+  // Rows that begin at once, and cycles from these to the next: several a cycle, or one in several.
   std::uint32_t spans_at_once() const;
   std::uint32_t span_interval_cycles() const;
   // Sub-tiles of one cluster that can be in the loop through the pixel state at once.
   std::uint32_t subtiles_in_loop() const;
-  // From a row of pixels of so many sub-tiles to the next, in draining: a bank gives one word a
-  // cycle.
+  // Cycles from a row of pixels of so many sub-tiles to the next, in draining: a bank gives one
+  // word a cycle.
   std::uint32_t drain_row_cycles(std::uint32_t px) const;
   // Bytes of state a pixel: R, G, B and transmittance.
   std::uint32_t pixel_state_bytes() const { return in_16_bits(precision) ? 8 : 16; }

@@ -6,7 +6,7 @@
 namespace sgs {
 namespace {
 
-constexpr std::uint64_t kClearCycles = 1;  // of a group's last row of pixels, behind its draining
+constexpr std::uint64_t kClearCycles = 1;  // for a group's last row of pixels, behind its draining
 
 }  // namespace
 

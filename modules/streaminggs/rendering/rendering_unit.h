@@ -24,7 +24,7 @@
 
 namespace sgs {
 
-// How the splats of one group are spread over the FIFOs that rendering reads: whole visits in turn
+// Distribution of the splats of one group over the FIFOs that rendering reads: whole visits in turn
 // (paper order), or each token in turn (exact order).
 enum class Arrival { kByVisit, kByToken };
 

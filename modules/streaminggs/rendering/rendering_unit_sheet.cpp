@@ -1,4 +1,4 @@
-// What the rendering unit says of itself: its on-chip memories, counters and costs.
+// Data sheet of the rendering unit: its on-chip memories, counters and costs.
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -16,8 +16,8 @@ constexpr std::uint32_t kSubtileNumberBytes = 2;
 constexpr const char* kBegunSpans = "begun spans";
 constexpr std::uint32_t kBegunSpanBytes = 4 * kBegunSpanWords;
 
-// Of each row of sub-tiles the first and the last that a splat reaches, or none: of rows that leave
-// the lanes at once each in a bank of its own, a row a cycle to the dispatcher.
+// Spans: the first and the last sub-tile of each row that a splat reaches, or none. Rows that leave
+// the lanes at once lie each in a bank of its own; a row a cycle goes to the dispatcher.
 SramUse spans_use(const RenderingConfig& config, const PixelSize& group) {
   const auto rows = static_cast<std::uint32_t>((group.height + kSubtilePx - 1) / kSubtilePx);
   const auto columns = static_cast<std::uint32_t>((group.width + kSubtilePx - 1) / kSubtilePx);
@@ -29,8 +29,8 @@ SramUse spans_use(const RenderingConfig& config, const PixelSize& group) {
                   {2 * bits, SramPorts::kReadAndWrite, at_once}, {1, at_once});
 }
 
-// Of the dispatcher, for the first sub-tile of each cluster in what is left of a row: x & -x of its
-// bits.
+// Comparators of the dispatcher that find each cluster's first sub-tile in the rest of a row: x &
+// -x of its bits.
 std::uint32_t row_comparators(const PixelSize& group, std::uint32_t clusters) {
   constexpr std::uint64_t kComparatorBits = 32;
   const auto columns = cycles_for(static_cast<std::uint64_t>(group.width), kSubtilePx);
@@ -66,7 +66,7 @@ std::uint64_t drain_sources(const RenderingConfig& config, const PixelSize& grou
 
 }  // namespace
 
-// Whether a pixel is finished is known when it has been read, so all of a sub-tile are.
+// A pixel is known to be finished only when it has been read, so all pixels of a sub-tile are read.
 SramUses RenderingUnit::sram_uses(const RenderingConfig& config, const BuiltFor& built_for) {
   const auto width = static_cast<std::uint32_t>(built_for.group.width);
   const auto height = static_cast<std::uint32_t>(built_for.group.height);
@@ -122,7 +122,7 @@ void RenderingUnit::publish_ledger(DataSheet& sheet) {
 
 void RenderingUnit::publish_dispatcher(DataSheet& sheet) {
   const ClusterSchedule::Counters& clusters = schedule_.counters();
-  // Whether a splat's footprint is finished is asked of all rows at once, when it is taken.
+  // When a splat is taken, all rows are asked at once whether its footprint is finished.
   const std::uint64_t dropped = counters_.splats_hidden + counters_.splats_saturated;
   const double of_splat = mask_comparators(built_for_.group);
   const double of_row = row_comparators(built_for_.group, config_.clusters);
@@ -183,7 +183,7 @@ void RenderingUnit::publish(DataSheet& sheet) {
   sheet.by_part("cycles", "cycles", "of rendering, from the end of the group before",
                 cycles_of_groups_);
   publish_ledger(sheet);
-  // All three work at the same time, on different splats.
+  // Begin lanes, span lanes and clusters are busy at the same time, on different splats.
   const bool by_rows = clusters.span_cycles > clusters.begin_cycles;
   const char* lanes = by_rows ? "rendering.span_lanes" : "rendering.begin_lanes";
   const bool by_lanes =

@@ -226,7 +226,7 @@ void PaperSorter::publish(DataSheet& sheet) {
                   counters_.moves, place_.lists_of_network);
   publish_trivial_sorts(sheet, config_, counters_.visits_trivial);
   sheet.sram(sram_uses(config_, built_for_));
-  // Those spilled and read back came in and went out once more each.
+  // Entries spilled and read back came in and went out once more each.
   publish_sort_accesses(sheet, kSortBuffers, counters_.splats + counters_.entries_spilled,
                         counters_.moves);
   sheet.accesses("spill blocks", counters_.entries_spilled, counters_.entries_spilled);

@@ -18,12 +18,12 @@
 
 namespace sgs {
 
-// Which visits a unit sorts (of the part of the groups that it has), first_visit, first_visit +
-// visit_step, ..., and its part of the spill region, which holds two copies of the longest list.
+// Visits that a unit sorts, of its part of the groups: first_visit, first_visit + visit_step, ...
+// Its part of the spill region holds two copies of the longest list.
 struct PaperSorterPlace {
   std::uint32_t first_visit, visit_step;
   RegionSpan spill;
-  std::uint32_t lists_of_network = 1;  // that its sorting network serves in turn
+  std::uint32_t lists_of_network = 1;  // lists that its sorting network serves in turn
 };
 
 class PaperSorter : public sc_core::sc_module {

@@ -8,7 +8,7 @@
 
 namespace sgs {
 
-constexpr std::uint32_t kNetworkEntries = 16;  // of a block of the network
+constexpr std::uint32_t kNetworkEntries = 16;  // entries in a block of the network
 
 // The network, the same in both orders.
 struct SortingNetworkConfig {

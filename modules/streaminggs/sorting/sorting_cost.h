@@ -15,11 +15,11 @@ constexpr std::uint32_t kNetworkWidth = 16;
 constexpr std::uint32_t kMergeWidth = kNetworkWidth / 2;
 constexpr std::uint32_t kSortStages = 10;  // log2(16) (log2(16) + 1) / 2
 constexpr std::uint32_t kMergeStages = 4;  // log2(16)
-// Of a merge: read, through the stages, written. A level of the tree begins when the last merge of
-// the one before is written.
+// Latency of a merge, in cycles: read, through the stages, written. A level of the tree begins when
+// the last merge of the one before is written.
 constexpr std::uint32_t kMergeLatency = 1 + kMergeStages + 1;
 
-// What is compared: depth, then slot. A comparator of the technology table has 32 bits.
+// The key that is compared: depth, then slot. A comparator of the technology table has 32 bits.
 constexpr std::uint32_t kSortKeyBytes = 8;
 constexpr std::uint32_t kSortKeyComparators = 8 * kSortKeyBytes / 32;
 
@@ -30,8 +30,8 @@ constexpr std::uint32_t merge_levels(std::uint64_t runs) {
   return levels;
 }
 
-// Turns of the network from a merge to the next of the same pair of runs, into which the farther
-// half of what it gives goes. turn: cycles.
+// Turns of the network between two merges of the same pair of runs: the second takes the farther
+// half that the first gives. turn: cycles.
 constexpr std::uint64_t turns_to_next_merge(std::uint64_t turn) {
   return (kMergeStages + turn - 1) / turn;
 }
@@ -77,7 +77,7 @@ constexpr std::uint32_t network_comparators(const SortingNetworkConfig& config) 
 struct SortingCost {
   std::uint64_t cycles = 0;
   std::uint64_t compare_exchanges = 0;
-  std::uint64_t moves = 0;  // of entries through the network: keys read, places written
+  std::uint64_t moves = 0;  // entries moved through the network: keys read, places written
 };
 
 // Sorting n entries on chip; each of the other lists that share the network has a turn before every
@@ -99,14 +99,14 @@ constexpr SortingCost sort_cost(const SortingNetworkConfig& config, std::uint64_
           blocks * kNetworkWidth + merges * kMergeWidth};
 }
 
-// Of one of so many entries on chip.
+// Bits of the place of one of so many entries on chip.
 constexpr std::uint32_t place_bits(std::uint64_t entries) {
   std::uint32_t bits = 1;
   while ((std::uint64_t{1} << bits) < entries) ++bits;
   return bits;
 }
 
-// What a compare-exchange moves of each of its two entries: the key and its place.
+// Bits that a compare-exchange moves of each of its two entries: the key and its place.
 constexpr std::uint32_t exchanged_bits(std::uint64_t entries) {
   return 8 * kSortKeyBytes + place_bits(entries);
 }
@@ -115,8 +115,8 @@ constexpr std::uint32_t exchanged_bits(std::uint64_t entries) {
 // are merged, the keys that come next lie in any banks; a block lies in all of them, in order.
 constexpr std::uint32_t kKeySelections = 4;  // log2(16)
 
-// The network of a unit with room for so many entries, or its share of one that serves several
-// units in turn, and what it did so far. moves: as of sort_cost.
+// Publishes the network of a unit with room for so many entries, or its share of one that serves
+// several units in turn; and its operations so far. moves: as of sort_cost.
 inline void publish_network(DataSheet& sheet, const SortingNetworkConfig& config,
                             std::uint64_t entries, std::uint64_t compare_exchanges,
                             std::uint64_t moves, std::uint32_t units_of_network = 1) {
@@ -137,9 +137,9 @@ inline void publish_network(DataSheet& sheet, const SortingNetworkConfig& config
 constexpr const char* kComparedKeys = "compared keys";
 constexpr const char* kSortedPlaces = "sorted places";
 
-// Memories of a unit that sorts so many entries: the key of each, the rest of it (`rest`), and
-// lists of their places, a second one where runs are merged from one list into the other. The
-// network takes 16 keys and places at once, so these have as many banks.
+// Memories of a unit that sorts so many entries: keys, the rest of each entry (`rest`), and lists
+// of places. There is a second list where runs are merged from one into the other. The network
+// takes 16 keys and places at once, so these have as many banks.
 inline SramUses sort_memories(const char* rest, const char* memory, std::uint32_t entries,
                               std::uint32_t entry_bytes) {
   const std::uint32_t banks = std::min(entries, kNetworkWidth);
@@ -156,8 +156,8 @@ inline SramUses sort_memories(const char* rest, const char* memory, std::uint32_
                {8 * place_bytes, kPorts, banks}, {banks, banks})};
 }
 
-// entries: each came in and went out once, key and rest, at its place; moves: what the network
-// read, keys at their places, and wrote, places.
+// entries: each came in and went out once, key and rest, at its place. moves: keys and their places
+// that the network read, and places that it wrote.
 inline void publish_sort_accesses(DataSheet& sheet, const char* rest, std::uint64_t entries,
                                   std::uint64_t moves) {
   sheet.accesses(rest, entries, entries);
@@ -165,7 +165,7 @@ inline void publish_sort_accesses(DataSheet& sheet, const char* rest, std::uint6
   sheet.accesses(kSortedPlaces, entries + moves, moves);
 }
 
-// What lists of one entry spare, for the data sheet.
+// Publishes the passes that lists of one entry spare.
 inline void publish_trivial_sorts(DataSheet& sheet, const SortingNetworkConfig& config,
                                   std::uint64_t lists) {
   sheet.left_out("trivial_sorts", "a visit with one splat", config.skip_trivial ? lists : 0,

@@ -32,8 +32,8 @@ class ChunkTester {
         tested_("nodes_tested", clock, slots,
                 cycles_behind_lanes(depth_cycles, lanes.interval_cycles())) {}
 
-  // From when the lanes are free of a node's last child until it has left the pipeline and stands
-  // in a register.
+  // Cycles from the time when the lanes are free of a node's last child until it has left the
+  // pipeline and stands in a register.
   static std::uint32_t cycles_behind_lanes(std::uint32_t depth_cycles,
                                            std::uint64_t interval_cycles) {
     const std::uint64_t end = depth_cycles + std::uint64_t{1};
@@ -75,7 +75,7 @@ class ChunkTester {
   Activity& activity() { return test_; }
   std::uint64_t tests() const { return tests_; }
   std::uint64_t nodes() const { return nodes_; }
-  // Where one waits for a slot, and for what is in the slots.
+  // Places of waiting: for a slot, and for the nodes in the slots.
   const sc_core::sc_object& slots() const { return waiting_; }
   const sc_core::sc_object& pipeline() const { return tested_; }
   const Datapath& lanes() const { return lanes_; }

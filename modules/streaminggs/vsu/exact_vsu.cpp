@@ -101,7 +101,7 @@ bool ExactVsu::read_node() {
   return true;
 }
 
-// Of the next group nothing is finished yet.
+// True if all sub-tiles that the entry reaches are finished. In the next group none is yet.
 bool ExactVsu::hidden(const WalkEntry& entry) {
   ++counters_.looked_up;
   return chunk_walk_.of_first(entry) && !mask->any_unfinished(group_, entry.reach);
@@ -148,7 +148,7 @@ bool ExactVsu::give_chunk() {
     work_on_queues(1);
     return true;
   }
-  // What was put aside may have come back: there is a node to read then.
+  // Entries that were put aside may have come back: there is a node to read then.
   if (!chunk_walk_.exhausted()) return work_on_queues(0);
   if (held_) {
     give(*held_, kInfinity);
@@ -183,8 +183,8 @@ void ExactVsu::mark_saturated(std::uint32_t group) {
   saturated_[group] = true;
 }
 
-// The time of the queues' operations since it was last let pass, and of `other_cycles` beside them.
-// Whether there was any.
+// Spends the cycles of the queues' operations since the last call, and `other_cycles` beside them.
+// True if there were any.
 bool ExactVsu::work_on_queues(std::uint64_t other_cycles) {
   const std::uint64_t operations = chunk_walk_.queue_operations();
   const std::uint64_t queues =

@@ -1,10 +1,10 @@
-// Voxel sorting unit (VSU), exact order: for each pixel group it walks the chunk tree front to back
-// and hands out the chunks that can touch the group, each with the depth below which nothing
+// Voxel sorting unit (VSU), exact order. For each pixel group it walks the chunk tree front to
+// back. It hands out the chunks that can touch the group, each with the depth below which nothing
 // follows. Nodes are read ahead, several at a time, as long as their children are sure to fit the
 // queues; when a group's nodes have all been read the next group's walk begins. A node or chunk
-// that reaches finished sub-tiles only is left out when it is taken from its queue. Timing: a
-// node's children pass the tests' lanes and come out of their pipeline test_depth_cycles later,
-// nodes_in_test nodes at a time, while the walk goes on; each operation of a queue takes
+// that reaches finished sub-tiles only is left out when it is taken from its queue.
+// Timing: a node's children pass the tests' lanes and come out of their pipeline test_depth_cycles
+// later, nodes_in_test nodes at a time, while the walk goes on. Each operation of a queue takes
 // cycles_per_queue_operation; a visit leaves a cycle.
 // Function: algorithm/order/chunk_walk.h.
 #pragma once
@@ -65,7 +65,7 @@ class ExactVsu : public sc_core::sc_module {
   void publish(DataSheet& sheet);
 
  private:
-  // Where the walk waits for room in one of its queues.
+  // Place at which the walk waits for room in one of its queues.
   struct QueueRoom : sc_core::sc_object {
     explicit QueueRoom(const char* name) : sc_object(name) {}
     const char* kind() const override { return "sgs::QueueRoom"; }
@@ -99,17 +99,17 @@ class ExactVsu : public sc_core::sc_module {
   NodeBuffer nodes_;
   ChunkTester tester_;
   const QueueRoom node_room_{"node_queue"}, chunk_room_{"chunk_queue"};
-  WalkAside aside_;  // what the queues have no room for
+  WalkAside aside_;  // entries that the queues have no room for
   ChunkWalk<WalkAside> chunk_walk_;
   TimedFifo<VisitShare> ready_;         // final visits
-  TimedFifo<std::uint32_t> taken_;      // of these, room that hand_out has given back
+  TimedFifo<std::uint32_t> taken_;      // places of ready_ that hand_out has given back
   sc_core::sc_event news_;              // for the walk: a node has come, or room
   std::uint32_t room_;                  // in ready_, as the walk knows it
   std::uint32_t group_ = 0;             // whose chunks are given out
   std::uint32_t next_group_ = 0;        // whose walk has not begun
   std::optional<WalkEntry> held_;       // goes when what follows it is known
-  bool any_chunk_ = false;              // of group_
-  std::uint64_t queue_operations_ = 0;  // that have taken their time
+  bool any_chunk_ = false;              // a chunk of group_ was found
+  std::uint64_t queue_operations_ = 0;  // operations that have taken their time
   std::vector<bool> saturated_;         // [group]
   Counters counters_;
   std::uint32_t next_visit_ = 0;

@@ -44,7 +44,7 @@ inline void visit(ConfigVisitor& v, ExactVsuConfig& c) {
 
 // An entry of the queue of chunks, and of either queue in DRAM: depth, place, count, walk, reach.
 constexpr std::uint32_t kWalkEntryBytes = 16;
-// Of the queue of nodes: depth, node, and in its top bit which of two walks; reach.
+// An entry of the queue of nodes: depth, node, and in its top bit which of two walks; reach.
 constexpr std::uint32_t kNodeEntryBytes = 12;
 
 }  // namespace sgs

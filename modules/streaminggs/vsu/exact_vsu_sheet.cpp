@@ -1,4 +1,4 @@
-// What VSU says of itself in exact order: its on-chip memories, counters and costs.
+// Data sheet of VSU in exact order: its on-chip memories, counters and costs.
 #include "modules/streaminggs/heap_ledger.h"
 #include "modules/streaminggs/vsu/exact_vsu.h"
 #include "modules/streaminggs/vsu/vsu_datapaths.h"

@@ -29,7 +29,7 @@ class FirstOf {
       if (before != which && winners_[at] != which) return;
     }
   }
-  // Of equal ones the lowest.
+  // Index of the smallest number; of equal ones the lowest index.
   std::uint32_t first() const { return winners_[1]; }
 
  private:

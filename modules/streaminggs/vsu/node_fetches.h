@@ -75,7 +75,7 @@ class NodeFetches {
   std::deque<Fetch> fetches_;  // the port writes into their lines
   std::deque<MemoryPort::Ticket> asked_;
   std::deque<std::uint64_t> ready_;
-  std::uint64_t ready_from_ = 0;  // of the line that has come last; one a cycle
+  std::uint64_t ready_from_ = 0;  // cycle from which the last line is there; one a cycle
   sc_core::sc_event asked_for_, news_;
 };
 

@@ -1,5 +1,5 @@
 // Cycles of the ordering table (algorithm/order/ordering_table.h), whose words lie in banks in
-// turn. What is read names what is read next, so that it comes a cycle each, one behind the other.
+// turn. Each word read names the next one, so that one comes a cycle, one behind the other.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 
 namespace sgs {
 
-// Of voxels that rays met: the hash's slot (beside it the record of the voxel before), the record
-// that it names, the edges of the voxel before.
+// Cycles to read for voxels that rays met: the hash's slot (beside it the record of the voxel
+// before), the record that it names, the edges of the voxel before.
 inline std::uint64_t meeting_cycles(const OrderingAccesses& before, const OrderingAccesses& after) {
   return (after.met - before.met) + (after.reads - before.reads) -
          (after.heads_read - before.heads_read);
 }
 
-// Of writing what was found of the voxel added last: to the banks, beside the reads for the next,
-// which see what is still to be written.
+// Cycles to write the words of the voxel added last: to the banks, beside the reads for the next
+// voxel, which see words still to be written.
 inline std::uint64_t writing_cycles(const OrderingTable& table, std::uint32_t banks) {
   std::uint64_t cycles = table.ready_written();
   const auto& words = table.written();
@@ -29,8 +29,9 @@ inline std::uint64_t writing_cycles(const OrderingTable& table, std::uint32_t ba
   return cycles;
 }
 
-// Of ordering all: a level of ready voxels is read a cycle, then the voxel's record, then its
-// edges; the record that an edge names is read beside the next edge, unless both lie in one bank.
+// Cycles to order all voxels: a level of ready voxels is read a cycle, then the voxel's record,
+// then its edges. The record that an edge names is read beside the next edge, unless both lie in
+// one bank.
 inline std::uint64_t ordering_cycles(const OrderingTable& table, std::uint32_t banks) {
   std::uint64_t cycles = 0;
   for (std::uint32_t number = 0; number < table.voxel_count(); ++number) {

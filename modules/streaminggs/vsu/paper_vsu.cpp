@@ -13,7 +13,8 @@
 namespace sgs {
 namespace {
 
-// Of a voxel that is being cut: one for each halving of its count; first slot and count.
+// Open pieces of a voxel that is being cut: one for each halving of its count; first slot and
+// count.
 constexpr std::uint32_t kOpenPieces = 32, kPieceBytes = 8;
 
 }  // namespace
@@ -160,7 +161,7 @@ SramUses PaperVsu::sram_uses(const PaperVsuConfig& config, const BuiltFor& built
   uses.push_back(sram_use("ordered voxels", kSharedSram,
                           {{config.groups_ahead, "groups"}, {config.table_bytes / 2, "B"}}, {32},
                           kOneOfEach));
-  add(uses, outstanding_table(kSharedSram, built_for.memory_port), 2);  // of both ports
+  add(uses, outstanding_table(kSharedSram, built_for.memory_port), 2);  // tables of both ports
   return uses;
 }
 

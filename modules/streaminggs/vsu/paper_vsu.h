@@ -1,6 +1,6 @@
-// Voxel sorting unit (VSU), paper order: for each pixel group it follows the pixels' rays through
-// the voxel tree, orders the voxels that they meet, and hands each out as a visit to the HFUs; one
-// with more Gaussians than a list holds in pieces, the nearest first.
+// Voxel sorting unit (VSU), paper order. For each pixel group it follows the pixels' rays through
+// the voxel tree and orders the voxels that they meet. Each voxel is handed out as a visit to the
+// HFUs; one with more Gaussians than a list holds in pieces, the nearest first.
 // Timing: rays_in_flight.h, ray_unit.h; one cycle a visit and a cut; table misses wait for DRAM.
 // Function: algorithm/order/group_visits.h, algorithm/voxel/voxel_cuts.h.
 #pragma once
@@ -55,10 +55,10 @@ class PaperVsu : public sc_core::sc_module {
   void publish(DataSheet& sheet);
 
  private:
-  // What one pass of a group's rays has ordered; most groups take one.
+  // Voxels that one pass of a group's rays has ordered; most groups take one pass.
   struct OrderedPass {
     std::uint32_t group = 0;
-    bool last = true;  // of its group
+    bool last = true;  // last pass of its group
     std::vector<std::uint32_t> voxels;
   };
   void run_traverse();  // thread: rays to lists of ordered voxels
@@ -80,7 +80,7 @@ class PaperVsu : public sc_core::sc_module {
   OrderingTable table_;
   TimedFifo<OrderedPass> ordered_;
   Counters counters_;
-  std::uint64_t cycles_of_full_tables_ = 0, cycles_of_others_ = 0;  // of groups
+  std::uint64_t cycles_of_full_tables_ = 0, cycles_of_others_ = 0;  // cycles of groups
   std::uint32_t next_visit_ = 0;
   std::uint32_t current_group_ = 0, current_voxel_ = 0;  // for the waveform
 };

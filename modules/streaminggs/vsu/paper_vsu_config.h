@@ -8,7 +8,7 @@
 
 namespace sgs {
 
-constexpr std::uint32_t kTableWordBytes = 8;  // of the ordering table: a record
+constexpr std::uint32_t kTableWordBytes = 8;  // a record of the ordering table
 
 struct PaperVsuConfig {
   std::uint32_t rays_in_flight = 80;
@@ -29,7 +29,7 @@ struct PaperVsuConfig {
   std::uint32_t visit_gaussians = 256;
   std::uint32_t min_share = 16;
 
-  // From a step out of a block of 2^log2_block cells a side to the ray's next.
+  // Cycles from a step out of a block of 2^log2_block cells a side to the ray's next.
   std::uint32_t step_cycles(std::uint32_t log2_block) const {
     return log2_block == 0 ? cell_step_depth_cycles : step_depth_cycles;
   }

@@ -1,4 +1,4 @@
-// Turns at what the rays share, and nodes of the tree in the kernel's time.
+// Turns of the resources that rays share, and nodes of the tree in the kernel's time.
 #include "modules/streaminggs/vsu/ray_unit.h"
 
 #include <algorithm>
@@ -51,8 +51,8 @@ void RayUnit::begin_pass() {
       now();
 }
 
-// Of lanes, the same in their turns. No ray is under way when a pass begins, so that they count
-// from there.
+// The first cycle from `cycle` on in which the lanes are free, in their turns. Turns count from the
+// beginning of the pass, when no ray is under way.
 std::uint64_t RayUnit::turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle) {
   const std::uint64_t interval = lanes.interval_cycles();
   const std::uint64_t of_pass = next_turn(std::max(free, cycle) - pass_from_, interval);
@@ -60,27 +60,27 @@ std::uint64_t RayUnit::turn_of(const Datapath& lanes, std::uint64_t& free, std::
 }
 
 std::uint64_t RayUnit::begin_ray(std::uint64_t cycle) {
-  ++work_.rays;
+  ++counts_.rays;
   return turn_of(begins_, begins_free_, cycle) + config.ray_depth_cycles;
 }
 
 std::uint64_t RayUnit::step(std::uint64_t cycle, std::uint32_t log2_block) {
-  ++work_.steps;
+  ++counts_.steps;
   return turn_of(steps_, steps_free_, cycle) + config.step_cycles(log2_block) + kMaskCycles;
 }
 
 std::uint64_t RayUnit::look_up(std::uint64_t cycle) { return turn(look_ups_free_, cycle, 1); }
 
 std::uint64_t RayUnit::found(std::uint64_t cycle) {
-  ++work_.found;
+  ++counts_.found;
   return std::max(tree_free_, cycle) + first_of_rounds_cycles(config.rays_in_flight);
 }
 
 std::uint64_t RayUnit::give_context(std::uint64_t cycle) { return tree_free_ = found(cycle); }
 
 std::uint64_t RayUnit::enter(const OrderingTable& table, std::uint64_t cycle) {
-  ++work_.entered;
-  const OrderingAccesses before = std::exchange(work_.accesses, table.accesses());
+  ++counts_.entered;
+  const OrderingAccesses before = std::exchange(counts_.accesses, table.accesses());
   tree_free_ = turn(table_free_, found(cycle), meeting_cycles(before, table.accesses()));
   table_free_ = std::max(table_free_, written_);
   written_ = table_free_ + writing_cycles(table, config.table_banks);
@@ -89,16 +89,16 @@ std::uint64_t RayUnit::enter(const OrderingTable& table, std::uint64_t cycle) {
 
 void RayUnit::order(const OrderingTable& table) {
   const std::uint64_t clearing = names_bytes(config) / kNamesWord;
-  work_.names_cleared += clearing;
-  work_.accesses = table.accesses();
+  counts_.names_cleared += clearing;
+  counts_.accesses = table.accesses();
   activity_.work(std::max(ordering_cycles(table, config.table_banks), clearing));
 }
 
 void RayUnit::clear(const OrderingTable& table) {
-  work_.accesses = table.accesses();
+  counts_.accesses = table.accesses();
   const std::uint64_t names = names_bytes(config) / kNamesWord, ready = ready_words(config);
-  work_.names_cleared += names;
-  work_.ready_cleared += ready;
+  counts_.names_cleared += names;
+  counts_.ready_cleared += ready;
   activity_.work(std::max(names, ready));
 }
 

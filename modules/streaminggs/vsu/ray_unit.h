@@ -1,6 +1,6 @@
-// What a group's rays share: lanes, look-ups in the cache of tree nodes, the ordering table, each
-// free again from some cycle on; and the tree's nodes, in their cache and on their way from DRAM.
-// The kernel's time follows where a cycle matters to somebody else.
+// Resources that a group's rays share: lanes, look-ups in the cache of tree nodes, the ordering
+// table, each free again from some cycle on; and the tree's nodes, in their cache and on their way
+// from DRAM. The kernel's time follows where a cycle matters to another unit.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace sgs {
 
-// Where lists of ordered voxels go: until one can be written, and one that has been.
+// Receiver of lists of ordered voxels: waits until one can be written, and takes one.
 struct ListsOut {
   std::function<void()> wait_for_room;
   std::function<void(const std::vector<std::uint32_t>& voxels, bool last)> hand_over;
@@ -30,9 +30,9 @@ class RayUnit {
   static constexpr std::uint64_t kLookUpCycles = 3, kMaskCycles = 1;
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
-  // The round of each ray is compared with the others', in a tree, before a voxel is entered or the
-  // context of a ray that has ended is given to another; what is found first changes its round, so
-  // that the next comparison begins then. Three levels of comparators a cycle.
+  // Cycles to find the earliest round, before a voxel is entered or the context of an ended ray is
+  // given to another. The rounds of all rays are compared in a tree. The ray found first changes
+  // its round, so that the next comparison begins then. Three levels of comparators a cycle.
   static constexpr std::uint32_t first_of_rounds_cycles(std::uint32_t rays) {
     constexpr std::uint32_t kLevelsOfCycle = 3;
     std::uint32_t levels = 1;
@@ -57,13 +57,13 @@ class RayUnit {
   void begin_pass();
 
   // Each takes the cycle from which on a ray wants something, and returns when it has it: its
-  // beginning, a step, the turn of a look-up, that of one whose line found no place, the result of
-  // one whose node has come only now.
+  // beginning, a step, or the turn of a look-up. look_up_called: of one whose line found no place.
+  // look_up_again: the result of one whose node has come only now.
   std::uint64_t begin_ray(std::uint64_t cycle);
   std::uint64_t step(std::uint64_t cycle, std::uint32_t log2_block);
   std::uint64_t look_up(std::uint64_t cycle);
   std::uint64_t look_up_called(std::uint64_t cycle) {
-    ++work_.called;
+    ++counts_.called;
     return look_up(cycle);
   }
   std::uint64_t look_up_again(std::uint64_t cycle) { return look_up(cycle) + kLookUpCycles; }
@@ -73,17 +73,18 @@ class RayUnit {
   std::uint64_t give_context(std::uint64_t cycle);
   // Its voxel was added to the table: when it is done.
   std::uint64_t enter(const OrderingTable& table, std::uint64_t cycle);
-  void met_voxel() { ++work_.met; }
+  void met_voxel() { ++counts_.met; }
   // A look-up missed, and its line is on its way already, or finds no place.
-  void joined() { ++work_.joined; }
-  void found_no_place() { ++work_.without_place; }
+  void joined() { ++counts_.joined; }
+  void found_no_place() { ++counts_.without_place; }
 
   // Asks in this cycle for a line that is neither in the cache nor on its way. Whoever is added
   // waits for it.
   std::vector<NodeFetches::Waiting>& ask(std::uint64_t tag, std::uint64_t cycle);
-  // Until the oldest line has come, at the latest until `cycle`; kNever: however long it takes.
+  // Waits until the oldest line has come, at the latest until `cycle`; kNever: however long it
+  // takes.
   void wait_for_nodes(std::uint64_t cycle);
-  // What is still on its way when a pass is given up.
+  // Takes the nodes that are still on their way when a pass is given up.
   void take_what_comes();
 
   // The table has been ordered; it is cleared meanwhile. Or it is cleared because it was full.
@@ -92,22 +93,22 @@ class RayUnit {
 
   static SramUses sram_uses(const PaperVsuConfig& config);
   void publish(DataSheet& sheet) const;
-  // To follow the rays of a frame faster: more of what they share, where the cycles that more lanes
-  // can take away are more than a third of the time, else more rays.
+  // Parameter that lets the rays of a frame be followed faster. It is more of a shared resource
+  // where more lanes can save more than a third of the time, else more rays.
   Remedy remedy() const;
 
  private:
-  // Of a frame.
-  struct Work {
+  // Operations and accesses of a frame.
+  struct Counts {
     std::uint64_t rays = 0, steps = 0, met = 0, entered = 0;
     std::uint64_t joined = 0, without_place = 0;         // look-ups that missed
     std::uint64_t called = 0;                            // look-ups for which there was no place
     std::uint64_t found = 0;                             // first of all rounds
-    OrderingAccesses accesses;                           // of the table so far
+    OrderingAccesses accesses;                           // accesses to the table so far
     std::uint64_t names_cleared = 0, ready_cleared = 0;  // words
   };
   std::uint64_t turn_of(const Datapath& lanes, std::uint64_t& free, std::uint64_t cycle);
-  // From this cycle on a ray is the first: when the tree has found it.
+  // Cycle from which on a ray is the first: when the tree has found it.
   std::uint64_t found(std::uint64_t cycle);
 
   const ClockDomain& clock_;
@@ -117,8 +118,8 @@ class RayUnit {
   std::uint64_t pass_from_ = 0;
   std::uint64_t begins_free_ = 0, steps_free_ = 0, look_ups_free_ = 0, tree_free_ = 0,
                 table_free_ = 0;
-  std::uint64_t written_ = 0;  // until when the table writes what it found last
-  Work work_;
+  std::uint64_t written_ = 0;  // until when the table writes the voxel that it found last
+  Counts counts_;
 };
 
 // Memories of the ordering table beside it: names of voxels, words of ready ones.

@@ -1,4 +1,4 @@
-// What the rays' memories and lanes take.
+// Data sheet of the rays: their memories and lanes.
 #include <algorithm>
 
 #include "modules/datapath/selection.h"
@@ -9,17 +9,17 @@
 namespace sgs {
 namespace {
 
-// Of a ray: direction and its reciprocals, which only steps read; its cell, its level and its
-// signs, its pixel, the ends of its chain; a node; a voxel that it met, with its distance and its
-// round.
+// Bytes kept of a ray: direction and its reciprocals, which only steps read; position: its cell,
+// level, signs, pixel and the ends of its chain; a node; a voxel that it met, with its distance and
+// its round.
 constexpr std::uint32_t kDirectionBytes = 24, kPositionBytes = 16;
 constexpr std::uint32_t kNodeBytes = 12, kMetBytes = 8;
 constexpr std::uint32_t kRoundBytes = 2;
-constexpr std::uint32_t kRayBanks = 4;  // of what steps and look-ups share: by the ray's number
-constexpr std::uint32_t kTagBytes = 4;  // of a line on its way
+constexpr std::uint32_t kRayBanks = 4;  // banks of memories shared by steps and look-ups, by ray
+constexpr std::uint32_t kTagBytes = 4;  // tag of a line on its way
 constexpr std::uint32_t kReadyWord = 4;
 
-// Of a ray that waits: its line, or its place among those that found none for theirs.
+// Bytes kept of a ray that waits: its line, or its place among those that found none for theirs.
 std::uint32_t waiting_bytes(const PaperVsuConfig& config) {
   const std::uint32_t places = std::max(config.node_fetches, config.rays_in_flight);
   return (1 + counter_bits(places - 1) + 7) / 8;
@@ -47,7 +47,8 @@ SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
   of_rays("ray nodes", {{kNodesOfRay, "nodes"}, {kNodeBytes, "B"}}, {8 * kNodeBytes}, kOneOfEach);
   of_rays("ray chains", {{config.chain_entries, "voxels"}, {kMetBytes, "B"}},
           {8 * kMetBytes, SramPorts::kReadAndWrite, banks}, {1, std::min(banks, 3U)});
-  // In registers: the first of all is found at once, and who waits for a line that has come.
+  // Kept in registers: the first round of all is found at once, and so is a ray that waits for a
+  // line that has come.
   of_rays("rounds of rays", {{kRoundBytes, "B"}}, {8 * kRoundBytes, SramPorts::kReadAndWrite, rays},
           {rays, rays});
   of_rays("rays that wait for nodes", {{waiting_bytes(config), "B"}},
@@ -59,7 +60,7 @@ SramUses RayUnit::sram_uses(const PaperVsuConfig& config) {
   uses.push_back(sram_use("node fetches", kSharedSram,
                           {{lines, "lines"}, {TableCache<VoxelNode>::kCacheLineBytes, "B"}},
                           {8 * kPortBytes}, kOneOfEach));
-  // In order() an edge is read beside the record that the one before it names.
+  // order() reads an edge beside the record that the edge before it names.
   uses.push_back(sram_use("ordering table", kSharedSram, {{config.table_bytes, "B"}},
                           {8 * kTableWordBytes, SramPorts::kReadAndWrite, config.table_banks},
                           {std::min(config.table_banks, 2U), config.table_banks}));
@@ -79,8 +80,8 @@ Remedy RayUnit::remedy() const {
     const char* key;
     std::uint64_t times, cycles;
   };
-  const Shared all[] = {{"vsu.step_lanes", work_.steps, work_.steps * steps_.interval_cycles()},
-                        {"vsu.ray_lanes", work_.rays, work_.rays * begins_.interval_cycles()}};
+  const Shared all[] = {{"vsu.step_lanes", counts_.steps, counts_.steps * steps_.interval_cycles()},
+                        {"vsu.ray_lanes", counts_.rays, counts_.rays * begins_.interval_cycles()}};
   const char* key = "vsu.rays_in_flight";
   std::uint64_t most = activity_.busy_cycles() / 3;
   for (const Shared& shared : all) {
@@ -92,41 +93,41 @@ Remedy RayUnit::remedy() const {
 }
 
 void RayUnit::publish(DataSheet& sheet) const {
-  sheet.datapath(begins_, work_.rays);
-  sheet.datapath(steps_, work_.steps);
+  sheet.datapath(begins_, counts_.rays);
+  sheet.datapath(steps_, counts_.steps);
   nodes.publish_accesses(sheet, "node cache", "node cache tags");
-  const std::uint64_t lookups = nodes.lookups(), results = lookups - work_.called;
-  sheet.accesses("ray directions", work_.steps, work_.rays);
-  sheet.accesses("ray positions", work_.steps + lookups, work_.rays + work_.steps + results);
-  sheet.accesses("rounds of rays", work_.found * config.rays_in_flight,
-                 work_.rays + work_.steps + work_.entered);
-  sheet.accesses("ray nodes", work_.steps, results);
-  sheet.accesses("ray chains", work_.entered, work_.entered);
+  const std::uint64_t lookups = nodes.lookups(), results = lookups - counts_.called;
+  sheet.accesses("ray directions", counts_.steps, counts_.rays);
+  sheet.accesses("ray positions", counts_.steps + lookups, counts_.rays + counts_.steps + results);
+  sheet.accesses("rounds of rays", counts_.found * config.rays_in_flight,
+                 counts_.rays + counts_.steps + counts_.entered);
+  sheet.accesses("ray nodes", counts_.steps, results);
+  sheet.accesses("ray chains", counts_.entered, counts_.entered);
   const std::uint64_t misses = nodes.misses();
   const std::uint64_t line = sram_words(TableCache<VoxelNode>::kCacheLineBytes, {8 * kPortBytes});
   // A look-up that misses is looked for among the lines on their way, and its ray waits; who waits
   // is looked for when a line comes, and when a place is free.
-  const std::uint64_t missed = misses + work_.joined + work_.without_place;
-  sheet.accesses("rays that wait for nodes", (misses + work_.called) * config.rays_in_flight,
+  const std::uint64_t missed = misses + counts_.joined + counts_.without_place;
+  sheet.accesses("rays that wait for nodes", (misses + counts_.called) * config.rays_in_flight,
                  missed);
   sheet.accesses("tags of node fetches", missed * config.node_fetches, misses);
   sheet.accesses("node fetches", misses * line, misses * line);
-  sheet.accesses("ordering table", work_.accesses.reads, work_.accesses.writes);
-  sheet.accesses("renamed voxels", work_.accesses.names_read,
-                 work_.accesses.names_written + work_.names_cleared);
-  sheet.accesses("ready voxels", work_.accesses.ready_read,
-                 work_.accesses.ready_written + work_.ready_cleared);
-  // What is read of the table is compared with the voxel; a voxel that is met with the bounds of
-  // the window, one that is entered with the nearest and the farthest; the round of the first ray
-  // with those of the others; a miss with all lines on their way; a line that has come with what
-  // the rays wait for; a look-up with the tags of a set.
+  sheet.accesses("ordering table", counts_.accesses.reads, counts_.accesses.writes);
+  sheet.accesses("renamed voxels", counts_.accesses.names_read,
+                 counts_.accesses.names_written + counts_.names_cleared);
+  sheet.accesses("ready voxels", counts_.accesses.ready_read,
+                 counts_.accesses.ready_written + counts_.ready_cleared);
+  // Comparisons: words read of the table with the voxel; a voxel that is met with the bounds of the
+  // window; one that is entered with the nearest and the farthest; the round of the first ray with
+  // those of the others; a miss with all lines on their way; a line that has come with the lines
+  // that rays wait for; a look-up with the tags of a set.
   sheet.part(
       "vsu", "comparator",
       config.table_banks + 4.0 + 2.0 * config.rays_in_flight + config.node_fetches + kCacheWays, 1);
   sheet.operations(
       "vsu", "comparator",
-      static_cast<double>(work_.accesses.reads + 2 * work_.met + 2 * work_.entered +
-                          (misses + work_.called + work_.found) * config.rays_in_flight +
+      static_cast<double>(counts_.accesses.reads + 2 * counts_.met + 2 * counts_.entered +
+                          (misses + counts_.called + counts_.found) * config.rays_in_flight +
                           missed * config.node_fetches + kCacheWays * lookups));
 }
 

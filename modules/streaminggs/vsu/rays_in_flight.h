@@ -19,13 +19,13 @@
 namespace sgs {
 
 // One pass over the rays of a group, as RaysInRounds makes it, with `rays_in_flight` contexts. Each
-// ray steps when it can; what it meets waits in its context until no other ray can meet anything in
-// a round before, or at a place before it in the same one. So voxels enter the ordering table, and
-// rays give their contexts to others, in the order of rounds. A ray without room for another voxel
-// waits itself.
+// ray steps when it can. A voxel that it meets waits in its context until no other ray can meet one
+// before it: in an earlier round, or at an earlier place of the same round. So voxels enter the
+// ordering table, and rays give their contexts to others, in the order of rounds. A ray without
+// room for another voxel waits itself.
 //
 // Events are taken in the order of their cycles, those of one cycle in the order of the contexts.
-// The kernel's time follows where it matters to somebody else: when a node has to be fetched, when
+// The kernel's time follows where it matters to another unit: when a node has to be fetched, when
 // one is waited for, and at the end.
 template <class Path>
 class RaysInFlight {
@@ -90,7 +90,7 @@ class RaysInFlight {
     explicit Context(const Path& p) : path(p) {}
     Path path;
     State state = State::kFree;
-    std::uint64_t round = 0;           // that it is in
+    std::uint64_t round = 0;           // round that it is in
     std::deque<Met> met;               // voxels that wait to be entered
     std::deque<std::uint64_t> leaves;  // cycles at which those that are being entered leave
     OrderingTable::Chain chain;
@@ -115,7 +115,7 @@ class RaysInFlight {
 
   void at(std::uint64_t cycle, std::uint32_t c) { events_.push({cycle, c}); }
 
-  // In a context that is free; none where all rays of the group have begun.
+  // Begins a ray in a context that is free; none where all rays of the group have begun.
   void begin_ray(std::uint32_t c, std::uint64_t cycle) {
     Context& context = contexts_[c];
     context.state = pass_->pixels.done() ? State::kFree : State::kFlies;
@@ -130,8 +130,8 @@ class RaysInFlight {
     at(unit_.begin_ray(cycle), c);
   }
 
-  // Until the next event is due, at most until this cycle, and no node that could come before is on
-  // its way; false where nodes have come first, and may have made other events.
+  // Waits until the next event is due, at most until this cycle, and no node that could come before
+  // is on its way. False where nodes have come first, and may have made other events.
   bool wait_for_event(std::uint64_t until) {
     const std::uint64_t next = std::min(events_.empty() ? kNever : events_.top().cycle, until);
     if (unit_.fetches.empty()) return true;
@@ -235,7 +235,7 @@ class RaysInFlight {
     if (called) call_next(cycle + 1);
   }
 
-  // Whether there is room for a voxel; a ray that has none is called again when there is.
+  // True if there was room for the voxel; a ray that has none is called again when there is.
   bool meet(std::uint32_t c, std::uint64_t place, std::uint64_t cycle) {
     Context& context = contexts_[c];
     while (!context.leaves.empty() && context.leaves.front() <= cycle) context.leaves.pop_front();
@@ -253,7 +253,7 @@ class RaysInFlight {
     return false;
   }
 
-  // In which round a context can enter something next, at the earliest.
+  // Earliest round in which a context can enter something next.
   static std::uint64_t earliest(const Context& context) {
     if (!context.met.empty()) return context.met.front().round;
     return context.state == State::kFree ? kNever : context.round;
@@ -261,7 +261,8 @@ class RaysInFlight {
 
   void compare(std::uint32_t c) { first_.set(c, earliest(contexts_[c])); }
 
-  // What is next in the order of rounds: a voxel into the table, or a ray's context to another ray.
+  // Does what comes next in the order of rounds: enters a voxel into the table, or gives a ray's
+  // context to another ray.
   void enter_in_turn(std::uint64_t cycle) {
     end_ = std::max(end_, cycle);
     while (pass_->fits) {
@@ -295,12 +296,12 @@ class RaysInFlight {
   const View<float>& view_;
   RayUnit& unit_;
   std::vector<Context> contexts_;
-  FirstOf first_;  // of the contexts, in what is earliest for them
+  FirstOf first_;  // the context whose next entry has the earliest round
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
   std::deque<std::uint32_t> without_place_;  // contexts, for a line that they miss
-  std::uint32_t called_ = 0;                 // of them, that have not looked up yet
+  std::uint32_t called_ = 0;  // contexts called for a place that have not looked up yet
   Pass* pass_ = nullptr;
-  std::uint64_t end_ = 0;  // of the pass, as far as it is known
+  std::uint64_t end_ = 0;  // end of the pass, as far as it is known
 };
 
 }  // namespace sgs

@@ -96,7 +96,7 @@ class TableCache {
             sram_use(tags_name, memory, {{lines, "lines"}, {kCacheTagBytes, "B"}},
                      {8 * kCacheTagBytes * kCacheWays}, kOneOfEach)};
   }
-  // What was read and written of both so far.
+  // Publishes the reads and writes of lines and tags so far.
   void publish_accesses(DataSheet& sheet, const char* lines_name, const char* tags_name) const {
     const std::uint64_t line = sram_words(kCacheLineBytes, {8 * kPortBytes});
     sheet.accesses(lines_name, lookups_ * sram_words(sizeof(Record), {8 * kPortBytes}),

@@ -1,5 +1,5 @@
-// The lanes of the voxel sorting units: what they compute, recorded by running it, and how it is
-// scheduled on lanes of given latencies.
+// The lanes of the voxel sorting units: their operations, recorded by running them, and the
+// schedule on lanes of given latencies.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ struct ChunkCase {
 // intervals has to be built for this.
 ChunkCase longest_chunk_case();
 
-// Of one test, up to where it fails or to its end, with what the walk does to its result. The child
-// is decoded from its node: box bounds origin + q 2^e, extents by table. Values of the camera and
-// of the group are constants.
+// Operations of one test, up to where it fails or to its end, with the walk's use of its result.
+// The child is decoded from its node: box bounds origin + q 2^e, extents by table. Values of the
+// camera and of the group are constants.
 FlowPart chunk_flow(const ChunkCase& tested);
 
 // The first step of a ray in a root of 16 cells of 0.7 a side, all of whose nodes have these
@@ -49,9 +49,9 @@ StepCase cell_step_case();
 // into a node and climbing the tree are not counted: bits are compared and moved.
 FlowPart ray_step_flow(const StepCase& step);
 
-// Of a ray's beginning, the longest: its direction from its pixel, three reciprocals, and, from an
-// eye beyond the root along all axes, where it enters the root. The view is a value but for its
-// focal lengths, whose reciprocals are made once a frame.
+// Operations of the longest beginning of a ray: its direction from its pixel, three reciprocals,
+// and, from an eye beyond the root along all axes, where it enters the root. The view is a value
+// but for its focal lengths, whose reciprocals are made once a frame.
 FlowPart pixel_ray_flow();
 
 // An item a child.

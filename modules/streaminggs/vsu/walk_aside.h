@@ -15,7 +15,8 @@
 
 namespace sgs {
 
-// Of the thread that walks: its activity waits, and its port is charged to the group that it is at.
+// Used by the thread that walks: its activity waits, and its port is charged to the group that the
+// walk is at.
 class WalkAside {
  public:
   WalkAside(MemoryPort& port, Activity& walk, const RegionSpan& span)
@@ -28,7 +29,8 @@ class WalkAside {
     ++count_;
   }
 
-  // By blocks. What is put aside meanwhile takes the place of entries that have come back.
+  // Takes entries back by blocks. Entries put aside meanwhile take the place of those that have
+  // come back.
   template <class To>
   void take_back(const To& to) {
     await_all(port_, walk_);  // they have been written
