@@ -40,7 +40,7 @@ class BlendWatch {
 
  private:
   struct Deepest {
-    float depth[kSubtilePixels] = {};  // of what is blended there
+    float depth[kSubtilePixels] = {};  // greatest depth blended there
   };
   std::vector<Deepest> deepest_;
   std::uint64_t misordered_ = 0;
@@ -80,7 +80,7 @@ class WarpWatch {
   void see(const SubtileBlend& blend) {
     const int row = blend.y % kSubtilesPerTile, column = blend.x % kSubtilesPerTile;
     auto& active = active_[static_cast<std::size_t>(row * kSubtilesPerTile + column)];
-    constexpr std::size_t kLanes = kSubtilePixels / 2;  // of a warp in a sub-tile
+    constexpr std::size_t kLanes = kSubtilePixels / 2;  // lanes of a warp in a sub-tile
     for (std::size_t first = 0; first < kSubtilePixels; first += kLanes) {
       std::int32_t blends = 0, left = 0;
       for (std::size_t l = first; l < first + kLanes; ++l) {
@@ -105,8 +105,8 @@ class WarpWatch {
     }
   }
 
-  std::uint64_t entries() const { return entries_; }  // that a warp looked at
-  std::uint64_t blended() const { return blended_; }  // of these into one pixel at least
+  std::uint64_t entries() const { return entries_; }  // (entry, warp) pairs that were looked at
+  std::uint64_t blended() const { return blended_; }  // pairs among these that blend into a pixel
 
  private:
   static std::size_t row_pair(int y) { return static_cast<std::size_t>(y) / 2; }

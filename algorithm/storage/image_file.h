@@ -29,7 +29,7 @@ struct PackedFacts {
   std::string name;                   // cut to kMostNameBytes in the file
   std::uint64_t gaussians = 0;        // in the scene, stored or not
   std::uint64_t dropped_invalid = 0;  // before that, because a value was not finite
-  int sh_bands_left_out = 0;          // of the scene's, that storage.sh_tolerance spared
+  int sh_bands_left_out = 0;          // bands of the scene that storage.sh_tolerance spared
 };
 
 struct PackedScene {
@@ -39,7 +39,7 @@ struct PackedScene {
   std::uint32_t checksum = 0;
 };
 
-// Whether a path ends in kImageFileExtension.
+// True if a path ends in kImageFileExtension.
 bool is_image_file(const std::string& path);
 
 // image: stored as `storage` says. Appears under `path` once it is complete. Throws InputError when
