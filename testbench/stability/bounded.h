@@ -14,8 +14,8 @@
 
 namespace sgs {
 
-// Of a format: unit roundoff, half the distance of its smallest numbers, its largest; how a result
-// is rounded, and how far off 2^t is, in roundoffs (exp2.h).
+// Constants of a number format: unit roundoff, half the distance of its smallest numbers, its
+// largest. Also how a result is rounded, and how far off 2^t is, in roundoffs (exp2.h).
 struct Single {
   static constexpr double kRoundoff = 0x1p-24, kUnderflow = 0x1p-150, kExp2 = 2.2;
   static constexpr double kLargest = std::numeric_limits<float>::max();
