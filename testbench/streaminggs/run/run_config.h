@@ -22,9 +22,9 @@ struct RunConfig {
   std::unique_ptr<MachineDesign> design;
   StorageConfig storage;
   DramConfig dram;
-  std::vector<AutoChoice> chosen;     // what was left to the model
+  std::vector<AutoChoice> chosen;     // values left to the model
   std::vector<ConfigOrigin> origins;  // where the document says what
-  std::string storage_source;  // of a packed scene, a line: the file, what it holds, who differs
+  std::string storage_source;  // one line about a packed scene: the file, its contents, who differs
 
   const char* machine() const { return (*kinds)[kind].name; }
   void add_choices(const std::vector<StorageChoice>& choices);
