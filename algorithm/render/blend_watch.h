@@ -18,8 +18,8 @@ class BlendWatch {
  public:
   explicit BlendWatch(std::size_t subtiles) : deepest_(subtiles) {}
 
-  // To be called with each blend into the group. Whether the splat at `depth` was blended into any
-  // of the sub-tile's pixels.
+  // To be called with each blend into the group. Returns true if the splat at `depth` was blended
+  // into any of the sub-tile's pixels.
   bool see(const SubtileBlend& blend, float depth) {
     // Masks and numbers of 32 bits, so that a loop over lanes is vector code.
     Deepest& deepest = deepest_[blend.at];
@@ -65,7 +65,7 @@ constexpr int kWarpsOfTile = 8, kWarpThreads = 32;
 
 class WarpWatch {
  public:
-  // pixels: of the tile, cut to the frame. What lies outside counts as finished.
+  // pixels: of the tile, cut to the frame. Pixels outside count as finished.
   explicit WarpWatch(const PixelRect& pixels) {
     for (int y = 0; y < pixels.height(); ++y) unfinished_[row_pair(y)] += pixels.width();
     for (int y = 0; y < kTilePx; ++y) {

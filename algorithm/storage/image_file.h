@@ -48,8 +48,8 @@ void write_image_file(const std::string& path, const PackedFacts& facts,
                       const StorageConfig& storage, const MemoryImage& image);
 
 // Throws InputError: not such a file, of another version, shorter or longer than it says, changed
-// (checksum), or with a header whose numbers do not fit each other. What the tables and records say
-// is checked by restore_scene (stored_scene.h).
+// (checksum), or with a header whose numbers do not fit each other. The contents of tables and
+// records are checked by restore_scene (stored_scene.h).
 PackedScene read_image_file(const std::string& path);
 
 }  // namespace sgs

@@ -29,7 +29,8 @@ class ChildProcess {
   // Readable, for poll(), when receive() has something to do.
   int descriptor() const { return from_; }
 
-  // Takes what has come of the answer, and waits where nothing has. Whether no more can come.
+  // Takes what has come of the answer, and waits where nothing has. Returns true when
+  // no more can come.
   bool receive();
 
   // Returns the result of work() once it has ended; may be called once. Throws the InputError that

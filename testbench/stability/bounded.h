@@ -1,8 +1,8 @@
 // A scalar that computes what a datapath computes, bit for bit, and beside each value a proven
 // bound on its distance from what the formula gives without rounding: running error analysis
 // (Higham, Accuracy and Stability of Numerical Algorithms, section 3.3). The templates of
-// algorithm/splat and algorithm/tune instantiated with it bound their own rounding. What is given
-// is exact, or off by what rounding it to the format takes.
+// algorithm/splat and algorithm/tune instantiated with it bound their own rounding. Inputs
+// are exact, or off by their rounding to the format.
 #pragma once
 
 #include <cmath>
